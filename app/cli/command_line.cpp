@@ -1,0 +1,42 @@
+#include "app/cli/command_line.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/jobs.h"
+#include "simulation/core/error.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr int kDone = 0, kRefused = 1, kUsage = 2;
+
+int Refuse(const char* sentence) {
+  std::fprintf(stderr, "arthroscene: %s\n", sentence);
+  return kRefused;
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, char** argv) {
+  CLI::App program("Arthroscene: arthroscopy training made from surgical video.", "arthroscene");
+  program.set_version_flag("--version", "arthroscene " ARTHRO_VERSION);
+  program.set_help_all_flag("--help-all", "Help of every job");
+  program.footer("`arthroscene JOB --help` says what a job takes.");
+  program.require_subcommand(0, 1);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kDone : kUsage;
+  } catch (const std::bad_alloc&) {
+    return Refuse("there is not enough memory for this; use a smaller picture or mesh");
+  } catch (const std::exception& error) {  // Error's what() is a whole sentence
+    return Refuse(error.what());
+  }
+  return kDone;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,9 @@
+// The command line: parses, runs one job, turns faults into one sentence on stderr and an exit code
+// (0 done, 1 refused, 2 usage; design §5).
+#pragma once
+
+namespace arthro::app {
+
+int RunCommandLine(int argc, char** argv);
+
+}  // namespace arthro::app

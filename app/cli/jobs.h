@@ -1,0 +1,9 @@
+// The jobs of the command line, one file each. Every function adds its subcommand, with the
+// callback that runs it, to the program; a job that is not built yet is not listed.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace arthro::app {}  // namespace arthro::app

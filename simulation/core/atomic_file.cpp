@@ -1,0 +1,104 @@
+#include "simulation/core/atomic_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "simulation/core/error.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Why(int error) {
+  if (error == ENOSPC) return "the disk is full; free some space and save again";
+  if (error == EACCES || error == EPERM || error == EROFS)
+    return "this place may not be written; choose another folder";
+  return std::strerror(error);
+}
+
+// A name beside the target that no other process is using.
+fs::path NameBeside(const fs::path& target) {
+  fs::path beside = target;
+  beside.replace_filename(fmt::format(".{}.{}.partial{}", target.stem().string(), ::getpid(),
+                                      target.extension().string()));
+  return beside;
+}
+
+// Flushes a file or a folder's entry to disk.
+void Sync(const fs::path& path, int flags, const fs::path& target) {
+  const int descriptor = ::open(path.c_str(), flags);
+  if (descriptor < 0) throw Error(Code::kFile, "could not be written: " + Why(errno), target);
+  const int result = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (result != 0 && error != EINVAL)  // some file systems cannot sync a folder
+    throw Error(Code::kFile, "could not be written: " + Why(error), target);
+}
+
+void WriteBytes(const fs::path& file, std::string_view bytes, const fs::path& target) {
+  std::FILE* stream = std::fopen(file.c_str(), "wb");
+  if (!stream) throw Error(Code::kFile, "could not be written: " + Why(errno), target);
+  const bool wrote = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+  int error = errno;
+  const bool closed = std::fclose(stream) == 0;
+  if (wrote && !closed) error = errno;
+  if (!wrote || !closed) throw Error(Code::kFile, "could not be written: " + Why(error), target);
+}
+
+}  // namespace
+
+void WriteAtomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    throw Error(Code::kFile,
+                fmt::format("the folder {} does not exist; create it first", folder.string()),
+                target);
+  if (fs::is_directory(target, ignored))
+    throw Error(Code::kFile, "this is a folder; give the name of a file", target);
+  const fs::path beside = NameBeside(target);
+  try {
+    write(beside);
+    Sync(beside, O_RDONLY, target);
+    if (::rename(beside.c_str(), target.c_str()) != 0)
+      throw Error(Code::kFile, "could not be put in place: " + Why(errno), target);
+  } catch (...) {
+    fs::remove(beside, ignored);
+    throw;
+  }
+  Sync(folder, O_RDONLY | O_DIRECTORY, target);
+}
+
+void WriteAtomically(const fs::path& target, std::string_view bytes) {
+  if (target == "-") {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+        std::fflush(stdout) != 0)
+      throw Error(Code::kFile, "standard output could not be written: " + Why(errno));
+    return;
+  }
+  WriteAtomically(target, [&](const fs::path& beside) { WriteBytes(beside, bytes, target); });
+}
+
+std::string ReadWholeFile(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw Error(Code::kFile, "this is a folder; give the name of a file", file);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw Error(Code::kFile,
+                fmt::format("could not be opened: {}; check the name", std::strerror(errno)), file);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (stream.bad()) throw Error(Code::kFile, "could not be read to its end", file);
+  return std::move(bytes).str();
+}
+
+}  // namespace arthro

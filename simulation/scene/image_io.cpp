@@ -1,0 +1,149 @@
+#include "simulation/scene/image_io.h"
+
+#include <cstring>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Largest picture that is taken, in pixels: 16k x 16k. More is a broken header or a mistake.
+constexpr std::size_t kMaxPixels = std::size_t{1} << 28;
+
+// OpenCV fills what is missing of a truncated file with grey and says nothing, so the end marks of
+// the two common formats are looked at here. Trailing bytes after a JPEG's end mark are allowed.
+bool IsTruncated(const std::string& bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv))
+    return bytes.find("IEND\xae\x42\x60\x82"sv) == bytes.npos;
+  if (bytes.starts_with("\xff\xd8"sv)) return bytes.rfind("\xff\xd9"sv) == bytes.npos;
+  return false;
+}
+
+cv::Mat Decode(const fs::path& file, int flags) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  std::string bytes;
+  try {
+    bytes = ReadWholeFile(file);
+  } catch (const Error& error) {
+    throw Error(Code::kBadImage, error.sentence(), file);
+  }
+  if (bytes.empty())
+    throw Error(Code::kBadImage, "this picture is empty (0 bytes); export it again", file);
+  if (IsTruncated(bytes))
+    throw Error(Code::kBadImage, "this picture is cut off before its end; copy or export it again",
+                file);
+  cv::Mat mat;
+  try {
+    mat = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, bytes.data()), flags);
+  } catch (const cv::Exception&) {
+    mat.release();
+  }
+  if (mat.empty())
+    throw Error(Code::kBadImage,
+                "this file is not a picture that can be read; use PNG, JPEG or TIFF", file);
+  if (mat.total() > kMaxPixels)
+    throw Error(Code::kBadImage,
+                fmt::format("this picture is {} x {} pixels; at most 16384 x 16384 can be used",
+                            mat.cols, mat.rows),
+                file);
+  return mat;
+}
+
+void Encode(const fs::path& file, const cv::Mat& mat, const std::vector<int>& parameters) {
+  std::vector<unsigned char> bytes;
+  bool encoded = false;
+  const std::string extension = file == "-" ? ".png" : file.extension().string();
+  try {
+    encoded = cv::imencode(extension, mat, bytes, parameters);
+  } catch (const cv::Exception&) {
+    encoded = false;
+  }
+  if (!encoded)
+    throw Error(
+        Code::kBadArgument,
+        fmt::format("\"{}\" is not a picture format that can be written; use .png, .jpg or .tiff",
+                    extension),
+        file);
+  WriteAtomically(file,
+                  std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace
+
+ColourImage ReadColourImage(const fs::path& file) {
+  const cv::Mat bgr = Decode(file, cv::IMREAD_COLOR);
+  ColourImage image(bgr.cols, bgr.rows);
+  for (int y = 0; y < bgr.rows; ++y) {
+    const unsigned char* from = bgr.ptr<unsigned char>(y);
+    std::uint8_t* to = image.at(0, y);
+    for (int x = 0; x < bgr.cols; ++x, from += 3, to += 3) {
+      to[0] = from[2];
+      to[1] = from[1];
+      to[2] = from[0];
+    }
+  }
+  return image;
+}
+
+void WriteColourImage(const fs::path& file, const ColourImage& image) {
+  cv::Mat bgr(image.height, image.width, CV_8UC3);
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* from = image.at(0, y);
+    unsigned char* to = bgr.ptr<unsigned char>(y);
+    for (int x = 0; x < image.width; ++x, from += 3, to += 3) {
+      to[0] = from[2];
+      to[1] = from[1];
+      to[2] = from[0];
+    }
+  }
+  Encode(file, bgr, {cv::IMWRITE_JPEG_QUALITY, 95});
+}
+
+DepthMap ReadDepthMap(const fs::path& file) {
+  const cv::Mat mat = Decode(file, cv::IMREAD_UNCHANGED);
+  if (mat.type() != CV_32FC1)
+    throw Error(Code::kBadImage,
+                "a depth map must be a one-channel 32-bit float TIFF in metres; make one with "
+                "`arthroscene depth`",
+                file);
+  DepthMap depth(mat.cols, mat.rows);
+  for (int y = 0; y < mat.rows; ++y)
+    std::memcpy(&depth.at(0, y), mat.ptr<float>(y),
+                static_cast<std::size_t>(mat.cols) * sizeof(float));
+  return depth;
+}
+
+void WriteDepthMap(const fs::path& file, const DepthMap& depth) {
+  if (file != "-" && file.extension() != ".tiff" && file.extension() != ".tif")
+    throw Error(Code::kBadArgument, "a depth map is written as a float TIFF; name it .tiff", file);
+  const cv::Mat mat(depth.height, depth.width, CV_32FC1, const_cast<float*>(depth.relief.data()));
+  std::vector<unsigned char> bytes;
+  // 8 is Adobe deflate in libtiff's numbering: lossless, and a third of LZW's size on smooth
+  // relief.
+  cv::imencode(".tiff", mat, bytes, {cv::IMWRITE_TIFF_COMPRESSION, 8});
+  WriteAtomically(file,
+                  std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void RequireSameSize(const ColourImage& panorama, const DepthMap& depth,
+                     const fs::path& depth_file) {
+  if (depth.width == panorama.width && depth.height == panorama.height) return;
+  throw Error(
+      Code::kBadScene,
+      fmt::format("the depth map is {} x {} but the panorama is {} x {}; make it again with "
+                  "`arthroscene depth`",
+                  depth.width, depth.height, panorama.width, panorama.height),
+      depth_file);
+}
+
+}  // namespace arthro

@@ -1,0 +1,26 @@
+// Pictures from and to files; the one place where BGR is swapped. Every error names the file, what
+// is wrong with it and what to do.
+#pragma once
+
+#include <filesystem>
+
+#include "simulation/scene/image.h"
+
+namespace arthro {
+
+// PNG, JPEG, TIFF, BMP… as 8-bit RGB: grey is spread over the channels, 16 bit is scaled down,
+// alpha is dropped. Throws Error(kBadImage) for a missing, truncated or unreadable file.
+ColourImage ReadColourImage(const std::filesystem::path& file);
+
+// Format by extension; written atomically. JPEG at quality 95.
+void WriteColourImage(const std::filesystem::path& file, const ColourImage& image);
+
+// One-channel 32-bit float TIFF, metres. Throws Error(kBadImage) for anything else.
+DepthMap ReadDepthMap(const std::filesystem::path& file);
+void WriteDepthMap(const std::filesystem::path& file, const DepthMap& depth);
+
+// Throws Error(kBadScene) when the two do not have the same size.
+void RequireSameSize(const ColourImage& panorama, const DepthMap& depth,
+                     const std::filesystem::path& depth_file);
+
+}  // namespace arthro

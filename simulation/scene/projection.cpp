@@ -1,0 +1,50 @@
+#include "simulation/scene/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "simulation/core/units.h"
+
+namespace arthro {
+
+std::optional<glm::dvec2> PixelFromDirection(const Projection& projection,
+                                             const glm::dvec3& d) noexcept {
+  if (projection.type == ProjectionType::kGnomonic) {
+    if (!(d.z > 0.0)) return std::nullopt;
+    return projection.centre_px + projection.focal_px * glm::dvec2(d.x, d.y) / d.z;
+  }
+  const double length = glm::length(d);
+  if (!(length > 0.0)) return std::nullopt;
+  const double longitude = std::atan2(d.x, d.z);
+  const double latitude = -std::asin(std::clamp(d.y / length, -1.0, 1.0));
+  return projection.centre_px + projection.px_per_deg * glm::dvec2(DegreesFromRadians(longitude),
+                                                                   -DegreesFromRadians(latitude));
+}
+
+glm::dvec3 DirectionFromPixel(const Projection& projection, const glm::dvec2& pixel) noexcept {
+  const glm::dvec2 offset = pixel - projection.centre_px;
+  if (projection.type == ProjectionType::kGnomonic)
+    return glm::normalize(glm::dvec3(offset / projection.focal_px, 1.0));
+  const double longitude = RadiansFromDegrees(offset.x / projection.px_per_deg);
+  const double latitude = RadiansFromDegrees(-offset.y / projection.px_per_deg);
+  return {std::cos(latitude) * std::sin(longitude), -std::sin(latitude),
+          std::cos(latitude) * std::cos(longitude)};
+}
+
+glm::dmat2x3 PixelGradients(const Projection& projection, const glm::dvec3& d) noexcept {
+  if (projection.type == ProjectionType::kGnomonic) {
+    const double f_z = projection.focal_px / d.z;
+    return {glm::dvec3(f_z, 0.0, -f_z * d.x / d.z), glm::dvec3(0.0, f_z, -f_z * d.y / d.z)};
+  }
+  // dλ = (z dx - x dz) / (x² + z²);  d(asin(y/r)) = (dy - y (d·dr)/r²) / sqrt(x² + z²)
+  const double k = DegreesFromRadians(projection.px_per_deg);
+  const double axis2 = std::max(d.x * d.x + d.z * d.z, 1e-18);
+  const double r2 = axis2 + d.y * d.y;
+  const double axis = std::sqrt(axis2);
+  return {k / axis2 * glm::dvec3(d.z, 0.0, -d.x),
+          k / axis * (glm::dvec3(0.0, 1.0, 0.0) - d.y / r2 * d)};
+}
+
+}  // namespace arthro

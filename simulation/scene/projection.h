@@ -1,0 +1,38 @@
+// Where a direction seen from the scope portal lies in the panorama (design §4). Picture, force and
+// authoring use this one model. Directions are in the portal frame (+z into the joint, +x right, +y
+// down) and need not be unit; pixels have their origin at the centre of the top-left pixel, x
+// right, y down.
+//   gnomonic         u = c_x + f x/z,  v = c_y + f y/z            (what a homography mosaic is)
+//   equirectangular  u = c_x + k λ,    v = c_y - k φ,  degrees;   λ = atan2(x, z),  φ = -asin(y)
+#pragma once
+
+#include <optional>
+
+#include <glm/mat2x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace arthro {
+
+enum class ProjectionType { kGnomonic, kEquirectangular };
+
+struct Projection {
+  ProjectionType type = ProjectionType::kGnomonic;
+  glm::dvec2 centre_px{0.0};
+  double focal_px = 1000.0;  // gnomonic
+  double px_per_deg = 10.0;  // equirectangular
+};
+
+// Nothing where the projection has no pixel: behind a gnomonic picture, or no direction at all.
+std::optional<glm::dvec2> PixelFromDirection(const Projection& projection,
+                                             const glm::dvec3& direction) noexcept;
+
+// Unit direction.
+glm::dvec3 DirectionFromPixel(const Projection& projection, const glm::dvec2& pixel) noexcept;
+
+// Rows: gradient of u and of v with respect to the direction, px per unit of direction;
+// PixelFromDirection must have a value there. Infinite at the poles of an equirectangular picture
+// is avoided by a floor of 1e-9 on the distance from the axis.
+glm::dmat2x3 PixelGradients(const Projection& projection, const glm::dvec3& direction) noexcept;
+
+}  // namespace arthro

@@ -1,0 +1,65 @@
+#include "simulation/scope/rod_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+namespace arthro::simulation {
+namespace {
+
+// Closer than this the hand is on the pivot and the rod's direction is unknown.
+constexpr double kHandOnPivot = 1e-9;  // m
+
+}  // namespace
+
+RodBasis BasisOf(const RodPose& pose) noexcept {
+  const double cos_lat = std::cos(pose.latitude), sin_lat = std::sin(pose.latitude);
+  const double cos_lon = std::cos(pose.longitude), sin_lon = std::sin(pose.longitude);
+  return {{cos_lat * sin_lon, -sin_lat, cos_lat * cos_lon},
+          {-sin_lat * sin_lon, -cos_lat, -sin_lat * cos_lon},
+          {cos_lon, 0.0, -sin_lon}};
+}
+
+glm::dvec3 TipInOwnPortal(const RodPose& pose) noexcept { return pose.depth * BasisOf(pose).axis; }
+
+RodPose RodPoseFromHip(const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device,
+                       const DeviceRig& rig, const RodPose& previous) noexcept {
+  const glm::dvec3 hand_to_pivot = rig.portal_from_device * (rig.pivot - hip_in_device);
+  const double distance = glm::length(hand_to_pivot);
+  RodPose pose = previous;
+  pose.depth = rig.rod_length - distance;
+  if (distance > kHandOnPivot) {
+    const glm::dvec3 u = hand_to_pivot / distance;
+    pose.latitude = -std::asin(std::clamp(u.y, -1.0, 1.0));
+    // At a pole every longitude is the same direction; keeping the last one keeps north where it
+    // was.
+    if (std::hypot(u.x, u.z) > 1e-12) pose.longitude = std::atan2(u.x, u.z);
+  }
+  // The handle's up axis, seen along the rod, shows the roll.
+  const RodBasis basis = BasisOf(pose);
+  const glm::dvec3 mark = rig.portal_from_device * (handle_in_device * glm::dvec3(0.0, -1.0, 0.0));
+  const double north = glm::dot(mark, basis.north), east = glm::dot(mark, basis.east);
+  if (std::hypot(north, east) > 1e-9) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const double roll = std::atan2(east, north);
+    pose.roll = roll + kTurn * std::round((previous.roll - roll) / kTurn);
+  }
+  return pose;
+}
+
+glm::dvec3 HipFromRodPose(const RodPose& pose, const DeviceRig& rig) noexcept {
+  const glm::dvec3 hip_in_portal = -(rig.rod_length - pose.depth) * BasisOf(pose).axis;
+  return glm::conjugate(rig.portal_from_device) * hip_in_portal + rig.pivot;
+}
+
+glm::dquat HandleFromRodPose(const RodPose& pose, const DeviceRig& rig) noexcept {
+  const RodBasis basis = BasisOf(pose);
+  const glm::dvec3 y = -std::cos(pose.roll) * basis.north - std::sin(pose.roll) * basis.east;
+  const glm::dmat3 handle_in_portal(glm::cross(y, basis.axis), y, basis.axis);
+  return glm::conjugate(rig.portal_from_device) * glm::quat_cast(handle_in_portal);
+}
+
+}  // namespace arthro::simulation

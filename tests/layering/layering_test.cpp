@@ -1,0 +1,121 @@
+// Who may include whom (design §2). Linking cannot catch a header that is merely included, so every
+// #include of every source is read and held against the table below.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+// Our folders that a folder may include beside itself.
+const std::map<std::string, Names> kMayInclude = {
+    {"simulation/core", {}},
+    {"simulation/scene", {"simulation/core"}},
+    {"simulation/scope", {"simulation/core", "simulation/scene"}},
+    {"simulation/device", {"simulation/core"}},
+    {"simulation/haptics", {"simulation/core", "simulation/scene", "simulation/scope"}},
+    {"simulation/tissue", {"simulation/core", "simulation/scene", "simulation/scope"}},
+    {"simulation/training", {"simulation/core", "simulation/scene", "simulation/scope"}},
+    {"simulation/session",
+     {"simulation/core", "simulation/scene", "simulation/scope", "simulation/device",
+      "simulation/haptics", "simulation/tissue", "simulation/training"}},
+};
+// simulation/scope is pure maths; authoring may use it. Authoring folders may use one another.
+const Names kAuthoringMayInclude = {"simulation/core", "simulation/scene", "simulation/scope",
+                                    "authoring"};
+
+// Third-party headers, by how their path begins, that a whole side must not see. Files named
+// *_io.cpp in simulation/scene read and write formats and may use OpenCV's and VTK's IO.
+const std::vector<std::string> kNotInSimulation = {
+    "vtk",  "opencv2", "OpenMesh", "tetgen", "imgui", "backends/imgui",
+    "GLFW", "GL/",     "dlib",     "CLI"};
+const std::vector<std::string> kNotInAuthoring = {
+    "vtk", "imgui", "backends/imgui", "GLFW", "GL/", "hidapi", "CLI"};
+
+struct Include {
+  std::string file, name;
+};
+
+std::vector<Include> IncludesOf(const fs::path& root, const std::string& top) {
+  std::vector<Include> includes;
+  const std::regex pattern(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
+  for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".h" && extension != ".cpp") continue;
+    std::ifstream stream(entry.path());
+    std::string line;
+    std::smatch match;
+    while (std::getline(stream, line))
+      if (std::regex_search(line, match, pattern))
+        includes.push_back({fs::relative(entry.path(), root).string(), match[1]});
+  }
+  return includes;
+}
+
+// "simulation/scene" of "simulation/scene/scene.h"; "app" and "authoring" stand for all below them.
+std::string RoomOf(const std::string& path) {
+  if (!path.starts_with("simulation/")) return path.substr(0, path.find('/'));
+  return path.substr(0, path.find('/', std::string("simulation/").size()));
+}
+
+bool IsOurs(const std::string& name) {
+  return name.starts_with("app/") || name.starts_with("authoring/") ||
+         name.starts_with("simulation/") || name.starts_with("tests/");
+}
+
+std::vector<std::string> FaultsOf(const std::vector<Include>& includes) {
+  std::vector<std::string> faults;
+  for (const auto& [file, name] : includes) {
+    const std::string room = RoomOf(file);
+    const std::string fault = file + " includes " + name;
+    if (IsOurs(name)) {
+      const std::string other = RoomOf(name);
+      if (room == "app"   ? other == "tests"
+          : room == other ? false
+          : room == "authoring"
+              ? !kAuthoringMayInclude.contains(other)
+              : !kMayInclude.contains(room) || !kMayInclude.at(room).contains(other))
+        faults.push_back(fault);
+      continue;
+    }
+    const bool is_scene_io = room == "simulation/scene" && file.ends_with("_io.cpp");
+    if (is_scene_io || room == "app") continue;
+    for (const auto& beginning : room == "authoring" ? kNotInAuthoring : kNotInSimulation)
+      if (name.starts_with(beginning)) faults.push_back(fault);
+  }
+  return faults;
+}
+
+TEST(Layering, EveryIncludeFollowsTheTable) {
+  const fs::path root = ARTHRO_SOURCE_DIR;
+  std::vector<Include> includes;
+  for (const char* top : {"app", "authoring", "simulation"})
+    for (auto& include : IncludesOf(root, top)) includes.push_back(include);
+  ASSERT_GT(includes.size(), 20u) << "the scan found too little to mean anything";
+  for (const auto& fault : FaultsOf(includes)) ADD_FAILURE() << fault;
+}
+
+TEST(Layering, ScanCatchesForbiddenIncludes) {
+  const std::vector<Include> forbidden = {{"simulation/scope/a.h", "simulation/haptics/b.h"},
+                                          {"simulation/scene/scene.h", "vtkPolyData.h"},
+                                          {"authoring/depth/a.cpp", "simulation/haptics/b.h"},
+                                          {"authoring/depth/a.cpp", "imgui.h"},
+                                          {"simulation/session/a.cpp", "app/cli/jobs.h"},
+                                          {"simulation/device/a.cpp", "simulation/scene/scene.h"},
+                                          {"simulation/haptics/a.cpp", "opencv2/core.hpp"}};
+  EXPECT_EQ(FaultsOf(forbidden).size(), forbidden.size());
+  EXPECT_TRUE(FaultsOf({{"simulation/scene/image_io.cpp", "opencv2/core.hpp"},
+                        {"authoring/depth/a.cpp", "opencv2/core.hpp"},
+                        {"app/view/a.cpp", "vtkActor.h"}})
+                  .empty());
+}
+
+}  // namespace

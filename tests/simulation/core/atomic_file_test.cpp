@@ -1,0 +1,67 @@
+#include "simulation/core/atomic_file.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro {
+namespace {
+
+int FilesIn(const std::filesystem::path& folder) {
+  int count = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++count;
+  return count;
+}
+
+TEST(AtomicFile, ReplacesWhatWasThere) {
+  test::TempFolder folder;
+  WriteAtomically(folder / "a.txt", "first");
+  WriteAtomically(folder / "a.txt", "second");
+  EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "second");
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+}
+
+TEST(AtomicFile, AFaultLeavesTheOldFileAndNothingBeside) {
+  test::TempFolder folder;
+  WriteAtomically(folder / "a.txt", "first");
+  EXPECT_THROW(WriteAtomically(folder / "a.txt",
+                               [](const std::filesystem::path& beside) {
+                                 std::ofstream(beside) << "half";
+                                 throw Error(Code::kFile, "the writer failed");
+                               }),
+               Error);
+  EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "first");
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+}
+
+// /dev/full is the kernel's own full disk.
+TEST(AtomicFile, SaysThatTheDiskIsFull) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "SKIPPED: no /dev/full here";
+  test::TempFolder folder;
+  try {
+    WriteAtomically(folder / "a.txt", [](const std::filesystem::path& beside) {
+      std::filesystem::create_symlink("/dev/full", beside);
+      WriteAtomically(beside, [](const std::filesystem::path&) {});
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::kFile);
+  }
+  EXPECT_EQ(FilesIn(folder.path()), 0);
+}
+
+TEST(AtomicFile, NamesAMissingFolder) {
+  test::TempFolder folder;
+  try {
+    WriteAtomically(folder.path() / "no" / "a.txt", "x");
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("does not exist"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace arthro

@@ -1,0 +1,71 @@
+#include "simulation/core/options.h"
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/options_json.h"
+
+namespace arthro {
+namespace {
+
+enum class Law { kLinear, kInverseSquare };
+
+struct SampleOptions {
+  double depth = 0.02;
+  double angle = RadiansFromDegrees(30.0);
+  int passes = 3;
+  bool mask = true;
+  Law law = Law::kLinear;
+  template <class V>
+  void Visit(V&& v) {
+    v("depth", depth, Range{0.001, 0.1}, "m", "How deep.");
+    v("angle", angle, Range{0.0, RadiansFromDegrees(90.0)}, "rad", "How far round.");
+    v("passes", passes, Range{1, 9}, "", "How often.");
+    v("mask", mask, Any{}, "", "Whether to mask.");
+    v("law", law, Choices<Law>{{{Law::kLinear, "linear"}, {Law::kInverseSquare, "inverse-square"}}},
+      "", "Which law.");
+  }
+};
+
+std::string FaultOf(const char* json) {
+  try {
+    OptionsFromJson<SampleOptions>(nlohmann::json::parse(json), "o.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Options, SurviveJson) {
+  SampleOptions options;
+  options.angle = RadiansFromDegrees(70.0);
+  options.law = Law::kInverseSquare;
+  const nlohmann::json json = JsonFromOptions(options);
+  EXPECT_DOUBLE_EQ(json.at("angle_deg").get<double>(), 70.0);
+  EXPECT_EQ(json.at("law"), "inverse-square");
+  const auto back = OptionsFromJson<SampleOptions>(json);
+  EXPECT_DOUBLE_EQ(back.angle, options.angle);
+  EXPECT_EQ(back.law, options.law);
+}
+
+TEST(Options, RefuseWithKeyAndRemedy) {
+  EXPECT_NE(FaultOf(R"({"passes": 12})").find("between 1 and 9"), std::string::npos);
+  EXPECT_NE(FaultOf(R"({"law": "cubic"})").find("linear, inverse-square"), std::string::npos);
+  EXPECT_NE(FaultOf(R"({"angle": 1})").find("\"angle\" is not known"), std::string::npos);
+  EXPECT_NE(FaultOf(R"({"passes": 2.5})").find("a whole number"), std::string::npos);
+  EXPECT_NE(FaultOf(R"({"mask": 1})").find("true or false"), std::string::npos);
+  EXPECT_NE(FaultOf(R"({"depth": null})").find("o.json"), std::string::npos);
+}
+
+TEST(Options, CheckNamesTheFieldAsAPersonSeesIt) {
+  SampleOptions options;
+  options.depth = 0.5;
+  try {
+    CheckOptions(options);
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("depth_mm is 500"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace arthro

@@ -1,0 +1,80 @@
+#include "simulation/scene/image_io.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro {
+namespace {
+
+ColourImage Gradient(int width, int height) {
+  ColourImage image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      image.at(x, y)[0] = static_cast<std::uint8_t>(x);
+      image.at(x, y)[1] = static_cast<std::uint8_t>(y);
+      image.at(x, y)[2] = 200;
+    }
+  return image;
+}
+
+std::string FaultOfReading(const std::filesystem::path& file) {
+  try {
+    ReadColourImage(file);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ImageIo, PngKeepsEveryByteAndTheOrderOfColours) {
+  test::TempFolder folder;
+  const ColourImage image = Gradient(40, 30);
+  WriteColourImage(folder / "a.png", image);
+  EXPECT_EQ(ReadColourImage(folder / "a.png").rgb, image.rgb);
+}
+
+TEST(ImageIo, DepthKeepsFloatsAndNaN) {
+  test::TempFolder folder;
+  DepthMap depth(7, 5, 0.0123456f);
+  depth.at(3, 2) = std::numeric_limits<float>::quiet_NaN();
+  WriteDepthMap(folder / "d.tiff", depth);
+  const DepthMap back = ReadDepthMap(folder / "d.tiff");
+  ASSERT_EQ(back.width, 7);
+  ASSERT_EQ(back.height, 5);
+  EXPECT_EQ(back.at(0, 0), 0.0123456f);
+  EXPECT_TRUE(std::isnan(back.at(3, 2)));
+}
+
+TEST(ImageIo, RefusesMissingEmptyTruncatedAndForeignFiles) {
+  test::TempFolder folder;
+  EXPECT_NE(FaultOfReading(folder / "none.png").find("could not be opened"), std::string::npos);
+  WriteAtomically(folder / "empty.png", "");
+  EXPECT_NE(FaultOfReading(folder / "empty.png").find("empty"), std::string::npos);
+  WriteAtomically(folder / "text.png", "this is a letter");
+  EXPECT_NE(FaultOfReading(folder / "text.png").find("not a picture"), std::string::npos);
+  for (const char* name : {"a.png", "a.jpg"}) {
+    WriteColourImage(folder / name, Gradient(64, 64));
+    std::string bytes = ReadWholeFile(folder / name);
+    bytes.resize(bytes.size() / 2);
+    WriteAtomically(folder / name, bytes);
+    EXPECT_NE(FaultOfReading(folder / name).find("cut off"), std::string::npos) << name;
+  }
+  EXPECT_NE(FaultOfReading(folder.path()).find("folder"), std::string::npos);
+}
+
+TEST(ImageIo, RefusesAnEightBitDepthMapAndSizesThatDiffer) {
+  test::TempFolder folder;
+  WriteColourImage(folder / "d.tiff", Gradient(8, 8));
+  EXPECT_THROW(ReadDepthMap(folder / "d.tiff"), Error);
+  EXPECT_THROW(RequireSameSize(Gradient(8, 8), DepthMap(8, 9), "d.tiff"), Error);
+  EXPECT_THROW(WriteColourImage(folder / "a.xyz", Gradient(4, 4)), Error);
+}
+
+}  // namespace
+}  // namespace arthro

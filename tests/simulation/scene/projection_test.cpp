@@ -1,0 +1,72 @@
+#include "simulation/scene/projection.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/core/units.h"
+
+namespace arthro {
+namespace {
+
+Projection Gnomonic() { return {ProjectionType::kGnomonic, {2048, 1024}, 1500, 0}; }
+Projection Equirectangular() { return {ProjectionType::kEquirectangular, {1000, 700}, 0, 10}; }
+
+glm::dvec3 Direction(double latitude_deg, double longitude_deg) {
+  const double phi = RadiansFromDegrees(latitude_deg), lambda = RadiansFromDegrees(longitude_deg);
+  return {std::cos(phi) * std::sin(lambda), -std::sin(phi), std::cos(phi) * std::cos(lambda)};
+}
+
+TEST(Projection, EquirectangularIsLatitudeAndLongitude) {
+  const auto pixel = PixelFromDirection(Equirectangular(), Direction(20.0, -35.0));
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x, 1000 - 350, 1e-9);
+  EXPECT_NEAR(pixel->y, 700 - 200, 1e-9);
+}
+
+TEST(Projection, GnomonicIsThePinhole) {
+  const auto pixel = PixelFromDirection(Gnomonic(), {0.02, -0.01, 0.1});
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x, 2048 + 300, 1e-9);
+  EXPECT_NEAR(pixel->y, 1024 - 150, 1e-9);
+  EXPECT_FALSE(PixelFromDirection(Gnomonic(), {0.1, 0.0, 0.0}));
+  EXPECT_FALSE(PixelFromDirection(Gnomonic(), {0.0, 0.0, -1.0}));
+  EXPECT_FALSE(PixelFromDirection(Equirectangular(), {0.0, 0.0, 0.0}));
+}
+
+TEST(Projection, DirectionAndPixelAreInverse) {
+  for (const Projection& projection : {Gnomonic(), Equirectangular()})
+    for (double latitude = -60; latitude <= 60; latitude += 15)
+      for (double longitude = -75; longitude <= 75; longitude += 15) {
+        const glm::dvec3 direction = Direction(latitude, longitude);
+        const auto pixel = PixelFromDirection(projection, 0.03 * direction);
+        ASSERT_TRUE(pixel);
+        EXPECT_LT(glm::length(DirectionFromPixel(projection, *pixel) - direction), 1e-12);
+      }
+}
+
+TEST(Projection, GradientsAreDerivatives) {
+  for (const Projection& projection : {Gnomonic(), Equirectangular()})
+    for (double latitude : {-70.0, -10.0, 0.0, 42.0})
+      for (double longitude : {-80.0, 5.0, 60.0}) {
+        const glm::dvec3 d = 0.04 * Direction(latitude, longitude);
+        const glm::dmat2x3 gradients = PixelGradients(projection, d);
+        constexpr double kStep = 1e-7;
+        for (int axis = 0; axis < 3; ++axis) {
+          glm::dvec3 step(0.0);
+          step[axis] = kStep;
+          const glm::dvec2 slope = (*PixelFromDirection(projection, d + step) -
+                                    *PixelFromDirection(projection, d - step)) /
+                                   (2.0 * kStep);
+          // Central differences are good to h² f'''/6, about 1e-5 of the slope at the steepest
+          // point here.
+          EXPECT_NEAR(gradients[0][axis], slope.x, 1e-5 * (1.0 + std::abs(slope.x)));
+          EXPECT_NEAR(gradients[1][axis], slope.y, 1e-5 * (1.0 + std::abs(slope.y)));
+        }
+      }
+}
+
+}  // namespace
+}  // namespace arthro
