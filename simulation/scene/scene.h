@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -79,6 +80,8 @@ struct Scene {
   std::vector<Tissue> tissues;
   std::vector<Instrument> instruments;
   std::vector<Task> tasks;
+  // What other tools keep at the top of scene.json: key ("x-…") to JSON text, saved as it came.
+  std::map<std::string, std::string> extensions;
 };
 
 }  // namespace arthro

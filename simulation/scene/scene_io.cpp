@@ -1,0 +1,171 @@
+#include "simulation/scene/scene_io.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/scene_json.h"
+#include "simulation/scene/scene_migration.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// scene.json is written by hand or by this program; a larger one is some other file.
+constexpr std::size_t kMaxBytes = 16u << 20;
+
+std::string LineAndColumn(const std::string& text, std::size_t byte) {
+  const std::size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  const std::size_t start = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+  return fmt::format("line {}, column {}", line + 1,
+                     end - (start == std::string::npos ? 0 : start + 1) + 1);
+}
+
+// JSON lets a key come twice and the last one win; whoever wrote it meant something else.
+struct TwiceFinder {
+  std::vector<std::set<std::string>> open = {};
+  std::string twice = {};
+
+  bool operator()(int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) open.emplace_back();
+    if (event == json::parse_event_t::object_end) open.pop_back();
+    if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
+      twice = value.get<std::string>();
+    return true;
+  }
+};
+
+json ParseScene(const fs::path& file) {
+  std::string text;
+  try {
+    text = ReadWholeFile(file);
+  } catch (const Error& error) {
+    throw Error(Code::kBadScene, error.sentence(), file);
+  }
+  if (text.size() > kMaxBytes)
+    throw Error(Code::kBadScene, "this is too large to be a scene.json; check the name", file);
+  TwiceFinder twice;
+  json parsed;
+  try {
+    parsed = json::parse(text, std::ref(twice));
+  } catch (const json::parse_error& fault) {
+    throw Error(
+        Code::kBadScene,
+        fmt::format("this is not JSON from {} on; mend it there", LineAndColumn(text, fault.byte)),
+        file);
+  } catch (const json::exception&) {  // a number beyond what a double holds
+    throw Error(Code::kBadScene, "a number here is too large to be read; mend it", file);
+  }
+  if (!twice.twice.empty())
+    throw Error(Code::kBadScene,
+                fmt::format("the key {} comes twice in one object; remove one of them",
+                            json(twice.twice).dump()),
+                file);
+  return parsed;
+}
+
+Scene ReadSceneFile(const fs::path& file, std::vector<JsonFault>& faults) {
+  json parsed = ParseScene(file);
+  MigrateScene(parsed, file);
+  return SceneFromJson(parsed, faults);
+}
+
+void ThrowFirst(const std::vector<JsonFault>& faults, const fs::path& file) {
+  if (faults.empty()) return;
+  std::string sentence = faults.front().sentence;
+  if (faults.size() > 1)
+    sentence += fmt::format(" (and {} more; `arthroscene check` lists all)", faults.size() - 1);
+  throw Error(Code::kBadScene, sentence, file);
+}
+
+}  // namespace
+
+fs::path SceneFile(const fs::path& scene) {
+  std::error_code ignored;
+  return fs::is_directory(scene, ignored) ? scene / "scene.json" : scene;
+}
+
+Scene ReadScene(const fs::path& scene) {
+  std::vector<JsonFault> faults;
+  Scene values = ReadSceneFile(SceneFile(scene), faults);
+  ThrowFirst(faults, SceneFile(scene));
+  return values;
+}
+
+LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
+  LoadedScene loaded;
+  const fs::path file = SceneFile(scene);
+  loaded.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  // Each part on its own, so that one bad file does not hide the next.
+  const auto attempt = [&](const auto& part) {
+    try {
+      part();
+    } catch (const Error& error) {
+      faults.push_back(error.what());
+    }
+  };
+  attempt([&] {
+    std::vector<JsonFault> json_faults;
+    loaded.scene = ReadSceneFile(file, json_faults);
+    for (const JsonFault& fault : json_faults)
+      faults.push_back(file.string() + ": " + fault.sentence);
+  });
+  const auto named = [&](const std::string& key, const fs::path& name, const auto& read) {
+    if (name.empty()) return;
+    attempt([&] {
+      std::error_code ignored;
+      if (!fs::is_regular_file(loaded.folder / name, ignored))
+        throw Error(Code::kBadScene,
+                    fmt::format("{} names \"{}\", which is not in the scene's folder; put it there "
+                                "or mend the name",
+                                key, name.generic_string()),
+                    file);
+      read(loaded.folder / name);
+    });
+  };
+  const Backdrop& backdrop = loaded.scene.backdrop;
+  named("backdrop.panorama", backdrop.panorama,
+        [&](const fs::path& path) { loaded.panorama = ReadColourImage(path); });
+  named("backdrop.depth", backdrop.depth, [&](const fs::path& path) {
+    loaded.depth = ReadDepthMap(path);
+    if (!loaded.panorama.empty()) RequireSameSize(loaded.panorama, loaded.depth, path);
+  });
+  named("scope.lens", loaded.scene.scope.lens, [](const fs::path&) {});
+  return loaded;
+}
+
+LoadedScene LoadScene(const fs::path& scene) {
+  std::vector<JsonFault> json_faults;
+  std::vector<std::string> faults;
+  LoadedScene loaded = LoadScene(scene, faults);
+  if (faults.empty()) return loaded;
+  std::string sentence = faults.front();
+  if (faults.size() > 1)
+    sentence += fmt::format(" (and {} more; `arthroscene check` lists all)", faults.size() - 1);
+  throw Error(Code::kBadScene, sentence);
+}
+
+void WriteScene(const fs::path& scene_json, const Scene& scene) {
+  std::string text;
+  try {
+    text = PrettyJson(JsonFromScene(scene));
+  } catch (const json::exception&) {
+    throw Error(Code::kBadScene,
+                "a text of this scene is not valid UTF-8 and cannot be saved; type it again",
+                scene_json);
+  }
+  std::vector<JsonFault> faults;
+  SceneFromJson(json::parse(text), faults);  // also catches NaN, which JSON has no word for
+  ThrowFirst(faults, scene_json);
+  WriteAtomically(scene_json, text);
+}
+
+}  // namespace arthro

@@ -1,0 +1,42 @@
+// Scenes from and to files (design §6). A scene is a folder with scene.json and the files it names
+// by relative path, all in metres. Wherever a scene is asked for, the folder or its scene.json may
+// be given. Faults are Error(kBadScene) that names the file, the key and the remedy.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
+
+namespace arthro {
+
+struct LoadedScene {
+  Scene scene;
+  std::filesystem::path folder;  // what the scene's paths are relative to
+  ColourImage panorama;
+  DepthMap depth;                     // same size as the panorama, or empty: a bare sphere
+  std::vector<SurfaceMesh> surfaces;  // one a tissue, in its own frame, m
+};
+
+// The values alone, checked. Older versions are brought up to date in memory; a newer one is
+// refused by name. Of several faults the first is told, with how many more there are.
+Scene ReadScene(const std::filesystem::path& scene);
+
+// The scene with its files, all of them there and of fitting sizes.
+LoadedScene LoadScene(const std::filesystem::path& scene);
+
+// The same, with every fault as a sentence of its own instead of an exception, so that an author
+// can mend all of them at once. With faults, `loaded` holds what could be read.
+LoadedScene LoadScene(const std::filesystem::path& scene, std::vector<std::string>& faults);
+
+// Writes scene.json, wholly or not at all; a scene that could not be read back is refused before
+// the file is touched.
+void WriteScene(const std::filesystem::path& scene_json, const Scene& scene);
+
+// The scene.json that a folder or a file name stands for.
+std::filesystem::path SceneFile(const std::filesystem::path& scene);
+
+}  // namespace arthro

@@ -1,0 +1,166 @@
+#include "simulation/scene/scene_io.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/image_io.h"
+#include "tests/support/example_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scene SmallScene() {
+  Scene scene;
+  scene.title = "small";
+  scene.backdrop.panorama = "p.png";
+  scene.backdrop.depth = "d.tiff";
+  scene.backdrop.projection = {ProjectionType::kGnomonic, {7.5, 3.5}, 9.0, 10.0};
+  return scene;
+}
+
+void WriteSmallFiles(const fs::path& folder) {
+  WriteColourImage(folder / "p.png", ColourImage(16, 8));
+  WriteDepthMap(folder / "d.tiff", DepthMap(16, 8, 0.01f));
+}
+
+std::string FaultOfReading(const fs::path& scene) {
+  try {
+    ReadScene(scene);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::kBadScene);
+    return error.what();
+  }
+  return "";
+}
+
+std::string FaultOfText(const std::string& text) {
+  test::TempFolder folder;
+  WriteAtomically(folder / "scene.json", text);
+  return FaultOfReading(folder.path());
+}
+
+TEST(SceneIo, FolderAndFileNameTheSameScene) {
+  test::TempFolder folder;
+  WriteScene(folder / "scene.json", SmallScene());
+  EXPECT_EQ(ReadScene(folder.path()).title, "small");
+  EXPECT_EQ(ReadScene(folder / "scene.json").title, "small");
+  EXPECT_EQ(SceneFile(folder.path()), folder / "scene.json");
+}
+
+TEST(SceneIo, LoadsTheFilesItNames) {
+  test::TempFolder folder;
+  WriteScene(folder / "scene.json", SmallScene());
+  WriteSmallFiles(folder.path());
+  const LoadedScene loaded = LoadScene(folder.path());
+  EXPECT_EQ(loaded.folder, folder.path());
+  EXPECT_EQ(loaded.panorama.width, 16);
+  EXPECT_EQ(loaded.depth.at(3, 3), 0.01f);
+}
+
+TEST(SceneIo, ASceneWithoutDepthIsABareSphere) {
+  test::TempFolder folder;
+  Scene scene = SmallScene();
+  scene.backdrop.depth.clear();
+  WriteScene(folder / "scene.json", scene);
+  WriteSmallFiles(folder.path());
+  EXPECT_TRUE(LoadScene(folder.path()).depth.empty());
+}
+
+TEST(SceneIo, ListsEveryMissingOrUnfitFile) {
+  test::TempFolder folder;
+  Scene scene = SmallScene();
+  scene.scope.lens = "lens.json";
+  WriteScene(folder / "scene.json", scene);
+  std::vector<std::string> faults;
+  LoadScene(folder.path(), faults);
+  ASSERT_EQ(faults.size(), 3u);
+  EXPECT_NE(faults[0].find("backdrop.panorama names \"p.png\""), std::string::npos) << faults[0];
+  EXPECT_NE(faults[1].find("backdrop.depth"), std::string::npos);
+  EXPECT_NE(faults[2].find("scope.lens"), std::string::npos);
+  try {
+    LoadScene(folder.path());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.sentence().find("and 2 more"), std::string::npos) << error.sentence();
+  }
+  WriteSmallFiles(folder.path());
+  WriteAtomically(folder / "lens.json", "{}");
+  WriteDepthMap(folder / "d.tiff", DepthMap(16, 9, 0.0f));
+  faults.clear();
+  LoadScene(folder.path(), faults);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].find("16 x 9"), std::string::npos) << faults[0];
+}
+
+TEST(SceneIo, SaysWhereAFileIsNotJson) {
+  EXPECT_NE(FaultOfText("{\n  \"schema\": ,\n}").find("line 2, column 13"), std::string::npos)
+      << FaultOfText("{\n  \"schema\": ,\n}");
+  EXPECT_NE(FaultOfText("").find("not JSON"), std::string::npos);
+  EXPECT_NE(FaultOfText("{\"schema\": \"\xff\"}").find("not JSON"), std::string::npos);
+  EXPECT_NE(FaultOfText("{\"a\": NaN}").find("not JSON"), std::string::npos);
+  EXPECT_NE(FaultOfText("{\"a\": 1e999}").find("too large"), std::string::npos);
+  EXPECT_NE(FaultOfText("{\"a\": {\"b\": 1, \"b\": 2}}").find("\"b\" comes twice"),
+            std::string::npos);
+  EXPECT_NE(FaultOfText(std::string(200000, '[')).find("not JSON"), std::string::npos);
+}
+
+TEST(SceneIo, RefusesAMissingSceneAndAForeignFile) {
+  test::TempFolder folder;
+  EXPECT_NE(FaultOfReading(folder.path()).find("scene.json: could not be opened"),
+            std::string::npos);
+  WriteColourImage(folder / "p.png", ColourImage(4, 4));
+  EXPECT_NE(FaultOfReading(folder / "p.png").find("not JSON"), std::string::npos);
+}
+
+// Any prefix of a file, and any byte changed, is read or refused: never a crash, never a hang.
+TEST(SceneIo, SurvivesEveryCutAndManyChangedBytes) {
+  const std::string whole = test::FullSceneJson().dump(1);
+  test::TempFolder folder;
+  int refused = 0;
+  for (std::size_t end = 0; end < whole.size(); end += 7) {
+    WriteAtomically(folder / "scene.json", whole.substr(0, end));
+    refused += FaultOfReading(folder.path()).empty() ? 0 : 1;
+    std::string changed = whole;
+    changed[end] = static_cast<char>(changed[end] ^ 0x15);
+    WriteAtomically(folder / "scene.json", changed);
+    FaultOfReading(folder.path());
+  }
+  EXPECT_EQ(refused, static_cast<int>((whole.size() + 6) / 7));
+}
+
+TEST(SceneIo, ASceneThatCouldNotBeReadBackLeavesTheOldFile) {
+  test::TempFolder folder;
+  const fs::path file = folder / "scene.json";
+  WriteScene(file, SmallScene());
+  const std::string before = ReadWholeFile(file);
+  Scene nan = SmallScene(), escape = SmallScene(), twins = SmallScene(), not_text = SmallScene();
+  nan.backdrop.radius = std::numeric_limits<double>::quiet_NaN();
+  escape.backdrop.panorama = "/somewhere/else.png";
+  twins.tissues.resize(2);
+  for (Tissue& tissue : twins.tissues) tissue.name = "a", tissue.surface = "a.ply";
+  not_text.title = "\xff\xfe";
+  for (const Scene& scene : {nan, escape, twins, not_text}) {
+    EXPECT_THROW(WriteScene(file, scene), Error);
+    EXPECT_EQ(ReadWholeFile(file), before);
+  }
+  EXPECT_THROW(WriteScene(folder / "no/such/scene.json", SmallScene()), Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1)
+      << "a partial file is left";
+}
+
+TEST(SceneIo, WritingTwiceGivesTheSameBytes) {
+  test::TempFolder folder;
+  WriteScene(folder / "a.json", SmallScene());
+  WriteScene(folder / "b.json", ReadScene(folder / "a.json"));
+  EXPECT_EQ(ReadWholeFile(folder / "a.json"), ReadWholeFile(folder / "b.json"));
+}
+
+}  // namespace
+}  // namespace arthro

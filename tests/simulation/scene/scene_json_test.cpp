@@ -1,0 +1,208 @@
+#include "simulation/scene/scene_json.h"
+
+#include <functional>
+#include <limits>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/core/units.h"
+#include "tests/support/example_scene.h"
+
+namespace arthro {
+namespace {
+
+using nlohmann::json;
+
+std::vector<JsonFault> FaultsOf(const json& scene) {
+  std::vector<JsonFault> faults;
+  SceneFromJson(scene, faults);
+  return faults;
+}
+
+TEST(SceneJson, ReadsEveryField) {
+  std::vector<JsonFault> faults;
+  const Scene scene = SceneFromJson(test::FullSceneJson(), faults);
+  for (const JsonFault& fault : faults) ADD_FAILURE() << fault.sentence;
+  EXPECT_EQ(scene.title, "Medial meniscus, right knee");
+  EXPECT_EQ(scene.author, "Dr. Ó Súilleabháin");
+  EXPECT_EQ(scene.backdrop.panorama, "pictures/panorama.png");
+  EXPECT_EQ(scene.backdrop.depth, "depth.tiff");
+  EXPECT_EQ(scene.backdrop.radius, 0.045);
+  EXPECT_EQ(scene.backdrop.projection.type, ProjectionType::kGnomonic);
+  EXPECT_EQ(scene.backdrop.projection.centre_px, glm::dvec2(31.5, 15.5));
+  EXPECT_EQ(scene.backdrop.projection.focal_px, 40);
+  EXPECT_EQ(scene.backdrop.rights.source, "phantom");
+  EXPECT_EQ(scene.backdrop.rights.licence, "CC0-1.0");
+  EXPECT_EQ(scene.backdrop.rights.consent, "none needed: synthetic");
+  EXPECT_EQ(scene.scope.view_angle, RadiansFromDegrees(70));
+  EXPECT_EQ(scene.scope.field_of_view, RadiansFromDegrees(105));
+  EXPECT_EQ(scene.scope.rod_length, 0.25);
+  EXPECT_EQ(scene.scope.lens, "lens.json");
+  EXPECT_EQ(scene.portals.incision_spacing, -0.028);
+  EXPECT_EQ(scene.rig.scope.pivot, glm::dvec3(0.01, 0.02, 0.15));
+  EXPECT_EQ(scene.rig.scope.portal_from_device, glm::dquat(0, 1, 0, 0));
+  EXPECT_EQ(scene.rig.scope.rod_length, 0.25)
+      << "the scope's rod is told once, at scope.rod_length";
+  EXPECT_EQ(scene.rig.instrument.rod_length, 0.18);
+  EXPECT_EQ(scene.rig.instrument.pivot, glm::dvec3(0, 0, 0.1));
+  ASSERT_EQ(scene.tissues.size(), 2u);
+  const Tissue& meniscus = scene.tissues[0];
+  EXPECT_EQ(meniscus.name, "medial meniscus");
+  EXPECT_EQ(meniscus.surface, "meniscus.ply");
+  EXPECT_EQ(meniscus.mesh, "meniscus.vtu");
+  EXPECT_EQ(meniscus.pose.position, glm::dvec3(0.001, 0.002, 0.03));
+  EXPECT_EQ(meniscus.pose.quaternion, glm::dquat(0, 0, 1, 0));
+  EXPECT_EQ(meniscus.pose.scale, 1.25);
+  EXPECT_EQ(meniscus.colour, glm::dvec3(0.9, 0.8, 0.7));
+  EXPECT_EQ(meniscus.rights.consent, "given in writing");
+  EXPECT_EQ(scene.tissues[1].pose.scale, 1.0);
+  ASSERT_EQ(scene.instruments.size(), 2u);
+  EXPECT_EQ(scene.instruments[1].kind, "punch");
+  ASSERT_EQ(scene.tasks.size(), 1u);
+  EXPECT_EQ(scene.tasks[0].text, "Find the posterior horn.");
+  EXPECT_EQ(scene.extensions.at("x-course"), R"({"week":3})");
+}
+
+TEST(SceneJson, ShortestSceneTakesTheDefaults) {
+  const json shortest = {
+      {"schema", "arthroscene.scene/1"},
+      {"backdrop",
+       {{"panorama", "p.png"},
+        {"projection",
+         {{"type", "equirectangular"}, {"centre_px", {10, 20}}, {"px_per_deg", 12.5}}}}}};
+  std::vector<JsonFault> faults;
+  const Scene scene = SceneFromJson(shortest, faults);
+  EXPECT_TRUE(faults.empty());
+  EXPECT_EQ(scene.backdrop.projection.px_per_deg, 12.5);
+  EXPECT_EQ(scene.backdrop.radius, 0.05);
+  EXPECT_EQ(scene.scope.view_angle, RadiansFromDegrees(30));
+  EXPECT_EQ(scene.scope.field_of_view, RadiansFromDegrees(90));
+  EXPECT_EQ(scene.portals.incision_spacing, 0.03);
+  EXPECT_EQ(scene.rig.scope.rod_length, 0.2);
+  EXPECT_EQ(scene.rig.instrument.rod_length, 0.2);
+  EXPECT_TRUE(scene.tissues.empty());
+}
+
+TEST(SceneJson, WritingAndReadingGivesTheSameScene) {
+  std::vector<JsonFault> faults;
+  Scene scene = SceneFromJson(test::FullSceneJson(), faults);
+  scene.tissues[0].pose.quaternion = glm::normalize(glm::dquat(0.3, -0.2, 0.77, 0.1));
+  scene.rig.scope.portal_from_device = glm::normalize(glm::dquat(0.1, 0.9, -0.2, 0.3));
+  const std::string text = PrettyJson(JsonFromScene(scene));
+  const Scene back = SceneFromJson(json::parse(text), faults);
+  EXPECT_TRUE(faults.empty());
+  // The text holds every field exactly, so equal texts are equal scenes.
+  EXPECT_EQ(PrettyJson(JsonFromScene(back)), text);
+  EXPECT_EQ(back.tissues[0].pose.quaternion, scene.tissues[0].pose.quaternion);
+  EXPECT_EQ(back.scope.view_angle, scene.scope.view_angle);
+  EXPECT_NE(text.find("\"view_angle_deg\": 70.0"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"centre_px\": [31.5, 15.5]"), std::string::npos) << text;
+}
+
+// Every key of the file that is read is also written, so that nothing is lost by saving.
+TEST(SceneJson, WritesEveryKeyThatItReads) {
+  std::vector<JsonFault> faults;
+  const json full = test::FullSceneJson();
+  const json read = full.flatten();
+  const json written = json(JsonFromScene(SceneFromJson(full, faults))).flatten();
+  ASSERT_GT(read.size(), 50u);
+  for (const auto& [pointer, value] : read.items())
+    EXPECT_TRUE(written.contains(pointer)) << pointer;
+}
+
+struct Fault {
+  const char* pointer;  // where the example is changed
+  json value;
+  const char* key;   // how the fault names the place
+  const char* says;  // a part of what it says
+};
+
+TEST(SceneJson, NamesTheKeyAndTheRemedyOfEveryFault) {
+  const std::vector<Fault> faults = {
+      {"/backdrop/radius", -0.05, "backdrop.radius", "more than 0"},
+      {"/backdrop/radius", 0, "backdrop.radius", "more than 0"},
+      {"/backdrop/radius", 50, "backdrop.radius", "metres"},
+      {"/backdrop/radius", "0.05", "backdrop.radius", "\"0.05\""},
+      {"/backdrop/radius", nullptr, "backdrop.radius", "null"},
+      {"/backdrop/panorama", "", "backdrop.panorama", "empty"},
+      {"/backdrop/panorama", "../../etc/passwd", "backdrop.panorama", "inside the scene's folder"},
+      {"/backdrop/panorama", "a/../../b.png", "backdrop.panorama", "inside the scene's folder"},
+      {"/backdrop/panorama", "/etc/passwd", "backdrop.panorama", "inside the scene's folder"},
+      {"/backdrop/panorama", "C:\\p.png", "backdrop.panorama", "inside the scene's folder"},
+      {"/backdrop/panorama", "folder/", "backdrop.panorama", "must name a file"},
+      {"/backdrop/depth", 7, "backdrop.depth", "name of a file"},
+      {"/backdrop/projection/type", "cylindrical", "backdrop.projection.type", "equirectangular"},
+      {"/backdrop/projection/focal_px", 0, "backdrop.projection.focal_px", "more than 0"},
+      {"/backdrop/projection/focal_px", false, "backdrop.projection.focal_px", "false"},
+      {"/backdrop/projection/centre_px", {1}, "backdrop.projection.centre_px", "2 numbers"},
+      {"/backdrop/projection/centre_px", {1, "2"}, "backdrop.projection.centre_px", "2 numbers"},
+      {"/backdrop/projection", 5, "backdrop.projection", "object"},
+      {"/scope/view_angle_deg", 170, "scope.view_angle_deg", "120 degrees"},
+      {"/scope/field_of_view_deg", 0, "scope.field_of_view_deg", "more than 0"},
+      {"/scope/rod_length", 200, "scope.rod_length", "metres"},
+      {"/scope/lens", "../lens.json", "scope.lens", "inside the scene's folder"},
+      {"/portals/incision_spacing", 30, "portals.incision_spacing", "metres"},
+      {"/rig/scope/portal_from_device",
+       {0, 0, 0, 0},
+       "rig.scope.portal_from_device",
+       "[1, 0, 0, 0]"},
+      {"/rig/scope/rod_length", 0.3, "rig.scope.rod_length", "scope.rod_length is 0.25"},
+      {"/rig/instrument/pivot", {0, 0}, "rig.instrument.pivot", "3 numbers"},
+      {"/tissues/0/pose/quaternion", {0, 0, 0, 0}, "tissues[0].pose.quaternion", "all zeros"},
+      {"/tissues/0/pose/scale", 0, "tissues[0].pose.scale", "more than 0"},
+      {"/tissues/0/colour", {0.5, 0.5, 1.5}, "tissues[0].colour", "between 0 and 1"},
+      {"/tissues/1/name", "", "tissues[1].name", "empty"},
+      {"/tissues/1/name", "backdrop", "tissues[1].name", "choose another"},
+      {"/tissues/1/name", "a,b", "tissues[1].name", "comma"},
+      {"/tissues/1/name", "medial meniscus", "tissues[1].name", "used twice"},
+      {"/tissues/1/surface", "~/../x.ply", "tissues[1].surface", "inside the scene's folder"},
+      {"/tissues/1", 3, "tissues[1]", "object"},
+      {"/tissues", "none", "tissues", "list"},
+      {"/tasks/0/id", 1, "tasks[0].id", "text"},
+      {"/instruments/0/name", nullptr, "instruments[0].name", "text"},
+      {"/backdrop/raduis", 0.05, "backdrop.raduis", "did you mean \"radius\"?"},
+      {"/backdrop/projection/focal", 5, "backdrop.projection.focal", "did you mean \"focal_px\"?"},
+      {"/backdrop/projection/center_px",
+       {1, 2},
+       "backdrop.projection.center_px",
+       "did you mean \"centre_px\"?"},
+      {"/tissues/0/color", {1, 1, 1}, "tissues[0].color", "did you mean \"colour\"?"},
+      {"/titel", "x", "titel", "did you mean \"title\"?"},
+      {"/something", 1, "something", "\"x-\""},
+      {"/scope/x-own", 1, "scope.x-own", "not known"}};
+  for (const Fault& fault : faults) {
+    json scene = test::FullSceneJson();
+    scene[json::json_pointer(fault.pointer)] = fault.value;
+    const auto found = FaultsOf(scene);
+    ASSERT_EQ(found.size(), 1u) << fault.pointer << " " << fault.value
+                                << (found.empty() ? "" : found.back().sentence);
+    EXPECT_EQ(found[0].key, fault.key);
+    EXPECT_TRUE(found[0].sentence.starts_with(fault.key)) << found[0].sentence;
+    EXPECT_NE(found[0].sentence.find(fault.says), std::string::npos) << found[0].sentence;
+  }
+}
+
+TEST(SceneJson, TellsAllFaultsNotOnlyTheFirst) {
+  json scene = test::FullSceneJson();
+  scene["backdrop"]["radius"] = -1;
+  scene["backdrop"].erase("panorama");
+  scene["scope"]["view_angle_deg"] = "thirty";
+  scene["tissues"][1].erase("surface");
+  EXPECT_EQ(FaultsOf(scene).size(), 4u);
+}
+
+TEST(SceneJson, LongAndForeignLettersInAFaultStayReadable) {
+  json scene = test::FullSceneJson();
+  scene["backdrop"]["radius"] = std::string(100000, 'a');
+  std::string long_key;
+  for (int i = 0; i < 100; ++i) long_key += "ö";
+  scene[long_key] = 1;
+  for (const JsonFault& fault : FaultsOf(scene)) {
+    EXPECT_LT(fault.sentence.size(), 300u);
+    EXPECT_NO_THROW(json(fault.sentence).dump()) << "cut in the middle of a letter";
+  }
+}
+
+}  // namespace
+}  // namespace arthro
