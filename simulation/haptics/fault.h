@@ -1,0 +1,35 @@
+// Why a device is given no force. A fault is a value in the snapshot: the servo path throws and
+// logs nothing [design §2, threads].
+#pragma once
+
+namespace arthro::simulation {
+
+enum class Fault {
+  kNone,
+  kNoSample,   // the device is absent or its sample is not valid
+  kStale,      // the same sample for longer than max_sample_age
+  kLost,       // the same sample for longer than lost_after
+  kNotFinite,  // a position or a force that is not a number
+  kTooFast,    // the hand is faster than max_hand_speed
+};
+
+// One word, as written to forces.csv.
+constexpr const char* Word(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::kNone:
+      return "none";
+    case Fault::kNoSample:
+      return "no_sample";
+    case Fault::kStale:
+      return "stale";
+    case Fault::kLost:
+      return "lost";
+    case Fault::kNotFinite:
+      return "not_finite";
+    case Fault::kTooFast:
+      return "too_fast";
+  }
+  return "none";
+}
+
+}  // namespace arthro::simulation
