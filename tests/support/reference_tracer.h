@@ -1,0 +1,69 @@
+// What the arthroscope must show, by an independent double-precision ray tracer of design §4 with
+// no GL: ray -> sphere of radius D about the portal -> panorama pixel -> bilinear colour. Portal
+// frame, m, rad; pixels from the centre of the top-left one. Nothing here calls simulation/scope:
+// the view is a product of rotations, the sphere is met by foot and half chord, the lens is
+// Lambert's equal-area form, so that an error in one derivation shows against the other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/scope/arthroscope.h"
+
+namespace arthro::test {
+
+struct ReferencePose {
+  double latitude = 0, longitude = 0, roll = 0, depth = 0, view_angle = 0;
+  std::optional<double> head_roll;
+};
+
+// [right, up, view] = Ry(λ) Rx(φ) Rz(γ) Rx(α) Rz(κ − γ) applied to the neutral scope's axes.
+simulation::ScopeView ReferenceView(const ReferencePose& pose);
+
+// Unit ray of a pixel of the round window of a size x size picture; nothing outside the window.
+std::optional<glm::dvec3> ReferenceRay(const simulation::ScopeView& view, double field_of_view,
+                                       int size, const glm::dvec2& pixel);
+
+// Where a ray from `origin` meets the sphere ahead of it; nothing if it does not.
+std::optional<glm::dvec3> ReferenceSphereHit(const glm::dvec3& origin, const glm::dvec3& direction,
+                                             double radius);
+
+std::optional<glm::dvec2> ReferencePixel(const Projection& projection, const glm::dvec3& direction);
+
+// Panorama pixel that the round window shows at `pixel`: all of the above in a row.
+std::optional<glm::dvec2> PanoramaPixelAt(const Backdrop& backdrop,
+                                          const simulation::ScopeView& view, double field_of_view,
+                                          int size, const glm::dvec2& pixel);
+
+// Bilinear in the stored bytes, 0 to 255. Half a pixel beyond the outermost centres the edge colour
+// goes on; further out is black.
+glm::dvec3 ReferenceColour(const ColourImage& panorama, const glm::dvec2& pixel);
+
+// An opaque mesh of one unlit colour (bytes, 0 to 255), in the portal frame. Both sides are seen.
+struct ReferenceMesh {
+  const SurfaceMesh* surface = nullptr;
+  glm::dvec3 colour{255.0};
+};
+
+struct TracedPicture {
+  static constexpr int kOutside = -1;  // outside the round window, or the ray meets nothing
+  static constexpr int kBackdrop = 0;  // 1 + i is mesh i
+  ColourImage colours;                 // one ray a pixel, through its centre; black where kOutside
+  std::vector<int> what;               // row-major
+  std::vector<double> distance;        // from the tip, m; 0 where kOutside
+};
+
+// Only the sphere is traced: the relief of a depth map moves no colour in this model (design §4).
+TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
+                          const simulation::ScopeView& view, double field_of_view, int size,
+                          std::span<const ReferenceMesh> meshes = {});
+
+}  // namespace arthro::test
