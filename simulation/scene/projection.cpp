@@ -12,7 +12,8 @@ namespace arthro {
 std::optional<glm::dvec2> PixelFromDirection(const Projection& projection,
                                              const glm::dvec3& d) noexcept {
   if (projection.type == ProjectionType::kGnomonic) {
-    if (!(d.z > 0.0)) return std::nullopt;
+    // At a right angle, where cos 90° is 6e-17 in doubles, there is no pixel either.
+    if (!(d.z > 1e-9 * (std::abs(d.x) + std::abs(d.y)))) return std::nullopt;
     return projection.centre_px + projection.focal_px * glm::dvec2(d.x, d.y) / d.z;
   }
   const double length = glm::length(d);

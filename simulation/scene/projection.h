@@ -23,7 +23,8 @@ struct Projection {
   double px_per_deg = 10.0;  // equirectangular
 };
 
-// Nothing where the projection has no pixel: behind a gnomonic picture, or no direction at all.
+// Nothing where the projection has no pixel: at a right angle to a gnomonic picture's axis and
+// beyond, or no direction at all.
 std::optional<glm::dvec2> PixelFromDirection(const Projection& projection,
                                              const glm::dvec3& direction) noexcept;
 

@@ -65,10 +65,12 @@ glm::dvec2 PixelFromRay(const RoundWindow& window, const ScopeView& view,
   const double x = glm::dot(direction, view.right), y = -glm::dot(direction, view.up);
   const double z = glm::dot(direction, view.view);
   const double across = std::hypot(x, y);
-  if (across == 0.0) return window.centre_px;
+  if (across == 0.0 && z >= 0.0) return window.centre_px;
   const double theta = std::atan2(across, z);
   const double r = window.radius_px * std::sin(theta / 2.0) / std::sin(window.field_of_view / 4.0);
-  return window.centre_px + r / across * glm::dvec2(x, y);
+  // Straight behind, every side is as good.
+  const glm::dvec2 side = across > 0.0 ? glm::dvec2(x, y) / across : glm::dvec2(1.0, 0.0);
+  return window.centre_px + r * side;
 }
 
 }  // namespace arthro::simulation

@@ -10,8 +10,9 @@
 namespace arthro::simulation {
 namespace {
 
-// Closer than this the hand is on the pivot and the rod's direction is unknown.
-constexpr double kHandOnPivot = 1e-9;  // m
+// Closer than this the hand is on the pivot and the rod's direction is unknown: there, sensor noise
+// of 0.055 mm an axis (nine times less) would turn the rod end over end.
+constexpr double kHandOnPivot = 0.5e-3;  // m
 
 }  // namespace
 
@@ -29,18 +30,23 @@ RodPose RodPoseFromHip(const glm::dvec3& hip_in_device, const glm::dquat& handle
                        const DeviceRig& rig, const RodPose& previous) noexcept {
   const glm::dvec3 hand_to_pivot = rig.portal_from_device * (rig.pivot - hip_in_device);
   const double distance = glm::length(hand_to_pivot);
+  if (!std::isfinite(distance)) return previous;
   RodPose pose = previous;
   pose.depth = rig.rod_length - distance;
   if (distance > kHandOnPivot) {
     const glm::dvec3 u = hand_to_pivot / distance;
-    pose.latitude = -std::asin(std::clamp(u.y, -1.0, 1.0));
+    const double from_axis = std::hypot(u.x, u.z);
+    pose.latitude = std::atan2(-u.y, from_axis);  // an arc sine is good to 1e-8 only at the poles
     // At a pole every longitude is the same direction; keeping the last one keeps north where it
     // was.
-    if (std::hypot(u.x, u.z) > 1e-12) pose.longitude = std::atan2(u.x, u.z);
+    if (from_axis > 1e-12) pose.longitude = std::atan2(u.x, u.z);
   }
   // The handle's up axis, seen along the rod, shows the roll.
+  const double handle_length = glm::length(handle_in_device);
+  if (!(handle_length > 1e-6) || !std::isfinite(handle_length)) return pose;
   const RodBasis basis = BasisOf(pose);
-  const glm::dvec3 mark = rig.portal_from_device * (handle_in_device * glm::dvec3(0.0, -1.0, 0.0));
+  const glm::dvec3 mark =
+      rig.portal_from_device * ((handle_in_device / handle_length) * glm::dvec3(0.0, -1.0, 0.0));
   const double north = glm::dot(mark, basis.north), east = glm::dot(mark, basis.east);
   if (std::hypot(north, east) > 1e-9) {
     constexpr double kTurn = 2.0 * std::numbers::pi;

@@ -28,15 +28,17 @@ RodBasis BasisOf(const RodPose& pose) noexcept;
 // Tip relative to the rod's own portal: ρ u.
 glm::dvec3 TipInOwnPortal(const RodPose& pose) noexcept;
 
-// The pose from a device's hand position and handle orientation. Roll is read from the handle: the
-// angle by which the handle's up axis (-y), laid flat against the rod, is turned from north towards
-// east; an identity orientation has no roll. It is continued from `previous` so that it never jumps
-// by a whole turn. With the hand within 1e-9 m of the pivot the rod has no direction, and the
-// previous one is kept.
+// The pose from a device's hand position and handle orientation (need not be of unit length). Roll
+// is read from the handle: the angle by which the handle's up axis (-y), laid flat against the rod,
+// is turned from north towards east; an identity orientation has no roll. It is continued from
+// `previous` so that it never jumps by a whole turn. With the hand within 0.5 mm of the pivot the
+// rod has no direction that can be measured, and the previous one is kept; a hand that goes on to
+// the other side turns the rod about once. A sample that is not finite leaves the pose as it was.
 RodPose RodPoseFromHip(const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device,
                        const DeviceRig& rig, const RodPose& previous = {}) noexcept;
 
-// The inverse, for scripted hands and tests: where the hand is, in the device frame.
+// The inverse, for scripted hands and tests: where the hand is, in the device frame. A depth beyond
+// the rod's length would need the hand inside the joint and does not come back.
 glm::dvec3 HipFromRodPose(const RodPose& pose, const DeviceRig& rig) noexcept;
 glm::dquat HandleFromRodPose(const RodPose& pose, const DeviceRig& rig) noexcept;
 

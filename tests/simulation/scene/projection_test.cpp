@@ -36,6 +36,13 @@ TEST(Projection, GnomonicIsThePinhole) {
   EXPECT_FALSE(PixelFromDirection(Equirectangular(), {0.0, 0.0, 0.0}));
 }
 
+// cos 90° is 6e-17 in doubles, not 0: without a margin the pixel would be 1e19.
+TEST(Projection, GnomonicHasNoPixelForARightAngle) {
+  const glm::dvec3 aside(1.0, 0.0, std::cos(std::numbers::pi / 2));
+  ASSERT_GT(aside.z, 0.0);
+  EXPECT_FALSE(PixelFromDirection(Gnomonic(), aside));
+}
+
 TEST(Projection, DirectionAndPixelAreInverse) {
   for (const Projection& projection : {Gnomonic(), Equirectangular()})
     for (double latitude = -60; latitude <= 60; latitude += 15)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -63,6 +64,78 @@ TEST(RodPose, RollIsContinuousOverSeveralTurns) {
     previous =
         RodPoseFromHip(HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig), rig, previous);
     ASSERT_NEAR(previous.roll, roll, 1e-9);
+  }
+}
+
+// Notes, hard case 22 at its hardest: beside the pole an arc sine would lose half of the digits.
+TEST(RodPose, InAndOutLeavesTheAnglesBesideThePole) {
+  const DeviceRig rig;
+  for (double from_pole : {1e-3, 1e-5, 1e-7, 1e-8}) {
+    const glm::dvec3 u(0.0, -std::cos(from_pole), std::sin(from_pole));
+    const auto latitude = [&](double hand) {
+      return RodPoseFromHip(-hand * u, {1, 0, 0, 0}, rig).latitude;
+    };
+    for (double hand = 0.05; hand < 0.2; hand += 0.0037)
+      EXPECT_NEAR(latitude(hand), std::numbers::pi / 2 - from_pole, 1e-9) << from_pole;
+  }
+}
+
+// Notes, hard case 15.
+TEST(RodPose, LeverIsFiniteAtEveryHandAndOnBothSidesOfThePivot) {
+  const DeviceRig rig = TiltedRig();
+  const glm::dvec3 along = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
+  RodPose pose;
+  for (double hand : {0.6, 0.25 + 1e-12, 0.25, 0.25 - 1e-12, 0.1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-300,
+                      0.0, -1e-300, -1e-9, -1e-3, -0.1, -0.25, -0.6}) {
+    pose = RodPoseFromHip(rig.pivot - hand * along, {1, 0, 0, 0}, rig, pose);
+    EXPECT_NEAR(pose.depth, 0.25 - std::abs(hand), 1e-12);
+    const RodBasis basis = BasisOf(pose);
+    EXPECT_NEAR(glm::length(basis.axis), 1.0, 1e-12);
+    EXPECT_NEAR(glm::dot(basis.axis, basis.north), 0.0, 1e-12);
+    EXPECT_TRUE(std::isfinite(pose.roll));
+    if (std::abs(hand) >= 1e-3) {
+      const glm::dvec3 u = rig.portal_from_device * (hand > 0 ? along : -along);
+      EXPECT_LT(glm::length(basis.axis - u), 1e-12) << hand;
+    }
+  }
+}
+
+// A hand that rests on the pivot is seen through sensor noise; were its direction believed, the
+// scope would turn end over end at every tick.
+TEST(RodPose, NoiseOnAHandAtThePivotDoesNotTurnTheRod) {
+  const DeviceRig rig = TiltedRig();
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.055e-3);  // m, of a Touch-class encoder
+  RodPose pose{0.3, -0.5, 0.7, 0.01};
+  for (int tick = 0; tick < 2000; ++tick) {
+    const glm::dvec3 hip = rig.pivot + glm::dvec3(noise(random), noise(random), noise(random));
+    pose = RodPoseFromHip(hip, HandleFromRodPose(pose, rig), rig, pose);
+    ASSERT_EQ(pose.latitude, 0.3) << "tick " << tick;
+    ASSERT_EQ(pose.longitude, -0.5);
+  }
+}
+
+TEST(RodPose, HandleNeedNotBeOfUnitLength) {
+  const DeviceRig rig = TiltedRig();
+  const RodPose pose{0.3, -0.5, 0.7, 0.01};
+  for (double scale : {0.5, 0.9999, 3.0})
+    EXPECT_NEAR(
+        RodPoseFromHip(HipFromRodPose(pose, rig), scale * HandleFromRodPose(pose, rig), rig).roll,
+        0.7, 1e-9);
+}
+
+TEST(RodPose, SampleThatIsNotANumberLeavesThePose) {
+  const DeviceRig rig;
+  const RodPose previous{0.3, -0.5, 0.7, 0.01};
+  const glm::dquat handle = HandleFromRodPose(previous, rig);
+  for (double bad : {std::nan(""), static_cast<double>(INFINITY), 1e300}) {
+    const RodPose pose = RodPoseFromHip({0.0, bad, 0.0}, handle, rig, previous);
+    EXPECT_EQ(pose.latitude, 0.3);
+    EXPECT_EQ(pose.depth, 0.01);
+    const RodPose turned =
+        RodPoseFromHip(HipFromRodPose(previous, rig), {bad, 0, 0, 0}, rig, previous);
+    EXPECT_NEAR(turned.latitude, 0.3, 1e-12);
+    EXPECT_TRUE(std::isfinite(turned.roll));
   }
 }
 
