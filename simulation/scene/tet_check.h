@@ -1,0 +1,20 @@
+// What makes a tetrahedral mesh from outside fit to be solved: repairs what has one right answer,
+// says so, and refuses the rest.
+#pragma once
+
+#include <filesystem>
+
+#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/tet_mesh.h"
+
+namespace arthro {
+
+// Volume over the cube of the longest edge of element i's corners, signed; a regular one has 0.118.
+double RelativeVolume(const TetMesh& mesh, int element);
+
+// Turns elements listed inside out, merges nodes that lie exactly on one another, drops elements
+// that are there twice and nodes of no element; warns of slivers. Throws Error(kBadMesh) for
+// coordinates that are not finite and for elements without volume.
+void CheckAndRepair(TetMesh& mesh, const std::filesystem::path& file, TetReadReport* report);
+
+}  // namespace arthro
