@@ -1,0 +1,58 @@
+// How a panorama's brightness becomes relief [paper 3.4].
+#pragma once
+
+#include "simulation/core/options.h"
+
+namespace arthro::authoring {
+
+// How the distance to a surface follows from its brightness under a light at the scope.
+enum class DepthLaw {
+  kLinear,         // the paper's: relief grows in step with grey
+  kInverseSquare,  // light I falls with the distance squared, so distance goes as 1/sqrt(I)
+};
+
+struct DepthOptions {
+  double red_weight = 0.2;
+  double green_weight = 0.4;
+  double blue_weight = 0.4;
+  DepthLaw law = DepthLaw::kLinear;
+  double gamma = 2.2;
+  double near_relief = 0.02;
+  double far_relief = 0.0;
+  double low_percentile = 1.0;
+  double high_percentile = 99.0;
+  int median_radius = 2;
+  int surround_threshold = 12;
+  int border_margin = 3;
+  bool fill_highlights = true;
+
+  template <class V>
+  void Visit(V&& v) {
+    v("red_weight", red_weight, Range{0, 1}, "",
+      "Share of red in the grey; small, since muscle and synovium are redder, not nearer.");
+    v("green_weight", green_weight, Range{0, 1}, "", "Share of green in the grey.");
+    v("blue_weight", blue_weight, Range{0, 1}, "", "Share of blue in the grey.");
+    v("law", law,
+      Choices<DepthLaw>{
+          {{DepthLaw::kLinear, "linear"}, {DepthLaw::kInverseSquare, "inverse-square"}}},
+      "", "How brightness falls with distance.");
+    v("gamma", gamma, Range{1, 3}, "",
+      "The camera's encoding, undone by the inverse-square law; 1 for a linear camera.");
+    v("near_relief", near_relief, Range{0, 0.5}, "m", "Relief of the brightest, nearest tissue.");
+    v("far_relief", far_relief, Range{0, 0.5}, "m", "Relief of the darkest, furthest tissue.");
+    v("low_percentile", low_percentile, Range{0, 100}, "%",
+      "Grey below which everything counts as furthest.");
+    v("high_percentile", high_percentile, Range{0, 100}, "%",
+      "Grey above which everything counts as nearest.");
+    v("median_radius", median_radius, Range{0, 15}, "px",
+      "Noise smaller than this is removed by a median; 0 leaves it.");
+    v("surround_threshold", surround_threshold, Range{0, 255}, "",
+      "Darker than this and joined to the picture's edge is surround, not tissue.");
+    v("border_margin", border_margin, Range{0, 100}, "px",
+      "Rim of the imaged area, next to the surround, that is left out.");
+    v("fill_highlights", fill_highlights, Any{}, "",
+      "Fill overexposed glints from around them, so that they are no peaks.");
+  }
+};
+
+}  // namespace arthro::authoring
