@@ -1,0 +1,182 @@
+#include "app/platform/file_browser_model.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// The nearest folder at or above `start` that exists.
+fs::path ExistingFolder(const fs::path& start) {
+  std::error_code ignored;
+  fs::path folder = fs::absolute(start.empty() ? fs::path(".") : start, ignored).lexically_normal();
+  while (!fs::is_directory(folder, ignored) && folder.has_relative_path())
+    folder = folder.parent_path();
+  if (folder.filename().empty() && folder.has_relative_path()) folder = folder.parent_path();
+  return folder;
+}
+
+// "~" and relative names as a person types them.
+fs::path Typed(const fs::path& folder, const std::string& text) {
+  if (text == "~" || text.starts_with("~/"))
+    if (const char* home = std::getenv("HOME"))
+      return fs::path(home) / text.substr(text.size() > 1 ? 2 : 1);
+  return (folder / text).lexically_normal();
+}
+
+}  // namespace
+
+FileBrowserModel::FileBrowserModel(BrowseFor purpose, std::vector<FileFilter> filters,
+                                   const fs::path& start, std::string name)
+    : file_name(std::move(name)), purpose_(purpose), filters_(std::move(filters)) {
+  folder_ = ExistingFolder(start);
+  Refresh();
+}
+
+bool FileBrowserModel::Matches(const fs::path& file) const {
+  if (filters_.empty() || filters_[filter_].extensions.empty()) return true;
+  const auto& extensions = filters_[filter_].extensions;
+  return std::find(extensions.begin(), extensions.end(), Lower(file.extension().string())) !=
+         extensions.end();
+}
+
+void FileBrowserModel::GoTo(const fs::path& folder) {
+  std::error_code error;
+  fs::directory_iterator probe(folder, error);
+  if (error) {
+    problem_ = folder.string() + " cannot be opened: " + error.message() + ".";
+    return;
+  }
+  folder_ = ExistingFolder(folder);
+  Refresh();
+}
+
+void FileBrowserModel::GoUp() {
+  if (folder_.has_relative_path()) GoTo(folder_.parent_path());
+}
+
+void FileBrowserModel::Refresh() {
+  entries_.clear();
+  problem_.clear();
+  std::error_code error;
+  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
+    FileEntry entry{it->path()};
+    const std::string name = entry.name();
+    if (!show_hidden_ && name.starts_with(".")) continue;
+    std::error_code ignored;
+    entry.is_folder = it->is_directory(ignored);
+    if (!entry.is_folder) {
+      if (!Matches(entry.path)) continue;
+      entry.bytes = it->file_size(ignored);
+      if (ignored) entry.bytes = 0;
+    }
+    entries_.push_back(std::move(entry));
+  }
+  if (error) problem_ = folder_.string() + " cannot be read: " + error.message() + ".";
+  std::sort(entries_.begin(), entries_.end(), [](const FileEntry& a, const FileEntry& b) {
+    if (a.is_folder != b.is_folder) return a.is_folder;
+    const std::string a_name = Lower(a.name()), b_name = Lower(b.name());
+    return a_name != b_name ? a_name < b_name : a.name() < b.name();
+  });
+}
+
+void FileBrowserModel::SetFilter(std::size_t index) {
+  if (index >= filters_.size()) return;
+  filter_ = index;
+  Refresh();
+}
+
+void FileBrowserModel::ShowHidden(bool show) {
+  show_hidden_ = show;
+  Refresh();
+}
+
+void FileBrowserModel::Select(const FileEntry& entry) {
+  problem_.clear();
+  if (!entry.is_folder || purpose_ == BrowseFor::kOpenFile) file_name = entry.name();
+}
+
+bool FileBrowserModel::CreateFolder(const std::string& name) {
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
+    problem_ = "A folder needs a name without \"/\".";
+    return false;
+  }
+  std::error_code error;
+  const fs::path created = folder_ / name;
+  if (fs::exists(created, error)) {
+    problem_ = "\"" + name + "\" is already there.";
+    return false;
+  }
+  if (!fs::create_directory(created, error)) {
+    problem_ = "\"" + name + "\" cannot be made here: " + error.message() + ".";
+    return false;
+  }
+  GoTo(created);
+  return true;
+}
+
+Acceptance FileBrowserModel::Accept() {
+  problem_.clear();
+  if (file_name.empty()) {
+    problem_ = purpose_ == BrowseFor::kSaveFile ? "Type a name first." : "Choose a file first.";
+    return Acceptance::kNothing;
+  }
+  fs::path path = Typed(folder_, file_name);
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    GoTo(path);
+    if (problem_.empty()) file_name.clear();
+    return problem_.empty() ? Acceptance::kEntered : Acceptance::kNothing;
+  }
+  if (purpose_ == BrowseFor::kOpenFile) {
+    if (!fs::exists(path, error)) {
+      problem_ = "\"" + file_name + "\" is not in this folder.";
+      return Acceptance::kNothing;
+    }
+    return Finish(path);
+  }
+  // Saving: the extension is added, the folder must be there, and an old file is asked about.
+  if (path.extension().empty() && !filters_.empty() && !filters_[filter_].extensions.empty())
+    path += filters_[filter_].extensions.front();
+  if (!fs::is_directory(path.parent_path(), error)) {
+    problem_ = "The folder " + path.parent_path().string() + " is not there.";
+    return Acceptance::kNothing;
+  }
+  if (fs::exists(path, error)) {
+    accepted_ = path;
+    return Acceptance::kOverwrite;
+  }
+  return Finish(path);
+}
+
+Acceptance FileBrowserModel::AcceptOverwrite() {
+  return accepted_.empty() ? Acceptance::kNothing : Acceptance::kDone;
+}
+
+Acceptance FileBrowserModel::Finish(const fs::path& path) {
+  accepted_ = path;
+  return Acceptance::kDone;
+}
+
+std::string WordsForBytes(std::uintmax_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  const char* units[] = {"kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes) / 1000.0;
+  std::size_t unit = 0;
+  while (value >= 999.95 && unit + 1 < std::size(units)) value /= 1000.0, ++unit;
+  return fmt::format("{:.1f} {}", value, units[unit]);
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,57 @@
+// A text script that drives the window as hands would, one action a line, items by the name that is
+// written on them. For GUI tests and for showing a fault again.
+//   click NAME · double-click NAME · right-click NAME · hover NAME
+//   drag NAME DX DY [right] (pixels at scale 1) · wheel NAME NOTCHES
+//   type TEXT · key ctrl+shift+s · hold KEY FRAMES · set NAME VALUE (a slider, by typing)
+//   wait frames N · wait job · shot FILE.png
+//   expect TEXT · expect not TEXT · expect value NAME TEXT · expect enabled|disabled NAME
+//   drop FILE · close · quit
+// A name or text with blanks stands in double quotes; # begins a comment. Pure: no window.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arthro::app {
+
+enum class ScriptVerb {
+  kClick,
+  kDoubleClick,
+  kRightClick,
+  kHover,
+  kDrag,
+  kWheel,
+  kType,
+  kKey,
+  kHold,
+  kSet,
+  kWaitFrames,
+  kWaitJob,
+  kShot,
+  kExpect,
+  kExpectNot,
+  kExpectValue,
+  kExpectEnabled,
+  kExpectDisabled,
+  kDrop,
+  kClose,
+  kQuit
+};
+
+struct ScriptLine {
+  int number = 0;  // in the file, from 1
+  ScriptVerb verb = ScriptVerb::kQuit;
+  std::string name, text;  // of an item; typed, expected or a file
+  double x = 0, y = 0;     // drag, wheel (y), frames (x)
+  bool right_button = false;
+};
+
+// Throws Error(kBadData) with the line's number.
+std::vector<ScriptLine> ParseScript(std::string_view text, const std::filesystem::path& file = {});
+
+// "ctrl+shift+s" as GLFW_KEY_… codes, modifiers first. Throws Error(kBadData).
+std::vector<int> KeysFromWords(std::string_view words);
+
+}  // namespace arthro::app

@@ -1,0 +1,48 @@
+// Runs a script (script.h) against the items that the last frame showed, by putting events into the
+// queue that the window's callbacks use. Called once a frame, after it was drawn.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/platform/input_queue.h"
+#include "app/platform/script.h"
+#include "app/platform/widget_registry.h"
+
+namespace arthro::app {
+
+enum class ScriptState { kRunning, kFinished, kFailed };
+
+class ScriptRunner {
+ public:
+  // `scale`: content scale, by which a drag's pixels are multiplied.
+  explicit ScriptRunner(std::vector<ScriptLine> lines, double scale = 1.0);
+
+  // `busy`: a background job runs. `save_picture` writes the frame that was just drawn.
+  ScriptState AfterFrame(const WidgetRegistry& widgets, bool busy, InputQueue& input,
+                         const std::function<void(const std::filesystem::path&)>& save_picture);
+
+  ScriptState state() const { return state_; }
+  const std::string& failure() const { return failure_; }  // a sentence with the line's number
+  int line_number() const;
+
+ private:
+  void Run(const ScriptLine& line, const WidgetRegistry& widgets, bool busy, InputQueue& input,
+           const std::function<void(const std::filesystem::path&)>& save_picture);
+  const WidgetRecord* Target(const ScriptLine& line, const WidgetRegistry& widgets);
+  void Fail(const ScriptLine& line, const std::string& sentence);
+
+  std::vector<ScriptLine> lines_;
+  double scale_;
+  std::size_t next_ = 0;
+  int frames_to_wait_;
+  std::vector<int> held_keys_;
+  std::chrono::steady_clock::time_point waiting_since_{};
+  ScriptState state_ = ScriptState::kRunning;
+  std::string failure_;
+};
+
+}  // namespace arthro::app

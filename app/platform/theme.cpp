@@ -1,0 +1,116 @@
+#include "app/platform/theme.h"
+
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+
+#include <imgui.h>
+
+namespace arthro::app {
+namespace {
+
+constexpr double kTextSize = 15.0, kHeadingSize = 17.0, kLargeSize = 34.0;  // px at scale 1
+
+// Latin with accents, Greek, Cyrillic, dashes and quotes, arrows, mathematical signs, boxes.
+constexpr ImWchar kRanges[] = {0x0020, 0x024F, 0x0370, 0x03FF, 0x0400, 0x04FF,
+                               0x2010, 0x2044, 0x2190, 0x21FF, 0x2200, 0x22FF,
+                               0x25A0, 0x25FF, 0x2713, 0x2717, 0};
+constexpr ImWchar kDigitRanges[] = {0x0020, 0x00FF, 0x2013, 0x2014, 0};
+
+ImFont* AddFont(std::initializer_list<const char*> files, double size, const ImWchar* ranges) {
+  for (const char* file : files)
+    if (std::filesystem::exists(file))
+      return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, static_cast<float>(std::round(size)),
+                                                      nullptr, ranges);
+  return nullptr;
+}
+
+ImFont* AddOwnFont(double size) {
+  ImFontConfig config;
+  config.SizePixels = static_cast<float>(std::round(size * 13.0 / 15.0));
+  return ImGui::GetIO().Fonts->AddFontDefault(&config);
+}
+
+ImVec4 Rgb(unsigned rgb, float alpha = 1.0f) {
+  return {static_cast<float>((rgb >> 16) & 0xFF) / 255.0f,
+          static_cast<float>((rgb >> 8) & 0xFF) / 255.0f, static_cast<float>(rgb & 0xFF) / 255.0f,
+          alpha};
+}
+
+}  // namespace
+
+Fonts BuildFonts(double scale) {
+  ImGui::GetIO().Fonts->Clear();
+  const auto regular = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+                        "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+  const auto bold = {"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
+                     "/usr/share/fonts/dejavu/DejaVuSans-Bold.ttf",
+                     "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};
+  Fonts fonts;
+  fonts.text = AddFont(regular, kTextSize * scale, kRanges);
+  fonts.has_signs = fonts.text != nullptr;
+  if (!fonts.text) fonts.text = AddOwnFont(kTextSize * scale);
+  fonts.heading = AddFont(bold, kHeadingSize * scale, kRanges);
+  if (!fonts.heading) fonts.heading = fonts.text;
+  fonts.large = AddFont(bold, kLargeSize * scale, kDigitRanges);
+  if (!fonts.large) fonts.large = AddOwnFont(kLargeSize * scale);
+  return fonts;
+}
+
+void ApplyTheme(double scale) {
+  ImGuiStyle style;
+  ImGui::StyleColorsDark(&style);
+  style.WindowPadding = {12, 10};
+  style.FramePadding = {9, 6};
+  style.ItemSpacing = {8, 7};
+  style.ItemInnerSpacing = {7, 5};
+  style.ScrollbarSize = 15;
+  style.GrabMinSize = 16;
+  style.FrameRounding = 4;
+  style.GrabRounding = 3;
+  style.PopupRounding = 4;
+  style.ChildRounding = 0;
+  style.WindowRounding = 5;
+  style.WindowBorderSize = 1;
+  style.ChildBorderSize = 0;
+  style.FrameBorderSize = 0;
+  style.DisabledAlpha = 0.45f;
+  style.ScaleAllSizes(static_cast<float>(scale));
+
+  ImVec4* c = style.Colors;
+  c[ImGuiCol_Text] = Rgb(0xE9EBEE);
+  c[ImGuiCol_TextDisabled] = Rgb(0xA2AAB4);
+  c[ImGuiCol_WindowBg] = Rgb(0x1B1E23);
+  c[ImGuiCol_ChildBg] = Rgb(0x1B1E23);
+  c[ImGuiCol_PopupBg] = Rgb(0x23272E);
+  c[ImGuiCol_Border] = Rgb(0x3A4049);
+  c[ImGuiCol_FrameBg] = Rgb(0x2C323B);
+  c[ImGuiCol_FrameBgHovered] = Rgb(0x37404B);
+  c[ImGuiCol_FrameBgActive] = Rgb(0x3F4A57);
+  c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = Rgb(0x2A3038);
+  c[ImGuiCol_MenuBarBg] = Rgb(0x23272E);
+  c[ImGuiCol_ScrollbarBg] = Rgb(0x1B1E23);
+  c[ImGuiCol_ScrollbarGrab] = Rgb(0x454D58);
+  c[ImGuiCol_ScrollbarGrabHovered] = Rgb(0x566070);
+  c[ImGuiCol_ScrollbarGrabActive] = Rgb(0x66738A);
+  c[ImGuiCol_CheckMark] = Rgb(0x4AB2D6);
+  c[ImGuiCol_SliderGrab] = Rgb(0x4AB2D6);
+  c[ImGuiCol_SliderGrabActive] = Rgb(0x7FD0EC);
+  c[ImGuiCol_Button] = Rgb(0x343B45);
+  c[ImGuiCol_ButtonHovered] = Rgb(0x425063);
+  c[ImGuiCol_ButtonActive] = Rgb(0x2A6E8A);
+  c[ImGuiCol_Header] = Rgb(0x2A5266);
+  c[ImGuiCol_HeaderHovered] = Rgb(0x33637A);
+  c[ImGuiCol_HeaderActive] = Rgb(0x2A6E8A);
+  c[ImGuiCol_Separator] = Rgb(0x3A4049);
+  c[ImGuiCol_TextSelectedBg] = Rgb(0x2A6E8A);
+  c[ImGuiCol_NavHighlight] = Rgb(0x4AB2D6);
+  c[ImGuiCol_ModalWindowDimBg] = Rgb(0x0A0C0F, 0.6f);
+  c[ImGuiCol_TableHeaderBg] = Rgb(0x2A3038);
+  c[ImGuiCol_TableBorderLight] = c[ImGuiCol_TableBorderStrong] = Rgb(0x3A4049);
+  c[ImGuiCol_TableRowBgAlt] = Rgb(0x20242A);
+  ImGui::GetStyle() = style;
+}
+
+}  // namespace arthro::app

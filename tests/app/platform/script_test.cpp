@@ -1,0 +1,115 @@
+// Scripts that drive the window (app/platform/script.h, script_runner.h).
+#include "app/platform/script.h"
+
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include "app/platform/script_runner.h"
+#include "simulation/core/error.h"
+
+namespace arthro::app {
+namespace {
+
+TEST(Script, QuotedNamesCommentsAndNumbersAreRead) {
+  const auto lines =
+      ParseScript("# a comment\n\nclick \"Save as\"\ndrag Red 40 -2.5 right # more\n");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].number, 3);
+  EXPECT_EQ(lines[0].name, "Save as");
+  EXPECT_EQ(lines[1].verb, ScriptVerb::kDrag);
+  EXPECT_DOUBLE_EQ(lines[1].x, 40);
+  EXPECT_DOUBLE_EQ(lines[1].y, -2.5);
+  EXPECT_TRUE(lines[1].right_button);
+}
+
+TEST(Script, AMistakeIsToldWithItsLine) {
+  for (const char* text : {"quit\nfly away", "quit\nclick", "quit\nclick \"open",
+                           "quit\ndrag A x 2", "quit\nkey hyper+q", "quit\nexpect maybe X"}) {
+    try {
+      ParseScript(text);
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what())
+                    .find(text == std::string("quit\nkey hyper+q") ? "hyper" : "line 2"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(Script, KeysAreGlfwCodesModifiersFirst) {
+  EXPECT_EQ(KeysFromWords("ctrl+shift+z"),
+            (std::vector<int>{GLFW_KEY_LEFT_CONTROL, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_Z}));
+  EXPECT_EQ(KeysFromWords("f5"), (std::vector<int>{GLFW_KEY_F5}));
+}
+
+class RunScript : public testing::Test {
+ protected:
+  // Runs until it ends; every event is taken as if a frame had seen it.
+  ScriptState Run(const std::string& text) {
+    ScriptRunner runner(ParseScript(text));
+    for (int frame = 0; frame < 1000 && runner.state() == ScriptState::kRunning; ++frame) {
+      runner.AfterFrame(widgets, busy, input, [&](const auto& file) { shots.push_back(file); });
+      for (const auto& event : input.TakeFrame()) events.push_back(event);
+      if (frame == 500) busy = false;
+    }
+    failure = runner.failure();
+    return runner.state();
+  }
+  WidgetRegistry widgets;
+  InputQueue input;
+  std::vector<InputEvent> events;
+  std::vector<std::filesystem::path> shots;
+  std::string failure;
+  bool busy = false;
+};
+
+TEST_F(RunScript, ClickPointsAtTheMiddleOfTheItem) {
+  widgets.Record({"Save", 10, 20, 30, 40, true});
+  EXPECT_EQ(Run("click Save"), ScriptState::kFinished);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_DOUBLE_EQ(std::get<PointerMoved>(events[0]).x, 20);
+  EXPECT_DOUBLE_EQ(std::get<PointerMoved>(events[0]).y, 30);
+}
+
+TEST_F(RunScript, AnItemThatIsNotThereFailsAndSaysWhatIs) {
+  widgets.Record({"Save", 10, 20, 30, 40, true});
+  EXPECT_EQ(Run("quit\n"), ScriptState::kFinished);
+  EXPECT_EQ(Run("click Load"), ScriptState::kFailed);
+  EXPECT_NE(failure.find("line 1"), std::string::npos) << failure;
+  EXPECT_NE(failure.find("Save"), std::string::npos) << failure;
+}
+
+TEST_F(RunScript, AnItemOutOfSightCannotBeClicked) {
+  widgets.Record({"Save", 10, 20, 30, 40, false});
+  EXPECT_EQ(Run("click Save"), ScriptState::kFailed);
+}
+
+TEST_F(RunScript, ExpectationsThatDoNotHoldFail) {
+  widgets.Record({"Spacing", 10, 20, 30, 40, true, false, "30.0 mm"});
+  widgets.RecordText("All is well");
+  EXPECT_EQ(Run("expect \"is well\"\nexpect not fire\nexpect value Spacing \"30.0 mm\"\n"
+                "expect disabled Spacing"),
+            ScriptState::kFinished)
+      << failure;
+  for (const char* wrong : {"expect fire", "expect not well", "expect value Spacing \"31.0 mm\"",
+                            "expect enabled Spacing"})
+    EXPECT_EQ(Run(wrong), ScriptState::kFailed) << wrong;
+}
+
+TEST_F(RunScript, WaitJobWaitsUntilTheJobEnds) {
+  busy = true;
+  EXPECT_EQ(Run("wait job\nshot a.png"), ScriptState::kFinished);
+  EXPECT_FALSE(busy);
+  EXPECT_EQ(shots.size(), 1u);
+}
+
+TEST_F(RunScript, TextIsTypedAsCodePoints) {
+  EXPECT_EQ(Run("type \"aß→\""), ScriptState::kFinished);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(std::get<CharacterTyped>(events[1]).character, U'ß');
+  EXPECT_EQ(std::get<CharacterTyped>(events[2]).character, U'→');
+}
+
+}  // namespace
+}  // namespace arthro::app
