@@ -6,4 +6,8 @@ namespace CLI {
 class App;
 }
 
-namespace arthro::app {}  // namespace arthro::app
+namespace arthro::app {
+
+void AddCheckJob(CLI::App& program);
+
+}  // namespace arthro::app

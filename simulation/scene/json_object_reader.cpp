@@ -130,7 +130,8 @@ void JsonObjectReader::Path(const char* name, std::filesystem::path& field, Need
   const bool has_odd_letter = std::any_of(text.begin(), text.end(), [](unsigned char letter) {
     return letter < 0x20 || letter == 0x7f || letter == '\\';
   });
-  if (path.is_absolute() || has_drive || climbs || has_odd_letter || !path.has_filename())
+  if (path.is_absolute() || has_drive || climbs || has_odd_letter || !path.has_filename() ||
+      path.filename() == ".")
     return Fault(name, fmt::format("is {}; it must name a file inside the scene's folder, with "
                                    "\"/\" between folders and no \"..\"; copy the file there",
                                    Shown(*entry)));

@@ -9,6 +9,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_json.h"
 #include "simulation/scene/scene_migration.h"
 
@@ -139,11 +140,17 @@ LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
     if (!loaded.panorama.empty()) RequireSameSize(loaded.panorama, loaded.depth, path);
   });
   named("scope.lens", loaded.scene.scope.lens, [](const fs::path&) {});
+  for (std::size_t i = 0; i < loaded.scene.tissues.size(); ++i) {
+    const Tissue& tissue = loaded.scene.tissues[i];
+    SurfaceMesh& surface = loaded.surfaces.emplace_back();
+    named(fmt::format("tissues[{}].surface", i), tissue.surface,
+          [&](const fs::path& path) { surface = ReadSurface(path, 1.0); });
+    named(fmt::format("tissues[{}].mesh", i), tissue.mesh, [](const fs::path&) {});
+  }
   return loaded;
 }
 
 LoadedScene LoadScene(const fs::path& scene) {
-  std::vector<JsonFault> json_faults;
   std::vector<std::string> faults;
   LoadedScene loaded = LoadScene(scene, faults);
   if (faults.empty()) return loaded;

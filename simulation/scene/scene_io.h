@@ -25,7 +25,8 @@ struct LoadedScene {
 // refused by name. Of several faults the first is told, with how many more there are.
 Scene ReadScene(const std::filesystem::path& scene);
 
-// The scene with its files, all of them there and of fitting sizes.
+// The scene with its pictures and surfaces; all files that it names are there, and sizes fit.
+// Tetrahedra and the lens are read by those who use them.
 LoadedScene LoadScene(const std::filesystem::path& scene);
 
 // The same, with every fault as a sentence of its own instead of an exception, so that an author

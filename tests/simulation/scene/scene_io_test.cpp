@@ -8,6 +8,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/scene/mesh_io.h"
 #include "tests/support/example_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -62,6 +63,28 @@ TEST(SceneIo, LoadsTheFilesItNames) {
   EXPECT_EQ(loaded.folder, folder.path());
   EXPECT_EQ(loaded.panorama.width, 16);
   EXPECT_EQ(loaded.depth.at(3, 3), 0.01f);
+}
+
+TEST(SceneIo, LoadsOneSurfaceATissueInMetres) {
+  test::TempFolder folder;
+  Scene scene = SmallScene();
+  scene.tissues.resize(2);
+  scene.tissues[0].name = "a";
+  scene.tissues[0].surface = "a.ply";
+  scene.tissues[1].name = "b";
+  scene.tissues[1].surface = "b.ply";
+  WriteScene(folder / "scene.json", scene);
+  WriteSmallFiles(folder.path());
+  const SurfaceMesh triangle{{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}};
+  WriteSurface(folder / "b.ply", triangle);
+  std::vector<std::string> faults;
+  const LoadedScene half = LoadScene(folder.path(), faults);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].find("tissues[0].surface names \"a.ply\""), std::string::npos) << faults[0];
+  ASSERT_EQ(half.surfaces.size(), 2u) << "surfaces stay in step with tissues";
+  EXPECT_EQ(half.surfaces[1].vertices, triangle.vertices);
+  WriteSurface(folder / "a.ply", triangle);
+  EXPECT_EQ(LoadScene(folder.path()).surfaces[0].triangles, triangle.triangles);
 }
 
 TEST(SceneIo, ASceneWithoutDepthIsABareSphere) {

@@ -111,67 +111,8 @@ TEST(SceneJson, WritesEveryKeyThatItReads) {
     EXPECT_TRUE(written.contains(pointer)) << pointer;
 }
 
-struct Fault {
-  const char* pointer;  // where the example is changed
-  json value;
-  const char* key;   // how the fault names the place
-  const char* says;  // a part of what it says
-};
-
 TEST(SceneJson, NamesTheKeyAndTheRemedyOfEveryFault) {
-  const std::vector<Fault> faults = {
-      {"/backdrop/radius", -0.05, "backdrop.radius", "more than 0"},
-      {"/backdrop/radius", 0, "backdrop.radius", "more than 0"},
-      {"/backdrop/radius", 50, "backdrop.radius", "metres"},
-      {"/backdrop/radius", "0.05", "backdrop.radius", "\"0.05\""},
-      {"/backdrop/radius", nullptr, "backdrop.radius", "null"},
-      {"/backdrop/panorama", "", "backdrop.panorama", "empty"},
-      {"/backdrop/panorama", "../../etc/passwd", "backdrop.panorama", "inside the scene's folder"},
-      {"/backdrop/panorama", "a/../../b.png", "backdrop.panorama", "inside the scene's folder"},
-      {"/backdrop/panorama", "/etc/passwd", "backdrop.panorama", "inside the scene's folder"},
-      {"/backdrop/panorama", "C:\\p.png", "backdrop.panorama", "inside the scene's folder"},
-      {"/backdrop/panorama", "folder/", "backdrop.panorama", "must name a file"},
-      {"/backdrop/depth", 7, "backdrop.depth", "name of a file"},
-      {"/backdrop/projection/type", "cylindrical", "backdrop.projection.type", "equirectangular"},
-      {"/backdrop/projection/focal_px", 0, "backdrop.projection.focal_px", "more than 0"},
-      {"/backdrop/projection/focal_px", false, "backdrop.projection.focal_px", "false"},
-      {"/backdrop/projection/centre_px", {1}, "backdrop.projection.centre_px", "2 numbers"},
-      {"/backdrop/projection/centre_px", {1, "2"}, "backdrop.projection.centre_px", "2 numbers"},
-      {"/backdrop/projection", 5, "backdrop.projection", "object"},
-      {"/scope/view_angle_deg", 170, "scope.view_angle_deg", "120 degrees"},
-      {"/scope/field_of_view_deg", 0, "scope.field_of_view_deg", "more than 0"},
-      {"/scope/rod_length", 200, "scope.rod_length", "metres"},
-      {"/scope/lens", "../lens.json", "scope.lens", "inside the scene's folder"},
-      {"/portals/incision_spacing", 30, "portals.incision_spacing", "metres"},
-      {"/rig/scope/portal_from_device",
-       {0, 0, 0, 0},
-       "rig.scope.portal_from_device",
-       "[1, 0, 0, 0]"},
-      {"/rig/scope/rod_length", 0.3, "rig.scope.rod_length", "scope.rod_length is 0.25"},
-      {"/rig/instrument/pivot", {0, 0}, "rig.instrument.pivot", "3 numbers"},
-      {"/tissues/0/pose/quaternion", {0, 0, 0, 0}, "tissues[0].pose.quaternion", "all zeros"},
-      {"/tissues/0/pose/scale", 0, "tissues[0].pose.scale", "more than 0"},
-      {"/tissues/0/colour", {0.5, 0.5, 1.5}, "tissues[0].colour", "between 0 and 1"},
-      {"/tissues/1/name", "", "tissues[1].name", "empty"},
-      {"/tissues/1/name", "backdrop", "tissues[1].name", "choose another"},
-      {"/tissues/1/name", "a,b", "tissues[1].name", "comma"},
-      {"/tissues/1/name", "medial meniscus", "tissues[1].name", "used twice"},
-      {"/tissues/1/surface", "~/../x.ply", "tissues[1].surface", "inside the scene's folder"},
-      {"/tissues/1", 3, "tissues[1]", "object"},
-      {"/tissues", "none", "tissues", "list"},
-      {"/tasks/0/id", 1, "tasks[0].id", "text"},
-      {"/instruments/0/name", nullptr, "instruments[0].name", "text"},
-      {"/backdrop/raduis", 0.05, "backdrop.raduis", "did you mean \"radius\"?"},
-      {"/backdrop/projection/focal", 5, "backdrop.projection.focal", "did you mean \"focal_px\"?"},
-      {"/backdrop/projection/center_px",
-       {1, 2},
-       "backdrop.projection.center_px",
-       "did you mean \"centre_px\"?"},
-      {"/tissues/0/color", {1, 1, 1}, "tissues[0].color", "did you mean \"colour\"?"},
-      {"/titel", "x", "titel", "did you mean \"title\"?"},
-      {"/something", 1, "something", "\"x-\""},
-      {"/scope/x-own", 1, "scope.x-own", "not known"}};
-  for (const Fault& fault : faults) {
+  for (const test::SceneFault& fault : test::SceneFaults()) {
     json scene = test::FullSceneJson();
     scene[json::json_pointer(fault.pointer)] = fault.value;
     const auto found = FaultsOf(scene);

@@ -1,0 +1,46 @@
+// arthroscene check SCENE: loads everything, says what is there and what is wrong, all at once.
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/jobs.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/scene_check.h"
+
+namespace arthro::app {
+namespace {
+
+void Print(std::FILE* stream, const char* word, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) fmt::print(stream, "{}{}\n", word, line);
+}
+
+void Check(const std::string& scene) {
+  const SceneFindings findings = CheckScene(scene);
+  if (const std::size_t count = findings.errors.size()) {
+    // What was found of half a scene would only mislead.
+    Print(stderr, "error: ", findings.errors);
+    throw Error(Code::kBadScene,
+                fmt::format("this scene has {} error{}", count, count == 1 ? "" : "s"), scene);
+  }
+  Print(stdout, "", findings.found);
+  Print(stdout, "warning: ", findings.warnings);
+  Print(stdout, "hint: ", findings.hints);
+  const std::size_t count = findings.warnings.size();
+  fmt::print("this scene can be practised on{}\n",
+             count == 0 ? "" : fmt::format(", with {} warning{}", count, count == 1 ? "" : "s"));
+}
+
+}  // namespace
+
+void AddCheckJob(CLI::App& program) {
+  CLI::App* job =
+      program.add_subcommand("check", "Load a scene with all its files and say what is wrong.");
+  const auto scene = std::make_shared<std::string>();
+  job->add_option("SCENE", *scene, "Folder of the scene, or its scene.json")->required();
+  job->callback([scene] { Check(*scene); });
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,216 @@
+#include "simulation/scene/scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/mesh_io.h"
+
+namespace arthro {
+namespace {
+
+double Mm(double metres) { return MmFromMetres(metres); }
+
+void LookAtRights(const std::string& what, const AssetRights& rights, SceneFindings& findings) {
+  std::string missing;
+  for (const auto& [text, word] :
+       {std::pair{&rights.source, "source"}, std::pair{&rights.licence, "licence"},
+        std::pair{&rights.consent, "consent"}})
+    if (text->empty()) missing += (missing.empty() ? "" : ", ") + std::string(word);
+  if (!missing.empty())
+    findings.warnings.push_back(
+        fmt::format("{}: no {} is given; patients and makers have rights, so say it under "
+                    "\"rights\" before sharing",
+                    what, missing));
+}
+
+// How wide the panorama looks from the portal, degrees across its middle row and column.
+std::string FieldOfPanorama(const Projection& projection, int width, int height) {
+  const glm::dvec2 c = projection.centre_px;
+  const auto angle = [&](glm::dvec2 a, glm::dvec2 b) {
+    const glm::dvec3 one = DirectionFromPixel(projection, a),
+                     other = DirectionFromPixel(projection, b);
+    return DegreesFromRadians(
+        std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other)));
+  };
+  if (projection.type == ProjectionType::kEquirectangular)
+    return fmt::format("{:.0f} x {:.0f} degrees", width / projection.px_per_deg,
+                       height / projection.px_per_deg);
+  return fmt::format("{:.0f} x {:.0f} degrees", angle({0.0, c.y}, {width - 1.0, c.y}),
+                     angle({c.x, 0.0}, {c.x, height - 1.0}));
+}
+
+void LookAtPanorama(const LoadedScene& loaded, SceneFindings& findings) {
+  const ColourImage& panorama = loaded.panorama;
+  const Projection& projection = loaded.scene.backdrop.projection;
+  if (panorama.empty()) return;
+  const bool is_gnomonic = projection.type == ProjectionType::kGnomonic;
+  findings.found.push_back(fmt::format(
+      "panorama: {} x {} px, {}, {}, on a sphere of {:g} mm", panorama.width, panorama.height,
+      is_gnomonic ? fmt::format("gnomonic with a focal length of {:g} px", projection.focal_px)
+                  : fmt::format("equirectangular with {:g} px per degree", projection.px_per_deg),
+      FieldOfPanorama(projection, panorama.width, panorama.height),
+      Mm(loaded.scene.backdrop.radius)));
+  const glm::dvec2 c = projection.centre_px;
+  if (c.x < 0 || c.y < 0 || c.x > panorama.width - 1 || c.y > panorama.height - 1)
+    findings.warnings.push_back(
+        fmt::format("backdrop.projection.centre_px ({:g}, {:g}) lies outside the panorama; a scope "
+                    "pushed straight in sees nothing",
+                    c.x, c.y));
+}
+
+void LookAtDepth(const LoadedScene& loaded, SceneFindings& findings) {
+  const DepthMap& depth = loaded.depth;
+  const double radius = loaded.scene.backdrop.radius;
+  if (depth.empty()) {
+    if (loaded.scene.backdrop.depth.empty())
+      findings.hints.push_back(
+          "no depth map, so the backdrop is a bare sphere; `arthroscene depth` makes one");
+    return;
+  }
+  std::size_t imaged = 0, outside = 0;
+  float least = INFINITY, most = -INFINITY;
+  for (const float h : depth.relief) {
+    if (std::isnan(h)) continue;
+    ++imaged;
+    outside += h >= 0.0f && h < radius ? 0 : 1;
+    least = std::min(least, h);
+    most = std::max(most, h);
+  }
+  if (imaged == 0) {
+    findings.warnings.push_back("the depth map holds nothing but NaN, so nothing can be felt");
+    return;
+  }
+  const double all = static_cast<double>(depth.relief.size());
+  findings.found.push_back(
+      fmt::format("depth: {} x {} px, relief {:.3g} to {:.3g} mm, {:.1f} % imaged", depth.width,
+                  depth.height, Mm(least), Mm(most), 100.0 * static_cast<double>(imaged) / all));
+  if (outside > 0)
+    findings.warnings.push_back(fmt::format(
+        "{} of {} depths lie outside 0 to {:g} mm, the radius of the sphere; are they in metres?",
+        outside, imaged, Mm(radius)));
+}
+
+// Edges that do not join exactly two triangles, once each way.
+int OpenEdges(const SurfaceMesh& surface) {
+  std::map<std::pair<int, int>, int> balance;
+  for (const auto& t : surface.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  return static_cast<int>(
+      std::count_if(balance.begin(), balance.end(), [](const auto& edge) { return edge.second; }));
+}
+
+void LookAtTissue(const LoadedScene& loaded, std::size_t index, SceneFindings& findings) {
+  const Tissue& tissue = loaded.scene.tissues[index];
+  const std::string what = fmt::format("tissue \"{}\"", tissue.name);
+  LookAtRights(what, tissue.rights, findings);
+  if (tissue.mesh.empty())
+    findings.hints.push_back(
+        what +
+        " has no tetrahedra, so it does not deform; `arthroscene tetrahedralize` makes them");
+  if (index >= loaded.surfaces.size() || loaded.surfaces[index].triangles.empty()) return;
+  const SurfaceMesh& surface = loaded.surfaces[index];
+  glm::dvec3 least(INFINITY), most(-INFINITY);
+  std::size_t outside = 0;
+  for (const glm::dvec3& vertex : surface.vertices) {
+    const glm::dvec3 x = tissue.pose * vertex;
+    least = glm::min(least, x);
+    most = glm::max(most, x);
+    outside += glm::length(x) > loaded.scene.backdrop.radius ? 1 : 0;
+  }
+  const glm::dvec3 size = most - least;
+  findings.found.push_back(fmt::format("{}: {} triangles, {:.3g} x {:.3g} x {:.3g} mm, {}", what,
+                                       surface.triangles.size(), Mm(size.x), Mm(size.y), Mm(size.z),
+                                       tissue.material));
+  if (const int open = OpenEdges(surface); open > 0)
+    findings.warnings.push_back(
+        fmt::format("{} is not closed: {} edges do not join two triangles; close it before "
+                    "tetrahedralizing",
+                    what, open));
+  if (outside == surface.vertices.size())
+    findings.warnings.push_back(what +
+                                " lies wholly outside the backdrop's sphere and is never "
+                                "seen; move it, or mend its unit or scale");
+  else if (outside > 0)
+    findings.warnings.push_back(fmt::format(
+        "{} lies outside the backdrop's sphere with {:.0f} % of its vertices", what,
+        100.0 * static_cast<double>(outside) / static_cast<double>(surface.vertices.size())));
+}
+
+void LookAtScope(const Scene& scene, SceneFindings& findings) {
+  findings.found.push_back(
+      fmt::format("scope: {:g} degrees oblique, field of view {:g} degrees, rod of {:g} mm",
+                  DegreesFromRadians(scene.scope.view_angle),
+                  DegreesFromRadians(scene.scope.field_of_view), Mm(scene.scope.rod_length)));
+  const double spacing = scene.portals.incision_spacing, radius = scene.backdrop.radius;
+  findings.found.push_back(fmt::format("portals: instrument {:g} mm to the {} of the scope",
+                                       Mm(std::abs(spacing)), spacing < 0 ? "left" : "right"));
+  if (std::abs(spacing) >= radius)
+    findings.warnings.push_back(
+        fmt::format("the instrument's portal, {:g} mm from the scope's, lies outside the "
+                    "backdrop's sphere of {:g} mm",
+                    Mm(std::abs(spacing)), Mm(radius)));
+  for (const auto& [length, what] : {std::pair{scene.scope.rod_length, "scope"},
+                                     std::pair{scene.rig.instrument.rod_length, "instrument"}})
+    if (length < radius)
+      findings.warnings.push_back(
+          fmt::format("the {}'s rod of {:g} mm is shorter than the way to the backdrop, {:g} mm",
+                      what, Mm(length), Mm(radius)));
+}
+
+}  // namespace
+
+SceneFindings CheckScene(const LoadedScene& loaded) {
+  SceneFindings findings;
+  const Scene& scene = loaded.scene;
+  findings.found.push_back(fmt::format("title: {}", scene.title.empty() ? "none" : scene.title));
+  if (scene.title.empty()) findings.hints.push_back("no title; lists show the folder's name");
+  if (scene.author.empty()) findings.hints.push_back("no author");
+  LookAtPanorama(loaded, findings);
+  LookAtDepth(loaded, findings);
+  LookAtRights("panorama", scene.backdrop.rights, findings);
+  LookAtScope(scene, findings);
+  for (std::size_t i = 0; i < scene.tissues.size(); ++i) LookAtTissue(loaded, i, findings);
+  if (scene.tissues.empty())
+    findings.hints.push_back("no tissues, so there is nothing that deforms");
+  findings.found.push_back(
+      fmt::format("instruments: {}, tasks: {}", scene.instruments.size(), scene.tasks.size()));
+  if (scene.instruments.empty()) findings.hints.push_back("no instruments; practice gives a probe");
+  if (scene.tasks.empty()) findings.hints.push_back("no tasks, so practice is free and unscored");
+  return findings;
+}
+
+SceneFindings CheckScene(const std::filesystem::path& scene) {
+  std::vector<std::string> errors;
+  const LoadedScene loaded = LoadScene(scene, errors);
+  SceneFindings findings = CheckScene(loaded);
+  for (const Tissue& tissue : loaded.scene.tissues) {
+    std::error_code ignored;
+    const std::filesystem::path file = loaded.folder / tissue.mesh;
+    if (tissue.mesh.empty() || !std::filesystem::exists(file, ignored)) continue;
+    try {
+      TetReadReport report;
+      const TetMesh mesh = ReadTetMesh(file, &report);
+      findings.found.push_back(fmt::format("tissue \"{}\": {} tetrahedra of order {}, {} nodes",
+                                           tissue.name, mesh.ElementCount(), mesh.order,
+                                           mesh.rest_positions.size()));
+      for (const std::string& message : report.messages)
+        findings.warnings.push_back(fmt::format("{}: {}", file.string(), message));
+    } catch (const Error& error) {
+      errors.push_back(error.what());
+    }
+  }
+  findings.errors = std::move(errors);
+  return findings;
+}
+
+}  // namespace arthro

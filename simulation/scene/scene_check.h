@@ -1,0 +1,26 @@
+// What an author should know about a scene before a trainee gets it: what is in it, what is wrong,
+// what is doubtful and what is missing. Each line is a sentence for a person.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulation/scene/scene_io.h"
+
+namespace arthro {
+
+struct SceneFindings {
+  std::vector<std::string> found;     // title, sizes, projection, tissues…
+  std::vector<std::string> errors;    // it cannot be practised on; all of them
+  std::vector<std::string> warnings;  // it can, but probably not as meant
+  std::vector<std::string> hints;     // parts that it lacks and could have
+};
+
+// Loads everything that the scene names, tetrahedra included.
+SceneFindings CheckScene(const std::filesystem::path& scene);
+
+// The same for a scene in memory, as an editor shows it while the author works.
+SceneFindings CheckScene(const LoadedScene& loaded);
+
+}  // namespace arthro

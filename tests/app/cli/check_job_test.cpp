@@ -1,0 +1,122 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/scene_io.h"
+#include "tests/support/run_program.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+
+SurfaceMesh Tetrahedron(double size, const glm::dvec3& corner) {
+  return {{corner, corner + glm::dvec3(size, 0, 0), corner + glm::dvec3(0, size, 0),
+           corner + glm::dvec3(0, 0, size)},
+          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+// A scene with nothing to complain about, in `folder`.
+Scene WriteGoodScene(const fs::path& folder) {
+  const AssetRights rights{"made in code", "CC0-1.0", "none needed: synthetic"};
+  Scene scene;
+  scene.title = "Good";
+  scene.author = "A";
+  scene.backdrop = {"p.png", "d.tiff", 0.05, {}, rights};
+  scene.backdrop.projection = {ProjectionType::kGnomonic, {31.5, 15.5}, 30, 10};
+  Tissue tissue;
+  tissue.name = "meniscus";
+  tissue.surface = "m.ply";
+  tissue.mesh = "m.vtu";
+  tissue.rights = rights;
+  scene.tissues = {tissue};
+  scene.instruments = {{"probe", "probe"}};
+  scene.tasks = {{"look", "Look", ""}};
+  WriteColourImage(folder / "p.png", ColourImage(64, 32));
+  WriteDepthMap(folder / "d.tiff", DepthMap(64, 32, 0.01f));
+  const SurfaceMesh surface = Tetrahedron(0.01, {0, 0, 0.02});
+  WriteSurface(folder / "m.ply", surface);
+  TetMesh mesh;
+  mesh.rest_positions = surface.vertices;
+  mesh.elements = {0, 1, 2, 3};
+  WriteTetMesh(folder / "m.vtu", mesh);
+  WriteScene(folder / "scene.json", scene);
+  return scene;
+}
+
+TEST(CheckJob, SaysWhatAGoodSceneHolds) {
+  test::TempFolder folder;
+  WriteGoodScene(folder.path());
+  const auto result = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part :
+       {"title: Good", "panorama: 64 x 32 px, gnomonic with a focal length of 30 px",
+        "relief 10 to 10 mm, 100.0 % imaged", "\"meniscus\": 4 triangles, 10 x 10 x 10 mm",
+        "1 tetrahedra of order 1, 4 nodes", "30 degrees oblique", "30 mm to the right"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+  EXPECT_EQ(result.out.find("warning"), std::string::npos) << result.out;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(CheckJob, WarnsOfWhatIsDoubtfulAndHintsAtWhatIsMissing) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  scene.backdrop.rights.consent.clear();
+  scene.tissues[0].rights = {};
+  scene.tissues[0].mesh.clear();
+  scene.tissues[0].pose.position.x = 0.3;
+  scene.portals.incision_spacing = -0.06;
+  scene.scope.rod_length = 0.04;
+  scene.backdrop.projection.centre_px.x = 1000;
+  scene.tasks.clear();
+  WriteScene(folder / "scene.json", scene);
+  DepthMap depth(64, 32, 5.0f);  // mm, by mistake
+  depth.at(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  WriteDepthMap(folder / "d.tiff", depth);
+  SurfaceMesh open = Tetrahedron(0.01, {0, 0, 0.02});
+  open.triangles.pop_back();
+  WriteSurface(folder / "m.ply", open);
+  const auto result = test::RunProgram("check " + (folder / "scene.json").string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part :
+       {"warning: panorama: no consent is given",
+        "warning: tissue \"meniscus\": no source, licence, consent is given",
+        "warning: 2047 of 2047 depths lie outside 0 to 50 mm", "warning: the instrument's portal",
+        "warning: the scope's rod of 40 mm", "centre_px (1000, 15.5) lies outside the panorama",
+        "never seen", "3 edges do not join two triangles", "hint: tissue \"meniscus\" has no tet",
+        "hint: no tasks", "with 8 warnings"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+}
+
+TEST(CheckJob, ListsEveryErrorAndExitsWithOne) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  scene.tissues[0].surface = "gone.ply";
+  WriteScene(folder / "scene.json", scene);
+  WriteAtomically(folder / "p.png", "not a picture");
+  WriteAtomically(folder / "m.vtu", "<VTKFile");
+  std::string text = ReadWholeFile(folder / "scene.json");
+  text.replace(text.find("\"radius\": 0.05"), 14, "\"radius\": -1");
+  WriteAtomically(folder / "scene.json", text);
+  const auto result = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(result.exit_code, 1);
+  for (const char* part : {"backdrop.radius is -1", "p.png: this file is not a picture",
+                           "tissues[0].surface names \"gone.ply\"", "m.vtu", "has 4 errors"})
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << "\n" << result.err;
+}
+
+TEST(CheckJob, RefusesWhatIsNoScene) {
+  test::TempFolder folder;
+  WriteAtomically(folder / "scene.json", "{\"schema\": \"arthroscene.scene/9\"}");
+  const auto newer = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(newer.exit_code, 1);
+  EXPECT_NE(newer.err.find("arthroscene.scene/9, which is newer"), std::string::npos) << newer.err;
+  EXPECT_EQ(test::RunProgram("check " + (folder / "none").string()).exit_code, 1);
+  EXPECT_EQ(test::RunProgram("check").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace arthro
