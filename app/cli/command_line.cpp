@@ -28,6 +28,7 @@ int RunCommandLine(int argc, char** argv) {
   program.footer("`arthroscene JOB --help` says what a job takes.");
   program.require_subcommand(0, 1);
   AddCheckJob(program);
+  AddReplayJob(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -9,5 +9,6 @@ class App;
 namespace arthro::app {
 
 void AddCheckJob(CLI::App& program);
+void AddReplayJob(CLI::App& program);
 
 }  // namespace arthro::app

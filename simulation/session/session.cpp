@@ -1,45 +1,120 @@
 #include "simulation/session/session.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
 
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::simulation {
 namespace {
 
+bool IsFinite(const glm::dvec3& x) noexcept {
+  return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+}
+
 glm::dvec2 PixelOrNan(const Projection& projection, const glm::dvec3& direction) noexcept {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   return PixelFromDirection(projection, direction).value_or(glm::dvec2(kNan));
 }
 
+DepthField FieldOf(const LoadedScene& loaded, const DepthFieldOptions& options) {
+  if (!loaded.depth.empty()) return {loaded.scene.backdrop, loaded.depth, options};
+  return {loaded.scene.backdrop, loaded.panorama.width, loaded.panorama.height, options};
+}
+
 }  // namespace
 
-Session::Session(const Scene& scene, const DepthMap&, std::span<const SurfaceMesh>,
-                 const SessionOptions&)
-    : projection_(scene.backdrop.projection),
+Session::Session(const LoadedScene& loaded, const SessionOptions& options)
+    : Session(loaded.scene, FieldOf(loaded, options.depth), loaded.surfaces, options) {}
+
+Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMesh> surfaces,
+                 const SessionOptions& options)
+    : options_(options),
+      field_(std::move(field)),
+      projection_(scene.backdrop.projection),
       radius_(scene.backdrop.radius),
       spacing_(scene.portals.incision_spacing),
       view_angle_(scene.scope.view_angle) {
   scope_.rig = scene.rig.scope;
   scope_.rig.rod_length = scene.scope.rod_length;
   instrument_.rig = scene.rig.instrument;
+  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
+  for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
 }
 
-void Session::SetIncisionSpacing(double spacing) noexcept { spacing_ = spacing; }
+void Session::SetIncisionSpacing(double spacing) noexcept {
+  if (spacing == spacing_) return;
+  spacing_ = spacing;
+  instrument_.contact = ContactState{};
+}
 
-void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double,
+// Is the sample new, how old is it, how fast is the hand?
+Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept {
+  if (!sample.valid) {
+    tool.has_sample = false;
+    return Fault::kNoSample;
+  }
+  const glm::dquat& q = sample.handle_in_device;
+  if (!IsFinite(sample.hip_in_device) || !std::isfinite(q.w + q.x + q.y + q.z))
+    return Fault::kNotFinite;
+  tool.age += dt;
+  if (!tool.has_sample || sample.t != tool.last.t) {
+    const double way = glm::length(sample.hip_in_device - tool.last.hip_in_device);
+    tool.hand_speed = tool.has_sample && tool.age > 0.0 ? way / tool.age : 0.0;
+    tool.last = sample;
+    tool.has_sample = true;
+    tool.age = 0.0;
+  }
+  if (tool.age > options_.limiter.lost_after) return Fault::kLost;
+  if (tool.age > options_.limiter.max_sample_age) return Fault::kStale;
+  return Fault::kNone;
+}
+
+void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                        ToolState& state) noexcept {
-  state.fault = sample.valid ? Fault::kNone : Fault::kNoSample;
-  if (!sample.valid) return;
-  state.pose = RodPoseFromHip(sample.hip_in_device, sample.handle_in_device, tool.rig, state.pose);
-  state.tip_in_portal = portal + TipInOwnPortal(state.pose);
-  state.proxy_in_portal = state.tip_in_portal;
+  Fault fault = Receive(tool, sample, dt);
+  ContactForce contact;
+  glm::dvec3 hand_force(0.0);
+  if (fault == Fault::kNone || fault == Fault::kStale) {
+    const RodPose pose =
+        RodPoseFromHip(sample.hip_in_device, sample.handle_in_device, tool.rig, state.pose);
+    const glm::dvec3 tip = portal + TipInOwnPortal(pose);
+    if (IsFinite(tip)) {
+      state.pose = pose;
+      state.tip_in_portal = tip;
+      const Lever lever =
+          LeverAt(tool.rig.portal_from_device * (sample.hip_in_device - tool.rig.pivot),
+                  tool.rig.rod_length, options_.lever);
+      const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
+      contact = TickContact({field_, meshes_}, options_.contact, stiffness, portal, tip, dt,
+                            tool.contact);
+      hand_force = HandForce(lever, contact.force);
+    } else {
+      fault = Fault::kNotFinite;
+    }
+  }
+  // A tool that is gone, or not a number, enters anew when it comes back.
+  if (fault != Fault::kNone && fault != Fault::kStale) tool.contact = ContactState{};
+  const LimitedForce limited =
+      LimitForce(options_.limiter, hand_force, tool.hand_speed, fault, dt, tool.limiter);
+  state.proxy_in_portal =
+      tool.contact.has_started ? tool.contact.proxy.position : state.tip_in_portal;
+  state.tip_force = contact.force;
+  state.hand_force = limited.force;
+  state.contact = contact.contact;
+  state.penetration = contact.penetration;
+  state.fault = limited.fault;
 }
 
 void Session::Tick(const DeviceSample& scope, const DeviceSample& instrument, double dt) noexcept {
-  snapshot_.t += dt;
-  TickTool(scope_, scope, glm::dvec3(0.0), dt, snapshot_.scope);
-  TickTool(instrument_, instrument, {spacing_, 0.0, 0.0}, dt, snapshot_.instrument);
+  const double step = dt > 0.0 && std::isfinite(dt) ? dt : 0.0;
+  snapshot_.t += step;
+  TickTool(scope_, scope, glm::dvec3(0.0), step, snapshot_.scope);
+  TickTool(instrument_, instrument, {spacing_, 0.0, 0.0}, step, snapshot_.instrument);
   snapshot_.scope.pixel =
       PixelOrNan(projection_, CentreDirection(snapshot_.scope.pose, view_angle_, radius_));
   snapshot_.instrument.pixel = PixelOrNan(projection_, snapshot_.instrument.tip_in_portal);

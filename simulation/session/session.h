@@ -1,14 +1,16 @@
 // A practice session: two hands in, poses, contacts and forces out, one servo tick at a time
 // [paper 3.2, 3.4; design §1, §2]. It draws nothing and has no threads: a servo thread calls Tick
 // at 1 kHz where there is a force device, the window calls it in 1 ms steps where there is none.
-// Portal frame, m, N, s.
+// Both tools go the same way: rod pose, contact of the tip, lever, limiter. Portal frame, m, N, s.
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "simulation/device/device_sample.h"
-#include "simulation/scene/image.h"
+#include "simulation/haptics/surface_bvh.h"
 #include "simulation/scene/scene.h"
+#include "simulation/scene/scene_io.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/session/session_options.h"
 #include "simulation/session/snapshot.h"
@@ -17,31 +19,48 @@ namespace arthro::simulation {
 
 class Session {
  public:
-  // `depth` may be empty: the bare sphere is felt where the panorama lies. `surfaces` has one mesh
-  // a tissue, in the tissue's own frame; an empty mesh is not felt. Copies what it needs.
-  Session(const Scene& scene, const DepthMap& depth, std::span<const SurfaceMesh> surfaces,
+  // With no depth map the bare sphere is felt where the panorama lies. A tissue with an empty
+  // surface is not felt. Copies what it needs; `loaded` may go.
+  explicit Session(const LoadedScene& loaded, const SessionOptions& options = {});
+
+  // From parts, for an author's poke: `surfaces` has one mesh a tissue, in the tissue's own frame.
+  Session(const Scene& scene, DepthField field, std::span<const SurfaceMesh> surfaces,
           const SessionOptions& options = {});
 
-  // Advances the session by dt. A sample that repeats its t ages by dt each tick; after
-  // max_sample_age its device gets no force.
+  // Advances the session by dt. A sample that repeats its t grows older by dt each tick; after
+  // max_sample_age its device gets no force. Call for fresh samples each tick.
   void Tick(const DeviceSample& scope, const DeviceSample& instrument, double dt) noexcept;
   const Snapshot& snapshot() const noexcept { return snapshot_; }
 
-  // Live, between ticks, from the thread that ticks.
+  // Live, between ticks, from the thread that ticks. A moved portal lets the instrument enter anew.
   void SetIncisionSpacing(double spacing) noexcept;
   double incision_spacing() const noexcept { return spacing_; }
   void SetViewAngle(double view_angle) noexcept { view_angle_ = view_angle; }
   double view_angle() const noexcept { return view_angle_; }
+  // Contact, lever and limiter at once; the depth map's own options need a new session.
+  void SetOptions(const SessionOptions& options) noexcept { options_ = options; }
+  const SessionOptions& options() const noexcept { return options_; }
+
   const DeviceRig& scope_rig() const noexcept { return scope_.rig; }
   const DeviceRig& instrument_rig() const noexcept { return instrument_.rig; }
 
  private:
   struct Tool {
     DeviceRig rig;
+    ContactState contact;
+    LimiterState limiter;
+    bool has_sample = false;
+    DeviceSample last;      // the newest one
+    double age = 0;         // s since it came
+    double hand_speed = 0;  // m/s, between the last two
   };
+  Fault Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept;
   void TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                 ToolState& state) noexcept;
 
+  SessionOptions options_;
+  DepthField field_;
+  std::vector<SurfaceBvh> meshes_;  // one a tissue
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;

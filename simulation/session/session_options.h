@@ -1,11 +1,26 @@
-// All options of a practice session, in one list.
+// All options of a practice session in one list: what the backdrop feels like, how contact is
+// rendered, what the lever does, and what a device is spared.
 #pragma once
+
+#include "simulation/haptics/contact.h"
+#include "simulation/haptics/depth_field.h"
+#include "simulation/haptics/force_limiter.h"
+#include "simulation/haptics/lever.h"
 
 namespace arthro::simulation {
 
 struct SessionOptions {
+  DepthFieldOptions depth;
+  ContactOptions contact;
+  LeverOptions lever;
+  LimiterOptions limiter;
   template <class V>
-  void Visit(V&&) {}
+  void Visit(V&& v) {
+    depth.Visit(v);
+    contact.Visit(v);
+    lever.Visit(v);
+    limiter.Visit(v);
+  }
 };
 
 }  // namespace arthro::simulation

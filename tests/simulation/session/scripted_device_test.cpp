@@ -12,7 +12,7 @@ TEST(ScriptedDevice, SessionSeesThePoseThatWasSet) {
   Scene scene;
   scene.rig.instrument.portal_from_device = glm::normalize(glm::dquat(0.9, 0.1, -0.3, 0.2));
   scene.rig.instrument.pivot = {0.01, -0.02, 0.15};
-  Session session(scene, {}, {});
+  Session session(scene, DepthField(), {});
   ScriptedDevice scope(session.scope_rig()), instrument(session.instrument_rig());
   scope.Set({0.1, -0.2, 0.5, 0.02});
   instrument.Set({-0.3, 0.4, 0.0, 0.03});

@@ -1,0 +1,80 @@
+// The backdrop as something to touch [paper 3.4; design §4]: the sphere of radius D about the scope
+// portal with the depth map h as relief. Free space is inside:
+//   c(x) = (D − h(π(x))) − |x| > 0,   ∇c = −(h_u ∇u + h_v ∇v) − x/|x|,
+//   clearance = c/|∇c| (distance to first order),   normal = ∇c/|∇c| (into free space)
+// Built once: relief smoothed by a binomial filter over imaged pixels only, central differences
+// h_u, h_v stored beside it, all interpolated bilinearly, so the normal is continuous; a weight
+// that fades to 0 towards holes (NaN) and borders, where nothing is known and nothing is felt.
+// Portal frame, m. Query is noexcept, allocates nothing.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/core/options.h"
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+
+namespace arthro::simulation {
+
+struct DepthFieldOptions {
+  // A pass blurs by half a pixel squared. Four leave 0.07° on slopes of 1 over 0.05 mm pixels.
+  int smoothing_passes = 4;
+  // A map in steps, as from 8-bit depth, needs more: the force jumps at each step otherwise (notes
+  // on haptics, 4.1).
+  int quantised_passes = 24;
+  double fade_px = 8.0;  // wide enough that K·1 mm fades by less than 0.1 N a pixel
+  template <class V>
+  void Visit(V&& v) {
+    v("smoothing_passes", smoothing_passes, Range{0, 30}, "",
+      "Binomial 3x3 passes over the depth map before it is felt.");
+    v("quantised_passes", quantised_passes, Range{0, 100}, "",
+      "The same for a depth map that rises in steps, as one made from 8-bit grey does.");
+    v("fade_px", fade_px, Range{1, 64}, "px",
+      "The force fades over this many pixels towards holes and borders of the depth map.");
+  }
+};
+
+// The step in which a depth map rises, m; 0 for a smooth one.
+double QuantumOf(const DepthMap& depth);
+
+// What is known of the surface at a point. weight 0: nothing is there to touch.
+struct FieldQuery {
+  double clearance = 0;         // m, negative below the surface
+  glm::dvec3 normal{0, 0, -1};  // unit, into free space
+  double weight = 0;            // 0..1
+  double px_per_m = 0;          // how fast the pixel moves with x; 0 where there is none
+};
+
+class DepthField {
+ public:
+  DepthField() = default;  // nothing to touch
+  // Without a depth map the bare sphere is felt where a picture of width x height lies.
+  DepthField(const Backdrop& backdrop, int width, int height,
+             const DepthFieldOptions& options = {});
+  DepthField(const Backdrop& backdrop, const DepthMap& depth,
+             const DepthFieldOptions& options = {});
+
+  FieldQuery Query(const glm::dvec3& x_in_portal) const noexcept;
+
+  bool empty() const { return width_ == 0; }
+  // Nothing can be touched nearer to the portal than this; infinite where there is no field.
+  double free_radius() const { return free_radius_; }
+  // Size of a pixel on the sphere at the centre of the picture.
+  double pixel_size() const { return pixel_size_; }
+
+ private:
+  // Four floats side by side: one cache line holds all that a corner of a query needs.
+  struct Texel {
+    float h, hu, hv, weight;
+  };
+  Texel Sample(double u, double v) const noexcept;
+
+  Projection projection_;
+  double radius_ = 0, free_radius_ = 1e300, pixel_size_ = 1e-4, fade_px_ = 8;
+  int width_ = 0, height_ = 0;
+  std::vector<Texel> texels_;  // empty: the bare sphere
+};
+
+}  // namespace arthro::simulation

@@ -1,0 +1,39 @@
+// A few planes that bound free space near a proxy, and the point of free space nearest to a goal:
+// the god-object of Zilles and Salisbury [IROS 1995] with its constraint forces. m.
+#pragma once
+
+#include <array>
+
+#include <glm/vec3.hpp>
+
+namespace arthro::simulation {
+
+// Free space is normal·x ≥ offset.
+struct Plane {
+  glm::dvec3 normal{0.0};  // unit
+  double offset = 0;
+  int contact = 0;    // whose surface: see snapshot.h
+  double weight = 1;  // of its force, 0..1
+};
+
+struct PlaneSet {
+  static constexpr int kCapacity = 4;  // the backdrop and three faces of meshes
+  std::array<Plane, kCapacity> plane;
+  int count = 0;
+
+  // A plane that is there already, up to rounding, is replaced. False: the set is full.
+  bool Add(const Plane& added) noexcept;
+};
+
+// nearest = goal + Σ push[i]·normal[i], push ≥ 0.
+struct NearestFree {
+  glm::dvec3 nearest{0.0};
+  std::array<double, PlaneSet::kCapacity> push{};
+};
+
+// Tries every active set of up to three planes; the one that satisfies all is the solution. Where
+// rounding leaves none, `otherwise` is the answer, with no pushes.
+NearestFree NearestPoint(const PlaneSet& planes, const glm::dvec3& goal,
+                         const glm::dvec3& otherwise) noexcept;
+
+}  // namespace arthro::simulation

@@ -1,0 +1,39 @@
+// The proxy: the place where the tip would be if surfaces could not be entered. One proxy for the
+// backdrop and all meshes together, in the intersection of their free spaces, so nothing is counted
+// twice and nothing steps where one ends in front of the other [paper 3.4; Zilles-Salisbury 1995,
+// Ruspini 1997]. It moves to the nearest free point by descent only: along the backdrop in steps of
+// one pixel that are re-projected and taken only if they come nearer to the tip, along meshes by
+// sweeps. It therefore neither pops through a cliff nor tunnels. Portal frame, m; noexcept,
+// allocates nothing.
+#pragma once
+
+#include <span>
+
+#include "simulation/haptics/depth_field.h"
+#include "simulation/haptics/planes.h"
+#include "simulation/haptics/surface_bvh.h"
+
+namespace arthro::simulation {
+
+// What can be touched. Contact 0 is the field, 1 + i is mesh i.
+struct Surroundings {
+  const DepthField& field;
+  std::span<const SurfaceBvh> meshes;
+};
+
+// A ball's centre that stays at least `radius` from all surfaces.
+struct Proxy {
+  glm::dvec3 position{0.0};
+  int last_mesh = -1, last_triangle = -1;  // met last; tried first
+};
+
+// Towards `goal`, as far as the surfaces let it. Free flight is unlimited; along surfaces and out
+// of them it travels at most `max_travel`, so that a surface that appears does not throw it.
+void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
+               double max_travel, Proxy& proxy) noexcept;
+
+// The planes that hold the proxy where it is when it is drawn to `goal`.
+PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
+                  Proxy& proxy) noexcept;
+
+}  // namespace arthro::simulation

@@ -1,0 +1,183 @@
+#include "simulation/haptics/surface_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kLeafSize = 4;    // below four triangles a further box costs more than it saves
+constexpr int kStackSize = 64;  // a median split of 2^31 triangles is 31 deep
+
+// A motion closer to parallel than this does not approach; it drifts 1 pm over 1 mm.
+constexpr double kParallel = 1e-9;
+
+float RoundDown(double x) noexcept {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float RoundUp(double x) noexcept {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+// A ball against a point: |offset + t·motion| = radius, offset from the point to the ball's centre.
+// Gives the first t ≥ 0 while approaching; infinity for none.
+double TimeOfTouch(const glm::dvec3& offset, const glm::dvec3& motion, double radius) noexcept {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double a = glm::dot(motion, motion), b = glm::dot(offset, motion);
+  const double c = glm::dot(offset, offset) - radius * radius;
+  if (!(b < -kParallel * std::sqrt(a * glm::dot(offset, offset)))) return kNever;
+  if (c <= 0.0) return 0.0;
+  const double d = b * b - a * c;
+  return d < 0.0 ? kNever : std::max(0.0, c / (-b + std::sqrt(d)));
+}
+
+bool Contains(const std::array<glm::dvec3, 3>& corner, const glm::dvec3& normal,
+              const glm::dvec3& x) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i];
+    if (glm::dot(glm::cross(edge, x - corner[i]), normal) < 0.0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+SurfaceBvh::SurfaceBvh(const SurfaceMesh& mesh, const Pose& portal_from_mesh) {
+  triangles_.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto corner = [&](int i) {
+      return portal_from_mesh * mesh.vertices[static_cast<std::size_t>(i)];
+    };
+    Triangle triangle{{corner(a), corner(b), corner(c)}, {}};
+    const glm::dvec3 across = glm::cross(triangle.corner[1] - triangle.corner[0],
+                                         triangle.corner[2] - triangle.corner[0]);
+    const double area = glm::length(across);
+    if (!(area > 1e-18) || !std::isfinite(area)) continue;  // m², 1 nm square
+    triangle.normal = across / area;
+    triangles_.push_back(triangle);
+  }
+  if (triangles_.empty()) return;
+  nodes_.reserve(triangles_.size());
+  Build(0, static_cast<int>(triangles_.size()));
+}
+
+void SurfaceBvh::Build(int first, int count) {
+  const auto begin = triangles_.begin() + first, end = begin + count;
+  glm::dvec3 low = begin->corner[0], high = low, low_centre(1e300), high_centre(-1e300);
+  const auto centre = [](const Triangle& t) { return t.corner[0] + t.corner[1] + t.corner[2]; };
+  for (auto triangle = begin; triangle != end; ++triangle) {
+    for (const glm::dvec3& x : triangle->corner) low = glm::min(low, x), high = glm::max(high, x);
+    low_centre = glm::min(low_centre, centre(*triangle));
+    high_centre = glm::max(high_centre, centre(*triangle));
+  }
+  const std::size_t node = nodes_.size();
+  nodes_.emplace_back();
+  for (int i = 0; i < 3; ++i) {
+    nodes_[node].low[static_cast<std::size_t>(i)] = RoundDown(low[i]);
+    nodes_[node].high[static_cast<std::size_t>(i)] = RoundUp(high[i]);
+  }
+  if (count <= kLeafSize) {
+    nodes_[node].next = first;
+    nodes_[node].count = count;
+    return;
+  }
+  // Halved along the axis in which the triangles spread most; ties keep the order of the file.
+  const glm::dvec3 spread = high_centre - low_centre;
+  const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
+  const int half = count / 2;
+  std::nth_element(begin, begin + half, end, [&](const Triangle& a, const Triangle& b) {
+    return centre(a)[axis] < centre(b)[axis];
+  });
+  Build(first, half);
+  nodes_[node].next = static_cast<std::int32_t>(nodes_.size());
+  Build(first + half, count - half);
+}
+
+bool SurfaceBvh::SweepTriangle(const Triangle& triangle, const glm::dvec3& from,
+                               const glm::dvec3& motion, double radius, SweepHit& hit) noexcept {
+  const auto& corner = triangle.corner;
+  const double towards = -glm::dot(triangle.normal, motion);
+  const double height = glm::dot(triangle.normal, from - corner[0]);
+  if (height < 0.0 || towards <= 0.0) return false;  // behind it, or leaving
+  if (towards * towards <= kParallel * kParallel * glm::dot(motion, motion)) return false;
+  // The ball meets the plane before anything in it.
+  const double plane = std::max(0.0, (height - radius) / towards);
+  if (plane >= hit.fraction) return false;
+  const glm::dvec3 centre = from + plane * motion;
+  if (Contains(corner, triangle.normal, centre)) {
+    hit.fraction = plane;
+    hit.normal = triangle.normal;
+    hit.gap = std::min(0.0, height - radius);
+    return true;
+  }
+  // Beside the face: the rounded edges, whose ends are the rounded corners.
+  bool found = false;
+  const auto keep = [&](double t, const glm::dvec3& offset) {
+    const double distance = glm::length(offset);
+    if (!(t < hit.fraction) || !(distance > 0.0)) return;
+    hit.fraction = t;
+    hit.normal = offset / distance;
+    hit.gap = std::min(0.0, distance - radius);
+    found = true;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i], offset = from - corner[i];
+    const double per_length2 = 1.0 / glm::dot(edge, edge);
+    const double along_offset = glm::dot(offset, edge) * per_length2;
+    const double along_motion = glm::dot(motion, edge) * per_length2;
+    const glm::dvec3 across = offset - along_offset * edge;
+    const glm::dvec3 motion_across = motion - along_motion * edge;
+    const double t = TimeOfTouch(across, motion_across, radius);
+    const double where = along_offset + t * along_motion;
+    if (t < hit.fraction && where >= 0.0 && where <= 1.0) keep(t, across + t * motion_across);
+    const double at_corner = TimeOfTouch(offset, motion, radius);
+    if (at_corner < hit.fraction) keep(at_corner, offset + at_corner * motion);
+  }
+  return found;
+}
+
+bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius, int first,
+                       SweepHit& hit) const noexcept {
+  if (nodes_.empty()) return false;
+  const glm::dvec3 motion = to - from;
+  bool found = false;
+  const auto test = [&](int i) {
+    if (!SweepTriangle(triangles_[static_cast<std::size_t>(i)], from, motion, radius, hit)) return;
+    hit.triangle = i;
+    found = true;
+  };
+  if (first >= 0 && first < static_cast<int>(triangles_.size())) test(first);
+  glm::dvec3 low, high;
+  const auto shrink = [&] {  // the box of what is left of the way
+    const glm::dvec3 end = from + hit.fraction * motion;
+    low = glm::min(from, end) - radius;
+    high = glm::max(from, end) + radius;
+  };
+  shrink();
+  int stack[kStackSize], depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0 && hit.fraction > 0.0) {
+    const int index = stack[--depth];
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    bool apart = false;
+    for (int i = 0; i < 3; ++i)
+      apart |= low[i] > static_cast<double>(node.high[static_cast<std::size_t>(i)]) ||
+               high[i] < static_cast<double>(node.low[static_cast<std::size_t>(i)]);
+    if (apart) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.next;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    const double before = hit.fraction;
+    for (int i = node.next; i < node.next + node.count; ++i) test(i);
+    if (hit.fraction < before) shrink();
+  }
+  return found;
+}
+
+}  // namespace arthro::simulation

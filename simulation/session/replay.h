@@ -1,0 +1,54 @@
+// A whole session again from a recording, on a fixed clock: one tick a millisecond or a little
+// less, so that a tick falls on every row. Nothing in it depends on the machine's clock but the
+// tick times of the report. Portal frame, m, N, s.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "simulation/core/progress.h"
+#include "simulation/device/trace_io.h"
+#include "simulation/session/session.h"
+
+namespace arthro::simulation {
+
+// One row of forces.csv, for one row of the trace.
+struct ForceRow {
+  double t = 0;
+  DeviceRole device = DeviceRole::kScope;
+  ToolState state;
+};
+
+// What one hand met, between its first and its last row.
+struct HandReport {
+  long rows = 0;
+  double time_in_contact = 0;     // s
+  double peak_force = 0;          // N, on the tip
+  double mean_force = 0;          // N, on the tip while in contact
+  double peak_hand_force = 0;     // N, after lever and limits
+  double deepest = 0;             // m
+  std::map<int, double> contact;  // s a surface: 0 the backdrop, 1 + i tissue i
+  std::map<Fault, long> faults;   // ticks
+};
+
+struct ReplayReport {
+  double duration = 0;  // s of the trace
+  long ticks = 0;
+  std::array<HandReport, 2> hand;        // by DeviceRole
+  double tick_median = 0, tick_p99 = 0;  // s of this machine, to 0.1 µs
+};
+
+std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
+                             const SessionOptions& options = {}, const Progress& progress = {},
+                             ReplayReport* report = nullptr);
+
+// forces.csv of design §5: contact none|backdrop|tissue name, fault none|…; a tool over no pixel
+// has u_px and v_px nan.
+std::string ForcesText(const std::vector<ForceRow>& rows, const Scene& scene);
+
+// JSON, "arthroscene.replay/1".
+std::string ReportText(const ReplayReport& report, const Scene& scene);
+
+}  // namespace arthro::simulation
