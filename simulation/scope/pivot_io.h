@@ -1,0 +1,21 @@
+// Presses from a table and a calibration as JSON (design §5: POSES.csv and pivot.json). Metres.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulation/scope/pivot_calibration.h"
+
+namespace arthro::simulation {
+
+// A header line `hip_x,hip_y,hip_z,tip_x,tip_y,tip_z`, then one press a row. Blank lines are passed
+// over. Throws Error(kBadData) that names the line for anything else, a number that is not finite
+// or a press whose hand and tip coincide; Error(kFile) where there is no such file. A table without
+// a press is no error: the calibration says that they are too few.
+std::vector<PivotPress> ReadPresses(const std::filesystem::path& csv);
+
+// {schema, status, reason, pivot, sigma, condition, residual, poses_used}; null where unknown.
+std::string JsonFromPivot(const PivotCalibration& calibration);
+
+}  // namespace arthro::simulation
