@@ -1,6 +1,6 @@
-// arthroscene centres SCENE (design §5): the pixels at the centre of the view as the scope is rotated
-// about its axis at several depths of insertion, the paper's validation figure [paper 3.3, Fig. 7] as
-// numbers.
+// arthroscene centres SCENE (design §5): the pixels at the centre of the view as the scope is
+// rotated about its axis at several depths of insertion, the paper's validation figure [paper 3.3,
+// Fig. 7] as numbers.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -33,16 +33,18 @@ struct CentresArguments {
 void RunCentresJob(const CentresArguments& arguments) {
   const Scene scene = ReadScene(arguments.scene);
   const Backdrop& backdrop = scene.backdrop;
-  const double view_angle = arguments.view_angle_deg
-                                ? RadiansFromDegrees(*arguments.view_angle_deg)
-                                : scene.scope.view_angle;
+  const double view_angle = arguments.view_angle_deg ? RadiansFromDegrees(*arguments.view_angle_deg)
+                                                     : scene.scope.view_angle;
+  if (!std::isfinite(view_angle + arguments.latitude_deg + arguments.longitude_deg))
+    throw Error(Code::kBadArgument, "an angle is not a number; give it in degrees");
   for (const double mm : arguments.insertion_mm)
     if (!(mm >= 0.0) || MetresFromMm(mm) > backdrop.radius * (1.0 + 1e-12))
-      throw Error(Code::kBadArgument,
-                  fmt::format("--insertion-mm {} is not between 0 and the backdrop's radius of {:g} "
-                              "mm; beyond it the tip would be behind the picture",
-                              mm, MmFromMetres(backdrop.radius)),
-                  arguments.scene);
+      throw Error(
+          Code::kBadArgument,
+          fmt::format("--insertion-mm {} is not between 0 and the backdrop's radius of {:g} "
+                      "mm; beyond it the tip would be behind the picture",
+                      mm, MmFromMetres(backdrop.radius)),
+          arguments.scene);
 
   std::string table = "insertion,roll_deg,u_px,v_px\n";
   int without_pixel = 0;
@@ -52,9 +54,8 @@ void RunCentresJob(const CentresArguments& arguments) {
       const simulation::RodPose pose{RadiansFromDegrees(arguments.latitude_deg),
                                      RadiansFromDegrees(arguments.longitude_deg),
                                      RadiansFromDegrees(roll_deg), MetresFromMm(mm)};
-      const auto pixel =
-          PixelFromDirection(backdrop.projection,
-                             simulation::CentreDirection(pose, view_angle, backdrop.radius));
+      const auto pixel = PixelFromDirection(
+          backdrop.projection, simulation::CentreDirection(pose, view_angle, backdrop.radius));
       table += fmt::format("{:.10g},{:.10g},", pose.depth, roll_deg);
       table += pixel ? fmt::format("{:.10g},{:.10g}\n", pixel->x, pixel->y) : ",\n";
       without_pixel += pixel ? 0 : 1;
@@ -74,13 +75,15 @@ void AddCentresJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "centres",
       "Panorama pixels at the centre of the view while the scope is rotated at several depths");
-  job->add_option("SCENE", arguments->scene, "Scene folder or scene.json; its pictures are not read")
+  job->add_option("SCENE", arguments->scene,
+                  "Scene folder or scene.json; its pictures are not read")
       ->required();
   job->add_option("--view-angle-deg", arguments->view_angle_deg,
                   "Angle between rod and view; the scene's own where not given")
       ->check(CLI::Range(0.0, 90.0));
-  job->add_option("--insertion-mm", arguments->insertion_mm,
-                  "Depths of the tip beyond the portal, comma-separated, 0 to the backdrop's radius")
+  job->add_option(
+         "--insertion-mm", arguments->insertion_mm,
+         "Depths of the tip beyond the portal, comma-separated, 0 to the backdrop's radius")
       ->delimiter(',')
       ->capture_default_str();
   job->add_option("--latitude-deg", arguments->latitude_deg, "Rod's direction, up")
@@ -95,7 +98,8 @@ void AddCentresJob(CLI::App& program) {
   job->add_option("-o,--output", arguments->output, "Table to write; - is standard output")
       ->required();
   job->footer(
-      "Columns: insertion (m), roll_deg, u_px, v_px (origin at the centre of the top-left pixel). u "
+      "Columns: insertion (m), roll_deg, u_px, v_px (origin at the centre of the top-left pixel). "
+      "u "
       "and v are empty where the panorama has no pixel, which is said on stderr; pixels beyond the "
       "panorama's edge are numbers all the same.");
   job->callback([arguments] { RunCentresJob(*arguments); });

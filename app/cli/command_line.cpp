@@ -27,7 +27,9 @@ int RunCommandLine(int argc, char** argv) {
   program.set_help_all_flag("--help-all", "Help of every job");
   program.footer("`arthroscene JOB --help` says what a job takes.");
   program.require_subcommand(0, 1);
+  AddCentresJob(program);
   AddCheckJob(program);
+  AddPivotJob(program);
   AddReplayJob(program);
   try {
     program.parse(argc, argv);

@@ -8,7 +8,9 @@ class App;
 
 namespace arthro::app {
 
+void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
+void AddPivotJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
 
 }  // namespace arthro::app

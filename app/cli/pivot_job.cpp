@@ -1,4 +1,5 @@
-// arthroscene pivot POSES.csv -o pivot.json (design §5): where the incision lies in a device's frame.
+// arthroscene pivot POSES.csv -o pivot.json (design §5): where the incision lies in a device's
+// frame.
 #include <filesystem>
 #include <memory>
 
@@ -24,7 +25,8 @@ void RunPivotJob(const PivotArguments& arguments) {
   const auto presses = simulation::ReadPresses(arguments.poses);
   const auto calibration = simulation::CalibratePivot(presses, arguments.options);
   WriteAtomically(arguments.output, simulation::JsonFromPivot(calibration));
-  // The record is kept in either case; a pivot that should not be used ends the job with its reason.
+  // The record is kept in either case; a pivot that should not be used ends the job with its
+  // reason.
   if (calibration.status != simulation::PivotStatus::kOk)
     throw Error(Code::kBadData,
                 std::string(simulation::WordOf(calibration.status)) + ": " + calibration.reason,
@@ -37,17 +39,20 @@ void AddPivotJob(CLI::App& program) {
   auto arguments = std::make_shared<PivotArguments>();
   CLI::App* job = program.add_subcommand(
       "pivot", "Find the incision in a device's frame from presses at several handle positions");
-  job->add_option("POSES", arguments->poses,
-                  "Table hip_x,hip_y,hip_z,tip_x,tip_y,tip_z with that header, in metres, one press "
-                  "a row")
+  job->add_option(
+         "POSES", arguments->poses,
+         "Table hip_x,hip_y,hip_z,tip_x,tip_y,tip_z with that header, in metres, one press "
+         "a row")
       ->required();
   job->add_option("-o,--output", arguments->output, "pivot.json to write; - is standard output")
       ->required();
   AddOptions(*job, arguments->options);
   job->footer(
-      "status is ok, too_few, too_narrow, inconsistent or outside_rod; all but ok end with exit code "
+      "status is ok, too_few, too_narrow, inconsistent or outside_rod; all but ok end with exit "
+      "code "
       "1, and pivot.json says why. pivot is null where no number can be trusted (too_few, "
-      "too_narrow). sigma is the predicted rms error in metres. Swing the rod by 30 degrees or more; "
+      "too_narrow). sigma is the predicted rms error in metres. Swing the rod by 30 degrees or "
+      "more; "
       "the paper's two presses will do where the rig's noise is as stated, more presses show it.");
   job->callback([arguments] { RunPivotJob(*arguments); });
 }
