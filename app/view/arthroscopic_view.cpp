@@ -1,0 +1,215 @@
+#include "app/view/arthroscopic_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <vtkCamera.h>
+#include <vtkCullerCollection.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
+#include <vtkRenderer.h>
+#include <vtkTextureObject.h>
+#include <vtk_glew.h>
+
+#include "app/view/backdrop_prop.h"
+#include "app/view/context_render_window.h"
+#include "app/view/lens_model.h"
+#include "app/view/lens_shader.h"
+#include "app/view/probe_mesh.h"
+#include "simulation/core/error.h"
+
+namespace arthro::app {
+namespace {
+
+// How white the brightest parts of the footage count: a model of colour 1 is drawn as they are.
+constexpr double kWhite = 0.80;
+// Share of the footage's own tint that the models' light takes.
+constexpr double kTint = 0.6;
+
+// The lamp as the footage shows it: as bright as its brightest parts, and partly of their tint.
+glm::dvec3 LightOf(const glm::dvec3& bright) {
+  const double luma = glm::dot(bright, glm::dvec3(0.2126, 0.7152, 0.0722));
+  if (!(luma > 0.0)) return glm::dvec3(1.0);
+  const double level = std::clamp(luma / kWhite, 0.25, 1.1);
+  return level * (kTint * bright / luma + (1.0 - kTint));
+}
+
+// +z along the rod, +y to where the hook points.
+Pose InstrumentPose(const InstrumentView& instrument) {
+  const glm::dvec3 along = glm::normalize(instrument.proxy - instrument.portal);
+  simulation::RodPose rod;
+  rod.latitude = -std::asin(std::clamp(along.y, -1.0, 1.0));
+  rod.longitude = std::atan2(along.x, along.z);
+  const simulation::RodBasis basis = simulation::BasisOf(rod);
+  const glm::dvec3 hook =
+      std::cos(instrument.roll) * basis.north + std::sin(instrument.roll) * basis.east;
+  Pose pose;
+  pose.position = instrument.proxy;
+  pose.quaternion = glm::quat_cast(glm::dmat3(glm::cross(hook, basis.axis), hook, basis.axis));
+  return pose;
+}
+
+}  // namespace
+
+struct ArthroscopicView::Parts {
+  vtkNew<ContextRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkLight> light;
+  vtkNew<BackdropProp> backdrop;
+  LensModel probe{LensModel::Look::kSteel};
+  std::vector<std::unique_ptr<LensModel>> tissues;
+  std::vector<std::size_t> vertex_counts;
+  std::string notice;
+  int size = 0;
+
+  vtkOpenGLFramebufferObject& drawn() const { return *window->GetRenderFramebuffer(); }
+};
+
+ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
+  Parts& p = *parts_;
+  p.window->AddRenderer(p.renderer);
+  p.window->SetSize(16, 16);
+  p.renderer->SetBackground(0.0, 0.0, 0.0);
+  p.renderer->SetBackgroundAlpha(1.0);
+  // What is outside a pinhole's view may be inside the lens': nothing may be culled by it.
+  p.renderer->GetCullers()->RemoveAllItems();
+  p.renderer->AutomaticLightCreationOff();
+  p.light->SetLightTypeToHeadlight();
+  p.renderer->AddLight(p.light);
+  p.renderer->AddViewProp(p.backdrop);
+  p.probe.SetSurface(MakeProbeMesh());
+  p.probe.SetColour(glm::dvec3(0.72, 0.74, 0.77));
+  p.probe.actor()->VisibilityOff();
+  p.renderer->AddViewProp(p.probe.actor());
+  // The first frame initialises OpenGL, so that textures can be uploaded before the next.
+  p.window->Render();
+  if (!p.window->IsReady())
+    throw Error(Code::kDisplay,
+                "the arthroscope's view needs OpenGL 3.2; update the graphics driver or run with "
+                "LIBGL_ALWAYS_SOFTWARE=1");
+}
+
+ArthroscopicView::~ArthroscopicView() { parts_->window->Finalize(); }
+
+void ArthroscopicView::SetBackdrop(const ColourImage& panorama, const DepthMap& depth,
+                                   const Backdrop& backdrop) {
+  parts_->window->GetState()->Reset();
+  parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop);
+}
+
+void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
+                                  std::span<const SurfaceMesh> surfaces) {
+  Parts& p = *parts_;
+  for (const auto& model : p.tissues) p.renderer->RemoveViewProp(model->actor());
+  p.tissues.clear();
+  p.vertex_counts.clear();
+  for (std::size_t i = 0; i < tissues.size(); ++i) {
+    auto model = std::make_unique<LensModel>(LensModel::Look::kTissue);
+    model->SetSurface(i < surfaces.size() ? surfaces[i] : SurfaceMesh());
+    model->SetColour(tissues[i].colour);
+    model->SetPose(tissues[i].pose);
+    p.vertex_counts.push_back(i < surfaces.size() ? surfaces[i].vertices.size() : 0);
+    p.renderer->AddViewProp(model->actor());
+    p.tissues.push_back(std::move(model));
+  }
+}
+
+void ArthroscopicView::SetTissueVertices(int index, std::span<const glm::dvec3> vertices) {
+  const auto i = static_cast<std::size_t>(index);
+  if (i >= parts_->tissues.size() || vertices.size() != parts_->vertex_counts[i])
+    throw Error(Code::kBadArgument, "tissue " + std::to_string(index) + " was given " +
+                                        std::to_string(vertices.size()) +
+                                        " vertices to draw; its surface has another number");
+  parts_->tissues[i]->SetVertices(vertices);
+}
+
+void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) {
+  parts_->tissues.at(static_cast<std::size_t>(index))->SetPose(portal_from_tissue);
+}
+
+void ArthroscopicView::Render(const Picture& picture, int size) {
+  Parts& p = *parts_;
+  p.size = size;
+  p.window->GetState()->Reset();  // others have drawn in this context
+  p.window->SetSize(size, size);
+  p.backdrop->SetPicture(picture, size);
+
+  // Only the camera's place and axes are used; the lens is the shaders'.
+  const simulation::ScopeView& view = picture.view;
+  const glm::dvec3 focus = view.tip + view.view;
+  vtkCamera* camera = p.renderer->GetActiveCamera();
+  camera->SetPosition(view.tip.x, view.tip.y, view.tip.z);
+  camera->SetFocalPoint(focus.x, focus.y, focus.z);
+  camera->SetViewUp(view.up.x, view.up.y, view.up.z);
+  camera->SetClippingRange(kNearest, kFarthest);
+
+  LensFrame frame;
+  frame.field_of_view = picture.field_of_view;
+  frame.window_radius = size / 2.0;
+  frame.light_reach = p.backdrop->light_reach();
+  frame.light_colour = LightOf(p.backdrop->bright_colour());
+  frame.surround = p.backdrop->mean_colour();
+  for (const auto& tissue : p.tissues) {
+    tissue->SetFrame(frame);
+    tissue->Show(!picture.plain);
+  }
+  p.probe.SetFrame(frame);
+  const bool probe = picture.instrument && !picture.plain &&
+                     glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
+  p.probe.Show(probe);
+  if (probe) {
+    p.probe.SetPose(InstrumentPose(*picture.instrument));
+    p.probe.SetLength(glm::distance(picture.instrument->proxy, picture.instrument->portal));
+  }
+  p.window->Render();
+}
+
+unsigned int ArthroscopicView::TextureId() const {
+  return parts_->drawn().GetColorAttachmentAsTextureObject(0)->GetHandle();
+}
+
+ColourImage ArthroscopicView::ReadPixels() const {
+  const int size = parts_->size;
+  ColourImage image(size, size);
+  if (size <= 0) return image;
+  std::vector<std::uint8_t> rows(image.rgb.size());
+  vtkOpenGLState* state = parts_->window->GetState();
+  state->PushReadFramebufferBinding();
+  parts_->drawn().Bind(GL_READ_FRAMEBUFFER);
+  parts_->drawn().ActivateReadBuffer(0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size, size, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+  state->PopReadFramebufferBinding();
+  // OpenGL's first row is the lowest.
+  const std::size_t row = static_cast<std::size_t>(size) * 3;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(size); ++y)
+    std::copy_n(&rows[(static_cast<std::size_t>(size) - 1 - y) * row], row, &image.rgb[y * row]);
+  return image;
+}
+
+std::vector<float> ArthroscopicView::ReadDistances() const {
+  const auto size = static_cast<std::size_t>(parts_->size);
+  std::vector<float> stored(size * size), distances(size * size);
+  if (size == 0) return distances;
+  vtkOpenGLState* state = parts_->window->GetState();
+  state->PushReadFramebufferBinding();
+  parts_->drawn().Bind(GL_READ_FRAMEBUFFER);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, parts_->size, parts_->size, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
+  state->PopReadFramebufferBinding();
+  for (std::size_t y = 0; y < size; ++y)
+    for (std::size_t x = 0; x < size; ++x) {
+      const float depth = stored[(size - 1 - y) * size + x];
+      distances[y * size + x] = depth > 0.0f ? static_cast<float>(DistanceFromStored(depth)) : 0.0f;
+    }
+  return distances;
+}
+
+const std::string& ArthroscopicView::notice() const { return parts_->notice; }
+
+}  // namespace arthro::app

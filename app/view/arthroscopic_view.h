@@ -1,0 +1,74 @@
+// What the arthroscope shows: the panorama through the exact geometry of design §4, with tissues
+// and an instrument in it, in a round window. Draws in whatever OpenGL context is current (3.2 core
+// or later) into its own texture. Portal frame, m, rad.
+//
+// The backdrop is exact for every pixel. Models are warped vertex by vertex with the same equisolid
+// lens, so a straight edge is drawn as a chord: its error grows with the square of its angle
+// (tests/app/view prints it). Depth is the distance from the tip along the pixel's ray; the relief
+// counts as the surface at D − h in the direction that the pixel's colour comes from, so colours
+// have no parallax and hide what lies behind them where they are seen.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/scope/arthroscope.h"
+
+namespace arthro::app {
+
+// The instrument as it is drawn: from its portal to the proxy, so that it never enters tissue.
+struct InstrumentView {
+  glm::dvec3 portal{0.0}, proxy{0.0};  // m
+  double roll = 0;                     // γ about its own rod: where the hook points
+};
+
+// One frame.
+struct Picture {
+  simulation::ScopeView view;
+  double field_of_view = std::numbers::pi / 2;  // full
+  double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
+  std::optional<InstrumentView> instrument;
+  bool plain = false;  // backdrop colours only: no light, softness, mark or models
+};
+
+class ArthroscopicView {
+ public:
+  ArthroscopicView();
+  // The context it draws in must still be current.
+  ~ArthroscopicView();
+  ArthroscopicView(const ArthroscopicView&) = delete;
+  ArthroscopicView& operator=(const ArthroscopicView&) = delete;
+
+  // `depth` may be empty: the bare sphere. Says in notice() what could not be shown as given.
+  void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
+  // One surface a tissue, in its own frame; an empty one is not drawn.
+  void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
+  // Moves the vertices of tissue `index` (as many as its surface has) in the tissue's own frame.
+  void SetTissueVertices(int index, std::span<const glm::dvec3> vertices);
+  void SetTissuePose(int index, const Pose& portal_from_tissue);
+
+  // Draws into the texture, size x size pixels. Leaves OpenGL's state as it was.
+  void Render(const Picture& picture, int size);
+
+  // The last frame, as an OpenGL texture name: RGBA, opaque, first row at the bottom.
+  unsigned int TextureId() const;
+  ColourImage ReadPixels() const;
+  // Distance from the tip at each pixel of the last frame, m; row-major from the top. 0 outside the
+  // window and under its mark.
+  std::vector<float> ReadDistances() const;
+
+  // A sentence for the user, e.g. that the panorama was drawn smaller; empty when all is well.
+  const std::string& notice() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace arthro::app

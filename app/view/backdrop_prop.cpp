@@ -1,0 +1,247 @@
+#include "app/view/backdrop_prop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLQuadHelper.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLShaderCache.h>
+#include <vtkOpenGLState.h>
+#include <vtkShaderProgram.h>
+#include <vtkTextureObject.h>
+#include <vtkViewport.h>
+#include <vtk_glew.h>
+
+#include "app/view/backdrop_texture.h"
+#include "app/view/lens_shader.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+
+vtkStandardNewMacro(BackdropProp);
+
+namespace {
+
+// Where the light is neutral, in radii of the backdrop: a usual working distance.
+constexpr double kLightReach = 0.55;
+
+constexpr const char* kHead = R"(//VTK::System::Dec
+//VTK::Output::Dec
+in vec2 texCoord;
+uniform sampler2D panorama;     // alpha: how surely imaged
+uniform sampler2D relief;       // m
+uniform vec3 tip;               // in radii of the sphere
+uniform float clearance;        // 1 - |tip|^2, worked out in double
+uniform vec3 viewAxis, upAxis, rightAxis;
+uniform float lensScale;        // sin(fov/4)
+uniform float windowRadius;     // px
+uniform int equirectangular, wraps, plain;
+uniform vec2 centre, scale;     // of the projection, in texture units
+uniform float radius;           // m
+uniform float nearest, farthest, lightReach;
+uniform vec3 endColour;
+uniform vec2 notch;             // unit, image right and up
+)";
+
+constexpr const char* kMain = R"(
+void main() {
+  // Pixel -> equisolid ray: |offset| lensScale = sin(theta/2).
+  vec2 offset = 2.0 * texCoord - 1.0;
+  float r = length(offset);
+  float s2 = min(r * r * lensScale * lensScale, 1.0);
+  vec2 across = 2.0 * lensScale * sqrt(1.0 - s2) * offset;
+  vec3 ray = (1.0 - 2.0 * s2) * viewAxis + across.x * rightAxis + across.y * upAxis;
+
+  // Ray -> sphere -> direction from the portal.
+  float b = dot(tip, ray);
+  float reach = sqrt(max(b * b + clearance, 0.0)) - b;
+  vec3 d = normalize(tip + reach * ray);
+
+  // Direction -> panorama.
+  bool imaged = true;
+  vec2 uv;
+  if (equirectangular != 0) {
+    uv = centre + scale * vec2(atan(d.x, d.z), atan(d.y, length(d.xz)));
+  } else {
+    imaged = d.z > 0.0;
+    uv = centre + scale * d.xy / max(d.z, 1e-4);
+  }
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  if (wraps != 0) {
+    dx.x -= round(dx.x);
+    dy.x -= round(dy.x);
+  } else {
+    imaged = imaged && uv.x >= 0.0 && uv.x <= 1.0;
+  }
+  imaged = imaged && uv.y >= 0.0 && uv.y <= 1.0;
+  vec4 colour = textureGrad(panorama, uv, dx, dy);
+  float h = imaged ? texture(relief, uv).r / radius : 0.0;
+
+  // Depth of the relief's point in the direction that the colour comes from.
+  float distance = clamp(radius * dot((1.0 - h) * d - tip, ray), 1.001 * nearest, farthest);
+  float stored = storedDepth(distance);
+
+  vec3 shown;
+  if (plain != 0) {
+    shown = imaged ? colour.rgb : vec3(0.0);
+  } else {
+    vec3 lit = shoulder(colour.rgb * pow(lightAt(distance), 1.0 / 2.2));
+    shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, colour.a) : 0.0) * softRim(r);
+    float along = dot(offset, notch) - 0.925;
+    float beside = abs(offset.x * notch.y - offset.y * notch.x);
+    float mark = clamp((0.5 * along - beside) * 0.9 * windowRadius + 0.5, 0.0, 1.0);
+    shown *= 1.0 - mark;
+    if (mark > 0.5) stored = 0.0;
+  }
+  float coverage = rimCoverage(r, windowRadius);
+  if (coverage <= 0.0) stored = 0.0;
+  gl_FragDepth = stored;
+  gl_FragData[0] = vec4(shown * coverage, 1.0);
+}
+)";
+
+void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec3& value) {
+  const float v[3] = {static_cast<float>(value.x), static_cast<float>(value.y),
+                      static_cast<float>(value.z)};
+  program.SetUniform3f(name, v);
+}
+
+void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec2& value) {
+  const float v[2] = {static_cast<float>(value.x), static_cast<float>(value.y)};
+  program.SetUniform2f(name, v);
+}
+
+void SetUniform(vtkShaderProgram& program, const char* name, double value) {
+  program.SetUniformf(name, static_cast<float>(value));
+}
+
+}  // namespace
+
+BackdropProp::BackdropProp() = default;
+BackdropProp::~BackdropProp() = default;
+
+double BackdropProp::light_reach() const { return kLightReach * backdrop_.radius; }
+
+std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
+                                 const DepthMap& depth, const Backdrop& backdrop) {
+  backdrop_ = backdrop;
+  GLint max_size = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
+  const BackdropTexture texture =
+      MakeBackdropTexture(panorama, depth, backdrop.projection, max_size);
+  texture_pixels_ = glm::dvec2(texture.width, texture.height) * double(texture.reduction);
+  wraps_ = texture.wraps;
+  mean_colour_ = texture.mean_colour;
+  bright_colour_ = texture.bright_colour;
+
+  panorama_->ReleaseGraphicsResources(window);
+  panorama_->SetContext(window);
+  panorama_->SetGenerateMipmap(true);
+  panorama_->SetMaxLevel(
+      static_cast<int>(std::floor(std::log2(std::max(texture.width, texture.height)))));
+  panorama_->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
+  panorama_->SetMagnificationFilter(vtkTextureObject::Linear);
+  panorama_->SetMaximumAnisotropicFiltering(1.0f);
+  panorama_->SetWrapS(wraps_ ? vtkTextureObject::Repeat : vtkTextureObject::ClampToEdge);
+  panorama_->SetWrapT(vtkTextureObject::ClampToEdge);
+  // VTK takes a non-const pointer but only reads.
+  panorama_->Create2DFromRaw(static_cast<unsigned>(texture.width),
+                             static_cast<unsigned>(texture.height), 4, VTK_UNSIGNED_CHAR,
+                             const_cast<std::uint8_t*>(texture.rgba.data()));
+  panorama_->Bind();
+  glGenerateMipmap(GL_TEXTURE_2D);
+
+  float bare = 0.0f;
+  const bool has_relief = !texture.relief.empty();
+  relief_->ReleaseGraphicsResources(window);
+  relief_->SetContext(window);
+  relief_->SetMinificationFilter(vtkTextureObject::Linear);
+  relief_->SetMagnificationFilter(vtkTextureObject::Linear);
+  relief_->SetWrapS(wraps_ ? vtkTextureObject::Repeat : vtkTextureObject::ClampToEdge);
+  relief_->SetWrapT(vtkTextureObject::ClampToEdge);
+  relief_->Create2DFromRaw(static_cast<unsigned>(has_relief ? texture.width : 1),
+                           static_cast<unsigned>(has_relief ? texture.height : 1), 1, VTK_FLOAT,
+                           has_relief ? const_cast<float*>(texture.relief.data()) : &bare);
+  if (texture.reduction == 1) return {};
+  return fmt::format(
+      "the panorama of {}x{} pixels is drawn {} times smaller: this graphics card takes at most "
+      "{} a side",
+      panorama.width, panorama.height, texture.reduction, max_size);
+}
+
+void BackdropProp::SetPicture(const Picture& picture, int size) {
+  picture_ = picture;
+  size_ = size;
+}
+
+int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
+  if (!window || !panorama_->GetHandle()) return 0;
+  if (!quad_) {
+    const std::string source = std::string(kHead) + kDepthShader + kLightShader + kMain;
+    quad_ = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), nullptr);
+  } else {
+    window->GetShaderCache()->ReadyShaderProgram(quad_->Program);
+  }
+  if (!quad_->Program) return 0;
+
+  vtkOpenGLState* state = window->GetState();
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDepthFunc(GL_ALWAYS);
+  panorama_->Activate();
+  relief_->Activate();
+  SetUniforms();
+  quad_->Render();
+  relief_->Deactivate();
+  panorama_->Deactivate();
+  state->vtkglDepthFunc(GL_LEQUAL);
+  return 1;
+}
+
+void BackdropProp::SetUniforms() {
+  vtkShaderProgram& program = *quad_->Program;
+  const simulation::ScopeView& view = picture_.view;
+  const Projection& projection = backdrop_.projection;
+  const bool equirectangular = projection.type == ProjectionType::kEquirectangular;
+  // Double precision until here: 1 - |tip|² is a small difference when the tip nears the sphere.
+  const glm::dvec3 tip = view.tip / backdrop_.radius;
+  program.SetUniformi("panorama", panorama_->GetTextureUnit());
+  program.SetUniformi("relief", relief_->GetTextureUnit());
+  SetUniform(program, "tip", tip);
+  SetUniform(program, "clearance", 1.0 - glm::dot(tip, tip));
+  SetUniform(program, "viewAxis", view.view);
+  SetUniform(program, "upAxis", view.up);
+  SetUniform(program, "rightAxis", view.right);
+  SetUniform(program, "lensScale", std::sin(picture_.field_of_view / 4.0));
+  SetUniform(program, "windowRadius", size_ / 2.0);
+  program.SetUniformi("equirectangular", equirectangular ? 1 : 0);
+  program.SetUniformi("wraps", wraps_ ? 1 : 0);
+  program.SetUniformi("plain", picture_.plain ? 1 : 0);
+  // Pixel (0, 0) is the middle of the first texel.
+  const double pixels =
+      equirectangular ? DegreesFromRadians(projection.px_per_deg) : projection.focal_px;
+  SetUniform(program, "centre", (projection.centre_px + 0.5) / texture_pixels_);
+  SetUniform(program, "scale", pixels / texture_pixels_);
+  SetUniform(program, "radius", backdrop_.radius);
+  SetUniform(program, "nearest", kNearest);
+  SetUniform(program, "farthest", kFarthest);
+  SetUniform(program, "lightReach", light_reach());
+  // Neutral and dark, but not the black of the window's surround.
+  SetUniform(program, "endColour", glm::dvec3(0.105, 0.102, 0.1));
+  SetUniform(program, "notch", glm::dvec2(std::sin(picture_.notch), std::cos(picture_.notch)));
+}
+
+void BackdropProp::ReleaseGraphicsResources(vtkWindow* window) {
+  if (quad_) quad_->ReleaseGraphicsResources(window);
+  quad_.reset();
+  panorama_->ReleaseGraphicsResources(window);
+  relief_->ReleaseGraphicsResources(window);
+  Superclass::ReleaseGraphicsResources(window);
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,27 @@
+// VTK's window over whatever OpenGL context is current: the application's GLFW window, or an
+// OffscreenContext. Draws into its own framebuffer only; the caller shows or reads its texture.
+#pragma once
+
+#include <vtkGenericOpenGLRenderWindow.h>
+
+namespace arthro::app {
+
+class ContextRenderWindow : public vtkGenericOpenGLRenderWindow {
+ public:
+  static ContextRenderWindow* New();
+  vtkTypeMacro(ContextRenderWindow, vtkGenericOpenGLRenderWindow);
+
+  // Debian's GLEW asks GLX for a display even when EGL holds the context; see the .cpp.
+  void OpenGLInitContext() override;
+  // False where the context's OpenGL is too old or could not be loaded.
+  bool IsReady() const { return Initialized && GlewInitValid; }
+  // The caller keeps its context current.
+  void MakeCurrent() override {}
+  bool IsCurrent() override { return true; }
+
+ protected:
+  ContextRenderWindow();
+  ~ContextRenderWindow() override = default;
+};
+
+}  // namespace arthro::app

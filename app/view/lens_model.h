@@ -1,0 +1,58 @@
+// A surface as the arthroscope's lens bends it: a VTK actor whose vertex shader lays each vertex
+// where the equisolid window shows it, with the backdrop's own depth, and whose fragment shader
+// lights it from the lens.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkOpenGLPolyDataMapper.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include "simulation/core/frames.h"
+#include "simulation/scene/surface_mesh.h"
+
+namespace arthro::app {
+
+// What every model of a frame shares.
+struct LensFrame {
+  double field_of_view = 1.57;   // full, rad
+  double window_radius = 256;    // px
+  double light_reach = 0.03;     // m
+  glm::dvec3 light_colour{1.0};  // linear: what the lamp and the camera make of white
+  glm::dvec3 surround{0.2};      // linear: what a shining surface mirrors
+};
+
+class LensModel {
+ public:
+  enum class Look { kTissue, kSteel };
+  explicit LensModel(Look look);
+
+  vtkActor* actor() { return actor_; }
+  void Show(bool visible) { actor_->SetVisibility(visible && !triangles_.empty() ? 1 : 0); }
+  void SetSurface(const SurfaceMesh& surface);
+  void SetVertices(std::span<const glm::dvec3> vertices);
+  void SetPose(const Pose& portal_from_model);
+  void SetColour(const glm::dvec3& linear_rgb);
+  void SetFrame(const LensFrame& frame);
+  // Steel only: nothing is drawn further than this behind the origin along z, m.
+  void SetLength(double length);
+
+ private:
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<glm::dvec3> normals_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkFloatArray> normal_array_;
+  vtkNew<vtkPolyData> data_;
+  vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+};
+
+}  // namespace arthro::app

@@ -1,0 +1,80 @@
+#include "app/view/probe_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace arthro::app {
+namespace {
+
+// A cross-section of the sweep: a circle about `centre`, across the path's direction in the yz
+// plane.
+struct Ring {
+  double y, z;   // centre
+  double angle;  // of the path, from +z towards +y
+  double radius;
+};
+
+std::vector<Ring> RingsOf(const ProbeShape& s) {
+  std::vector<Ring> rings;
+  const double bend = 1.6 * s.neck_radius;  // of the centre line
+  const double elbow = -s.neck_radius - bend;
+
+  // Shaft and taper: smooth at both ends.
+  const int straight = static_cast<int>(std::ceil((s.shaft_length + elbow) / s.ring_spacing));
+  for (int i = 0; i <= straight; ++i) {
+    const double z = -s.shaft_length + (s.shaft_length + elbow) * i / straight;
+    const double t = std::clamp((z - (elbow - s.taper_length)) / s.taper_length, 0.0, 1.0);
+    const double smooth = t * t * (3.0 - 2.0 * t);
+    rings.push_back({0.0, z, 0.0, s.shaft_radius + (s.neck_radius - s.shaft_radius) * smooth});
+  }
+  // The bend, and the hook that thins to its end.
+  const double hook_end = s.hook_length - s.point_radius;
+  const double path = bend * std::numbers::pi / 2 + std::max(hook_end - bend, 0.0);
+  const auto radius_at = [&](double along) {
+    return s.neck_radius + (s.point_radius - s.neck_radius) * std::min(along / path, 1.0);
+  };
+  constexpr int kBendSteps = 12, kHookSteps = 8, kCapSteps = 6;
+  for (int i = 1; i <= kBendSteps; ++i) {
+    const double angle = std::numbers::pi / 2 * i / kBendSteps;
+    rings.push_back({bend * (1.0 - std::cos(angle)), elbow + bend * std::sin(angle), angle,
+                     radius_at(bend * angle)});
+  }
+  for (int i = 1; i <= kHookSteps; ++i) {
+    const double y = bend + (hook_end - bend) * i / kHookSteps;
+    rings.push_back({y, -s.neck_radius, std::numbers::pi / 2,
+                     radius_at(bend * std::numbers::pi / 2 + y - bend)});
+  }
+  // Rounded end.
+  for (int i = 1; i <= kCapSteps; ++i) {
+    const double a = std::numbers::pi / 2 * i / kCapSteps;
+    rings.push_back({hook_end + s.point_radius * std::sin(a), -s.neck_radius, std::numbers::pi / 2,
+                     s.point_radius * std::max(std::cos(a), 1e-3)});
+  }
+  return rings;
+}
+
+}  // namespace
+
+SurfaceMesh MakeProbeMesh(const ProbeShape& shape) {
+  SurfaceMesh mesh;
+  const std::vector<Ring> rings = RingsOf(shape);
+  for (const Ring& ring : rings)
+    for (int i = 0; i < shape.sides; ++i) {
+      const double a = 2.0 * std::numbers::pi * i / shape.sides;
+      // Across the path: x, and the path's direction turned back by a right angle.
+      const double x = ring.radius * std::cos(a), across = ring.radius * std::sin(a);
+      mesh.vertices.push_back(
+          {x, ring.y + across * std::cos(ring.angle), ring.z - across * std::sin(ring.angle)});
+    }
+  const int sides = shape.sides;
+  for (int r = 0; r + 1 < static_cast<int>(rings.size()); ++r)
+    for (int i = 0; i < sides; ++i) {
+      const int a = r * sides + i, b = r * sides + (i + 1) % sides;
+      mesh.triangles.push_back({a, b, b + sides});
+      mesh.triangles.push_back({a, b + sides, a + sides});
+    }
+  return mesh;
+}
+
+}  // namespace arthro::app

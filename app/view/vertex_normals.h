@@ -1,0 +1,18 @@
+// Smooth normals of a surface: the sum of the adjoining triangles' normals by area, unit; (0, 0, 1)
+// for a vertex without area.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace arthro::app {
+
+// `normals` keeps its storage from call to call.
+void ComputeVertexNormals(std::span<const glm::dvec3> vertices,
+                          std::span<const std::array<int, 3>> triangles,
+                          std::vector<glm::dvec3>& normals);
+
+}  // namespace arthro::app
