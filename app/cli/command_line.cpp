@@ -31,6 +31,7 @@ int RunCommandLine(int argc, char** argv) {
   AddCheckJob(program);
   AddPivotJob(program);
   AddReplayJob(program);
+  AddTetrahedralizeJob(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

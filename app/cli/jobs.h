@@ -12,5 +12,6 @@ void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
+void AddTetrahedralizeJob(CLI::App& program);
 
 }  // namespace arthro::app

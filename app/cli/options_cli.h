@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -49,7 +50,12 @@ struct CliVisitor {
     } else if constexpr (std::is_same_v<T, double>) {
       const double factor = border.factor;
       auto* option = job.add_option_function<double>(
-          flag, [target, factor](double shown) { *target = shown / factor; }, text);
+          flag,
+          [target, factor, flag](double shown) {
+            if (!std::isfinite(shown)) throw CLI::ValidationError(flag, "must be a finite number");
+            *target = shown / factor;
+          },
+          text);
       if constexpr (std::is_same_v<R, Range>)
         option->check(CLI::Range(range.min * factor, range.max * factor));
       option->default_str(fmt::format("{:g}", field * factor))->group(group);

@@ -1,0 +1,110 @@
+#include "authoring/tissue/tet_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::authoring {
+namespace {
+
+constexpr std::array<std::array<int, 2>, 6> kEdges = {
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};  // in VTK's order of mid nodes
+constexpr std::array<std::array<int, 3>, 4> kFaces = {{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+
+int EdgeBetween(int a, int b) {
+  for (int i = 0; i < 6; ++i)
+    if ((kEdges[i][0] == a && kEdges[i][1] == b) || (kEdges[i][0] == b && kEdges[i][1] == a))
+      return i;
+  return -1;
+}
+
+}  // namespace
+
+TetQuality MeasureTets(const TetMesh& mesh) {
+  TetQuality quality;
+  const int count = mesh.ElementCount(), nodes = mesh.NodesPerElement();
+  if (count == 0) return quality;
+  quality.min_dihedral = std::numbers::pi;
+  quality.worst_relative_volume = std::numeric_limits<double>::infinity();
+  std::vector<double> edges;
+  edges.reserve(6 * static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const int* node = &mesh.elements[static_cast<std::size_t>(i) * nodes];
+    std::array<glm::dvec3, 4> x;
+    for (int k = 0; k < 4; ++k) x[k] = mesh.rest_positions[node[k]];
+    const glm::dvec3 u = x[1] - x[0], v = x[2] - x[0], w = x[3] - x[0];
+    const double six_volumes = glm::dot(glm::cross(u, v), w);
+    quality.volume += six_volumes / 6.0;
+    quality.inverted += !(six_volumes > 0);
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (const auto& [a, b] : kEdges) {
+      const double length = glm::distance(x[a], x[b]);
+      edges.push_back(length);
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+    quality.worst_relative_volume =
+        std::min(quality.worst_relative_volume, six_volumes / 6.0 / (longest * longest * longest));
+    const glm::dvec3 centre = glm::dot(u, u) * glm::cross(v, w) +
+                              glm::dot(v, v) * glm::cross(w, u) + glm::dot(w, w) * glm::cross(u, v);
+    quality.worst_radius_edge = std::max(
+        quality.worst_radius_edge, glm::length(centre) / (2.0 * std::abs(six_volumes)) / shortest);
+    // The angle at edge ab is that between its two faces, seen along the edge.
+    for (const auto& [a, b] : kEdges) {
+      int c = 0;
+      while (c == a || c == b) ++c;
+      const int d = 6 - a - b - c;
+      const glm::dvec3 along = glm::normalize(x[b] - x[a]);
+      const glm::dvec3 p = x[c] - x[a], q = x[d] - x[a];
+      const glm::dvec3 to_c = p - along * glm::dot(along, p), to_d = q - along * glm::dot(along, q);
+      const double angle = std::atan2(glm::length(glm::cross(to_c, to_d)), glm::dot(to_c, to_d));
+      quality.min_dihedral = std::min(quality.min_dihedral, angle);
+      quality.max_dihedral = std::max(quality.max_dihedral, angle);
+    }
+  }
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), middle, edges.end());
+  quality.median_edge = *middle;
+  quality.longest_edge = *std::max_element(edges.begin(), edges.end());
+  return quality;
+}
+
+std::vector<std::uint8_t> SurfaceNodes(const TetMesh& mesh) {
+  struct Face {
+    std::array<int, 3> corners;  // ascending
+    int element, face;
+  };
+  const int nodes = mesh.NodesPerElement();
+  std::vector<Face> faces;
+  faces.reserve(4 * static_cast<std::size_t>(mesh.ElementCount()));
+  for (int i = 0; i < mesh.ElementCount(); ++i)
+    for (int k = 0; k < 4; ++k) {
+      Face face{{}, i, k};
+      for (int c = 0; c < 3; ++c)
+        face.corners[c] = mesh.elements[static_cast<std::size_t>(i) * nodes + kFaces[k][c]];
+      std::sort(face.corners.begin(), face.corners.end());
+      faces.push_back(face);
+    }
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& f, const Face& g) { return f.corners < g.corners; });
+  std::vector<std::uint8_t> on_surface(mesh.rest_positions.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const bool shared = (i > 0 && faces[i].corners == faces[i - 1].corners) ||
+                        (i + 1 < faces.size() && faces[i].corners == faces[i + 1].corners);
+    if (shared) continue;
+    const int* node = &mesh.elements[static_cast<std::size_t>(faces[i].element) * nodes];
+    const auto& face = kFaces[faces[i].face];
+    for (int c = 0; c < 3; ++c) {
+      on_surface[node[face[c]]] = 1;
+      if (mesh.order == 2) on_surface[node[4 + EdgeBetween(face[c], face[(c + 1) % 3])]] = 1;
+    }
+  }
+  return on_surface;
+}
+
+}  // namespace arthro::authoring

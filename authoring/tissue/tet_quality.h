@@ -1,0 +1,26 @@
+// How good a tetrahedral mesh is, from its corners. Lengths in m, angles in rad.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulation/scene/tet_mesh.h"
+
+namespace arthro::authoring {
+
+struct TetQuality {
+  double volume = 0;                          // m³, of all elements
+  double min_dihedral = 0, max_dihedral = 0;  // worst of all elements
+  double worst_radius_edge = 0;               // circumradius over shortest edge; 0.612 is regular
+  double worst_relative_volume = 0;           // least volume over longest edge cubed; 0.118 regular
+  double longest_edge = 0, median_edge = 0;   // m
+  int inverted = 0;                           // elements without positive volume
+};
+
+TetQuality MeasureTets(const TetMesh& mesh);
+
+// 1 for each node on the outer surface: corners of faces that only one element has, and the middles
+// of their sides.
+std::vector<std::uint8_t> SurfaceNodes(const TetMesh& mesh);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,312 @@
+#include "authoring/tissue/tetrahedralize.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <optional>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "authoring/tissue/child_process.h"
+#include "authoring/tissue/tetgen_worker.h"
+#include "simulation/core/error.h"
+#include "simulation/core/options_json.h"
+#include "simulation/core/units.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Elements per cube of the longest allowed edge, measured on cubes and spheres; and the most that
+// are begun with: more would not be solved at all.
+constexpr double kElementsPerCube = 33.0, kMostElements = 2e6;
+// Below this share of a regular element's shape, a solver's answer is not trusted.
+constexpr double kSliverVolume = 1e-9;
+// TetGen is given a diagonal of 64 to 128, scaled by a power of two, which changes no bit.
+constexpr int kDiagonalExponent = 7;
+constexpr int kMostEdgePasses = 4;
+// Facets this near to one plane, in degrees, may be filled as one; TetGen's own 179.9 costs up to
+// 1e-6 of a real meniscus's volume.
+constexpr double kFlatAngle = 179.9999;
+// Elements flatter than this, in degrees, are smoothed at the end. TetGen's own is 165. Not
+// together with a longest edge, which that smoothing stretches by a fifth.
+constexpr double kMaxDihedral = 150.0;
+
+double MsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// A folder for one run of the mesher.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::error_code fault;
+    std::string name = (fs::temp_directory_path(fault) / "arthroscene_XXXXXX").string();
+    if (fault || ::mkdtemp(name.data()) == nullptr)
+      throw Error(Code::kFile, "a temporary folder could not be made; set TMPDIR", name);
+    path_ = name;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string SayTetgenCode(int code) {
+  switch (code) {
+    case 2:
+      return "an internal error of TetGen";
+    case 3:
+      return "TetGen found a self-intersection";
+    case 4:
+      return "TetGen found two corners nearly on one another";
+    case 5:
+      return "TetGen found two facets nearly on one another";
+    default:
+      return fmt::format("TetGen refused the surface (its code {})", code);
+  }
+}
+
+std::string Say(const ChildResult& result) {
+  if (result.end == ChildResult::End::kTimedOut) return "TetGen did not finish in time";
+  if (result.end == ChildResult::End::kSignalled)
+    return result.code == SIGXCPU ? "TetGen did not finish in time"
+                                  : fmt::format("TetGen crashed ({})", ::strsignal(result.code));
+  if (result.code == kWorkerDone) return "done";
+  if (result.code == kWorkerOutOfMemory) return "TetGen ran out of memory";
+  if (result.code >= kWorkerTetgen) return SayTetgenCode(result.code - kWorkerTetgen);
+  return "the mesher could not start its work: " + result.output;
+}
+
+struct Run {
+  const SurfaceMesh& surface;
+  const SurfaceSource& source;
+  const TetrahedralizeOptions& options;
+  const Progress& progress;
+  const fs::path& program;
+  TetrahedralizeReport& report;
+};
+
+// One child. Nothing when TetGen failed in a way that other switches may cure.
+std::optional<TetMesh> RunTetgen(const Run& run, const std::string& switches, double max_edge) {
+  int exponent = 0;
+  std::frexp(run.report.surface.Diagonal(), &exponent);
+  const double scale = std::ldexp(1.0, kDiagonalExponent - exponent);
+
+  TetgenJob job;
+  job.switches = switches;
+  job.flat_angle = kFlatAngle;
+  if (max_edge <= 0) job.max_dihedral = kMaxDihedral;
+  job.max_edge = max_edge * scale;
+  job.memory_limit = run.options.memory_limit * 1024 * 1024;
+  job.time_limit = run.options.time_limit;
+  for (const glm::dvec3& x : run.surface.vertices) job.points.push_back(x * scale);
+  job.triangles = run.surface.triangles;
+  WorkFolder folder;
+  WriteTetgenJob(folder.path(), job);
+  const ChildResult result = RunChild(run.program, {"tetgen-worker", folder.path().string()},
+                                      run.options.time_limit, run.progress);
+  const std::string said = Say(result);
+  run.report.attempts.push_back({switches, said});
+  if (said == "TetGen did not finish in time")
+    throw Error(Code::kBadMesh,
+                fmt::format("{} ({:g} s); use a larger --max-edge-mm, a surface of fewer triangles "
+                            "(this one has {}), or a longer --time-limit",
+                            said, run.options.time_limit, run.surface.triangles.size()),
+                run.source.file);
+  if (said == "TetGen ran out of memory")
+    throw Error(
+        Code::kBadMesh,
+        fmt::format("{} ({:g} MB); use a larger --max-edge-mm, a surface of fewer triangles "
+                    "(this one has {}), or a larger --memory-limit",
+                    said, run.options.memory_limit, run.surface.triangles.size()),
+        run.source.file);
+  if (said != "done") return std::nullopt;
+  TetMesh mesh = ReadTetgenMesh(folder.path());
+  if (mesh.ElementCount() == 0) return std::nullopt;
+  for (glm::dvec3& x : mesh.rest_positions) x *= 1.0 / scale;
+  return mesh;
+}
+
+// Good elements first; when TetGen fails at that, the same without new nodes on the surface, which
+// it does more surely; last without any wish for quality.
+TetMesh Fill(const Run& run, double max_edge) {
+  const TetrahedralizeOptions& options = run.options;
+  const std::string quality =
+      fmt::format("q{:g}/{:g}", options.radius_edge, DegreesFromRadians(options.min_dihedral));
+  const std::string order = options.order == 2 ? "o2" : "";
+  // z: numbers from 0; Y: no new nodes on the surface; Q: silent.
+  for (const std::string& switches :
+       {"p" + quality + "zQ" + order, "pY" + quality + "zQ" + order, "pYzQ" + order}) {
+    if (auto mesh = RunTetgen(run, switches, max_edge)) return *std::move(mesh);
+  }
+  std::string tried;
+  for (const TetgenAttempt& attempt : run.report.attempts)
+    if (tried.find(attempt.result) == tried.npos)
+      tried += (tried.empty() ? "" : ", then ") + attempt.result;
+  throw Error(
+      Code::kBadMesh,
+      fmt::format("this surface could not be filled ({}); remesh it with more even triangles",
+                  tried),
+      run.source.file);
+}
+
+void RefuseTooMany(const SurfaceCheck& check, const SurfaceSource& source, double max_edge) {
+  if (max_edge <= 0) return;
+  const double expected = kElementsPerCube * check.volume / (max_edge * max_edge * max_edge);
+  if (expected <= kMostElements) return;
+  const double least = std::cbrt(kElementsPerCube * check.volume / kMostElements);
+  throw Error(Code::kBadMesh,
+              fmt::format("edges of at most {:g} mm would make about {:.2g} million elements; use "
+                          "--max-edge-mm {:.2g} or more",
+                          MmFromMetres(max_edge), expected * 1e-6, 1.05 * MmFromMetres(least)),
+              source.file);
+}
+
+void Warn(const Run& run) {
+  TetrahedralizeReport& report = run.report;
+  const TetQuality& quality = report.quality;
+  const auto warn = [&](std::string sentence) { report.warnings.push_back(std::move(sentence)); };
+  if (report.surface.tiny_components.count > 0)
+    warn(
+        fmt::format("{} of {} separate parts are tiny and will float freely; --drop-below 0.001 "
+                    "drops them",
+                    report.surface.tiny_components.count, report.surface.components));
+  if (report.attempts.size() > 1 && report.attempts.front().result != "done")
+    warn("no node could be added on the surface (" + report.attempts.front().result +
+         "), so elements there are as uneven as its triangles");
+  if (quality.min_dihedral < run.options.min_dihedral)
+    warn(
+        fmt::format("the flattest dihedral angle is {:.2f} degrees; the surface has sharp edges or "
+                    "uneven triangles",
+                    DegreesFromRadians(quality.min_dihedral)));
+  if (quality.worst_relative_volume < kSliverVolume)
+    warn("there are nearly flat elements; remesh the surface with more even triangles");
+  if (run.options.max_edge > 0 && quality.longest_edge > run.options.max_edge)
+    warn(fmt::format("the longest edge is {:.4g} mm, more than the {:g} mm asked for",
+                     MmFromMetres(quality.longest_edge), MmFromMetres(run.options.max_edge)));
+}
+
+}  // namespace
+
+TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
+                       const TetrahedralizeOptions& options, TetrahedralizeReport* report,
+                       const Progress& progress, const fs::path& program) {
+  TetrahedralizeReport own_report;
+  TetrahedralizeReport& result = report ? *report : own_report;
+  CheckOptions(options);
+
+  // Size first: with a wrong unit every other sentence would be misleading.
+  progress.Step("checking the surface", 0.0);
+  const auto check_start = Clock::now();
+  RepairedSurface repaired = RepairSurface(surface, {options.fill_holes, options.drop_below});
+  SurfaceSource repaired_source = source;
+  repaired_source.triangle_in_file = repaired.source_triangle;
+  result.repairs = repaired.repairs;
+  result.surface = CheckSurface(repaired.surface);
+  RequireTissueSize(result.surface, repaired_source);
+  RequireMeshable(result.surface, repaired_source);
+  RefuseTooMany(result.surface, source, options.max_edge);
+  result.check_ms = MsSince(check_start);
+
+  // TetGen's last smoothing can stretch an edge a little past the limit; then once more, tighter.
+  progress.Step("filling it with tetrahedra", 0.1);
+  const auto mesh_start = Clock::now();
+  const Run run{repaired.surface, source, options, progress, program, result};
+  TetMesh mesh;
+  double max_edge = options.max_edge;
+  for (int pass = 0; pass < kMostEdgePasses; ++pass) {
+    mesh = Fill(run, max_edge);
+    result.quality = MeasureTets(mesh);
+    const double excess = options.max_edge > 0 ? result.quality.longest_edge / options.max_edge : 0;
+    // Without nodes on the surface, its own edges stay as long as they are.
+    if (excess <= 1.0 || result.attempts.back().switches.find('Y') != std::string::npos) break;
+    max_edge *= 0.98 / excess;
+  }
+  result.mesh_ms = MsSince(mesh_start);
+
+  progress.Step("measuring the elements", 0.9);
+  const auto measure_start = Clock::now();
+  mesh.sets["surface"] = SurfaceNodes(mesh);
+  result.nodes = static_cast<int>(mesh.rest_positions.size());
+  result.elements = mesh.ElementCount();
+  result.surface_nodes = static_cast<int>(
+      std::count(mesh.sets["surface"].begin(), mesh.sets["surface"].end(), std::uint8_t{1}));
+  result.volume_error =
+      std::abs(result.quality.volume - result.surface.volume) / result.surface.volume;
+  result.measure_ms = MsSince(measure_start);
+  if (result.quality.inverted > 0 || result.volume_error > 1e-3)
+    throw Error(Code::kBadMesh,
+                fmt::format("TetGen's mesh is unsound ({} elements without volume, volume off by "
+                            "{:.2g}); remesh the surface with more even triangles",
+                            result.quality.inverted, result.volume_error),
+                source.file);
+  Warn(run);
+  progress.Step("done", 1.0);
+  return mesh;
+}
+
+nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSource& source,
+                          const TetrahedralizeOptions& options) {
+  const SurfaceRepairs& repairs = report.repairs;
+  const SurfaceCheck& surface = report.surface;
+  const TetQuality& quality = report.quality;
+  nlohmann::json attempts = nlohmann::json::array();
+  for (const TetgenAttempt& attempt : report.attempts)
+    attempts.push_back({{"switches", attempt.switches}, {"result", attempt.result}});
+  const glm::dvec3 size = surface.high - surface.low;
+  return {
+      {"schema", "arthroscene.tetrahedralize/1"},
+      {"input", {{"file", source.file.string()}, {"unit", source.unit}}},
+      {"order", options.order},
+      {"nodes", report.nodes},
+      {"elements", report.elements},
+      {"surface_nodes", report.surface_nodes},
+      {"volume", quality.volume},
+      {"volume_error", report.volume_error},
+      {"min_dihedral_deg", DegreesFromRadians(quality.min_dihedral)},
+      {"max_dihedral_deg", DegreesFromRadians(quality.max_dihedral)},
+      {"worst_radius_edge", quality.worst_radius_edge},
+      {"worst_relative_volume", quality.worst_relative_volume},
+      {"longest_edge", quality.longest_edge},
+      {"median_edge", quality.median_edge},
+      {"surface",
+       {{"vertices", surface.vertices},
+        {"triangles", surface.triangles},
+        {"components", surface.components},
+        {"volume", surface.volume},
+        {"area", surface.area},
+        {"size", {size.x, size.y, size.z}}}},
+      {"repairs",
+       {{"merged_vertices", report.reading.merged_vertices},
+        {"polygons_split", report.reading.polygons_split},
+        {"welded_vertices", repairs.welded_vertices},
+        {"degenerate_triangles", report.reading.degenerate_triangles + repairs.collapsed_triangles},
+        {"flattened_triangles", repairs.flattened_triangles},
+        {"duplicate_triangles", repairs.duplicate_triangles},
+        {"unreferenced_vertices",
+         report.reading.unreferenced_vertices + repairs.unreferenced_vertices},
+        {"filled_holes", repairs.filled_holes},
+        {"reoriented_triangles", repairs.reoriented_triangles},
+        {"flipped_components", repairs.flipped_components},
+        {"dropped_components", repairs.dropped_components}}},
+      {"attempts", attempts},
+      {"warnings", report.warnings},
+      {"stages_ms",
+       {{"check", report.check_ms}, {"mesh", report.mesh_ms}, {"measure", report.measure_ms}}},
+      {"options", JsonFromOptions(options)},
+  };
+}
+
+}  // namespace arthro::authoring

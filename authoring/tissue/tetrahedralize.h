@@ -1,0 +1,86 @@
+// From a closed surface to a tetrahedral mesh: repair what is safe, refuse what is not, let TetGen
+// fill the rest in a process of its own, and measure what came out. Metres.
+#pragma once
+
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "authoring/tissue/surface_check.h"
+#include "authoring/tissue/surface_repair.h"
+#include "authoring/tissue/tet_quality.h"
+#include "simulation/core/options.h"
+#include "simulation/core/progress.h"
+#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/tet_mesh.h"
+
+namespace arthro::authoring {
+
+struct TetrahedralizeOptions {
+  int order = 1;
+  double max_edge = 0.0;
+  double min_dihedral = 10.0 * std::numbers::pi / 180.0;
+  double radius_edge = 1.4;
+  int fill_holes = 0;
+  double drop_below = 0.0;
+  double time_limit = 120.0;
+  double memory_limit = 2048.0;
+  template <class V>
+  void Visit(V&& v) {
+    v("order", order, Range{1, 2}, "",
+      "1: four nodes an element; 2: ten, with the middles of the edges. Ten bend and swell far "
+      "more "
+      "truly for the same number of nodes.");
+    v("max_edge", max_edge, Range{0.0, 1.0}, "m",
+      "No edge is longer than this; 0: as coarse as the surface allows.");
+    v("min_dihedral", min_dihedral, Range{0.0, std::numbers::pi / 10}, "rad",
+      "Elements with a flatter dihedral angle are refined where the surface lets them.");
+    v("radius_edge", radius_edge, Range{1.1, 10.0}, "",
+      "Elements whose circumradius is more than so many shortest edges are refined.");
+    v("fill_holes", fill_holes, Range{0, 100}, "",
+      "Holes of at most so many sides are closed; 0: an open surface is refused.");
+    v("drop_below", drop_below, Range{0.0, 0.5}, "",
+      "Separate parts with a smaller share of the whole volume are dropped.");
+    v("time_limit", time_limit, Range{0.01, 86400.0}, "s", "The mesher is ended after this.");
+    v("memory_limit", memory_limit, Range{1.0, 1048576.0}, "MB",
+      "The mesher may use so much memory.");
+  }
+};
+
+// One run of TetGen and how it ended, in words.
+struct TetgenAttempt {
+  std::string switches, result;
+};
+
+struct TetrahedralizeReport {
+  SurfaceReadReport reading;
+  SurfaceRepairs repairs;
+  SurfaceCheck surface;  // that was filled, after repairs
+  TetQuality quality;
+  int nodes = 0, elements = 0, surface_nodes = 0;
+  double volume_error = 0;  // elements against surface, relative
+  std::vector<TetgenAttempt> attempts;
+  std::vector<std::string> warnings;
+  double check_ms = 0, mesh_ms = 0, measure_ms = 0;
+};
+
+// The program that RunTetgenWorker (tetgen_worker.h) can be reached through: this one, unless a
+// test says otherwise.
+inline const std::filesystem::path kThisProgram = "/proc/self/exe";
+
+// The mesh has the surface's vertices first, unmoved, and a set "surface". Throws Error(kBadMesh)
+// with one sentence: which fault, where in the file's unit, what to do.
+TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
+                       const TetrahedralizeOptions& options, TetrahedralizeReport* report,
+                       const Progress& progress = {},
+                       const std::filesystem::path& program = kThisProgram);
+
+// arthroscene.tetrahedralize/1.
+nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSource& source,
+                          const TetrahedralizeOptions& options);
+
+}  // namespace arthro::authoring
