@@ -29,6 +29,7 @@ int RunCommandLine(int argc, char** argv) {
   program.require_subcommand(0, 1);
   AddCentresJob(program);
   AddCheckJob(program);
+  AddDepthJob(program);
   AddPivotJob(program);
   AddReplayJob(program);
   AddTetrahedralizeJob(program);

@@ -10,6 +10,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
 #include "simulation/core/options.h"
 #include "simulation/core/options_json.h"
 
@@ -72,6 +74,26 @@ template <class Options>
 void AddOptions(CLI::App& job, Options& options, const std::string& group = "Options") {
   CliVisitor visitor{job, group};
   options.Visit(visitor);
+}
+
+// --options FILE: options as JSON. Flags win over the file wherever they stand on the line, since
+// the file is read as soon as it is named and flags are applied at the end.
+template <class Options>
+void AddOptionsFile(CLI::App& job, Options& options) {
+  job.add_option_function<std::string>(
+         "--options",
+         [&options](const std::string& file) {
+           nlohmann::json json;
+           try {
+             json = nlohmann::json::parse(ReadWholeFile(file));
+           } catch (const nlohmann::json::exception&) {
+             throw Error(Code::kBadData, "these options are not JSON; mend or leave them out",
+                         file);
+           }
+           options = OptionsFromJson<Options>(json, file, options);
+         },
+         "JSON file with options; flags win over it")
+      ->trigger_on_parse();
 }
 
 }  // namespace arthro::app

@@ -1,0 +1,67 @@
+// arthroscene depth PANORAMA -o depth.tiff: relief from brightness [paper 3.4].
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/job_progress.h"
+#include "app/cli/jobs.h"
+#include "app/cli/options_cli.h"
+#include "authoring/depth/depth_filter.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/image_io.h"
+
+namespace arthro::app {
+namespace {
+
+struct DepthJob {
+  std::string panorama, output;
+  authoring::DepthOptions options;
+};
+
+void Run(const DepthJob& job) {
+  authoring::CheckDepthOptions(job.options);
+  const ColourImage panorama = ReadColourImage(job.panorama);
+  authoring::DepthReport report;
+  const DepthMap depth =
+      authoring::DepthFromColour(panorama, job.options, &report, TerminalProgress());
+  if (report.imaged_share == 0.0)
+    throw Error(Code::kBadImage,
+                "this picture is nothing but dark surround; lower --surround-threshold or take "
+                "another picture",
+                job.panorama);
+  WriteDepthMap(job.output, depth);
+  const auto warn = [&](const char* sentence) {
+    fmt::print(stderr, "warning: {}: {}\n", job.panorama, sentence);
+  };
+  if (report.is_flat) warn("it has one grey throughout, so all of it lies at the far relief");
+  if (report.is_overexposed)
+    warn("too much of it is saturated to be glints; it was taken as near tissue");
+  if (job.output == "-") return;  // standard output holds the picture
+  fmt::print(
+      "{}: {} x {} px, {:.1f} % imaged, {:.2f} % of it glints, greys {:.1f} to {:.1f} "
+      "became {:g} to {:g} mm\n",
+      job.output, depth.width, depth.height, 100.0 * report.imaged_share,
+      100.0 * report.highlight_share, report.low_grey, report.high_grey,
+      MmFromMetres(job.options.far_relief), MmFromMetres(job.options.near_relief));
+}
+
+}  // namespace
+
+void AddDepthJob(CLI::App& program) {
+  CLI::App* job = program.add_subcommand(
+      "depth", "Estimate the relief of a panorama from its brightness: bright is near.");
+  const auto own = std::make_shared<DepthJob>();
+  job->add_option("PANORAMA", own->panorama, "Picture: PNG, JPEG or TIFF")->required();
+  job->add_option("-o,--output", own->output,
+                  "32-bit float TIFF of the same size, in metres; - for standard output")
+      ->required();
+  AddOptionsFile(*job, own->options);
+  AddOptions(*job, own->options);
+  job->callback([own] { Run(*own); });
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,171 @@
+#include "authoring/depth/depth_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "authoring/depth/grey_plane.h"
+#include "authoring/depth/highlight_fill.h"
+#include "authoring/depth/imaged_area.h"
+#include "authoring/depth/masked_median.h"
+#include "simulation/core/error.h"
+#include "simulation/core/options_json.h"
+
+namespace arthro::authoring {
+namespace {
+
+using Histogram = std::vector<std::uint64_t>;  // pixels by grey, kWhite + 1 entries
+
+// The glow around a glint, px: still brighter than the tissue's own light.
+constexpr int kGlow = 2;
+
+// More than this much at the sensor's end is overexposed tissue rather than glints.
+constexpr double kMostHighlights = 0.25;
+
+std::size_t Count(const std::vector<std::uint8_t>& marks) {
+  std::size_t count = 0;
+  for (const std::uint8_t mark : marks) count += mark;
+  return count;
+}
+
+void MaskSurround(GreyPlane& plane, const std::vector<std::uint8_t>& flags,
+                  const DepthOptions& options) {
+  const RowRuns dark = RunsOf(flags, plane.width, plane.height, kDark);
+  const RowRuns surround = SurroundOf(dark, flags, plane.width, plane.height);
+  const auto outside = Grow(surround, plane.width, plane.height, options.border_margin);
+  for (std::size_t i = 0; i < outside.size(); ++i) plane.imaged[i] = outside[i] ? 0 : 1;
+}
+
+void RemoveHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& flags, std::size_t imaged,
+                      DepthReport& report) {
+  const RowRuns saturated = RunsOf(flags, plane.width, plane.height, kSaturated);
+  if (std::all_of(saturated.begin(), saturated.end(), [](const auto& row) { return row.empty(); }))
+    return;
+  auto highlight = Grow(saturated, plane.width, plane.height, kGlow);
+  for (std::size_t i = 0; i < highlight.size(); ++i) highlight[i] &= plane.imaged[i];
+  report.highlight_share = static_cast<double>(Count(highlight)) / static_cast<double>(imaged);
+  report.is_overexposed = report.highlight_share > kMostHighlights;
+  if (!report.is_overexposed) FillHighlights(plane, highlight);
+}
+
+Histogram HistogramOf(const GreyPlane& plane) {
+  Histogram histogram(kWhite + 1, 0);
+  std::mutex mutex;  // sums of whole numbers, so the order of strips does not matter
+  ForStripsOfRows(plane.height, [&](int first, int last) {
+    std::vector<std::uint32_t> own(kWhite + 1, 0);
+    for (std::size_t i = plane.Index(0, first); i < plane.Index(0, last); ++i)
+      if (plane.imaged[i]) ++own[plane.grey[i]];
+    const std::lock_guard lock(mutex);
+    for (std::size_t grey = 0; grey < own.size(); ++grey) histogram[grey] += own[grey];
+  });
+  return histogram;
+}
+
+// The least grey that at least `percent` of the pixels do not pass.
+int Percentile(const Histogram& histogram, std::uint64_t pixels, double percent) {
+  const auto wanted = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(std::ceil(percent / 100.0 * static_cast<double>(pixels))));
+  std::uint64_t seen = 0;
+  for (std::size_t grey = 0; grey < histogram.size(); ++grey)
+    if ((seen += histogram[grey]) >= wanted) return static_cast<int>(grey);
+  return kWhite;
+}
+
+// How far away a grey lies, in the law's own unit: falls as grey grows.
+double DistanceOf(int grey, const DepthOptions& options) {
+  constexpr double kDarkest = 1.0 / 255.0;  // one step of the camera; below it there is no light
+  const double share = static_cast<double>(grey) / kWhite;
+  if (options.law == DepthLaw::kLinear) return 1.0 - share;
+  return 1.0 / std::sqrt(std::pow(std::max(share, kDarkest), options.gamma));
+}
+
+// Relief by grey. Exactly `far_relief` up to `low`, exactly `near_relief` from `high` on.
+std::vector<float> ReliefByGrey(int low, int high, const DepthOptions& options) {
+  std::vector<float> relief(kWhite + 1);
+  const double furthest = DistanceOf(low, options), nearest = DistanceOf(high, options);
+  for (int grey = 0; grey <= kWhite; ++grey) {
+    double nearness = 0.0;
+    if (grey >= high && high > low)
+      nearness = 1.0;
+    else if (grey > low && furthest > nearest)
+      nearness = (furthest - DistanceOf(grey, options)) / (furthest - nearest);
+    relief[grey] = static_cast<float>(options.far_relief +
+                                      nearness * (options.near_relief - options.far_relief));
+  }
+  return relief;
+}
+
+DepthMap Apply(const std::vector<float>& relief, const GreyPlane& plane) {
+  DepthMap depth(plane.width, plane.height);
+  ForStripsOfRows(plane.height, [&](int first, int last) {
+    for (std::size_t i = plane.Index(0, first); i < plane.Index(0, last); ++i)
+      depth.relief[i] =
+          plane.imaged[i] ? relief[plane.grey[i]] : std::numeric_limits<float>::quiet_NaN();
+  });
+  return depth;
+}
+
+}  // namespace
+
+void CheckDepthOptions(const DepthOptions& options) {
+  CheckOptions(options);
+  if (!(options.red_weight + options.green_weight + options.blue_weight > 0.0))
+    throw Error(Code::kBadArgument,
+                "the weights of red, green and blue are all 0; raise at least one");
+  if (!(options.low_percentile < options.high_percentile))
+    throw Error(Code::kBadArgument,
+                fmt::format("the low percentile, {:g}, must lie below the high one, {:g}",
+                            options.low_percentile, options.high_percentile));
+  if (!(options.far_relief <= options.near_relief))
+    throw Error(Code::kBadArgument,
+                fmt::format("far relief, {:g} mm, must not be larger than near relief, {:g} mm: "
+                            "relief grows towards the scope",
+                            1e3 * options.far_relief, 1e3 * options.near_relief));
+}
+
+DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& options,
+                         DepthReport* report, const Progress& progress) {
+  CheckDepthOptions(options);
+  DepthReport own;
+  DepthReport& told = report ? *report : own;
+  told = {};
+  if (panorama.empty()) return {};
+
+  // What was imaged, in one grey.
+  progress.Step("grey", 0.0);
+  std::vector<std::uint8_t> flags;
+  GreyPlane plane = GreyFromColour(panorama, options, flags);
+  MaskSurround(plane, flags, options);
+  const std::size_t imaged = Count(plane.imaged);
+  told.imaged_share = static_cast<double>(imaged) / static_cast<double>(plane.imaged.size());
+
+  // What is not depth: glints and noise.
+  progress.Step("highlights", 0.2);
+  if (options.fill_highlights && imaged > 0) RemoveHighlights(plane, flags, imaged, told);
+  progress.Step("median", 0.3);
+  MaskedMedian(plane, options.median_radius);
+
+  // The range of greys onto the range of relief. Where the percentiles meet although there is more
+  // than one grey, all greys count.
+  progress.Step("normalise", 0.8);
+  const Histogram histogram = HistogramOf(plane);
+  int low = Percentile(histogram, imaged, options.low_percentile);
+  int high = Percentile(histogram, imaged, options.high_percentile);
+  if (low == high) {
+    low = Percentile(histogram, imaged, 0.0);
+    high = Percentile(histogram, imaged, 100.0);
+  }
+  told.is_flat = imaged > 0 && low == high;
+  told.low_grey = low / 256.0;
+  told.high_grey = high / 256.0;
+  DepthMap depth = Apply(ReliefByGrey(low, high, options), plane);
+  progress.Step("done", 1.0);
+  return depth;
+}
+
+}  // namespace arthro::authoring

@@ -1,0 +1,116 @@
+// How far relief from brightness is from the truth: on a picture lit by a known relief, and on real
+// footage, where only sanity can be asked for.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/videoio.hpp>
+
+#include "authoring/depth/depth_filter.h"
+#include "tests/support/knee_picture.h"
+#include "tests/support/shared_data.h"
+
+namespace arthro::authoring {
+namespace {
+
+std::vector<double> Ranks(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t j = i;
+    while (j < order.size() && values[order[j]] == values[order[i]]) ++j;
+    for (std::size_t k = i; k < j; ++k) ranks[order[k]] = 0.5 * static_cast<double>(i + j - 1);
+    i = j;
+  }
+  return ranks;
+}
+
+// Spearman's: 1 when one orders points as the other does.
+double RankCorrelation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto ra = Ranks(a), rb = Ranks(b);
+  const double mean = 0.5 * static_cast<double>(a.size() - 1);
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (ra[i] - mean) * (rb[i] - mean);
+    aa += (ra[i] - mean) * (ra[i] - mean);
+    bb += (rb[i] - mean) * (rb[i] - mean);
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+TEST(DepthTruth, NoisyReliefIsOrderedAsTheTruth) {
+  constexpr int kWidth = 400, kHeight = 300;
+  const ColourImage knee = test::KneePicture(kWidth, kHeight, 12.0);
+  const auto correlation = [&](int radius) {
+    DepthOptions options;
+    options.median_radius = radius;
+    const DepthMap depth = DepthFromColour(knee, options);
+    std::vector<double> found, truth;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (std::isnan(depth.at(x, y))) continue;
+        found.push_back(depth.at(x, y));
+        truth.push_back(test::KneeRelief((2.0 * x + 1) / kWidth - 1, (2.0 * y + 1) / kHeight - 1));
+      }
+    return RankCorrelation(found, truth);
+  };
+  const double raw = correlation(0), median = correlation(2);
+  std::printf("Spearman: grey alone %.4f, with median %.4f\n", raw, median);
+  EXPECT_GT(median, raw);
+  // One tissue under one light: only noise, glints and clamped greys stand between it and 1.
+  EXPECT_GT(median, 0.98);
+}
+
+// Glints larger than the median's window. Filling is worth its time if it at least halves the error
+// there against the same picture without glints.
+TEST(DepthTruth, FillingAtLeastHalvesTheErrorAtGlints) {
+  const ColourImage with = test::KneePicture(1600, 1200, 6.0, true),
+                    without = test::KneePicture(1600, 1200, 6.0, false);
+  const DepthMap truth = DepthFromColour(without, {});
+  const auto error = [&](bool fill) {
+    DepthOptions options;
+    options.fill_highlights = fill;
+    const DepthMap depth = DepthFromColour(with, options);
+    double sum = 0;
+    int count = 0;
+    for (int y = 0; y < with.height; ++y)
+      for (int x = 0; x < with.width; ++x)
+        if (with.at(x, y)[2] == 255 && !std::isnan(depth.at(x, y))) {
+          sum += std::abs(double(depth.at(x, y)) - truth.at(x, y));
+          ++count;
+        }
+    EXPECT_GT(count, 100);
+    return sum / count;
+  };
+  const double raw = error(false), filled = error(true);
+  std::printf("mean error at glints: %.2f mm, filled %.2f mm\n", 1e3 * raw, 1e3 * filled);
+  EXPECT_LT(filled, 0.5 * raw);
+}
+
+TEST(DepthTruth, RealFootageGivesARangeWithoutSurround) {
+  ARTHRO_REQUIRE_SHARED(file, "data/laparoscopy_rvim/endo.mp4");
+  cv::VideoCapture video(file.string());
+  cv::Mat bgr;
+  if (!video.read(bgr)) GTEST_SKIP() << "SKIPPED: this OpenCV cannot decode " << file;
+  ColourImage frame(bgr.cols, bgr.rows);
+  for (int y = 0; y < bgr.rows; ++y)
+    for (int x = 0; x < bgr.cols; ++x)
+      for (int c = 0; c < 3; ++c) frame.at(x, y)[c] = bgr.at<cv::Vec3b>(y, x)[2 - c];
+  DepthReport report;
+  const DepthMap depth = DepthFromColour(frame, {}, &report);
+  std::printf("%d x %d: imaged %.1f %%, glints %.2f %%, greys %.1f to %.1f\n", frame.width,
+              frame.height, 100 * report.imaged_share, 100 * report.highlight_share,
+              report.low_grey, report.high_grey);
+  EXPECT_FALSE(report.is_flat);
+  EXPECT_FALSE(report.is_overexposed);
+  EXPECT_GT(report.imaged_share, 0.3);
+  EXPECT_GT(report.high_grey - report.low_grey, 64.0) << "the tissue spans a quarter of all greys";
+  for (const float h : depth.relief) ASSERT_TRUE(std::isnan(h) || (h >= 0.0f && h <= 0.02f));
+}
+
+}  // namespace
+}  // namespace arthro::authoring
