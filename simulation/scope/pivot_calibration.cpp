@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -19,6 +20,8 @@ using Eigen::Vector3d;
 constexpr double kShortestRod = 1e-6;  // m; a shorter one has no direction
 constexpr double kOutlier = 4.0;       // sigmas; Gaussian noise is further out once in 3000 presses
 constexpr int kFewestForOutliers = 5;  // with four, two pairs could each be right
+
+constexpr std::size_t kManyLines = 2000;  // beyond, not every line is held against every other
 
 struct Line {
   Vector3d hand, direction;  // unit, from hand to tip
@@ -145,7 +148,11 @@ Lines LinesWithin(const Lines& lines, const Vector3d& pivot, const Noise& noise,
 // are noisier than stated, so that noise is not taken for outliers.
 Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& options) {
   const int n = static_cast<int>(lines.size());
-  std::vector<double> misfits(lines.size());
+  // Some thousand lines judge a pair as well as all of them do.
+  Lines judges;
+  const std::size_t stride = 1 + lines.size() / kManyLines;
+  for (std::size_t k = 0; k < lines.size(); k += stride) judges.push_back(lines[k]);
+  std::vector<double> misfits(judges.size());
   Vector3d best = Vector3d::Zero();
   double best_median = INFINITY;
   const auto try_pair = [&](int i, int j) {
@@ -153,8 +160,9 @@ Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& 
     if (pair[0].direction.cross(pair[1].direction).norm() < 1e-3) return;
     const Fit fit = FitPivot(pair, {noise.position, 0.0});
     if (!fit.solved) return;
-    for (std::size_t k = 0; k < lines.size(); ++k) misfits[k] = Misfit(lines[k], fit.pivot, noise);
-    const auto middle = misfits.begin() + n / 2;
+    for (std::size_t k = 0; k < judges.size(); ++k)
+      misfits[k] = Misfit(judges[k], fit.pivot, noise);
+    const auto middle = misfits.begin() + static_cast<std::ptrdiff_t>(misfits.size() / 2);
     std::nth_element(misfits.begin(), middle, misfits.end());
     if (*middle < best_median) {
       best_median = *middle;
@@ -204,12 +212,31 @@ Noise NoiseOf(const Lines& lines, const Vector3d& pivot, const Noise& stated, do
   return {stated.position, std::hypot(stated.angle, unexplained / reach)};
 }
 
-// Largest angle between two lines, as lines: 0 to π/2.
+// Line furthest from line `i` in direction, and the cosine of the angle between the two.
+std::pair<std::size_t, double> FurthestFrom(const Lines& lines, std::size_t i) {
+  std::pair<std::size_t, double> furthest{i, 1.0};
+  for (std::size_t j = 0; j < lines.size(); ++j) {
+    const double cosine = std::abs(lines[i].direction.dot(lines[j].direction));
+    if (cosine < furthest.second) furthest = {j, cosine};
+  }
+  return furthest;
+}
+
+// Largest angle between two lines, as lines: 0 to π/2. Over thousands of presses, of somebody who
+// keeps swinging, going from one furthest line to the next finds it without trying all pairs.
 double SpreadOf(const Lines& lines) {
   double least = 1.0;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (std::size_t j = i + 1; j < lines.size(); ++j)
-      least = std::min(least, std::abs(lines[i].direction.dot(lines[j].direction)));
+  if (lines.size() <= kManyLines) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      least = std::min(least, FurthestFrom(lines, i).second);
+  } else {
+    std::size_t line = 0;
+    for (int sweep = 0; sweep < 8; ++sweep) {
+      const auto [next, cosine] = FurthestFrom(lines, line);
+      least = std::min(least, cosine);
+      line = next;
+    }
+  }
   return std::acos(std::clamp(least, 0.0, 1.0));
 }
 
@@ -302,10 +329,13 @@ PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const Pivot
       used.size() >= 2 && static_cast<double>(used.size()) >=
                               options.min_agreement * static_cast<double>(lines.size()) - 1e-9;
   const Lines& chosen = agree ? used : lines;
-  for (const Line& line : lines)
-    if (std::none_of(chosen.begin(), chosen.end(),
-                     [&](const Line& other) { return other.press == line.press; }))
-      result.left_out.push_back(line.press);
+  for (std::size_t k = 0, next = 0; k < lines.size();
+       ++k) {  // both are in the order of the presses
+    if (next < chosen.size() && chosen[next].press == lines[k].press)
+      ++next;
+    else
+      result.left_out.push_back(lines[k].press);
+  }
   std::sort(result.left_out.begin(), result.left_out.end());
   result.poses_used = static_cast<int>(chosen.size());
   result.spread = SpreadOf(chosen);

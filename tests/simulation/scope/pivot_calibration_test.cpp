@@ -352,6 +352,19 @@ TEST(PivotCalibration, FewerThanTwoUsablePressesAreTooFew) {
   EXPECT_EQ(calibration.left_out, (std::vector<int>{1, 2, 3}));
 }
 
+// A minute of swinging at a kilohertz must not try all two thousand million pairs.
+TEST(PivotCalibration, ManyThousandPressesTakeNoLongerThanTheyMust) {
+  Device device(13);
+  std::vector<PivotPress> presses;
+  for (int i = 0; i < 60000; ++i)
+    presses.push_back(
+        device.Press(OnCone(i, 997, device.Between(0.0, 0.6)), device.Between(0.05, 0.15), kNoise));
+  const PivotCalibration calibration = CalibratePivot(presses);
+  EXPECT_EQ(calibration.status, PivotStatus::kOk) << calibration.reason;
+  EXPECT_NEAR(calibration.spread, 0.6, 0.01);
+  EXPECT_LT(ErrorOf(calibration), 3.0 * calibration.sigma);
+}
+
 TEST(PivotCalibration, IsTheSameBitForBit) {
   Device device(12);
   std::vector<PivotPress> presses;
