@@ -143,14 +143,15 @@ void CheckComponents(const SurfaceMesh& surface, const std::vector<int>& compone
 std::string Place(const Finding& finding, const SurfaceSource& source) {
   const glm::dvec3 x = finding.where / source.metres_per_unit;
   std::string place = fmt::format("near {:.6g}, {:.6g}, {:.6g} {}", x.x, x.y, x.z, source.unit);
-  const auto in_file = [&](int t) {
-    return source.triangle_in_file.empty() ? t : source.triangle_in_file[t];
-  };
-  if (finding.triangles[1] >= 0)
-    place += fmt::format(" (triangles {} and {})", in_file(finding.triangles[0]),
-                         in_file(finding.triangles[1]));
-  else if (finding.triangles[0] >= 0)
-    place += fmt::format(" (triangle {})", in_file(finding.triangles[0]));
+  // Triangles that a repair added have no number in the file.
+  std::vector<int> numbers;
+  for (const int t : finding.triangles)
+    if (t >= 0) numbers.push_back(source.triangle_in_file.empty() ? t : source.triangle_in_file[t]);
+  std::erase(numbers, -1);
+  if (numbers.size() == 2)
+    place += fmt::format(" (triangles {} and {})", numbers[0], numbers[1]);
+  else if (numbers.size() == 1)
+    place += fmt::format(" (triangle {})", numbers[0]);
   return place;
 }
 
@@ -228,7 +229,7 @@ void RequireMeshable(const SurfaceCheck& check, const SurfaceSource& source) {
   refuse(check.open_edges,
          fmt::format("the surface is open: {} without a neighbour",
                      Counted(check.open_edges.count, "triangle side is", "triangle sides are")),
-         "close the holes where it was made, or small ones with --fill-holes");
+         "close it where it was made, small holes with --fill-holes, a sheet with --thickness-mm");
   refuse(check.nonmanifold_vertices,
          "two parts of the surface touch at " +
              Counted(check.nonmanifold_vertices.count, "single point", "single points"),

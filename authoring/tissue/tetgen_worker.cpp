@@ -106,7 +106,7 @@ TetgenJob ReadJob(const fs::path& folder) {
 }
 
 // Bytes of address space that this process has now.
-double AddressSpace() {
+[[maybe_unused]] double AddressSpace() {
   double pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<double>(::sysconf(_SC_PAGESIZE));

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "authoring/tissue/child_process.h"
+#include "authoring/tissue/surface_thicken.h"
 #include "authoring/tissue/tetgen_worker.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
@@ -174,6 +175,18 @@ void RefuseTooMany(const SurfaceCheck& check, const SurfaceSource& source, doubl
               source.file);
 }
 
+void Simplify(SurfaceMesh& surface, const SurfaceSource& source,
+              const TetrahedralizeOptions& options, TetrahedralizeReport& report) {
+  report.simplification = SimplifySurface(surface, options.max_triangles);
+  report.surface = CheckSurface(surface);
+  if (!report.surface.IsClosedManifold() || report.surface.self_intersections.count > 0)
+    throw Error(Code::kBadMesh,
+                fmt::format("with {} triangles this surface would run through itself; use a larger "
+                            "--max-triangles",
+                            report.simplification.triangles_after),
+                source.file);
+}
+
 void Warn(const Run& run) {
   TetrahedralizeReport& report = run.report;
   const TetQuality& quality = report.quality;
@@ -183,6 +196,10 @@ void Warn(const Run& run) {
         fmt::format("{} of {} separate parts are tiny and will float freely; --drop-below 0.001 "
                     "drops them",
                     report.surface.tiny_components.count, report.surface.components));
+  if (run.options.max_triangles > 0 &&
+      report.simplification.triangles_after > run.options.max_triangles)
+    warn(fmt::format("{} triangles are left, since fewer would fold the surface",
+                     report.simplification.triangles_after));
   if (report.attempts.size() > 1 && report.attempts.front().result != "done")
     warn("no node could be added on the surface (" + report.attempts.front().result +
          "), so elements there are as uneven as its triangles");
@@ -211,12 +228,15 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   progress.Step("checking the surface", 0.0);
   const auto check_start = Clock::now();
   RepairedSurface repaired = RepairSurface(surface, {options.fill_holes, options.drop_below});
+  if (options.thickness != 0)
+    result.thickened_parts = ThickenOpenParts(repaired, options.thickness);
   SurfaceSource repaired_source = source;
   repaired_source.triangle_in_file = repaired.source_triangle;
   result.repairs = repaired.repairs;
   result.surface = CheckSurface(repaired.surface);
   RequireTissueSize(result.surface, repaired_source);
   RequireMeshable(result.surface, repaired_source);
+  if (options.max_triangles > 0) Simplify(repaired.surface, source, options, result);
   RefuseTooMany(result.surface, source, options.max_edge);
   result.check_ms = MsSince(check_start);
 
@@ -297,10 +317,15 @@ nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSourc
         {"duplicate_triangles", repairs.duplicate_triangles},
         {"unreferenced_vertices",
          report.reading.unreferenced_vertices + repairs.unreferenced_vertices},
+        {"thickened_parts", report.thickened_parts},
         {"filled_holes", repairs.filled_holes},
         {"reoriented_triangles", repairs.reoriented_triangles},
         {"flipped_components", repairs.flipped_components},
         {"dropped_components", repairs.dropped_components}}},
+      {"simplification",
+       {{"triangles_before", report.simplification.triangles_before},
+        {"triangles_after", report.simplification.triangles_after},
+        {"largest_distance", report.simplification.largest_distance}}},
       {"attempts", attempts},
       {"warnings", report.warnings},
       {"stages_ms",

@@ -11,6 +11,7 @@
 
 #include "authoring/tissue/surface_check.h"
 #include "authoring/tissue/surface_repair.h"
+#include "authoring/tissue/surface_simplify.h"
 #include "authoring/tissue/tet_quality.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
@@ -25,6 +26,8 @@ struct TetrahedralizeOptions {
   double max_edge = 0.0;
   double min_dihedral = 10.0 * std::numbers::pi / 180.0;
   double radius_edge = 1.4;
+  double thickness = 0.0;
+  int max_triangles = 0;
   int fill_holes = 0;
   double drop_below = 0.0;
   double time_limit = 120.0;
@@ -41,6 +44,14 @@ struct TetrahedralizeOptions {
       "Elements with a flatter dihedral angle are refined where the surface lets them.");
     v("radius_edge", radius_edge, Range{1.1, 10.0}, "",
       "Elements whose circumradius is more than so many shortest edges are refined.");
+    v("thickness", thickness, Range{-0.02, 0.02}, "m",
+      "An open sheet, such as a scanned joint surface, becomes a layer of this thickness behind "
+      "its "
+      "triangles (before them when negative); 0: it is refused.");
+    v("max_triangles", max_triangles, Range{0, 10000000}, "",
+      "The surface is simplified to so many triangles first, its shape kept as well as they can; "
+      "0: "
+      "all are kept. Some hundred suit a tissue that is deformed at display rate.");
     v("fill_holes", fill_holes, Range{0, 100}, "",
       "Holes of at most so many sides are closed; 0: an open surface is refused.");
     v("drop_below", drop_below, Range{0.0, 0.5}, "",
@@ -59,6 +70,8 @@ struct TetgenAttempt {
 struct TetrahedralizeReport {
   SurfaceReadReport reading;
   SurfaceRepairs repairs;
+  int thickened_parts = 0;
+  Simplification simplification;
   SurfaceCheck surface;  // that was filled, after repairs
   TetQuality quality;
   int nodes = 0, elements = 0, surface_nodes = 0;

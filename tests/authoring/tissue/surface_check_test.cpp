@@ -56,7 +56,7 @@ TEST(SurfaceCheck, OpenSurfaceIsRefusedWithPlaceAndRemedy) {
   const std::string refusal = Refusal(open);
   EXPECT_SAYS(refusal, "open: 3 triangle sides");
   EXPECT_SAYS(refusal, " 30 mm");
-  EXPECT_SAYS(refusal, "close the holes");
+  EXPECT_SAYS(refusal, "close it where it was made");
 }
 
 TEST(SurfaceCheck, EdgeOfThreeTrianglesIsRefused) {

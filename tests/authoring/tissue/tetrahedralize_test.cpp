@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -258,6 +259,63 @@ TEST(Tetrahedralize, RealBoneOf17308TrianglesIsFilled) {
               report.elements, report.volume_error, report.quality.min_dihedral * 57.29578,
               report.quality.max_dihedral * 57.29578, report.check_ms, report.mesh_ms);
   EXPECT_LT(report.volume_error, 1e-6);
+}
+
+TEST(Tetrahedralize, SheetBecomesALayerOfTheGivenThickness) {
+  // The upper half of a sphere of 15 mm, as a sheet; its layer lies between two half spheres.
+  SurfaceMesh cap = Sphere({0, 0, 0}, 0.015, 4);
+  std::erase_if(cap.triangles, [&](const auto& triangle) {
+    return cap.vertices[triangle[0]].z + cap.vertices[triangle[1]].z + cap.vertices[triangle[2]].z <
+           0;
+  });
+  for (const double thickness : {0.002, -0.002}) {
+    TetrahedralizeOptions options;
+    options.thickness = thickness;
+    TetrahedralizeReport report;
+    Fill(cap, options, &report);
+    const double other = 0.015 - thickness;
+    const double layer =
+        2.0 / 3 * std::numbers::pi * std::abs(std::pow(0.015, 3) - std::pow(other, 3));
+    std::printf("layer of %g m: volume %.5g, half shell %.5g\n", thickness, report.quality.volume,
+                layer);
+    EXPECT_EQ(report.thickened_parts, 1);
+    // 2048 triangles on the sphere have 0.5 % less area than it, their shell 0.5 % less volume.
+    EXPECT_NEAR(report.quality.volume, layer, 0.01 * layer);
+  }
+}
+
+TEST(Tetrahedralize, RealTibialCartilageBecomesTwoLayers) {
+  ARTHRO_REQUIRE_SHARED(file, "data/knee_cartilage_jam/lenhart2015-R-tibia-cartilage.stl");
+  TetrahedralizeOptions options;
+  options.thickness = 0.002;
+  options.max_triangles = 3000;  // all 18 thousand make 283268 elements in ten seconds
+  TetrahedralizeReport report;
+  Fill(ReadSurface(file, 1.0), options, &report, {file, "m", 1.0, {}});
+  std::printf("tibia: %d elements, %.0f mm3, volume off by %.1e, angles %.1f to %.1f, %.0f ms\n",
+              report.elements, report.quality.volume * 1e9, report.volume_error,
+              report.quality.min_dihedral * 57.29578, report.quality.max_dihedral * 57.29578,
+              report.mesh_ms);
+  EXPECT_EQ(report.thickened_parts, 2) << "two plateaus";
+  EXPECT_EQ(report.surface.components, 2);
+  EXPECT_LT(report.volume_error, 1e-6);
+}
+
+TEST(Tetrahedralize, RealTibialCartilageIsSimplifiedForDisplayRate) {
+  ARTHRO_REQUIRE_SHARED(file, "data/knee_cartilage_jam/lenhart2015-R-tibia-cartilage.stl");
+  TetrahedralizeOptions options;
+  options.thickness = 0.002;
+  options.max_triangles = 600;
+  options.radius_edge = 3;
+  options.min_dihedral = 0;
+  TetrahedralizeReport report;
+  Fill(ReadSurface(file, 1.0), options, &report, {file, "m", 1.0, {}});
+  std::printf("tibia: %d triangles, at most %.2g mm off: %d elements, angles %.1f to %.1f\n",
+              report.simplification.triangles_after, report.simplification.largest_distance * 1e3,
+              report.elements, report.quality.min_dihedral * 57.29578,
+              report.quality.max_dihedral * 57.29578);
+  EXPECT_LE(report.simplification.triangles_after, 600);
+  EXPECT_LT(report.simplification.largest_distance, 1e-3) << "half its thickness";
+  EXPECT_LT(report.elements, 10000) << "of 283268 without";
 }
 
 TEST(Tetrahedralize, RealJointSurfaceIsRefusedAsOpen) {

@@ -1,0 +1,24 @@
+// Fewer triangles for the same shape: a scan has far more than a solver can use between two frames.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "simulation/scene/surface_mesh.h"
+
+namespace arthro::authoring {
+
+struct Simplification {
+  int triangles_before = 0, triangles_after = 0;
+  double largest_distance = 0;  // m, of a vertex that went from the surface that is left
+};
+
+// Collapses edges in the order of their quadric error (Garland and Heckbert 1997) until at most
+// `most_triangles` are left, or until no edge can go without folding the surface. The vertices that
+// stay are not moved. The surface must be a manifold.
+Simplification SimplifySurface(SurfaceMesh& surface, int most_triangles);
+
+// Distance of a point from a triangle.
+double DistanceToTriangle(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b,
+                          const glm::dvec3& c);
+
+}  // namespace arthro::authoring
