@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 std::string Why(int error) {
   if (error == ENOSPC) return "the disk is full; free some space and save again";
+  if (error == EFBIG || error == EDQUOT)
+    return "no more may be written here; free some space or choose another folder";
   if (error == EACCES || error == EPERM || error == EROFS)
     return "this place may not be written; choose another folder";
   return std::strerror(error);
