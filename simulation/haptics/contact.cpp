@@ -8,7 +8,15 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kNoPush = 1e-12;  // m
+// Nearer to its tip than this the proxy is at it; 10 µN.
+constexpr double kAtTip = 2e-8;  // m
+
+// Curvature times pixel turns the normal by at most a degree or so; at 1 mm that is a fifth of one.
+constexpr double kKink = 0.2;  // pixels
+
+// A tip that comes out of the unknown from below a surface catches up with it in a few ticks; its
+// force takes this long.
+constexpr double kFadeIn = 0.010;  // s
 
 // Where the proxy is drawn to: under itself as far as friction holds it, else to the edge of the
 // friction cone. True: it sticks.
@@ -17,13 +25,45 @@ bool Grip(const ContactOptions& options, const ContactState& state, const glm::d
   goal = tip;
   const glm::dvec3 pull = state.proxy.position - tip;
   const double push = glm::dot(pull, state.normal);
-  if (!(push > kNoPush)) return false;
+  if (!(push > kAtTip)) return false;
   const glm::dvec3 along = pull - push * state.normal;
   const double lag = glm::length(along);
-  if (lag <= options.static_friction * push) return true;
+  if (lag <= options.static_friction * push) {
+    goal = tip + along;
+    return true;
+  }
   const double sliding = std::min(options.sliding_friction, options.static_friction);
   goal = tip + along * (sliding * push / lag);
   return false;
+}
+
+// How far the surfaces push the goal out, to the foot of their planes; `state` takes which of them
+// pushes most and what the fade leaves of all pushes. The interpolated normals of a relief turn
+// smoothly while its height has a faint kink at every pixel, in which the proxy rests: the foot
+// leaves that out. A foot further off means a crease that the planes do not know, or a proxy that
+// is still on its way; then the proxy itself counts.
+glm::dvec3 PushOf(const PlaneSet& planes, const glm::dvec3& goal, double kink, double dt,
+                  ContactState& state) noexcept {
+  const bool is_new = state.contact < 0;
+  const glm::dvec3& proxy = state.proxy.position;
+  const NearestFree free = NearestPoint(planes, goal, proxy);
+  double sum = 0.0, weighted = 0.0, most = -1.0;
+  for (int i = 0; i < planes.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double push = planes.plane[k].weight * free.push[k];
+    sum += free.push[k];
+    weighted += push;
+    if (push <= most) continue;
+    most = push;
+    state.contact = planes.plane[k].contact;
+  }
+  if (planes.count > 0) {
+    const double share = sum > 0.0 ? weighted / sum : planes.plane[0].weight;
+    state.share = is_new ? share : std::min(share, state.share + dt / kFadeIn);
+  }
+  const glm::dvec3 rest = proxy - free.nearest;
+  const double length = glm::length(rest);
+  return free.nearest - goal + (length > kink ? 1.0 - kink / length : 0.0) * rest;
 }
 
 }  // namespace
@@ -47,50 +87,33 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
 
   // Move the proxy, unless friction holds it.
   glm::dvec3 goal;
-  if (!Grip(options, state, tip, goal)) {
+  const bool sticks = Grip(options, state, tip, goal);
+  if (!sticks || !IsOutOfBackdrop(surroundings, radius, state.proxy)) {
     const double travel = glm::length(tip - state.tip) + 2.0 * surroundings.field.pixel_size();
-    MoveProxy(surroundings, radius, goal, travel, state.proxy);
+    MoveProxy(surroundings, radius, goal, travel, state.contact < 0, state.proxy);
   }
   state.tip = tip;
 
-  // What holds it there, and how hard each.
+  // What holds the proxy away from its tip, and how hard. Friction drew it aside from the goal.
   ContactForce result;
-  const PlaneSet planes = PlanesAt(surroundings, radius, tip, state.proxy);
-  const glm::dvec3& proxy = state.proxy.position;
-  state.normal = glm::dvec3(0.0);
-  if (planes.count == 0) return result;
-  const NearestFree free = NearestPoint(planes, tip, proxy);
-  glm::dvec3 push(0.0), weighted(0.0);
-  double most = 0.0;
-  for (int i = 0; i < planes.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    push += free.push[k] * planes.plane[k].normal;
-    weighted += planes.plane[k].weight * free.push[k] * planes.plane[k].normal;
-    if (planes.plane[k].weight * free.push[k] <= most) continue;
-    most = planes.plane[k].weight * free.push[k];
-    result.contact = planes.plane[k].contact;
-  }
+  const auto leave = [&state]() noexcept {
+    state.normal = glm::dvec3(0.0);
+    state.share = 0.0;
+    state.contact = -1;
+  };
+  if (!(glm::length(state.proxy.position - goal) > kAtTip)) return leave(), result;
+  const PlaneSet planes = PlanesAt(surroundings, radius, goal, state.proxy);
+  const glm::dvec3 push = PushOf(planes, goal, kKink * surroundings.field.pixel_size(), dt, state);
   const double depth = glm::length(push);
-  if (!(depth > kNoPush) || result.contact < 0) {
-    result.contact = -1;
-    return result;
-  }
-  state.normal = push / depth;
+  if (!(depth > 0.0)) return leave(), result;
+  state.normal = planes.count > 0 ? push / depth : glm::dvec3(0.0);
+  result.contact = state.contact;
   result.penetration = depth;
-  result.force = stiffness * weighted;
-  const double share = glm::length(weighted) / depth;  // what the fade leaves
-
-  // Friction: what the proxy lags behind, within the cone.
-  const glm::dvec3 lag = proxy - free.nearest;
-  const double lag_length = glm::length(lag);
-  if (lag_length > kNoPush) {
-    const double limit = options.static_friction * depth;
-    result.force += stiffness * share * std::min(1.0, limit / lag_length) * lag;
-  }
+  result.force = stiffness * state.share * (push + (goal - tip));
 
   const double approach = glm::dot(state.velocity, state.normal);
   if (approach < 0.0 && options.stiffness > 0.0) {
-    const double b = options.damping * stiffness / options.stiffness * share *
+    const double b = options.damping * stiffness / options.stiffness * state.share *
                      std::min(1.0, depth / options.damping_onset);
     result.force -= b * approach * state.normal;
   }

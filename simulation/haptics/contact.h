@@ -1,7 +1,8 @@
 // The force of the surfaces on a tip: a virtual coupling to its proxy, viscous along the normal
 // while approaching, with Coulomb friction as stick and slip of the proxy (no velocity in it, so no
 // drift).
-//   F = k Σ w pushᵢ nᵢ − b min(v·n, 0) n + F_t,   |F_t| ≤ µ |F_n|
+//   F = w k (proxy − tip) − w b min(v·n, 0) n
+// The proxy moves by no more than the tip and two pixels a tick, so k times that bounds each step.
 // Portal frame, m, N, s; noexcept, allocates nothing [notes on haptics, 4.2].
 #pragma once
 
@@ -41,7 +42,11 @@ struct ContactState {
   bool has_started = false;  // false: the tip enters through its portal at the next tick
   Proxy proxy;
   glm::dvec3 tip{0.0}, velocity{0.0};
-  glm::dvec3 normal{0.0};  // unit, of the force of the last tick; zero: there was none
+  // Of the last tick: unit normal of the force (zero: there was none), what the fade left of it,
+  // and whose it was.
+  glm::dvec3 normal{0.0};
+  double share = 0;
+  int contact = -1;
 };
 
 struct ContactForce {

@@ -114,16 +114,16 @@ class Mover {
   }
 
   // From x along the planes towards the goal, adding the planes of what it meets. `reach` limits
-  // the way while a plane holds it. True: x is somewhere else, `travelled` longer.
-  bool Slide(const glm::dvec3& goal, double reach, bool is_on_field, PlaneSet& planes,
+  // the way, unless it `is_free` and no plane holds it. True: x is elsewhere, `travelled` longer.
+  bool Slide(const glm::dvec3& goal, double reach, bool is_free, bool is_on_field, PlaneSet& planes,
              glm::dvec3& x, double& travelled) noexcept {
     bool has_moved = false;
     for (int face = 0; face < kMaxFaces; ++face) {
       glm::dvec3 way = NearestPoint(planes, goal, x).nearest - x;
       double length = glm::length(way);
       if (!(length > kArrived)) return has_moved;
-      const bool is_held = planes.count > 0;
-      if (is_held && length > reach) way *= reach / length, length = reach;
+      const bool is_limited = planes.count > 0 || !is_free;
+      if (is_limited && length > reach) way *= reach / length, length = reach;
       SweepHit hit;
       Plane plane;
       const bool is_met = SweepMeshes(x, x + way, hit, plane);
@@ -135,7 +135,7 @@ class Mover {
         fraction *= free;
       }
       x += fraction * way;
-      if (is_held) {
+      if (is_limited) {
         travelled += fraction * length;
         reach -= fraction * length;
       }
@@ -155,7 +155,7 @@ class Mover {
 }  // namespace
 
 void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
-               double max_travel, Proxy& proxy) noexcept {
+               double max_travel, bool is_free, Proxy& proxy) noexcept {
   Mover mover(surroundings, radius, proxy);
   glm::dvec3& x = proxy.position;
   double budget = max_travel;
@@ -175,7 +175,7 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
     PlaneSet planes;
     double travelled = 0.0;
     if (!mover.Bears(query)) {
-      if (!mover.Slide(goal, budget, false, planes, x, travelled)) return;
+      if (!mover.Slide(goal, budget, is_free, false, planes, x, travelled)) return;
       budget -= travelled;
       continue;
     }
@@ -189,7 +189,7 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
       PlaneSet met = planes;
       glm::dvec3 trial = start;
       double way = 0.0;
-      if (!mover.Slide(goal, reach, true, met, trial, way)) return;
+      if (!mover.Slide(goal, reach, false, true, met, trial, way)) return;
       PlaneSet faces;  // the meshes' only; Project finds the backdrop's own
       for (int i = 0; i < met.count; ++i)
         if (met.plane[static_cast<std::size_t>(i)].contact > 0)
@@ -199,6 +199,12 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
     }
     if (!is_nearer) return;
   }
+}
+
+bool IsOutOfBackdrop(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept {
+  Proxy copy = proxy;
+  const FieldQuery query = Mover(surroundings, radius, copy).Query(proxy.position);
+  return query.weight <= 0.0 || query.clearance >= radius - kTouching;
 }
 
 PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,

@@ -27,10 +27,14 @@ struct Proxy {
   int last_mesh = -1, last_triangle = -1;  // met last; tried first
 };
 
-// Towards `goal`, as far as the surfaces let it. Free flight is unlimited; along surfaces and out
-// of them it travels at most `max_travel`, so that a surface that appears does not throw it.
+// Towards `goal`, as far as the surfaces let it. It travels at most `max_travel`, so that a surface
+// that appears, or an edge that it slips off, does not throw it; only a proxy that `is_free`, at
+// its tip with nothing touched, flies without limit until it meets something.
 void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
-               double max_travel, Proxy& proxy) noexcept;
+               double max_travel, bool is_free, Proxy& proxy) noexcept;
+
+// False where the backdrop has come to lie over the proxy, as after a change of its depth map.
+bool IsOutOfBackdrop(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept;
 
 // The planes that hold the proxy where it is when it is drawn to `goal`.
 PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,

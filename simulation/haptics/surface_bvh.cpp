@@ -154,23 +154,41 @@ bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
   glm::dvec3 low, high;
   const auto shrink = [&] {  // the box of what is left of the way
     const glm::dvec3 end = from + hit.fraction * motion;
-    low = glm::min(from, end) - radius;
-    high = glm::max(from, end) + radius;
+    low = glm::min(from, end);
+    high = glm::max(from, end);
   };
   shrink();
+  // A ball that rests on a surface has little of it within its radius, though its box has much.
+  const auto is_apart = [&](const Node& node) {
+    double distance2 = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double gap = std::max({0.0, low[i] - static_cast<double>(node.high[k]),
+                                   static_cast<double>(node.low[k]) - high[i]});
+      distance2 += gap * gap;
+    }
+    return distance2 > radius * radius;
+  };
+  const auto along = [&](const Node& node) {
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      sum += static_cast<double>(node.low[k] + node.high[k]) * motion[i];
+    }
+    return sum;
+  };
   int stack[kStackSize], depth = 0;
   stack[depth++] = 0;
   while (depth > 0 && hit.fraction > 0.0) {
     const int index = stack[--depth];
     const Node& node = nodes_[static_cast<std::size_t>(index)];
-    bool apart = false;
-    for (int i = 0; i < 3; ++i)
-      apart |= low[i] > static_cast<double>(node.high[static_cast<std::size_t>(i)]) ||
-               high[i] < static_cast<double>(node.low[static_cast<std::size_t>(i)]);
-    if (apart) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.next;
-      stack[depth++] = index + 1;
+    if (is_apart(node)) continue;
+    if (node.count == 0) {  // the nearer child first: what it finds shortens the way
+      const int first_child = index + 1;
+      const bool is_second_nearer = along(nodes_[static_cast<std::size_t>(node.next)]) <
+                                    along(nodes_[static_cast<std::size_t>(first_child)]);
+      stack[depth++] = is_second_nearer ? first_child : node.next;
+      stack[depth++] = is_second_nearer ? node.next : first_child;
       continue;
     }
     const double before = hit.fraction;

@@ -1,0 +1,247 @@
+#include "simulation/session/session.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/scope/arthroscope.h"
+#include "simulation/session/scripted_device.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/contact_shapes.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kTick = 0.001;
+
+// A flat relief of 4 mm on a sphere of 50 mm, and a box of tissue in front of it.
+LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
+  LoadedScene loaded;
+  loaded.scene.backdrop.radius = 0.05;
+  loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
+  loaded.scene.backdrop.projection.focal_px = 500;
+  loaded.scene.portals.incision_spacing = 0.03;
+  loaded.panorama = ColourImage(1024, 1024);
+  if (has_depth) loaded.depth = DepthMap(1024, 1024, 0.004f);
+  if (has_tissue) {
+    Tissue tissue;
+    tissue.name = "box";
+    tissue.pose.position = {0.01, 0, 0.04};
+    loaded.scene.tissues.push_back(tissue);
+    loaded.surfaces.push_back(test::Box({0, 0, 0}, {0.004, 0.004, 0.004}));
+  }
+  return loaded;
+}
+
+// Both hands on a session, one tick at a time.
+struct Hands {
+  explicit Hands(const LoadedScene& loaded, const SessionOptions& options = {})
+      : session(loaded, options),
+        scope(session.scope_rig()),
+        instrument(session.instrument_rig()) {}
+  const Snapshot& Tick(int ticks = 1) {
+    for (int i = 0; i < ticks; ++i) {
+      t += kTick;
+      session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
+    }
+    return session.snapshot();
+  }
+  // Leads the instrument's tip evenly to a point of the portal frame.
+  const Snapshot& Lead(const glm::dvec3& tip, int ticks) {
+    const RodPose from = instrument.pose();
+    const glm::dvec3 own = tip - glm::dvec3(session.incision_spacing(), 0, 0);
+    const glm::dvec3 u = glm::normalize(own);
+    for (int i = 1; i <= ticks; ++i) {
+      const double s = static_cast<double>(i) / ticks;
+      instrument.Set({from.latitude + s * (-std::asin(u.y) - from.latitude),
+                      from.longitude + s * (std::atan2(u.x, u.z) - from.longitude), 0,
+                      from.depth + s * (glm::length(own) - from.depth)});
+      Tick();
+    }
+    return session.snapshot();
+  }
+  Session session;
+  ScriptedDevice scope, instrument;
+  double t = 0;
+};
+
+TEST(Session, ToolTipsAreInThePortalFrame) {
+  Hands hands(MakeScene());
+  hands.scope.Set({0.1, -0.2, 0.3, 0.02});
+  hands.instrument.Set({0.1, -0.2, 0, 0.025});
+  const Snapshot& snapshot = hands.Tick();
+  const glm::dvec3 u = BasisOf({0.1, -0.2, 0, 0}).axis;
+  EXPECT_LT(glm::length(snapshot.scope.tip_in_portal - 0.02 * u), 1e-12);
+  EXPECT_LT(glm::length(snapshot.instrument.tip_in_portal - glm::dvec3(0.03, 0, 0) - 0.025 * u),
+            1e-12);
+  EXPECT_NEAR(snapshot.t, kTick, 1e-15);
+}
+
+TEST(Session, PixelsAreTheCentreOfTheViewAndThePointUnderTheTip) {
+  const LoadedScene loaded = MakeScene();
+  Hands hands(loaded);
+  const RodPose pose{0.1, -0.2, 0.8, 0.02};
+  hands.scope.Set(pose);
+  hands.instrument.Set({0, -0.5, 0, 0.03});
+  const Snapshot& snapshot = hands.Tick();
+  const auto centre = PixelFromDirection(
+      loaded.scene.backdrop.projection,
+      CentreDirection(pose, loaded.scene.scope.view_angle, loaded.scene.backdrop.radius));
+  ASSERT_TRUE(centre);
+  EXPECT_LT(glm::length(snapshot.scope.pixel - *centre), 1e-6);
+  const glm::dvec3 tip = snapshot.instrument.tip_in_portal;
+  EXPECT_NEAR(snapshot.instrument.pixel.x, 511.5 + 500 * tip.x / tip.z, 1e-9);
+  // Drawn out, behind the portal, the tip is over no pixel.
+  hands.instrument.Set({0, 0, 0, -0.01});
+  EXPECT_TRUE(std::isnan(hands.Tick().instrument.pixel.x));
+}
+
+TEST(Session, ViewAngleIsLive) {
+  Hands hands(MakeScene());
+  hands.scope.Set({0, 0, 0, 0.02});
+  hands.session.SetViewAngle(0.0);
+  EXPECT_NEAR(hands.Tick().scope.pixel.y, 511.5, 1e-9);
+  hands.session.SetViewAngle(0.5);
+  EXPECT_LT(hands.Tick().scope.pixel.y, 400.0) << "with no roll an oblique scope looks up";
+}
+
+TEST(Session, BothToolsFeelTheBackdrop) {
+  Hands hands(MakeScene(true, false));
+  hands.scope.Set({0, 0, 0, 0.047});
+  hands.Lead({0, 0, 0.047}, 2000);
+  const Snapshot& snapshot = hands.Tick(1000);
+  for (const ToolState* tool : {&snapshot.scope, &snapshot.instrument}) {
+    EXPECT_EQ(tool->contact, kBackdropContact);
+    EXPECT_EQ(tool->fault, Fault::kNone);
+    EXPECT_NEAR(tool->penetration, 0.001, 3e-5);
+    EXPECT_NEAR(tool->tip_force.z, -0.5, 0.02);
+    EXPECT_NEAR(glm::length(tool->proxy_in_portal), 0.046, 1e-5);
+  }
+  // The scope's rod is along z: no lever, the hand feels what the tip feels.
+  EXPECT_NEAR(snapshot.scope.hand_force.z, -0.5, 1e-3);
+  // The instrument comes in from the side; across its rod, 1 − 0.2/r < 0 turns the force round.
+  EXPECT_GT(glm::length(snapshot.instrument.hand_force - snapshot.instrument.tip_force), 0.01);
+}
+
+TEST(Session, InstrumentFeelsTissueInFrontOfTheBackdrop) {
+  Hands hands(MakeScene());
+  const Snapshot& snapshot = hands.Lead({0.0115, 0, 0.0368}, 3000);
+  EXPECT_EQ(snapshot.instrument.contact, 1);
+  EXPECT_EQ(snapshot.scope.contact, kNoContact);
+  EXPECT_GT(glm::length(snapshot.instrument.tip_force), 0.1);
+}
+
+TEST(Session, MovedIncisionMovesTheInstrumentOnly) {
+  Hands hands(MakeScene());
+  hands.instrument.Set({0, 0, 0, 0.02});
+  hands.Tick(10);
+  hands.session.SetIncisionSpacing(-0.025);
+  const Snapshot& snapshot = hands.Tick();
+  EXPECT_NEAR(snapshot.instrument.tip_in_portal.x, -0.025, 1e-12);
+  EXPECT_NEAR(snapshot.scope.tip_in_portal.x, 0.0, 1e-12);
+}
+
+TEST(Session, HandForceRampsFromZeroAndIsLimited) {
+  Hands hands(MakeScene(true, false));
+  hands.scope.Set({0, 0, 0, 0.049});  // 3 mm in at the first sample
+  double last = 0;
+  for (int i = 1; i <= 600; ++i) {
+    const ToolState& scope = hands.Tick().scope;
+    const double force = glm::length(scope.hand_force);
+    EXPECT_GE(force, last - 1e-12);
+    EXPECT_LE(force, 1.5 * std::min(1.0, i * kTick / 0.5) + 1e-6);
+    last = force;
+  }
+  EXPECT_NEAR(last, 1.5, 1e-3);
+}
+
+TEST(Session, StaleAndLostSamplesGetNoForce) {
+  Hands hands(MakeScene(true, false));
+  hands.scope.Set({0, 0, 0, 0.047});
+  hands.Tick(1000);
+  ASSERT_GT(glm::length(hands.session.snapshot().scope.hand_force), 0.4);
+  const DeviceSample held = hands.scope.Sample(hands.t);
+  for (int i = 1; i <= 30; ++i) {
+    hands.session.Tick(held, {}, kTick);
+    if (i == 5 || i == 20) continue;  // on the limit, rounding decides
+    const ToolState& scope = hands.session.snapshot().scope;
+    const Fault expected = i < 5 ? Fault::kNone : i < 20 ? Fault::kStale : Fault::kLost;
+    EXPECT_EQ(scope.fault, expected) << i;
+    EXPECT_EQ(glm::length(scope.hand_force) > 0, i < 5) << i;
+  }
+  // Back again, the force ramps.
+  hands.Tick();
+  EXPECT_EQ(hands.session.snapshot().scope.fault, Fault::kNone);
+  EXPECT_LT(glm::length(hands.session.snapshot().scope.hand_force), 0.01);
+}
+
+TEST(Session, BadSamplesGiveAFaultAndNoForce) {
+  Hands hands(MakeScene(true, false));
+  hands.scope.Set({0, 0, 0, 0.047});
+  hands.Tick(1000);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double bad : {nan, std::numeric_limits<double>::infinity(), 1e300}) {
+    DeviceSample sample = hands.scope.Sample(hands.t += kTick);
+    sample.hip_in_device.x = bad;
+    hands.session.Tick(sample, {}, kTick);
+    const ToolState& scope = hands.session.snapshot().scope;
+    EXPECT_NE(scope.fault, Fault::kNone);
+    EXPECT_EQ(scope.hand_force, glm::dvec3(0.0));
+    EXPECT_TRUE(std::isfinite(scope.tip_in_portal.x)) << "what is drawn stays finite";
+  }
+  DeviceSample gone = hands.scope.Sample(hands.t += kTick);
+  gone.valid = false;
+  hands.session.Tick(gone, {}, kTick);
+  EXPECT_EQ(hands.session.snapshot().scope.fault, Fault::kNoSample);
+  EXPECT_EQ(hands.session.snapshot().scope.contact, kNoContact);
+  hands.Tick(1000);
+  EXPECT_NEAR(hands.session.snapshot().scope.tip_force.z, -0.5, 1e-3) << "it recovers";
+}
+
+TEST(Session, FastHandGetsNoForce) {
+  Hands hands(MakeScene(true, false));
+  hands.scope.Set({0, 0, 0, 0.047});
+  hands.Tick(1000);
+  hands.scope.Advance({0, 0, 0, 0.0012});  // in one tick: 1.2 m/s
+  EXPECT_EQ(hands.Tick().scope.fault, Fault::kTooFast);
+  EXPECT_EQ(hands.session.snapshot().scope.hand_force, glm::dvec3(0.0));
+}
+
+TEST(Session, SceneWithoutDepthFeelsTheBareSphere) {
+  Hands hands(MakeScene(false, false));
+  hands.scope.Set({0, 0, 0, 0.051});
+  EXPECT_NEAR(hands.Tick(10).scope.tip_force.z, -0.5, 1e-6);
+}
+
+TEST(Session, SceneWithNothingToTouchHasNoForce) {
+  LoadedScene loaded = MakeScene(false, false);
+  loaded.panorama = ColourImage();
+  Hands hands(loaded);
+  hands.scope.Set({0, 0, 0, 0.06});
+  EXPECT_EQ(hands.Tick(10).scope.tip_force, glm::dvec3(0.0));
+  EXPECT_EQ(hands.session.snapshot().scope.contact, kNoContact);
+}
+
+TEST(ServoTick, AllocatesNothing) {
+  LoadedScene loaded = MakeScene();
+  loaded.surfaces[0] = test::Ball({0, 0, 0}, 0.005, 50);
+  Hands hands(loaded);
+  const long before = test::Allocations();
+  for (int i = 0; i < 3000; ++i) {
+    const double s = i * kTick;
+    hands.scope.Set({0.3 * std::sin(s), 0.4 * std::sin(2 * s), s, 0.046 + 0.002 * std::sin(5 * s)});
+    hands.instrument.Set({0.1 * std::sin(3 * s), -0.5 + 0.2 * std::sin(s), s, 0.043});
+    hands.Tick();
+    if (i == 1500) hands.session.SetIncisionSpacing(-0.03);
+  }
+  EXPECT_EQ(test::Allocations(), before);
+}
+
+static_assert(noexcept(std::declval<Session&>().Tick(std::declval<const DeviceSample&>(),
+                                                     std::declval<const DeviceSample&>(), 0.001)));
+
+}  // namespace
+}  // namespace arthro::simulation
