@@ -14,7 +14,7 @@
 
 #include "tests/support/allocation_counter.h"
 #include "tests/support/analytic_relief.h"
-#include "tests/support/contact_shapes.h"
+#include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
@@ -149,7 +149,7 @@ TEST(Contact, SweepAcrossASilhouetteHasNoStep) {
   const AnalyticRelief relief = Flat(0.0);
   const DepthField field(relief.backdrop, relief.Float());
   const std::vector<SurfaceBvh> meshes{
-      SurfaceBvh(test::Box({0, 0, 0.05}, {0.004, 0.004, 0.002}), {})};
+      SurfaceBvh(test::Box({-0.004, -0.004, 0.048}, {0.004, 0.004, 0.052}), {})};
   const auto along = [](double x) {
     const double s = std::clamp((x - 0.0035) / 0.002, 0.0, 1.0);
     const double down = s * s * (3 - 2 * s);
@@ -187,7 +187,7 @@ TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
   const AnalyticRelief relief = Flat(0.0);
   const DepthField field(relief.backdrop, relief.Float());
   const std::vector<SurfaceBvh> meshes{
-      SurfaceBvh(test::Box({0.004, 0, 0.05}, {0.004, 0.008, 0.002}), {})};
+      SurfaceBvh(test::Box({0, -0.008, 0.048}, {0.008, 0.008, 0.052}), {})};
   const double speed = 0.02;
   const Felt run = Lead({field, meshes}, Bare(), 300,
                         [&](int i) { return glm::dvec3(-0.004 + speed * i * kTick, 0.0, 0.0503); });
@@ -330,7 +330,7 @@ TEST(Contact, WildHandsStayFinite) {
   for (int y = 300; y < 340; ++y)
     for (int x = 300; x < 420; ++x) map.at(x, y) = kHole;
   const DepthField field(relief.backdrop, map);
-  const std::vector<SurfaceBvh> meshes{SurfaceBvh(test::Ball({0, 0, 0.045}, 0.006, 12), {})};
+  const std::vector<SurfaceBvh> meshes{SurfaceBvh(test::Sphere({0, 0, 0.045}, 0.006, 3), {})};
   for (double r : {0.0, 0.002}) {
     ContactOptions options;
     options.tip_radius = r;
@@ -356,7 +356,7 @@ TEST(Contact, WildHandsStayFinite) {
 TEST(Contact, AllocatesNothing) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   const DepthField field(relief.backdrop, relief.Float());
-  const std::vector<SurfaceBvh> meshes{SurfaceBvh(test::Ball({0, 0, 0.045}, 0.006, 30), {})};
+  const std::vector<SurfaceBvh> meshes{SurfaceBvh(test::Sphere({0, 0, 0.045}, 0.006, 5), {})};
   ContactState state;
   const long before = test::Allocations();
   for (int i = 0; i < 3000; ++i) {

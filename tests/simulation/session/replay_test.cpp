@@ -10,8 +10,8 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/session/scripted_device.h"
-#include "tests/support/contact_shapes.h"
 #include "tests/support/run_program.h"
+#include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {

@@ -10,7 +10,7 @@
 #include "simulation/scope/arthroscope.h"
 #include "simulation/session/scripted_device.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/contact_shapes.h"
+#include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
@@ -31,7 +31,7 @@ LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
     tissue.name = "box";
     tissue.pose.position = {0.01, 0, 0.04};
     loaded.scene.tissues.push_back(tissue);
-    loaded.surfaces.push_back(test::Box({0, 0, 0}, {0.004, 0.004, 0.004}));
+    loaded.surfaces.push_back(test::Box(glm::dvec3(-0.004), glm::dvec3(0.004)));
   }
   return loaded;
 }
@@ -227,7 +227,7 @@ TEST(Session, SceneWithNothingToTouchHasNoForce) {
 
 TEST(ServoTick, AllocatesNothing) {
   LoadedScene loaded = MakeScene();
-  loaded.surfaces[0] = test::Ball({0, 0, 0}, 0.005, 50);
+  loaded.surfaces[0] = test::Sphere({0, 0, 0}, 0.005, 5);
   Hands hands(loaded);
   const long before = test::Allocations();
   for (int i = 0; i < 3000; ++i) {
