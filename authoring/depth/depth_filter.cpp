@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "authoring/depth/grey_plane.h"
-#include "authoring/depth/highlight_fill.h"
+#include "authoring/depth/highlights.h"
 #include "authoring/depth/imaged_area.h"
 #include "authoring/depth/masked_median.h"
 #include "simulation/core/error.h"
@@ -21,10 +21,7 @@ namespace {
 
 using Histogram = std::vector<std::uint64_t>;  // pixels by grey, kWhite + 1 entries
 
-// The glow around a glint, px: still brighter than the tissue's own light.
-constexpr int kGlow = 2;
-
-// More than this much at the sensor's end is overexposed tissue rather than glints.
+// More than this much is overexposed tissue rather than glints.
 constexpr double kMostHighlights = 0.25;
 
 std::size_t Count(const std::vector<std::uint8_t>& marks) {
@@ -43,14 +40,10 @@ void MaskSurround(GreyPlane& plane, const std::vector<std::uint8_t>& flags,
 
 void RemoveHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& flags, std::size_t imaged,
                       DepthReport& report) {
-  const RowRuns saturated = RunsOf(flags, plane.width, plane.height, kSaturated);
-  if (std::all_of(saturated.begin(), saturated.end(), [](const auto& row) { return row.empty(); }))
-    return;
-  auto highlight = Grow(saturated, plane.width, plane.height, kGlow);
-  for (std::size_t i = 0; i < highlight.size(); ++i) highlight[i] &= plane.imaged[i];
+  const auto highlight = FindHighlights(plane, flags);
   report.highlight_share = static_cast<double>(Count(highlight)) / static_cast<double>(imaged);
   report.is_overexposed = report.highlight_share > kMostHighlights;
-  if (!report.is_overexposed) FillHighlights(plane, highlight);
+  if (report.highlight_share > 0.0 && !report.is_overexposed) FillHighlights(plane, highlight);
 }
 
 Histogram HistogramOf(const GreyPlane& plane) {

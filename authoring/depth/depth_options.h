@@ -51,7 +51,7 @@ struct DepthOptions {
     v("border_margin", border_margin, Range{0, 100}, "px",
       "Rim of the imaged area, next to the surround, that is left out.");
     v("fill_highlights", fill_highlights, Any{}, "",
-      "Fill overexposed glints from around them, so that they are no peaks.");
+      "Fill glints from around them, so that they are no peaks.");
   }
 };
 

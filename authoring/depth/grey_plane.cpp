@@ -44,9 +44,9 @@ GreyPlane GreyFromColour(const ColourImage& panorama, const DepthOptions& option
         const std::uint32_t weighted = (red * r + green * g + blue * b + 128) >> 8;
         grey[x] = static_cast<std::uint16_t>(std::min<std::uint32_t>(weighted, kWhite));
         const int most = std::max(r, std::max(g, b)), least = std::min(r, std::min(g, b));
-        flag[x] =
-            static_cast<std::uint8_t>((most < threshold ? kDark : 0) | (most == 0 ? kBlack : 0) |
-                                      (least >= kSaturation ? kSaturated : 0));
+        flag[x] = static_cast<std::uint8_t>(
+            (most < threshold ? kDark : 0) | (most == 0 ? kBlack : 0) |
+            (least >= kSaturation ? kSaturated : 0) | (2 * least >= most ? kPale : 0));
       }
     }
   });

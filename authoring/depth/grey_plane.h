@@ -27,6 +27,7 @@ enum PixelFlag : std::uint8_t {
   kDark = 1,       // every channel below the surround's threshold
   kBlack = 2,      // every channel 0
   kSaturated = 4,  // every channel at the sensor's end
+  kPale = 8,       // no channel below half of another: the colour of the light, not of tissue
 };
 
 // Greys by the weights of `options` (only their ratio counts) and the flags of every pixel; nothing

@@ -1,10 +1,58 @@
-#include "authoring/depth/highlight_fill.h"
+#include "authoring/depth/highlights.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
+#include "authoring/depth/imaged_area.h"
+
 namespace arthro::authoring {
 namespace {
+
+// A glint is at most twice this share of the picture's shorter side across…
+constexpr double kGlintRadius = 0.0125;
+// …and at least this much brighter than the brightest ground it stands on: a sixth of the range.
+constexpr int kGlintContrast = kWhite / 6;
+// The rim around it that it brightens.
+constexpr double kGlow = 0.003;
+
+// Pixels of a block's side in which the ground is looked at; finer is slower and no better.
+constexpr int kBlock = 4;
+
+// Mean grey of the imaged pixels of each block; white where there is none, which erosion ignores.
+cv::Mat BlockMeans(const GreyPlane& plane) {
+  cv::Mat means((plane.height + kBlock - 1) / kBlock, (plane.width + kBlock - 1) / kBlock, CV_16U);
+  ForStripsOfRows(means.rows, [&](int first, int last) {
+    for (int by = first; by < last; ++by)
+      for (int bx = 0; bx < means.cols; ++bx) {
+        std::uint32_t sum = 0, count = 0;
+        for (int y = by * kBlock; y < std::min(plane.height, (by + 1) * kBlock); ++y)
+          for (int x = bx * kBlock; x < std::min(plane.width, (bx + 1) * kBlock); ++x) {
+            const std::size_t i = plane.Index(x, y);
+            sum += plane.imaged[i] ? plane.grey[i] : 0;
+            count += plane.imaged[i];
+          }
+        means.at<std::uint16_t>(by, bx) =
+            count > 0 ? static_cast<std::uint16_t>(sum / count) : kWhite;
+      }
+  });
+  return means;
+}
+
+// The ground under small bright things: a morphological opening of the block means, a block wider
+// when it grows back than when it shrinks, so that the edge of large bright tissue is ground.
+cv::Mat GroundOf(const GreyPlane& plane) {
+  const int radius =
+      static_cast<int>(std::ceil(kGlintRadius * std::min(plane.width, plane.height) / kBlock));
+  const auto square = [](int r) {
+    return cv::getStructuringElement(cv::MORPH_RECT, {2 * r + 1, 2 * r + 1});
+  };
+  cv::Mat ground;
+  cv::erode(BlockMeans(plane), ground, square(radius));
+  cv::dilate(ground, ground, square(radius + 1));
+  return ground;
+}
 
 // A plane at half the size of the one below; weight 0 where nothing is known yet.
 struct Level {
@@ -64,6 +112,29 @@ bool Between(const Level& level, int x, int y, float& grey) {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> FindHighlights(const GreyPlane& plane,
+                                         const std::vector<std::uint8_t>& flags) {
+  const cv::Mat ground = GroundOf(plane);
+  std::vector<std::uint8_t> marks(flags.size());
+  ForStripsOfRows(plane.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const std::uint16_t* under = ground.ptr<std::uint16_t>(y / kBlock);
+      for (int x = 0; x < plane.width; ++x) {
+        const std::size_t i = plane.Index(x, y);
+        const bool stands_out =
+            (flags[i] & kPale) && plane.grey[i] > under[x / kBlock] + kGlintContrast;
+        marks[i] = plane.imaged[i] && (stands_out || (flags[i] & kSaturated)) ? kSaturated : 0;
+      }
+    }
+  });
+  const int glow =
+      std::max(1, static_cast<int>(std::lround(kGlow * std::min(plane.width, plane.height))));
+  std::vector<std::uint8_t> highlight =
+      Grow(RunsOf(marks, plane.width, plane.height, kSaturated), plane.width, plane.height, glow);
+  for (std::size_t i = 0; i < highlight.size(); ++i) highlight[i] &= plane.imaged[i];
+  return highlight;
+}
 
 void FillHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& highlight) {
   // Push: halve until one pixel is left.
