@@ -39,7 +39,8 @@ void AddCheckJob(CLI::App& program) {
   CLI::App* job =
       program.add_subcommand("check", "Load a scene with all its files and say what is wrong.");
   const auto scene = std::make_shared<std::string>();
-  job->add_option("SCENE", *scene, "Folder of the scene, or its scene.json")->required();
+  job->add_option("SCENE", *scene, "Folder of the scene, its scene.json, or an .arthro archive")
+      ->required();
   job->callback([scene] { Check(*scene); });
 }
 

@@ -30,10 +30,12 @@ struct Document {
   std::shared_ptr<const ColourImage> panorama;               // never null once there is a picture
   std::shared_ptr<const DepthMap> depth;                     // null: a bare sphere
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces;  // one a tissue, own frame, m
-  std::filesystem::path folder;                              // empty until it is saved
+  // Where it is saved: a scene's folder or an .arthro archive; empty until it is.
+  std::filesystem::path folder;
   // Where the bytes of the scene's assets lie, by the name that the scene uses. document_io.h
   // fills it; whoever adds a tissue's tetrahedra or a lens names its file here.
   std::map<std::string, AssetFile> files;
+  std::shared_ptr<const void> unpacked;  // holds the files of an opened archive
 };
 
 }  // namespace arthro::authoring

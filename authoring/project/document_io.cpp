@@ -12,6 +12,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_io.h"
@@ -218,7 +219,8 @@ Document OpenDocument(const fs::path& file) {
   LoadedScene loaded = LoadScene(file);
   Document document;
   document.scene = std::move(loaded.scene);
-  document.folder = loaded.folder;
+  document.folder = IsArchive(file) ? file : loaded.folder;
+  document.unpacked = loaded.unpacked;
   const auto note = [&](const fs::path& name, const std::shared_ptr<const void>& part) {
     if (!name.empty())
       document.files[name.generic_string()] = {fs::absolute(loaded.folder / name), part};
@@ -246,7 +248,18 @@ Document OpenDocument(const fs::path& file) {
 }
 
 Document SaveDocument(const Document& document, const fs::path& folder) {
-  return Saving(document, folder).Run();
+  if (!IsArchive(folder)) {
+    Document saved = Saving(document, folder).Run();
+    saved.unpacked = nullptr;
+    return saved;
+  }
+  // Beside the archive rather than in it lie the files that the next save copies from.
+  const auto unpacked = std::make_shared<const TemporaryFolder>();
+  Document saved = Saving(document, unpacked->path()).Run();
+  PackScene(unpacked->path(), folder);
+  saved.folder = folder;
+  saved.unpacked = unpacked;
+  return saved;
 }
 
 }  // namespace arthro::authoring

@@ -10,7 +10,7 @@
 
 namespace arthro::authoring {
 
-// A scene (its folder or scene.json), or a bare picture as the start of a new one.
+// A scene (its folder, scene.json or archive), or a bare picture as the start of a new one.
 Document OpenDocument(const std::filesystem::path& file);
 
 // A new document over a PNG, JPEG or TIFF panorama, not saved yet.
@@ -23,8 +23,9 @@ Projection GuessProjection(int width, int height);
 
 // Writes the document as a scene into `folder`, which is made if its parent is there. Files that
 // the document was read from are copied byte for byte; parts that changed are written from memory.
-// Returns the document as it now lies on disk: folder, names of assets and where their files are.
-// Throws Error and leaves the folder as it was when anything cannot be written.
+// A name that ends in .arthro is written as one archive. Returns the document as it now lies on
+// disk: folder, names of assets and where their files are. Throws Error and leaves the folder as it
+// was when anything cannot be written.
 Document SaveDocument(const Document& document, const std::filesystem::path& folder);
 
 }  // namespace arthro::authoring

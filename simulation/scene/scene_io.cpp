@@ -8,6 +8,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_json.h"
@@ -95,6 +96,11 @@ fs::path SceneFile(const fs::path& scene) {
 }
 
 Scene ReadScene(const fs::path& scene) {
+  if (IsArchive(scene)) {
+    const TemporaryFolder folder;
+    UnpackScene(scene, folder.path());
+    return ReadScene(folder.path());
+  }
   std::vector<JsonFault> faults;
   Scene values = ReadSceneFile(SceneFile(scene), faults);
   ThrowFirst(faults, SceneFile(scene));
@@ -102,6 +108,18 @@ Scene ReadScene(const fs::path& scene) {
 }
 
 LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
+  if (IsArchive(scene)) {
+    LoadedScene loaded;
+    try {
+      const auto folder = std::make_shared<const TemporaryFolder>();
+      UnpackScene(scene, folder->path());
+      loaded = LoadScene(folder->path(), faults);
+      loaded.unpacked = folder;
+    } catch (const Error& error) {
+      faults.push_back(error.what());
+    }
+    return loaded;
+  }
   LoadedScene loaded;
   const fs::path file = SceneFile(scene);
   loaded.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");

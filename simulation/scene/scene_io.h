@@ -1,9 +1,11 @@
 // Scenes from and to files (design §6). A scene is a folder with scene.json and the files it names
-// by relative path, all in metres. Wherever a scene is asked for, the folder or its scene.json may
-// be given. Faults are Error(kBadScene) that names the file, the key and the remedy.
+// by relative path, all in metres. Wherever a scene is asked for, the folder, its scene.json or an
+// .arthro archive (archive_io.h) may be given. Faults are Error(kBadScene) that names the file, the
+// key and the remedy.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct LoadedScene {
   ColourImage panorama;
   DepthMap depth;                     // same size as the panorama, or empty: a bare sphere
   std::vector<SurfaceMesh> surfaces;  // one a tissue, in its own frame, m
+  // Holds the folder that an archive was unpacked into, for as long as its files may be read.
+  std::shared_ptr<const void> unpacked;
 };
 
 // The values alone, checked. Older versions are brought up to date in memory; a newer one is

@@ -133,6 +133,23 @@ TEST(DocumentIo, SaveAsIntoAnotherFolderCopiesEverything) {
   ExpectSame(OpenDocument(folder / "two"), saved);
 }
 
+TEST(DocumentIo, AnArchiveIsOpenedChangedAndSavedLikeAFolder) {
+  test::TempFolder folder;
+  const Sources sources(folder.path());
+  const Document saved = SaveDocument(sources.Author(), folder / "scene.arthro");
+  EXPECT_EQ(saved.folder, folder / "scene.arthro");
+  Document opened = OpenDocument(folder / "scene.arthro");
+  ExpectSame(opened, saved);
+  opened.scene.title = "changed";
+  const Document again = SaveDocument(opened, folder / "scene.arthro");
+  ExpectSame(OpenDocument(folder / "scene.arthro"), again);
+  ExpectSame(SaveDocument(again, folder / "as folder"), again);
+  const std::string before = ReadWholeFile(folder / "scene.arthro");
+  opened.scene.backdrop.radius = -1;
+  EXPECT_THROW(SaveDocument(opened, folder / "scene.arthro"), Error);
+  EXPECT_EQ(ReadWholeFile(folder / "scene.arthro"), before);
+}
+
 TEST(DocumentIo, ANewDepthGetsANewFileAndUndoFindsTheOldOne) {
   test::TempFolder folder;
   const Sources sources(folder.path());

@@ -1,0 +1,240 @@
+#include "simulation/scene/archive_io.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <string>
+#include <sys/stat.h>
+#include <vector>
+#include <zip.h>
+
+#include <fmt/format.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/scene_io.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Discard {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+using Archive = std::unique_ptr<zip_t, Discard>;
+
+struct CloseEntry {
+  void operator()(zip_file_t* entry) const { zip_fclose(entry); }
+};
+
+Archive Open(const fs::path& file, int flags, const fs::path& named) {
+  int code = 0;
+  Archive archive(zip_open(file.c_str(), flags, &code));
+  if (archive) return archive;
+  zip_error_t fault;
+  zip_error_init_with_code(&fault, code);
+  const std::string why = zip_error_strerror(&fault);
+  zip_error_fini(&fault);
+  throw Error(Code::kBadScene,
+              fmt::format("this is not a scene archive that can be opened: {}; copy or export it "
+                          "again",
+                          why),
+              named);
+}
+
+// Throws unless `name` is a plain relative path that stays inside whatever folder it is put in.
+void RequireInside(const std::string& name, const fs::path& archive) {
+  const fs::path path(name);
+  const bool climbs = std::any_of(path.begin(), path.end(),
+                                  [](const fs::path& part) { return part == ".." || part == "."; });
+  const bool has_odd_letter = std::any_of(name.begin(), name.end(), [](unsigned char letter) {
+    return letter < 0x20 || letter == 0x7f || letter == '\\' || letter == ':';
+  });
+  if (name.empty() || path.is_absolute() || climbs || has_odd_letter)
+    throw Error(Code::kBadScene,
+                fmt::format("this archive wants to write outside its folder (\"{}\"), which a "
+                            "scene never does; do not use it",
+                            fs::path(name).filename().string()),
+                archive);
+}
+
+struct Entry {
+  zip_uint64_t index = 0, bytes = 0;
+  std::string name;
+};
+
+// Every entry that is a file, checked before the first byte is unpacked.
+std::vector<Entry> EntriesOf(zip_t* zip, const fs::path& archive, const ArchiveLimits& limits) {
+  const zip_int64_t count = zip_get_num_entries(zip, 0);
+  const auto too_large = [&](const std::string& what) {
+    throw Error(Code::kBadScene,
+                fmt::format("this archive unpacks to more than {}, which no scene needs; do not "
+                            "use it",
+                            what),
+                archive);
+  };
+  if (count > limits.most_files) too_large(fmt::format("{} files", limits.most_files));
+  std::vector<Entry> entries;
+  std::set<std::string> names;
+  zip_uint64_t bytes = 0;
+  for (zip_int64_t i = 0; i < count; ++i) {
+    zip_stat_t stat;
+    const auto index = static_cast<zip_uint64_t>(i);
+    constexpr zip_uint64_t kNeeded = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_ENCRYPTION_METHOD;
+    if (zip_stat_index(zip, index, 0, &stat) != 0 || (stat.valid & kNeeded) != kNeeded)
+      throw Error(Code::kBadScene, "this archive is damaged; copy or export it again", archive);
+    const std::string name = stat.name;
+    RequireInside(name, archive);
+    zip_uint8_t system = 0;
+    zip_uint32_t attributes = 0;
+    zip_file_get_external_attributes(zip, index, 0, &system, &attributes);
+    const mode_t kind = system == ZIP_OPSYS_UNIX ? (attributes >> 16) & S_IFMT : 0;
+    if (name.back() == '/') continue;  // folders are made for the files in them
+    if (kind != 0 && kind != S_IFREG)
+      throw Error(Code::kBadScene,
+                  fmt::format("\"{}\" in this archive is a link or a device, which a scene never "
+                              "holds; do not use it",
+                              name),
+                  archive);
+    if (stat.encryption_method != ZIP_EM_NONE)
+      throw Error(Code::kBadScene, "this archive is locked by a password; unlock it first",
+                  archive);
+    if (!names.insert(name).second)
+      throw Error(Code::kBadScene,
+                  fmt::format("\"{}\" is in this archive twice; export it again", name), archive);
+    if (stat.size > limits.most_bytes || (bytes += stat.size) > limits.most_bytes)
+      too_large(fmt::format("{} MB", limits.most_bytes >> 20));
+    entries.push_back({index, stat.size, name});
+  }
+  if (!names.contains("scene.json"))
+    throw Error(Code::kBadScene,
+                "there is no scene.json at the top of this archive; pack the "
+                "content of the scene's folder, not the folder",
+                archive);
+  return entries;
+}
+
+void UnpackEntry(zip_t* zip, const Entry& entry, const fs::path& target, const fs::path& archive) {
+  const auto damaged = [&] {
+    throw Error(
+        Code::kBadScene,
+        fmt::format("\"{}\" in this archive is damaged; copy or export it again", entry.name),
+        archive);
+  };
+  std::error_code fault;
+  fs::create_directories(target.parent_path(), fault);
+  if (fault || fs::exists(target)) damaged();  // a file and a folder of one name
+  const std::unique_ptr<zip_file_t, CloseEntry> source(zip_fopen_index(zip, entry.index, 0));
+  if (!source) damaged();
+  std::ofstream stream(target, std::ios::binary);
+  std::vector<char> buffer(std::size_t{1} << 16);
+  zip_uint64_t bytes = 0;
+  zip_int64_t got = 0;
+  // The size was declared by a stranger; what really comes is counted.
+  while ((got = zip_fread(source.get(), buffer.data(), buffer.size())) > 0 &&
+         (bytes += static_cast<zip_uint64_t>(got)) <= entry.bytes && stream)
+    stream.write(buffer.data(), got);
+  if (got < 0 || bytes != entry.bytes) damaged();
+  stream.close();
+  if (!stream)
+    throw Error(Code::kFile,
+                "this archive could not be unpacked, since no more may be written there; free "
+                "some space",
+                target.parent_path());
+}
+
+void AddFile(zip_t* zip, const fs::path& source, const std::string& name, const fs::path& archive) {
+  const auto refuse = [&] {
+    throw Error(Code::kFile, fmt::format("\"{}\" could not be packed: {}", name, zip_strerror(zip)),
+                archive);
+  };
+  zip_source_t* bytes = zip_source_file(zip, source.c_str(), 0, -1);
+  if (!bytes) refuse();
+  const zip_int64_t index = zip_file_add(zip, name.c_str(), bytes, ZIP_FL_ENC_UTF_8);
+  if (index < 0) {
+    zip_source_free(bytes);
+    refuse();
+  }
+  constexpr zip_uint16_t kFirstOfJanuary1980 = 0x21;  // so that only content makes a difference
+  const auto at = static_cast<zip_uint64_t>(index);
+  zip_file_set_dostime(zip, at, 0, kFirstOfJanuary1980, 0);
+  zip_file_set_external_attributes(zip, at, 0, ZIP_OPSYS_UNIX,
+                                   static_cast<zip_uint32_t>(S_IFREG | 0644) << 16);
+}
+
+// scene.json first, then what it names, each once, in order of name.
+std::vector<std::string> FilesOf(const fs::path& scene) {
+  const Scene values = ReadScene(scene);
+  std::set<std::string> names;
+  const auto add = [&](const fs::path& name) {
+    if (!name.empty() && name != "scene.json")
+      names.insert(name.lexically_normal().generic_string());
+  };
+  add(values.backdrop.panorama);
+  add(values.backdrop.depth);
+  add(values.scope.lens);
+  for (const Tissue& tissue : values.tissues) {
+    add(tissue.surface);
+    add(tissue.mesh);
+  }
+  std::vector<std::string> files = {"scene.json"};
+  files.insert(files.end(), names.begin(), names.end());
+  return files;
+}
+
+}  // namespace
+
+bool IsArchive(const fs::path& file) { return file.extension() == ".arthro"; }
+
+void PackScene(const fs::path& scene, const fs::path& archive) {
+  const fs::path file = SceneFile(scene);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const std::vector<std::string> files = FilesOf(scene);
+  for (const std::string& name : files) {
+    std::error_code ignored;
+    if (name != "scene.json" && !fs::is_regular_file(folder / name, ignored))
+      throw Error(
+          Code::kBadScene,
+          fmt::format("\"{}\" is not in the scene's folder, so the scene is not complete", name),
+          file);
+  }
+  WriteAtomically(archive, [&](const fs::path& beside) {
+    Archive zip = Open(beside, ZIP_CREATE | ZIP_TRUNCATE, archive);
+    for (const std::string& name : files)
+      AddFile(zip.get(), name == "scene.json" ? file : folder / name, name, archive);
+    if (zip_close(zip.get()) != 0)
+      throw Error(Code::kFile,
+                  fmt::format("could not be written: {}; free some space or choose another place",
+                              zip_strerror(zip.get())),
+                  archive);
+    static_cast<void>(zip.release());  // closing has freed it
+  });
+}
+
+void UnpackScene(const fs::path& archive, const fs::path& folder, const ArchiveLimits& limits) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(archive, ignored))
+    throw Error(Code::kBadScene, "there is no such archive; check the name", archive);
+  const Archive zip = Open(archive, ZIP_RDONLY | ZIP_CHECKCONS, archive);
+  for (const Entry& entry : EntriesOf(zip.get(), archive, limits))
+    UnpackEntry(zip.get(), entry, folder / entry.name, archive);
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "arthroscene-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    throw Error(Code::kFile,
+                fmt::format("no temporary folder could be made: {}", std::strerror(errno)), name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace arthro

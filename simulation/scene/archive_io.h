@@ -1,0 +1,42 @@
+// A scene as one file to carry about: a zip archive named .arthro with scene.json at its top
+// (design §6). Archives come from strangers, so nothing in one can reach outside the folder that it
+// is unpacked into, fill the disk, or leave anything behind that is no plain file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace arthro {
+
+struct ArchiveLimits {
+  std::uint64_t most_bytes = std::uint64_t{4} << 30;  // unpacked, all together
+  std::int64_t most_files = 10000;
+};
+
+bool IsArchive(const std::filesystem::path& file);  // by its extension
+
+// scene.json and the files that it names, and nothing else that lies in the folder. Atomic; the
+// same scene gives the same bytes. Throws Error(kBadScene) for a scene that cannot be read or is
+// not complete.
+void PackScene(const std::filesystem::path& scene, const std::filesystem::path& archive);
+
+// Into `folder`, which must be there and empty. Throws Error(kBadScene) for anything but a sound
+// archive of plain files; what was unpacked until then is left for the owner of the folder.
+void UnpackScene(const std::filesystem::path& archive, const std::filesystem::path& folder,
+                 const ArchiveLimits& limits = {});
+
+// A folder of its own under the system's temporary one, removed with the last owner.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace arthro
