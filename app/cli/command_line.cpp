@@ -33,6 +33,7 @@ int RunCommandLine(int argc, char** argv) {
   AddPivotJob(program);
   AddReplayJob(program);
   AddTetrahedralizeJob(program);
+  AddViewJob(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,5 +14,6 @@ void AddDepthJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
 void AddTetrahedralizeJob(CLI::App& program);
+void AddViewJob(CLI::App& program);
 
 }  // namespace arthro::app

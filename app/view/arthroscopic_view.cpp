@@ -27,7 +27,7 @@ namespace arthro::app {
 namespace {
 
 // How white the brightest parts of the footage count: a model of colour 1 is drawn as they are.
-constexpr double kWhite = 0.80;
+constexpr double kWhite = 0.85;
 // Share of the footage's own tint that the models' light takes.
 constexpr double kTint = 0.6;
 

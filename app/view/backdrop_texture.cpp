@@ -10,7 +10,7 @@ namespace arthro::app {
 namespace {
 
 // The soft end takes this share of the panorama's longer edge.
-constexpr double kSoftEnd = 1.0 / 120.0;
+constexpr double kSoftEnd = 1.0 / 40.0;
 
 // Mean over reduction x reduction blocks; a last, thinner block takes what is left.
 ColourImage Reduced(const ColourImage& image, int reduction) {
@@ -71,7 +71,7 @@ std::vector<float> SoftMask(const DepthMap& depth, int width, int height, int re
   return mask;
 }
 
-// Mean colour of what was imaged and of its brightest twentieth, in linear light.
+// Mean colour of what was imaged and of its brightest fifth, in linear light.
 void MeasureColours(BackdropTexture& texture) {
   constexpr int kBins = 64;
   std::array<glm::dvec3, kBins> sums{};
@@ -97,7 +97,7 @@ void MeasureColours(BackdropTexture& texture) {
   texture.mean_colour = sum / total;
   double bright = 0;
   glm::dvec3 bright_sum{0.0};
-  for (std::size_t b = kBins; b-- > 0 && bright < 0.05 * total;) {
+  for (std::size_t b = kBins; b-- > 0 && bright < 0.2 * total;) {
     bright += counts[b];
     bright_sum += sums[b];
   }

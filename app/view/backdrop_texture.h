@@ -20,7 +20,7 @@ struct BackdropTexture {
       rgba;                     // top row first; alpha: 255 well inside the imaged part, 0 outside
   std::vector<float> relief;    // m; 0 where it is not known; empty without a depth map
   glm::dvec3 mean_colour{0.2};  // linear, of the imaged part
-  glm::dvec3 bright_colour{0.6};  // linear, mean of its brightest twentieth
+  glm::dvec3 bright_colour{0.6};  // linear, mean of its brightest fifth
 };
 
 // `depth` may be empty. `max_size` is the largest texture edge.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <vtkMatrix4x4.h>
@@ -36,8 +37,8 @@ in vec3 lensPoint;
 in vec3 modelPoint;
 )";
 
-// A fragment whose own direction lies elsewhere belongs to a triangle that wraps round the back of
-// the lens: it is dropped. Then rim, depth, light.
+// A fragment whose own direction is outside the window, or elsewhere in it, belongs to a triangle
+// that wraps round the back of the lens: it is dropped. Then rim, depth, light.
 constexpr const char* kFragmentStart = R"(
   float lensDistance = length(lensPoint);
   vec2 lensOffset = (gl_FragCoord.xy - windowRadius) / windowRadius;
@@ -45,7 +46,9 @@ constexpr const char* kFragmentStart = R"(
   float halfCosine = sqrt(max(0.5 - 0.5 * lensPoint.z / lensDistance, 0.0025));
   vec2 lensPlace = lensPoint.xy / lensDistance / (2.0 * lensScale * halfCosine);
   float coverage = rimCoverage(lensR, windowRadius);
-  if (distance(lensPlace, lensOffset) > 0.12 || coverage <= 0.0 || lensDistance < nearest) discard;
+  bool behind = lensPoint.z > (2.42 * lensScale * lensScale - 1.0) * lensDistance;
+  if (behind || distance(lensPlace, lensOffset) > 0.12 || coverage <= 0.0 || lensDistance < nearest)
+    discard;
   gl_FragDepth = storedDepth(lensDistance);
   vec3 toLens = -lensPoint / lensDistance;
   // The fibres that give light end beside the lens, not in it.
@@ -58,14 +61,48 @@ constexpr const char* kFragmentStart = R"(
   float light = lightAt(lensDistance);
 )";
 
+// Value noise with its gradient: xyz slope, w value, about -1 to 1. An integer hash, so that every
+// driver gives the same pattern.
+constexpr const char* kNoise = R"(
+float lattice(ivec3 p) {
+  uint h = uint(p.x) * 0x8da6b343u + uint(p.y) * 0xd8163841u + uint(p.z) * 0xcb1ab31fu;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  return float(h >> 8) * (2.0 / 16777215.0) - 1.0;
+}
+vec4 noise(vec3 p) {
+  vec3 cell = floor(p), f = p - cell;
+  ivec3 i = ivec3(cell);
+  vec3 u = f * f * (3.0 - 2.0 * f), du = 6.0 * f * (1.0 - f);
+  float a = lattice(i), b = lattice(i + ivec3(1, 0, 0)), c = lattice(i + ivec3(0, 1, 0)),
+        d = lattice(i + ivec3(1, 1, 0)), e = lattice(i + ivec3(0, 0, 1)),
+        g = lattice(i + ivec3(1, 0, 1)), h = lattice(i + ivec3(0, 1, 1)),
+        k = lattice(i + ivec3(1, 1, 1));
+  float k1 = b - a, k2 = c - a, k3 = e - a, k4 = a - b - c + d, k5 = a - c - e + h,
+        k6 = a - b - e + g, k7 = b + c + e - a - d - h - g + k;
+  return vec4(du * vec3(k1 + k4 * u.y + k6 * u.z + k7 * u.y * u.z,
+                        k2 + k5 * u.z + k4 * u.x + k7 * u.z * u.x,
+                        k3 + k6 * u.x + k5 * u.y + k7 * u.x * u.y),
+              a + k1 * u.x + k2 * u.y + k3 * u.z + k4 * u.x * u.y + k5 * u.y * u.z +
+                  k6 * u.z * u.x + k7 * u.x * u.y * u.z);
+}
+)";
+
 constexpr const char* kTissueLook = R"(
+  // Uneven by nature: patches of some millimetres, and a surface that is not quite smooth.
+  vec4 coarse = noise(modelPoint * 300.0), fine = noise(modelPoint * 1100.0);
+  normal = normalize(normal + 0.035 * fine.xyz + 0.02 * coarse.xyz);
+  facing = max(dot(normal, toLight), 0.0);
+  shine = max(dot(normal, halfway), 0.0);
+  vec3 own = modelColour * (1.0 + 0.06 * coarse.w + 0.035 * fine.w) *
+             mix(vec3(1.0), vec3(1.0, 0.93, 0.88), 0.5 + 0.5 * coarse.w);
   // Light that has gone through tissue comes out warmer and softer where it turns away.
-  float wrapped = (facing + 0.22) / 1.22;
-  vec3 scattered = mix(vec3(1.0, 0.80, 0.70), vec3(1.0), smoothstep(0.0, 0.7, facing));
-  vec3 body = modelColour * scattered * (0.10 + 0.90 * pow(wrapped, 1.15)) * lightColour * light;
+  float wrapped = (facing + 0.15) / 1.15;
+  vec3 scattered = mix(vec3(0.95, 0.70, 0.58), vec3(1.0), smoothstep(0.0, 0.75, facing));
+  vec3 body = own * scattered * (0.06 + 0.94 * pow(wrapped, 1.3)) * lightColour * light;
   // A film of fluid: a broad sheen, a small glint, and the surroundings at grazing angles.
-  vec3 wet = lightColour * light * (0.07 * pow(shine, 14.0) + 0.45 * pow(shine, 160.0));
-  vec3 mirrored = surround * (0.03 + 0.45 * pow(1.0 - seen, 4.0));
+  vec3 wet = lightColour * light * (0.05 * pow(shine, 14.0) + 0.5 * pow(shine, 220.0));
+  vec3 mirrored = surround * (0.03 + 0.35 * pow(1.0 - seen, 4.0));
   vec3 linear = body + wet + mirrored;
 )";
 
@@ -75,16 +112,35 @@ constexpr const char* kSteelLook = R"(
   float ring = -modelPoint.z / 0.005;
   float etched = ring > 0.9 && ring < 4.5 ? 1.0 - smoothstep(0.03, 0.045, abs(ring - round(ring))) : 0.0;
   vec3 steel = modelColour * (1.0 - 0.85 * etched);
+  // Brushed: it mirrors the joint greyly and mostly at its edges, and the lamp as a streak.
   vec3 mirror = reflect(-toLens, normal);
   float lamp = max(dot(mirror, toLight), 0.0);
-  vec3 linear = steel * (surround * (0.35 + 0.9 * pow(1.0 - seen, 2.0)) +
-      lightColour * light * (0.10 * facing + 0.35 * pow(lamp, 3.0) + 0.9 * pow(lamp, 30.0)));
+  vec3 grey = mix(surround, vec3(dot(surround, vec3(0.2126, 0.7152, 0.0722))), 0.75);
+  float sky = 0.5 + 0.5 * mirror.y;
+  vec3 linear = steel * (grey * (0.18 + 0.55 * sky * sky + 0.5 * pow(1.0 - seen, 3.0)) +
+      lightColour * light * (0.16 * facing * facing + 0.30 * pow(lamp, 4.0) + 1.2 * pow(lamp, 40.0)));
 )";
 
 constexpr const char* kFragmentEnd = R"(
   vec3 shown = shoulder(pow(max(linear, vec3(0.0)), vec3(1.0 / 2.2))) * softRim(lensR) * coverage;
   gl_FragData[0] = vec4(shown, 1.0);
 )";
+
+// Area vectors of a closed surface cancel; its volume is positive when they look outward.
+bool IsClosedAndOutward(const SurfaceMesh& surface) {
+  glm::dvec3 sum{0.0};
+  double area = 0.0, volume = 0.0;
+  for (const auto& t : surface.triangles) {
+    const glm::dvec3 &a = surface.vertices[static_cast<std::size_t>(t[0])],
+                     &b = surface.vertices[static_cast<std::size_t>(t[1])],
+                     &c = surface.vertices[static_cast<std::size_t>(t[2])];
+    const glm::dvec3 twice = glm::cross(b - a, c - a);
+    sum += twice;
+    area += glm::length(twice);
+    volume += glm::dot(a, twice);
+  }
+  return volume > 0.0 && glm::length(sum) < 1e-6 * area;
+}
 
 float Float(double value) { return static_cast<float>(value); }
 
@@ -108,9 +164,10 @@ LensModel::LensModel(Look look) {
       "//VTK::Normal::Dec", true, "//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n",
       false);
   shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, kWarp, false);
-  shader->AddFragmentShaderReplacement(
-      "//VTK::Light::Dec", true, std::string("//VTK::Light::Dec\n") + kDepthShader + kLightShader,
-      false);
+  shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
+                                       std::string("//VTK::Light::Dec\n") + kDepthShader +
+                                           kLightShader + (look == Look::kTissue ? kNoise : ""),
+                                       false);
   shader->AddFragmentShaderReplacement("//VTK::Normal::Dec", true, kFragmentHead, false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
                                        std::string(kFragmentStart) +
@@ -137,6 +194,8 @@ void LensModel::SetSurface(const SurfaceMesh& surface) {
   points_->SetNumberOfPoints(static_cast<vtkIdType>(surface.vertices.size()));
   normal_array_->SetNumberOfTuples(static_cast<vtkIdType>(surface.vertices.size()));
   SetVertices(surface.vertices);
+  // Of a closed surface the inside is never seen, and half the work is saved.
+  actor_->GetProperty()->SetBackfaceCulling(IsClosedAndOutward(surface) ? 1 : 0);
 }
 
 void LensModel::SetVertices(std::span<const glm::dvec3> vertices) {

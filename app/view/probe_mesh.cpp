@@ -67,6 +67,12 @@ SurfaceMesh MakeProbeMesh(const ProbeShape& shape) {
       mesh.vertices.push_back(
           {x, ring.y + across * std::cos(ring.angle), ring.z - across * std::sin(ring.angle)});
     }
+  // The taper lifts the hook's side a little off the plane; what is farthest along the rod touches
+  // it.
+  double farthest = mesh.vertices.front().z;
+  for (const glm::dvec3& vertex : mesh.vertices) farthest = std::max(farthest, vertex.z);
+  for (glm::dvec3& vertex : mesh.vertices) vertex.z -= farthest;
+
   const int sides = shape.sides;
   for (int r = 0; r + 1 < static_cast<int>(rings.size()); ++r)
     for (int i = 0; i < sides; ++i) {

@@ -13,8 +13,8 @@ struct ProbeShape {
   double taper_length = 9e-3;     // from shaft to neck
   double hook_length = 3.4e-3;    // from the axis to the hook's end, the usual probe's
   double shaft_length = 0.12;     // longer than a joint is deep; cut at the portal when drawn
-  // Rings along the shaft this close together keep its bent picture smooth: 0.35 px of chord error
-  // in a 512 px window at 5 mm from the lens, less with the square of the distance.
+  // Rings along the shaft this close together keep its bent picture smooth: 0.2 px of chord error
+  // in a 512 px window some 5 mm from the lens, less with the square of the distance.
   double ring_spacing = 0.5e-3;
   int sides = 20;
 };

@@ -1,0 +1,98 @@
+// arthroscene view SCENE (design §5): one picture through the arthroscope, with no window.
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/jobs.h"
+#include "app/view/still_picture.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/scene_io.h"
+
+namespace arthro::app {
+namespace {
+
+struct ViewArguments {
+  std::filesystem::path scene, output;
+  double latitude_deg = 0.0, longitude_deg = 0.0, roll_deg = 0.0, insertion_mm = 10.0;
+  std::optional<double> view_angle_deg, head_roll_deg, field_of_view_deg;
+  int size = 512;
+  bool plain = false;
+};
+
+double Radians(const char* flag, double degrees) {
+  if (!std::isfinite(degrees))
+    throw Error(Code::kBadArgument,
+                fmt::format("{} {} is no angle; give a number of degrees", flag, degrees));
+  return RadiansFromDegrees(degrees);
+}
+
+void RunViewJob(const ViewArguments& arguments) {
+  const simulation::RodPose pose{Radians("--latitude-deg", arguments.latitude_deg),
+                                 Radians("--longitude-deg", arguments.longitude_deg),
+                                 Radians("--roll-deg", arguments.roll_deg),
+                                 MetresFromMm(arguments.insertion_mm)};
+  std::optional<double> head_roll;
+  if (arguments.head_roll_deg) head_roll = Radians("--head-roll-deg", *arguments.head_roll_deg);
+  const LoadedScene loaded = LoadScene(arguments.scene);
+  const ScopeSpec& scope = loaded.scene.scope;
+  const double view_angle = arguments.view_angle_deg
+                                ? Radians("--view-angle-deg", *arguments.view_angle_deg)
+                                : scope.view_angle;
+  const double field_of_view = arguments.field_of_view_deg
+                                   ? Radians("--field-of-view-deg", *arguments.field_of_view_deg)
+                                   : scope.field_of_view;
+
+  StillPictures pictures(loaded);
+  Picture picture = PictureFromPose(pose, view_angle, field_of_view, head_roll);
+  picture.plain = arguments.plain;
+  const ColourImage image = pictures.Draw(picture, arguments.size);
+  WriteColourImage(arguments.output, image);
+  if (!pictures.view().notice().empty())
+    fmt::print(stderr, "arthroscene: {}\n", pictures.view().notice());
+}
+
+}  // namespace
+
+void AddViewJob(CLI::App& program) {
+  auto arguments = std::make_shared<ViewArguments>();
+  CLI::App* job = program.add_subcommand("view", "One picture through the arthroscope");
+  job->add_option("SCENE", arguments->scene, "Scene folder or scene.json")->required();
+  job->add_option("--latitude-deg", arguments->latitude_deg, "Rod's direction, up")
+      ->check(CLI::Range(-90.0, 90.0))
+      ->capture_default_str();
+  job->add_option("--longitude-deg", arguments->longitude_deg, "Rod's direction, right")
+      ->check(CLI::Range(-180.0, 180.0))
+      ->capture_default_str();
+  job->add_option("--roll-deg", arguments->roll_deg, "Turn of the rod, from up towards right")
+      ->capture_default_str();
+  job->add_option("--insertion-mm", arguments->insertion_mm,
+                  "Depth of the tip beyond the portal, less than the backdrop's radius")
+      ->capture_default_str();
+  job->add_option("--view-angle-deg", arguments->view_angle_deg,
+                  "Angle between rod and view; the scene's own where not given")
+      ->check(CLI::Range(0.0, 90.0));
+  job->add_option("--head-roll-deg", arguments->head_roll_deg,
+                  "Turn of the camera head on its own; with the rod where not given");
+  job->add_option("--field-of-view-deg", arguments->field_of_view_deg,
+                  "Full angle of the round window; the scene's own where not given")
+      ->check(CLI::Range(10.0, 170.0));
+  job->add_option("--size", arguments->size, "Width and height of the picture, px")
+      ->check(CLI::Range(StillPictures::kMinSize, StillPictures::kMaxSize))
+      ->capture_default_str();
+  job->add_flag("--plain", arguments->plain,
+                "Backdrop colours only: no light, soft rim, mark, tissues or instrument");
+  job->add_option("-o,--output", arguments->output, "Picture to write, by its ending: .png, .tif…")
+      ->required();
+  job->footer(
+      "No display is needed. The window's centre is the picture's; outside it is black. A ray at "
+      "angle t from the view's axis lands sin(t/2) / sin(fov/4) window radii from the centre.");
+  job->callback([arguments] { RunViewJob(*arguments); });
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,55 @@
+#include "app/view/still_picture.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+ColourImage Halved(const ColourImage& image) {
+  ColourImage half(image.width / 2, image.height / 2);
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        half.at(x, y)[c] = static_cast<std::uint8_t>(
+            (image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
+             image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c] + 2) /
+            4);
+  return half;
+}
+
+}  // namespace
+
+Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, double field_of_view,
+                        std::optional<double> head_roll) {
+  Picture picture;
+  picture.view = simulation::ViewFromPose(pose, view_angle, head_roll);
+  picture.field_of_view = field_of_view;
+  picture.notch = head_roll ? pose.roll - *head_roll : 0.0;
+  return picture;
+}
+
+StillPictures::StillPictures(const LoadedScene& loaded) : radius_(loaded.scene.backdrop.radius) {
+  view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_.SetTissues(loaded.scene.tissues, loaded.surfaces);
+}
+
+ColourImage StillPictures::Draw(const Picture& picture, int size) {
+  if (size < kMinSize || size > kMaxSize)
+    throw Error(Code::kBadArgument,
+                fmt::format("a picture of {} pixels a side cannot be drawn; ask for {} to {}", size,
+                            kMinSize, kMaxSize));
+  const double depth = glm::length(picture.view.tip);
+  if (!(depth <= radius_ * (1.0 + 1e-12)))
+    throw Error(Code::kBadArgument,
+                fmt::format("the scope's tip is {:.1f} mm from the portal, outside the backdrop's "
+                            "sphere of {:.1f} mm; insert it less",
+                            MmFromMetres(depth), MmFromMetres(radius_)));
+  view_.Render(picture, 2 * size);
+  return Halved(view_.ReadPixels());
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,39 @@
+// Single pictures of a scene with no window, for the jobs `view` and `demo` and for tests. The same
+// scene and picture give the same bytes run to run.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/view/arthroscopic_view.h"
+#include "app/view/offscreen_context.h"
+#include "simulation/scene/scene_io.h"
+#include "simulation/scope/rod_pose.h"
+
+namespace arthro::app {
+
+// The frame that a held scope gives. Without a head roll the camera head turns with the scope.
+Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, double field_of_view,
+                        std::optional<double> head_roll = std::nullopt);
+
+class StillPictures {
+ public:
+  static constexpr int kMinSize = 16, kMaxSize = 4096;  // px
+
+  // Throws Error(kDisplay) where nothing can draw. `loaded` is copied to the renderer.
+  explicit StillPictures(const LoadedScene& loaded);
+
+  // Four rays a pixel: drawn twice as large and averaged. Throws Error(kBadArgument) for a tip
+  // outside the backdrop's sphere, from where there is nothing to see, and for a size out of range.
+  ColourImage Draw(const Picture& picture, int size);
+
+  ArthroscopicView& view() { return view_; }
+  const OffscreenContext& context() const { return context_; }
+
+ private:
+  OffscreenContext context_;
+  ArthroscopicView view_;  // after the context: it must end first
+  double radius_;
+};
+
+}  // namespace arthro::app

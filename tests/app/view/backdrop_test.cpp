@@ -1,0 +1,225 @@
+// The backdrop against the closed form of design §4.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+#include "simulation/core/units.h"
+#include "tests/app/view/view_scene.h"
+#include "tests/support/grid_picture.h"
+#include "tests/support/reference_tracer.h"
+
+namespace arthro::test {
+namespace {
+
+using app::Picture;
+using app::PictureFromPose;
+using simulation::RodPose;
+
+class BackdropView : public ViewTest {};
+
+struct GridCase {
+  double angle_deg, latitude_deg, longitude_deg, roll_deg, insertion;
+};
+
+// Every view angle, from shallow to deep, in all directions of roll; the panorama reaches far
+// enough for each to see a good part of it.
+std::vector<GridCase> GridCases() {
+  std::vector<GridCase> cases;
+  for (const double angle : {0.0, 30.0, 70.0, 90.0})
+    for (const double insertion : {0.005, 0.015, 0.03, 0.045})
+      for (const double roll : {0.0, 75.0, 200.0, 305.0})
+        cases.push_back({angle, 6.0, -9.0, roll, insertion});
+  return cases;
+}
+
+void ExpectGridWhereTheFormulaPutsIt(app::ArthroscopicView& view, const GridPanorama& grid,
+                                     const Backdrop& backdrop, const char* name) {
+  view.SetBackdrop(grid.Draw(), {}, backdrop);
+  double worst = 0, sum2 = 0;
+  int crossings = 0, cells = 0, wrong = 0, seen = 0;
+  for (const GridCase& c : GridCases()) {
+    const RodPose pose{RadiansFromDegrees(c.latitude_deg), RadiansFromDegrees(c.longitude_deg),
+                       RadiansFromDegrees(c.roll_deg), c.insertion};
+    Picture picture = PictureFromPose(pose, RadiansFromDegrees(c.angle_deg), std::numbers::pi / 2);
+    picture.plain = true;
+    view.Render(picture, 512);
+    const GridAgreement agreement =
+        CompareWithGrid(view.ReadPixels(), grid, backdrop, picture.view, picture.field_of_view);
+    EXPECT_LT(agreement.max_px, 0.5)
+        << c.angle_deg << " deg, roll " << c.roll_deg << ", insertion " << c.insertion << " at "
+        << agreement.worst.x << ", " << agreement.worst.y;
+    EXPECT_EQ(agreement.wrong_cells, 0);
+    worst = std::max(worst, agreement.max_px);
+    sum2 += agreement.rms_px * agreement.rms_px * agreement.crossings;
+    crossings += agreement.crossings;
+    cells += agreement.cells;
+    wrong += agreement.wrong_cells;
+    seen += agreement.crossings > 100 ? 1 : 0;
+  }
+  std::printf(
+      "%s: %d line crossings in %zu views at 512 px: rms %.4f px, max %.4f px; %d of %d "
+      "pixels in a wrong cell\n",
+      name, crossings, GridCases().size(), std::sqrt(sum2 / crossings), worst, wrong, cells);
+  // Too few views with lines in them would prove nothing.
+  EXPECT_GT(seen, 40);
+}
+
+TEST_F(BackdropView, GridOfAGnomonicPanoramaLiesWhereTheReferenceTracerSeesIt) {
+  GridPanorama grid;
+  grid.height = 2048;
+  Backdrop backdrop;
+  backdrop.projection.centre_px = {1020.25, 1030.75};
+  backdrop.projection.focal_px = 420;
+  ExpectGridWhereTheFormulaPutsIt(*view_, grid, backdrop, "gnomonic");
+}
+
+TEST_F(BackdropView, GridOfAnEquirectangularPanoramaLiesWhereTheReferenceTracerSeesIt) {
+  GridPanorama grid;
+  grid.width = 2400;
+  grid.height = 1600;
+  Backdrop backdrop;
+  backdrop.projection.type = ProjectionType::kEquirectangular;
+  backdrop.projection.centre_px = {1180.5, 820.25};
+  backdrop.projection.px_per_deg = 10;
+  ExpectGridWhereTheFormulaPutsIt(*view_, grid, backdrop, "equirectangular");
+}
+
+TEST_F(BackdropView, EveryPixelHasTheColourOfItsOwnPanoramaPixel) {
+  const LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  Picture picture = PictureFromPose({-0.05, 0.04, 1.1, 0.012}, RadiansFromDegrees(30), 1.5);
+  picture.plain = true;
+  const int size = 401;  // odd: a pixel lies in the very middle
+  view_->Render(picture, size);
+  const ColourImage drawn = view_->ReadPixels();
+  const TracedPicture traced = TraceWindow(loaded.scene.backdrop, loaded.panorama, picture.view,
+                                           picture.field_of_view, size);
+  int worst = 0, worst_at_centre = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      if (std::hypot(x - 200.0, y - 200.0) > 198.0) continue;  // the rim is blended
+      for (int c = 0; c < 3; ++c) {
+        const int off = std::abs(int{drawn.at(x, y)[c]} - int{traced.colours.at(x, y)[c]});
+        worst = std::max(worst, off);
+        if (x == 200 && y == 200) worst_at_centre = std::max(worst_at_centre, off);
+      }
+    }
+  std::printf("colours: off by at most %d of 255, %d at the centre\n", worst, worst_at_centre);
+  // A picture drawn smaller than the panorama is averaged over its pixels: a level or two.
+  EXPECT_LE(worst, 3);
+  EXPECT_LE(worst_at_centre, 1);
+}
+
+TEST_F(BackdropView, OutsideTheWindowIsBlackAndTheRimIsOnePixelWide) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  std::fill(loaded.panorama.rgb.begin(), loaded.panorama.rgb.end(), std::uint8_t{200});
+  loaded.scene.backdrop.projection.focal_px = 100;
+  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  for (const bool plain : {true, false}) {
+    Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
+    picture.plain = plain;
+    view_->Render(picture, 300);
+    const ColourImage drawn = view_->ReadPixels();
+    int between = 0;
+    for (int y = 0; y < 300; ++y)
+      for (int x = 0; x < 300; ++x) {
+        const double beyond = std::hypot(x - 149.5, y - 149.5) - 150.0;
+        const int red = drawn.at(x, y)[0];
+        if (beyond > 0.51) {
+          EXPECT_EQ(red, 0) << x << ", " << y << (plain ? " plain" : "");
+        }
+        if (plain && beyond < -0.51) {
+          EXPECT_EQ(red, 200) << x << ", " << y;
+        }
+        between += red > 0 && red < 200 ? 1 : 0;
+      }
+    EXPECT_GT(between, 300);  // the rim is blended, not stepped
+  }
+}
+
+TEST_F(BackdropView, DepthIsTheReliefsDistanceAlongTheView) {
+  LoadedScene loaded = MakeViewScene();
+  for (const double h : {0.0, 0.006, 0.02}) {
+    std::fill(loaded.depth.relief.begin(), loaded.depth.relief.end(), static_cast<float>(h));
+    view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+    const Picture picture = PictureFromPose({0.1, -0.1, 0.7, 0.014}, RadiansFromDegrees(30), 1.4);
+    const int size = 257;
+    view_->Render(picture, size);
+    const std::vector<float> distances = view_->ReadDistances();
+    double worst = 0;
+    int compared = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        const auto ray = ReferenceRay(picture.view, picture.field_of_view, size, {x, y});
+        if (!ray || std::hypot(x - 128.0, y - 128.0) > 115) continue;  // rim and mark
+        const auto hit = ReferenceSphereHit(picture.view.tip, *ray, 0.05);
+        ASSERT_TRUE(hit);
+        const auto pixel = ReferencePixel(loaded.scene.backdrop.projection, *hit);
+        if (!pixel || pixel->x < 1 || pixel->y < 1 || pixel->x > 1022 || pixel->y > 766) continue;
+        const double expected = glm::dot(*hit * ((0.05 - h) / 0.05) - picture.view.tip, *ray);
+        if (expected < 0.001) continue;
+        worst =
+            std::max(worst, std::abs(distances[static_cast<std::size_t>(y) * size + x] - expected));
+        ++compared;
+      }
+    std::printf("depth, relief %.0f mm: off by at most %.2g mm over %d pixels\n", h * 1e3,
+                worst * 1e3, compared);
+    EXPECT_GT(compared, 20000);
+    // 32-bit depth stored as 1/distance: 3 µm at 0.1 m, less nearer.
+    EXPECT_LT(worst, 5e-6);
+  }
+}
+
+TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture) {
+  LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(loaded.panorama, DepthMap(1024, 768, NAN), loaded.scene.backdrop);
+  const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
+  view_->Render(picture, 201);
+  EXPECT_NEAR(view_->ReadDistances()[100 * 201 + 100], 0.04, 5e-6);
+  const ColourImage drawn = view_->ReadPixels();
+  const std::uint8_t* centre = drawn.at(100, 100);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_GT(centre[c], 10) << "told apart from the black surround";
+    EXPECT_LT(centre[c], 50) << "and from tissue";
+  }
+}
+
+TEST_F(BackdropView, DeepestAndShallowestTipsDrawWithoutNonsense) {
+  const LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  for (const double insertion : {-0.02, 0.0, 0.049999, 0.05})
+    for (const double angle : {0.0, 90.0}) {
+      const Picture picture = PictureFromPose({0, 0, 0, insertion}, RadiansFromDegrees(angle), 1.5);
+      view_->Render(picture, 128);
+      for (const float distance : view_->ReadDistances()) {
+        ASSERT_TRUE(std::isfinite(distance));
+        ASSERT_GE(distance, 0.0f);
+        ASSERT_LE(distance, 1.0f);
+      }
+    }
+}
+
+TEST_F(BackdropView, APanoramaLargerThanATextureIsReducedAndSaidSo) {
+  // Software renderers take 16384 px a side, most cards 32768.
+  ColourImage wide(40000, 8);
+  for (int x = 0; x < wide.width; ++x)
+    for (int y = 0; y < wide.height; ++y)
+      wide.at(x, y)[0] = static_cast<std::uint8_t>(x * 255LL / wide.width);
+  Backdrop backdrop;
+  backdrop.projection.type = ProjectionType::kEquirectangular;
+  backdrop.projection.centre_px = {19999.5, 3.5};
+  backdrop.projection.px_per_deg = 200;
+  view_->SetBackdrop(wide, {}, backdrop);
+  EXPECT_NE(view_->notice().find("smaller"), std::string::npos) << view_->notice();
+  Picture picture = PictureFromPose({0, RadiansFromDegrees(40), 0, 0}, 0.0, 1.0);
+  picture.plain = true;
+  view_->Render(picture, 2001);  // fine enough to have pixels within the thin strip
+  const auto expected = (19999.5 + 200 * 40) / 40000 * 255;
+  EXPECT_NEAR(view_->ReadPixels().at(1000, 1000)[0], expected, 2);
+}
+
+}  // namespace
+}  // namespace arthro::test

@@ -1,0 +1,291 @@
+// Tissues and the instrument in the picture: where the lens puts them, what hides what.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+#include "app/view/probe_mesh.h"
+#include "app/view/vertex_normals.h"
+#include "simulation/core/units.h"
+#include "tests/app/view/view_scene.h"
+#include "tests/support/compare_pictures.h"
+#include "tests/support/reference_tracer.h"
+
+namespace arthro::test {
+namespace {
+
+using app::InstrumentView;
+using app::Picture;
+using app::PictureFromPose;
+
+SurfaceMesh Moved(SurfaceMesh mesh, const Pose& pose) {
+  for (glm::dvec3& vertex : mesh.vertices) vertex = pose * vertex;
+  return mesh;
+}
+
+// Largest distance, in px, between an edge as drawn (a chord) and as the lens bends it, over all
+// edges in the window.
+double WorstChord(const SurfaceMesh& mesh, const Picture& picture, int size) {
+  const simulation::RoundWindow window = simulation::WindowOfSize(picture.field_of_view, size);
+  double worst = 0;
+  for (const auto& triangle : mesh.triangles)
+    for (int side = 0; side < 3; ++side) {
+      const glm::dvec3 a =
+          mesh.vertices[static_cast<std::size_t>(triangle[side])] - picture.view.tip;
+      const glm::dvec3 b =
+          mesh.vertices[static_cast<std::size_t>(triangle[(side + 1) % 3])] - picture.view.tip;
+      const glm::dvec2 p = PixelFromRay(window, picture.view, a),
+                       q = PixelFromRay(window, picture.view, b);
+      if (glm::distance(p, window.centre_px) > window.radius_px ||
+          glm::distance(q, window.centre_px) > window.radius_px || p == q)
+        continue;
+      const glm::dvec2 along = glm::normalize(q - p);
+      for (const double t : {0.25, 0.5, 0.75}) {
+        const glm::dvec2 m = PixelFromRay(window, picture.view, (1 - t) * a + t * b) - p;
+        worst = std::max(worst, std::abs(along.x * m.y - along.y * m.x));
+      }
+    }
+  return worst;
+}
+
+class ModelsView : public ViewTest {};
+
+TEST_F(ModelsView, OutlinesAndDistancesAreTheReferenceTracersWithinAPixel) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  const SurfaceMesh mesh = Ellipsoid({0.007, 0.004, 0.005});
+  Pose pose;
+  pose.quaternion = glm::dquat(std::cos(0.3), 0, std::sin(0.3), 0);
+  const int size = 256;
+  int wrong = 0, far_wrong = 0, outline = 0, covered = 0;
+  double worst_distance = 0;
+  for (const glm::dvec3 position :
+       {glm::dvec3(0.001, 0.001, 0.032), glm::dvec3(0.012, -0.008, 0.028),
+        glm::dvec3(-0.015, 0.01, 0.024)}) {
+    pose.position = position;
+    Tissue tissue;
+    tissue.pose = pose;
+    view_->SetTissues(std::span(&tissue, 1), std::span(&mesh, 1));
+    const Picture picture = PictureFromPose({0, 0, 0.4, 0.012}, 0.2, 1.8);
+    view_->Render(picture, size);
+    const std::vector<float> drawn = view_->ReadDistances();
+    const SurfaceMesh moved = Moved(mesh, pose);
+    const ReferenceMesh reference{&moved};
+    const TracedPicture traced = TraceWindow(loaded.scene.backdrop, loaded.panorama, picture.view,
+                                             picture.field_of_view, size, std::span(&reference, 1));
+    const auto is_mesh = [&](int x, int y) {
+      return traced.what[static_cast<std::size_t>(y) * size + x] == 1;
+    };
+    for (int y = 4; y < size - 4; ++y)
+      for (int x = 4; x < size - 4; ++x) {
+        if (std::hypot(x - 127.5, y - 127.5) > 116) continue;
+        const std::size_t i = static_cast<std::size_t>(y) * size + x;
+        const auto ray = ReferenceRay(picture.view, picture.field_of_view, size, {x, y});
+        const double sphere =
+            glm::dot(*ReferenceSphereHit(picture.view.tip, *ray, 0.05) - picture.view.tip, *ray);
+        const bool drawn_mesh = drawn[i] < sphere - 20e-6;
+        const bool edge = is_mesh(x, y) != is_mesh(x + 1, y) ||
+                          is_mesh(x, y) != is_mesh(x - 1, y) ||
+                          is_mesh(x, y) != is_mesh(x, y + 1) || is_mesh(x, y) != is_mesh(x, y - 1);
+        outline += edge ? 1 : 0;
+        if (drawn_mesh != is_mesh(x, y)) {
+          ++wrong;
+          far_wrong += edge ? 0 : 1;
+        } else if (drawn_mesh) {
+          ++covered;
+          // At the outline the surface turns edge-on and a hair's breadth changes the distance.
+          if (!edge)
+            worst_distance = std::max(worst_distance, std::abs(drawn[i] - traced.distance[i]));
+        }
+      }
+  }
+  std::printf(
+      "models: %d of %d outline pixels differ from the tracer (mean %.3f px), none further "
+      "in; distance within %.3g mm over %d pixels\n",
+      wrong, outline, double(wrong) / (outline / 2.0), worst_distance * 1e3, covered);
+  EXPECT_GT(covered, 5000);
+  EXPECT_EQ(far_wrong, 0);
+  EXPECT_LT(double(wrong) / (outline / 2.0), 0.1);
+  EXPECT_LT(worst_distance, 0.3e-3);
+}
+
+TEST(ModelWarp, ChordsOfTissueAndProbeStayUnderHalfAPixel) {
+  // At 512 px and 90 degrees: tissue with edges of about a millimetre from 8 mm on, the probe from
+  // 5 mm beside the lens.
+  const Picture picture =
+      PictureFromPose({0, 0, 0, 0.01}, RadiansFromDegrees(30), std::numbers::pi / 2);
+  Pose pose;
+  pose.position = {0, -0.004, 0.026};
+  const double tissue = WorstChord(Moved(Ellipsoid({0.007, 0.006, 0.006}), pose), picture, 512);
+  Pose probe_pose;
+  probe_pose.position = {-0.012, -0.004, 0.018};
+  probe_pose.quaternion = glm::dquat(std::cos(-0.7), 0, std::sin(-0.7), 0);
+  const double probe = WorstChord(Moved(app::MakeProbeMesh(), probe_pose), picture, 512);
+  std::printf("warped vertices, chord against curve at 512 px: tissue %.3f px, probe %.3f px\n",
+              tissue, probe);
+  EXPECT_GT(tissue, 0.0);
+  EXPECT_GT(probe, 0.0);
+  EXPECT_LT(tissue, 0.5);
+  EXPECT_LT(probe, 0.5);
+}
+
+// A ball on the view's axis at a distance from the portal, and the relief's height there.
+struct Occlusion {
+  double ball_at, relief;
+  bool seen;
+};
+
+TEST_F(ModelsView, ReliefHidesTissueBehindItAndNoneInFront) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.4);
+  for (const Occlusion& c : {Occlusion{0.030, 0.010, true}, Occlusion{0.045, 0.010, false},
+                             Occlusion{0.045, 0.001, true}, Occlusion{0.036, 0.018, false}}) {
+    view_->SetBackdrop(loaded.panorama, DepthMap(256, 256, static_cast<float>(c.relief)),
+                       loaded.scene.backdrop);
+    view_->SetTissues({}, {});
+    view_->Render(picture, 200);
+    const ColourImage without = view_->ReadPixels();
+    const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.003));
+    Tissue tissue;
+    tissue.pose.position = {0, 0, c.ball_at};
+    view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+    view_->Render(picture, 200);
+    EXPECT_EQ(view_->ReadPixels().rgb != without.rgb, c.seen)
+        << "ball at " << c.ball_at << ", relief " << c.relief;
+    const double distance = view_->ReadDistances()[100 * 200 + 100];
+    EXPECT_NEAR(distance, c.seen ? c.ball_at - 0.003 - 0.01 : 0.05 - c.relief - 0.01, 30e-6);
+  }
+}
+
+TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.004));
+  Tissue tissue;
+  tissue.pose.position = {0, 0, 0.030};
+  view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+  Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
+  const int centre = 100 * 200 + 100;
+  view_->Render(picture, 200);
+  EXPECT_NEAR(view_->ReadDistances()[centre], 0.018, 30e-6);
+  const ColourImage ball_only = view_->ReadPixels();
+  // The shaft crosses the axis 22 mm from the portal, in front of the ball...
+  picture.instrument = InstrumentView{{0.03, 0, 0.0225}, {-0.02, 0, 0.0225}, 0.0};
+  view_->Render(picture, 200);
+  EXPECT_NEAR(view_->ReadDistances()[centre], 0.013, 0.1e-3);
+  const ColourImage probe_front = view_->ReadPixels();
+  EXPECT_NE(std::vector(ball_only.at(100, 100), ball_only.at(100, 100) + 3),
+            std::vector(probe_front.at(100, 100), probe_front.at(100, 100) + 3));
+  // ...or behind it, where the middle shows the ball as if no probe were there.
+  picture.instrument = InstrumentView{{0.03, 0, 0.040}, {-0.02, 0, 0.040}, 0.0};
+  view_->Render(picture, 200);
+  EXPECT_NEAR(view_->ReadDistances()[centre], 0.018, 30e-6);
+  const ColourImage probe_behind = view_->ReadPixels();
+  EXPECT_EQ(std::vector(ball_only.at(100, 100), ball_only.at(100, 100) + 3),
+            std::vector(probe_behind.at(100, 100), probe_behind.at(100, 100) + 3));
+  EXPECT_NE(ball_only.rgb, probe_behind.rgb) << "beside the ball the probe is seen";
+}
+
+TEST_F(ModelsView, ProbeIsDrawnFromItsPortalToTheProxyAndNoFurther) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  Picture picture = PictureFromPose({0, 0, 0, 0.0}, 0.0, 2.4);
+  picture.instrument = InstrumentView{{0.02, 0, 0.02}, {-0.01, 0, 0.02}, 0.0};
+  const int size = 400;
+  view_->Render(picture, size);
+  const std::vector<float> distances = view_->ReadDistances();
+  int drawn = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const float distance = distances[static_cast<std::size_t>(y) * size + x];
+      const auto ray = ReferenceRay(picture.view, picture.field_of_view, size, {x, y});
+      if (!ray || distance == 0.0f || distance > 0.049f) continue;
+      const glm::dvec3 point = picture.view.tip + double(distance) * *ray;
+      ++drawn;
+      EXPECT_GT(point.x, -0.0101);
+      EXPECT_LT(point.x, 0.0201);
+      EXPECT_LT(std::hypot(point.y, point.z - 0.02), 0.0036) << "within the hook's reach";
+    }
+  EXPECT_GT(drawn, 1000);
+}
+
+TEST_F(ModelsView, NothingBehindTheLensSmearsOverThePicture) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  // Few, long triangles wrapped all round the back of the lens, none in front.
+  const SurfaceMesh shell = Ellipsoid(glm::dvec3(0.006), 6, 4);
+  Tissue tissue;
+  tissue.pose.position = {0, 0, -0.0005};
+  const Picture picture = PictureFromPose({0, 0, 0, 0.012}, 0.0, std::numbers::pi / 2);
+  view_->Render(picture, 200);
+  const ColourImage without = view_->ReadPixels();
+  view_->SetTissues(std::span(&tissue, 1), std::span(&shell, 1));
+  view_->Render(picture, 200);
+  EXPECT_EQ(view_->ReadPixels().rgb, without.rgb);
+}
+
+TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
+  LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  const Picture picture = PictureFromPose({-0.1, 0, 0, 0.012}, 0.3, 1.5);
+  view_->Render(picture, 200);
+  const ColourImage before = view_->ReadPixels();
+  SurfaceMesh pressed = loaded.surfaces[0];
+  for (glm::dvec3& vertex : pressed.vertices)
+    vertex.z -= 0.0015 * std::exp(-1e5 * vertex.x * vertex.x);
+  view_->SetTissueVertices(0, pressed.vertices);
+  view_->Render(picture, 200);
+  const ColourImage after = view_->ReadPixels();
+  EXPECT_NE(before.rgb, after.rgb);
+  view_->SetTissues(loaded.scene.tissues, std::span(&pressed, 1));
+  view_->Render(picture, 200);
+  EXPECT_EQ(after.rgb, view_->ReadPixels().rgb);
+  EXPECT_THROW(view_->SetTissueVertices(0, std::span(pressed.vertices).first(3)), Error);
+  EXPECT_THROW(view_->SetTissueVertices(1, pressed.vertices), Error);
+}
+
+TEST(ProbeMesh, IsClosedRoundTheHookAndTouchesItsOriginWithTheHooksSide) {
+  const app::ProbeShape shape;
+  const SurfaceMesh mesh = app::MakeProbeMesh(shape);
+  double top = -1, reach = 0, back = 0, widest = 0;
+  for (const glm::dvec3& v : mesh.vertices) {
+    top = std::max(top, v.z);
+    back = std::min(back, v.z);
+    reach = std::max(reach, v.y);
+    widest = std::max(widest, std::abs(v.x));
+  }
+  EXPECT_NEAR(top, 0.0, 1e-12);
+  EXPECT_NEAR(back, -shape.shaft_length, 0.3e-3);
+  EXPECT_NEAR(reach, shape.hook_length, 20e-6);
+  EXPECT_NEAR(widest, 1.5e-3, 1e-9);
+  // Normals look outward: away from the shaft's axis.
+  std::vector<glm::dvec3> normals;
+  app::ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (mesh.vertices[i].z < -0.02 && mesh.vertices[i].z > -0.119) {
+      EXPECT_GT(glm::dot(normals[i],
+                         glm::normalize(glm::dvec3(mesh.vertices[i].x, mesh.vertices[i].y, 0))),
+                0.95);
+    }
+}
+
+TEST(VertexNormals, OfASphereAreItsRadii) {
+  const SurfaceMesh mesh = Ellipsoid(glm::dvec3(0.01));
+  std::vector<glm::dvec3> normals;
+  app::ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    EXPECT_GT(glm::dot(normals[i], glm::normalize(mesh.vertices[i])), 0.995);
+  // A vertex without triangles has one all the same.
+  app::ComputeVertexNormals(mesh.vertices, {}, normals);
+  EXPECT_EQ(normals[0], glm::dvec3(0, 0, 1));
+}
+
+}  // namespace
+}  // namespace arthro::test

@@ -1,0 +1,121 @@
+// Whole pictures: the same every time, and as they were when somebody looked at them.
+#include <glm/geometric.hpp>
+
+#include "simulation/core/units.h"
+#include "tests/app/view/view_scene.h"
+#include "tests/support/compare_pictures.h"
+
+namespace arthro::test {
+namespace {
+
+using app::Picture;
+using app::PictureFromPose;
+using app::StillPictures;
+
+Picture ScenePicture() {
+  Picture picture =
+      PictureFromPose({-0.12, 0.05, 0.2, 0.008}, RadiansFromDegrees(30), RadiansFromDegrees(90));
+  picture.instrument = ProbeInFront();
+  return picture;
+}
+
+std::unique_ptr<StillPictures> Start(const LoadedScene& loaded, std::string* why) {
+  try {
+    return std::make_unique<StillPictures>(loaded);
+  } catch (const Error& error) {
+    *why = error.what();
+    return nullptr;
+  }
+}
+
+#define START_OR_SKIP(pictures, loaded)      \
+  std::string why;                           \
+  const auto pictures = Start(loaded, &why); \
+  if (!pictures) GTEST_SKIP() << "NOT TESTED, NOTHING WAS DRAWN: " << why
+
+TEST(StillPicture, TissueAndProbeInAJoint) {
+  START_OR_SKIP(pictures, MakeViewScene());
+  EXPECT_TRUE(MatchesBaseline(pictures->Draw(ScenePicture(), 320), "view_tissue_and_probe"));
+}
+
+TEST(StillPicture, SteepScopeWithItsHeadTurned) {
+  START_OR_SKIP(pictures, MakeViewScene());
+  const Picture picture = PictureFromPose({-0.05, 0.35, -1.9, 0.010}, RadiansFromDegrees(70),
+                                          RadiansFromDegrees(100), 0.5);
+  EXPECT_TRUE(MatchesBaseline(pictures->Draw(picture, 256), "view_steep_scope"));
+}
+
+TEST(StillPicture, AMissingProbeIsCaught) {
+  START_OR_SKIP(pictures, MakeViewScene());
+  Picture picture = ScenePicture();
+  const ColourImage with = pictures->Draw(picture, 320);
+  picture.instrument.reset();
+  const PictureDifference difference = ComparePictures(pictures->Draw(picture, 320), with);
+  EXPECT_FALSE(difference.passes()) << difference.Sentence();
+}
+
+TEST(StillPicture, TissueAMillimetreOffIsCaught) {
+  START_OR_SKIP(pictures, MakeViewScene());
+  const ColourImage before = pictures->Draw(ScenePicture(), 320);
+  Pose pose = MakeViewScene().scene.tissues[0].pose;
+  pose.position.x += 0.001;
+  pictures->view().SetTissuePose(0, pose);
+  const PictureDifference difference = ComparePictures(pictures->Draw(ScenePicture(), 320), before);
+  EXPECT_FALSE(difference.passes()) << difference.Sentence();
+}
+
+TEST(StillPicture, IsTheSameBytesInAnotherContext) {
+  START_OR_SKIP(first, MakeViewScene());
+  const ColourImage picture = first->Draw(ScenePicture(), 200);
+  first->Draw(PictureFromPose({0, 0, 0, 0.02}, 0.0, 1.0), 128);
+  EXPECT_EQ(first->Draw(ScenePicture(), 200).rgb, picture.rgb) << "whatever was drawn between";
+  std::string why_second;
+  EXPECT_EQ(Start(MakeViewScene(), &why_second)->Draw(ScenePicture(), 200).rgb, picture.rgb);
+}
+
+TEST(StillPicture, PlainShowsNeitherModelsNorLightNorMark) {
+  const LoadedScene loaded = MakeViewScene();
+  START_OR_SKIP(pictures, loaded);
+  Picture picture = ScenePicture();
+  picture.plain = true;
+  const ColourImage with_models = pictures->Draw(picture, 200);
+  pictures->view().SetTissues({}, {});
+  picture.instrument.reset();
+  EXPECT_EQ(pictures->Draw(picture, 200).rgb, with_models.rgb);
+}
+
+TEST(StillPicture, ATipOutsideTheSphereAndAWrongSizeAreRefused) {
+  START_OR_SKIP(pictures, MakeViewScene());
+  EXPECT_THROW(pictures->Draw(PictureFromPose({0, 0, 0, 0.051}, 0.0, 1.0), 64), Error);
+  EXPECT_THROW(pictures->Draw(PictureFromPose({0, 0, 0, NAN}, 0.0, 1.0), 64), Error);
+  EXPECT_THROW(pictures->Draw(ScenePicture(), 4), Error);
+  EXPECT_THROW(pictures->Draw(ScenePicture(), 100000), Error);
+}
+
+TEST(ComparePictures, EqualPicturesPassAndOneFlatTileOffFails) {
+  ColourImage picture(64, 64);
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+    picture.rgb[i] = static_cast<std::uint8_t>(40 + i * 7 % 90);
+  EXPECT_TRUE(ComparePictures(picture, picture).passes());
+  EXPECT_EQ(ComparePictures(picture, picture).worst_ssim, 1.0);
+  ColourImage flat = picture;
+  for (int y = 32; y < 48; ++y)
+    for (int x = 16; x < 32; ++x) std::fill_n(flat.at(x, y), 3, std::uint8_t{85});
+  const PictureDifference difference = ComparePictures(flat, picture);
+  EXPECT_FALSE(difference.passes());
+  EXPECT_EQ(difference.worst_tile, glm::ivec2(16, 32));
+  EXPECT_FALSE(ComparePictures(ColourImage(64, 63), picture).passes());
+  EXPECT_FALSE(ComparePictures({}, {}).passes()) << "nothing is not a picture";
+}
+
+TEST(ComparePictures, RoundingIsNoDifference) {
+  ColourImage picture(64, 64), rounded;
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+    picture.rgb[i] = static_cast<std::uint8_t>(40 + i * 7 % 90);
+  rounded = picture;
+  for (std::size_t i = 0; i < rounded.rgb.size(); i += 3) rounded.rgb[i] += i % 2;
+  EXPECT_TRUE(ComparePictures(rounded, picture).passes());
+}
+
+}  // namespace
+}  // namespace arthro::test

@@ -1,0 +1,93 @@
+// The job `view`, as a user runs it: with no display.
+#include <gtest/gtest.h>
+
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/mesh_io.h"
+#include "tests/app/view/view_scene.h"
+#include "tests/support/run_program.h"
+
+namespace arthro::test {
+namespace {
+
+// The scene of the other tests, as files.
+std::string WriteViewScene(const TempFolder& folder) {
+  const LoadedScene loaded = MakeViewScene();
+  WriteColourImage(folder / "panorama.png", loaded.panorama);
+  WriteDepthMap(folder / "depth.tiff", loaded.depth);
+  WriteSurface(folder / "ring.ply", loaded.surfaces[0]);
+  WriteScene(folder / "scene.json", loaded.scene);
+  return folder.path().string();
+}
+
+constexpr const char* kNoDisplay = "env -u DISPLAY -u WAYLAND_DISPLAY";
+constexpr const char* kPose =
+    " --latitude-deg -7 --longitude-deg 3 --roll-deg 12 --insertion-mm 8 --view-angle-deg 30";
+
+class ViewJob : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      app::OffscreenContext context;
+    } catch (const Error& error) {
+      GTEST_SKIP() << "NOT TESTED, NOTHING WAS DRAWN: " << error.what();
+    }
+  }
+  TempFolder folder_;
+  const std::string scene_ = WriteViewScene(folder_);
+};
+
+TEST_F(ViewJob, DrawsWithoutADisplayAndTheSameBytesEachTime) {
+  for (const char* name : {"a.png", "b.png"}) {
+    const ProgramResult run = RunProgram(
+        "view " + scene_ + kPose + " --size 160 -o " + (folder_ / name).string(), kNoDisplay);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+  }
+  const ColourImage first = ReadColourImage(folder_ / "a.png");
+  EXPECT_EQ(first.width, 160);
+  EXPECT_EQ(first.height, 160);
+  EXPECT_EQ(first.rgb, ReadColourImage(folder_ / "b.png").rgb);
+}
+
+TEST_F(ViewJob, DrawsWhatTheViewDraws) {
+  const ProgramResult run =
+      RunProgram("view " + scene_ + kPose +
+                     " --plain --field-of-view-deg 100 --head-roll-deg 40 --size 128 -o " +
+                     (folder_ / "p.png").string(),
+                 kNoDisplay);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  app::StillPictures pictures(LoadScene(scene_));
+  constexpr double kDeg = std::numbers::pi / 180;
+  app::Picture picture = app::PictureFromPose({-7 * kDeg, 3 * kDeg, 12 * kDeg, 0.008}, 30 * kDeg,
+                                              100 * kDeg, 40 * kDeg);
+  picture.plain = true;
+  EXPECT_EQ(ReadColourImage(folder_ / "p.png").rgb, pictures.Draw(picture, 128).rgb);
+}
+
+TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
+  const std::string output = (folder_ / "none.png").string();
+  const auto refuse = [&](const std::string& arguments, int code, const std::string& word) {
+    const ProgramResult run = RunProgram("view " + arguments + " -o " + output, kNoDisplay);
+    EXPECT_EQ(run.exit_code, code) << arguments;
+    EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(output)) << arguments;
+  };
+  refuse(scene_ + " --insertion-mm 60", 1, "50.0 mm");
+  refuse(scene_ + " --roll-deg nan", 1, "--roll-deg");
+  refuse(scene_ + " --insertion-mm nan", 1, "insert");
+  refuse(scene_ + " --view-angle-deg 120", 2, "view-angle-deg");
+  refuse(scene_ + " --size 0", 2, "size");
+  refuse((folder_ / "absent").string(), 1, "absent");
+}
+
+TEST_F(ViewJob, WithoutAnyOpenGLItSaysSoInOneSentence) {
+  const ProgramResult run =
+      RunProgram("view " + scene_ + " -o " + (folder_ / "x.png").string(),
+                 std::string(kNoDisplay) + " __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("no picture can be drawn"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+}  // namespace
+}  // namespace arthro::test

@@ -1,0 +1,114 @@
+// A small joint made in code for tests of the view: a panorama like tissue, a relief with a bulge,
+// a ring in front of it; and a fixture that skips, loudly, where nothing can draw.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "app/view/still_picture.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/scene_io.h"
+
+namespace arthro::test {
+
+inline SurfaceMesh Ellipsoid(const glm::dvec3& radii, int around = 48, int along = 24) {
+  SurfaceMesh mesh;
+  mesh.vertices.push_back({0, 0, radii.z});
+  for (int j = 1; j < along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double a = 2 * std::numbers::pi * i / around, b = std::numbers::pi * j / along;
+      mesh.vertices.push_back(
+          radii * glm::dvec3(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b)));
+    }
+  mesh.vertices.push_back({0, 0, -radii.z});
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  const auto at = [&](int j, int i) { return 1 + (j - 1) * around + i % around; };
+  for (int i = 0; i < around; ++i) {
+    mesh.triangles.push_back({0, at(1, i), at(1, i + 1)});
+    mesh.triangles.push_back({last, at(along - 1, i + 1), at(along - 1, i)});
+    for (int j = 1; j + 1 < along; ++j) {
+      mesh.triangles.push_back({at(j, i), at(j + 1, i), at(j + 1, i + 1)});
+      mesh.triangles.push_back({at(j, i), at(j + 1, i + 1), at(j, i + 1)});
+    }
+  }
+  return mesh;
+}
+
+inline SurfaceMesh Ring(double radius, double thickness, int around = 80, int across = 40) {
+  SurfaceMesh mesh;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
+      const double r = radius + thickness * std::cos(b);
+      mesh.vertices.push_back({r * std::cos(a), r * std::sin(a), 0.7 * thickness * std::sin(b)});
+    }
+  const auto at = [&](int i, int j) { return (i % around) * across + j % across; };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return mesh;
+}
+
+// Colours vary slowly, so that a picture of it has no more than a rounding's room.
+inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
+  LoadedScene loaded;
+  Backdrop& backdrop = loaded.scene.backdrop;
+  loaded.scene.title = "a joint for tests";
+  backdrop.panorama = "panorama.png";
+  backdrop.depth = "depth.tiff";
+  backdrop.radius = 0.05;
+  backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
+  backdrop.projection.focal_px = 0.42 * width;
+  loaded.panorama = ColourImage(width, height);
+  loaded.depth = DepthMap(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double u = double(x) / width, v = double(y) / height;
+      const double wave = 0.5 + 0.25 * std::sin(19 * u + 5 * std::sin(9 * v)) +
+                          0.25 * std::sin(23 * v + 4 * std::cos(7 * u));
+      std::uint8_t* rgb = loaded.panorama.at(x, y);
+      rgb[0] = static_cast<std::uint8_t>(150 + 70 * wave);
+      rgb[1] = static_cast<std::uint8_t>(85 + 90 * wave);
+      rgb[2] = static_cast<std::uint8_t>(75 + 80 * wave * wave);
+      const double du = u - 0.55, dv = v - 0.6;
+      loaded.depth.at(x, y) =
+          static_cast<float>(0.004 + 0.008 * std::exp(-30 * (du * du + dv * dv)));
+    }
+  Tissue ring;
+  ring.name = "ring";
+  ring.surface = "ring.ply";
+  ring.pose.position = {0.002, 0.004, 0.034};
+  ring.pose.quaternion = glm::dquat(std::cos(0.5), std::sin(0.5), 0, 0);
+  loaded.scene.tissues = {ring};
+  loaded.surfaces = {Ring(0.007, 0.0024)};
+  return loaded;
+}
+
+// The probe in front of the ring.
+inline app::InstrumentView ProbeInFront() { return {{0.03, 0, 0}, {0.005, 0.001, 0.024}, 3.4}; }
+
+class ViewTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      context_ = std::make_unique<app::OffscreenContext>();
+    } catch (const Error& error) {
+      GTEST_SKIP() << "NOT TESTED, NOTHING WAS DRAWN: " << error.what();
+    }
+    view_ = std::make_unique<app::ArthroscopicView>();
+  }
+  void TearDown() override {
+    view_.reset();
+    context_.reset();
+  }
+
+  std::unique_ptr<app::OffscreenContext> context_;
+  std::unique_ptr<app::ArthroscopicView> view_;
+};
+
+}  // namespace arthro::test

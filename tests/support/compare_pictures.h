@@ -1,0 +1,40 @@
+// Holds a rendered picture against another one: the worst 16x16 tile's structural similarity [Wang
+// et al. 2004, on grey levels] catches what is small but plain to see, the share of pixels that are
+// off catches what is faint but everywhere. A mean over the picture would hide both.
+#pragma once
+
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/scene/image.h"
+
+namespace arthro::test {
+
+inline constexpr int kTile = 16;               // px
+inline constexpr int kOff = 8;                 // of 255, in any channel
+inline constexpr double kMinTileSsim = 0.95;   // design §7
+inline constexpr double kMaxShareOff = 0.002;  // design §7
+
+struct PictureDifference {
+  bool comparable = false;  // of one size
+  double worst_ssim = -1.0;
+  glm::ivec2 worst_tile{0};  // its top-left pixel
+  double share_off = 1.0;    // of pixels with a channel off by more than kOff
+  int max_difference = 255;
+
+  bool passes() const {
+    return comparable && worst_ssim >= kMinTileSsim && share_off <= kMaxShareOff;
+  }
+  std::string Sentence() const;
+};
+
+PictureDifference ComparePictures(const ColourImage& actual, const ColourImage& expected);
+
+// Against tests/baselines/NAME.png. On failure NAME.actual.png and NAME.diff.png (differences eight
+// times enlarged) are written to the folder `pictures` in the working directory. With
+// ARTHRO_ACCEPT_PICTURES=1 in the environment the picture becomes the baseline: look at it first.
+::testing::AssertionResult MatchesBaseline(const ColourImage& actual, const std::string& name);
+
+}  // namespace arthro::test
