@@ -1,11 +1,8 @@
 #include "app/view/arthroscopic_view.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
 #include <vtkCamera.h>
 #include <vtkCullerCollection.h>
 #include <vtkLight.h>
@@ -37,21 +34,6 @@ glm::dvec3 LightOf(const glm::dvec3& bright) {
   if (!(luma > 0.0)) return glm::dvec3(1.0);
   const double level = std::clamp(luma / kWhite, 0.25, 1.1);
   return level * (kTint * bright / luma + (1.0 - kTint));
-}
-
-// +z along the rod, +y to where the hook points.
-Pose InstrumentPose(const InstrumentView& instrument) {
-  const glm::dvec3 along = glm::normalize(instrument.proxy - instrument.portal);
-  simulation::RodPose rod;
-  rod.latitude = -std::asin(std::clamp(along.y, -1.0, 1.0));
-  rod.longitude = std::atan2(along.x, along.z);
-  const simulation::RodBasis basis = simulation::BasisOf(rod);
-  const glm::dvec3 hook =
-      std::cos(instrument.roll) * basis.north + std::sin(instrument.roll) * basis.east;
-  Pose pose;
-  pose.position = instrument.proxy;
-  pose.quaternion = glm::quat_cast(glm::dmat3(glm::cross(hook, basis.axis), hook, basis.axis));
-  return pose;
 }
 
 }  // namespace
@@ -163,7 +145,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
                      glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
   p.probe.Show(probe);
   if (probe) {
-    p.probe.SetPose(InstrumentPose(*picture.instrument));
+    p.probe.SetPose(
+        ProbePose(picture.instrument->portal, picture.instrument->proxy, picture.instrument->roll));
     p.probe.SetLength(glm::distance(picture.instrument->proxy, picture.instrument->portal));
   }
   p.window->Render();
@@ -173,24 +156,7 @@ unsigned int ArthroscopicView::TextureId() const {
   return parts_->drawn().GetColorAttachmentAsTextureObject(0)->GetHandle();
 }
 
-ColourImage ArthroscopicView::ReadPixels() const {
-  const int size = parts_->size;
-  ColourImage image(size, size);
-  if (size <= 0) return image;
-  std::vector<std::uint8_t> rows(image.rgb.size());
-  vtkOpenGLState* state = parts_->window->GetState();
-  state->PushReadFramebufferBinding();
-  parts_->drawn().Bind(GL_READ_FRAMEBUFFER);
-  parts_->drawn().ActivateReadBuffer(0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size, size, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
-  state->PopReadFramebufferBinding();
-  // OpenGL's first row is the lowest.
-  const std::size_t row = static_cast<std::size_t>(size) * 3;
-  for (std::size_t y = 0; y < static_cast<std::size_t>(size); ++y)
-    std::copy_n(&rows[(static_cast<std::size_t>(size) - 1 - y) * row], row, &image.rgb[y * row]);
-  return image;
-}
+ColourImage ArthroscopicView::ReadPixels() const { return parts_->window->ReadPicture(); }
 
 std::vector<float> ArthroscopicView::ReadDistances() const {
   const auto size = static_cast<std::size_t>(parts_->size);

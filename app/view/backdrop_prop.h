@@ -50,7 +50,7 @@ class BackdropProp : public vtkProp {
   int size_ = 0;
   glm::dvec2 texture_pixels_{1.0};  // panorama pixels across the texture
   glm::dvec2 texels_{1.0};
-  bool wraps_ = false;              // a whole turn: left and right edge meet
+  bool wraps_ = false;  // a whole turn: left and right edge meet
   glm::dvec3 mean_colour_{0.2}, bright_colour_{0.6};
   vtkNew<vtkTextureObject> panorama_, relief_;
   std::unique_ptr<vtkOpenGLQuadHelper> quad_;

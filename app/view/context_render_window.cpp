@@ -1,6 +1,11 @@
 #include "app/view/context_render_window.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <vtkObjectFactory.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
 #include <vtk_glew.h>
 
 namespace arthro::app {
@@ -26,6 +31,24 @@ void ContextRenderWindow::OpenGLInitContext() {
     }
   }
   Superclass::OpenGLInitContext();
+}
+
+ColourImage ContextRenderWindow::ReadPicture() {
+  const int* size = GetActualSize();
+  ColourImage image(size[0], size[1]);
+  std::vector<std::uint8_t> rows(image.rgb.size());
+  GetState()->PushReadFramebufferBinding();
+  GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
+  GetRenderFramebuffer()->ActivateReadBuffer(0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, image.width, image.height, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+  GetState()->PopReadFramebufferBinding();
+  // OpenGL's first row is the lowest.
+  const std::size_t row = static_cast<std::size_t>(image.width) * 3;
+  const auto height = static_cast<std::size_t>(image.height);
+  for (std::size_t y = 0; y < height; ++y)
+    std::copy_n(&rows[(height - 1 - y) * row], row, &image.rgb[y * row]);
+  return image;
 }
 
 }  // namespace arthro::app

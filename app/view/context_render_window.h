@@ -4,6 +4,8 @@
 
 #include <vtkGenericOpenGLRenderWindow.h>
 
+#include "simulation/scene/image.h"
+
 namespace arthro::app {
 
 class ContextRenderWindow : public vtkGenericOpenGLRenderWindow {
@@ -15,6 +17,8 @@ class ContextRenderWindow : public vtkGenericOpenGLRenderWindow {
   void OpenGLInitContext() override;
   // False where the context's OpenGL is too old or could not be loaded.
   bool IsReady() const { return Initialized && GlewInitValid; }
+  // The last frame as it was drawn.
+  ColourImage ReadPicture();
   // The caller keeps its context current.
   void MakeCurrent() override {}
   bool IsCurrent() override { return true; }

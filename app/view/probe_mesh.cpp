@@ -4,6 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "simulation/scope/rod_pose.h"
+
 namespace arthro::app {
 namespace {
 
@@ -81,6 +87,19 @@ SurfaceMesh MakeProbeMesh(const ProbeShape& shape) {
       mesh.triangles.push_back({a, b + sides, a + sides});
     }
   return mesh;
+}
+
+Pose ProbePose(const glm::dvec3& portal, const glm::dvec3& proxy, double roll) {
+  const glm::dvec3 along = glm::normalize(proxy - portal);
+  simulation::RodPose rod;
+  rod.latitude = -std::asin(std::clamp(along.y, -1.0, 1.0));
+  rod.longitude = std::atan2(along.x, along.z);
+  const simulation::RodBasis basis = simulation::BasisOf(rod);
+  const glm::dvec3 hook = std::cos(roll) * basis.north + std::sin(roll) * basis.east;
+  Pose pose;
+  pose.position = proxy;
+  pose.quaternion = glm::quat_cast(glm::dmat3(glm::cross(hook, basis.axis), hook, basis.axis));
+  return pose;
 }
 
 }  // namespace arthro::app

@@ -2,6 +2,7 @@
 // towards +y, and the hook's outer side touches z = 0, where the proxy is. Metres.
 #pragma once
 
+#include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
@@ -20,5 +21,9 @@ struct ProbeShape {
 };
 
 SurfaceMesh MakeProbeMesh(const ProbeShape& shape = {});
+
+// portal_from_probe with the tip at the proxy, the rod from the instrument's portal, and the hook
+// turned by roll from north towards east. The two points must differ.
+Pose ProbePose(const glm::dvec3& portal, const glm::dvec3& proxy, double roll);
 
 }  // namespace arthro::app

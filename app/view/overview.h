@@ -1,0 +1,68 @@
+// The author's view of the whole scene from outside: the backdrop's relief as a bowl, portals, rods
+// and what the scope sees of it, the tissues, and a box to move, turn and scale the chosen one.
+// Portal frame, m. Draws in the current OpenGL context into its own texture, and only when
+// something changed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "app/view/arthroscopic_view.h"
+
+namespace arthro::app {
+
+struct OverviewTools {
+  simulation::ScopeView scope;
+  double field_of_view = std::numbers::pi / 2;
+  std::optional<InstrumentView> instrument;
+};
+
+struct PointerEvent {
+  enum class Kind { kMove, kPress, kRelease, kWheel };
+  enum class Button { kLeft, kMiddle, kRight };
+  Kind kind = Kind::kMove;
+  double x = 0, y = 0;  // px from the picture's top-left
+  Button button = Button::kLeft;
+  double wheel = 0;  // steps away from the user
+  bool shift = false, control = false;
+};
+
+class Overview {
+ public:
+  Overview();
+  // The context it draws in must still be current.
+  ~Overview();
+  Overview(const Overview&) = delete;
+  Overview& operator=(const Overview&) = delete;
+
+  void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
+  void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
+  void SetTissuePose(int index, const Pose& portal_from_tissue);
+  void SetTissueVertices(int index, std::span<const glm::dvec3> vertices);
+  void SetIncisionSpacing(double spacing);
+  void SetTools(const OverviewTools& tools);
+
+  // Puts the box round a tissue; -1 takes it away. A left drag on it moves it across the picture,
+  // with Shift or Control it turns, a right drag scales.
+  void ChooseTissue(int index);
+  // Called while the box is dragged, with the pose it asks for; `finished` with the last one.
+  std::function<void(int tissue, const Pose& pose, bool finished)> on_pose;
+
+  // Pointer events over the picture, and those of a drag that began there. Beside the box: left
+  // drag turns the view, middle drag shifts it, wheel and right drag come nearer.
+  void Handle(const PointerEvent& event);
+  void ResetCamera();
+
+  // Draws if something changed or the size did; says whether it drew.
+  bool Render(int width, int height);
+  unsigned int TextureId() const;  // RGBA, opaque, first row at the bottom
+  ColourImage ReadPixels() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace arthro::app

@@ -1,0 +1,180 @@
+#include "app/view/overview_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkTextProperty.h>
+#include <vtkTubeFilter.h>
+
+#include "app/view/vertex_normals.h"
+
+namespace arthro::app {
+
+vtkSmartPointer<vtkPolyData> MakeReliefMesh(int width, int height, const DepthMap& depth,
+                                            const Backdrop& backdrop, int cells) {
+  const int step = std::max(1, std::max(width, height) / cells);
+  const int columns = (width - 1) / step + 1, rows = (height - 1) / step + 1;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(2);
+  std::vector<char> imaged;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      // The last row and column lie on the picture's edge.
+      const int u = i + 1 < columns ? i * step : width - 1;
+      const int v = j + 1 < rows ? j * step : height - 1;
+      const float h = depth.empty() ? 0.0f : depth.at(u, v);
+      imaged.push_back(std::isfinite(h) ? 1 : 0);
+      const glm::dvec3 point = (backdrop.radius - (imaged.back() ? double(h) : 0.0)) *
+                               DirectionFromPixel(backdrop.projection, {u, v});
+      points->InsertNextPoint(point.x, point.y, point.z);
+      places->InsertNextTuple2((u + 0.5) / width, 1.0 - (v + 0.5) / height);
+    }
+  vtkNew<vtkCellArray> polys;
+  for (int j = 0; j + 1 < rows; ++j)
+    for (int i = 0; i + 1 < columns; ++i) {
+      const vtkIdType a = j * columns + i, b = a + 1, c = b + columns, d = a + columns;
+      if (imaged[std::size_t(a)] + imaged[std::size_t(b)] + imaged[std::size_t(c)] +
+              imaged[std::size_t(d)] <
+          4)
+        continue;
+      // x right, y down: a-b-c-d runs clockwise seen from the portal.
+      polys->InsertNextCell({a, d, c});
+      polys->InsertNextCell({a, c, b});
+    }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(polys);
+  data->GetPointData()->SetTCoords(places);
+  return data;
+}
+
+vtkSmartPointer<vtkTexture> MakePanoramaTexture(const ColourImage& panorama) {
+  constexpr int kMaxSide = 2048;
+  const int step = (std::max(panorama.width, panorama.height) + kMaxSide - 1) / kMaxSide;
+  vtkNew<vtkImageData> image;
+  const int width = panorama.width / step, height = panorama.height / step;
+  image->SetDimensions(width, height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)  // VTK's first row is the lowest
+      std::memcpy(image->GetScalarPointer(x, height - 1 - y, 0), panorama.at(x * step, y * step),
+                  3);
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  texture->InterpolateOn();
+  texture->MipmapOn();
+  texture->SetMaximumAnisotropicFiltering(1.0f);
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  return texture;
+}
+
+vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface) {
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(static_cast<vtkIdType>(surface.vertices.size()));
+  data->SetPoints(points);
+  vtkNew<vtkCellArray> polys;
+  for (const auto& t : surface.triangles) polys->InsertNextCell({t[0], t[1], t[2]});
+  data->SetPolys(polys);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(points->GetNumberOfPoints());
+  data->GetPointData()->SetNormals(normals);
+  MoveSurfaceData(*data, surface);
+  return data;
+}
+
+void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface) {
+  std::vector<glm::dvec3> normals;
+  ComputeVertexNormals(surface.vertices, surface.triangles, normals);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const glm::dvec3 &p = surface.vertices[i], &n = normals[i];
+    data.GetPoints()->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);
+    data.GetPointData()->GetNormals()->SetTuple3(static_cast<vtkIdType>(i), n.x, n.y, n.z);
+  }
+  data.GetPoints()->Modified();
+  data.GetPointData()->GetNormals()->Modified();
+  data.Modified();
+}
+
+vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>& lines,
+                                      double radius, int sides) {
+  vtkNew<vtkPolyData> input;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& line : lines) {
+    cells->InsertNextCell(static_cast<int>(line.size()));
+    for (const glm::dvec3& p : line) cells->InsertCellPoint(points->InsertNextPoint(p.x, p.y, p.z));
+  }
+  input->SetPoints(points);
+  input->SetLines(cells);
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputData(input);
+  tube->SetRadius(radius);
+  tube->SetNumberOfSides(sides);
+  tube->CappingOn();
+  tube->Update();
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->ShallowCopy(tube->GetOutput());
+  return data;
+}
+
+std::vector<std::vector<glm::dvec3>> ViewConeLines(const simulation::ScopeView& view,
+                                                   double field_of_view, double radius) {
+  constexpr int kRimSteps = 72, kRays = 8;
+  // Just inside the sphere, so that the lines are not buried in a bare one.
+  const double reach = 0.995 * radius;
+  std::vector<std::vector<glm::dvec3>> lines(1);
+  for (int i = 0; i <= kRimSteps; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / kRimSteps, theta = field_of_view / 2.0;
+    const glm::dvec3 ray = std::cos(theta) * view.view +
+                           std::sin(theta) * (std::cos(a) * view.up + std::sin(a) * view.right);
+    lines[0].push_back(simulation::SphereHit(view.tip, ray, reach));
+    if (i < kRimSteps && i % (kRimSteps / kRays) == 0) lines.push_back({view.tip, lines[0].back()});
+  }
+  return lines;
+}
+
+vtkSmartPointer<vtkActor> MakeActor(const glm::dvec3& colour, double ambient) {
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->ScalarVisibilityOff();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour.x, colour.y, colour.z);
+  actor->GetProperty()->SetAmbient(ambient);
+  actor->GetProperty()->SetDiffuse(1.0 - ambient);
+  actor->ForceOpaqueOn();
+  actor->PickableOff();
+  return actor;
+}
+
+void SetData(vtkActor& actor, vtkPolyData* data) {
+  static_cast<vtkPolyDataMapper*>(actor.GetMapper())->SetInputData(data);
+}
+
+vtkSmartPointer<vtkBillboardTextActor3D> MakeLabel(const std::string& text,
+                                                   const glm::dvec3& colour) {
+  auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+  label->SetInput(text.c_str());
+  vtkTextProperty* property = label->GetTextProperty();
+  property->SetFontSize(15);
+  property->SetColor(colour.x, colour.y, colour.z);
+  property->SetBackgroundColor(0.10, 0.11, 0.13);  // readable over any tissue
+  property->SetBackgroundOpacity(1.0);
+  label->PickableOff();
+  return label;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,47 @@
+// What the overview is put together from, as VTK data in the portal frame, m.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTexture.h>
+
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/scope/arthroscope.h"
+
+namespace arthro::app {
+
+// The relief D − h over the panorama as a grid of at most `cells` cells along its longer side, with
+// texture coordinates; holes where nothing was imaged. Its front looks towards the portal.
+vtkSmartPointer<vtkPolyData> MakeReliefMesh(int width, int height, const DepthMap& depth,
+                                            const Backdrop& backdrop, int cells = 160);
+
+// At most 2048 px a side.
+vtkSmartPointer<vtkTexture> MakePanoramaTexture(const ColourImage& panorama);
+
+// With smooth normals.
+vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface);
+void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface);
+
+// A round bar along each line of points.
+vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>& lines,
+                                      double radius, int sides = 12);
+
+// Rim of what the scope sees on the backdrop's sphere, and rays from the tip to it.
+std::vector<std::vector<glm::dvec3>> ViewConeLines(const simulation::ScopeView& view,
+                                                   double field_of_view, double radius);
+
+vtkSmartPointer<vtkActor> MakeActor(const glm::dvec3& colour, double ambient = 0.25);
+void SetData(vtkActor& actor, vtkPolyData* data);
+
+vtkSmartPointer<vtkBillboardTextActor3D> MakeLabel(const std::string& text,
+                                                   const glm::dvec3& colour);
+
+}  // namespace arthro::app

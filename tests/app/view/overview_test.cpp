@@ -1,0 +1,145 @@
+// The author's view: drawn when something changed, and a box that poses the chosen tissue.
+#include "app/view/overview.h"
+
+#include <glm/geometric.hpp>
+
+#include "simulation/core/units.h"
+#include "tests/app/view/view_scene.h"
+#include "tests/support/compare_pictures.h"
+
+namespace arthro::test {
+namespace {
+
+using app::Overview;
+using app::PointerEvent;
+using Kind = PointerEvent::Kind;
+using Button = PointerEvent::Button;
+
+constexpr int kSize = 400;
+
+class OverviewTest : public ViewTest {
+ protected:
+  void SetUp() override {
+    ViewTest::SetUp();
+    if (IsSkipped()) return;
+    view_.reset();
+    overview_ = std::make_unique<Overview>();
+    scene_ = MakeViewScene(512, 384);
+    // In the middle of the picture: the default camera looks at this point.
+    scene_.scene.tissues[0].pose = {{0.0, 0.003, 0.0225}, {1, 0, 0, 0}, 1.0};
+    overview_->SetBackdrop(scene_.panorama, scene_.depth, scene_.scene.backdrop);
+    overview_->SetTissues(scene_.scene.tissues, scene_.surfaces);
+    overview_->on_pose = [this](int tissue, const Pose& pose, bool finished) {
+      EXPECT_EQ(tissue, 0);
+      pose_ = pose;
+      ++calls_;
+      finished_ += finished ? 1 : 0;
+    };
+    overview_->Render(kSize, kSize);
+  }
+  void TearDown() override {
+    overview_.reset();
+    ViewTest::TearDown();
+  }
+  void Drag(Button button, glm::dvec2 from, glm::dvec2 to) {
+    PointerEvent event;
+    event.button = button;
+    const auto send = [&](Kind kind, glm::dvec2 at) {
+      event.kind = kind;
+      event.x = at.x;
+      event.y = at.y;
+      overview_->Handle(event);
+      overview_->Render(kSize, kSize);
+    };
+    send(Kind::kMove, from);
+    send(Kind::kPress, from);
+    for (int i = 1; i <= 4; ++i) send(Kind::kMove, from + (to - from) * (i / 4.0));
+    send(Kind::kRelease, to);
+  }
+
+  LoadedScene scene_;
+  std::unique_ptr<Overview> overview_;
+  Pose pose_;
+  int calls_ = 0, finished_ = 0;
+  const glm::dvec2 middle_{kSize / 2.0, kSize / 2.0};
+};
+
+TEST_F(OverviewTest, DrawsOnlyWhenSomethingChanged) {
+  EXPECT_FALSE(overview_->Render(kSize, kSize));
+  EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "another size";
+  EXPECT_FALSE(overview_->Render(kSize, kSize - 1));
+  overview_->SetIncisionSpacing(-0.02);
+  EXPECT_TRUE(overview_->Render(kSize, kSize - 1));
+  overview_->ChooseTissue(0);
+  EXPECT_TRUE(overview_->Render(kSize, kSize - 1));
+  overview_->ChooseTissue(0);
+  EXPECT_FALSE(overview_->Render(kSize, kSize - 1)) << "chosen already";
+  overview_->ChooseTissue(17);
+  EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "no such tissue: none is chosen";
+}
+
+TEST_F(OverviewTest, DraggingTheBoxsMiddleMovesTheTissueAlone) {
+  overview_->ChooseTissue(0);
+  overview_->Render(kSize, kSize);
+  Drag(Button::kLeft, middle_, middle_ + glm::dvec2(40, 0));
+  ASSERT_GE(calls_, 2);
+  EXPECT_EQ(finished_, 1);
+  const glm::dvec3 moved = pose_.position - scene_.scene.tissues[0].pose.position;
+  // The camera stands right, above and behind the portal: the picture's right is mostly +x.
+  EXPECT_GT(moved.x, 0.003);
+  EXPECT_NEAR(pose_.scale, 1.0, 1e-9);
+  EXPECT_NEAR(std::abs(pose_.quaternion.w), 1.0, 1e-9);
+  // What was drawn follows: the same drag again goes on from there.
+  const glm::dvec3 first = pose_.position;
+  Drag(Button::kLeft, middle_ + glm::dvec2(40, 0), middle_);
+  EXPECT_LT(glm::distance(pose_.position, scene_.scene.tissues[0].pose.position), 0.5e-3);
+  EXPECT_GT(glm::distance(pose_.position, first), 0.003);
+}
+
+TEST_F(OverviewTest, RightDragScalesAllDirectionsAlike) {
+  overview_->ChooseTissue(0);
+  overview_->Render(kSize, kSize);
+  Drag(Button::kRight, middle_, middle_ - glm::dvec2(0, 50));
+  ASSERT_GE(calls_, 1);
+  EXPECT_GT(std::abs(pose_.scale - 1.0), 0.05);
+  EXPECT_GT(pose_.scale, 0.0);
+  EXPECT_NEAR(std::abs(pose_.quaternion.w), 1.0, 1e-6);
+}
+
+TEST_F(OverviewTest, WithoutAChosenTissueADragTurnsTheViewOnly) {
+  const ColourImage before = overview_->ReadPixels();
+  Drag(Button::kLeft, middle_, middle_ + glm::dvec2(60, 20));
+  EXPECT_EQ(calls_, 0);
+  EXPECT_NE(overview_->ReadPixels().rgb, before.rgb);
+  overview_->ResetCamera();
+  overview_->Render(kSize, kSize);
+  EXPECT_EQ(overview_->ReadPixels().rgb, before.rgb);
+}
+
+TEST_F(OverviewTest, APoseSetByOthersMovesTheBoxToo) {
+  overview_->ChooseTissue(0);
+  Pose pose = scene_.scene.tissues[0].pose;
+  pose.scale = 1.5;
+  pose.quaternion = glm::dquat(std::cos(0.4), 0, 0, std::sin(0.4));
+  overview_->SetTissuePose(0, pose);
+  overview_->Render(kSize, kSize);
+  Drag(Button::kLeft, middle_, middle_ + glm::dvec2(20, 10));
+  ASSERT_GE(calls_, 1);
+  EXPECT_NEAR(pose_.scale, 1.5, 1e-6);
+  EXPECT_NEAR(std::abs(glm::dot(pose_.quaternion, pose.quaternion)), 1.0, 1e-6);
+}
+
+TEST_F(OverviewTest, WholeSceneFromOutside) {
+  app::OverviewTools tools;
+  tools.scope = app::PictureFromPose({-0.1, 0.05, 0.2, 0.008}, RadiansFromDegrees(30), 1.2).view;
+  tools.field_of_view = 1.2;
+  tools.instrument = ProbeInFront();
+  overview_->SetTissuePose(0, MakeViewScene(64, 64).scene.tissues[0].pose);
+  overview_->SetTools(tools);
+  overview_->ChooseTissue(0);
+  overview_->Render(kSize, kSize);
+  EXPECT_TRUE(MatchesBaseline(overview_->ReadPixels(), "overview"));
+}
+
+}  // namespace
+}  // namespace arthro::test
