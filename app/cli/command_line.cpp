@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/jobs.h"
+#include "app/editor/editor.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -30,12 +31,15 @@ int RunCommandLine(int argc, char** argv) {
   AddCentresJob(program);
   AddCheckJob(program);
   AddDepthJob(program);
+  AddEditJob(program);
   AddPivotJob(program);
+  AddPractiseJob(program);
   AddReplayJob(program);
   AddTetrahedralizeJob(program);
   AddViewJob(program);
   try {
     program.parse(argc, argv);
+    if (program.get_subcommands().empty()) RunEditor({});
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? kDone : kUsage;
   } catch (const std::bad_alloc&) {

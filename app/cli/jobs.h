@@ -11,7 +11,9 @@ namespace arthro::app {
 void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
+void AddEditJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
+void AddPractiseJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
 void AddTetrahedralizeJob(CLI::App& program);
 void AddViewJob(CLI::App& program);

@@ -105,7 +105,7 @@ void FileBrowserModel::ShowHidden(bool show) {
 
 void FileBrowserModel::Select(const FileEntry& entry) {
   problem_.clear();
-  if (!entry.is_folder || purpose_ == BrowseFor::kOpenFile) file_name = entry.name();
+  if (!entry.is_folder || purpose_ != BrowseFor::kSaveFile) file_name = entry.name();
 }
 
 bool FileBrowserModel::CreateFolder(const std::string& name) {
@@ -130,11 +130,18 @@ bool FileBrowserModel::CreateFolder(const std::string& name) {
 Acceptance FileBrowserModel::Accept() {
   problem_.clear();
   if (file_name.empty()) {
-    problem_ = purpose_ == BrowseFor::kSaveFile ? "Type a name first." : "Choose a file first.";
+    problem_ = purpose_ == BrowseFor::kOpenFile ? "Choose a file first." : "Type a name first.";
     return Acceptance::kNothing;
   }
   fs::path path = Typed(folder_, file_name);
   std::error_code error;
+  if (purpose_ == BrowseFor::kSaveFolder && fs::is_directory(path, error)) {
+    if (fs::exists(path / "scene.json", error)) {
+      accepted_ = path;
+      return Acceptance::kOverwrite;
+    }
+    if (fs::is_empty(path, error)) return Finish(path);
+  }
   if (fs::is_directory(path, error)) {
     GoTo(path);
     if (problem_.empty()) file_name.clear();
@@ -148,7 +155,8 @@ Acceptance FileBrowserModel::Accept() {
     return Finish(path);
   }
   // Saving: the extension is added, the folder must be there, and an old file is asked about.
-  if (path.extension().empty() && !filters_.empty() && !filters_[filter_].extensions.empty())
+  if (purpose_ == BrowseFor::kSaveFile && path.extension().empty() && !filters_.empty() &&
+      !filters_[filter_].extensions.empty())
     path += filters_[filter_].extensions.front();
   if (!fs::is_directory(path.parent_path(), error)) {
     problem_ = "The folder " + path.parent_path().string() + " is not there.";

@@ -18,7 +18,7 @@ struct FileFilter {
   std::vector<std::string> extensions;
 };
 
-enum class BrowseFor { kOpenFile, kSaveFile };
+enum class BrowseFor { kOpenFile, kSaveFile, kSaveFolder };
 
 struct FileEntry {
   std::filesystem::path path;
@@ -38,7 +38,9 @@ enum class Acceptance {
 class FileBrowserModel {
  public:
   // Starts in `start` (its folder, if it is a file), or the nearest folder above it that exists.
-  // With kSaveFile a name without an extension gets the first filter's first one.
+  // With kSaveFile a name without an extension gets the first filter's first one; with kSaveFolder
+  // the name is that of a folder, new or empty, or of one that holds `scene.json`, which is asked
+  // about.
   FileBrowserModel(BrowseFor purpose, std::vector<FileFilter> filters,
                    const std::filesystem::path& start, std::string file_name = {});
 

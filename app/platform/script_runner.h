@@ -27,7 +27,8 @@ class ScriptRunner {
 
   ScriptState state() const { return state_; }
   const std::string& failure() const { return failure_; }  // a sentence with the line's number
-  int line_number() const;
+  int line_number() const;                                 // that runs next, or the last
+  bool at_end() const { return next_ == lines_.size(); }
 
  private:
   void Run(const ScriptLine& line, const WidgetRegistry& widgets, bool busy, InputQueue& input,

@@ -82,7 +82,7 @@ void ApplyTheme(double scale) {
   c[ImGuiCol_Text] = Rgb(0xE9EBEE);
   c[ImGuiCol_TextDisabled] = Rgb(0xA2AAB4);
   c[ImGuiCol_WindowBg] = Rgb(0x1B1E23);
-  c[ImGuiCol_ChildBg] = Rgb(0x1B1E23);
+  c[ImGuiCol_ChildBg] = Rgb(0x1B1E23, 0.0f);
   c[ImGuiCol_PopupBg] = Rgb(0x23272E);
   c[ImGuiCol_Border] = Rgb(0x3A4049);
   c[ImGuiCol_FrameBg] = Rgb(0x2C323B);

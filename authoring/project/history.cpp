@@ -39,6 +39,12 @@ void History::Push(Document next, const std::string& name, const std::string& me
   DropOldest();
 }
 
+void History::Amend(Document document) {
+  steps_[position_].document = std::move(document);
+  steps_[position_].id = ++last_id_;
+  DropOldest();
+}
+
 void History::Undo() { GoTo(Position() - 1); }
 
 void History::Redo() { GoTo(Position() + 1); }

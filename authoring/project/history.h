@@ -25,6 +25,10 @@ class History {
   void Push(Document next, const std::string& name, const std::string& merge_key = "");
   void EndMerge() { merge_key_.clear(); }  // the slider was let go
 
+  // Replaces the current step's document, its name kept: for a product that was computed after the
+  // edit that asked for it, so that both are undone at once. Steps that were undone stay.
+  void Amend(Document document);
+
   bool CanUndo() const { return position_ > 0; }
   bool CanRedo() const { return position_ + 1 < steps_.size(); }
   // What Undo and Redo would take back or do again; "" where there is nothing.

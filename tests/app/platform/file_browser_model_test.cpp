@@ -94,6 +94,25 @@ TEST_F(FileBrowser, SavingIntoAMissingFolderIsRefused) {
   EXPECT_NE(model.problem().find("gone"), std::string::npos);
 }
 
+TEST_F(FileBrowser, ASceneIsSavedIntoANewOrEmptyFolderAndAsksBeforeItReplacesAScene) {
+  FileBrowserModel model(BrowseFor::kSaveFolder, {}, temp.path(), "new scene");
+  EXPECT_EQ(model.Accept(), Acceptance::kDone);
+  EXPECT_EQ(model.accepted().filename(), "new scene");
+  EXPECT_FALSE(fs::exists(temp / "new scene")) << "it is the saving that makes it";
+
+  model.file_name = "zebra";
+  EXPECT_EQ(model.Accept(), Acceptance::kDone) << "an empty folder will do";
+
+  std::ofstream(temp / "zebra/scene.json") << "{}";
+  EXPECT_EQ(model.Accept(), Acceptance::kOverwrite);
+  EXPECT_EQ(model.AcceptOverwrite(), Acceptance::kDone);
+
+  fs::create_directory(temp / "full");
+  std::ofstream(temp / "full/holiday.jpg") << "x";
+  model.file_name = "full";
+  EXPECT_EQ(model.Accept(), Acceptance::kEntered) << "a folder with other things is only opened";
+}
+
 TEST_F(FileBrowser, TypedAbsolutePathIsUnderstood) {
   FileBrowserModel model(BrowseFor::kOpenFile, kPictures, "/", (temp / "b.png").string());
   EXPECT_EQ(model.Accept(), Acceptance::kDone);

@@ -176,5 +176,22 @@ TEST(History, TheLastEditCanBeUndoneEvenUnderAVanishingLimit) {
   EXPECT_EQ(history.current().depth->at(0, 0), 0.0f);
 }
 
+TEST(History, AProductOfAnEditIsUndoneWithIt) {
+  History history(SmallDocument());
+  const std::string before = Print(history.current());
+  Document edited = history.current();
+  edited.depth_options.gamma = 1.5;
+  history.Push(edited, "Depth: gamma", "depth.gamma");
+  history.MarkSaved();
+  edited.depth = std::make_shared<DepthMap>(100, 50, 0.01f);
+  history.Amend(edited);
+  EXPECT_FALSE(history.IsSaved()) << "what is on disk lacks the product";
+  EXPECT_EQ(history.UndoName(), "Depth: gamma");
+  history.Undo();
+  EXPECT_EQ(Print(history.current()), before);
+  history.Redo();
+  EXPECT_EQ(history.current().depth, edited.depth);
+}
+
 }  // namespace
 }  // namespace arthro::authoring

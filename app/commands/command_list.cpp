@@ -1,0 +1,380 @@
+#include "app/commands/command_list.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <GLFW/glfw3.h>
+
+#include "app/commands/depth_work.h"
+#include "app/commands/edits.h"
+#include "app/commands/scene_files.h"
+#include "app/commands/tissue_work.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+bool Always(const State&) { return true; }
+bool InEditor(const State& state) { return !state.practice && !state.practice_only; }
+bool Idle(const State& state) { return InEditor(state) && !state.jobs.busy(); }
+bool HasPicture(const State& state) {
+  return InEditor(state) && state.document().panorama != nullptr;
+}
+bool HasTissue(const State& state) {
+  return Idle(state) && state.tissue >= 0 &&
+         state.tissue < static_cast<int>(state.document().scene.tissues.size());
+}
+bool Practising(const State& state) { return state.practice.has_value(); }
+
+void StartPractice(State& state) {
+  WhenDepthIsReady(state, [](State& ready) {
+    ready.jobs.Start("Practise", [document = ready.document()](const Progress&) {
+      const auto practice = std::make_shared<Practice>(document);
+      return [practice](State& now) {  // shared only because a std::function is copied
+        now.practice.emplace(std::move(*practice));
+        now.message = "Practice. Esc leaves it.";
+      };
+    });
+  });
+}
+
+void LeavePractice(State& state) {
+  const double seconds = state.practice->snapshot().t;
+  state.practice.reset();
+  state.full_screen = false;
+  state.message = "Practice left.";
+  if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{seconds});
+}
+
+void Quit(State& state) {
+  GuardUnsaved(state, "quit", [](State& sure) { sure.quit = true; });
+}
+
+void ResetHands(State& state) {
+  if (state.practice) {
+    state.practice->scope().Set(StartOfScope(state.document().scene));
+    state.practice->instrument().Set(StartOfInstrument(state.document().scene));
+  }
+  state.scope = StartOfScope(state.document().scene);
+  state.instrument = StartOfInstrument(state.document().scene);
+  state.message = "Both hands are back where they began.";
+}
+
+template <int degrees>
+void LookAt(State& state) {
+  SetViewAngle(state, RadiansFromDegrees(degrees));
+  state.message = "View angle " + std::to_string(degrees) + "°";
+}
+
+template <Step step>
+void Open(State& state) {
+  state.step = step;
+}
+
+const std::vector<FileFilter>& SceneFilters() {
+  static const std::vector<FileFilter> filters = {{"Scenes", {".json", ".arthro"}},
+                                                  {"All files", {}}};
+  return filters;
+}
+
+const std::vector<FileFilter>& PictureFilters() {
+  static const std::vector<FileFilter> filters = {
+      {"Pictures", {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}}, {"All files", {}}};
+  return filters;
+}
+
+constexpr Command kCommands[] = {
+    {"new",
+     "New",
+     "Begin a scene with nothing in it.",
+     "Scene",
+     {GLFW_KEY_N, true},
+     {},
+     Idle,
+     [](State& state) {
+       GuardUnsaved(state, "begin a new scene", [](State& sure) {
+         StartDocument(sure, NewDocument(), true);
+         sure.step = Step::kPanorama;
+         sure.message = "A new scene. Import a panorama to begin.";
+       });
+     }},
+    {"open",
+     "Open…",
+     "Open a scene.",
+     "Scene",
+     {GLFW_KEY_O, true},
+     {},
+     Idle,
+     [](State& state) {
+       GuardUnsaved(state, "open another scene", [](State& sure) {
+         Browse(sure, BrowseFor::kOpenFile, "Open a scene", "Open", SceneFilters(), OpenScene);
+       });
+     }},
+    {"save",
+     "Save",
+     "Save the scene where it was opened from.",
+     "Scene",
+     {GLFW_KEY_S, true},
+     {},
+     [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
+     [](State& state) { SaveScene(state); }},
+    {"save-as",
+     "Save as…",
+     "Save the scene in another folder.",
+     "Scene",
+     {GLFW_KEY_S, true, true},
+     {},
+     [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
+     [](State& state) { SaveSceneAs(state); }},
+    {"import-panorama",
+     "Import a panorama…",
+     "Make a picture the backdrop.",
+     "Scene",
+     {GLFW_KEY_I, true},
+     {},
+     Idle,
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Import a panorama", "Import", PictureFilters(),
+              ImportPanorama);
+     }},
+    {"read-report",
+     "Read its report…",
+     "Take the panorama's middle and focal length from the report of `arthroscene panorama`.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state); },
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Read a panorama's report", "Read",
+              {{"Reports", {".json"}}, {"All files", {}}}, ReadPanoramaReport);
+     }},
+    {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
+
+    {"undo",
+     "Undo",
+     "Take the last edit back.",
+     "Edit",
+     {GLFW_KEY_Z, true},
+     {},
+     [](const State& state) { return InEditor(state) && state.history.CanUndo(); },
+     [](State& state) {
+       state.message = "Undone: " + state.history.UndoName();
+       state.history.Undo();
+     }},
+    {"redo",
+     "Redo",
+     "Do again what was taken back.",
+     "Edit",
+     {GLFW_KEY_Z, true, true},
+     {GLFW_KEY_Y, true},
+     [](const State& state) { return InEditor(state) && state.history.CanRedo(); },
+     [](State& state) {
+       state.message = "Done again: " + state.history.RedoName();
+       state.history.Redo();
+     }},
+    {"import-surface",
+     "Import a surface…",
+     "Add a tissue from an STL, OBJ, PLY, OFF or VTP file.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state); },
+     BrowseForSurface},
+    {"tetrahedralise",
+     "Make tetrahedra",
+     "Fill the chosen tissue with tetrahedra.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     TetrahedraliseTissue},
+    {"duplicate-tissue",
+     "Duplicate",
+     "Add a copy of the chosen tissue beside it.",
+     "Edit",
+     {GLFW_KEY_D, true},
+     {},
+     HasTissue,
+     [](State& state) { DuplicateTissue(state, state.tissue); }},
+    {"remove-tissue",
+     "Remove",
+     "Take the chosen tissue out of the scene.",
+     "Edit",
+     {GLFW_KEY_DELETE},
+     {},
+     HasTissue,
+     [](State& state) { RemoveTissue(state, state.tissue); }},
+
+    {"step-panorama",
+     "Panorama",
+     "The picture that is the backdrop.",
+     "Steps",
+     {GLFW_KEY_F6},
+     {},
+     InEditor,
+     Open<Step::kPanorama>},
+    {"step-depth",
+     "Depth",
+     "How brightness becomes relief.",
+     "Steps",
+     {GLFW_KEY_F7},
+     {},
+     InEditor,
+     Open<Step::kDepth>},
+    {"step-tissue",
+     "Tissue",
+     "Deformable models in the scene.",
+     "Steps",
+     {GLFW_KEY_F8},
+     {},
+     InEditor,
+     Open<Step::kTissue>},
+    {"step-portals",
+     "Portals",
+     "Incisions and the scope.",
+     "Steps",
+     {GLFW_KEY_F9},
+     {},
+     InEditor,
+     Open<Step::kPortals>},
+    {"step-practice",
+     "Practice",
+     "Try the scene as a trainee will.",
+     "Steps",
+     {GLFW_KEY_F10},
+     {},
+     InEditor,
+     Open<Step::kPractice>},
+
+    {"practise",
+     "Practise",
+     "Practise in this scene at once.",
+     "Practice",
+     {GLFW_KEY_F5},
+     {GLFW_KEY_P},
+     [](const State& state) {
+       return !state.practice && !state.jobs.busy() && state.document().panorama;
+     },
+     StartPractice},
+    {"leave-practice",
+     "Leave practice",
+     "Back to the editor, exactly where it was.",
+     "Practice",
+     {GLFW_KEY_ESCAPE},
+     {},
+     Practising,
+     LeavePractice},
+    {"reset-hands",
+     "Reset the view",
+     "Put both hands back where they began.",
+     "Practice",
+     {GLFW_KEY_HOME},
+     {},
+     [](const State& state) { return state.document().panorama != nullptr; },
+     ResetHands},
+    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, Always, LookAt<0>},
+    {"view-30",
+     "30°",
+     "Look 30° away from the scope.",
+     "Practice",
+     {GLFW_KEY_2},
+     {},
+     Always,
+     LookAt<30>},
+    {"view-70",
+     "70°",
+     "Look 70° away from the scope.",
+     "Practice",
+     {GLFW_KEY_3},
+     {},
+     Always,
+     LookAt<70>},
+    {"view-90",
+     "90°",
+     "Look straight to the side.",
+     "Practice",
+     {GLFW_KEY_4},
+     {},
+     Always,
+     LookAt<90>},
+    {"full-screen",
+     "Full screen",
+     "Fill the screen, or stop.",
+     "Window",
+     {GLFW_KEY_F11},
+     {},
+     Always,
+     [](State& state) { state.full_screen = !state.full_screen; }},
+    {"help",
+     "?",
+     "All keys and mouse actions.",
+     "Window",
+     {GLFW_KEY_F1},
+     {},
+     Always,
+     [](State& state) { state.dialogs.push_back(HelpDialog{}); }},
+};
+
+}  // namespace
+
+std::string WordsOf(const Shortcut& shortcut) {
+  if (shortcut.key == 0) return "";
+  std::string words = std::string(shortcut.ctrl ? "Ctrl+" : "") + (shortcut.shift ? "Shift+" : "");
+  if (shortcut.key >= GLFW_KEY_F1 && shortcut.key <= GLFW_KEY_F12)
+    return words + "F" + std::to_string(shortcut.key - GLFW_KEY_F1 + 1);
+  switch (shortcut.key) {
+    case GLFW_KEY_ESCAPE:
+      return words + "Esc";
+    case GLFW_KEY_DELETE:
+      return words + "Delete";
+    case GLFW_KEY_HOME:
+      return words + "Home";
+    default:
+      return words + static_cast<char>(shortcut.key);
+  }
+}
+
+std::span<const Command> AllCommands() { return kCommands; }
+
+const Command& CommandOf(std::string_view id) {
+  for (const Command& command : kCommands)
+    if (id == command.id) return command;
+  throw std::logic_error("no command " + std::string(id));
+}
+
+void Guarded(EditorState& state, const std::string& title, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (error.code() == Code::kCancelled)
+      state.message = "Stopped.";
+    else
+      state.dialogs.push_back(ErrorDialog{title, error.what()});
+  } catch (const std::bad_alloc&) {
+    state.dialogs.push_back(
+        ErrorDialog{title, "There is not enough memory for this; use a smaller picture or mesh."});
+  }
+}
+
+void Run(EditorState& state, const Command& command) {
+  if (!command.enabled(state)) return;
+  Guarded(state, command.words, [&] { command.run(state); });
+}
+
+void Run(EditorState& state, std::string_view id) { Run(state, CommandOf(id)); }
+
+bool FinishWork(EditorState& state) {
+  bool changed = false;
+  if (state.jobs.busy()) {
+    const std::string words = state.jobs.words();
+    Guarded(state, words, [&] { changed = state.jobs.Finish(state); });
+    changed = changed || !state.jobs.busy();
+  }
+  changed = FinishDepth(state) || changed;
+  Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
+  return changed;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,89 @@
+// Everything that the window shows and the commands change, as values: the document with its
+// history, what is chosen, how the hands hold the scope, a running practice, open dialogs, work
+// under way. No window and no OpenGL, so that tests run every command without a display.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/commands/depth_cache.h"
+#include "app/commands/jobs.h"
+#include "app/commands/practice.h"
+#include "app/commands/recent_scenes.h"
+#include "app/commands/scratch_folder.h"
+#include "app/platform/file_browser_model.h"
+#include "authoring/project/history.h"
+#include "simulation/scope/rod_pose.h"
+
+namespace arthro::app {
+
+// The author's way through a scene, one page of controls each.
+enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice };
+
+// ---- Dialogs; the last one of the stack is on top and takes all input. ----
+struct ErrorDialog {
+  std::string title, sentence;
+};
+// Before a document with unsaved changes is left.
+struct GuardDialog {
+  std::string action;  // "open another scene"
+  std::function<void(EditorState&)> then;
+};
+struct BrowseDialog {
+  std::string title, accept_words;
+  FileBrowserModel model;
+  std::function<void(EditorState&, const std::filesystem::path&)> then;
+  bool asks_overwrite = false, asks_folder_name = false;
+  std::string new_folder;
+};
+// A mesh file says nothing of its unit.
+struct UnitDialog {
+  std::filesystem::path surface;
+  std::string unit = "mm";
+};
+struct HelpDialog {};
+struct PracticeEndedDialog {
+  double seconds = 0;
+};
+using Dialog = std::variant<ErrorDialog, GuardDialog, BrowseDialog, UnitDialog, HelpDialog,
+                            PracticeEndedDialog>;
+
+struct EditorState {
+  // `wake` ends the window's sleep, from any thread.
+  explicit EditorState(authoring::Document document, std::function<void()> wake_window = {},
+                       std::filesystem::path recent_file = {})
+      : history(std::move(document)),
+        jobs(wake_window),
+        preview_jobs(wake_window),
+        recent(std::move(recent_file)) {
+    history.MarkSaved();  // nothing was done yet
+  }
+
+  authoring::History history;
+  const authoring::Document& document() const { return history.current(); }
+
+  Step step = Step::kPanorama;
+  int tissue = -1;                        // chosen one, -1 none
+  simulation::RodPose scope, instrument;  // the author's hands; practice has its own
+  std::optional<Practice> practice;       // while it runs
+  bool practice_only = false;             // the practise job: no editor behind it
+  std::vector<Dialog> dialogs;
+  std::string message;  // last thing done, for the status bar
+  Jobs jobs;            // tetrahedra, reading pictures
+  Jobs preview_jobs;    // depth
+  DepthCache depth_cache;
+  authoring::DepthOptions depth_in_work;  // what preview_jobs computes
+  std::function<void(EditorState&)> when_depth_is_ready;
+  bool dragging = false;  // a slider is held: preview now, full size after
+  ScratchFolder scratch;  // files of products until they are saved
+  RecentScenes recent;
+  bool quit = false, full_screen = false;
+};
+
+}  // namespace arthro::app

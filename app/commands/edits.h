@@ -1,0 +1,37 @@
+// Every edit of the document, as one named step of its history; the panels and the script lines
+// call nothing else. An edit that changes nothing makes no step. While a slider is dragged, edits
+// of the same kind are one step.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/commands/editor_state.h"
+
+namespace arthro::app {
+
+// The general form: `change` gets a copy of the document. `merge_key`: steps in a row with the same
+// key are one (History::Push); empty: a step of its own.
+void Edit(EditorState& state, const std::string& name, const std::string& merge_key,
+          const std::function<void(authoring::Document&)>& change);
+
+void SetTitle(EditorState& state, const std::string& title);
+void SetAuthor(EditorState& state, const std::string& author);
+void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what);
+void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
+                     const std::string& what);
+void SetIncisionSpacing(EditorState& state, double spacing);  // m
+void SetViewAngle(EditorState& state, double view_angle);     // rad; in practice the session's
+void SetFieldOfView(EditorState& state, double field_of_view);
+void SetRodLength(EditorState& state, double rod_length);
+
+void AddTissue(EditorState& state, Tissue tissue, std::shared_ptr<const SurfaceMesh> surface);
+void RemoveTissue(EditorState& state, int tissue);
+void DuplicateTissue(EditorState& state, int tissue);
+void SetTissue(EditorState& state, int tissue, const Tissue& changed, const std::string& what);
+
+// The slider, field or gizmo was let go: the next edit is a new step.
+void EndDrag(EditorState& state);
+
+}  // namespace arthro::app

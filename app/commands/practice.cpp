@@ -1,0 +1,86 @@
+#include "app/commands/practice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "simulation/core/error.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr double kTick = 1e-3;  // s
+
+simulation::Session SessionOf(const authoring::Document& document) {
+  if (!document.panorama || document.panorama->empty())
+    throw Error(Code::kBadScene,
+                "a scene without a panorama cannot be practised; import one first");
+  std::vector<SurfaceMesh> surfaces;
+  for (const auto& surface : document.surfaces)
+    surfaces.push_back(surface ? *surface : SurfaceMesh{});
+  const Backdrop& backdrop = document.scene.backdrop;
+  auto field = document.depth ? simulation::DepthField(backdrop, *document.depth)
+                              : simulation::DepthField(backdrop, document.panorama->width,
+                                                       document.panorama->height);
+  return simulation::Session(document.scene, std::move(field), surfaces);
+}
+
+}  // namespace
+
+simulation::RodLimits ScopeLimits(const Scene& scene) {
+  simulation::RodLimits limits;
+  // The lens stays inside the sphere that the panorama is on, and the hand outside the portal.
+  limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.scope.rod_length);
+  limits.min_depth = -0.2 * scene.backdrop.radius;
+  return limits;
+}
+
+simulation::RodLimits InstrumentLimits(const Scene& scene) {
+  simulation::RodLimits limits;
+  // Far enough to press on the furthest wall; the wall holds the tip.
+  limits.max_depth = std::min(scene.backdrop.radius + std::abs(scene.portals.incision_spacing),
+                              0.9 * scene.rig.instrument.rod_length);
+  limits.min_depth = -0.2 * scene.backdrop.radius;
+  return limits;
+}
+
+simulation::RodPose StartOfScope(const Scene& scene) {
+  // Looking at the middle of the picture: the axis is bent away by the centre angle, so the rod
+  // points as much the other way.
+  simulation::RodPose pose;
+  pose.depth = 0.3 * scene.backdrop.radius;
+  return pose;
+}
+
+simulation::RodPose StartOfInstrument(const Scene& scene) {
+  // From its portal towards the point half a radius in front of the scope's.
+  simulation::RodPose pose;
+  const double spacing = scene.portals.incision_spacing;
+  pose.longitude = std::atan2(-spacing, 0.5 * scene.backdrop.radius);
+  pose.depth = 0.25 * scene.backdrop.radius;
+  return pose;
+}
+
+Practice::Practice(const authoring::Document& document)
+    : session_(SessionOf(document)),
+      scope_(session_.scope_rig(), StartOfScope(document.scene), ScopeLimits(document.scene)),
+      instrument_(session_.instrument_rig(), StartOfInstrument(document.scene),
+                  InstrumentLimits(document.scene)) {
+  // One tick, so that there is something to show before time has passed.
+  session_.Tick(scope_.Sample(t_), instrument_.Sample(t_), kTick);
+}
+
+void Practice::Advance(double seconds) {
+  pending_ += std::clamp(seconds, 0.0, kLongestPause);
+  const int ticks = static_cast<int>(std::floor(pending_ / kTick + 1e-9));
+  pending_ -= ticks * kTick;
+  for (int tick = 1; tick <= ticks; ++tick) {
+    t_ += kTick;
+    const double remaining = (ticks - tick) * kTick;
+    session_.Tick(scope_.Sample(t_, remaining), instrument_.Sample(t_, remaining), kTick);
+    peak_force_ = std::max(peak_force_, glm::length(session_.snapshot().instrument.tip_force));
+  }
+}
+
+}  // namespace arthro::app

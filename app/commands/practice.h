@@ -1,0 +1,48 @@
+// A practice session driven by mouse and keys: scripted hands, and the session ticked in 1 ms steps
+// as often as time has passed. Where no force device is there is no servo thread; the modules are
+// those that one would run.
+#pragma once
+
+#include <vector>
+
+#include "authoring/project/document.h"
+#include "simulation/session/scripted_device.h"
+#include "simulation/session/session.h"
+
+namespace arthro::app {
+
+class Practice {
+ public:
+  // Throws Error where the scene cannot be practised: no panorama. Builds the depth field and the
+  // tissues' trees, which takes a moment: make it in a job.
+  explicit Practice(const authoring::Document& document);
+
+  // Runs the session for `seconds` more; the hands move evenly to where they are now. A pause
+  // longer than kLongestPause is not made up for: the session then stood still.
+  void Advance(double seconds);
+  static constexpr double kLongestPause = 0.1;  // s
+
+  const simulation::Snapshot& snapshot() const { return session_.snapshot(); }
+  double incision_spacing() const { return session_.incision_spacing(); }
+  double view_angle() const { return session_.view_angle(); }
+  void SetViewAngle(double view_angle) { session_.SetViewAngle(view_angle); }
+
+  double peak_force() const { return peak_force_; }  // N, largest on the instrument's tip so far
+
+  simulation::ScriptedDevice& scope() { return scope_; }
+  simulation::ScriptedDevice& instrument() { return instrument_; }
+
+ private:
+  simulation::Session session_;
+  simulation::ScriptedDevice scope_, instrument_;
+  double t_ = 0, pending_ = 0, peak_force_ = 0;
+};
+
+// How both hands stand when a practice or an editor begins: the scope half way in, the instrument
+// outside its portal's mouth, pointing at the middle of the view.
+simulation::RodPose StartOfScope(const Scene& scene);
+simulation::RodPose StartOfInstrument(const Scene& scene);
+simulation::RodLimits ScopeLimits(const Scene& scene);
+simulation::RodLimits InstrumentLimits(const Scene& scene);
+
+}  // namespace arthro::app

@@ -1,0 +1,193 @@
+#include "app/commands/scene_files.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/depth_work.h"
+#include "app/commands/edits.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/image_io.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+using authoring::Document;
+
+std::string LowerExtension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+double NumberOf(const nlohmann::json& json, const char* key, const fs::path& file) {
+  const auto entry = json.find(key);
+  if (entry == json.end() || !entry->is_number())
+    throw Error(Code::kBadData,
+                std::string("the report's \"panorama\" has no number \"") + key +
+                    "\"; choose the report that `arthroscene panorama --report` wrote",
+                file);
+  return entry->get<double>();
+}
+
+}  // namespace
+
+Document NewDocument() {
+  Document document;
+  document.scene.title = "Untitled";
+  document.scene.instruments.push_back({});
+  return document;
+}
+
+void StartDocument(EditorState& state, Document document, bool saved) {
+  state.history = authoring::History(std::move(document));
+  if (saved) state.history.MarkSaved();
+  state.depth_cache.Note(state.document());
+  state.tissue = state.document().scene.tissues.empty() ? -1 : 0;
+  state.scope = StartOfScope(state.document().scene);
+  state.instrument = StartOfInstrument(state.document().scene);
+  state.practice.reset();
+}
+
+void OpenScene(EditorState& state, const fs::path& scene) {
+  state.jobs.Start(
+      "Open " + scene.filename().string(),
+      [scene](const Progress&) {
+        return [scene, document = authoring::OpenDocument(scene)](EditorState& now) {
+          StartDocument(now, document, true);
+          now.recent.Add(scene);
+          now.message = "Opened " + scene.string();
+        };
+      },
+      true);
+}
+
+namespace {
+
+void SaveInto(EditorState& state, const fs::path& folder, std::function<void(EditorState&)> then) {
+  WhenDepthIsReady(state, [folder, then = std::move(then)](EditorState& ready) {
+    ready.jobs.Start(
+        "Save " + folder.filename().string(),
+        [folder, then, document = ready.document()](const Progress&) {
+          return [then, saved = authoring::SaveDocument(document, folder)](EditorState& now) {
+            now.history.MarkSaved(saved);
+            now.depth_cache.Note(saved);
+            now.recent.Add(saved.folder);
+            now.message = "Saved in " + saved.folder.string();
+            if (then) then(now);
+          };
+        },
+        true);
+  });
+}
+
+}  // namespace
+
+void SaveScene(EditorState& state, std::function<void(EditorState&)> then) {
+  const fs::path folder = state.document().folder;
+  if (folder.empty()) return SaveSceneAs(state, std::move(then));
+  SaveInto(state, folder, std::move(then));
+}
+
+void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then) {
+  const std::string& title = state.document().scene.title;
+  std::string name;
+  for (const char c : title.empty() ? std::string("scene") : title) name += c == '/' ? '-' : c;
+  Browse(
+      state, BrowseFor::kSaveFolder, "Save the scene as a folder", "Save", {},
+      [then = std::move(then)](EditorState& now, const fs::path& folder) {
+        SaveInto(now, folder, then);
+      },
+      name);
+}
+
+void ImportPanorama(EditorState& state, const fs::path& picture) {
+  state.jobs.Start("Import " + picture.filename().string(), [picture](const Progress&) {
+    auto panorama = std::make_shared<const ColourImage>(ReadColourImage(picture));
+    return [picture, panorama](EditorState& now) {
+      Edit(now, "Import " + picture.filename().string(), "", [&](Document& next) {
+        const bool same_size = next.panorama && next.panorama->width == panorama->width &&
+                               next.panorama->height == panorama->height;
+        if (!same_size)
+          next.scene.backdrop.projection =
+              authoring::GuessProjection(panorama->width, panorama->height);
+        next.panorama = panorama;
+        next.scene.backdrop.panorama = "panorama.png";
+        next.scene.backdrop.depth = "depth.tiff";
+        next.depth = nullptr;
+      });
+      now.step = Step::kPanorama;
+    };
+  });
+}
+
+void ReadPanoramaReport(EditorState& state, const fs::path& report) {
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(ReadWholeFile(report));
+  } catch (const nlohmann::json::exception&) {
+    throw Error(Code::kBadData, "this is not a report in JSON; choose the report of a panorama",
+                report);
+  }
+  const nlohmann::json part = json.is_object() ? json.value("panorama", nlohmann::json()) : json;
+  if (!part.is_object())
+    throw Error(Code::kBadData, "there is no \"panorama\" in it; choose the report of a panorama",
+                report);
+  Backdrop backdrop = state.document().scene.backdrop;
+  backdrop.projection.type = ProjectionType::kGnomonic;
+  backdrop.projection.focal_px = NumberOf(part, "focal_px", report);
+  backdrop.projection.centre_px = {NumberOf(part, "cx", report), NumberOf(part, "cy", report)};
+  const auto& panorama = state.document().panorama;
+  if (panorama && (NumberOf(part, "width", report) != panorama->width ||
+                   NumberOf(part, "height", report) != panorama->height))
+    throw Error(Code::kBadData,
+                "the report is of a panorama of another size; choose the one that was written with "
+                "this panorama",
+                report);
+  SetBackdrop(state, backdrop, "the projection");
+}
+
+void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
+            const std::string& accept_words, std::vector<FileFilter> filters,
+            std::function<void(EditorState&, const fs::path&)> then, const std::string& file_name) {
+  std::error_code ignored;
+  fs::path start = state.document().folder;
+  if (start.empty() && !state.recent.Existing().empty())
+    start = state.recent.Existing().front().parent_path();
+  if (start.empty()) start = fs::current_path(ignored);
+  state.dialogs.push_back(BrowseDialog{
+      title, accept_words, FileBrowserModel(purpose, std::move(filters), start, file_name),
+      std::move(then), false, false, ""});
+}
+
+void OpenDropped(EditorState& state, const fs::path& file) {
+  const std::string extension = LowerExtension(file);
+  const auto is_one_of = [&](std::initializer_list<const char*> extensions) {
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  };
+  if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"})) {
+    ImportPanorama(state, file);
+  } else if (is_one_of({".stl", ".obj", ".ply", ".off", ".vtp"})) {
+    state.dialogs.push_back(UnitDialog{file});
+  } else if (fs::is_directory(file) || is_one_of({".json", ".arthro"})) {
+    GuardUnsaved(state, "open another scene", [file](EditorState& sure) { OpenScene(sure, file); });
+  } else {
+    throw Error(Code::kBadArgument,
+                "this is no scene, picture or surface; drop a scene folder, a PNG, JPEG or TIFF "
+                "picture, or an STL, OBJ, PLY, OFF or VTP surface",
+                file);
+  }
+}
+
+void GuardUnsaved(EditorState& state, const std::string& action,
+                  std::function<void(EditorState&)> then) {
+  if (state.practice_only || state.history.IsSaved()) return then(state);
+  state.dialogs.push_back(GuardDialog{action, std::move(then)});
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,43 @@
+// Scenes and pictures from and to files, by work beside the window: opening, saving, importing a
+// panorama. A file that cannot be read leaves the document as it was and is told in a dialog.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "app/commands/editor_state.h"
+
+namespace arthro::app {
+
+// A document with no panorama yet.
+authoring::Document NewDocument();
+
+// Replaces the document; asks nothing.
+void OpenScene(EditorState& state, const std::filesystem::path& scene);
+
+// Makes `document` the one that is worked on, with a new history; `saved`: as it is on disk.
+void StartDocument(EditorState& state, authoring::Document document, bool saved);
+
+// Where it was opened from, or asks where. `then` runs once it is saved.
+void SaveScene(EditorState& state, std::function<void(EditorState&)> then = {});
+void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then = {});
+
+// A picture becomes the backdrop; its projection is kept if the size is that of the old one.
+void ImportPanorama(EditorState& state, const std::filesystem::path& picture);
+// A panorama report says where the middle is and how many pixels a radian (design §5).
+void ReadPanoramaReport(EditorState& state, const std::filesystem::path& report);
+
+// A file that was dropped on the window: a scene, a picture, a surface or a report, by its name.
+void OpenDropped(EditorState& state, const std::filesystem::path& file);
+
+// Runs `then` now if all is saved; else asks: Save, Discard or Cancel.
+void GuardUnsaved(EditorState& state, const std::string& action,
+                  std::function<void(EditorState&)> then);
+
+// Opens the file browser; `then` gets what was chosen.
+void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
+            const std::string& accept_words, std::vector<FileFilter> filters,
+            std::function<void(EditorState&, const std::filesystem::path&)> then,
+            const std::string& file_name = {});
+
+}  // namespace arthro::app

@@ -1,0 +1,235 @@
+#include "app/editor/editor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/commands/command_list.h"
+#include "app/commands/edits.h"
+#include "app/commands/hand_motion.h"
+#include "app/commands/scene_files.h"
+#include "app/editor/pictures.h"
+#include "app/panels/panels.h"
+#include "app/platform/script_runner.h"
+#include "app/platform/window.h"
+#include "app/resource_folder.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/scene/image_io.h"
+
+namespace arthro::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr double kFrame = 1.0 / 60.0;       // s, shortest time between two frames that time drives
+constexpr double kLivelyAfter = 0.8;        // s after the last event: tips and hover settle
+constexpr double kDrawAtLeastEvery = 0.05;  // s, while events stream in
+
+// Keys that call a command. None while text is typed (but function keys) or a dialog is open.
+void RunShortcuts(EditorState& state) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!state.dialogs.empty()) return;
+  for (const Command& command : AllCommands())
+    for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
+      if (shortcut.key == 0 || !ImGui::IsKeyPressed(shortcut.key, false)) continue;
+      if (io.KeyCtrl != shortcut.ctrl || io.KeyShift != shortcut.shift || io.KeyAlt) continue;
+      const bool function_key = shortcut.key >= GLFW_KEY_F1 && shortcut.key <= GLFW_KEY_F12;
+      if (io.WantTextInput && !function_key) continue;
+      Run(state, command);
+      return;  // one key, one command
+    }
+  // "?" by what it types, since its key is another one on every keyboard.
+  if (!io.WantTextInput)
+    for (const ImWchar character : io.InputQueueCharacters)
+      if (character == '?') return Run(state, "help");
+}
+
+void TakeNews(EditorState& state, const FrameNews& news) {
+  if (news.close_requested && state.dialogs.empty()) Run(state, "quit");
+  if (!news.dropped.empty() && state.dialogs.empty() && !state.practice && !state.practice_only)
+    Guarded(state, "Open", [&] { OpenDropped(state, news.dropped.front()); });
+}
+
+std::string TitleOf(const EditorState& state) {
+  const std::string& title = state.document().scene.title;
+  return (state.history.IsSaved() || state.practice_only ? "" : "• ") +
+         (title.empty() ? std::string("Untitled") : title) + " — Arthroscene";
+}
+
+class Editor {
+ public:
+  explicit Editor(const EditorOptions& options)
+      : options_(options),
+        window_(WindowFrom(options)),
+        pictures_(options.script.has_value()),
+        state_(NewDocument(), Window::WakeUp,
+               options.script ? std::filesystem::path() : RecentScenesFile()) {
+    if (options.script)
+      script_.emplace(ParseScript(ReadWholeFile(*options.script), *options.script),
+                      window_.scale());
+    Begin();
+  }
+
+  void Run() {
+    while (!state_.quit) {
+      Wait();
+      Frame();
+      if (options_.frames > 0 && frames_ >= options_.frames) return;
+      if (!script_ || script_->state() == ScriptState::kRunning) continue;
+      if (script_->state() == ScriptState::kFailed)
+        throw Error(Code::kBadData, script_->failure(), *options_.script);
+      return;
+    }
+    if (script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
+      throw Error(
+          Code::kBadData,
+          fmt::format("the window closed before line {} of the script", script_->line_number()),
+          *options_.script);
+  }
+
+ private:
+  static WindowOptions WindowFrom(const EditorOptions& options) {
+    WindowOptions window;
+    window.width = options.width, window.height = options.height;
+    window.visible = !options.hidden;
+    window.scale = options.scale;
+    if (options.script) window.fixed_step = kFrame;  // the same frames whatever the machine's speed
+    return window;
+  }
+
+  void Begin() {
+    if (options_.scene) {
+      StartDocument(state_, authoring::OpenDocument(*options_.scene), true);
+    } else if (const auto demo = ResourceFolder() / "demo";
+               std::filesystem::exists(demo / "scene.json")) {
+      // The demo scene is a start for one's own: saving asks where.
+      authoring::Document document = authoring::OpenDocument(demo);
+      document.folder.clear();
+      StartDocument(state_, std::move(document), true);
+    }
+    state_.practice_only = options_.practice;
+    if (!options_.practice && !state_.document().folder.empty())
+      state_.recent.Add(state_.document().folder);
+    if (options_.practice)
+      app::Run(state_, "practise");
+    else
+      state_.message = "F1 or ? shows all keys.";
+  }
+
+  // Sleeps until there is something to draw.
+  void Wait() {
+    const double since = Seconds(Clock::now() - last_draw_).count();
+    const bool busy = state_.jobs.busy() || state_.preview_jobs.busy();
+    if (!window_.input().empty() || script_ || options_.frames > 0) {
+      window_.WaitEvents(0);
+    } else if (state_.practice || window_.AnythingHeld()) {
+      window_.WaitEvents(0);
+      if (since < kFrame) std::this_thread::sleep_for(Seconds(kFrame - since));
+    } else if (Seconds(Clock::now() - last_event_).count() < kLivelyAfter || unsettled_ > 0) {
+      window_.WaitEvents(1.0 / 30.0);
+    } else if (busy || ImGui::GetIO().WantTextInput) {
+      window_.WaitEvents(0.1);
+    } else {
+      window_.WaitEvents(10.0);
+    }
+    if (!window_.input().empty()) last_event_ = Clock::now();
+  }
+
+  void Frame() {
+    const auto now = Clock::now();
+    const FrameNews news = window_.BeginFrame();
+    const double step = ImGui::GetIO().DeltaTime;
+    TakeNews(state_, news);
+    if (FinishWork(state_)) last_event_ = now;
+    RunShortcuts(state_);
+    if (state_.dialogs.empty()) ApplyHeldKeys(state_, picture_focused_, step);
+    if (state_.practice && state_.dialogs.empty()) state_.practice->Advance(step);
+    window_.SetTitle(TitleOf(state_));
+    window_.SetFullScreen(state_.full_screen);
+
+    // A stream of events is worked off faster than it could be drawn.
+    will_draw_ = window_.input().empty() || Seconds(now - last_draw_).count() > kDrawAtLeastEvery;
+    widgets_.BeginFrame();
+    Ui ui{widgets_, window_.fonts(), static_cast<float>(window_.scale())};
+    Panels(ui);
+
+    if (!will_draw_) {
+      ImGui::EndFrame();
+      return;
+    }
+    window_.EndFrame();
+    if (script_)
+      script_->AfterFrame(widgets_, state_.jobs.busy() || state_.preview_jobs.busy(),
+                          window_.input(), [&](const std::filesystem::path& file) {
+                            WriteColourImage(file, window_.ReadPicture());
+                          });
+    window_.Present();
+    last_draw_ = Clock::now();
+    if (++frames_ == 1 && options_.timing)
+      std::fprintf(stderr, "first picture after %.0f ms\n",
+                   1e3 * Seconds(last_draw_ - started_).count());
+    if (unsettled_ > 0) --unsettled_;
+  }
+
+  void Panels(Ui& ui) {
+    const float width = static_cast<float>(window_.width()),
+                height = static_cast<float>(window_.height());
+    if (state_.practice) {
+      const Layout layout = PracticeLayout(width, height, ui.scale);
+      picture_focused_ = true;
+      DrawPictures(ui, layout);
+      TakePictureInput(ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()));
+      PracticePanel(ui, state_, layout.side);
+    } else {
+      const Layout layout = EditorLayout(width, height, ui.scale);
+      TopBar(ui, state_, layout.top);
+      StepsPanel(ui, state_, layout.side);
+      DrawPictures(ui, layout);
+      const PictureInput input =
+          ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+      picture_focused_ = input.focused;
+      TakePictureInput(input);
+      OverviewPicture(ui, layout.overview, 0);
+      StatusBar(ui, state_, layout.status);
+    }
+    Dialogs(ui, state_);
+  }
+
+  void TakePictureInput(const PictureInput& input) {
+    ApplyPictureInput(state_, input, pictures_.view(), state_.document().scene.scope.field_of_view);
+  }
+
+  void DrawPictures(const Ui& ui, const Layout& layout) {
+    if (!will_draw_) return;
+    if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
+      unsettled_ = 2;
+  }
+
+  const EditorOptions options_;
+  const Clock::time_point started_ = Clock::now();
+  Window window_;
+  Pictures pictures_;
+  EditorState state_;
+  WidgetRegistry widgets_;
+  std::optional<ScriptRunner> script_;
+  Clock::time_point last_draw_{}, last_event_ = Clock::now();
+  int frames_ = 0, unsettled_ = 3;
+  bool picture_focused_ = true, will_draw_ = true;
+};
+
+}  // namespace
+
+void RunEditor(const EditorOptions& options) {
+  Editor editor(options);
+  editor.Run();
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,25 @@
+// The window's main loop: input to commands, commands to state, state to panels and pictures. Draws
+// only when something changed, and sleeps otherwise.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace arthro::app {
+
+struct EditorOptions {
+  std::optional<std::filesystem::path> scene;  // none: the demo scene
+  bool practice = false;                       // the practise job: nothing but practice
+  // For tests.
+  std::optional<std::filesystem::path> script;
+  int width = 1280, height = 800;
+  std::optional<double> scale;
+  int frames = 0;       // quit after so many drawn frames; 0: never
+  bool hidden = false;  // the window is never shown
+  bool timing = false;  // says on stderr when the first picture stood
+};
+
+// Throws Error: no display, an unreadable scene, a script whose expectation did not hold.
+void RunEditor(const EditorOptions& options);
+
+}  // namespace arthro::app

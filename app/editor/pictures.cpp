@@ -1,0 +1,120 @@
+#include "app/editor/pictures.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "app/commands/same.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr double kSlow = 40.0;    // ms a frame: coarser while it moves
+constexpr double kCoarse = 0.55;  // of the full size
+
+bool Same(const Picture& a, const Picture& b) {
+  const auto same_instrument = [&] {
+    if (a.instrument.has_value() != b.instrument.has_value()) return false;
+    return !a.instrument ||
+           (a.instrument->portal == b.instrument->portal &&
+            a.instrument->proxy == b.instrument->proxy && a.instrument->roll == b.instrument->roll);
+  };
+  return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
+         a.field_of_view == b.field_of_view && a.notch == b.notch && same_instrument();
+}
+
+// What a projection in pixels of one picture is in pixels of a smaller one, whose pixel (x, y)
+// covers x·factor … x·factor + factor − 1.
+Projection Shrunk(Projection projection, double factor) {
+  projection.centre_px = (projection.centre_px - 0.5 * (factor - 1.0)) / factor;
+  projection.focal_px /= factor;
+  projection.px_per_deg /= factor;
+  return projection;
+}
+
+Picture PictureOf(const EditorState& state) {
+  const Scene& scene = state.document().scene;
+  Picture picture;
+  picture.field_of_view = scene.scope.field_of_view;
+  const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
+  if (state.practice) {
+    const auto& snapshot = state.practice->snapshot();
+    picture.view = simulation::ViewFromPose(snapshot.scope.pose, state.practice->view_angle());
+    picture.instrument =
+        InstrumentView{portal, snapshot.instrument.proxy_in_portal, snapshot.instrument.pose.roll};
+  } else {
+    picture.view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
+    picture.instrument = InstrumentView{
+        portal, portal + simulation::TipInOwnPortal(state.instrument), state.instrument.roll};
+  }
+  return picture;
+}
+
+}  // namespace
+
+void Pictures::TakeBackdrop(const EditorState& state) {
+  const authoring::Document& document = state.document();
+  const DepthCache& cache = state.depth_cache;
+  const bool preview = cache.preview && cache.preview_panorama;
+  const auto& panorama = preview ? cache.preview_panorama : document.panorama;
+  const auto& depth = preview ? cache.preview : document.depth;
+  if (panorama == panorama_ && depth == depth_ && SameBackdrop(backdrop_, document.scene.backdrop))
+    return;
+  panorama_ = panorama;
+  depth_ = depth;
+  backdrop_ = document.scene.backdrop;
+  changed_ = true;
+  if (!panorama) return;
+  Backdrop shown = backdrop_;
+  if (preview)
+    shown.projection = Shrunk(shown.projection, static_cast<double>(document.panorama->width) /
+                                                    cache.preview_panorama->width);
+  scope_.SetBackdrop(*panorama, depth ? *depth : DepthMap{}, shown);
+}
+
+void Pictures::TakeTissues(const authoring::Document& document) {
+  const auto& tissues = document.scene.tissues;
+  const auto same_look = [&] {
+    if (surfaces_ != document.surfaces || tissues_.size() != tissues.size()) return false;
+    for (std::size_t i = 0; i < tissues.size(); ++i)
+      if (tissues_[i].colour != tissues[i].colour) return false;
+    return true;
+  };
+  if (!same_look()) {
+    std::vector<SurfaceMesh> meshes;
+    for (const auto& surface : document.surfaces)
+      meshes.push_back(surface ? *surface : SurfaceMesh{});
+    scope_.SetTissues(tissues, meshes);
+    surfaces_ = document.surfaces;
+    changed_ = true;
+  } else {
+    for (std::size_t i = 0; i < tissues.size(); ++i)
+      if (!SamePose(tissues_[i].pose, tissues[i].pose)) {
+        scope_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
+        changed_ = true;
+      }
+  }
+  tissues_ = tissues;
+}
+
+bool Pictures::DrawScope(const EditorState& state, int size) {
+  TakeBackdrop(state);
+  TakeTissues(state.document());
+  const Picture picture = PictureOf(state);
+  const bool moved = changed_ || !Same(picture, picture_);
+  picture_ = picture;
+  has_picture_ = panorama_ != nullptr;
+  if (!has_picture_ || (!moved && drawn_size_ == size)) return false;
+
+  // A machine that is slow at full size draws coarser while things move, and full when they rest.
+  const bool coarse = moved && !steady_ && milliseconds_ > kSlow;
+  const int pixels = coarse ? static_cast<int>(std::lround(kCoarse * size)) : size;
+  const auto begin = std::chrono::steady_clock::now();
+  scope_.Render(picture_, pixels);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  if (!coarse) milliseconds_ = took.count();
+  drawn_size_ = pixels;
+  changed_ = false;
+  return coarse;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,30 @@
+// Step 2: how the panorama's brightness becomes relief.
+#include "app/commands/command_list.h"
+#include "app/commands/depth_work.h"
+#include "app/commands/edits.h"
+#include "app/panels/options_panel.h"
+#include "app/panels/panels.h"
+
+namespace arthro::app {
+
+void DepthPanel(Ui& ui, EditorState& state) {
+  const authoring::Document document = state.document();  // a copy: edits below move it
+  if (!document.panorama) {
+    QuietText(ui, "Depth is made from a panorama; import one first.");
+    return;
+  }
+  authoring::DepthOptions options = document.depth_options;
+  const auto panel = OptionsPanel(ui, options);
+  if (!panel.changed_field.empty()) SetDepthOptions(state, options, panel.changed_field);
+  if (panel.held) state.dragging = true;
+  if (panel.released) EndDrag(state);
+  const std::string problem = state.depth_cache.ProblemOf(state.document());
+  if (!problem.empty()) ColouredText(ui, problem, kWarning);
+  Gap(ui);
+  if (Button(ui, "Back to the defaults", true, {-1, 0})) {
+    SetDepthOptions(state, {}, "back to the defaults");
+    EndDrag(state);
+  }
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,100 @@
+// Any options struct as sliders, boxes and lists, by its one list of fields (simulation/core/
+// options.h): lengths in millimetres, angles in degrees, the help as a tooltip.
+#pragma once
+
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "app/panels/widgets.h"
+#include "simulation/core/options.h"
+
+namespace arthro::app {
+
+// "near_relief" as a person reads it: "Near relief".
+inline std::string WordsOfField(std::string name) {
+  for (char& c : name)
+    if (c == '_') c = ' ';
+  if (!name.empty()) name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
+struct OptionsPanelVisitor {
+  Ui& ui;
+  std::string changed_field = {};  // its words; empty when nothing changed
+  bool held = false, released = false;
+
+  template <class T, class R>
+  void operator()(const char* name, T& field, const R& range, const char* unit, const char* help) {
+    const std::string words = WordsOfField(name);
+    const Border border = PersonBorder(unit);
+    if constexpr (std::is_enum_v<T>) {
+      std::vector<std::string> choices;
+      int chosen = -1;
+      for (const auto& [value, word] : range.words) {
+        if (value == field) chosen = static_cast<int>(choices.size());
+        choices.push_back(word);
+      }
+      if (Combo(ui, words, chosen, choices, help)) {
+        field = range.words[static_cast<std::size_t>(chosen)].first;
+        changed_field = words;
+        released = true;
+      }
+    } else if constexpr (std::is_same_v<T, bool>) {
+      if (Checkbox(ui, words, field, help)) {
+        changed_field = words;
+        released = true;
+      }
+    } else if constexpr (std::is_same_v<T, double> && std::is_same_v<R, Range>) {
+      double shown = field * border.factor;
+      const double low = range.min * border.factor, high = range.max * border.factor;
+      Note(words, Slider(ui, words, shown, low, high, Format(unit, high - low).c_str(), help),
+           [&] { field = shown / border.factor; });
+    } else if constexpr (std::is_same_v<T, int> && std::is_same_v<R, Range>) {
+      int shown = field;
+      const std::string format = std::string("%d") + (*unit ? " " : "") + Escaped(unit);
+      Note(words,
+           SliderInt(ui, words, shown, static_cast<int>(range.min), static_cast<int>(range.max),
+                     format.c_str(), help),
+           [&] { field = shown; });
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      if (TextField(ui, words, field, help)) {
+        changed_field = words;
+        released = true;
+      }
+    } else {
+      static_assert(std::is_same_v<R, Range>, "a number that is shown needs a range");
+    }
+  }
+
+ private:
+  template <class Take>
+  void Note(const std::string& words, const Change& change, const Take& take) {
+    if (change.changed) {
+      take();
+      changed_field = words;
+    }
+    held = held || change.held;
+    released = released || change.released;
+  }
+
+  static std::string Escaped(const std::string& unit) { return unit == "%" ? "%%" : unit; }
+
+  // As many decimals as a person can set with the mouse.
+  static std::string Format(const std::string& unit, double width) {
+    const std::string shown = unit == "m" ? "mm" : unit == "rad" ? "°" : Escaped(unit);
+    const char* number = width > 50 ? "%.1f" : "%.2f";
+    return std::string(number) + (shown.empty() ? "" : " ") + shown;
+  }
+};
+
+// The words of the field that changed, or "". `held` and `released` as in Change.
+template <class Options>
+OptionsPanelVisitor OptionsPanel(Ui& ui, Options& options) {
+  OptionsPanelVisitor visitor{ui};
+  options.Visit(visitor);
+  return visitor;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,145 @@
+// Step 5 in the editor, and the panel beside the large picture while a practice runs.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include "app/commands/command_list.h"
+#include "app/panels/fixed_window.h"
+#include "app/panels/panels.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr double kForceOfFullBar = 8.5;  // N: above it tissue is hurt; the bar's end
+constexpr double kForceOfCare = 3.0;     // N: amber from here
+
+std::string ClockWords(double seconds) {
+  const int whole = static_cast<int>(seconds);
+  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+}
+
+std::string ContactWords(const EditorState& state, int contact) {
+  if (contact == simulation::kNoContact) return "nothing";
+  if (contact == simulation::kBackdropContact) return "joint surface";
+  const auto& tissues = state.document().scene.tissues;
+  const auto index = static_cast<std::size_t>(contact - 1);
+  return index < tissues.size() ? tissues[index].name : "tissue";
+}
+
+// What the trainee can do about a hand that gets no force.
+const char* FaultWords(simulation::Fault fault) {
+  switch (fault) {
+    case simulation::Fault::kNone:
+      return "";
+    case simulation::Fault::kNoSample:
+      return "No force: the device gives no position.";
+    case simulation::Fault::kStale:
+      return "No force: the device pauses.";
+    case simulation::Fault::kLost:
+      return "No force: the device is lost; check its cable.";
+    case simulation::Fault::kNotFinite:
+      return "No force: the device sent something unreadable.";
+    case simulation::Fault::kTooFast:
+      return "No force: the hand is too fast; slow down.";
+  }
+  return "";
+}
+
+void Large(Ui& ui, const std::string& text, unsigned colour = 0xFFEEEBE9) {
+  ImGui::PushFont(ui.fonts.large);
+  ColouredText(ui, text, colour);
+  ImGui::PopFont();
+}
+
+void ForceBar(Ui& ui, double force, double peak) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(26);
+  const auto at = [&](double newton) {
+    return corner.x + width * static_cast<float>(std::clamp(newton / kForceOfFullBar, 0.0, 1.0));
+  };
+  const unsigned colour = force < kForceOfCare ? kGood : force < kForceOfFullBar ? kWarning : kBad;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
+                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
+  if (force > 0)
+    draw->AddRectFilled(corner, {std::max(at(force), corner.x + ui.Px(3)), corner.y + height},
+                        colour, ui.Px(4));
+  // The largest force so far as a line, and where care begins as a thin one.
+  draw->AddLine({at(kForceOfCare), corner.y}, {at(kForceOfCare), corner.y + height}, kQuiet,
+                ui.Px(1));
+  if (peak > 0)
+    draw->AddLine({at(peak), corner.y}, {at(peak), corner.y + height}, 0xFFFFFFFF, ui.Px(2));
+  ImGui::Dummy({width, height});
+  RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force));
+}
+
+}  // namespace
+
+void PracticeStepPanel(Ui& ui, EditorState& state) {
+  Text(ui, "Practise in the scene as it stands. Esc brings you back to exactly this place.");
+  Gap(ui);
+  CommandButton(ui, state, "practise", {-FLT_MIN, ui.Px(48)});
+  Gap(ui);
+  QuietText(ui,
+            "Drag over the picture to swing the scope, turn the wheel to move it in and out. The "
+            "right button moves the instrument. Press ? for all keys.");
+}
+
+void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "practice", area, kPageWindow);
+  const auto& practice = *state.practice;
+  const auto& instrument = practice.snapshot().instrument;
+  const double force = glm::length(instrument.tip_force);
+
+  const std::string title = state.document().scene.title;
+  Heading(ui, title.empty() ? "Practice" : title);
+  QuietText(ui, "Time");
+  Large(ui, ClockWords(practice.snapshot().t));
+
+  QuietText(ui, "Force on the tissue");
+  Large(ui, fmt::format("{:.2f} N", force),
+        force < kForceOfCare      ? 0xFFEEEBE9
+        : force < kForceOfFullBar ? kWarning
+                                  : kBad);
+  ForceBar(ui, force, practice.peak_force());
+  QuietText(ui, fmt::format("largest so far {:.2f} N", practice.peak_force()));
+  Gap(ui);
+  QuietText(ui, "The instrument touches");
+  Heading(ui, ContactWords(state, instrument.contact));
+  if (instrument.fault != simulation::Fault::kNone)
+    ColouredText(ui, FaultWords(instrument.fault), kWarning);
+
+  Gap(ui);
+  QuietText(ui, "Scope");
+  const auto& pose = practice.snapshot().scope.pose;
+  Text(ui, fmt::format("{:.0f}° view angle, {:.1f} mm deep",
+                       DegreesFromRadians(practice.view_angle()), MmFromMetres(pose.depth)));
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * ui.Px(6)) / 4;
+  int column = 0;
+  for (const int degrees : {0, 30, 70, 90}) {
+    if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
+    const Command& command = CommandOf("view-" + std::to_string(degrees));
+    const bool chosen = std::abs(practice.view_angle() - RadiansFromDegrees(degrees)) < 1e-6;
+    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(48)}, command.help))
+      Run(state, command);
+  }
+  Gap(ui);
+  CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(48)});
+
+  // At the foot, where it is not pressed by chance.
+  const float foot = 2 * ui.Px(48) + ui.Px(22);
+  const float free = ImGui::GetContentRegionAvail().y - foot;
+  if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  CommandButton(ui, state, "full-screen", {half, ui.Px(48)});
+  ImGui::SameLine(0, ui.Px(8));
+  CommandButton(ui, state, "help", {half, ui.Px(48)});
+  CommandButton(ui, state, "leave-practice", {-FLT_MIN, ui.Px(48)});
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,229 @@
+#include "app/panels/widgets.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+namespace arthro::app {
+namespace {
+
+// ImGui's own identity of a widget: hidden behind "##" where the label is drawn elsewhere.
+std::string Hidden(const std::string& name) { return "##" + name; }
+
+Change ChangeOfLastItem(bool changed) {
+  return {changed, ImGui::IsItemActive(), ImGui::IsItemDeactivatedAfterEdit()};
+}
+
+std::string Formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+void Label(Ui& ui, const std::string& name) {
+  ui.widgets.RecordText(name);
+  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
+  ImGui::TextUnformatted(name.c_str());
+  ImGui::PopStyleColor();
+}
+
+// The value, at the right end of the label's line.
+void ValueOverSlider(const std::string& value) {
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+  ImGui::TextUnformatted(value.c_str());
+}
+
+// Hides the number that ImGui writes over the grab, but not the one that is being typed.
+class NumberHidden {
+ public:
+  explicit NumberHidden(const std::string& hidden_name)
+      : hidden_(!ImGui::TempInputIsActive(ImGui::GetID(hidden_name.c_str()))) {
+    if (hidden_) ImGui::PushStyleColor(ImGuiCol_Text, 0u);
+  }
+  ~NumberHidden() {
+    if (hidden_) ImGui::PopStyleColor();
+  }
+
+ private:
+  bool hidden_;
+};
+
+}  // namespace
+
+void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string& value) {
+  // The part inside the window's clip rectangle is what can be pointed at.
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const ImRect clip = ImGui::GetCurrentWindow()->ClipRect;
+  WidgetRecord record;
+  record.name = name;
+  record.x0 = std::max(low.x, clip.Min.x), record.y0 = std::max(low.y, clip.Min.y);
+  record.x1 = std::min(high.x, clip.Max.x), record.y1 = std::min(high.y, clip.Max.y);
+  record.visible = record.x1 > record.x0 && record.y1 > record.y0;
+  record.enabled = enabled;
+  record.value = value;
+  ui.widgets.Record(std::move(record));
+}
+
+void Tooltip(Ui& ui, const char* text) {
+  if (text == nullptr || *text == '\0' ||
+      !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive())
+    return;
+  // Only after the pointer has rested: tips must not flicker over a list that is swept.
+  if (GImGui->HoveredIdTimer < 0.5f) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ui.Px(340));
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool Button(Ui& ui, const std::string& name, bool enabled, const ImVec2& size,
+            const char* tooltip) {
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(name.c_str(), size);
+  ImGui::EndDisabled();
+  RecordItem(ui, name, enabled);
+  Tooltip(ui, tooltip);
+  return pressed && enabled;
+}
+
+bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled, const ImVec2& size,
+                  const char* tooltip) {
+  if (chosen) {
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  }
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(name.c_str(), size);
+  ImGui::EndDisabled();
+  if (chosen) ImGui::PopStyleColor(2);
+  RecordItem(ui, name, enabled, chosen ? "on" : "off");
+  Tooltip(ui, tooltip);
+  return pressed && enabled;
+}
+
+bool Checkbox(Ui& ui, const std::string& name, bool& value, const char* tooltip) {
+  const bool changed = ImGui::Checkbox(name.c_str(), &value);
+  RecordItem(ui, name, true, value ? "on" : "off");
+  Tooltip(ui, tooltip);
+  return changed;
+}
+
+Change Slider(Ui& ui, const std::string& name, double& value, double min, double max,
+              const char* format, const char* tooltip) {
+  Label(ui, name);
+  ValueOverSlider(Formatted(format, value));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  double shown = value;
+  bool changed = false;
+  {
+    const NumberHidden hidden(Hidden(name));
+    changed = ImGui::SliderScalar(Hidden(name).c_str(), ImGuiDataType_Double, &shown, &min, &max,
+                                  format, ImGuiSliderFlags_AlwaysClamp);
+  }
+  const Change change = ChangeOfLastItem(changed && shown != value);
+  if (change.changed) value = shown;
+  RecordItem(ui, name, true, Formatted(format, shown));
+  Tooltip(ui, tooltip);
+  return change;
+}
+
+Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, const char* format,
+                 const char* tooltip) {
+  Label(ui, name);
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  ValueOverSlider(text);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  int shown = value;
+  bool changed = false;
+  {
+    const NumberHidden hidden(Hidden(name));
+    changed = ImGui::SliderInt(Hidden(name).c_str(), &shown, min, max, format,
+                               ImGuiSliderFlags_AlwaysClamp);
+  }
+  const Change change = ChangeOfLastItem(changed && shown != value);
+  if (change.changed) value = shown;
+  std::snprintf(text, sizeof text, format, shown);
+  RecordItem(ui, name, true, text);
+  Tooltip(ui, tooltip);
+  return change;
+}
+
+Change NumberField(Ui& ui, const std::string& name, double& value, double step, double min,
+                   double max, const char* format, const char* tooltip) {
+  double shown = value;
+  const bool changed =
+      ImGui::DragScalar(Hidden(name).c_str(), ImGuiDataType_Double, &shown,
+                        static_cast<float>(step), &min, &max, format, ImGuiSliderFlags_AlwaysClamp);
+  const Change change = ChangeOfLastItem(changed && shown != value);
+  if (change.changed) value = shown;
+  RecordItem(ui, name, true, Formatted(format, shown));
+  Tooltip(ui, tooltip);
+  return change;
+}
+
+bool TextField(Ui& ui, const std::string& name, std::string& value, const char* hint) {
+  Label(ui, name);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  // Taken over when the field is left, so that one rename is one step.
+  std::string typed = value;
+  ImGui::InputTextWithHint(Hidden(name).c_str(), hint, &typed);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  RecordItem(ui, name, true, typed);
+  if (done) value = typed;
+  return done;
+}
+
+bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::string>& words,
+           const char* tooltip) {
+  Label(ui, name);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const std::string shown = chosen >= 0 && chosen < static_cast<int>(words.size())
+                                ? words[static_cast<std::size_t>(chosen)]
+                                : "";
+  bool changed = false;
+  const bool open = ImGui::BeginCombo(Hidden(name).c_str(), shown.c_str());
+  RecordItem(ui, name, true, shown);
+  Tooltip(ui, tooltip);
+  if (open) {
+    for (int i = 0; i < static_cast<int>(words.size()); ++i) {
+      const std::string& word = words[static_cast<std::size_t>(i)];
+      if (ImGui::Selectable(word.c_str(), i == chosen) && i != chosen) chosen = i, changed = true;
+      RecordItem(ui, word);
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+bool DialogKeyPressed(int key) {
+  return !ImGui::IsWindowAppearing() && ImGui::IsKeyPressed(key, false);
+}
+
+void Heading(Ui& ui, const std::string& text) {
+  ImGui::PushFont(ui.fonts.heading);
+  Text(ui, text);
+  ImGui::PopFont();
+}
+
+void Text(Ui& ui, const std::string& text) {
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  if (ImGui::IsItemVisible()) ui.widgets.RecordText(text);
+}
+
+void QuietText(Ui& ui, const std::string& text) { ColouredText(ui, text, kQuiet); }
+
+void ColouredText(Ui& ui, const std::string& text, unsigned colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  Text(ui, text);
+  ImGui::PopStyleColor();
+}
+
+void Gap(Ui& ui, double pixels) { ImGui::Dummy({0, ui.Px(pixels)}); }
+
+}  // namespace arthro::app

@@ -1,0 +1,67 @@
+// The widgets that panels are made of: Dear ImGui's, each recorded under the name that is written
+// on it, so that scripts and tests can find it. Sizes are in pixels at content scale 1.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <imgui.h>
+
+#include "app/platform/theme.h"
+#include "app/platform/widget_registry.h"
+
+namespace arthro::app {
+
+// What a panel draws with; lives for one frame.
+struct Ui {
+  WidgetRegistry& widgets;
+  const Fonts& fonts;
+  float scale = 1.0f;
+
+  float Px(double pixels) const { return static_cast<float>(pixels) * scale; }
+};
+
+// Records ImGui's last item.
+void RecordItem(Ui& ui, const std::string& name, bool enabled = true,
+                const std::string& value = "");
+
+bool Button(Ui& ui, const std::string& name, bool enabled = true, const ImVec2& size = {0, 0},
+            const char* tooltip = nullptr);
+// A button that stands for a state: lit while `chosen`.
+bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled = true,
+                  const ImVec2& size = {0, 0}, const char* tooltip = nullptr);
+bool Checkbox(Ui& ui, const std::string& name, bool& value, const char* tooltip = nullptr);
+
+// What a slider or field had done to it in this frame.
+struct Change {
+  bool changed = false;   // the value is another one
+  bool held = false;      // the mouse or keyboard still has hold of it
+  bool released = false;  // it was just let go after a change
+  explicit operator bool() const { return changed; }
+};
+
+// Label above, slider below over the whole width; Ctrl+click types a number, which is kept within
+// the range. `format` as printf takes it, with the unit.
+Change Slider(Ui& ui, const std::string& name, double& value, double min, double max,
+              const char* format, const char* tooltip = nullptr);
+Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, const char* format,
+                 const char* tooltip = nullptr);
+// A number field that is dragged or typed into, `width` wide; label on its left if it has room.
+Change NumberField(Ui& ui, const std::string& name, double& value, double step, double min,
+                   double max, const char* format, const char* tooltip = nullptr);
+bool TextField(Ui& ui, const std::string& name, std::string& value, const char* hint = "");
+// Index of the chosen word; true when another one was chosen.
+bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::string>& words,
+           const char* tooltip = nullptr);
+
+// A key that goes down in this frame, for the dialog that is drawn; not the one that opened it.
+bool DialogKeyPressed(int key);  // GLFW_KEY_…
+
+void Heading(Ui& ui, const std::string& text);
+void Text(Ui& ui, const std::string& text);       // wrapped
+void QuietText(Ui& ui, const std::string& text);  // wrapped, secondary
+void ColouredText(Ui& ui, const std::string& text, unsigned colour);
+void Tooltip(Ui& ui, const char* text);  // of the last item, when it is pointed at
+void Gap(Ui& ui, double pixels = 6);
+
+}  // namespace arthro::app

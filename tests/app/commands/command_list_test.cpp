@@ -1,0 +1,340 @@
+// The command layer without a window: what a user can have done, and that it can be undone.
+#include "app/commands/command_list.h"
+
+#include <chrono>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "app/commands/depth_work.h"
+#include "app/commands/edits.h"
+#include "app/commands/hand_motion.h"
+#include "app/commands/scene_files.h"
+#include "app/commands/tissue_work.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/scene_json.h"
+#include "tests/support/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the window's loop does between frames, until nothing is under way.
+void Settle(EditorState& state) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  do {
+    FinishWork(state);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
+  } while (state.jobs.busy() || state.preview_jobs.busy() || DepthIsUnderWay(state));
+}
+
+std::string Print(const EditorState& state) {
+  return PrettyJson(JsonFromScene(state.document().scene));
+}
+
+class Commands : public testing::Test {
+ protected:
+  void Open() {
+    OpenScene(state, test::WriteSmallScene(temp / "knee"));
+    Settle(state);
+    ASSERT_TRUE(state.dialogs.empty());
+  }
+  test::TempFolder temp;
+  EditorState state{NewDocument()};
+};
+
+TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {
+  std::set<std::string> ids;
+  for (const Command& command : AllCommands()) {
+    EXPECT_TRUE(ids.insert(command.id).second) << command.id;
+    EXPECT_STRNE(command.words, "");
+    EXPECT_STREQ(std::string(command.help).substr(std::string(command.help).size() - 1).c_str(),
+                 ".")
+        << command.id << ": the help is a sentence";
+    EXPECT_EQ(&CommandOf(command.id), &command);
+  }
+}
+
+TEST(CommandList, NoTwoCommandsOrHeldKeysShareAKey) {
+  std::set<std::string> keys;
+  for (const Command& command : AllCommands())
+    for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
+      if (shortcut.key == 0) continue;
+      EXPECT_TRUE(keys.insert(WordsOf(shortcut)).second) << command.id;
+    }
+  std::set<int> held;
+  for (const HandMotion& motion : HandMotions()) {
+    EXPECT_TRUE(held.insert(motion.key).second) << motion.words;
+    EXPECT_EQ(keys.count(std::string(1, static_cast<char>(motion.key & 0x7F))), 0u) << motion.words;
+  }
+}
+
+TEST_F(Commands, OpenEditUndoRedoSaveAndOpenAgainGivesTheSameScene) {
+  Open();
+  EXPECT_TRUE(state.history.IsSaved());
+  const std::string opened = Print(state);
+
+  SetIncisionSpacing(state, MetresFromMm(-20));
+  EndDrag(state);
+  SetViewAngle(state, RadiansFromDegrees(70));
+  const std::string edited = Print(state);
+  EXPECT_FALSE(state.history.IsSaved());
+
+  app::Run(state, "undo");
+  app::Run(state, "undo");
+  EXPECT_EQ(Print(state), opened);
+  EXPECT_TRUE(state.history.IsSaved()) << "all edits were taken back";
+  app::Run(state, "redo");
+  app::Run(state, "redo");
+  EXPECT_EQ(Print(state), edited);
+
+  app::Run(state, "save");
+  Settle(state);
+  EXPECT_TRUE(state.history.IsSaved());
+  const Scene saved = ReadScene(temp / "knee");
+  EXPECT_NEAR(saved.portals.incision_spacing, -0.02, 1e-15);
+  EXPECT_NEAR(saved.scope.view_angle, RadiansFromDegrees(70), 1e-12);
+}
+
+TEST_F(Commands, ASlidersDragIsOneStep) {
+  Open();
+  state.dragging = true;
+  for (int mm = 30; mm <= 50; ++mm) SetIncisionSpacing(state, MetresFromMm(mm));
+  EndDrag(state);
+  app::Run(state, "undo");
+  EXPECT_NEAR(state.document().scene.portals.incision_spacing, 0.03, 1e-15);
+  EXPECT_FALSE(state.history.CanUndo());
+}
+
+TEST_F(Commands, AnEditThatChangesNothingIsNoStep) {
+  Open();
+  SetIncisionSpacing(state, state.document().scene.portals.incision_spacing);
+  SetDepthOptions(state, state.document().depth_options, "nothing");
+  SetTissue(state, 0, state.document().scene.tissues[0], "Move");
+  EXPECT_FALSE(state.history.CanUndo());
+}
+
+TEST_F(Commands, DepthFollowsItsOptionsAndBothAreUndoneAtOnce) {
+  Open();
+  const auto before = state.document().depth;
+  authoring::DepthOptions options = state.document().depth_options;
+  options.near_relief = 0.008;
+  SetDepthOptions(state, options, "Near relief");
+  EXPECT_TRUE(DepthIsUnderWay(state));
+  EndDrag(state);
+  Settle(state);
+  ASSERT_NE(state.document().depth, before);
+  const auto after = state.document().depth;
+  float nearest = 0;
+  for (const float h : after->relief)
+    if (h > nearest) nearest = h;
+  EXPECT_NEAR(nearest, 0.008, 1e-6) << "the range is filled";
+
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, before);
+  EXPECT_FALSE(state.history.CanUndo()) << "one step, though the depth came later";
+  app::Run(state, "redo");
+  EXPECT_EQ(state.document().depth, after);
+  EXPECT_FALSE(DepthIsUnderWay(state)) << "nothing is computed twice";
+}
+
+TEST_F(Commands, WhileASliderIsHeldOnlyAPreviewIsMade) {
+  Open();
+  const auto before = state.document().depth;
+  authoring::DepthOptions options = state.document().depth_options;
+  state.dragging = true;
+  options.near_relief = 0.009;
+  SetDepthOptions(state, options, "Near relief");
+  for (int i = 0; i < 2000 && !state.depth_cache.preview; ++i) {
+    FinishWork(state);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(state.depth_cache.preview);
+  for (int i = 0; i < 50; ++i) {
+    FinishWork(state);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(state.document().depth, before);
+  EndDrag(state);
+  Settle(state);
+  EXPECT_NE(state.document().depth, before);
+}
+
+TEST_F(Commands, OptionsThatContradictEachOtherAreToldAndKeepTheDepth) {
+  Open();
+  const auto before = state.document().depth;
+  authoring::DepthOptions options = state.document().depth_options;
+  options.low_percentile = 60;
+  options.high_percentile = 40;
+  SetDepthOptions(state, options, "Low percentile");
+  EndDrag(state);
+  Settle(state);
+  EXPECT_EQ(state.document().depth, before);
+  EXPECT_NE(state.depth_cache.ProblemOf(state.document()), "");
+  EXPECT_TRUE(state.dialogs.empty()) << "a slider on its way is no reason for a dialog";
+  app::Run(state, "undo");
+  EXPECT_EQ(state.depth_cache.ProblemOf(state.document()), "");
+}
+
+TEST_F(Commands, SavingWaitsForTheDepthOfTheOptions) {
+  Open();
+  authoring::DepthOptions options = state.document().depth_options;
+  options.near_relief = 0.004;
+  SetDepthOptions(state, options, "Near relief");
+  app::Run(state, "save");
+  Settle(state);
+  ASSERT_TRUE(state.history.IsSaved());
+  const LoadedScene saved = LoadScene(temp / "knee");
+  float nearest = 0;
+  for (const float h : saved.depth.relief)
+    if (h > nearest) nearest = h;
+  EXPECT_NEAR(nearest, 0.004, 1e-6);
+}
+
+TEST_F(Commands, APanoramaBecomesTheBackdropWithADepthMapOfItsOwn) {
+  WriteColourImage(temp / "new.png", test::KneePicture(200, 100));
+  ImportPanorama(state, temp / "new.png");
+  Settle(state);
+  ASSERT_TRUE(state.document().panorama);
+  EXPECT_EQ(state.document().panorama->width, 200);
+  ASSERT_TRUE(state.document().depth);
+  EXPECT_EQ(state.document().depth->width, 200);
+  EXPECT_FALSE(state.history.IsSaved());
+}
+
+TEST_F(Commands, AnUnreadableFileIsToldInADialogAndChangesNothing) {
+  Open();
+  const std::string before = Print(state);
+  std::ofstream(temp / "broken.png") << "this is no picture";
+  ImportPanorama(state, temp / "broken.png");
+  Settle(state);
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  const auto* error = std::get_if<ErrorDialog>(&state.dialogs.back());
+  ASSERT_TRUE(error);
+  EXPECT_NE(error->sentence.find("broken.png"), std::string::npos) << error->sentence;
+  EXPECT_EQ(Print(state), before);
+  EXPECT_FALSE(state.history.CanUndo());
+}
+
+TEST_F(Commands, AReportOfAnotherPanoramaIsRefused) {
+  Open();
+  std::ofstream(temp / "r.json")
+      << R"({"panorama":{"width":800,"height":300,"focal_px":500,"cx":1,"cy":2}})";
+  EXPECT_THROW(ReadPanoramaReport(state, temp / "r.json"), Error);
+  std::ofstream(temp / "r.json")
+      << R"({"panorama":{"width":400,"height":300,"focal_px":500,"cx":1,"cy":2}})";
+  ReadPanoramaReport(state, temp / "r.json");
+  EXPECT_DOUBLE_EQ(state.document().scene.backdrop.projection.focal_px, 500);
+}
+
+TEST_F(Commands, QuittingWithUnsavedChangesAsksFirst) {
+  Open();
+  SetIncisionSpacing(state, 0.01);
+  app::Run(state, "quit");
+  EXPECT_FALSE(state.quit);
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  auto* guard = std::get_if<GuardDialog>(&state.dialogs.back());
+  ASSERT_TRUE(guard);
+  guard->then(state);
+  EXPECT_TRUE(state.quit);
+}
+
+TEST_F(Commands, QuittingWithNothingUnsavedDoesNotAsk) {
+  Open();
+  app::Run(state, "quit");
+  EXPECT_TRUE(state.quit);
+}
+
+TEST_F(Commands, ANewDocumentHasNothingToSave) {
+  app::Run(state, "new");
+  app::Run(state, "quit");
+  EXPECT_TRUE(state.quit);
+}
+
+TEST_F(Commands, ASurfaceIsReadInItsUnitAndLaidBeforeTheScope) {
+  Open();
+  SurfaceMesh mesh = test::Octahedron(5.0);  // mm
+  for (auto& x : mesh.vertices) x += glm::dvec3(100, 0, 0);
+  WriteSurface(temp / "part.ply", mesh);
+  ImportSurface(state, temp / "part.ply", "mm");
+  Settle(state);
+  ASSERT_EQ(state.document().scene.tissues.size(), 2u);
+  EXPECT_EQ(state.tissue, 1);
+  EXPECT_EQ(state.document().scene.tissues[1].name, "part");
+  const auto& surface = *state.document().surfaces[1];
+  EXPECT_NEAR(glm::length(surface.vertices[0]), 0.005, 1e-12) << "5 mm about its own middle";
+  EXPECT_GT(state.document().scene.tissues[1].pose.position.z, 0.01);
+
+  app::Run(state, "duplicate-tissue");
+  EXPECT_EQ(state.document().scene.tissues[2].name, "part 2");
+  EXPECT_EQ(state.document().surfaces[2], state.document().surfaces[1]) << "shared, not copied";
+  app::Run(state, "remove-tissue");
+  app::Run(state, "remove-tissue");
+  EXPECT_EQ(state.document().scene.tissues.size(), 1u);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().scene.tissues.size(), 2u);
+}
+
+TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
+  Open();
+  SetIncisionSpacing(state, 0.02);
+  state.step = Step::kTissue;
+  state.scope.latitude = 0.1;
+  const std::string before = Print(state);
+  const auto scope = state.scope;
+  const int position = state.history.Position();
+
+  app::Run(state, "practise");
+  Settle(state);
+  ASSERT_TRUE(state.practice);
+  EXPECT_NEAR(state.practice->incision_spacing(), 0.02, 1e-15);
+  MoveHands(state, {0.2, 0.1, 0.3, 0.004}, {0.0, 0.1, 0.0, 0.01});
+  state.practice->Advance(0.05);
+  app::Run(state, "view-90");
+  app::Run(state, "undo");
+  app::Run(state, "leave-practice");
+
+  EXPECT_FALSE(state.practice);
+  EXPECT_EQ(Print(state), before);
+  EXPECT_EQ(state.history.Position(), position);
+  EXPECT_EQ(state.step, Step::kTissue);
+  EXPECT_EQ(state.scope.latitude, scope.latitude);
+  EXPECT_EQ(state.scope.depth, scope.depth);
+}
+
+TEST_F(Commands, ASceneWithoutAPanoramaCannotBePractised) {
+  app::Run(state, "practise");
+  Settle(state);
+  EXPECT_FALSE(state.practice);
+}
+
+TEST_F(Commands, InPracticeTheInstrumentPressesOnTheJointAndTheForceIsShown) {
+  Open();
+  app::Run(state, "practise");
+  Settle(state);
+  ASSERT_TRUE(state.practice);
+  // Straight in until it must have met the backdrop, 40 to 50 mm away.
+  state.practice->instrument().Set({0.0, -0.5, 0.0, 0.047});
+  for (int i = 0; i < 30; ++i) state.practice->Advance(0.016);
+  const auto& instrument = state.practice->snapshot().instrument;
+  EXPECT_NE(instrument.contact, simulation::kNoContact);
+  EXPECT_GT(glm::length(instrument.tip_force), 0.05);
+  EXPECT_GE(state.practice->peak_force(), glm::length(instrument.tip_force));
+}
+
+TEST_F(Commands, ALongPauseIsNotMadeUpFor) {
+  Open();
+  app::Run(state, "practise");
+  Settle(state);
+  const double before = state.practice->snapshot().t;
+  state.practice->Advance(10.0);
+  EXPECT_NEAR(state.practice->snapshot().t - before, Practice::kLongestPause, 1.5e-3);
+}
+
+}  // namespace
+}  // namespace arthro::app

@@ -1,0 +1,232 @@
+// The window as its users meet it: scripts click by name, type and look (app/platform/script.h).
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/scene_io.h"
+#include "tests/support/run_window.h"
+#include "tests/support/small_scene.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RunWindow;
+
+class EditorWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    ARTHRO_REQUIRE_XVFB();
+    scene = test::WriteSmallScene(temp / "knee");
+  }
+  // A failed script tells its line on stderr.
+  void Drive(const std::string& script, const std::string& flags = "") {
+    const auto result = RunWindow("edit " + scene.string() + " " + flags, script);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  test::TempFolder temp;
+  fs::path scene;
+};
+
+TEST_F(EditorWindow, EveryStepOpensAndShowsItsControls) {
+  Drive(R"(
+expect "Small knee"
+expect "Import a panorama…"
+click Depth
+expect "Red weight"
+click Tissue
+expect "octahedron"
+click Portals
+expect "Incision spacing"
+click "Practice"
+expect "Practise in the scene as it stands"
+click "?"
+expect "Swing the scope"
+key escape
+expect not "Swing the scope's tip left"
+)");
+}
+
+TEST_F(EditorWindow, ASliderThatIsTypedIntoIsUndoneAndRedone) {
+  Drive(R"(
+click Portals
+expect value "Incision spacing" "30.0 mm"
+expect disabled Undo
+set "Incision spacing" -25
+expect value "Incision spacing" "-25.0 mm"
+expect "• Small knee"
+click Undo
+expect value "Incision spacing" "30.0 mm"
+expect not "• Small knee"
+key ctrl+shift+z
+expect value "Incision spacing" "-25.0 mm"
+key ctrl+z
+expect value "Incision spacing" "30.0 mm"
+)");
+}
+
+TEST_F(EditorWindow, ADraggedSliderIsOneStep) {
+  Drive(R"(
+click Portals
+drag "Field of view" 60 0
+expect "• Small knee"
+click Undo
+expect not "• Small knee"
+expect disabled Undo
+)");
+}
+
+TEST_F(EditorWindow, DepthIsMadeAnewWhenASliderIsLetGo) {
+  Drive(R"(
+click Depth
+set "Near relief" 15
+wait job
+expect value "Near relief" "15.0 mm"
+click Save
+wait job
+expect "Saved in"
+)");
+  const LoadedScene saved = LoadScene(scene);
+  float nearest = 0;
+  for (const float h : saved.depth.relief)
+    if (h > nearest) nearest = h;
+  EXPECT_NEAR(nearest, 0.015, 1e-6);
+}
+
+TEST_F(EditorWindow, DragAndWheelOverThePictureMoveTheScope) {
+  Drive(R"(
+expect value Longitude "0.0°"
+drag Picture 80 0
+wheel Picture 3
+wait frames 3
+expect value Insertion "18.0 mm"
+)");
+}
+
+TEST_F(EditorWindow, PracticeAndBackLeavesTheAuthorWhereTheyWere) {
+  Drive(R"(
+click Portals
+set "Incision spacing" 22
+key p
+wait job
+wait frames 10
+expect "Force on the tissue"
+expect "nothing"
+hold r 120
+expect "octahedron"
+key 3
+expect "70° view angle"
+key escape
+expect value "Incision spacing" "22.0 mm"
+click Undo
+expect value "Incision spacing" "30.0 mm"
+)");
+}
+
+TEST_F(EditorWindow, SaveAsWritesAWholeSceneElsewhere) {
+  Drive("click Portals\nset \"Incision spacing\" 12\nclick \"Save as…\"\nset \"File name\" \"" +
+        (temp / "copy").string() + "\"\nclick Save\nwait job\nexpect \"Saved in\"\n");
+  const LoadedScene copy = LoadScene(temp / "copy");
+  EXPECT_NEAR(copy.scene.portals.incision_spacing, 0.012, 1e-12);
+  EXPECT_EQ(copy.panorama.width, 400);
+  EXPECT_EQ(copy.surfaces.size(), 1u);
+  EXPECT_NEAR(ReadScene(scene).portals.incision_spacing, 0.03, 1e-12) << "the old one is untouched";
+}
+
+TEST_F(EditorWindow, ClosingWithUnsavedChangesAsks) {
+  Drive(R"(
+click Portals
+set "Incision spacing" 12
+close
+expect "There are changes that are not saved"
+click Cancel
+expect "Incision spacing"
+key ctrl+q
+click Discard
+)");
+  EXPECT_NEAR(ReadScene(scene).portals.incision_spacing, 0.03, 1e-12);
+}
+
+TEST_F(EditorWindow, SaveFirstSavesAndThenGoesOn) {
+  Drive(R"(
+click Portals
+set "Incision spacing" 12
+close
+click "Save first"
+)");
+  EXPECT_NEAR(ReadScene(scene).portals.incision_spacing, 0.012, 1e-12);
+}
+
+TEST_F(EditorWindow, TissueIsTypedIntoPlaceAndFilledWithTetrahedra) {
+  Drive(R"(
+click Tissue
+set "Position (right, down, in), in" 25
+expect value "Position (right, down, in), in" "25.0 mm"
+expect "no tetrahedra yet"
+click "Make tetrahedra"
+wait job
+expect "filled with tetrahedra"
+click Save
+wait job
+expect "Saved in"
+)");
+  const Scene saved = ReadScene(scene);
+  EXPECT_NEAR(saved.tissues.at(0).pose.position.z, 0.025, 1e-12);
+  EXPECT_GT(ReadTetMesh(scene / saved.tissues.at(0).mesh).ElementCount(), 0);
+}
+
+TEST_F(EditorWindow, ABrokenFileIsToldAndTheSceneStays) {
+  std::ofstream(temp / "broken.png") << "no picture";
+  Drive("drop " + (temp / "broken.png").string() +
+        "\nwait job\nexpect broken.png\nclick OK\nexpect \"Small knee\"\nexpect disabled Undo\n");
+}
+
+TEST_F(EditorWindow, TheSameScriptGivesTheSamePicture) {
+  const std::string shots[] = {(temp / "a.png").string(), (temp / "b.png").string()};
+  for (const auto& shot : shots) Drive("drag Picture 40 20\nwheel Picture 2\nshot " + shot);
+  EXPECT_EQ(ReadColourImage(shots[0]).rgb, ReadColourImage(shots[1]).rgb);
+}
+
+TEST_F(EditorWindow, AHighDensityScreenIsTheSameWindowTwiceAsLarge) {
+  const auto shot = temp / "shot.png";
+  const auto result = RunWindow("edit " + scene.string() + " --scale 2",
+                                "click Portals\nexpect \"Incision spacing\"\nset \"Incision "
+                                "spacing\" 5\nexpect value \"Incision spacing\" \"5.0 mm\"\nshot " +
+                                    shot.string(),
+                                "2560x1600x24");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(ReadColourImage(shot).width, 2560);
+}
+
+TEST_F(EditorWindow, AFailedExpectationIsToldWithItsLine) {
+  const auto result = RunWindow("edit " + scene.string(), "click Portals\nexpect \"purple\"\n");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("line 2"), std::string::npos) << result.err;
+}
+
+TEST_F(EditorWindow, ThePractiseJobOffersAnotherGoOrTheWayOut) {
+  const auto result = RunWindow("practise " + scene.string(), R"(
+wait job
+wait frames 20
+expect "Force on the tissue"
+key escape
+expect "Practice ended"
+click "Practise again"
+wait job
+expect "Force on the tissue"
+click "Leave practice"
+click Quit
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST(NoDisplay, IsSaidInOneSentenceThatNamesTheWayOut) {
+  const auto result = test::RunProgram("edit", "env -u DISPLAY -u WAYLAND_DISPLAY");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("there is no display"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("arthroscene demo"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace arthro
