@@ -84,6 +84,11 @@ void ArthroscopicView::SetBackdrop(const ColourImage& panorama, const DepthMap& 
   parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop);
 }
 
+void ArthroscopicView::SetDepth(const DepthMap& depth) {
+  parts_->window->GetState()->Reset();
+  parts_->backdrop->UploadDepth(parts_->window, depth);
+}
+
 void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
                                   std::span<const SurfaceMesh> surfaces) {
   Parts& p = *parts_;
@@ -134,8 +139,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   frame.field_of_view = picture.field_of_view;
   frame.window_radius = size / 2.0;
   frame.light_reach = p.backdrop->light_reach();
-  frame.light_colour = LightOf(p.backdrop->bright_colour());
-  frame.surround = p.backdrop->mean_colour();
+  frame.light_colour = LightOf(p.backdrop->footage_light().bright);
+  frame.surround = p.backdrop->footage_light().mean;
   for (const auto& tissue : p.tissues) {
     tissue->SetFrame(frame);
     tissue->Show(!picture.plain);

@@ -47,13 +47,16 @@ class ArthroscopicView {
 
   // `depth` may be empty: the bare sphere. Says in notice() what could not be shown as given.
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
+  // Another relief for the same panorama, for a live preview: only it is uploaded.
+  void SetDepth(const DepthMap& depth);
   // One surface a tissue, in its own frame; an empty one is not drawn.
   void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
   // Moves the vertices of tissue `index` (as many as its surface has) in the tissue's own frame.
   void SetTissueVertices(int index, std::span<const glm::dvec3> vertices);
   void SetTissuePose(int index, const Pose& portal_from_tissue);
 
-  // Draws into the texture, size x size pixels. Leaves OpenGL's state as it was.
+  // Draws into the texture, size x size pixels. The caller binds its own framebuffer,
+  // viewport and program afterwards.
   void Render(const Picture& picture, int size);
 
   // The last frame, as an OpenGL texture name: RGBA, opaque, first row at the bottom.

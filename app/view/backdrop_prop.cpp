@@ -15,7 +15,6 @@
 #include <vtkViewport.h>
 #include <vtk_glew.h>
 
-#include "app/view/backdrop_texture.h"
 #include "app/view/lens_shader.h"
 #include "simulation/core/units.h"
 
@@ -34,8 +33,9 @@ constexpr double kSamples = 8;
 constexpr const char* kHead = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec2 texCoord;
-uniform sampler2D panorama;     // alpha: how surely imaged
+uniform sampler2D panorama;
 uniform sampler2D relief;       // m
+uniform sampler2D imagedShare;  // 1 well inside what was imaged
 uniform vec3 tip;               // in radii of the sphere
 uniform float clearance;        // 1 - |tip|^2, worked out in double
 uniform vec3 viewAxis, upAxis, rightAxis;
@@ -57,7 +57,7 @@ uniform vec2 notch;             // unit, image right and up
 // its longer axis, each averaged over the shorter one; a single round average would blur fine lines
 // together there (grid lines up to 1.8 px off instead of 0.3).
 constexpr const char* kFilter = R"(
-vec4 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
+vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
   float a = dx.x * dx.x + dy.x * dy.x, b = dx.x * dx.y + dy.x * dy.y, c = dx.y * dx.y + dy.y * dy.y;
   float mean = 0.5 * (a + c), spread = sqrt(max(0.25 * (a - c) * (a - c) + b * b, 0.0));
   float longer = sqrt(mean + spread);
@@ -68,8 +68,8 @@ vec4 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
   float lod = log2(max(max(longer / count, shorter) * kSharpness, 1.0));
   vec2 step = axis * longer / count / texels;
   vec2 start = uv - 0.5 * (count - 1.0) * step;
-  vec4 sum = vec4(0.0);
-  for (float i = 0.0; i < count; i += 1.0) sum += textureLod(panorama, start + i * step, lod);
+  vec3 sum = vec3(0.0);
+  for (float i = 0.0; i < count; i += 1.0) sum += textureLod(panorama, start + i * step, lod).rgb;
   return sum / count;
 }
 )";
@@ -106,7 +106,7 @@ void main() {
   }
   imaged = imaged && uv.y >= 0.0 && uv.y <= 1.0;
   float coverage = rimCoverage(r, windowRadius);
-  vec4 colour = imaged && coverage > 0.0 ? panoramaColour(uv, dx * texels, dy * texels) : vec4(0.0);
+  vec3 colour = imaged && coverage > 0.0 ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
   float h = imaged ? texture(relief, uv).r / radius : 0.0;
 
   // Depth of the relief's point in the direction that the colour comes from.
@@ -115,10 +115,10 @@ void main() {
 
   vec3 shown;
   if (plain != 0) {
-    shown = imaged ? colour.rgb : vec3(0.0);
+    shown = imaged ? colour : vec3(0.0);
   } else {
-    vec3 lit = shoulder(colour.rgb * pow(lightAt(distance), 1.0 / 2.2));
-    shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, colour.a) : 0.0) * softRim(r);
+    vec3 lit = shoulder(colour * pow(lightAt(distance), 1.0 / 2.2));
+    shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, texture(imagedShare, uv).r) : 0.0) * softRim(r);
     float along = dot(offset, notch) - 0.925;
     float beside = abs(offset.x * notch.y - offset.y * notch.x);
     float mark = clamp((0.5 * along - beside) * 0.9 * windowRadius + 0.5, 0.0, 1.0);
@@ -156,49 +156,56 @@ double BackdropProp::light_reach() const { return kLightReach * backdrop_.radius
 std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
                                  const DepthMap& depth, const Backdrop& backdrop) {
   backdrop_ = backdrop;
+  panorama_size_ = {panorama.width, panorama.height};
+  wraps_ = IsWholeTurn(backdrop.projection, panorama.width);
+  light_ = MeasureLight(panorama, depth);
   GLint max_size = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
-  const BackdropTexture texture =
-      MakeBackdropTexture(panorama, depth, backdrop.projection, max_size);
-  texture_pixels_ = glm::dvec2(texture.width, texture.height) * double(texture.reduction);
-  texels_ = {texture.width, texture.height};
-  wraps_ = texture.wraps;
-  mean_colour_ = texture.mean_colour;
-  bright_colour_ = texture.bright_colour;
-
-  panorama_->ReleaseGraphicsResources(window);
-  panorama_->SetContext(window);
+  reduction_ = TextureReduction(panorama.width, panorama.height, max_size);
+  const ColourImage reduced =
+      reduction_ > 1 ? ReducedPanorama(panorama, reduction_) : ColourImage();
+  const ColourImage& drawn = reduction_ > 1 ? reduced : panorama;
   panorama_->SetGenerateMipmap(true);
   panorama_->SetMaxLevel(
-      static_cast<int>(std::floor(std::log2(std::max(texture.width, texture.height)))));
-  panorama_->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
-  panorama_->SetMagnificationFilter(vtkTextureObject::Linear);
+      static_cast<int>(std::floor(std::log2(std::max(drawn.width, drawn.height)))));
   panorama_->SetMaximumAnisotropicFiltering(1.0f);
-  panorama_->SetWrapS(wraps_ ? vtkTextureObject::Repeat : vtkTextureObject::ClampToEdge);
-  panorama_->SetWrapT(vtkTextureObject::ClampToEdge);
-  // VTK takes a non-const pointer but only reads.
-  panorama_->Create2DFromRaw(static_cast<unsigned>(texture.width),
-                             static_cast<unsigned>(texture.height), 4, VTK_UNSIGNED_CHAR,
-                             const_cast<std::uint8_t*>(texture.rgba.data()));
+  Fill(*panorama_, window, drawn.width, drawn.height, 3, VTK_UNSIGNED_CHAR, drawn.rgb.data());
+  panorama_->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
   panorama_->Bind();
   glGenerateMipmap(GL_TEXTURE_2D);
-
-  float bare = 0.0f;
-  const bool has_relief = !texture.relief.empty();
-  relief_->ReleaseGraphicsResources(window);
-  relief_->SetContext(window);
-  relief_->SetMinificationFilter(vtkTextureObject::Linear);
-  relief_->SetMagnificationFilter(vtkTextureObject::Linear);
-  relief_->SetWrapS(wraps_ ? vtkTextureObject::Repeat : vtkTextureObject::ClampToEdge);
-  relief_->SetWrapT(vtkTextureObject::ClampToEdge);
-  relief_->Create2DFromRaw(static_cast<unsigned>(has_relief ? texture.width : 1),
-                           static_cast<unsigned>(has_relief ? texture.height : 1), 1, VTK_FLOAT,
-                           has_relief ? const_cast<float*>(texture.relief.data()) : &bare);
-  if (texture.reduction == 1) return {};
+  UploadDepth(window, depth);
+  if (reduction_ == 1) return {};
   return fmt::format(
       "the panorama of {}x{} pixels is drawn {} times smaller: this graphics card takes at most "
       "{} a side",
-      panorama.width, panorama.height, texture.reduction, max_size);
+      panorama.width, panorama.height, reduction_, max_size);
+}
+
+void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth) {
+  if (depth.empty()) {
+    const float bare = 0.0f;
+    Fill(*relief_, window, 1, 1, 1, VTK_FLOAT, &bare);
+  } else {
+    const std::vector<float> relief = ReliefTexture(depth, reduction_);
+    Fill(*relief_, window, (depth.width + reduction_ - 1) / reduction_,
+         (depth.height + reduction_ - 1) / reduction_, 1, VTK_FLOAT, relief.data());
+  }
+  const ImagedMask mask = MakeImagedMask(panorama_size_.x, panorama_size_.y, depth, wraps_);
+  Fill(*imaged_, window, mask.width, mask.height, 1, VTK_UNSIGNED_CHAR, mask.share.data());
+}
+
+void BackdropProp::Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width,
+                        int height, int channels, int type, const void* data) const {
+  texture.ReleaseGraphicsResources(window);
+  texture.SetContext(window);
+  texture.SetMinificationFilter(vtkTextureObject::Linear);
+  texture.SetMagnificationFilter(vtkTextureObject::Linear);
+  texture.SetWrapS(wraps_ ? vtkTextureObject::Repeat : vtkTextureObject::ClampToEdge);
+  texture.SetWrapT(vtkTextureObject::ClampToEdge);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  // VTK takes a non-const pointer but only reads.
+  texture.Create2DFromRaw(static_cast<unsigned>(width), static_cast<unsigned>(height), channels,
+                          type, const_cast<void*>(data));
 }
 
 void BackdropProp::SetPicture(const Picture& picture, int size) {
@@ -224,8 +231,10 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   state->vtkglDepthFunc(GL_ALWAYS);
   panorama_->Activate();
   relief_->Activate();
+  imaged_->Activate();
   SetUniforms();
   quad_->Render();
+  imaged_->Deactivate();
   relief_->Deactivate();
   panorama_->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
@@ -241,6 +250,7 @@ void BackdropProp::SetUniforms() {
   const glm::dvec3 tip = view.tip / backdrop_.radius;
   program.SetUniformi("panorama", panorama_->GetTextureUnit());
   program.SetUniformi("relief", relief_->GetTextureUnit());
+  program.SetUniformi("imagedShare", imaged_->GetTextureUnit());
   SetUniform(program, "tip", tip);
   SetUniform(program, "clearance", 1.0 - glm::dot(tip, tip));
   SetUniform(program, "viewAxis", view.view);
@@ -251,12 +261,14 @@ void BackdropProp::SetUniforms() {
   program.SetUniformi("equirectangular", equirectangular ? 1 : 0);
   program.SetUniformi("wraps", wraps_ ? 1 : 0);
   program.SetUniformi("plain", picture_.plain ? 1 : 0);
-  // Pixel (0, 0) is the middle of the first texel.
+  // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
+  const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
+  const glm::dvec2 covered = texels * double(reduction_);
   const double pixels =
       equirectangular ? DegreesFromRadians(projection.px_per_deg) : projection.focal_px;
-  SetUniform(program, "centre", (projection.centre_px + 0.5) / texture_pixels_);
-  SetUniform(program, "scale", pixels / texture_pixels_);
-  SetUniform(program, "texels", texels_);
+  SetUniform(program, "centre", (projection.centre_px + 0.5) / covered);
+  SetUniform(program, "scale", pixels / covered);
+  SetUniform(program, "texels", texels);
   SetUniform(program, "samples", kSamples);
   SetUniform(program, "radius", backdrop_.radius);
   SetUniform(program, "nearest", kNearest);
@@ -270,8 +282,8 @@ void BackdropProp::SetUniforms() {
 void BackdropProp::ReleaseGraphicsResources(vtkWindow* window) {
   if (quad_) quad_->ReleaseGraphicsResources(window);
   quad_.reset();
-  panorama_->ReleaseGraphicsResources(window);
-  relief_->ReleaseGraphicsResources(window);
+  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), imaged_.Get()})
+    texture->ReleaseGraphicsResources(window);
   Superclass::ReleaseGraphicsResources(window);
 }
 

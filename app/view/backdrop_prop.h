@@ -10,6 +10,7 @@
 #include <vtkProp.h>
 
 #include "app/view/arthroscopic_view.h"
+#include "app/view/backdrop_texture.h"
 
 class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
@@ -26,11 +27,12 @@ class BackdropProp : public vtkProp {
   // changed for it (size) is said by the returned sentence.
   std::string Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
                      const DepthMap& depth, const Backdrop& backdrop);
+  // Another relief for the panorama that is there: a fraction of the work.
+  void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth);
   void SetPicture(const Picture& picture, int size);
 
-  // The light of the picture as the models should take it; linear, of the imaged part.
-  const glm::dvec3& mean_colour() const { return mean_colour_; }
-  const glm::dvec3& bright_colour() const { return bright_colour_; }
+  // As the models should take it.
+  const FootageLight& footage_light() const { return light_; }
   // Distance at which the light is neutral, m.
   double light_reach() const;
 
@@ -44,15 +46,17 @@ class BackdropProp : public vtkProp {
 
  private:
   void SetUniforms();
+  void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
+            int channels, int type, const void* data) const;
 
   Backdrop backdrop_;
   Picture picture_;
   int size_ = 0;
-  glm::dvec2 texture_pixels_{1.0};  // panorama pixels across the texture
-  glm::dvec2 texels_{1.0};
+  glm::ivec2 panorama_size_{0};
+  int reduction_ = 1;   // panorama pixels a texel and axis
   bool wraps_ = false;  // a whole turn: left and right edge meet
-  glm::dvec3 mean_colour_{0.2}, bright_colour_{0.6};
-  vtkNew<vtkTextureObject> panorama_, relief_;
+  FootageLight light_;
+  vtkNew<vtkTextureObject> panorama_, relief_, imaged_;
   std::unique_ptr<vtkOpenGLQuadHelper> quad_;
 };
 

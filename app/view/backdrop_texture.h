@@ -12,19 +12,31 @@
 
 namespace arthro::app {
 
-struct BackdropTexture {
-  int width = 0, height = 0;
-  int reduction = 1;   // panorama pixels a texel and axis
-  bool wraps = false;  // the panorama is a whole turn: its left edge meets its right
-  std::vector<std::uint8_t>
-      rgba;                     // top row first; alpha: 255 well inside the imaged part, 0 outside
-  std::vector<float> relief;    // m; 0 where it is not known; empty without a depth map
-  glm::dvec3 mean_colour{0.2};  // linear, of the imaged part
-  glm::dvec3 bright_colour{0.6};  // linear, mean of its brightest fifth
-};
+// Panorama pixels a texel and axis, so that no edge is longer than `max_size`.
+int TextureReduction(int width, int height, int max_size);
 
-// `depth` may be empty. `max_size` is the largest texture edge.
-BackdropTexture MakeBackdropTexture(const ColourImage& panorama, const DepthMap& depth,
-                                    const Projection& projection, int max_size);
+// Means over reduction x reduction blocks; a last, thinner block takes what is left.
+ColourImage ReducedPanorama(const ColourImage& panorama, int reduction);
+
+// The relief at the middle of each block, m; 0 where it is not known. Edges stay edges.
+std::vector<float> ReliefTexture(const DepthMap& depth, int reduction);
+
+// Whether the panorama is a whole turn, so that its left edge meets its right.
+bool IsWholeTurn(const Projection& projection, int width);
+
+// 255 well inside what was imaged, falling to 0 at its edge; the fall lies inside. Coarser than the
+// panorama: it is smooth. `depth` may be empty: all was imaged.
+struct ImagedMask {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> share;
+};
+ImagedMask MakeImagedMask(int width, int height, const DepthMap& depth, bool whole_turn);
+
+// What light the footage was taken in; linear, of the imaged part.
+struct FootageLight {
+  glm::dvec3 mean{0.2};    // of all of it
+  glm::dvec3 bright{0.6};  // of its brightest fifth
+};
+FootageLight MeasureLight(const ColourImage& panorama, const DepthMap& depth);
 
 }  // namespace arthro::app

@@ -91,15 +91,15 @@ vec4 noise(vec3 p) {
 constexpr const char* kTissueLook = R"(
   // Uneven by nature: patches of some millimetres, and a surface that is not quite smooth.
   vec4 coarse = noise(modelPoint * 300.0), fine = noise(modelPoint * 1100.0);
-  normal = normalize(normal + 0.035 * fine.xyz + 0.02 * coarse.xyz);
+  normal = normalize(normal + 0.022 * fine.xyz + 0.014 * coarse.xyz);
   facing = max(dot(normal, toLight), 0.0);
   shine = max(dot(normal, halfway), 0.0);
-  vec3 own = modelColour * (1.0 + 0.06 * coarse.w + 0.035 * fine.w) *
-             mix(vec3(1.0), vec3(1.0, 0.93, 0.88), 0.5 + 0.5 * coarse.w);
+  vec3 own = modelColour * (1.0 + 0.04 * coarse.w + 0.02 * fine.w) *
+             mix(vec3(1.0), vec3(1.0, 0.96, 0.92), 0.5 + 0.5 * coarse.w);
   // Light that has gone through tissue comes out warmer and softer where it turns away.
-  float wrapped = (facing + 0.15) / 1.15;
+  float wrapped = (facing + 0.3) / 1.3;
   vec3 scattered = mix(vec3(0.95, 0.70, 0.58), vec3(1.0), smoothstep(0.0, 0.75, facing));
-  vec3 body = own * scattered * (0.06 + 0.94 * pow(wrapped, 1.3)) * lightColour * light;
+  vec3 body = own * scattered * (0.12 + 0.88 * wrapped) * lightColour * light;
   // A film of fluid: a broad sheen, a small glint, and the surroundings at grazing angles.
   vec3 wet = lightColour * light * (0.05 * pow(shine, 14.0) + 0.5 * pow(shine, 220.0));
   vec3 mirrored = surround * (0.03 + 0.35 * pow(1.0 - seen, 4.0));
@@ -117,8 +117,8 @@ constexpr const char* kSteelLook = R"(
   float lamp = max(dot(mirror, toLight), 0.0);
   vec3 grey = mix(surround, vec3(dot(surround, vec3(0.2126, 0.7152, 0.0722))), 0.75);
   float sky = 0.5 + 0.5 * mirror.y;
-  vec3 linear = steel * (grey * (0.18 + 0.55 * sky * sky + 0.5 * pow(1.0 - seen, 3.0)) +
-      lightColour * light * (0.16 * facing * facing + 0.30 * pow(lamp, 4.0) + 1.2 * pow(lamp, 40.0)));
+  vec3 linear = steel * (grey * (0.26 + 0.7 * sky * sky + 0.5 * pow(1.0 - seen, 3.0)) +
+      lightColour * light * (0.24 * facing * facing + 0.36 * pow(lamp, 4.0) + 1.2 * pow(lamp, 40.0)));
 )";
 
 constexpr const char* kFragmentEnd = R"(

@@ -30,7 +30,7 @@ float storedDepth(float distance) {
 inline constexpr const char* kLightShader = R"(
 float lightAt(float distance) {
   float q = distance / lightReach;
-  return 1.55 / (1.0 + 0.55 * q * q);
+  return 1.25 / (1.0 + 0.25 * q * q);
 }
 float rimCoverage(float r, float rim) { return clamp((1.0 - r) * rim + 0.5, 0.0, 1.0); }
 float softRim(float r) {

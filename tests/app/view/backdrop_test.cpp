@@ -187,6 +187,24 @@ TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture)
   }
 }
 
+TEST_F(BackdropView, AnotherDepthIsDrawnAsIfItHadBeenThereFromTheStart) {
+  LoadedScene loaded = MakeViewScene(511, 383);  // rows of no round number of bytes
+  const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->Render(picture, 200);
+  const ColourImage first = view_->ReadPixels();
+  DepthMap deeper = loaded.depth;
+  for (int y = 0; y < 190; ++y)
+    for (int x = 0; x < deeper.width; ++x) deeper.at(x, y) = NAN;
+  view_->SetDepth(deeper);
+  view_->Render(picture, 200);
+  const ColourImage second = view_->ReadPixels();
+  EXPECT_NE(first.rgb, second.rgb);
+  view_->SetDepth(loaded.depth);
+  view_->Render(picture, 200);
+  EXPECT_EQ(view_->ReadPixels().rgb, first.rgb);
+}
+
 TEST_F(BackdropView, DeepestAndShallowestTipsDrawWithoutNonsense) {
   const LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);

@@ -129,6 +129,21 @@ TEST_F(OverviewTest, APoseSetByOthersMovesTheBoxToo) {
   EXPECT_NEAR(std::abs(glm::dot(pose_.quaternion, pose.quaternion)), 1.0, 1e-6);
 }
 
+TEST_F(OverviewTest, BesideTheArthroscopesViewInOneContextNeitherDisturbsTheOther) {
+  app::ArthroscopicView view;
+  view.SetBackdrop(scene_.panorama, scene_.depth, scene_.scene.backdrop);
+  view.SetTissues(scene_.scene.tissues, scene_.surfaces);
+  app::Picture picture = app::PictureFromPose({-0.1, 0.05, 0.2, 0.008}, 0.5, 1.5);
+  picture.instrument = ProbeInFront();
+  view.Render(picture, 200);
+  const ColourImage inside = view.ReadPixels(), outside = overview_->ReadPixels();
+  overview_->ResetCamera();
+  EXPECT_TRUE(overview_->Render(kSize, kSize));
+  EXPECT_EQ(overview_->ReadPixels().rgb, outside.rgb);
+  view.Render(picture, 200);
+  EXPECT_EQ(view.ReadPixels().rgb, inside.rgb);
+}
+
 TEST_F(OverviewTest, WholeSceneFromOutside) {
   app::OverviewTools tools;
   tools.scope = app::PictureFromPose({-0.1, 0.05, 0.2, 0.008}, RadiansFromDegrees(30), 1.2).view;
