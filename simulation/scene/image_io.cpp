@@ -1,6 +1,10 @@
 #include "simulation/scene/image_io.h"
 
 #include <cstring>
+#include <memory>
+#include <sstream>
+#include <tiffio.h>
+#include <tiffio.hxx>
 #include <vector>
 
 #include <fmt/format.h>
@@ -126,13 +130,34 @@ DepthMap ReadDepthMap(const fs::path& file) {
 void WriteDepthMap(const fs::path& file, const DepthMap& depth) {
   if (file != "-" && file.extension() != ".tiff" && file.extension() != ".tif")
     throw Error(Code::kBadArgument, "a depth map is written as a float TIFF; name it .tiff", file);
-  const cv::Mat mat(depth.height, depth.width, CV_32FC1, const_cast<float*>(depth.relief.data()));
-  std::vector<unsigned char> bytes;
-  // 8 is Adobe deflate in libtiff's numbering: lossless, and a third of LZW's size on smooth
-  // relief.
-  cv::imencode(".tiff", mat, bytes, {cv::IMWRITE_TIFF_COMPRESSION, 8});
-  WriteAtomically(file,
-                  std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  if (depth.empty()) throw Error(Code::kBadArgument, "an empty depth map cannot be written", file);
+  // OpenCV writes float TIFFs uncompressed, so libtiff does it: deflate behind the predictor for
+  // floats.
+  std::ostringstream bytes;
+  std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(TIFFStreamOpen("depth", &bytes), TIFFClose);
+  if (!tiff)
+    throw Error(Code::kFile, "could not be packed as TIFF; there is too little memory for it",
+                file);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, depth.width);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, depth.height);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+  TIFFSetField(tiff.get(), TIFFTAG_PREDICTOR, PREDICTOR_FLOATINGPOINT);
+  constexpr int kRowsPerStrip = 64;
+  TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, kRowsPerStrip);
+  std::vector<float> row(static_cast<std::size_t>(depth.width));  // the predictor works in place
+  for (int y = 0; y < depth.height; ++y) {
+    std::memcpy(row.data(), &depth.relief[static_cast<std::size_t>(y) * depth.width],
+                row.size() * sizeof(float));
+    if (TIFFWriteScanline(tiff.get(), row.data(), static_cast<std::uint32_t>(y)) < 0)
+      throw Error(Code::kFile, "could not be packed as TIFF; there is too little memory for it",
+                  file);
+  }
+  tiff.reset();  // writes the directory
+  WriteAtomically(file, bytes.str());
 }
 
 void RequireSameSize(const ColourImage& panorama, const DepthMap& depth,
