@@ -32,6 +32,7 @@ int RunCommandLine(int argc, char** argv) {
   AddCheckJob(program);
   AddDepthJob(program);
   AddEditJob(program);
+  AddPhantomJob(program);
   AddPivotJob(program);
   AddPractiseJob(program);
   AddReplayJob(program);

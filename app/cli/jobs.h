@@ -12,6 +12,7 @@ void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
 void AddEditJob(CLI::App& program);
+void AddPhantomJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
 void AddPractiseJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);

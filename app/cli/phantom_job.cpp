@@ -1,0 +1,34 @@
+// arthroscene phantom --seed N -o DIR: a digital knee with its ground truth, as a scene.
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/job_progress.h"
+#include "app/cli/jobs.h"
+#include "app/cli/options_cli.h"
+#include "authoring/phantom/phantom_io.h"
+
+namespace arthro::app {
+
+void AddPhantomJob(CLI::App& program) {
+  struct Request {
+    authoring::PhantomOptions options;
+    std::string folder;
+  };
+  CLI::App* job = program.add_subcommand(
+      "phantom", "Make a digital knee whose shape and tissue poses are known exactly.");
+  const auto request = std::make_shared<Request>();
+  AddOptions(*job, request->options);
+  job->add_option("-o,--output", request->folder,
+                  "Folder to write; new, empty, or an earlier phantom, which is replaced")
+      ->required();
+  job->callback([request] {
+    authoring::RequirePhantomFolder(request->folder);
+    authoring::WritePhantom(request->folder,
+                            authoring::MakePhantom(request->options, TerminalProgress()));
+  });
+}
+
+}  // namespace arthro::app

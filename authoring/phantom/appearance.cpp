@@ -1,0 +1,276 @@
+#include "authoring/phantom/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include "authoring/phantom/noise.h"
+#include "simulation/core/units.h"
+
+namespace arthro::authoring {
+namespace {
+
+constexpr double kMm = kMetrePerMillimetre;
+
+// The light leaves the scope beside its lens.
+constexpr glm::dvec3 kLight(0.8 * kMm, -2.6 * kMm, 0.0);
+constexpr double kLightReference = 30.0 * kMm;  // distance at which the light counts as 1
+// The camera's own exposure control and light scattered within the joint soften the inverse square.
+constexpr double kFalloff = 1.05;
+
+struct Tissue {
+  glm::dvec3 colour{0.5};
+  double wetness = 0.5;    // strength of highlights
+  double roughness = 0.1;  // slope of the wet film's ripples
+  double depth = 0.2;      // how far light wraps round inside the tissue
+};
+
+glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
+  return a + (b - a) * std::clamp(t, 0.0, 1.0);
+}
+
+const glm::dvec3 kPearl(0.82, 0.755, 0.64), kIvory(0.80, 0.675, 0.48), kBlush(0.70, 0.47, 0.40);
+const glm::dvec3 kSynovium(0.60, 0.165, 0.118), kSynoviumPale(0.78, 0.40, 0.29),
+    kSynoviumDeep(0.42, 0.068, 0.052);
+const glm::dvec3 kFat(0.86, 0.58, 0.12), kFatPale(0.90, 0.72, 0.30), kFatCrease(0.62, 0.23, 0.09);
+const glm::dvec3 kSinew(0.82, 0.68, 0.50), kBone(0.70, 0.47, 0.36);
+const glm::dvec3 kVesselRed(0.30, 0.020, 0.026), kVesselDeep(0.25, 0.050, 0.075);
+
+// Faint clouds, with a few paler and yellower islands; the cartilage of a middle-aged knee.
+Tissue Cartilage(const glm::dvec3& x, const Look& look, double wall_gap, std::uint32_t seed) {
+  const glm::dvec3 mm = x / kMm;
+  const double cloud = FractalNoise(mm / 9.0, 3, seed + 51),
+               grain = FractalNoise(mm / 1.3, 3, seed + 52);
+  Tissue t;
+  t.colour = Mix(kPearl, kIvory, 0.42 + look.texture * 0.75 * cloud);
+  t.colour *= 1.0 + look.texture * (0.10 * grain + 0.07 * cloud);
+  // Where synovium creeps over its margin it blushes.
+  const double ragged = 2.4 * FractalNoise(mm / 3.0, 3, seed + 53) + 1.2 * grain;
+  t.colour = Mix(t.colour, kBlush, 0.9 * SmoothStep(7.5, 0.5, wall_gap / kMm + 1.6 * ragged));
+  t.wetness = 0.55;
+  t.roughness = 0.035;
+  t.depth = 0.32;
+  return t;
+}
+
+Tissue Synovium(const Cavity& cavity, const VesselTrees& vessels, const Look& look,
+                const SurfacePoint& p) {
+  const std::uint32_t seed = cavity.seed;
+  const glm::dvec3& d = p.direction;
+  const double region = FractalNoise(2.2 * d, 3, seed + 61),
+               patch = FractalNoise(7.5 * d, 3, seed + 62);
+  // Villi: a short nap, combed this way and that.
+  const glm::dvec3 comb(GradientNoise(3.0 * d, seed + 63), GradientNoise(3.0 * d, seed + 64), 0.0);
+  const double nap = FractalNoise(58.0 * d + 6.0 * comb, 3, seed + 65);
+  Tissue t;
+  t.colour = Mix(kSynovium, kSynoviumPale, 0.34 + look.texture * (1.25 * region + 0.55 * patch));
+  t.colour = Mix(t.colour, kSynoviumDeep,
+                 look.texture * 0.6 * SmoothStep(0.02, 0.42, -patch - 0.3 * region));
+  t.colour *= 1.0 + look.texture * 0.26 * nap;
+  const VesselTrees::Cover vessel = vessels.At(d);
+  t.colour = Mix(t.colour, Mix(kVesselRed, kVesselDeep, vessel.depth),
+                 0.80 * look.vessels * vessel.amount);
+  t.wetness = 0.8;
+  t.roughness = 0.16;
+  t.depth = 0.22;
+  return t;
+}
+
+Tissue Fat(const Cavity& cavity, const VesselTrees& vessels, const Look& look,
+           const SurfacePoint& p) {
+  const std::uint32_t seed = cavity.seed;
+  const glm::dvec3& d = p.direction;
+  const double cloud = FractalNoise(5.0 * d, 3, seed + 71),
+               grain = FractalNoise(34.0 * d, 2, seed + 72);
+  Tissue t;
+  t.colour = Mix(kFat, kFatPale, 0.40 + look.texture * (1.3 * cloud + 0.25 * grain));
+  // The light comes from the viewer, so creases are told by their colour: dark, with vessels in
+  // them.
+  const double crease = SmoothStep(0.55, 0.12, FatLobule(cavity, d));
+  t.colour = Mix(t.colour, kFatCrease, 0.45 * crease) * (1.0 - 0.38 * crease);
+  // A red veil of synovium runs over the pad and is thickest at its border.
+  const double veil = 0.30 * FractalNoise(4.0 * d, 3, seed + 73);
+  t.colour = Mix(t.colour, kFatCrease, look.texture * SmoothStep(-0.02, 0.22, veil));
+  t.colour =
+      Mix(t.colour, kSynoviumPale, 0.8 * SmoothStep(9.0, 1.0, p.wall_gap / kMm + 9.0 * veil));
+  const VesselTrees::Cover vessel = vessels.At(d);
+  t.colour =
+      Mix(t.colour, Mix(kVesselRed, kVesselDeep, vessel.depth), 0.6 * look.vessels * vessel.amount);
+  t.wetness = 0.9;
+  t.roughness = 0.12;
+  t.depth = 0.3;
+  return t;
+}
+
+Tissue Sinew(const Cavity& cavity, const Look& look, const SurfacePoint& p) {
+  // Fibres along the band: noise stretched tenfold along it.
+  const glm::dvec3 along = glm::normalize(cavity.ligament[2].to - cavity.ligament[2].from);
+  const glm::dvec3 mm = p.x / kMm;
+  const double t_along = glm::dot(mm, along);
+  const glm::dvec3 across = mm - t_along * along;
+  const double fibre = FractalNoise(across / 0.55 + along * (t_along / 9.0), 3, cavity.seed + 81);
+  const double cloud = FractalNoise(mm / 6.0, 2, cavity.seed + 82);
+  Tissue t;
+  t.colour = Mix(kSinew, kBlush, 0.30 + look.texture * (0.9 * cloud));
+  t.colour *= 1.0 + look.texture * 0.34 * fibre;
+  t.wetness = 0.6;
+  t.roughness = 0.12;
+  t.depth = 0.25;
+  return t;
+}
+
+Tissue PlateauTissue(const Cavity& cavity, const Look& look, const SurfacePoint& p) {
+  Tissue t = Cartilage(p.x, look, p.wall_gap, cavity.seed + 5);
+  const glm::dvec3 q = Inverse(cavity.plateau.portal_from_plateau) * p.x;
+  const glm::dvec3 mm = p.x / kMm;
+  // The bed: bone shows through what is left of the cartilage.
+  const double ragged = 0.10 * FractalNoise(mm / 1.6, 3, cavity.seed + 91);
+  const double bed = SmoothStep(1.0, 0.80, BedShare(cavity.plateau.bed, q.x, q.y) + ragged);
+  const double speckle = FractalNoise(mm / 0.8, 3, cavity.seed + 92);
+  t.colour = Mix(t.colour, kBone * (1.0 + 0.5 * look.texture * speckle), 0.85 * bed);
+  // The spine and the outer rim wear synovium and fibres.
+  const glm::dvec2 from_spine =
+      (glm::dvec2(q.x, q.y) - cavity.plateau.spine) / cavity.plateau.spine_radii;
+  const double fringe = 0.5 * FractalNoise(mm / 2.5, 3, cavity.seed + 93);
+  t.colour = Mix(t.colour, kBlush, 0.85 * SmoothStep(1.25, 0.55, glm::length(from_spine) + fringe));
+  const double u =
+      q.x / (q.x > 0.0 ? cavity.plateau.half_width_medial : cavity.plateau.half_width_lateral);
+  const double v = q.y / cavity.plateau.half_depth;
+  const double outline = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v));
+  t.colour = Mix(t.colour, Mix(kBlush, kSynovium, 0.5 + fringe),
+                 SmoothStep(0.93, 1.12, outline + 0.35 * fringe));
+  t.roughness += 0.1 * bed;
+  return t;
+}
+
+Tissue Meniscus(const Cavity& cavity, const Look& look, const SurfacePoint& p) {
+  const glm::dvec3 mm = p.x / kMm;
+  const glm::dvec3 q = Inverse(cavity.plateau.portal_from_plateau) * p.x / kMm;
+  const double angle = std::atan2(q.y, q.x), r = std::hypot(q.x, q.y);
+  const double fibre = FractalNoise({r / 0.45, q.z / 0.45, angle * 2.2}, 3, cavity.seed + 101);
+  const double cloud = FractalNoise(mm / 5.0, 2, cavity.seed + 102);
+  Tissue t;
+  t.colour = Mix(kPearl, kIvory, 0.55 + look.texture * (0.7 * cloud));
+  t.colour *= 1.0 + look.texture * 0.20 * fibre;
+  // Blood reaches the outer third.
+  t.colour = Mix(t.colour, kBlush, 0.75 * SmoothStep(0.62, 1.05, p.rim + 0.35 * cloud));
+  t.wetness = 0.65;
+  t.roughness = 0.05;
+  t.depth = 0.34;
+  return t;
+}
+
+Tissue TissueAt(const Cavity& cavity, const VesselTrees& vessels, const Look& look,
+                const SurfacePoint& p) {
+  switch (p.surface) {
+    case Surface::kFat:
+      return Fat(cavity, vessels, look, p);
+    case Surface::kCondyle:
+      return Cartilage(p.x, look, p.wall_gap, cavity.seed);
+    case Surface::kPlateau:
+      return PlateauTissue(cavity, look, p);
+    case Surface::kLigament:
+      return Sinew(cavity, look, p);
+    case Surface::kMeniscus:
+      return Meniscus(cavity, look, p);
+    case Surface::kCartilage:
+      return Cartilage(p.x, look, p.wall_gap, cavity.seed + 5);
+    default:
+      return Synovium(cavity, vessels, look, p);
+  }
+}
+
+// Share of the surroundings that is open, from how quickly free space runs out along the normal.
+double Openness(const Cavity& cavity, const SurfacePoint& p) {
+  double blocked = 0.0, weight = 1.0;
+  for (const double h : {0.7 * kMm, 1.6 * kMm, 3.4 * kMm, 6.5 * kMm}) {
+    blocked +=
+        weight *
+        std::max(h - std::max(Clearance(cavity, p.x + h * p.normal, !p.bed_is_filled), 0.0), 0.0) /
+        h;
+    weight *= 0.8;
+  }
+  return 0.16 + 0.84 * std::exp(-0.72 * blocked);
+}
+
+// Ripples of the wet film; they bend highlights only.
+glm::dvec3 Rippled(const SurfacePoint& p, double roughness, std::uint32_t seed) {
+  const glm::dvec3 q = p.x / (0.9 * kMm);
+  const glm::dvec3 slope(FractalNoise(q, 3, seed + 111), FractalNoise(q, 3, seed + 112),
+                         FractalNoise(q, 3, seed + 113));
+  return glm::normalize(p.normal +
+                        2.0 * roughness * (slope - glm::dot(slope, p.normal) * p.normal));
+}
+
+// The uneven surface under the film, like the peel of an orange.
+glm::dvec3 Dimpled(const SurfacePoint& p, std::uint32_t seed) {
+  const glm::dvec3 q = p.x / (2.2 * kMm);
+  const glm::dvec3 slope(FractalNoise(q, 2, seed + 131), FractalNoise(q, 2, seed + 132),
+                         FractalNoise(q, 2, seed + 133));
+  return glm::normalize(p.normal + 0.16 * (slope - glm::dot(slope, p.normal) * p.normal));
+}
+
+// Fluid gathers here and there; between the pools the film is thin and hardly glints.
+double Pool(const SurfacePoint& p, std::uint32_t seed) {
+  return SmoothStep(0.05, 0.40, FractalNoise(p.x / (4.5 * kMm), 3, seed + 121));
+}
+
+}  // namespace
+
+Look LookOf(Difficulty difficulty) {
+  if (difficulty == Difficulty::kEasy) return {1.0, 1.0, 0.02, 1.0};
+  if (difficulty == Difficulty::kMedium) return {0.60, 0.70, 0.10, 0.85};
+  return {0.32, 0.42, 0.22, 0.65};
+}
+
+glm::dvec3 Radiance(const Cavity& cavity, const VesselTrees& vessels, const Look& look,
+                    const SurfacePoint& p) {
+  const Tissue tissue = TissueAt(cavity, vessels, look, p);
+  const glm::dvec3 to_light = kLight - p.x;
+  const double light_distance = glm::length(to_light);
+  const glm::dvec3 l = to_light / light_distance;
+  const double fall = std::pow(kLightReference / light_distance, kFalloff);
+
+  const double facing = glm::dot(p.normal, l);
+  const double open = Openness(cavity, p) * p.shade;
+  // Light wraps round inside the tissue and comes out redder; recesses keep only red light.
+  const glm::dvec3 wrap = tissue.depth * glm::dvec3(1.25, 0.95, 0.85);
+  const glm::dvec3 lit = glm::max((glm::dvec3(facing) + wrap) / (1.0 + wrap), glm::dvec3(0.0));
+  const glm::dvec3 recess =
+      glm::pow(glm::dvec3(std::max(open, 1e-3)), glm::dvec3(0.80, 1.10, 1.25));
+  // What the other walls throw back: pink.
+  const glm::dvec3 bounce = glm::dvec3(0.115, 0.066, 0.054) * open;
+  glm::dvec3 radiance = tissue.colour * (fall * lit * recess + bounce);
+
+  // Wet film: a broad sheen and a few small glints, seen from the portal.
+  const glm::dvec3 half = glm::normalize(l - p.direction);
+  const double sheen = std::pow(std::max(glm::dot(Dimpled(p, cavity.seed), half), 0.0), 40.0);
+  double glint = 0.0;
+  if (glm::dot(p.normal, half) > 0.8)
+    glint =
+        std::pow(std::max(glm::dot(Rippled(p, tissue.roughness, cavity.seed), half), 0.0), 1100.0) *
+        (tissue.roughness < 0.05 ? 1.0 : Pool(p, cavity.seed));
+  radiance += glm::dvec3(fall * open * tissue.wetness * (0.11 * sheen + 0.9 * glint));
+
+  // Haze grows with the water between; the veil is the colour of scattered light.
+  const double veil = 1.0 - std::pow(1.0 - look.haze, glm::length(p.x) / cavity.radius);
+  radiance = Mix(radiance, glm::dvec3(0.40, 0.31, 0.27), veil);
+  return look.light * radiance;
+}
+
+glm::dvec3 Develop(const glm::dvec3& radiance, double exposure) {
+  glm::dvec3 out;
+  for (int i = 0; i < 3; ++i) {
+    // Straight up to the knee, then a shoulder that reaches white late.
+    constexpr double kKnee = 0.60;
+    double v = exposure * std::max(radiance[i], 0.0);
+    if (v > kKnee) v = kKnee + (1.0 - kKnee) * (1.0 - std::exp(-(v - kKnee) / (1.0 - kKnee)));
+    out[i] = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  }
+  return out;
+}
+
+}  // namespace arthro::authoring

@@ -1,0 +1,184 @@
+#include "authoring/phantom/panorama_renderer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::authoring {
+namespace {
+
+// A micrometre, near enough, as a power of two: finer bits of the relief would only swell the file.
+constexpr double kDepthStep = 0x1p-20;   // m
+constexpr double kSilhouette = 0.25e-3;  // m by which depth breaks
+constexpr int kSubpixels = 3;            // a side
+
+SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
+  const CavityHit hit = CastFromPortal(view.cavity, direction);
+  SurfacePoint point;
+  point.direction = direction;
+  point.surface = hit.surface;
+  point.wall_gap = hit.wall_distance - hit.distance;
+  point.x = hit.distance * direction;
+  point.bed_is_filled = view.tissues != nullptr;
+  if (view.tissues) {
+    if (const auto tissue = view.tissues->Cast(direction);
+        tissue && tissue->distance < hit.distance) {
+      point.surface = tissue->surface;
+      point.wall_gap = hit.wall_distance - tissue->distance;
+      point.x = tissue->distance * direction;
+      // The layer lies flush: its seam shows in colour, not in shading.
+      point.normal = tissue->surface == Surface::kCartilage
+                         ? NormalAt(view.cavity, Surface::kPlateau, point.x, false)
+                         : tissue->normal;
+      point.rim = tissue->rim;
+      return point;
+    }
+    point.shade = view.tissues->ShadeAt(hit.surface, point.x);
+  }
+  point.normal = NormalAt(view.cavity, hit.surface, point.x, !point.bed_is_filled);
+  return point;
+}
+
+glm::dvec3 ColourAlong(const PhantomView& view, const SurfacePoint& point, double exposure) {
+  return Develop(Radiance(view.cavity, view.vessels, view.look, point), exposure);
+}
+
+// Runs `row` for every row on several threads; rows are independent, so their order does not
+// matter.
+template <class Row>
+void ForEachRow(int rows, int threads, const Progress& progress, const char* stage, double from,
+                double to, const Row& row) {
+  if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  std::atomic<int> next{0};
+  const auto work = [&](bool reports) {
+    for (int y = next++; y < rows && !progress.ShouldStop(); y = next++) {
+      row(y);
+      if (reports && progress.report) progress.report(stage, from + (to - from) * y / rows);
+    }
+  };
+  std::vector<std::jthread> crew;
+  for (int i = 1; i < threads; ++i) crew.emplace_back(work, false);
+  work(true);
+  crew.clear();
+  progress.Step(stage, to);
+}
+
+float ReliefOf(const Cavity& cavity, const SurfacePoint& point) {
+  return static_cast<float>(std::round((cavity.radius - glm::length(point.x)) / kDepthStep) *
+                            kDepthStep);
+}
+
+// Would this point look otherwise without the tissues?
+bool ConcernsTissue(const Cavity& cavity, const SurfacePoint& point) {
+  if (point.surface == Surface::kMeniscus || point.surface == Surface::kCartilage ||
+      point.shade < 1.0)
+    return true;
+  if (point.surface != Surface::kPlateau) return false;
+  // The bed, filled or not, changes the light around it.
+  constexpr double kLightReach = 1.9;  // radii of the bed
+  const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * point.x;
+  return BedShare(cavity.plateau.bed, p.x, p.y) < kLightReach;
+}
+
+// A quick no: neither can a ray in this direction meet a tissue, nor does one shade what it does
+// meet.
+bool IsFarFromTissues(const TissueCaster& tissues, const PhantomPicture& without,
+                      const glm::dvec3& direction, std::size_t pixel) {
+  const Surface surface = without.surfaces[pixel];
+  return surface != Surface::kPlateau && surface != Surface::kCondyle && !tissues.MayHit(direction);
+}
+
+void PutColour(ColourImage& image, int x, int y, const glm::dvec3& colour) {
+  for (int i = 0; i < 3; ++i)
+    image.at(x, y)[i] =
+        static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[i], 0.0, 1.0)));
+}
+
+}  // namespace
+
+double ExposureOf(const PhantomView& view, const Projection& projection, int width, int height) {
+  constexpr int kColumns = 96, kRows = 72;
+  std::vector<double> brightness;
+  for (int j = 0; j < kRows; ++j)
+    for (int i = 0; i < kColumns; ++i) {
+      const glm::dvec2 pixel((i + 0.5) * width / kColumns - 0.5, (j + 0.5) * height / kRows - 0.5);
+      const SurfacePoint point = PointAlong(view, DirectionFromPixel(projection, pixel));
+      const glm::dvec3 radiance =
+          Radiance(view.cavity, view.vessels, view.look, point) / view.look.light;
+      brightness.push_back(glm::dot(radiance, glm::dvec3(0.30, 0.59, 0.11)));
+    }
+  // The brightest tenth may roll off.
+  const auto bright = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() * 9 / 10);
+  std::nth_element(brightness.begin(), bright, brightness.end());
+  constexpr double kTarget = 0.74;
+  return kTarget / std::max(*bright, 1e-6);
+}
+
+PhantomPicture RenderPanorama(const PhantomView& view, const Projection& projection, int width,
+                              int height, double exposure, int threads, const Progress& progress,
+                              const char* stage, const PhantomPicture* without) {
+  PhantomPicture picture{ColourImage(width, height), DepthMap(width, height), {}};
+  const auto index = [width](int x, int y) { return static_cast<std::size_t>(y) * width + x; };
+  picture.surfaces.resize(index(0, height));
+  std::vector<std::uint8_t> is_drawn(index(0, height), 1);
+  ForEachRow(height, threads, progress, stage, 0.0, 0.6, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec3 direction = DirectionFromPixel(projection, {x, y});
+      if (without && IsFarFromTissues(*view.tissues, *without, direction, index(x, y))) {
+        is_drawn[index(x, y)] = 0;
+        picture.surfaces[index(x, y)] = without->surfaces[index(x, y)];
+        picture.depth.at(x, y) = without->depth.at(x, y);
+        std::copy_n(without->colour.at(x, y), 3, picture.colour.at(x, y));
+        continue;
+      }
+      const SurfacePoint point = PointAlong(view, direction);
+      picture.surfaces[index(x, y)] = point.surface;
+      picture.depth.at(x, y) = ReliefOf(view.cavity, point);
+      if (without && !ConcernsTissue(view.cavity, point)) {
+        is_drawn[index(x, y)] = 0;
+        std::copy_n(without->colour.at(x, y), 3, picture.colour.at(x, y));
+      } else {
+        PutColour(picture.colour, x, y, ColourAlong(view, point, exposure));
+      }
+    }
+  });
+  // A silhouette runs where the surface changes or its depth breaks; a slope, however steep, is
+  // none.
+  const auto on_silhouette = [&](int x, int y) {
+    const auto breaks = [&](int dx, int dy) {
+      const std::size_t here = index(x, y), next = index(x + dx, y + dy),
+                        last = index(x - dx, y - dy);
+      const auto& h = picture.depth.relief;
+      return picture.surfaces[next] != picture.surfaces[here] ||
+             picture.surfaces[last] != picture.surfaces[here] ||
+             std::abs(h[next] - 2.0f * h[here] + h[last]) > kSilhouette;
+    };
+    if (x == 0 || y == 0 || x == width - 1 || y == height - 1) return false;
+    return breaks(1, 0) || breaks(0, 1);
+  };
+  const auto is_drawn_near = [&](int x, int y) {
+    return is_drawn[index(x, y)] || is_drawn[index(x - 1, y)] || is_drawn[index(x + 1, y)] ||
+           is_drawn[index(x, y - 1)] || is_drawn[index(x, y + 1)];
+  };
+  ForEachRow(height, threads, progress, stage, 0.6, 1.0, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      if (!on_silhouette(x, y) || !is_drawn_near(x, y)) continue;
+      glm::dvec3 sum(0.0);
+      for (int j = 0; j < kSubpixels; ++j)
+        for (int i = 0; i < kSubpixels; ++i) {
+          const glm::dvec2 pixel(x + (i + 0.5) / kSubpixels - 0.5,
+                                 y + (j + 0.5) / kSubpixels - 0.5);
+          sum +=
+              ColourAlong(view, PointAlong(view, DirectionFromPixel(projection, pixel)), exposure);
+        }
+      PutColour(picture.colour, x, y, sum / static_cast<double>(kSubpixels * kSubpixels));
+    }
+  });
+  return picture;
+}
+
+}  // namespace arthro::authoring

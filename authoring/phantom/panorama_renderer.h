@@ -1,0 +1,37 @@
+// Draws the phantom as the panorama of a scene: colours smoothed at silhouettes, relief exact at
+// pixel centres.
+#pragma once
+
+#include "authoring/phantom/appearance.h"
+#include "authoring/phantom/cavity.h"
+#include "authoring/phantom/tissue_caster.h"
+#include "authoring/phantom/vessels.h"
+#include "simulation/core/progress.h"
+#include "simulation/scene/image.h"
+#include "simulation/scene/projection.h"
+
+namespace arthro::authoring {
+
+struct PhantomView {
+  const Cavity& cavity;
+  const VesselTrees& vessels;
+  const TissueCaster* tissues = nullptr;  // drawn as well when given
+  Look look;
+};
+
+struct PhantomPicture {
+  ColourImage colour;
+  DepthMap depth;  // relief D - distance, rounded to 2⁻²⁰ m (0.95 µm) so that it packs well
+  std::vector<Surface> surfaces;  // what is seen at each pixel centre
+};
+
+// The exposure at which the cavity's bright parts come out bright but not white.
+double ExposureOf(const PhantomView& view, const Projection& projection, int width, int height);
+
+// The same bytes for any number of threads; 0 takes one per processor. Given the picture of the
+// same view without its tissues, only what they change is coloured anew.
+PhantomPicture RenderPanorama(const PhantomView& view, const Projection& projection, int width,
+                              int height, double exposure, int threads, const Progress& progress,
+                              const char* stage, const PhantomPicture* without = nullptr);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,80 @@
+// A digital phantom: from a seed, a knee cavity whose truth is known exactly, as a scene, with
+// deformable models and the hand motions of a short session. Portal frame, m.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "authoring/phantom/appearance.h"
+#include "authoring/phantom/cavity.h"
+#include "authoring/phantom/panorama_renderer.h"
+#include "authoring/phantom/phantom_tissue.h"
+#include "authoring/phantom/phantom_trace.h"
+#include "simulation/core/options.h"
+#include "simulation/core/progress.h"
+#include "simulation/scene/projection.h"
+
+namespace arthro::authoring {
+
+enum class PhantomSize { kSmall, kMedium, kLarge };
+enum class PictureFormat { kPng, kJpg };
+
+struct PhantomOptions {
+  int seed = 1;
+  PhantomSize size = PhantomSize::kMedium;
+  Difficulty difficulty = Difficulty::kEasy;
+  ProjectionType projection = ProjectionType::kEquirectangular;
+  PictureFormat picture = PictureFormat::kPng;
+  int threads = 0;
+  template <class V>
+  void Visit(V&& v) {
+    v("seed", seed, Range{0, 2147483647}, "",
+      "Which knee: sizes, folds, vessels and colours follow from it.");
+    v("size", size,
+      Choices<PhantomSize>{
+          {{PhantomSize::kSmall, "S"}, {PhantomSize::kMedium, "M"}, {PhantomSize::kLarge, "L"}}},
+      "", "Panorama of 1024 x 768, 2048 x 1536 or 4096 x 3072 pixels.");
+    v("difficulty", difficulty,
+      Choices<Difficulty>{{{Difficulty::kEasy, "easy"},
+                           {Difficulty::kMedium, "medium"},
+                           {Difficulty::kHard, "hard"}}},
+      "",
+      "Harder pictures have fainter texture (60 %, 32 %) and vessels (70 %, 42 %), haze (10 %, 22 "
+      "% at 50 mm) "
+      "and less light (85 %, 65 %).");
+    v("projection", projection,
+      Choices<ProjectionType>{{{ProjectionType::kEquirectangular, "equirectangular"},
+                               {ProjectionType::kGnomonic, "gnomonic"}}},
+      "",
+      "Panorama of 200 by 150 degrees of latitude and longitude, or a flat mosaic of 120 by 105 "
+      "degrees.");
+    v("picture", picture,
+      Choices<PictureFormat>{{{PictureFormat::kPng, "png"}, {PictureFormat::kJpg, "jpg"}}}, "",
+      "Panoramas as lossless PNG, or as JPEG of a tenth of the size.");
+    v("threads", threads, Range{0, 256}, "",
+      "Threads that draw; 0: one per processor. The result is the same.");
+  }
+};
+
+struct Phantom {
+  PhantomOptions options;
+  Cavity cavity;
+  Projection projection;
+  PhantomPicture without_tissues, with_tissues;
+  PhantomTissue meniscus, cartilage;
+  std::vector<Landmark> landmarks;  // of the bones and of both tissues
+  double incision_spacing = 0.03;   // m
+  std::vector<TraceRow> trace;
+};
+
+// Width and height of the panorama, and how its pixels look out from the portal.
+struct PhantomFrame {
+  int width = 0, height = 0;
+  Projection projection;
+};
+PhantomFrame FrameOf(const PhantomOptions& options);
+
+// The same options but `threads` give the same phantom, bit for bit.
+Phantom MakePhantom(const PhantomOptions& options, const Progress& progress = {});
+
+}  // namespace arthro::authoring

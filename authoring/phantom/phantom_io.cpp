@@ -1,0 +1,266 @@
+#include "authoring/phantom/phantom_io.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/options_json.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/scene_io.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kSchema = "arthroscene.phantom/1";
+constexpr const char* kLicence = "CC0-1.0";
+
+const std::set<std::string> kFiles{"scene.json",
+                                   "panorama.png",
+                                   "panorama.jpg",
+                                   "panorama_with_tissue.png",
+                                   "panorama_with_tissue.jpg",
+                                   "depth.tiff",
+                                   "depth_with_tissue.tiff",
+                                   "meniscus.ply",
+                                   "cartilage.ply",
+                                   "truth.json",
+                                   "trace.csv"};
+
+const char* Extension(const Phantom& phantom) {
+  return phantom.options.picture == PictureFormat::kJpg ? ".jpg" : ".png";
+}
+
+Json JsonOf(const glm::dvec3& x) { return {x.x, x.y, x.z}; }
+Json JsonOf(const glm::dvec2& x) { return {x.x, x.y}; }
+Json JsonOf(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
+Json JsonOf(const Pose& pose) {
+  return {{"position", JsonOf(pose.position)},
+          {"quaternion", JsonOf(pose.quaternion)},
+          {"scale", pose.scale}};
+}
+
+bool IsEarlierPhantom(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (!entry.is_regular_file() || !kFiles.contains(entry.path().filename().string()))
+      return false;
+  std::ifstream stream(folder / "truth.json");
+  const Json truth = Json::parse(stream, nullptr, false);
+  return truth.is_object() && truth.value("schema", Json()) == kSchema;
+}
+
+// Of "out", "out/" and "./out" alike.
+fs::path Plain(const fs::path& folder) {
+  fs::path plain = folder.lexically_normal();
+  return plain.has_filename() ? plain : plain.parent_path();
+}
+
+void WriteFiles(const fs::path& folder, const Phantom& phantom) {
+  const std::string extension = Extension(phantom);
+  WriteColourImage(folder / ("panorama" + extension), phantom.without_tissues.colour);
+  WriteColourImage(folder / ("panorama_with_tissue" + extension), phantom.with_tissues.colour);
+  WriteDepthMap(folder / "depth.tiff", phantom.without_tissues.depth);
+  WriteDepthMap(folder / "depth_with_tissue.tiff", phantom.with_tissues.depth);
+  WriteSurface(folder / "meniscus.ply", phantom.meniscus.surface);
+  WriteSurface(folder / "cartilage.ply", phantom.cartilage.surface);
+  WriteAtomically(folder / "truth.json", TruthOf(phantom).dump(1) + "\n");
+  WriteAtomically(folder / "trace.csv", TraceCsv(phantom));
+  WriteScene(folder / "scene.json", SceneOf(phantom));
+}
+
+}  // namespace
+
+void RequirePhantomFolder(const fs::path& wanted) {
+  const fs::path folder = Plain(wanted);
+  std::error_code error;
+  const fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, error))
+    throw Error(Code::kFile, "the folder it should lie in does not exist; make it first", folder);
+  if (!fs::exists(fs::symlink_status(folder, error))) return;
+  if (!fs::is_directory(folder, error))
+    throw Error(Code::kFile, "is a file, and a phantom is a folder; name another place with -o",
+                folder);
+  if (fs::is_symlink(folder, error))
+    throw Error(Code::kFile, "is a link; name the folder itself with -o", folder);
+  bool ours = false;
+  try {
+    ours = fs::is_empty(folder) || IsEarlierPhantom(folder);
+  } catch (const fs::filesystem_error&) {
+    throw Error(Code::kFile, "cannot be looked into; name another place with -o", folder);
+  }
+  if (!ours)
+    throw Error(Code::kFile,
+                "holds files that are not a phantom's, and nothing is overwritten; name a new "
+                "folder with -o",
+                folder);
+}
+
+void WritePhantom(const fs::path& wanted, const Phantom& phantom) {
+  RequirePhantomFolder(wanted);
+  const fs::path folder = Plain(wanted);
+  const auto beside = [&](const char* what) {
+    fs::path path = folder;
+    path.replace_filename(fmt::format(".{}.{}.{}", folder.filename().string(), ::getpid(), what));
+    return path;
+  };
+  const fs::path partial = beside("partial"), old = beside("old");
+  std::error_code ignored;
+  try {
+    fs::create_directory(partial);
+    WriteFiles(partial, phantom);
+    // An earlier phantom steps aside first, and comes back should the last step fail.
+    const bool replaces = fs::exists(folder);
+    if (replaces) fs::rename(folder, old);
+    try {
+      fs::rename(partial, folder);
+    } catch (...) {
+      if (replaces) fs::rename(old, folder, ignored);
+      throw;
+    }
+    if (replaces) fs::remove_all(old, ignored);
+  } catch (const fs::filesystem_error& error) {
+    fs::remove_all(partial, ignored);
+    throw Error(Code::kFile,
+                fmt::format("could not be written: {}; choose another place with -o",
+                            error.code().message()),
+                folder);
+  } catch (...) {
+    fs::remove_all(partial, ignored);
+    throw;
+  }
+}
+
+Scene SceneOf(const Phantom& phantom) {
+  const std::string extension = Extension(phantom);
+  const AssetRights rights{
+      fmt::format("computed by arthroscene phantom, seed {}", phantom.options.seed), kLicence,
+      "none needed: no patient"};
+  Scene scene;
+  scene.title = fmt::format("Digital knee {}", phantom.options.seed);
+  scene.author = "arthroscene phantom";
+  scene.backdrop = {"panorama" + extension, "depth.tiff", phantom.cavity.radius, phantom.projection,
+                    rights};
+  scene.portals.incision_spacing = phantom.incision_spacing;
+  Tissue meniscus;
+  meniscus.name = phantom.meniscus.name;
+  meniscus.surface = "meniscus.ply";
+  meniscus.pose = phantom.meniscus.portal_from_tissue;
+  meniscus.material = "meniscus";
+  meniscus.colour = {0.78, 0.70, 0.57};
+  meniscus.rights = rights;
+  Tissue cartilage = meniscus;
+  cartilage.name = phantom.cartilage.name;
+  cartilage.surface = "cartilage.ply";
+  cartilage.pose = phantom.cartilage.portal_from_tissue;
+  cartilage.material = "cartilage";
+  cartilage.colour = {0.81, 0.72, 0.57};
+  scene.tissues = {meniscus, cartilage};
+  scene.instruments = {Instrument{}};
+  return scene;
+}
+
+Json TruthOf(const Phantom& phantom) {
+  const Cavity& c = phantom.cavity;
+  const Plateau& p = c.plateau;
+  Json landmarks = Json::array();
+  for (const Landmark& landmark : phantom.landmarks) {
+    Json entry{{"name", landmark.name}, {"x_in_portal", JsonOf(landmark.x_in_portal)}};
+    if (const auto pixel = PixelFromDirection(phantom.projection, landmark.x_in_portal)) {
+      entry["pixel"] = JsonOf(*pixel);
+      // Seen in the picture with the tissues, or behind something nearer?
+      const int u = static_cast<int>(std::lround(pixel->x)),
+                v = static_cast<int>(std::lround(pixel->y));
+      const DepthMap& depth = phantom.with_tissues.depth;
+      constexpr double kHidden = 0.5e-3;  // m
+      entry["visible"] = u >= 0 && v >= 0 && u < depth.width && v < depth.height &&
+                         glm::length(landmark.x_in_portal) < c.radius - depth.at(u, v) + kHidden;
+    }
+    landmarks.push_back(entry);
+  }
+  Json ligament = Json::array();
+  for (const Bundle& bundle : c.ligament)
+    ligament.push_back(
+        {{"from", JsonOf(bundle.from)}, {"to", JsonOf(bundle.to)}, {"radius", bundle.radius}});
+  const auto tissue = [](const PhantomTissue& t, const char* file) {
+    return Json{{"surface", file},
+                {"portal_from_tissue", JsonOf(t.portal_from_tissue)},
+                {"vertices", t.surface.vertices.size()},
+                {"triangles", t.surface.triangles.size()}};
+  };
+  PhantomOptions recorded = phantom.options;
+  recorded.threads = 0;  // changes nothing, so it is not part of the truth
+  Json options = JsonFromOptions(recorded);
+  options.erase("threads");
+  return Json{{"schema", kSchema},
+              {"seed", phantom.options.seed},
+              {"options", options},
+              {"panorama",
+               {{"width", phantom.without_tissues.colour.width},
+                {"height", phantom.without_tissues.colour.height}}},
+              {"radius", c.radius},
+              {"incision_spacing", phantom.incision_spacing},
+              {"condyle",
+               {{"type", "ellipsoid"},
+                {"centre", JsonOf(c.condyle.centre)},
+                {"radii", JsonOf(c.condyle.radii)},
+                {"portal_from_body", JsonOf(c.condyle.portal_from_body)}}},
+              {"plateau",
+               {{"type", "height field"},
+                {"portal_from_plateau",
+                 {{"position", JsonOf(p.portal_from_plateau.translation)},
+                  {"quaternion", JsonOf(p.portal_from_plateau.rotation)}}},
+                {"curvature", {p.curvature_x, p.curvature_y}},
+                {"half_width_medial", p.half_width_medial},
+                {"half_width_lateral", p.half_width_lateral},
+                {"half_depth", p.half_depth},
+                {"roll_off", p.roll_off},
+                {"spine",
+                 {{"centre", JsonOf(p.spine)},
+                  {"radii", JsonOf(p.spine_radii)},
+                  {"height", p.spine_height}}},
+                {"cartilage_bed",
+                 {{"centre", JsonOf(p.bed.centre)},
+                  {"radii", JsonOf(p.bed.radii)},
+                  {"wobble", JsonOf(p.bed.wobble)},
+                  {"depth", p.bed.depth},
+                  {"wall", p.bed.wall}}}}},
+              {"ligament", ligament},
+              {"capsule",
+               {{"side", c.capsule_side},
+                {"front", c.capsule_front},
+                {"overhang", c.overhang},
+                {"fold_height", c.fold_height}}},
+              {"fat_pad", {{"distance", c.fat_distance}, {"lobe_height", c.lobe_height}}},
+              {"tissues",
+               {{phantom.meniscus.name, tissue(phantom.meniscus, "meniscus.ply")},
+                {phantom.cartilage.name, tissue(phantom.cartilage, "cartilage.ply")}}},
+              {"landmarks", landmarks}};
+}
+
+std::string TraceCsv(const Phantom& phantom) {
+  std::string csv = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n";
+  for (const TraceRow& row : phantom.trace) {
+    const glm::dvec3& h = row.hip_in_device;
+    const glm::dquat& q = row.handle_in_device;
+    // A tenth of a micrometre and a microradian: finer than any device.
+    fmt::format_to(std::back_inserter(csv),
+                   "{:.3f},{},{:.7f},{:.7f},{:.7f},{:.7f},{:.7f},{:.7f},{:.7f},{}\n", row.t,
+                   row.is_scope ? "scope" : "instrument", h.x, h.y, h.z, q.w, q.x, q.y, q.z,
+                   row.buttons);
+  }
+  return csv;
+}
+
+}  // namespace arthro::authoring

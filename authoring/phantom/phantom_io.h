@@ -1,0 +1,27 @@
+// A phantom as a folder: a whole scene (scene.json, panorama, depth.tiff, meniscus.ply,
+// cartilage.ply), the ground truth (truth.json, panorama_with_tissue, depth_with_tissue.tiff) and
+// trace.csv. Depths are relief in m.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "authoring/phantom/phantom.h"
+#include "simulation/scene/scene.h"
+
+namespace arthro::authoring {
+
+// Throws Error(kFile) unless `folder` is new, empty, or holds an earlier phantom and nothing else;
+// a phantom may then take its place. Call before the work, so that nobody waits in vain.
+void RequirePhantomFolder(const std::filesystem::path& folder);
+
+// All files or none: written into a folder beside, which then takes the name.
+void WritePhantom(const std::filesystem::path& folder, const Phantom& phantom);
+
+Scene SceneOf(const Phantom& phantom);
+nlohmann::json TruthOf(const Phantom& phantom);
+std::string TraceCsv(const Phantom& phantom);
+
+}  // namespace arthro::authoring

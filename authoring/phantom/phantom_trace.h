@@ -1,0 +1,38 @@
+// The hand motions of a short session in the phantom: the scope goes in, looks round and rolls; the
+// instrument comes in, probes condyle, plateau and meniscus, and leaves. As both devices would
+// report it (TRACE.csv of design §5), for rigs with the pivot at the device's origin, portal axes
+// and rods of 0.2 m.
+#pragma once
+
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "authoring/phantom/cavity.h"
+#include "authoring/phantom/phantom_tissue.h"
+
+namespace arthro::authoring {
+
+struct TraceRow {
+  double t = 0;  // s
+  bool is_scope = false;
+  glm::dvec3 hip_in_device{0.0};  // m
+  glm::dquat handle_in_device{1.0, 0.0, 0.0, 0.0};
+  unsigned buttons = 0;
+};
+
+// 12 s at 100 Hz, rows of both devices in turn. Speeds are continuous.
+std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& meniscus,
+                                double incision_spacing);
+
+// Where the probe is meant to touch: a point of a surface and its outward normal.
+struct ProbeContact {
+  glm::dvec3 x_in_portal{0.0}, normal{0.0};
+  double press = 0;             // m, how deep the tip goes in
+  double lift = 0;              // m, over the surface before and after
+  double from_t = 0, to_t = 0;  // s, between which the tip may be inside
+};
+std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissue& meniscus);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,51 @@
+// Rays from the portal against the deformable models as they lie in the scene. Portal frame, m.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "authoring/phantom/cavity.h"
+#include "simulation/scene/surface_mesh.h"
+
+namespace arthro::authoring {
+
+struct TissueHit {
+  double distance = 0;
+  glm::dvec3 normal{0.0};
+  Surface surface = Surface::kMeniscus;
+  double rim = 0;
+};
+
+class TissueCaster {
+ public:
+  // A model in the portal frame; `rims` gives each vertex its place between free edge and outer
+  // rim, and may be empty.
+  void Add(const SurfaceMesh& mesh_in_portal, Surface surface, const std::vector<double>& rims);
+  // Call once, after the last Add.
+  void Sort();
+
+  // False where Cast is sure to find nothing.
+  bool MayHit(const glm::dvec3& direction) const;
+  std::optional<TissueHit> Cast(const glm::dvec3& direction) const;
+
+  // What is left of the light on a point of the cavity beside a model: the contact shadow.
+  double ShadeAt(Surface surface, const glm::dvec3& x) const;
+
+ private:
+  struct Corner {
+    glm::dvec3 x{0.0}, normal{0.0};
+    double rim = 0;
+  };
+  struct Triangle {
+    int a, b, c;
+    Surface surface;
+  };
+  std::vector<Corner> corners_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::vector<int>> cells_;  // triangles by latitude and longitude
+  std::vector<std::vector<int>> boxes_;  // triangles by position, for ShadeAt
+};
+
+}  // namespace arthro::authoring
