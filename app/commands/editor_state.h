@@ -68,6 +68,7 @@ struct EditorState {
   authoring::History history;
   const authoring::Document& document() const { return history.current(); }
 
+  int document_number = 0;  // grows when another document is begun
   Step step = Step::kPanorama;
   int tissue = -1;                        // chosen one, -1 none
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own

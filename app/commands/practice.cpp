@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
 namespace {
@@ -46,10 +47,13 @@ simulation::RodLimits InstrumentLimits(const Scene& scene) {
 }
 
 simulation::RodPose StartOfScope(const Scene& scene) {
-  // Looking at the middle of the picture: the axis is bent away by the centre angle, so the rod
-  // points as much the other way.
+  // Looking at the middle of the picture, as far as the view angle lets the rod: the axis is bent
+  // up by the centre angle, so the rod points down by as much.
+  constexpr double kLowest = 0.8;  // rad
   simulation::RodPose pose;
   pose.depth = 0.3 * scene.backdrop.radius;
+  pose.latitude = -std::min(
+      kLowest, simulation::CentreAngle(scene.scope.view_angle, pose.depth, scene.backdrop.radius));
   return pose;
 }
 

@@ -52,6 +52,7 @@ void StartDocument(EditorState& state, Document document, bool saved) {
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
   state.practice.reset();
+  ++state.document_number;
 }
 
 void OpenScene(EditorState& state, const fs::path& scene) {

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 #include <thread>
+#include <unistd.h>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -32,6 +34,20 @@ using Seconds = std::chrono::duration<double>;
 constexpr double kFrame = 1.0 / 60.0;       // s, shortest time between two frames that time drives
 constexpr double kLivelyAfter = 0.8;        // s after the last event: tips and hover settle
 constexpr double kDrawAtLeastEvery = 0.05;  // s, while events stream in
+
+// Seconds since the program was started, loading included; to a hundredth.
+double ProcessAge() {
+  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+  std::string text;
+  std::getline(stat, text);
+  // The 22nd field, counted from after the name in brackets, which may hold blanks.
+  std::istringstream fields(text.substr(text.rfind(')') + 2));
+  std::string field;
+  for (int number = 3; number <= 22; ++number) fields >> field;
+  double now = 0;
+  uptime >> now;
+  return now - std::stod(field) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
 
 // Keys that call a command. None while text is typed (but function keys) or a dialog is open.
 void RunShortcuts(EditorState& state) {
@@ -66,6 +82,17 @@ std::string TitleOf(const EditorState& state) {
 
 class Editor {
  public:
+  ~Editor() {
+    if (frame_seconds_.empty()) return;
+    std::sort(frame_seconds_.begin(), frame_seconds_.end());
+    const auto at = [&](double share) {
+      return 1e3 * frame_seconds_[static_cast<std::size_t>(
+                       share * static_cast<double>(frame_seconds_.size() - 1))];
+    };
+    std::fprintf(stderr, "%zu frames, median %.1f ms, p99 %.1f ms, longest %.1f ms\n",
+                 frame_seconds_.size(), at(0.5), at(0.99), at(1.0));
+  }
+
   explicit Editor(const EditorOptions& options)
       : options_(options),
         window_(WindowFrom(options)),
@@ -173,9 +200,11 @@ class Editor {
                           });
     window_.Present();
     last_draw_ = Clock::now();
-    if (++frames_ == 1 && options_.timing)
-      std::fprintf(stderr, "first picture after %.0f ms\n",
-                   1e3 * Seconds(last_draw_ - started_).count());
+    if (options_.timing) {
+      if (frames_ == 0) std::fprintf(stderr, "first picture after %.0f ms\n", 1e3 * ProcessAge());
+      frame_seconds_.push_back(Seconds(last_draw_ - now).count());
+    }
+    ++frames_;
     if (unsettled_ > 0) --unsettled_;
   }
 
@@ -197,8 +226,9 @@ class Editor {
           ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
       picture_focused_ = input.focused;
       TakePictureInput(input);
-      OverviewPicture(ui, layout.overview, 0);
-      StatusBar(ui, state_, layout.status);
+      pictures_.HandleOverview(state_,
+                               OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
+      StatusBar(ui, state_, layout.status, pictures_.notice());
     }
     Dialogs(ui, state_);
   }
@@ -211,10 +241,12 @@ class Editor {
     if (!will_draw_) return;
     if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
       unsettled_ = 2;
+    if (!state_.practice)
+      pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
+                             static_cast<int>(layout.overview.height));
   }
 
   const EditorOptions options_;
-  const Clock::time_point started_ = Clock::now();
   Window window_;
   Pictures pictures_;
   EditorState state_;
@@ -222,6 +254,7 @@ class Editor {
   std::optional<ScriptRunner> script_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
+  std::vector<double> frame_seconds_;  // of drawn frames, for --timing
   bool picture_focused_ = true, will_draw_ = true;
 };
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/commands/edits.h"
 #include "app/commands/same.h"
 
 namespace arthro::app {
@@ -68,7 +69,9 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   if (preview)
     shown.projection = Shrunk(shown.projection, static_cast<double>(document.panorama->width) /
                                                     cache.preview_panorama->width);
-  scope_.SetBackdrop(*panorama, depth ? *depth : DepthMap{}, shown);
+  const DepthMap bare;
+  scope_.SetBackdrop(*panorama, depth ? *depth : bare, shown);
+  overview_.SetBackdrop(*panorama, depth ? *depth : bare, shown);
 }
 
 void Pictures::TakeTissues(const authoring::Document& document) {
@@ -84,21 +87,28 @@ void Pictures::TakeTissues(const authoring::Document& document) {
     for (const auto& surface : document.surfaces)
       meshes.push_back(surface ? *surface : SurfaceMesh{});
     scope_.SetTissues(tissues, meshes);
+    overview_.SetTissues(tissues, meshes);
+    chosen_ = -1;
     surfaces_ = document.surfaces;
     changed_ = true;
   } else {
     for (std::size_t i = 0; i < tissues.size(); ++i)
       if (!SamePose(tissues_[i].pose, tissues[i].pose)) {
         scope_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
+        overview_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
         changed_ = true;
       }
   }
   tissues_ = tissues;
 }
 
-bool Pictures::DrawScope(const EditorState& state, int size) {
+void Pictures::Take(const EditorState& state) {
   TakeBackdrop(state);
   TakeTissues(state.document());
+}
+
+bool Pictures::DrawScope(const EditorState& state, int size) {
+  Take(state);
   const Picture picture = PictureOf(state);
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
@@ -115,6 +125,67 @@ bool Pictures::DrawScope(const EditorState& state, int size) {
   drawn_size_ = pixels;
   changed_ = false;
   return coarse;
+}
+
+void Pictures::DrawOverview(const EditorState& state, int width, int height) {
+  Take(state);
+  has_overview_ = panorama_ != nullptr;
+  if (!has_overview_) return;
+  if (document_number_ != state.document_number) {
+    document_number_ = state.document_number;
+    overview_.ResetCamera();
+  }
+  const Picture picture = PictureOf(state);
+  if (!Same(picture, overview_tools_)) {
+    overview_tools_ = picture;
+    overview_.SetIncisionSpacing(state.document().scene.portals.incision_spacing);
+    overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
+  }
+  // The box is there while tissue is worked on.
+  const int chosen = state.step == Step::kTissue ? state.tissue : -1;
+  if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
+  overview_.Render(width, height);
+}
+
+void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
+  if (!has_overview_) return;
+  overview_.on_pose = [&state](int index, const Pose& pose, bool finished) {
+    const auto& tissues = state.document().scene.tissues;
+    if (index < 0 || index >= static_cast<int>(tissues.size())) return;
+    Tissue changed = tissues[static_cast<std::size_t>(index)];
+    changed.pose = pose;
+    state.dragging = true;
+    SetTissue(state, index, changed, "Place");
+    if (finished) EndDrag(state);
+  };
+  using Kind = PointerEvent::Kind;
+  constexpr PointerEvent::Button kButtons[] = {
+      PointerEvent::Button::kLeft, PointerEvent::Button::kRight, PointerEvent::Button::kMiddle};
+  PointerEvent event;
+  event.x = input.pointer.x, event.y = input.pointer.y;
+  event.shift = input.shift, event.control = input.ctrl;
+  if ((input.hovered || input.owned) && input.pointer != pointer_) {
+    event.kind = Kind::kMove;
+    overview_.Handle(event);
+    pointer_ = input.pointer;
+  }
+  for (int button = 0; button < 3; ++button) {
+    event.button = kButtons[button];
+    if (input.pressed[button]) {
+      event.kind = Kind::kPress;
+      overview_.Handle(event);
+    }
+    if (input.released[button]) {
+      event.kind = Kind::kRelease;
+      overview_.Handle(event);
+    }
+  }
+  if (input.wheel != 0) {
+    event.kind = Kind::kWheel;
+    event.wheel = input.wheel;
+    overview_.Handle(event);
+  }
+  overview_.on_pose = {};
 }
 
 }  // namespace arthro::app

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "app/commands/editor_state.h"
+#include "app/panels/panels.h"
 #include "app/view/arthroscopic_view.h"
+#include "app/view/overview.h"
 
 namespace arthro::app {
 
@@ -20,16 +22,24 @@ class Pictures {
   // Draws the scope's picture to fill `size` pixels a side. True when it is not the final one yet:
   // call again soon.
   bool DrawScope(const EditorState& state, int size);
+  // The author's view from outside. Draws only what changed.
+  void DrawOverview(const EditorState& state, int width, int height);
+  unsigned overview_texture() const { return has_overview_ ? overview_.TextureId() : 0; }
+  // Turns the overview or, on the box, moves the chosen tissue.
+  void HandleOverview(EditorState& state, const OverviewInput& input);
+
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   const simulation::ScopeView& view() const { return picture_.view; }
   const std::string& notice() const { return scope_.notice(); }
 
  private:
+  void Take(const EditorState& state);
   void TakeBackdrop(const EditorState& state);
   void TakeTissues(const authoring::Document& document);
 
   ArthroscopicView scope_;
-  bool steady_, has_picture_ = false, changed_ = true;
+  Overview overview_;
+  bool steady_, has_picture_ = false, has_overview_ = false, changed_ = true;
   Picture picture_;
   int drawn_size_ = 0;
   double milliseconds_ = 0;  // of the last full-size frame
@@ -39,6 +49,9 @@ class Pictures {
   Backdrop backdrop_;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
+  int chosen_ = -1, document_number_ = -1;
+  Picture overview_tools_;  // as the overview last got them
+  glm::dvec2 pointer_{-1.0};
 };
 
 }  // namespace arthro::app

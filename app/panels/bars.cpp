@@ -83,10 +83,17 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
   CommandButton(ui, state, "help", {help, 0});
 }
 
-void StatusBar(Ui& ui, EditorState& state, const Area& area) {
+void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice) {
   const FixedWindow window(ui, "status", area, kBarWindow);
   ui.widgets.RecordText(state.message);
   ImGui::TextUnformatted(state.message.c_str());
+  if (!notice.empty()) {
+    ui.widgets.RecordText(notice);
+    ImGui::SameLine(0, ui.Px(22));
+    ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
+    ImGui::TextUnformatted(notice.c_str());
+    ImGui::PopStyleColor();
+  }
 
   // Work under way, on the right.
   const bool depth = DepthIsUnderWay(state);

@@ -46,9 +46,11 @@ void HelpWindow(Ui& ui, EditorState&) {
   Heading(ui, "Over the overview");
   if (BeginRows(ui, "overview mouse")) {
     Row(ui, "Drag", "Turn it");
-    Row(ui, "Wheel", "Nearer, or further");
+    Row(ui, "Wheel or right drag", "Nearer, or further");
     Row(ui, "Middle drag", "Shift it");
-    Row(ui, "Drag the box's handles", "Move, turn and scale the chosen tissue");
+    Row(ui, "Drag the box", "Move the chosen tissue");
+    Row(ui, "Shift+drag the box", "Turn the chosen tissue");
+    Row(ui, "Right drag the box", "Make it larger, or smaller");
     ImGui::EndTable();
   }
   Gap(ui);

@@ -28,7 +28,8 @@ Layout PracticeLayout(float width, float height, float scale);
 
 // ---- The pages. Each fills its area. ----
 void TopBar(Ui& ui, EditorState& state, const Area& area);
-void StatusBar(Ui& ui, EditorState& state, const Area& area);
+// `notice`: what the pictures could not show as given.
+void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
 void StepsPanel(Ui& ui, EditorState& state, const Area& area);
 void PracticePanel(Ui& ui, EditorState& state, const Area& area);
 void Dialogs(Ui& ui, EditorState& state);
@@ -57,8 +58,8 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
 int ScopePictureSize(const Ui& ui, const EditorState& state, const Area& area);
 
 struct OverviewInput {
-  bool hovered = false;
-  glm::dvec2 pointer{0.0};  // in the picture, px from its top left
+  bool hovered = false, owned = false;  // owned: a drag that began here goes on
+  glm::dvec2 pointer{0.0};              // in the picture, px from its top left
   bool pressed[3] = {false, false, false}, released[3] = {false, false, false};
   double wheel = 0;
   bool shift = false, ctrl = false;

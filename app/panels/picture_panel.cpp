@@ -124,10 +124,11 @@ OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture) {
   RecordItem(ui, "Overview");
   const ImGuiIO& io = ImGui::GetIO();
   input.hovered = ImGui::IsItemHovered();
+  input.owned = ImGui::IsItemActive();
   input.pointer = {io.MousePos.x - area.x, io.MousePos.y - area.y};
   for (int button = 0; button < 3; ++button) {
     input.pressed[button] = ImGui::IsItemHovered() && ImGui::IsMouseClicked(button);
-    input.released[button] = ImGui::IsMouseReleased(button);
+    input.released[button] = ImGui::IsMouseReleased(button) && ImGui::IsItemDeactivated();
   }
   if (input.hovered) input.wheel = io.MouseWheel;
   input.shift = io.KeyShift;

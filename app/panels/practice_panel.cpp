@@ -130,6 +130,9 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   }
   Gap(ui);
   CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(48)});
+  Gap(ui);
+  QuietText(
+      ui, "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
 
   // At the foot, where it is not pressed by chance.
   const float foot = 2 * ui.Px(48) + ui.Px(22);

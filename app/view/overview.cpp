@@ -399,6 +399,8 @@ bool Overview::Render(int width, int height) {
     p.height = height;
     p.window->SetSize(width, height);
     p.interactor->UpdateSize(width, height);  // picking is by its size, not the window's
+    // The whole scene fits the shorter side.
+    p.renderer->GetActiveCamera()->SetUseHorizontalViewAngle(width < height);
     p.changed = true;
   }
   if (!p.changed) return false;

@@ -176,6 +176,19 @@ expect "Saved in"
   EXPECT_GT(ReadTetMesh(scene / saved.tissues.at(0).mesh).ElementCount(), 0);
 }
 
+TEST_F(EditorWindow, TheBoxInTheOverviewMovesTheTissueInOneStep) {
+  Drive(R"(
+click Tissue
+wait frames 3
+drag Overview 30 0
+wait frames 3
+expect "Place octahedron"
+click Undo
+expect disabled Undo
+expect value "Position (right, down, in), in" "30.0 mm"
+)");
+}
+
 TEST_F(EditorWindow, ABrokenFileIsToldAndTheSceneStays) {
   std::ofstream(temp / "broken.png") << "no picture";
   Drive("drop " + (temp / "broken.png").string() +

@@ -1,0 +1,81 @@
+// The way from the X server through GLFW to the scene: real clicks and keys by xdotool, no script.
+// Where things are at 1280x800 is read off the layout (app/panels/bars.cpp).
+#include <cstdlib>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "simulation/scene/scene_io.h"
+#include "tests/support/run_window.h"
+#include "tests/support/small_scene.h"
+
+namespace arthro {
+namespace {
+
+// Runs `actions` (a shell script, $W the window) once the window stands. Exit code of the program;
+// 97 when there was no window.
+int WithDesktop(const std::filesystem::path& scene, const std::string& actions) {
+  test::TempFolder folder;
+  const auto file = folder / "desktop.sh";
+  std::ofstream(file)
+      << "export HOME=" << folder.path().string() << " LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1\n"
+      << ARTHRO_PROGRAM " edit " << scene.string() << " --timing 2>" << (folder / "log").string()
+      << " &\n"
+      << "PROGRAM=$!\n"
+      << "for i in $(seq 300); do grep -q 'first picture' " << (folder / "log").string()
+      << " && break; sleep 0.1; done\n"
+      << "W=$(timeout 20 xdotool search --sync --name Arthroscene | head -1)\n"
+      << "[ -n \"$W\" ] || { kill $PROGRAM; exit 97; }\n"
+      << "click() { xdotool mousemove --window $W $1 $2; sleep 0.15; xdotool click 1; "
+         "sleep 0.3; }\n"
+      << "xdotool windowfocus $W; sleep 0.5\n"
+      << actions << "\nwait $PROGRAM\n";
+  const int status = std::system(
+      ("timeout 120 xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' sh " + file.string()).c_str());
+  return WEXITSTATUS(status);
+}
+
+class Desktop : public testing::Test {
+ protected:
+  void SetUp() override {
+    ARTHRO_REQUIRE_XVFB();
+    if (std::system("command -v xdotool > /dev/null 2>&1") != 0)
+      GTEST_SKIP() << "SKIPPED: xdotool is not on this machine, so no real click is tested";
+    scene = test::WriteSmallScene(temp / "knee");
+  }
+  test::TempFolder temp;
+  std::filesystem::path scene;
+};
+
+TEST_F(Desktop, RealClicksAndKeysChangeAndSaveTheScene) {
+  const int exit_code = WithDesktop(scene, R"(
+click 60 156
+xdotool keydown ctrl; sleep 0.15; click 160 284; xdotool keyup ctrl; sleep 0.3
+xdotool key ctrl+a; sleep 0.2
+xdotool type --delay 60 12; sleep 0.3
+xdotool key Return; sleep 0.3
+xdotool key ctrl+s; sleep 2
+xdotool key ctrl+q
+)");
+  EXPECT_EQ(exit_code, 0);
+  EXPECT_NEAR(ReadScene(scene).portals.incision_spacing, 0.012, 1e-12);
+}
+
+TEST_F(Desktop, SixFastClicksAreSixClicks) {
+  // Undo after six clicks on six different view angles: each click is a step.
+  const int exit_code = WithDesktop(scene, R"(
+click 60 156
+for x in 50 200 50 200 50 200; do xdotool mousemove --window $W $x 378; xdotool click 1; sleep 0.02; done
+sleep 1
+xdotool key ctrl+z; sleep 0.3
+xdotool key ctrl+z; sleep 0.3
+xdotool key ctrl+s; sleep 2
+xdotool key ctrl+q
+)");
+  EXPECT_EQ(exit_code, 0);
+  // 30° at first; then 0, 70, 0, 70, 0, 70; two taken back leave the fourth.
+  EXPECT_NEAR(ReadScene(scene).scope.view_angle, 70 * 3.14159265358979 / 180, 1e-9);
+}
+
+}  // namespace
+}  // namespace arthro
