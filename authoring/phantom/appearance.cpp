@@ -130,7 +130,7 @@ Tissue PlateauTissue(const Cavity& cavity, const Look& look, const SurfacePoint&
   const double ragged = 0.10 * FractalNoise(mm / 1.6, 3, cavity.seed + 91);
   const double bed = SmoothStep(1.0, 0.80, BedShare(cavity.plateau.bed, q.x, q.y) + ragged);
   const double speckle = FractalNoise(mm / 0.8, 3, cavity.seed + 92);
-  t.colour = Mix(t.colour, kBone * (1.0 + 0.5 * look.texture * speckle), 0.85 * bed);
+  t.colour = Mix(t.colour, kBone * (1.0 + 0.5 * look.texture * speckle), 0.45 * bed);
   // The spine and the outer rim wear synovium and fibres.
   const glm::dvec2 from_spine =
       (glm::dvec2(q.x, q.y) - cavity.plateau.spine) / cavity.plateau.spine_radii;
@@ -184,13 +184,19 @@ Tissue TissueAt(const Cavity& cavity, const VesselTrees& vessels, const Look& lo
 }
 
 // Share of the surroundings that is open, from how quickly free space runs out along the normal.
+// The bed shades nothing: its points are taken as high as the cartilage around it.
 double Openness(const Cavity& cavity, const SurfacePoint& p) {
+  glm::dvec3 x = p.x;
+  if (p.surface == Surface::kPlateau) {
+    const Rigid3& portal_from_plateau = cavity.plateau.portal_from_plateau;
+    glm::dvec3 q = Inverse(portal_from_plateau) * x;
+    q.z = std::max(q.z, PlateauHeight(cavity.plateau, q.x, q.y, false));
+    x = portal_from_plateau * q;
+  }
   double blocked = 0.0, weight = 1.0;
   for (const double h : {0.7 * kMm, 1.6 * kMm, 3.4 * kMm, 6.5 * kMm}) {
     blocked +=
-        weight *
-        std::max(h - std::max(Clearance(cavity, p.x + h * p.normal, !p.bed_is_filled), 0.0), 0.0) /
-        h;
+        weight * std::max(h - std::max(Clearance(cavity, x + h * p.normal, false), 0.0), 0.0) / h;
     weight *= 0.8;
   }
   return 0.16 + 0.84 * std::exp(-0.72 * blocked);

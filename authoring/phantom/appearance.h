@@ -23,10 +23,9 @@ Look LookOf(Difficulty difficulty);
 struct SurfacePoint {
   glm::dvec3 x{0.0}, direction{0.0}, normal{0.0};
   Surface surface = Surface::kCapsule;
-  double wall_gap = 0;         // m, along the ray, to the synovium behind
-  bool bed_is_filled = false;  // by the cartilage layer
-  double shade = 1.0;  // what is left of the light beside a tissue that lies on this surface
-  double rim = 0.0;    // on the meniscus: 0 at the free edge, 1 at the outer rim
+  double wall_gap = 0;  // m, along the ray, to the synovium behind
+  double shade = 1.0;   // what is left of the light beside a tissue that lies on this surface
+  double rim = 0.0;     // on the meniscus: 0 at the free edge, 1 at the outer rim
 };
 
 glm::dvec3 Radiance(const Cavity& cavity, const VesselTrees& vessels, const Look& look,

@@ -23,7 +23,6 @@ SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
   point.surface = hit.surface;
   point.wall_gap = hit.wall_distance - hit.distance;
   point.x = hit.distance * direction;
-  point.bed_is_filled = view.tissues != nullptr;
   if (view.tissues) {
     if (const auto tissue = view.tissues->Cast(direction);
         tissue && tissue->distance < hit.distance) {
@@ -39,7 +38,12 @@ SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
     }
     point.shade = view.tissues->ShadeAt(hit.surface, point.x);
   }
-  point.normal = NormalAt(view.cavity, hit.surface, point.x, !point.bed_is_filled);
+  point.normal = NormalAt(view.cavity, hit.surface, point.x, false);
+  // Translucent walls: the empty bed shows as a gentle dimple, however deep it is.
+  constexpr double kDimple = 0.22;
+  if (hit.surface == Surface::kPlateau && !view.tissues)
+    point.normal = glm::normalize(
+        point.normal + kDimple * (NormalAt(view.cavity, hit.surface, point.x) - point.normal));
   return point;
 }
 
