@@ -1,5 +1,6 @@
 #include "app/commands/depth_work.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "authoring/depth/depth_filter.h"
@@ -10,6 +11,20 @@ namespace {
 
 using authoring::Document;
 
+// Up to so many pixels a preview is shown on the panorama as it is, its relief stretched to it:
+// handing over a relief of that size takes less than a frame. Larger panoramas are shown small
+// meanwhile.
+constexpr int kMostStretched = 1 << 22;
+
+DepthMap Stretched(const DepthMap& small, int width, int height, int factor) {
+  DepthMap large(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      large.at(x, y) =
+          small.at(std::min(x / factor, small.width - 1), std::min(y / factor, small.height - 1));
+  return large;
+}
+
 // A small picture and its relief, at the speed of the slider.
 Jobs::Work PreviewWork(const Document& document,
                        std::shared_ptr<const authoring::DepthPreview> pyramid) {
@@ -17,8 +32,13 @@ Jobs::Work PreviewWork(const Document& document,
           pyramid](const Progress&) -> Jobs::Apply {
     const auto made =
         pyramid ? pyramid : std::make_shared<const authoring::DepthPreview>(*panorama);
-    auto depth = std::make_shared<const DepthMap>(made->Filter(options));
-    auto picture = std::make_shared<const ColourImage>(made->Picture());
+    DepthMap relief = made->Filter(options);
+    std::shared_ptr<const ColourImage> picture = panorama;
+    if (panorama->width * panorama->height <= kMostStretched)
+      relief = Stretched(relief, panorama->width, panorama->height, made->Factor());
+    else
+      picture = std::make_shared<const ColourImage>(made->Picture());
+    auto depth = std::make_shared<const DepthMap>(std::move(relief));
     return [=](EditorState& state) {
       DepthCache& cache = state.depth_cache;
       cache.pyramid = made;

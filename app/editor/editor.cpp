@@ -200,6 +200,7 @@ class Editor {
                           });
     window_.Present();
     last_draw_ = Clock::now();
+    pictures_.NoteFrame(1e3 * Seconds(last_draw_ - now).count());
     if (options_.timing) {
       if (frames_ == 0) std::fprintf(stderr, "first picture after %.0f ms\n", 1e3 * ProcessAge());
       frame_seconds_.push_back(Seconds(last_draw_ - now).count());
@@ -241,9 +242,11 @@ class Editor {
     if (!will_draw_) return;
     if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
       unsettled_ = 2;
-    if (!state_.practice)
-      pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
-                             static_cast<int>(layout.overview.height));
+    if (state_.practice) return;
+    if (pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
+                               static_cast<int>(layout.overview.height)) &&
+        unsettled_ < 2)
+      unsettled_ = 2;
   }
 
   const EditorOptions options_;

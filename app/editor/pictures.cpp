@@ -9,8 +9,9 @@
 namespace arthro::app {
 namespace {
 
-constexpr double kSlow = 40.0;    // ms a frame: coarser while it moves
-constexpr double kCoarse = 0.55;  // of the full size
+constexpr double kSlow = 40.0;  // ms a frame: coarser while it moves
+constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
+constexpr double kCoarse = 0.55;                                 // of the full size
 
 bool Same(const Picture& a, const Picture& b) {
   const auto same_instrument = [&] {
@@ -58,8 +59,10 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool preview = cache.preview && cache.preview_panorama;
   const auto& panorama = preview ? cache.preview_panorama : document.panorama;
   const auto& depth = preview ? cache.preview : document.depth;
-  if (panorama == panorama_ && depth == depth_ && SameBackdrop(backdrop_, document.scene.backdrop))
-    return;
+  const bool same_place = SameBackdrop(backdrop_, document.scene.backdrop);
+  const bool same_panorama = panorama == panorama_ && panorama;
+  if (panorama == panorama_ && depth == depth_ && same_place) return;
+  const bool same_depth = depth == depth_;
   panorama_ = panorama;
   depth_ = depth;
   backdrop_ = document.scene.backdrop;
@@ -67,11 +70,18 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   if (!panorama) return;
   Backdrop shown = backdrop_;
   if (preview)
-    shown.projection = Shrunk(shown.projection, static_cast<double>(document.panorama->width) /
-                                                    cache.preview_panorama->width);
+    shown.projection =
+        Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
   const DepthMap bare;
-  scope_.SetBackdrop(*panorama, depth ? *depth : bare, shown);
-  overview_.SetBackdrop(*panorama, depth ? *depth : bare, shown);
+  const DepthMap& relief = depth ? *depth : bare;
+  // The panorama is by far the most to upload; a slider changes only its place or the relief.
+  if (same_panorama && (same_place || scope_.SetGeometry(shown))) {
+    if (!same_depth) scope_.SetDepth(relief);
+    overview_.SetRelief(relief, shown);
+    return;
+  }
+  scope_.SetBackdrop(*panorama, relief, shown);
+  overview_.SetBackdrop(*panorama, relief, shown);
 }
 
 void Pictures::TakeTissues(const authoring::Document& document) {
@@ -113,24 +123,27 @@ bool Pictures::DrawScope(const EditorState& state, int size) {
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
   has_picture_ = panorama_ != nullptr;
+  drew_full_ = false;
   if (!has_picture_ || (!moved && drawn_size_ == size)) return false;
 
   // A machine that is slow at full size draws coarser while things move, and full when they rest.
   const bool coarse = moved && !steady_ && milliseconds_ > kSlow;
   const int pixels = coarse ? static_cast<int>(std::lround(kCoarse * size)) : size;
-  const auto begin = std::chrono::steady_clock::now();
   scope_.Render(picture_, pixels);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-  if (!coarse) milliseconds_ = took.count();
+  drew_full_ = !coarse;
   drawn_size_ = pixels;
   changed_ = false;
   return coarse;
 }
 
-void Pictures::DrawOverview(const EditorState& state, int width, int height) {
+void Pictures::NoteFrame(double milliseconds) {
+  if (drew_full_) milliseconds_ = milliseconds;
+}
+
+bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   Take(state);
   has_overview_ = panorama_ != nullptr;
-  if (!has_overview_) return;
+  if (!has_overview_) return false;
   if (document_number_ != state.document_number) {
     document_number_ = state.document_number;
     overview_.ResetCamera();
@@ -144,7 +157,13 @@ void Pictures::DrawOverview(const EditorState& state, int width, int height) {
   // The box is there while tissue is worked on.
   const int chosen = state.step == Step::kTissue ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
-  overview_.Render(width, height);
+  // What the user looks at comes first.
+  const auto now = std::chrono::steady_clock::now();
+  if (!steady_ && milliseconds_ > kSlow && !overview_held_ &&
+      now - overview_drawn_ < kOverviewPause)
+    return true;
+  if (overview_.Render(width, height)) overview_drawn_ = now;
+  return false;
 }
 
 void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
@@ -158,6 +177,7 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
     SetTissue(state, index, changed, "Place");
     if (finished) EndDrag(state);
   };
+  overview_held_ = input.owned || input.wheel != 0;
   using Kind = PointerEvent::Kind;
   constexpr PointerEvent::Button kButtons[] = {
       PointerEvent::Button::kLeft, PointerEvent::Button::kRight, PointerEvent::Button::kMiddle};

@@ -2,6 +2,7 @@
 // Needs the window's OpenGL context.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,12 +23,16 @@ class Pictures {
   // Draws the scope's picture to fill `size` pixels a side. True when it is not the final one yet:
   // call again soon.
   bool DrawScope(const EditorState& state, int size);
-  // The author's view from outside. Draws only what changed.
-  void DrawOverview(const EditorState& state, int width, int height);
+  // The author's view from outside. Draws only what changed; on a slow machine less often while the
+  // user is busy elsewhere. True when it is not up to date yet.
+  bool DrawOverview(const EditorState& state, int width, int height);
   unsigned overview_texture() const { return has_overview_ ? overview_.TextureId() : 0; }
   // Turns the overview or, on the box, moves the chosen tissue.
   void HandleOverview(EditorState& state, const OverviewInput& input);
 
+  // How long the whole frame took, handing over included: graphics in software draw behind our
+  // back.
+  void NoteFrame(double milliseconds);
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   const simulation::ScopeView& view() const { return picture_.view; }
   const std::string& notice() const { return scope_.notice(); }
@@ -42,7 +47,10 @@ class Pictures {
   bool steady_, has_picture_ = false, has_overview_ = false, changed_ = true;
   Picture picture_;
   int drawn_size_ = 0;
-  double milliseconds_ = 0;  // of the last full-size frame
+  bool drew_full_ = false;
+  double milliseconds_ = 0;  // of the last frame whose picture was drawn at full size
+  bool overview_held_ = false;
+  std::chrono::steady_clock::time_point overview_drawn_{};
   // What the view holds.
   std::shared_ptr<const ColourImage> panorama_;
   std::shared_ptr<const DepthMap> depth_;

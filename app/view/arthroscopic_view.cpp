@@ -89,6 +89,10 @@ void ArthroscopicView::SetDepth(const DepthMap& depth) {
   parts_->backdrop->UploadDepth(parts_->window, depth);
 }
 
+bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {
+  return parts_->backdrop->SetGeometry(backdrop);
+}
+
 void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
                                   std::span<const SurfaceMesh> surfaces) {
   Parts& p = *parts_;

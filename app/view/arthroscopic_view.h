@@ -49,6 +49,9 @@ class ArthroscopicView {
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
   // Another relief for the same panorama, for a live preview: only it is uploaded.
   void SetDepth(const DepthMap& depth);
+  // Another place for the same panorama and relief. False, and nothing done, where it would begin
+  // or cease to be a whole turn: then SetBackdrop.
+  bool SetGeometry(const Backdrop& backdrop);
   // One surface a tissue, in its own frame; an empty one is not drawn.
   void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
   // Moves the vertices of tissue `index` (as many as its surface has) in the tissue's own frame.

@@ -194,6 +194,12 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
   Fill(*imaged_, window, mask.width, mask.height, 1, VTK_UNSIGNED_CHAR, mask.share.data());
 }
 
+bool BackdropProp::SetGeometry(const Backdrop& backdrop) {
+  if (IsWholeTurn(backdrop.projection, panorama_size_.x) != wraps_) return false;
+  backdrop_ = backdrop;
+  return true;
+}
+
 void BackdropProp::Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width,
                         int height, int channels, int type, const void* data) const {
   texture.ReleaseGraphicsResources(window);

@@ -29,6 +29,9 @@ class BackdropProp : public vtkProp {
                      const DepthMap& depth, const Backdrop& backdrop);
   // Another relief for the panorama that is there: a fraction of the work.
   void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth);
+  // Another place for the panorama that is there; nothing is uploaded. False, and nothing done,
+  // where it would begin or cease to be a whole turn.
+  bool SetGeometry(const Backdrop& backdrop);
   void SetPicture(const Picture& picture, int size);
 
   // As the models should take it.

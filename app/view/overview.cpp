@@ -111,6 +111,7 @@ struct Overview::Parts {
   std::vector<Model> tissues;
   int chosen = -1;
   double radius = 0.05;
+  glm::ivec2 panorama_size{0};
   bool changed = true;
   bool dragging = false;
   int width = 0, height = 0;
@@ -253,9 +254,15 @@ Overview::~Overview() {
 void Overview::SetBackdrop(const ColourImage& panorama, const DepthMap& depth,
                            const Backdrop& backdrop) {
   Parts& p = *parts_;
-  SetData(*p.relief, MakeReliefMesh(panorama.width, panorama.height, depth, backdrop));
+  p.panorama_size = {panorama.width, panorama.height};
   p.relief->SetTexture(MakePanoramaTexture(panorama));
   p.relief->VisibilityOn();
+  SetRelief(depth, backdrop);
+}
+
+void Overview::SetRelief(const DepthMap& depth, const Backdrop& backdrop) {
+  Parts& p = *parts_;
+  SetData(*p.relief, MakeReliefMesh(p.panorama_size.x, p.panorama_size.y, depth, backdrop));
   p.radius = backdrop.radius;
   p.changed = true;
 }

@@ -38,6 +38,8 @@ class Overview {
   Overview& operator=(const Overview&) = delete;
 
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
+  // Another relief or place for the panorama that is there.
+  void SetRelief(const DepthMap& depth, const Backdrop& backdrop);
   void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
   void SetTissuePose(int index, const Pose& portal_from_tissue);
   void SetTissueVertices(int index, std::span<const glm::dvec3> vertices);
