@@ -30,6 +30,7 @@ int RunCommandLine(int argc, char** argv) {
   program.require_subcommand(0, 1);
   AddCentresJob(program);
   AddCheckJob(program);
+  AddDemoJob(program);
   AddDepthJob(program);
   AddEditJob(program);
   AddPhantomJob(program);

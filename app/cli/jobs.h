@@ -10,6 +10,7 @@ namespace arthro::app {
 
 void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
+void AddDemoJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
 void AddEditJob(CLI::App& program);
 void AddPhantomJob(CLI::App& program);

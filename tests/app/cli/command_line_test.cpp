@@ -1,0 +1,52 @@
+// The command line is a contract (design §5): help, usage errors and exit codes.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace arthro {
+namespace {
+
+using test::ProgramResult;
+using test::RunProgram;
+
+constexpr std::array kJobs = {"demo", "phantom", "depth", "tetrahedralize", "pivot",   "centres",
+                              "view", "replay",  "check", "edit",           "practise"};
+
+TEST(CommandLine, HelpListsEveryJob) {
+  const ProgramResult help = RunProgram("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const std::string job : kJobs)
+    EXPECT_NE(help.out.find("\n  " + job), std::string::npos) << job;
+}
+
+TEST(CommandLine, EveryJobHasHelpOfItsOwn) {
+  for (const std::string job : kJobs) {
+    const ProgramResult help = RunProgram(job + " --help");
+    EXPECT_EQ(help.exit_code, 0) << job;
+    EXPECT_GT(help.out.size(), 100u) << job;
+  }
+}
+
+TEST(CommandLine, BothSpellingsOfPractiseWork) {
+  EXPECT_EQ(RunProgram("practice --help").exit_code, 0);
+}
+
+TEST(CommandLine, UsageErrorsExitWithTwo) {
+  EXPECT_EQ(RunProgram("no-such-job").exit_code, 2);
+  EXPECT_EQ(RunProgram("depth").exit_code, 2);  // a required argument is missing
+  EXPECT_EQ(RunProgram("depth --no-such-flag x.png -o d.tiff").exit_code, 2);
+  EXPECT_EQ(RunProgram("phantom --seed ten -o d").exit_code, 2);
+}
+
+TEST(CommandLine, VersionIsPrinted) {
+  const ProgramResult version = RunProgram("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(version.out.rfind("arthroscene ", 0), 0u) << version.out;
+}
+
+}  // namespace
+}  // namespace arthro
