@@ -72,8 +72,9 @@ std::string ContactName(int contact, const Scene& scene) {
 }
 
 Picture PictureOf(const Moment& moment, const Scene& scene) {
+  // The camera head is held upright, as surgeons do, while the scope turns in it.
   Picture picture =
-      PictureFromPose(moment.scope.pose, scene.scope.view_angle, scene.scope.field_of_view);
+      PictureFromPose(moment.scope.pose, scene.scope.view_angle, scene.scope.field_of_view, 0.0);
   if (moment.instrument.fault == simulation::Fault::kNone)
     picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
                                         moment.instrument.proxy_in_portal,

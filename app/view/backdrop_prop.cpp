@@ -117,7 +117,8 @@ void main() {
   if (plain != 0) {
     shown = imaged ? colour : vec3(0.0);
   } else {
-    vec3 lit = shoulder(colour * pow(lightAt(distance), 1.0 / 2.2));
+    // The panorama was lit when it was taken: what lies far fades, but nothing is lit a second time.
+    vec3 lit = shoulder(colour * pow(min(lightAt(distance), 1.0), 1.0 / 2.2));
     shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, texture(imagedShare, uv).r) : 0.0) * softRim(r);
     float along = dot(offset, notch) - 0.925;
     float beside = abs(offset.x * notch.y - offset.y * notch.x);
