@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -13,7 +14,8 @@ namespace {
 
 using simulation::RodPose;
 constexpr double kMm = kMetrePerMillimetre;
-constexpr double kDuration = 12.0, kRate = 100.0;  // s, Hz
+constexpr double kDuration = 12.0, kRate = 100.0;       // s, Hz
+constexpr double kViewAngle = 30.0 * kRadianPerDegree;  // of the phantom's scope
 
 // Least jerk between two rests.
 double Ease(double t) {
@@ -48,6 +50,24 @@ RodPose PoseOfTip(const glm::dvec3& tip_from_portal, double roll) {
           roll, depth};
 }
 
+// Where to hold a scope of view angle α at depth ρ so that `target` is in the middle of its
+// picture, from the side `from` of it: the rod passes the target at δ = α − asin(ρ sin α /
+// |target|), and is rolled until the view leans back to it. Of all turns the one nearest to
+// `near_roll`.
+RodPose AimAt(const glm::dvec3& target, double depth, double view_angle, const glm::dvec3& from,
+              double near_roll) {
+  const double distance = glm::length(target);
+  const glm::dvec3 x = target / distance;
+  const glm::dvec3 side = glm::normalize(from - glm::dot(from, x) * x);
+  const double delta = view_angle - std::asin(depth * std::sin(view_angle) / distance);
+  RodPose pose = PoseOfTip(depth * (std::cos(delta) * x + std::sin(delta) * side), 0.0);
+  const simulation::RodBasis basis = BasisOf(pose);
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double roll = std::atan2(glm::dot(x, basis.east), glm::dot(x, basis.north));
+  pose.roll = roll + kTurn * std::round((near_roll - roll) / kTurn);
+  return pose;
+}
+
 }  // namespace
 
 std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissue& meniscus) {
@@ -59,7 +79,7 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
   contacts.push_back({on_condyle, NormalAt(cavity, Surface::kCondyle, on_condyle), 1.5 * kMm,
                       5.0 * kMm, 5.2, 6.2});
   // The plateau in front of the cartilage layer.
-  const double x = 2.0 * kMm, y = -11.5 * kMm;
+  const double x = -1.0 * kMm, y = -16.0 * kMm;
   const glm::dvec3 on_plateau =
       cavity.plateau.portal_from_plateau * glm::dvec3(x, y, PlateauHeight(cavity.plateau, x, y));
   contacts.push_back({on_plateau, NormalAt(cavity, Surface::kPlateau, on_plateau), 2.0 * kMm,
@@ -91,12 +111,19 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
 std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& meniscus,
                                 double incision_spacing) {
   const glm::dvec3 instrument_portal(incision_spacing, 0.0, 0.0);
-  // In, a look at the whole joint with a full roll, then down on plateau and meniscus.
-  const std::vector<Key<RodPose>> scope{{0.0, Pose4(8, -4, 0, 2)},     {0.8, Pose4(6, -2, 0, 9)},
-                                        {1.8, Pose4(4, 6, 60, 11)},    {3.2, Pose4(2, -6, 250, 11)},
-                                        {4.4, Pose4(-2, 4, 360, 13)},  {5.2, Pose4(0, 6, 400, 12)},
-                                        {6.6, Pose4(2, 4, 540, 11)},   {8.6, Pose4(-3, 6, 530, 15)},
-                                        {10.4, Pose4(-2, 7, 545, 15)}, {12.0, Pose4(4, 0, 450, 4)}};
+  // In, a look at the whole joint with a full roll, then after the probe from touch to touch.
+  std::vector<Key<RodPose>> scope{{0.0, Pose4(8, -4, 0, 2)},
+                                  {0.8, Pose4(6, -2, 0, 9)},
+                                  {1.8, Pose4(4, 6, 60, 11)},
+                                  {3.2, Pose4(2, -6, 250, 11)},
+                                  {4.2, Pose4(0, 4, 400, 11)}};
+  for (const ProbeContact& touch : ProbeContacts(cavity, meniscus)) {
+    const RodPose aim = AimAt(touch.x_in_portal, 11.0 * kMm, kViewAngle,
+                              glm::dvec3(-1.0, -0.4, 0.0), scope.back().value.roll);
+    scope.push_back({touch.from_t, aim});
+    scope.push_back({touch.to_t, aim});
+  }
+  scope.push_back({12.0, Pose4(4, 0, 450, 4)});
   // Each touch: over the point, in, a short slide, out along the normal.
   std::vector<Key<glm::dvec3>> tip{{0.0, instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm},
                                    {3.4, instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm},
