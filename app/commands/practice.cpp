@@ -58,11 +58,17 @@ simulation::RodPose StartOfScope(const Scene& scene) {
 }
 
 simulation::RodPose StartOfInstrument(const Scene& scene) {
-  // From its portal towards the point half a radius in front of the scope's.
+  // Its tip in the middle of the scope's first picture, a third of the way to the backdrop.
+  constexpr double kShare = 0.33;
+  const simulation::ScopeView view =
+      simulation::ViewFromPose(StartOfScope(scene), scene.scope.view_angle);
+  const glm::dvec3 wall = simulation::SphereHit(view.tip, view.view, scene.backdrop.radius);
+  const glm::dvec3 portal(scene.portals.incision_spacing, 0.0, 0.0);
+  const glm::dvec3 rod = view.tip + kShare * (wall - view.tip) - portal;
   simulation::RodPose pose;
-  const double spacing = scene.portals.incision_spacing;
-  pose.longitude = std::atan2(-spacing, 0.5 * scene.backdrop.radius);
-  pose.depth = 0.25 * scene.backdrop.radius;
+  pose.depth = glm::length(rod);
+  pose.latitude = std::atan2(-rod.y, std::hypot(rod.x, rod.z));
+  pose.longitude = std::atan2(rod.x, rod.z);
   return pose;
 }
 

@@ -38,8 +38,8 @@ class Practice {
   double t_ = 0, pending_ = 0, peak_force_ = 0;
 };
 
-// How both hands stand when a practice or an editor begins: the scope half way in, the instrument
-// outside its portal's mouth, pointing at the middle of the view.
+// How both hands stand when a practice or an editor begins: the scope a third of the way in, the
+// instrument's tip in the middle of its picture.
 simulation::RodPose StartOfScope(const Scene& scene);
 simulation::RodPose StartOfInstrument(const Scene& scene);
 simulation::RodLimits ScopeLimits(const Scene& scene);

@@ -79,7 +79,8 @@ TEST(BadInput, PanoramaAndDepthOfDifferentSizes) {
   TempFolder folder;
   MakeScene(folder.path());
   WriteDepthMap(folder / "depth.tiff", DepthMap(64, 64, 0.01f));
-  WriteAtomically(folder / "trace.csv", "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n");
+  WriteAtomically(folder / "trace.csv",
+                  "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n0,scope,0,0,-0.17,1,0,0,0,0\n");
   ExpectRefusal("replay " + folder.path().string() + " " + (folder / "trace.csv").string() +
                     " -o " + (folder / "f.csv").string(),
                 "64 x 64", folder / "f.csv");

@@ -113,7 +113,7 @@ wait job
 wait frames 10
 expect "Force on the tissue"
 expect "nothing"
-hold r 120
+hold w 12
 expect "octahedron"
 key 3
 expect "70° view angle"

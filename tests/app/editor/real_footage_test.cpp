@@ -55,7 +55,7 @@ TEST(RealFootage, AFrameGetsDepthAndCanBePractisedOn) {
     "scope": {"view_angle_deg": 0, "field_of_view_deg": 60}})");
   const auto practice = test::RunWindow("practise " + folder.path().string(),
                                         "wait job\nwait frames 10\nhold r 160\nwait frames 5\n"
-                                        "expect backdrop\nshot " +
+                                        "expect \"joint surface\"\nshot " +
                                             (folder / "practice.png").string() + "\n");
   ASSERT_EQ(practice.exit_code, 0) << practice.err;
   const ColourImage shot = ReadColourImage(folder / "practice.png");
