@@ -100,7 +100,8 @@ void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then) {
   std::string name;
   for (const char c : title.empty() ? std::string("scene") : title) name += c == '/' ? '-' : c;
   Browse(
-      state, BrowseFor::kSaveFolder, "Save the scene as a folder", "Save", {},
+      state, BrowseFor::kSaveFolder, "Save the scene as a folder, or as a file NAME.arthro", "Save",
+      {},
       [then = std::move(then)](EditorState& now, const fs::path& folder) {
         SaveInto(now, folder, then);
       },
@@ -161,6 +162,9 @@ void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
   if (start.empty() && !state.recent.Existing().empty())
     start = state.recent.Existing().front().parent_path();
   if (start.empty()) start = fs::current_path(ignored);
+  // A scene is a folder: a copy goes beside it, not into it.
+  if (purpose == BrowseFor::kSaveFolder && fs::exists(start / "scene.json", ignored))
+    start = start.parent_path();
   state.dialogs.push_back(BrowseDialog{
       title, accept_words, FileBrowserModel(purpose, std::move(filters), start, file_name),
       std::move(then), false, false, ""});

@@ -118,7 +118,15 @@ struct Overview::Parts {
 
   void BuildScene();
   void PlaceBox();
+  void FitShorterSide();
 };
+
+// The whole scene is seen whichever side is shorter; a narrow picture keeps room for the labels.
+void Overview::Parts::FitShorterSide() {
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetUseHorizontalViewAngle(width < height);
+  camera->SetViewAngle(width < height ? 39.0 : 32.0);
+}
 
 void Overview::Parts::BuildScene() {
   window->AddRenderer(renderer);
@@ -393,7 +401,7 @@ void Overview::ResetCamera() {
   camera->SetFocalPoint(0.0, 0.06 * r, 0.45 * r);
   camera->SetPosition(1.3 * r, -1.55 * r, -2.15 * r);
   camera->SetViewUp(0.0, -1.0, 0.0);
-  camera->SetViewAngle(32.0);
+  p.FitShorterSide();
   p.changed = true;
 }
 
@@ -406,8 +414,7 @@ bool Overview::Render(int width, int height) {
     p.height = height;
     p.window->SetSize(width, height);
     p.interactor->UpdateSize(width, height);  // picking is by its size, not the window's
-    // The whole scene fits the shorter side.
-    p.renderer->GetActiveCamera()->SetUseHorizontalViewAngle(width < height);
+    p.FitShorterSide();
     p.changed = true;
   }
   if (!p.changed) return false;

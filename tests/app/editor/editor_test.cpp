@@ -134,6 +134,14 @@ TEST_F(EditorWindow, SaveAsWritesAWholeSceneElsewhere) {
   EXPECT_NEAR(ReadScene(scene).portals.incision_spacing, 0.03, 1e-12) << "the old one is untouched";
 }
 
+TEST_F(EditorWindow, SaveAsWithTheNameOfAnArchiveWritesOneFileThatOpensAgain) {
+  Drive("click \"Save as…\"\nset \"File name\" \"" + (temp / "knee.arthro").string() +
+        "\"\nclick Save\nwait job\nexpect \"Saved in\"\n");
+  EXPECT_TRUE(fs::is_regular_file(temp / "knee.arthro"));
+  scene = temp / "knee.arthro";
+  Drive("expect \"Small knee\"\nclick Tissue\nexpect octahedron\n");
+}
+
 TEST_F(EditorWindow, ClosingWithUnsavedChangesAsks) {
   Drive(R"(
 click Portals
