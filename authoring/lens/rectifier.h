@@ -1,0 +1,49 @@
+// Takes the fisheye out of a raw frame: the picture that a pinhole camera with the lens's focal
+// length would have taken. A pixel of the rectified picture (x right, y down, origin at the centre
+// of the top-left pixel) is the ray ((x - cx)/f, (y - cy)/f, 1) in the camera frame.
+//
+// A working picture is the same view at a smaller scale s: x_work = (x + 0.5) s - 0.5, likewise y.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "simulation/scene/lens.h"
+
+namespace arthro::authoring {
+
+struct RectifiedView {
+  int width = 0, height = 0;
+  double focal_px = 0, cx = 0, cy = 0;  // at scale 1
+};
+
+struct RectifyOptions {
+  double rim_margin = 0.03;            // of the circle's radius, left out at the rim
+  double largest_half_angle = 1.2217;  // rad (70°): rays further off the axis are left out
+};
+
+// The view that just holds what the lens sees. Throws Error(kBadArgument) for a lens that sees
+// nothing.
+RectifiedView ViewOf(const Lens& lens, const RectifyOptions& options);
+
+// Maps worked out once, then applied to every frame. Safe to call from several threads.
+class Rectifier {
+ public:
+  Rectifier(const Lens& lens, const RectifyOptions& options, double scale = 1.0);
+
+  const RectifiedView& view() const { return view_; }
+  cv::Size size() const { return mask_.size(); }  // of the pictures at this scale
+  // CV_8UC1, 255 where the lens shows something.
+  const cv::Mat& mask() const { return mask_; }
+
+  // 8-bit, one or three channels; black outside the mask. Below scale 1 the raw pixels are
+  // averaged, not skipped. Throws Error(kBadImage) when `raw` does not have the lens's size.
+  void Rectify(const cv::Mat& raw, cv::Mat& rectified) const;
+
+ private:
+  RectifiedView view_;
+  int raw_width_ = 0, raw_height_ = 0;
+  double scale_ = 1.0;
+  cv::Mat map_xy_, map_fraction_, mask_;
+};
+
+}  // namespace arthro::authoring

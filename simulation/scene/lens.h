@@ -1,0 +1,42 @@
+// The lens of an arthroscope: where a ray falls in the raw picture, and back. Camera frame: +z
+// along the optical axis, +x to the picture's right, +y down. θ is the angle between ray and axis,
+// r the distance from (cx, cy) in px before `aspect` stretches y.
+//   equisolid       r = 2 f sin(θ/2)                              the paper's
+//   kannala_brandt  r = f θ (1 + k0 θ² + k1 θ⁴ + k2 θ⁶ + k3 θ⁸)    [Kannala & Brandt 2006]
+//   double_sphere   k0 = ξ, k1 = α                                 [Usenko et al. 2018]
+//   pinhole         r = f tan θ
+// Files: lens_io.h (design §5, lens.json).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace arthro {
+
+enum class LensModel { kEquisolid, kKannalaBrandt, kDoubleSphere, kPinhole };
+
+// The round window in the raw picture, px. The sensor may cut its top, bottom or sides off.
+struct LensCircle {
+  double cx = 0, cy = 0, r = 0;
+};
+
+struct Lens {
+  LensModel model = LensModel::kEquisolid;
+  int width = 0, height = 0;  // of the raw pictures that it describes, px
+  double focal_px = 0, cx = 0, cy = 0;
+  double aspect = 1;          // a pixel's height over its width, as r is measured along x
+  std::array<double, 4> k{};  // meaning by model
+  double field_of_view = 0;   // full, rad: of the circle, or of the picture's diagonal
+  LensCircle circle;          // r = 0: there is no round window
+  double rms_px = 0;          // of the fit; 0 when it was not fitted
+};
+
+// Nothing where the model has no pixel (behind the camera of a pinhole) or no ray (beyond the
+// model). The ray need not be unit; the one returned is.
+std::optional<glm::dvec2> PixelFromRay(const Lens& lens, const glm::dvec3& ray) noexcept;
+std::optional<glm::dvec3> RayFromPixel(const Lens& lens, const glm::dvec2& pixel) noexcept;
+
+}  // namespace arthro
