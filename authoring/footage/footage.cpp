@@ -1,0 +1,192 @@
+#include "authoring/footage/footage.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "authoring/footage/picture_list.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/image_io.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMostFrames = 1e7;  // more is a broken header
+
+// Decoders talk on stderr, where our one sentence belongs. OpenCV reads FFmpeg's level from the
+// environment when it first opens a video; a level that the user has set stays.
+void QuietDecoders() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  });
+}
+
+// File backends only: a name must never open a camera or a network address.
+cv::VideoCapture OpenVideo(const fs::path& file) {
+  QuietDecoders();
+  for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
+    try {
+      cv::VideoCapture video(fs::absolute(file).string(), backend);
+      if (video.isOpened()) return video;
+    } catch (const cv::Exception&) {  // this backend is missing or does not know the format
+    }
+  }
+  throw Error(Code::kBadImage,
+              "this video cannot be opened: it is cut off, empty or in a format that is not known; "
+              "export it again as MP4, or as a folder of pictures",
+              file);
+}
+
+}  // namespace
+
+struct Footage::Source {
+  fs::path path;
+  FootageInfo info;
+  std::vector<fs::path> pictures;  // empty for a video
+  cv::VideoCapture video;
+  int index = -1;
+  bool has_ended = false;
+  std::string fault;
+
+  bool Grab() {
+    fault.clear();
+    if (has_ended) return false;
+    bool has_next = false;
+    if (!info.is_video) {
+      has_next = index + 1 < static_cast<int>(pictures.size());
+    } else {
+      try {
+        has_next = video.grab();
+      } catch (const cv::Exception&) {
+        has_next = false;
+      }
+    }
+    if (has_next) {
+      ++index;
+    } else {
+      has_ended = true;
+    }
+    return has_next;
+  }
+
+  bool Read(cv::Mat& rgb) {
+    if (!Grab()) return false;
+    rgb.release();  // never write into a frame that the caller still holds
+    try {
+      if (info.is_video) {
+        cv::Mat bgr;
+        if (video.retrieve(bgr) && bgr.type() == CV_8UC3)
+          cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+        else
+          fault = "frame cannot be decoded";
+      } else {
+        ColourImage picture = ReadColourImage(pictures[static_cast<std::size_t>(index)]);
+        cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()).copyTo(rgb);
+      }
+    } catch (const Error& error) {
+      fault = error.sentence();
+    } catch (const cv::Exception&) {
+      fault = "frame cannot be decoded";
+    }
+    return true;
+  }
+
+  void Rewind() {
+    if (info.is_video) video = OpenVideo(path);  // seeking is not exact in every container
+    index = -1;
+    has_ended = false;
+    fault.clear();
+  }
+};
+
+Footage::Footage(std::unique_ptr<Source> source) : source_(std::move(source)) {}
+Footage::Footage(Footage&&) noexcept = default;
+Footage& Footage::operator=(Footage&&) noexcept = default;
+Footage::~Footage() = default;
+
+Footage Footage::Open(const fs::path& path) {
+  auto source = std::make_unique<Source>();
+  source->path = path;
+  FootageInfo& info = source->info;
+  const fs::path plain = path.filename().empty() ? path.parent_path() : path;
+  info.name = plain.filename().string();
+
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    source->pictures = PicturesIn(path);
+  } else if (fs::exists(path, ignored)) {
+    if (fs::file_size(path, ignored) == 0)
+      throw Error(Code::kBadImage, "this file is empty (0 bytes); copy or export it again", path);
+    if (IsPictureName(path)) source->pictures = {path};
+    info.is_video = source->pictures.empty();
+  } else if (path.filename().string().find('%') != std::string::npos) {
+    source->pictures = PicturesOf(path);
+  } else {
+    throw Error(Code::kFile,
+                "there is no such file or folder; name a video, a folder of pictures or a pattern "
+                "such as frames/%04d.png",
+                path);
+  }
+
+  if (info.is_video) {
+    source->video = OpenVideo(path);
+    const double count = source->video.get(cv::CAP_PROP_FRAME_COUNT);
+    if (count >= 1 && count < kMostFrames) info.frames = static_cast<int>(std::lround(count));
+    const double rate = source->video.get(cv::CAP_PROP_FPS);
+    if (rate > 0 && rate < 1e4) info.frames_per_second = rate;
+  } else {
+    info.frames = static_cast<int>(source->pictures.size());
+  }
+
+  // The first readable frame says the size, and that there is something to read at all.
+  cv::Mat first;
+  while (source->Read(first) && first.empty()) {
+  }
+  if (first.empty())
+    throw Error(Code::kBadImage,
+                source->fault.empty() && info.is_video
+                    ? "this video holds no frame that can be read; export it again"
+                    : "none of its pictures can be read; export them again as PNG or JPEG",
+                path);
+  info.width = first.cols;
+  info.height = first.rows;
+  source->Rewind();
+  return Footage(std::move(source));
+}
+
+const FootageInfo& Footage::info() const { return source_->info; }
+bool Footage::Next(cv::Mat& rgb) { return source_->Read(rgb); }
+bool Footage::Skip() { return source_->Grab(); }
+void Footage::Rewind() { source_->Rewind(); }
+int Footage::index() const { return source_->index; }
+const std::string& Footage::fault() const { return source_->fault; }
+
+std::string Footage::NameOf(int index) const {
+  if (!source_->info.is_video && index >= 0 && index < static_cast<int>(source_->pictures.size()))
+    return source_->pictures[static_cast<std::size_t>(index)].filename().string();
+  return fmt::format("{}#{}", source_->info.name, index);
+}
+
+std::string Footage::CutShort() const {
+  const FootageInfo& info = source_->info;
+  if (!info.is_video || !source_->has_ended || info.frames < 0) return "";
+  // Containers count by duration and are a few frames off without anything being wrong.
+  constexpr int kTolerated = 3;
+  constexpr double kToleratedShare = 0.02;
+  const int read = source_->index + 1;
+  if (read + kTolerated + static_cast<int>(kToleratedShare * info.frames) >= info.frames) return "";
+  return fmt::format("the video ends after {} of {} frames; it was cut off", read, info.frames);
+}
+
+}  // namespace arthro::authoring

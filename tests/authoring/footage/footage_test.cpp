@@ -1,0 +1,220 @@
+#include "authoring/footage/footage.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "authoring/footage/picture_list.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+
+void WritePicture(const fs::path& file, int grey, int type = CV_8UC3, cv::Size size = {24, 16}) {
+  ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(size, type, cv::Scalar::all(grey))));
+}
+
+// How the level of a frame was read back: -1 for one that could not be.
+std::vector<int> LevelsOf(Footage& footage) {
+  std::vector<int> levels;
+  cv::Mat rgb;
+  while (footage.Next(rgb)) levels.push_back(rgb.empty() ? -1 : rgb.at<cv::Vec3b>(1, 1)[1]);
+  return levels;
+}
+
+std::string SentenceOf(const fs::path& path) {
+  try {
+    Footage::Open(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A motion-JPEG clip: OpenCV writes and reads it without any codec of the machine.
+void WriteVideo(const fs::path& file, int frames) {
+  cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG,
+                         cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25.0, {64, 48});
+  ASSERT_TRUE(writer.isOpened());
+  for (int i = 0; i < frames; ++i) {
+    cv::Mat frame(48, 64, CV_8UC3, cv::Scalar(200, 100, 10.0 * i));  // BGR
+    writer.write(frame);
+  }
+}
+
+TEST(Footage, FolderIsReadInTheOrderOfItsNumbers) {
+  const test::TempFolder folder;
+  WritePicture(folder / "f10.png", 100);
+  WritePicture(folder / "f2.png", 20);
+  WritePicture(folder / "f1.jpg", 10);
+  WritePicture(folder / ".hidden.png", 250);
+  WriteAtomically(folder / "gt.json", "{}");
+  Footage footage = Footage::Open(folder.path());
+  EXPECT_EQ(footage.info().frames, 3);
+  EXPECT_EQ(footage.info().width, 24);
+  EXPECT_EQ(footage.info().height, 16);
+  EXPECT_FALSE(footage.info().is_video);
+  EXPECT_EQ(LevelsOf(footage), (std::vector<int>{10, 20, 100}));
+  EXPECT_EQ(footage.NameOf(2), "f10.png");
+  footage.Rewind();
+  ASSERT_TRUE(footage.Skip());
+  EXPECT_EQ(LevelsOf(footage), (std::vector<int>{20, 100}));
+}
+
+TEST(Footage, NamesAreInNaturalOrder) {
+  EXPECT_TRUE(ComesBefore("f2", "f10"));
+  EXPECT_TRUE(ComesBefore("f9z", "f10a"));
+  EXPECT_TRUE(ComesBefore("a1b2", "a1b10"));
+  EXPECT_TRUE(ComesBefore("1", "01") != ComesBefore("01", "1"));
+  EXPECT_FALSE(ComesBefore("f2", "f2"));
+  EXPECT_TRUE(ComesBefore("f", "f1"));
+  EXPECT_TRUE(ComesBefore("99999999999999999998", "99999999999999999999"));
+}
+
+TEST(Footage, PatternTakesWhatPrintfWouldWrite) {
+  const test::TempFolder folder;
+  for (const int i : {7, 8, 10, 123}) WritePicture(folder / fmt::format("{:02}.png", i), i);
+  WritePicture(folder / "007.png", 200);
+  WritePicture(folder / "x08.png", 200);
+  Footage footage = Footage::Open(folder / "%02d.png");
+  EXPECT_EQ(LevelsOf(footage), (std::vector<int>{7, 8, 10, 123}));
+  EXPECT_NE(SentenceOf(folder / "%d_%d.png").find("one number"), std::string::npos);
+  EXPECT_NE(SentenceOf(folder / "y%d.png").find("no file has a name of this pattern"),
+            std::string::npos);
+}
+
+// Hard case 13.
+TEST(Footage, GreyAlphaAnd16BitBecomeRgb) {
+  const test::TempFolder folder;
+  WritePicture(folder / "1.png", 90, CV_8UC1);
+  WritePicture(folder / "2.png", 90, CV_8UC4);
+  WritePicture(folder / "3.png", 90 * 257, CV_16UC1);
+  WritePicture(folder / "4.png", 90 * 257, CV_16UC3);
+  ASSERT_TRUE(cv::imwrite((folder / "5.png").string(),
+                          cv::Mat(16, 24, CV_8UC3, cv::Scalar(10, 90, 200))));  // BGR
+  Footage footage = Footage::Open(folder.path());
+  EXPECT_EQ(LevelsOf(footage), (std::vector<int>{90, 90, 90, 90, 90}));
+  footage.Rewind();
+  cv::Mat rgb;
+  while (footage.Next(rgb)) {
+    EXPECT_EQ(rgb.type(), CV_8UC3);
+    if (footage.index() == 4) {
+      EXPECT_EQ(rgb.at<cv::Vec3b>(0, 0), cv::Vec3b(200, 90, 10));
+    }
+  }
+}
+
+// Hard case 13.
+TEST(Footage, AnUnreadableFrameIsNamedAndTheOthersCome) {
+  const test::TempFolder folder;
+  WritePicture(folder / "1.png", 10);
+  WritePicture(folder / "2.png", 20);
+  WritePicture(folder / "3.png", 30, CV_8UC3, {40, 30});
+  const std::string bytes = ReadWholeFile(folder / "2.png");
+  WriteAtomically(folder / "2.png", bytes.substr(0, bytes.size() / 2));
+  Footage footage = Footage::Open(folder.path());
+  cv::Mat rgb;
+  ASSERT_TRUE(footage.Next(rgb));
+  EXPECT_EQ(footage.fault(), "");
+  ASSERT_TRUE(footage.Next(rgb));
+  EXPECT_TRUE(rgb.empty());
+  EXPECT_NE(footage.fault().find("cut off"), std::string::npos) << footage.fault();
+  EXPECT_EQ(footage.NameOf(footage.index()), "2.png");
+  ASSERT_TRUE(footage.Next(rgb));
+  EXPECT_EQ(rgb.size(), cv::Size(40, 30));  // another size is told, not refused
+  EXPECT_FALSE(footage.Next(rgb));
+  EXPECT_FALSE(footage.Next(rgb));
+}
+
+TEST(Footage, VideoComesAsRgbAndTwice) {
+  const test::TempFolder folder;
+  WriteVideo(folder / "clip.avi", 12);
+  Footage footage = Footage::Open(folder / "clip.avi");
+  EXPECT_TRUE(footage.info().is_video);
+  EXPECT_EQ(footage.info().width, 64);
+  EXPECT_NEAR(footage.info().frames_per_second, 25.0, 0.01);
+  for (int pass = 0; pass < 2; ++pass) {
+    cv::Mat rgb;
+    int frames = 0;
+    while (footage.Next(rgb)) {
+      const cv::Vec3b pixel = rgb.at<cv::Vec3b>(20, 30);
+      EXPECT_NEAR(pixel[0], 10 * frames, 6) << frames;  // JPEG of flat colour, chroma subsampled
+      EXPECT_NEAR(pixel[2], 200, 6) << frames;
+      EXPECT_EQ(footage.index(), frames++);
+    }
+    EXPECT_EQ(frames, 12);
+    EXPECT_EQ(footage.CutShort(), "");
+    footage.Rewind();
+  }
+}
+
+// Hard case 13.
+TEST(Footage, ATruncatedVideoGivesItsBeginningOrASentence) {
+  const test::TempFolder folder;
+  WriteVideo(folder / "clip.avi", 40);
+  const std::string bytes = ReadWholeFile(folder / "clip.avi");
+  WriteAtomically(folder / "half.avi", bytes.substr(0, bytes.size() / 2));
+  WriteAtomically(folder / "head.avi", bytes.substr(0, 100));
+  Footage footage = Footage::Open(folder / "half.avi");
+  const auto levels = LevelsOf(footage);
+  EXPECT_GT(levels.size(), 10u);
+  EXPECT_LT(levels.size(), 30u);
+  if (footage.info().frames > 0) {
+    EXPECT_NE(footage.CutShort().find("cut off"), std::string::npos) << footage.info().frames;
+  }
+  EXPECT_NE(SentenceOf(folder / "head.avi").find("head.avi"), std::string::npos);
+}
+
+TEST(Footage, RefusesInOneSentenceWhatIsNoFootage) {
+  const test::TempFolder folder;
+  EXPECT_NE(SentenceOf(folder / "none.mp4").find("no such file"), std::string::npos);
+  EXPECT_NE(SentenceOf(folder.path()).find("folder is empty"), std::string::npos);
+  WriteAtomically(folder / "notes.txt", "hello");
+  EXPECT_NE(SentenceOf(folder.path()).find("notes.txt"), std::string::npos);
+  EXPECT_NE(SentenceOf(folder / "notes.txt").find("cannot be opened"), std::string::npos);
+  WriteAtomically(folder / "empty.mp4", "");
+  EXPECT_NE(SentenceOf(folder / "empty.mp4").find("0 bytes"), std::string::npos);
+  WriteAtomically(folder / "broken.png", "not a picture");
+  EXPECT_NE(SentenceOf(folder.path()).find("none of its pictures"), std::string::npos);
+  EXPECT_NE(SentenceOf(folder / "broken.png").find("broken.png"), std::string::npos);
+  EXPECT_NE(SentenceOf("").find("no such file"), std::string::npos);
+}
+
+TEST(Footage, DecodersKeepQuiet) {
+  const test::TempFolder folder;
+  WriteVideo(folder / "clip.avi", 20);
+  const std::string bytes = ReadWholeFile(folder / "clip.avi");
+  WriteAtomically(folder / "half.avi", bytes.substr(0, bytes.size() / 2));
+  WriteAtomically(folder / "notes.mp4", "hello");
+  ::testing::internal::CaptureStderr();
+  Footage footage = Footage::Open(folder / "half.avi");
+  LevelsOf(footage);
+  SentenceOf(folder / "notes.mp4");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Footage, RealClipHasAllItsFrames) {
+  ARTHRO_REQUIRE_SHARED(clip, "data/laparoscopy_rvim/endo.mp4");
+  Footage footage = Footage::Open(clip);
+  EXPECT_EQ(footage.info().width, 1280);
+  EXPECT_EQ(footage.info().height, 720);
+  EXPECT_NEAR(footage.info().frames_per_second, 25.0, 0.01);
+  int frames = 0;
+  while (footage.Skip()) ++frames;
+  EXPECT_EQ(frames, 250);
+  EXPECT_EQ(footage.CutShort(), "");
+}
+
+}  // namespace
+}  // namespace arthro::authoring
