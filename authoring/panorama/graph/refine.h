@@ -1,0 +1,48 @@
+// All homographies of a component at once: the frames' places in one plane that agree best, in the
+// sense of each pair's own covariance, with every pair estimate. Sparse Levenberg-Marquardt with
+// analytic derivatives (Ceres), robust against pairs that are off. One frame stays fixed, since a
+// homography of the whole plane changes no pair.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "authoring/panorama/pairs/pair_estimate.h"
+#include "simulation/core/options.h"
+
+namespace arthro::authoring {
+
+struct RefineOptions {
+  double pair_floor = 0.04;
+  double loss_scale = 3.0;
+  int most_iterations = 40;
+  template <class V>
+  void Visit(V&& v) {
+    v("pair_floor", pair_floor, Range{0.0, 2.0}, "px",
+      "Error that no pair is free of, beside what its own covariance says.");
+    v("loss_scale", loss_scale, Range{1.0, 100.0}, "",
+      "Times its expected error at which a pair begins to lose weight (Cauchy).");
+    v("most_iterations", most_iterations, Range{1, 1000}, "", "Steps before giving up.");
+  }
+};
+
+struct Refined {
+  // Of the frames that a pair joins to the fixed one; the others keep their start.
+  std::vector<cv::Matx33d> plane_from_frame;
+  // In the order of the pairs: rms distance of the four control points, px, and the whitened
+  // residual's norm over what it should be (1 is as expected).
+  std::vector<double> pair_error_px, pair_surprise;
+  double variance_factor = 1;  // by how much the pairs' covariances are too small
+  int iterations = 0;
+};
+
+enum class RefineSolver { kSparse, kDense };  // dense: the reference that tests compare with
+
+// `start` maps every frame to one plane. Pairs whose control points fall behind a frame at the
+// start take no part (surprise: infinity).
+Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Matx33d>& start,
+               int fixed_frame, const RefineOptions& options,
+               RefineSolver solver = RefineSolver::kSparse);
+
+}  // namespace arthro::authoring
