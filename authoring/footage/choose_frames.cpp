@@ -1,0 +1,54 @@
+#include "authoring/footage/choose_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace arthro::authoring {
+namespace {
+
+constexpr double kLeastStep = 1e-3;  // of the window: so that a scope at rest still counts a little
+constexpr double kUnknownStep = 0.1;  // where the motion cannot be told, it may have been this much
+
+}  // namespace
+
+std::vector<std::string> ReasonsAgainst(const std::vector<FrameLook>& looks,
+                                        const ChooseOptions& options) {
+  std::vector<std::string> reasons(looks.size());
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (i % static_cast<std::size_t>(options.every) != 0)
+      reasons[i] = fmt::format("not looked at: one frame in {} is used", options.every);
+    else if (options.skip_blank && !looks[i].blank.empty())
+      reasons[i] = "blank: " + looks[i].blank;
+    else
+      left.push_back(i);
+  }
+  const auto most = static_cast<std::size_t>(options.most_frames);
+  if (left.size() <= most) return reasons;
+
+  // How far along the way each frame lies, cut into as many equal stretches as frames are wanted.
+  std::vector<double> way(left.size(), 0.0);
+  for (std::size_t k = 1; k < left.size(); ++k) {
+    const double moved = looks[left[k]].moved;
+    way[k] = way[k - 1] + (moved < 0 ? kUnknownStep : std::max(moved, kLeastStep));
+  }
+  const double stretch = way.back() / static_cast<double>(most);
+  for (std::size_t first = 0; first < left.size();) {
+    const double number = std::floor(way[first] / stretch);
+    std::size_t last = first, best = first;
+    while (last < left.size() && std::floor(way[last] / stretch) == number) {
+      if (looks[left[last]].sharpness > looks[left[best]].sharpness) best = last;
+      ++last;
+    }
+    for (std::size_t k = first; k < last; ++k)
+      if (k != best)
+        reasons[left[k]] =
+            fmt::format("frame {} shows the same stretch and is sharper", left[best]);
+    first = last;
+  }
+  return reasons;
+}
+
+}  // namespace arthro::authoring
