@@ -1,0 +1,43 @@
+// How two frames are laid over each other by all of their pixels at once: the search for a start,
+// the least squares, and what is believed.
+#pragma once
+
+#include "simulation/core/options.h"
+#include "simulation/core/units.h"
+
+namespace arthro::authoring {
+
+struct DirectOptions {
+  double rotation_reach = RadiansFromDegrees(18);
+  double rotation_step = RadiansFromDegrees(4);
+  double predicted_rotation_reach = RadiansFromDegrees(4);
+  double zoom_reach = 0.0;
+  int candidates = 8;
+  int most_points = 16000;
+  int most_iterations = 12;
+  double smallest_overlap = 0.12;
+  double least_certainty = 9.0;
+  double most_corner_sigma = 6.0;
+  template <class V>
+  void Visit(V&& v) {
+    v("rotation_reach", rotation_reach, Range{0.0, 3.15}, "rad",
+      "Turns up to this far either way are searched when nothing is predicted.");
+    v("rotation_step", rotation_step, Range{0.01, 0.5}, "rad", "Between two turns searched.");
+    v("predicted_rotation_reach", predicted_rotation_reach, Range{0.0, 3.15}, "rad",
+      "The same around a prediction.");
+    v("zoom_reach", zoom_reach, Range{0.0, 0.5}, "",
+      "Zooms by this share in and out are searched as well; 0: only the size as it is.");
+    v("candidates", candidates, Range{1, 20}, "", "Peaks of the search that are tried out.");
+    v("most_points", most_points, Range{500, 200000}, "",
+      "Pixels of a frame's finest level that are aligned: those with the strongest edges.");
+    v("most_iterations", most_iterations, Range{1, 100}, "", "Least squares steps a level.");
+    v("smallest_overlap", smallest_overlap, Range{0.01, 1.0}, "",
+      "A pair that shares less than this of the first frame is refused.");
+    v("least_certainty", least_certainty, Range{0.0, 100.0}, "sigma",
+      "How far the likeness of the two frames must stand above chance.");
+    v("most_corner_sigma", most_corner_sigma, Range{0.1, 100.0}, "px",
+      "A pair whose overlap would be known less well than this is refused.");
+  }
+};
+
+}  // namespace arthro::authoring

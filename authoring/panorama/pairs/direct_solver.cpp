@@ -1,0 +1,273 @@
+#include "authoring/panorama/pairs/direct_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/core/hal/intrin.hpp>
+
+namespace arthro::authoring {
+namespace {
+
+constexpr int kBlock = 128;         // points worked on at a time; a multiple of 4
+constexpr float kOutside = 1e6f;    // so far off that its weight is nothing
+constexpr float kTolerance = 4.0f;  // deviations at which a residual counts a quarter
+constexpr int kCellSide = 12;       // level px: over three times the band's correlation length
+// Independent values in a cell: the inverse variance of the correlation of two cells of unlike
+// texture.
+constexpr double kFreePerCell = 9.0;
+constexpr int kFewestPoints = 200;
+
+float Dot(const float* a, const float* b) {
+  cv::v_float32x4 sum = cv::v_setzero_f32(), more = cv::v_setzero_f32();
+  for (int i = 0; i < kBlock; i += 8) {
+    sum = cv::v_muladd(cv::v_load(a + i), cv::v_load(b + i), sum);
+    more = cv::v_muladd(cv::v_load(a + i + 4), cv::v_load(b + i + 4), more);
+  }
+  return cv::v_reduce_sum(sum + more);
+}
+
+cv::Matx33d StepOf(const Vec8& p) {
+  return {1 + p(1), p(2), p(0), p(4), 1 + p(5), p(3), -p(6), -p(7), 1};
+}
+
+// Columns: what the motion may do.
+cv::Mat BasisOf(Motion motion) {
+  if (motion == Motion::kSimilarity) {
+    cv::Mat basis = cv::Mat::zeros(8, 4, CV_64F);
+    basis.at<double>(0, 0) = 1;
+    basis.at<double>(3, 1) = 1;
+    basis.at<double>(1, 2) = 1;
+    basis.at<double>(5, 2) = 1;
+    basis.at<double>(2, 3) = -1;
+    basis.at<double>(4, 3) = 1;
+    return basis;
+  }
+  return cv::Mat::eye(8, motion == Motion::kAffine ? 6 : 8, CV_64F);
+}
+
+}  // namespace
+
+DirectSolver::DirectSolver(const DirectLevel& a, const DirectLevel& b)
+    : a_(a), b_level_from_rectified_(b.level_from_rectified) {
+  target_.create(b.band.size(), CV_32FC1);
+  for (int y = 0; y < b.band.rows; ++y) {
+    const std::int8_t* band = b.band.ptr<std::int8_t>(y);
+    float* out = target_.ptr<float>(y);
+    for (int x = 0; x < b.band.cols; ++x)
+      out[x] = band[x] == kNoBand ? kOutside : static_cast<float>(band[x]) * (1 / kBandUnit);
+  }
+  const std::size_t count = a.points.size();
+  x_.resize(count), y_.resize(count), value_.resize(count), gx_.resize(count), gy_.resize(count);
+  const int width = a.band.cols;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int8_t* at = a.band.ptr<std::int8_t>() + a.points[i];
+    x_[i] = static_cast<float>(a.points[i] % width);
+    y_[i] = static_cast<float>(a.points[i] / width);
+    value_[i] = static_cast<float>(at[0]) / kBandUnit;
+    gx_[i] = static_cast<float>(at[1] - at[-1]) / (2 * kBandUnit);
+    gy_[i] = static_cast<float>(at[width] - at[-width]) / (2 * kBandUnit);
+  }
+  const int across = width / kCellSide + 1, down = a.band.rows / kCellSide + 1;
+  cells_.resize(static_cast<std::size_t>(across) * down);
+}
+
+Patch DirectSolver::PatchOf(const cv::Matx33d& h) const {
+  double sx = 0, sy = 0, sxx = 0, syy = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < x_.size(); i += 7) {
+    const double x = x_[i], y = y_[i], w = h(2, 0) * x + h(2, 1) * y + h(2, 2);
+    if (!(w > 1e-6)) continue;
+    const double bx = (h(0, 0) * x + h(0, 1) * y + h(0, 2)) / w,
+                 by = (h(1, 0) * x + h(1, 1) * y + h(1, 2)) / w;
+    if (!(bx >= 0 && by >= 0 && bx < target_.cols - 1 && by < target_.rows - 1)) continue;
+    if (target_.at<float>(static_cast<int>(by), static_cast<int>(bx)) == kOutside) continue;
+    sx += x, sy += y, sxx += x * x, syy += y * y, ++n;
+  }
+  if (n < 20) return {{0, 0}, 0, 0};
+  const double mx = sx / n, my = sy / n;
+  return {{mx, my},
+          std::sqrt(2 * std::max(1.0, sxx / n - mx * mx)),
+          std::sqrt(2 * std::max(1.0, syy / n - my * my))};
+}
+
+DirectSolver::Sums DirectSolver::Accumulate(const cv::Matx33d& h, bool with_cells) {
+  Sums sums;
+  float H[9];
+  for (int i = 0; i < 9; ++i) H[i] = static_cast<float>(h.val[i] / h.val[8]);
+  const float cx = static_cast<float>(patch_.centre.x), cy = static_cast<float>(patch_.centre.y);
+  const float rx = static_cast<float>(patch_.reach_x), ry = static_cast<float>(patch_.reach_y);
+  const float inverse = 1 / (kTolerance * deviation_ * kTolerance * deviation_);
+  const float right = static_cast<float>(target_.cols - 1),
+              bottom = static_cast<float>(target_.rows - 1);
+  const std::size_t stride = target_.step1();
+  const float* pixels = target_.ptr<float>();
+  if (with_cells) std::fill(cells_.begin(), cells_.end(), Cell{});
+  const int across = a_.band.cols / kCellSide + 1;
+
+  alignas(16) float b[kBlock], u[kBlock], v[kBlock], a[kBlock], gx[kBlock], gy[kBlock], r[kBlock],
+      w[kBlock], J[8][kBlock], wJ[8][kBlock], wr[kBlock], wa[kBlock], one[kBlock], slope[kBlock];
+  std::fill(one, one + kBlock, 1.0f);
+  for (std::size_t start = 0; start < x_.size(); start += kBlock) {
+    const int n = static_cast<int>(std::min<std::size_t>(kBlock, x_.size() - start));
+    for (int i = 0; i < kBlock; ++i) {
+      const std::size_t k = start + static_cast<std::size_t>(i < n ? i : 0);
+      const float x = x_[k], y = y_[k];
+      u[i] = (x - cx) / rx, v[i] = (y - cy) / ry;
+      a[i] = value_[k], gx[i] = gx_[k] * rx, gy[i] = gy_[k] * ry;
+      const float d = 1 / (H[6] * x + H[7] * y + H[8]);
+      const float bx = (H[0] * x + H[1] * y + H[2]) * d, by = (H[3] * x + H[4] * y + H[5]) * d;
+      b[i] = kOutside;
+      if (i < n && d > 0 && bx >= 0 && by >= 0 && bx < right && by < bottom) {
+        const int ix = static_cast<int>(bx), iy = static_cast<int>(by);
+        const float fx = bx - static_cast<float>(ix), fy = by - static_cast<float>(iy);
+        const float* at = pixels + static_cast<std::size_t>(iy) * stride + ix;
+        const float top = at[0] + fx * (at[1] - at[0]);
+        const float low = at[stride] + fx * (at[stride + 1] - at[stride]);
+        b[i] = top + fy * (low - top);
+      }
+    }
+    for (int i = 0; i < kBlock; ++i) {
+      const float seen = std::abs(b[i]) < 4.0f ? 1.0f : 0.0f;
+      b[i] *= seen;
+      const float residual = b[i] - gain_ * a[i];
+      const float t = 1 / (1 + residual * residual * inverse);
+      r[i] = residual;
+      w[i] = seen * t * t;
+      slope[i] = w[i] * (1 - 4 * residual * residual * inverse * t);
+      one[i] = seen;
+      const float q = gx[i] * u[i] + gy[i] * v[i];
+      J[0][i] = gx[i], J[1][i] = gx[i] * u[i], J[2][i] = gx[i] * v[i];
+      J[3][i] = gy[i], J[4][i] = gy[i] * u[i], J[5][i] = gy[i] * v[i];
+      J[6][i] = q * u[i], J[7][i] = q * v[i];
+      wr[i] = w[i] * residual;
+      wa[i] = w[i] * a[i];
+    }
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < kBlock; ++i) wJ[j][i] = w[i] * J[j][i];
+    for (int j = 0; j < 8; ++j) {
+      sums.gradient(j) += Dot(J[j], wr);
+      for (int k = j; k < 8; ++k) sums.normal(j, k) += Dot(wJ[j], J[k]);
+    }
+    for (int i = 0; i < kBlock; ++i) wJ[0][i] = w[i] * b[i], wJ[1][i] = std::abs(r[i]);
+    sums.weight += Dot(w, one);
+    sums.slope += Dot(slope, one);
+    sums.aa += Dot(wa, a), sums.ab += Dot(wa, b), sums.bb += Dot(wJ[0], b);
+    sums.magnitude += Dot(w, wJ[1]);
+    sums.points += static_cast<int>(Dot(one, one));
+    if (with_cells)
+      for (int i = 0; i < n; ++i) {
+        const std::size_t k = start + static_cast<std::size_t>(i);
+        Cell& cell = cells_[static_cast<std::size_t>(
+            (static_cast<int>(y_[k]) / kCellSide) * across + static_cast<int>(x_[k]) / kCellSide)];
+        cell.aa += one[i] * a[i] * a[i];
+        cell.ab += one[i] * a[i] * b[i];
+        cell.bb += one[i] * b[i] * b[i];
+        for (int j = 0; j < 8; ++j) cell.score[j] += wr[i] * J[j][i];
+      }
+  }
+  for (int j = 0; j < 8; ++j)
+    for (int k = 0; k < j; ++k) sums.normal(j, k) = sums.normal(k, j);
+  return sums;
+}
+
+bool DirectSolver::Solve(Motion motion, int most_iterations, double enough_px,
+                         cv::Matx33d& b_from_a) {
+  const cv::Matx33d from_a = a_.level_from_rectified.inv();
+  cv::Matx33d h = b_level_from_rectified_ * b_from_a * from_a;
+  patch_ = PatchOf(h);
+  if (!(patch_.reach_x > 2 && patch_.reach_y > 2)) return false;
+  const cv::Matx33d norm(1 / patch_.reach_x, 0, -patch_.centre.x / patch_.reach_x, 0,
+                         1 / patch_.reach_y, -patch_.centre.y / patch_.reach_y, 0, 0, 1);
+  const cv::Matx33d norm_inverse = norm.inv();
+  const cv::Mat basis = BasisOf(motion);
+  gain_ = 0.5f, deviation_ = 1.0f;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Sums sums = Accumulate(h, false);
+    if (sums.points < kFewestPoints || !(sums.weight > 0) || !(sums.aa > 0)) return false;
+    gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, 0.3, 1.5));
+    deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
+
+    cv::Mat normal = basis.t() * cv::Mat(sums.normal) * basis;
+    const double damping = 1e-3 * cv::trace(normal)[0] / normal.rows;
+    for (int i = 0; i < normal.rows; ++i) normal.at<double>(i, i) += damping;
+    cv::Mat step;
+    if (!cv::solve(normal, basis.t() * cv::Mat(sums.gradient), step, cv::DECOMP_CHOLESKY))
+      return false;
+    // Weights fall where residuals grow, so the score answers less than the normal matrix says.
+    const double slope = std::clamp(sums.slope / sums.weight, 0.4, 1.0);
+    Vec8 p = Vec8(cv::Mat(basis * step)) * (1.0 / (gain_ * slope));
+
+    // Never further at once than the band's linear range.
+    double longest = 0;
+    for (const double u : {-1.0, 1.0})
+      for (const double v : {-1.0, 1.0}) {
+        const double q = p(6) * u + p(7) * v;
+        longest =
+            std::max(longest, std::hypot((p(0) + p(1) * u + p(2) * v + u * q) * patch_.reach_x,
+                                         (p(3) + p(4) * u + p(5) * v + v * q) * patch_.reach_y));
+      }
+    constexpr double kLongestStep = 2.0;  // level px
+    if (!(longest < 1e6)) return false;
+    if (longest > kLongestStep) p *= kLongestStep / longest;
+    h = h * norm_inverse * StepOf(p).inv() * norm;
+    h *= 1 / h(2, 2);
+    if (longest < enough_px) break;
+  }
+  b_from_a = b_level_from_rectified_.inv() * h * a_.level_from_rectified;
+  b_from_a *= 1 / b_from_a(2, 2);
+  return std::isfinite(cv::norm(b_from_a));
+}
+
+Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a) {
+  Evidence evidence;
+  const cv::Matx33d h = b_level_from_rectified_ * b_from_a * a_.level_from_rectified.inv();
+  patch_ = PatchOf(h);
+  if (!(patch_.reach_x > 2 && patch_.reach_y > 2)) return evidence;
+  gain_ = 0.5f, deviation_ = 1.0f;
+  Sums sums = Accumulate(h, false);
+  if (sums.points < kFewestPoints || !(sums.aa > 0) || !(sums.weight > 0)) return evidence;
+  gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, 0.0, 1.5));
+  deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
+  double answer = 0, expected = 0;
+  for (const int axis : {0, 3}) {
+    const double step = 0.5;  // px of this level: within the band's linear range
+    double side[2];
+    for (const int sign : {0, 1}) {
+      const double d = sign ? step : -step;
+      const cv::Matx33d shift(1, 0, axis == 0 ? d : 0, 0, 1, axis == 3 ? d : 0, 0, 0, 1);
+      const Sums there = Accumulate(h * shift, false);
+      side[sign] = there.gradient(axis);
+      expected += there.normal(axis, axis) * step / (axis == 0 ? patch_.reach_x : patch_.reach_y);
+    }
+    answer += side[1] - side[0];
+  }
+  evidence.response = expected > 0 ? std::clamp(answer / expected, 0.02, 1.5) : 0;
+  sums = Accumulate(h, true);
+  evidence.points = sums.points;
+  evidence.overlap = static_cast<double>(sums.points) / static_cast<double>(x_.size());
+  evidence.gain = gain_;
+  evidence.deviation = deviation_;
+  evidence.normal = sums.normal;
+  double likeness = 0;
+  for (const Cell& cell : cells_) {
+    if (!(cell.aa > 0 && cell.bb > 0)) continue;
+    ++evidence.cells;
+    likeness += cell.ab / std::sqrt(cell.aa * cell.bb);
+    for (int j = 0; j < 8; ++j)
+      for (int k = 0; k < 8; ++k)
+        evidence.scatter(j, k) += static_cast<double>(cell.score[j]) * cell.score[k];
+  }
+  if (evidence.cells > 0) {
+    evidence.similarity = likeness / evidence.cells;
+    evidence.certainty = likeness * std::sqrt(kFreePerCell / evidence.cells);
+  }
+  const double scale = a_.level_from_rectified(0, 0);
+  const cv::Matx33d back = a_.level_from_rectified.inv();
+  evidence.patch = {
+      {back(0, 0) * patch_.centre.x + back(0, 2), back(1, 1) * patch_.centre.y + back(1, 2)},
+      patch_.reach_x / scale,
+      patch_.reach_y / scale};
+  return evidence;
+}
+
+}  // namespace arthro::authoring

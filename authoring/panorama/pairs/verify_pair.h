@@ -1,0 +1,26 @@
+// Whether two frames really show the same place where a homography says so, and how well it is
+// known: the question asked of every pair, whichever way it was found.
+#pragma once
+
+#include <string>
+
+#include "authoring/panorama/pairs/direct_pyramid.h"
+#include "authoring/panorama/pairs/pair_estimate.h"
+
+namespace arthro::authoring {
+
+struct PairVerdict {
+  bool is_accepted = false;
+  std::string why_not;      // empty when accepted
+  double overlap = 0;       // share of frame a's pixels that frame b shows
+  double similarity = 0;    // correlation of the two bands there
+  double certainty = 0;     // the same in deviations above chance
+  double corner_sigma = 0;  // px: how well the worst corner of the overlap is known
+};
+
+// Fills overlap and similarity of `pair`; with `source` direct also control points, information,
+// inliers and rms.
+PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const DirectOptions& options,
+                       PairEstimate& pair);
+
+}  // namespace arthro::authoring
