@@ -1,12 +1,13 @@
 // Takes the fisheye out of a raw frame: the picture that a pinhole camera with the lens's focal
-// length would have taken. A pixel of the rectified picture (x right, y down, origin at the centre
-// of the top-left pixel) is the ray ((x - cx)/f, (y - cy)/f, 1) in the camera frame.
+// length (at the axis) would have taken. A pixel of the rectified picture (x right, y down, origin
+// at the centre of the top-left pixel) is the ray ((x - cx)/f, (y - cy)/f, 1) in the camera frame.
 //
 // A working picture is the same view at a smaller scale s: x_work = (x + 0.5) s - 0.5, likewise y.
 #pragma once
 
 #include <opencv2/core.hpp>
 
+#include "simulation/core/options.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::authoring {
@@ -19,10 +20,19 @@ struct RectifiedView {
 struct RectifyOptions {
   double rim_margin = 0.03;            // of the circle's radius, left out at the rim
   double largest_half_angle = 1.2217;  // rad (70°): rays further off the axis are left out
+
+  template <class V>
+  void Visit(V&& v) {
+    v("rim_margin", rim_margin, Range{0.0, 0.5}, "",
+      "Share of the round window's radius that is left out at its rim.");
+    v("largest_half_angle", largest_half_angle, Range{0.05, 1.4}, "rad",
+      "Rays further off the axis are left out: a flat picture would stretch them too far.");
+  }
 };
 
-// The view that just holds what the lens sees. Throws Error(kBadArgument) for a lens that sees
-// nothing.
+// The view that just holds what the lens sees: inside its circle less the margin, inside the
+// picture, and not too far off the axis. Throws Error(kBadArgument) for a lens that sees nothing,
+// or so much that no picture could hold it.
 RectifiedView ViewOf(const Lens& lens, const RectifyOptions& options);
 
 // Maps worked out once, then applied to every frame. Safe to call from several threads.
@@ -43,7 +53,8 @@ class Rectifier {
   RectifiedView view_;
   int raw_width_ = 0, raw_height_ = 0;
   double scale_ = 1.0;
-  cv::Mat map_xy_, map_fraction_, mask_;
+  int samples_ = 1;                       // a side, averaged for one pixel of this scale
+  cv::Mat map_xy_, map_fraction_, mask_;  // the maps at `samples_` times the size
 };
 
 }  // namespace arthro::authoring

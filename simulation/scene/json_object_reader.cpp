@@ -178,6 +178,19 @@ void JsonObjectReader::Quaternion(const char* name, glm::dquat& field) {
   field = std::abs(length - 1.0) < kRounding ? q : q / length;
 }
 
+bool JsonObjectReader::List(const char* name, std::vector<double>& numbers) {
+  const nlohmann::json* entry = Find(name, kOptional, "");
+  if (!entry) return false;
+  if (!entry->is_array() || !std::all_of(entry->begin(), entry->end(), [](const auto& value) {
+        return value.is_number() && std::isfinite(value.template get<double>());
+      })) {
+    Fault(name, fmt::format("is {}; it must be a list of numbers", Shown(*entry)));
+    return false;
+  }
+  numbers = entry->get<std::vector<double>>();
+  return true;
+}
+
 bool JsonObjectReader::Object(const char* name, Need need,
                               const std::function<void(JsonObjectReader&)>& read) {
   const nlohmann::json* entry = Find(name, need, "an object {…}");

@@ -43,6 +43,8 @@ class JsonObjectReader {
   void Point(const char* name, glm::dvec2& field, const JsonLimits& limits, Need need = kOptional);
   void Point(const char* name, glm::dvec3& field, const JsonLimits& limits, Need need = kOptional);
   void Quaternion(const char* name, glm::dquat& field);  // [w, x, y, z]; made unit
+  // A list of finite numbers, however many. False where it is absent or at fault.
+  bool List(const char* name, std::vector<double>& numbers);
   // True when the object is there; a required one that is missing is a fault.
   bool Object(const char* name, Need need, const std::function<void(JsonObjectReader&)>& read);
   void Array(const char* name, const std::function<void(JsonObjectReader&, int index)>& read);

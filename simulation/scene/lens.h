@@ -1,9 +1,10 @@
 // The lens of an arthroscope: where a ray falls in the raw picture, and back. Camera frame: +z
 // along the optical axis, +x to the picture's right, +y down. θ is the angle between ray and axis,
-// r the distance from (cx, cy) in px before `aspect` stretches y.
+// r the distance from (cx, cy) in px as they are along x: r² = (x - cx)² + (aspect (y - cy))².
 //   equisolid       r = 2 f sin(θ/2)                              the paper's
 //   kannala_brandt  r = f θ (1 + k0 θ² + k1 θ⁴ + k2 θ⁶ + k3 θ⁸)    [Kannala & Brandt 2006]
-//   double_sphere   k0 = ξ, k1 = α                                 [Usenko et al. 2018]
+//   double_sphere   r = f sin θ / (α d + (1 - α)(ξ + cos θ)),       [Usenko et al. 2018]
+//                   d² = sin²θ + (ξ + cos θ)², k0 = ξ in (-1, 1], k1 = α in [0, 1]
 //   pinhole         r = f tan θ
 // Files: lens_io.h (design §5, lens.json).
 #pragma once
@@ -38,5 +39,17 @@ struct Lens {
 // model). The ray need not be unit; the one returned is.
 std::optional<glm::dvec2> PixelFromRay(const Lens& lens, const glm::dvec3& ray) noexcept;
 std::optional<glm::dvec3> RayFromPixel(const Lens& lens, const glm::dvec2& pixel) noexcept;
+
+// r of a ray at θ (rad), and θ of an r: the profile of the lens, without its centre.
+std::optional<double> RadiusFromAngle(const Lens& lens, double theta) noexcept;
+std::optional<double> AngleFromRadius(const Lens& lens, double radius) noexcept;
+
+// dr/dθ at the axis, px/rad: the focal length of the pinhole that agrees with the lens there. It is
+// focal_px for all models but the double sphere, whose f is (1 + ξ) times it.
+double FocalAtAxis(const Lens& lens) noexcept;
+
+// Full angle of what the picture holds, rad: to the rim of the circle, or without one to the
+// picture's furthest corner. Nothing where the model ends before.
+std::optional<double> FieldOfViewOf(const Lens& lens) noexcept;
 
 }  // namespace arthro

@@ -1,0 +1,171 @@
+#include "simulation/scene/lens_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/json_object_reader.h"
+
+namespace arthro {
+namespace {
+
+using Reader = JsonObjectReader;
+
+constexpr const char* kSchema = "arthroscene.lens/1";
+constexpr JsonLimits kSize{1, 16384, "pixels"};  // the widest picture that is read
+constexpr JsonLimits kFocal{0, 1e6, "pixels", true};
+constexpr JsonLimits kPixel{-1e5, 1e5, "pixels"};
+constexpr JsonLimits kRadius{0, 1e5, "pixels"};
+constexpr JsonLimits kAspect{0.2, 5};
+constexpr JsonLimits kFieldOfView{0, 360, "degrees", true};
+
+constexpr std::array<std::pair<LensModel, std::string_view>, 4> kWords = {{
+    {LensModel::kEquisolid, "equisolid"},
+    {LensModel::kKannalaBrandt, "kannala_brandt"},
+    {LensModel::kDoubleSphere, "double_sphere"},
+    {LensModel::kPinhole, "pinhole"},
+}};
+
+int ParametersOf(LensModel model) {
+  return model == LensModel::kKannalaBrandt ? 4 : model == LensModel::kDoubleSphere ? 2 : 0;
+}
+
+void ReadSchema(Reader& reader) {
+  std::string schema = kSchema;
+  reader.Text("schema", schema);
+  if (schema != kSchema)
+    reader.Fault("schema", fmt::format("is {}; this program reads \"{}\"",
+                                       nlohmann::json(schema).dump(), kSchema));
+}
+
+void ReadModel(Reader& reader, Lens& lens) {
+  std::string word;
+  reader.Text("model", word, Reader::kRequired);
+  const auto known =
+      std::find_if(kWords.begin(), kWords.end(), [&](const auto& w) { return w.second == word; });
+  if (known != kWords.end()) {
+    lens.model = known->first;
+  } else if (!word.empty()) {
+    reader.Fault("model", fmt::format("is {}; it must be \"equisolid\", \"kannala_brandt\", "
+                                      "\"double_sphere\" or \"pinhole\"",
+                                      nlohmann::json(word).dump()));
+  }
+}
+
+void ReadSize(Reader& reader, const char* name, int& field) {
+  double value = 0;
+  reader.Number(name, value, kSize, Reader::kRequired);
+  if (value != std::floor(value)) reader.Fault(name, "must be a whole number of pixels");
+  field = static_cast<int>(value);
+}
+
+// As many numbers as the model has; fewer are filled up with zeros for Kannala-Brandt only, whose
+// short forms are in use.
+void ReadParameters(Reader& reader, Lens& lens) {
+  const int wanted = ParametersOf(lens.model);
+  std::vector<double> values;
+  if (reader.Has("k") && !reader.List("k", values)) return;
+  const auto rest = values.begin() + std::min<std::ptrdiff_t>(wanted, std::ssize(values));
+  if (std::any_of(rest, values.end(), [](double value) { return value != 0; }))
+    return reader.Fault(
+        "k", fmt::format("has {} numbers; {} has {}", values.size(), WordOf(lens.model), wanted));
+  values.erase(rest, values.end());
+  if (lens.model == LensModel::kDoubleSphere) {
+    if (values.size() != 2)
+      return reader.Fault("k", "must be the double sphere's two numbers [xi, alpha]");
+    if (!(values[0] > -1 && values[0] <= 1 && values[1] >= 0 && values[1] <= 1))
+      return reader.Fault("k", fmt::format("is [{}, {}]; xi must be more than -1 and at most 1, "
+                                           "alpha between 0 and 1",
+                                           values[0], values[1]));
+  }
+  std::copy(values.begin(), values.end(), lens.k.begin());
+}
+
+void ReadCircle(Reader& owner, LensCircle& circle) {
+  owner.Object("circle", Reader::kOptional, [&](Reader& reader) {
+    reader.Number("cx", circle.cx, kPixel, Reader::kRequired);
+    reader.Number("cy", circle.cy, kPixel, Reader::kRequired);
+    reader.Number("r", circle.r, kRadius, Reader::kRequired);
+  });
+}
+
+}  // namespace
+
+std::string_view WordOf(LensModel model) {
+  for (const auto& [value, word] : kWords)
+    if (value == model) return word;
+  return "";
+}
+
+Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception&) {
+    throw Error(Code::kBadData, "this lens is not JSON; make it with `arthroscene lens`", file);
+  }
+  if (!json.is_object())
+    throw Error(Code::kBadData, "a lens must be a JSON object {…}; make it with `arthroscene lens`",
+                file);
+  std::vector<JsonFault> faults;
+  Reader reader(json, "", faults);
+  Lens lens;
+  ReadSchema(reader);
+  ReadModel(reader, lens);
+  ReadSize(reader, "width", lens.width);
+  ReadSize(reader, "height", lens.height);
+  reader.Number("focal_px", lens.focal_px, kFocal, Reader::kRequired);
+  reader.Number("cx", lens.cx, kPixel, Reader::kRequired);
+  reader.Number("cy", lens.cy, kPixel, Reader::kRequired);
+  reader.Number("aspect", lens.aspect, kAspect);
+  ReadParameters(reader, lens);
+  reader.Angle("fov_deg", lens.field_of_view, kFieldOfView);
+  ReadCircle(reader, lens.circle);
+  reader.Number("rms_px", lens.rms_px, kRadius);
+  reader.RefuseOtherKeys(true);
+  if (faults.empty() && lens.circle.r == 0) lens.circle = {};
+  if (faults.empty() && lens.field_of_view == 0) {
+    const auto whole = FieldOfViewOf(lens);
+    if (whole)
+      lens.field_of_view = *whole;
+    else
+      faults.push_back({"fov_deg",
+                        "fov_deg is missing, and the model ends before the picture does; "
+                        "give fov_deg or the circle that the lens shows"});
+  }
+  if (faults.empty()) return lens;
+  std::string sentence;
+  for (const JsonFault& fault : faults) sentence += (sentence.empty() ? "" : "; ") + fault.sentence;
+  throw Error(Code::kBadData, sentence, file);
+}
+
+Lens ReadLens(const std::filesystem::path& file) { return LensFromJson(ReadWholeFile(file), file); }
+
+std::string JsonFromLens(const Lens& lens) {
+  nlohmann::ordered_json json;
+  json["schema"] = kSchema;
+  json["model"] = WordOf(lens.model);
+  json["width"] = lens.width;
+  json["height"] = lens.height;
+  json["focal_px"] = lens.focal_px;
+  json["cx"] = lens.cx;
+  json["cy"] = lens.cy;
+  json["aspect"] = lens.aspect;
+  json["k"] = std::vector<double>(lens.k.begin(), lens.k.begin() + ParametersOf(lens.model));
+  json["fov_deg"] = DegreesFromRadians(lens.field_of_view);
+  json["circle"] = {{"cx", lens.circle.cx}, {"cy", lens.circle.cy}, {"r", lens.circle.r}};
+  json["rms_px"] = lens.rms_px;
+  return json.dump(2) + "\n";
+}
+
+void WriteLens(const std::filesystem::path& file, const Lens& lens) {
+  WriteAtomically(file, JsonFromLens(lens));
+}
+
+}  // namespace arthro

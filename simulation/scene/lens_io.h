@@ -1,0 +1,28 @@
+// Lenses from and to files (design §5, lens.json):
+//   {schema, model, width, height, focal_px, cx, cy, aspect, k, fov_deg, circle:{cx, cy, r},
+//   rms_px}
+// Angles in degrees, all else in px. `schema`, `aspect`, `k`, `fov_deg`, `circle` and `rms_px` may
+// be left out of a file that a person writes; unknown keys are refused, but for those that begin
+// with "x-". JSON Schema: resources/schemas/lens-1.schema.json.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "simulation/scene/lens.h"
+
+namespace arthro {
+
+std::string_view WordOf(LensModel model);  // as in the file: "equisolid", "kannala_brandt", …
+
+// Throws Error(kBadData) that names every key at fault and what it may be, Error(kFile) where there
+// is no such file. A field of view that the file leaves out is worked out from the circle.
+Lens ReadLens(const std::filesystem::path& file);
+Lens LensFromJson(const std::string& text, const std::filesystem::path& file);
+
+std::string JsonFromLens(const Lens& lens);
+// Written whole or not at all; "-" is standard output.
+void WriteLens(const std::filesystem::path& file, const Lens& lens);
+
+}  // namespace arthro
