@@ -40,11 +40,7 @@ struct Shortest {
 
 Shortest ShortestFrom(int frames, const std::vector<PairEstimate>& pairs, int root) {
   const std::vector<std::vector<Edge>> edges = EdgesOf(frames, pairs);
-  std::vector<double> cost;
-  for (const PairEstimate& pair : pairs) {
-    const double deviation = PairDeviation(pair, kFloor);
-    cost.push_back(std::min(deviation * deviation, 1e12));
-  }
+  const std::vector<double> cost = EdgeVariances(pairs);
   Shortest shortest{std::vector<double>(At(frames), kNever), std::vector<int>(At(frames), -1), {}};
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -129,6 +125,43 @@ Tree LeastVarianceTree(int frames, const std::vector<PairEstimate>& pairs, int r
     tree.root_from_frame[At(frame)] = m * (1.0 / m(2, 2));
   }
   return tree;
+}
+
+std::vector<double> EdgeVariances(const std::vector<PairEstimate>& pairs) {
+  std::vector<double> variances;
+  for (const PairEstimate& pair : pairs) {
+    const double deviation = PairDeviation(pair, kFloor);
+    variances.push_back(std::min(deviation * deviation, 1e12));
+  }
+  return variances;
+}
+
+VarianceMap::VarianceMap(int frames, const std::vector<PairEstimate>& pairs) : edges_(At(frames)) {
+  const std::vector<double> variances = EdgeVariances(pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    edges_[At(pairs[i].a)].push_back({pairs[i].b, variances[i]});
+    edges_[At(pairs[i].b)].push_back({pairs[i].a, variances[i]});
+  }
+}
+
+std::vector<double> VarianceMap::From(int frame) const {
+  std::vector<double> variance(edges_.size(), kNever);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  variance[At(frame)] = 0;
+  queue.push({0.0, frame});
+  while (!queue.empty()) {
+    const auto [so_far, here] = queue.top();
+    queue.pop();
+    if (so_far > variance[At(here)]) continue;
+    for (const Edge& edge : edges_[At(here)]) {
+      const double there = so_far + edge.variance;
+      if (there >= variance[At(edge.to)]) continue;
+      variance[At(edge.to)] = there;
+      queue.push({there, edge.to});
+    }
+  }
+  return variance;
 }
 
 std::vector<bool> BridgesOf(int frames, const std::vector<PairEstimate>& pairs) {

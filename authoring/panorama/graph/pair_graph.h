@@ -30,6 +30,22 @@ struct Tree {
 // The way of least accumulated variance from the root to every frame that pairs reach.
 Tree LeastVarianceTree(int frames, const std::vector<PairEstimate>& pairs, int root);
 
+// Variance of each pair as an edge's length, px^2, and what adds up on the way from one frame to all
+// others (infinity: no way).
+std::vector<double> EdgeVariances(const std::vector<PairEstimate>& pairs);
+class VarianceMap {
+ public:
+  VarianceMap(int frames, const std::vector<PairEstimate>& pairs);
+  std::vector<double> From(int frame) const;
+
+ private:
+  struct Edge {
+    int to;
+    double variance;
+  };
+  std::vector<std::vector<Edge>> edges_;
+};
+
 // Pairs whose loss would take their piece apart (bridges).
 std::vector<bool> BridgesOf(int frames, const std::vector<PairEstimate>& pairs);
 

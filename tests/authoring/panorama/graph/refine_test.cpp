@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/refine.h"
+#include "authoring/panorama/graph/refinement/refine.h"
 
 #include <chrono>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "authoring/panorama/graph/pair_graph.h"
-#include "authoring/panorama/graph/uncertainty.h"
+#include "authoring/panorama/graph/refinement/uncertainty.h"
 #include "tests/authoring/panorama/graph/simulated_clip.h"
 
 namespace arthro::authoring {

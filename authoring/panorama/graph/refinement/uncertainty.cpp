@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/uncertainty.h"
+#include "authoring/panorama/graph/refinement/uncertainty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
-#include "authoring/panorama/graph/pair_term.h"
-#include "authoring/panorama/graph/selected_inverse.h"
+#include "authoring/panorama/graph/refinement/pair_term.h"
+#include "authoring/panorama/graph/refinement/selected_inverse.h"
 
 namespace arthro::authoring {
 namespace {

@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/selected_inverse.h"
+#include "authoring/panorama/graph/refinement/selected_inverse.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/pair_term.h"
+#include "authoring/panorama/graph/refinement/pair_term.h"
 
 #include <algorithm>
 #include <cmath>

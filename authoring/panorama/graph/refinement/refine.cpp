@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/refine.h"
+#include "authoring/panorama/graph/refinement/refine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <ceres/ceres.h>
 
-#include "authoring/panorama/graph/pair_term.h"
+#include "authoring/panorama/graph/refinement/pair_term.h"
 
 namespace arthro::authoring {
 namespace {
