@@ -94,19 +94,31 @@ std::vector<cv::Point2d> NinePoints(const authoring::Clip& clip,
 
 ClipScore ScoreClip(const authoring::Clip& clip, const authoring::RectifiedView& view,
                     std::span<const authoring::FrameResult> results, int component) {
-  ClipScore score;
+  std::vector<cv::Matx33d> truth;
+  std::vector<bool> is_blank;
+  for (const authoring::FrameResult& result : results) {
+    truth.push_back(clip.PanoramaFromRectified(result.index, view));
+    is_blank.push_back(clip.IsBlank(result.index));
+  }
+  ClipScore score = ScorePlaces(NinePoints(clip, view), truth, is_blank, results, component);
   score.frames = clip.frames();
+  return score;
+}
+
+ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Matx33d> truths,
+                      const std::vector<bool>& is_blank,
+                      std::span<const authoring::FrameResult> results, int component) {
+  ClipScore score;
+  score.frames = static_cast<int>(results.size());
   score.worst_px.assign(results.size(), std::numeric_limits<double>::quiet_NaN());
-  const auto nine = NinePoints(clip, view);
   std::vector<cv::Point2d> placed, truth;
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!results[i].is_placed || results[i].component != component) continue;
     which.push_back(i);
-    const cv::Matx33d exact = clip.PanoramaFromRectified(results[i].index, view);
     for (const cv::Point2d& p : nine) {
       placed.push_back(Map(results[i].panorama_from_rectified, p));
-      truth.push_back(Map(exact, p));
+      truth.push_back(Map(truths[i], p));
     }
   }
   score.placed = static_cast<int>(which.size());
@@ -125,7 +137,7 @@ ClipScore ScoreClip(const authoring::Clip& clip, const authoring::RectifiedView&
     const auto first = fit.errors.begin() + static_cast<std::ptrdiff_t>(9 * k);
     const authoring::FrameResult& result = results[which[k]];
     double worst = *std::max_element(first, first + 9);
-    if (!std::isfinite(worst) || clip.IsBlank(result.index))
+    if (!std::isfinite(worst) || (!is_blank.empty() && is_blank[which[k]]))
       worst = std::numeric_limits<double>::infinity();
     score.worst_px[which[k]] = worst;
     // Expected errors are in panorama pixels of the result; its scale against the truth's is that

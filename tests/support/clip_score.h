@@ -31,6 +31,12 @@ struct ClipScore {
 std::vector<cv::Point2d> NinePoints(const authoring::Clip& clip,
                                     const authoring::RectifiedView& view);
 
+// `truth` of each result, rectified to panorama px, and the nine points; with `is_blank` (may be
+// empty), whether the frame shows nothing.
+ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Matx33d> truth,
+                      const std::vector<bool>& is_blank,
+                      std::span<const authoring::FrameResult> results, int component = 0);
+
 // Of the results in `component`; `results[i].index` is the frame of the clip. Blank frames must not
 // be placed: one that is counts as wrong.
 ClipScore ScoreClip(const authoring::Clip& clip, const authoring::RectifiedView& view,

@@ -19,17 +19,15 @@ struct Triangle {
 
 // The target frame's pixel of `from`, whichever way round the pair was estimated.
 cv::Point2d Walk(const PairEstimate& pair, int from, const cv::Point2d& point) {
-  const cv::Matx33d m = pair.a == from ? pair.b_from_a : pair.b_from_a.inv();
-  const cv::Vec3d p = m * cv::Vec3d(point.x, point.y, 1);
-  return {p[0] / p[2], p[1] / p[2]};
+  return Apply(pair.a == from ? pair.b_from_a : pair.b_from_a.inv(), point);
 }
 
 }  // namespace
 
 CycleCheck CheckTriangles(int frames, const std::vector<PairEstimate>& pairs,
                           const CycleOptions& options) {
-  CycleCheck check{std::vector<TriangleVote>(pairs.size()),
-                   std::vector<bool>(pairs.size(), false), 0, 0};
+  CycleCheck check{std::vector<TriangleVote>(pairs.size()), std::vector<bool>(pairs.size(), false),
+                   0, 0};
   std::vector<std::vector<std::pair<int, int>>> later(At(frames));  // (later frame, pair)
   std::vector<double> deviation;
   for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
@@ -51,18 +49,16 @@ CycleCheck CheckTriangles(int frames, const std::vector<PairEstimate>& pairs,
         Triangle triangle{{ab, bc, ac->second}, 0, false};
         for (const cv::Point2d& control : first.control_in_a) {
           const cv::Point2d start = first.a == a ? control : Walk(first, b, control);
-          const cv::Point2d round =
-              Walk(pairs[At(bc)], b, Walk(first, a, start));
+          const cv::Point2d round = Walk(pairs[At(bc)], b, Walk(first, a, start));
           const cv::Point2d straight = Walk(pairs[At(ac->second)], a, start);
-          triangle.closure = std::max(triangle.closure, std::hypot(round.x - straight.x,
-                                                                   round.y - straight.y));
+          triangle.closure =
+              std::max(triangle.closure, std::hypot(round.x - straight.x, round.y - straight.y));
         }
         double variance = 0;
         for (const int pair : triangle.pairs) variance += deviation[At(pair)] * deviation[At(pair)];
-        const double most =
-            std::max(options.most_closure,
-                     std::min(options.closure_deviations * std::sqrt(variance),
-                              5 * options.most_closure));
+        const double most = std::max(
+            options.most_closure,
+            std::min(options.closure_deviations * std::sqrt(variance), 5 * options.most_closure));
         triangle.closes = triangle.closure <= most;  // false for NaN
         triangles.push_back(triangle);
       }

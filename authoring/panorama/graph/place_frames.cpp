@@ -10,6 +10,7 @@
 #include "authoring/panorama/graph/gap_repair.h"
 #include "authoring/panorama/graph/loop_candidates.h"
 #include "authoring/panorama/graph/pair_graph.h"
+#include "authoring/panorama/graph/panorama_plane.h"
 #include "authoring/panorama/graph/refinement/uncertainty.h"
 
 namespace arthro::authoring {
@@ -63,8 +64,7 @@ class Placer {
   void AskNeighbours() {
     std::vector<PairRequest> requests;
     for (std::size_t k = 0; k + 1 < usable_.size(); ++k)
-      requests.push_back(
-          {usable_[k], usable_[k + 1], PairEffort::kNeighbours, cv::Matx33d::eye()});
+      requests.push_back({usable_[k], usable_[k + 1], PairEffort::kNeighbours, cv::Matx33d::eye()});
     book_.Ask(requests, false, "matching neighbours", progress_);
   }
 
@@ -226,6 +226,7 @@ class Placer {
     }
     const std::clock_t begin = std::clock();
     for (int piece = 0; piece < static_cast<int>(root_.size()); ++piece) {
+      Straighten(piece);
       const PiecePairs own = PairsOfPiece(piece);
       std::vector<double> weights;
       for (const std::size_t i : own.at) {
@@ -236,8 +237,7 @@ class Placer {
       const Uncertainty uncertainty = EstimateUncertainty(
           own.pairs, weights, places_, root_[At(piece)], window_.nine, refine_.pair_floor);
       for (int i = 0; i < frames_; ++i)
-        if (piece_[At(i)] == piece)
-          result_.expected_error_px[At(i)] = uncertainty.error_px[At(i)];
+        if (piece_[At(i)] == piece) result_.expected_error_px[At(i)] = uncertainty.error_px[At(i)];
     }
     result_.refine_ms += 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     result_.plane_from_frame = places_;
@@ -245,6 +245,19 @@ class Placer {
     result_.pair_error_px = error_px_;
     result_.tried = book_.tried();
     return result_;
+  }
+
+  // From the central frame's plane to the one that a panorama is drawn in.
+  void Straighten(int piece) {
+    std::vector<cv::Matx33d> own;
+    for (int i = 0; i < frames_; ++i)
+      if (piece_[At(i)] == piece) own.push_back(places_[At(i)]);
+    const cv::Matx33d plane = LeastStretchedPlane(own, window_);
+    for (int i = 0; i < frames_; ++i) {
+      if (piece_[At(i)] != piece) continue;
+      const cv::Matx33d m = plane * places_[At(i)];
+      places_[At(i)] = m * (1 / m(2, 2));
+    }
   }
 
   const int frames_;

@@ -1,0 +1,99 @@
+#include "authoring/panorama/graph/register.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "authoring/panorama/graph/frame_pairs.h"
+#include "simulation/core/error.h"
+
+namespace arthro::authoring {
+namespace {
+
+// OpenCV's own threads would fight with ours and change the order of sums.
+class OneOpenCvThread {
+ public:
+  OneOpenCvThread() : before_(cv::getNumThreads()) { cv::setNumThreads(1); }
+  ~OneOpenCvThread() { cv::setNumThreads(before_); }
+  OneOpenCvThread(const OneOpenCvThread&) = delete;
+  OneOpenCvThread& operator=(const OneOpenCvThread&) = delete;
+
+ private:
+  int before_;
+};
+
+double CpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void CheckFrames(const std::vector<WorkingFrame>& frames) {
+  for (const WorkingFrame& frame : frames)
+    if (frame.grey.size() != frames[0].grey.size() || frame.scale != frames[0].scale)
+      throw Error(Code::kBadArgument,
+                  fmt::format("frame {} is {} x {} at scale {}, the first one {} x {} at scale {}; "
+                              "all working frames must be alike",
+                              frame.index, frame.grey.cols, frame.grey.rows, frame.scale,
+                              frames[0].grey.cols, frames[0].grey.rows, frames[0].scale));
+}
+
+}  // namespace
+
+std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
+                                  const RectifiedView& view, const cv::Mat& mask,
+                                  const RegisterOptions& options, RegisterReport* report,
+                                  const Progress& progress) {
+  RegisterReport ignored;
+  RegisterReport& told = report ? *report : ignored;
+  told = {};
+  std::vector<FrameResult> results(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) results[i].index = frames[i].index;
+  if (frames.empty()) return results;
+  CheckFrames(frames);
+  const OneOpenCvThread one_thread;
+
+  double begin = CpuMs();
+  const FramePairs maker(frames, options, progress);
+  told.features_ms = CpuMs() - begin;
+
+  begin = CpuMs();
+  const FrameWindow window = WindowOf(view, mask);
+  const PlacedGraph graph = PlaceFrames(
+      maker.unusable(),
+      [&](const PairRequest& request, std::string* why) { return maker.Make(request, why); },
+      window, options.graph, options.cycles, options.refine, options.threads, progress);
+  told.refine_ms = graph.refine_ms;
+  told.pairs_ms = CpuMs() - begin - graph.refine_ms;
+
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    FrameResult& result = results[i];
+    result.component = graph.component[i];
+    result.is_placed = result.component >= 0;
+    result.reason = graph.reason[i];
+    result.expected_error_px = graph.expected_error_px[i];
+    result.panorama_from_rectified = graph.plane_from_frame[i];
+    told.components = std::max(told.components, result.component + 1);
+  }
+  // A frame's own residual: of its pairs, weighted by what they are worth.
+  std::vector<double> square(frames.size(), 0), weight(frames.size(), 0);
+  for (std::size_t i = 0; i < graph.pairs.size(); ++i) {
+    const PairEstimate& pair = graph.pairs[i];
+    ++(pair.source == PairSource::kFeatures ? told.feature_pairs : told.direct_pairs);
+    for (const int frame : {pair.a, pair.b}) {
+      const auto at = static_cast<std::size_t>(frame);
+      square[at] += graph.pair_error_px[i] * graph.pair_error_px[i];
+      weight[at] += 1;
+      results[at].inliers += pair.inliers;
+    }
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (weight[i] > 0) results[i].rms_px = std::sqrt(square[i] / weight[i]);
+  told.pairs_tried = graph.tried;
+  told.pairs_kept = static_cast<int>(graph.pairs.size());
+  told.pairs_dropped = graph.dropped;
+  told.drift_px = graph.drift_px;
+  told.closure_px = graph.closure_px;
+  told.variance_factor = graph.variance_factor;
+  return results;
+}
+
+}  // namespace arthro::authoring
