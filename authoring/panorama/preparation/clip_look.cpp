@@ -1,0 +1,140 @@
+#include "authoring/panorama/preparation/clip_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+#include "authoring/panorama/preparation/frame_masks.h"
+#include "simulation/core/error.h"
+
+namespace arthro::authoring {
+namespace {
+
+constexpr int kThinAfter = 32;      // frames used at each stride before it doubles
+constexpr int kFewest = 6;          // frames that can tell a mark from tissue
+constexpr double kMarkReach = 10;   // px at half scale: detail is what is smaller than this
+constexpr double kLightReach = 16;  // px at half scale: light is what is larger than this
+// A mark stands out this many times more than the mean of moving tissue does by chance…
+constexpr double kBeyondChance = 4;
+// …and changes less than about its own strength while the tissue behind it moves.
+constexpr double kSteady = 1.0;
+constexpr double kMostDetail =
+    3;  // of its frame's standard deviations: a glint is no more than that
+// Moving tissue averages away: its mean keeps less than this share of its power.
+constexpr double kMoves = 0.4;
+// Bright text glares in most frames; so does a glint that the lamp keeps in one place.
+constexpr double kGlaresIn = 0.5;      // share of the frames
+constexpr double kLargestMarks = 0.2;  // share of the window; more than this is not marks
+
+double MedianOf(std::vector<float>& values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Robust standard deviation of what is 0 on average, from a sixteenth of the pixels.
+double SpreadOf(const cv::Mat& detail, const cv::Mat& mask) {
+  std::vector<float> sizes;
+  for (int y = 0; y < detail.rows; y += 4)
+    for (int x = 0; x < detail.cols; x += 4)
+      if (mask.at<std::uint8_t>(y, x)) sizes.push_back(std::abs(detail.at<float>(y, x)));
+  return sizes.empty() ? 0 : MedianOf(sizes) / 0.6745;
+}
+
+}  // namespace
+
+void ClipLookBuilder::Add(const cv::Mat& working_rgb, const cv::Mat& mask) {
+  if (working_rgb.type() != CV_8UC3 || mask.type() != CV_8UC1 ||
+      mask.size() != working_rgb.size() || (used_ > 0 && seen_.size() != mask.size()))
+    throw Error(Code::kBadImage,
+                "the frames of a clip must all have one size, and their mask as well; this frame "
+                "has another one, so leave it out");
+  if (offered_++ % stride_ != 0) return;
+  if (used_ == 0) {
+    window_ = cv::Mat::zeros(mask.size(), CV_8U);
+    for (cv::Mat* sum : {&seen_, &light_, &detail_, &detail_squared_})
+      *sum = cv::Mat::zeros(mask.size(), CV_32F);
+  }
+  window_ |= mask;
+  if (++used_ % kThinAfter == 0) stride_ *= 2;
+
+  cv::Mat usable;
+  cv::bitwise_not(HighlightMask(working_rgb, mask), usable);
+  cv::bitwise_and(usable, mask, usable);
+  usable.setTo(0, ToolMask(working_rgb, mask));
+  const cv::Mat mixed = MixColours(working_rgb, mix_);
+  noise_.Add(mixed, usable);
+  const cv::Mat log = LogOf(mixed);
+
+  const cv::Mat light = MaskedLowPass(log, usable, kLightReach);
+  const double exposure = cv::mean(light, usable)[0];
+  // Without the rim's blur into the black around it.
+  cv::erode(usable, usable, cv::Mat(), {-1, -1}, 2, cv::BORDER_CONSTANT, 0);
+  cv::Mat detail = log - MaskedLowPass(log, usable, kMarkReach);
+  cv::GaussianBlur(detail, detail, {3, 3}, 0.8);
+  const double most = kMostDetail * SpreadOf(detail, usable);
+  detail = cv::min(cv::max(detail, -most), most);
+  cv::add(light_, light - exposure, light_, usable);
+  cv::add(seen_, 1.0, seen_, usable);
+  cv::add(detail_, detail, detail_, usable);
+  cv::add(detail_squared_, detail.mul(detail), detail_squared_, usable);
+}
+
+ClipLook ClipLookBuilder::Finish() {
+  ClipLook look;
+  look.frames = used_;
+  if (used_ == 0) return look;
+  // Where no frame showed tissue the light is continued from the surround.
+  cv::Mat light = light_ / cv::max(seen_, 1.0);
+  look.light = MaskedLowPass(light, seen_ > 0, kLightReach / 2);
+  look.noise = noise_;
+  look.noise.Finish();
+  if (used_ >= kFewest) FindStaticMarks(look);
+  return look;
+}
+
+void ClipLookBuilder::FindStaticMarks(ClipLook& look) const {
+  // How far the mean detail strays by chance, and how strong the detail of one frame is; medians,
+  // so that the marks themselves do not count.
+  std::vector<float> strays, powers;
+  for (int y = 0; y < seen_.rows; ++y)
+    for (int x = 0; x < seen_.cols; ++x) {
+      const float n = seen_.at<float>(y, x);
+      if (n < kFewest) continue;
+      strays.push_back(std::abs(detail_.at<float>(y, x) / n));
+      powers.push_back(detail_squared_.at<float>(y, x) / n);
+    }
+  if (strays.empty()) return;
+  const double chance = MedianOf(strays) / 0.6745, power = MedianOf(powers);
+  if (chance * chance > kMoves * power) return;  // the clip holds still: its tissue survives too
+
+  // The rim is left out by each frame, so it is never seen, and is no mark.
+  cv::Mat inner;
+  cv::erode(window_, inner, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}), {-1, -1}, 1,
+            cv::BORDER_CONSTANT, 0);
+  const auto near_rim = [&](int x, int y) { return inner.at<std::uint8_t>(y, x) == 0; };
+  cv::Mat marks = cv::Mat::zeros(seen_.size(), CV_8U);
+  int count = 0;
+  for (int y = 0; y < seen_.rows; ++y)
+    for (int x = 0; x < seen_.cols; ++x) {
+      const float n = seen_.at<float>(y, x);
+      if (window_.at<std::uint8_t>(y, x) && n < (1 - kGlaresIn) * used_ && !near_rim(x, y)) {
+        marks.at<std::uint8_t>(y, x) = 255;
+        ++count;
+      }
+      if (n < kFewest) continue;
+      const double mean = detail_.at<float>(y, x) / n;
+      const double variance = std::max(0.0, detail_squared_.at<float>(y, x) / n - mean * mean);
+      if (std::abs(mean) < kBeyondChance * chance || std::abs(mean) < kSteady * std::sqrt(variance))
+        continue;
+      marks.at<std::uint8_t>(y, x) = 255;
+      ++count;
+    }
+  if (count == 0 || count > kLargestMarks * static_cast<double>(strays.size())) return;
+  cv::dilate(marks, marks, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
+  look.static_marks = marks;
+}
+
+}  // namespace arthro::authoring

@@ -1,0 +1,125 @@
+#include "authoring/panorama/preparation/frame_masks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
+
+namespace arthro::authoring {
+namespace {
+
+constexpr double kGlintRatio = 1.13;  // over the local whiteness
+constexpr double kGlintStep = 16;     // grey levels over it as well, so that noise is no glint
+constexpr double kHeadroom = 0.35;    // of what is left up to white: near it glints are flattened
+constexpr double kSaturated = 250;    // grey levels of the weakest channel
+constexpr int kGlintReach = 7;        // px of the half grid: a glint that is larger saturates
+constexpr int kGlow = 2;              // px by which glints are grown
+
+cv::Mat Disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+}
+
+// The weakest channel of each pixel.
+cv::Mat WhitenessOf(const cv::Mat& rgb) {
+  cv::Mat white(rgb.size(), CV_8U);
+  for (int y = 0; y < rgb.rows; ++y) {
+    const std::uint8_t* in = rgb.ptr<std::uint8_t>(y);
+    std::uint8_t* out = white.ptr<std::uint8_t>(y);
+    for (int x = 0; x < rgb.cols; ++x, in += 3) out[x] = std::min(in[0], std::min(in[1], in[2]));
+  }
+  return white;
+}
+
+}  // namespace
+
+cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
+  const cv::Mat white = WhitenessOf(rgb);
+  // The ground under small white things: an opening on a half grid, so that the edge of large pale
+  // tissue is ground. The rim's black does not count.
+  cv::Mat small, small_mask, low;
+  const cv::Size half((rgb.cols + 1) / 2, (rgb.rows + 1) / 2);
+  cv::resize(white, small, half, 0, 0, cv::INTER_AREA);
+  cv::resize(mask, small_mask, half, 0, 0, cv::INTER_AREA);
+  small_mask = small_mask == 255;  // a cell that is half rim is darker than its tissue
+  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {kGlintReach, kGlintReach});
+  small.setTo(255, small_mask == 0);
+  cv::erode(small, low, square);
+  low.setTo(0, small_mask == 0);
+  cv::dilate(low, low, square);  // past the rim too
+  cv::Mat ground;
+  cv::resize(low, ground, rgb.size(), 0, 0, cv::INTER_LINEAR);
+
+  std::array<double, 256> least{};  // whiteness of a glint on each ground
+  for (int g = 0; g < 256; ++g)
+    least[g] =
+        std::min(kSaturated, g + std::max(kGlintStep, std::min((kGlintRatio - 1) * g + kGlintStep,
+                                                               kHeadroom * (255 - g))));
+  cv::Mat glint = cv::Mat::zeros(rgb.size(), CV_8U);
+  for (int y = 0; y < rgb.rows; ++y) {
+    const std::uint8_t *w = white.ptr<std::uint8_t>(y), *g = ground.ptr<std::uint8_t>(y),
+                       *m = mask.ptr<std::uint8_t>(y);
+    std::uint8_t* out = glint.ptr<std::uint8_t>(y);
+    for (int x = 0; x < rgb.cols; ++x) out[x] = m[x] && w[x] >= least[g[x]] ? 255 : 0;
+  }
+  cv::dilate(glint, glint, Disc(kGlow));
+  cv::bitwise_and(glint, mask, glint);
+  return glint;
+}
+
+cv::Mat ToolMask(const cv::Mat& rgb, const cv::Mat& mask) {
+  constexpr double kColourless = 0.04;  // chroma over brightness of metal in white light
+  constexpr double kSmallest = 0.01;    // share of the window
+  constexpr double kLongest = 2.0;      // a shaft is at least this much longer than wide
+  constexpr double kFilled = 0.72;      // of the rectangle around it: straight sides
+  cv::Mat none = cv::Mat::zeros(rgb.size(), CV_8U);
+  cv::Mat small, window;
+  cv::resize(rgb, small, {std::max(1, rgb.cols / 4), std::max(1, rgb.rows / 4)}, 0, 0,
+             cv::INTER_AREA);
+  cv::resize(mask, window, small.size(), 0, 0, cv::INTER_AREA);
+  window = window == 255;
+  const int area = cv::countNonZero(window);
+  if (area == 0) return none;
+
+  cv::Mat metal = cv::Mat::zeros(small.size(), CV_8U);
+  for (int y = 0; y < small.rows; ++y)
+    for (int x = 0; x < small.cols; ++x) {
+      if (!window.at<std::uint8_t>(y, x)) continue;
+      const cv::Vec3b& p = small.at<cv::Vec3b>(y, x);
+      const int most = std::max(p[0], std::max(p[1], p[2]));
+      const int least = std::min(p[0], std::min(p[1], p[2]));
+      if (most - least <= kColourless * most + 1) metal.at<std::uint8_t>(y, x) = 255;
+    }
+  cv::morphologyEx(metal, metal, cv::MORPH_CLOSE, Disc(2));
+  cv::morphologyEx(metal, metal, cv::MORPH_OPEN, Disc(2));
+
+  cv::Mat inner, labels, stats, centroids, tool = cv::Mat::zeros(small.size(), CV_8U);
+  cv::erode(window, inner, Disc(3), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);
+  const int count = cv::connectedComponentsWithStats(metal, labels, stats, centroids);
+  for (int label = 1; label < count; ++label) {
+    if (stats.at<int>(label, cv::CC_STAT_AREA) < kSmallest * area) continue;
+    std::vector<cv::Point> points;
+    bool at_rim = false;
+    for (int y = 0; y < labels.rows; ++y)
+      for (int x = 0; x < labels.cols; ++x)
+        if (labels.at<int>(y, x) == label) {
+          points.emplace_back(x, y);
+          at_rim |= inner.at<std::uint8_t>(y, x) == 0;
+        }
+    const cv::RotatedRect box = cv::minAreaRect(points);
+    const double length = std::max(box.size.width, box.size.height) + 1;
+    const double width = std::min(box.size.width, box.size.height) + 1;
+    if (!at_rim || length < kLongest * width ||
+        static_cast<double>(points.size()) < kFilled * length * width)
+      continue;
+    for (const cv::Point& p : points) tool.at<std::uint8_t>(p) = 255;
+  }
+  if (cv::countNonZero(tool) == 0) return none;
+  cv::dilate(tool, tool, Disc(2));  // its blurred and shaded sides
+  cv::resize(tool, none, rgb.size(), 0, 0, cv::INTER_NEAREST);
+  cv::bitwise_and(none, mask, none);
+  return none;
+}
+
+}  // namespace arthro::authoring

@@ -1,0 +1,56 @@
+// Turns a rectified colour frame into what is matched [paper 3.1]: one grey without light, vignette
+// and exposure, its contrast raised as far as the noise lets it, and a mask of the tissue in it.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "authoring/panorama/preparation/clip_look.h"
+#include "authoring/panorama/preparation/frame_masks.h"
+#include "authoring/panorama/working_frame.h"
+#include "simulation/core/options.h"
+
+namespace arthro::authoring {
+
+struct PrepareOptions {
+  bool even_light = true;
+  double surround = 24;
+  double contrast = 36;
+  double contrast_reach = 60;
+  double most_noise = 14;
+  double smoothing = 0.8;
+  double most_smoothing = 1.6;
+  double rim_margin = 0.015;
+  bool mask_highlights = true;
+  bool mask_tool = true;
+  bool mask_static = true;
+
+  template <class V>
+  void Visit(V&& v) {
+    v("even_light", even_light, Any{}, "",
+      "Take light and vignette out; without it the plain grey is matched.");
+    v("surround", surround, Range{4, 200}, "px",
+      "Light is what changes over more than this, at half scale.");
+    v("contrast", contrast, Range{1, 100}, "",
+      "Standard deviation that texture is raised to, in grey levels.");
+    v("contrast_reach", contrast_reach, Range{8, 1000}, "px",
+      "Contrast is measured over this distance, at half scale.");
+    v("most_noise", most_noise, Range{1, 100}, "",
+      "Contrast is raised no further than where the noise reaches this, in grey levels.");
+    v("smoothing", smoothing, Range{0, 5}, "px",
+      "Gaussian before all else when there is no noise.");
+    v("most_smoothing", most_smoothing, Range{0, 5}, "px",
+      "The same when there is more noise than texture.");
+    v("rim_margin", rim_margin, Range{0, 0.2}, "",
+      "Share of the window's radius that is left out at its rim.");
+    v("mask_highlights", mask_highlights, Any{}, "", "Leave out glints.");
+    v("mask_tool", mask_tool, Any{}, "", "Leave out instruments.");
+    v("mask_static", mask_static, Any{}, "", "Leave out text, logos and dirt on the lens.");
+  }
+};
+
+// `working_rgb` CV_8UC3, RGB, rectified at `scale`; `lens_mask` CV_8UC1 of the same size, 255 where
+// the lens shows something. Throws Error(kBadImage) when sizes or types do not fit.
+WorkingFrame Prepare(int index, const cv::Mat& working_rgb, double scale, const cv::Mat& lens_mask,
+                     const ClipLook& look, const PrepareOptions& options);
+
+}  // namespace arthro::authoring
