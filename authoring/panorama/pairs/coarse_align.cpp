@@ -91,7 +91,7 @@ std::vector<double> TurnsWithin(double reach, double step) {
 
 bool Improve(DirectSolver& solver, Motion motion, int steps, CoarseCandidate& candidate) {
   if (!solver.Solve(motion, steps, 0.1, candidate.b_from_a)) return false;
-  const Evidence evidence = solver.Weigh(candidate.b_from_a);
+  const Evidence evidence = solver.Weigh(candidate.b_from_a, false);
   candidate.similarity = evidence.similarity;
   candidate.certainty = evidence.certainty;
   candidate.overlap = evidence.overlap;

@@ -20,6 +20,8 @@ constexpr float kLeastGround = 0.8f;
 // Below this deviation, in grey levels, a band holds rounding and nothing else.
 constexpr float kLeastDeviation = 0.05f;
 
+constexpr float kInvalid = 1e9f;
+
 // Value times weight, and weight.
 cv::Mat Weighted(const WorkingFrame& frame) {
   cv::Mat weighted(frame.grey.size(), CV_32FC2);
@@ -39,10 +41,10 @@ cv::Mat Weighted(const WorkingFrame& frame) {
 // Robust deviation of the band values, from their median magnitude.
 float DeviationOf(const cv::Mat& band) {
   std::vector<float> magnitudes;
-  const int step = std::max(1, static_cast<int>(band.total() / 16000));
+  const int step = std::max(1, static_cast<int>(band.total() / 8000));
   for (int i = 0; i < static_cast<int>(band.total()); i += step) {
     const float v = band.ptr<float>()[i];
-    if (v < 1e8f) magnitudes.push_back(std::abs(v));
+    if (v < kInvalid) magnitudes.push_back(std::abs(v));
   }
   if (magnitudes.size() < 16) return 0.0f;
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
@@ -50,50 +52,65 @@ float DeviationOf(const cv::Mat& band) {
   return 1.4826f * *middle;
 }
 
-// Difference of the smoothed level and the one two octaves up; 1e9 where it is not valid.
+// Difference of the smoothed level and the one two octaves up; kInvalid where it is not valid.
 cv::Mat Difference(const cv::Mat& own, const cv::Mat& smooth, const cv::Mat& coarse) {
   cv::Mat band(own.size(), CV_32FC1);
   for (int y = 0; y < own.rows; ++y) {
     const float *o = own.ptr<float>(y), *s = smooth.ptr<float>(y), *c = coarse.ptr<float>(y);
     float* out = band.ptr<float>(y);
     for (int x = 0; x < own.cols; ++x) {
+      const float ws = std::max(s[2 * x + 1], 1e-3f), wc = std::max(c[2 * x + 1], 1e-3f);
+      const float difference = (s[2 * x] * wc - c[2 * x] * ws) / (ws * wc);
       const bool valid = o[2 * x + 1] > kLeastWeight && c[2 * x + 1] > kLeastGround;
-      out[x] = valid ? s[2 * x] / s[2 * x + 1] - c[2 * x] / c[2 * x + 1] : 1e9f;
+      out[x] = valid ? difference : kInvalid;
     }
   }
   return band;
 }
 
-// In each small cell the pixels with the strongest gradients, so that all of the frame speaks.
+// In units of its deviation, cut off, a byte a pixel. Returns how many are valid.
+int Quantise(const cv::Mat& band, float deviation, cv::Mat& bytes) {
+  bytes.create(band.size(), CV_8SC1);
+  const float scale = kBandUnit / deviation, most = kBandUnit * kMostDeviations;
+  int valid = 0;
+  for (int y = 0; y < band.rows; ++y) {
+    const float* v = band.ptr<float>(y);
+    std::int8_t* out = bytes.ptr<std::int8_t>(y);
+    for (int x = 0; x < band.cols; ++x) {
+      const float cut = std::min(std::max(v[x] * scale, -most), most);
+      const int rounded = static_cast<int>(cut + 256.5f) - 256;
+      const bool is_valid = v[x] < kInvalid;
+      out[x] = static_cast<std::int8_t>(is_valid ? rounded : kNoBand);
+      valid += is_valid;
+    }
+  }
+  return valid;
+}
+
+// One pixel a block, the one with the strongest gradient, so that all of the frame speaks; blocks
+// as large as needed to keep `most` of the valid pixels.
 std::vector<std::int32_t> StrongPoints(const cv::Mat& band, int valid, int most) {
-  constexpr int kCell = 8;
-  const double share = std::min(1.0, static_cast<double>(most) / std::max(1, valid));
+  int wide = 1, high = 1;
+  while (wide * high * most < valid) (wide > high ? high : wide) += 1;
   std::vector<std::int32_t> points;
-  std::vector<std::pair<int, std::int32_t>> cell;
-  for (int y0 = 1; y0 < band.rows - 1; y0 += kCell)
-    for (int x0 = 1; x0 < band.cols - 1; x0 += kCell) {
-      cell.clear();
-      for (int y = y0; y < std::min(y0 + kCell, band.rows - 1); ++y) {
+  points.reserve(static_cast<std::size_t>(valid / (wide * high)) + 1);
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(band.step1());
+  for (int y0 = 1; y0 + high < band.rows; y0 += high)
+    for (int x0 = 1; x0 + wide < band.cols; x0 += wide) {
+      int strongest = -1, at = 0;
+      for (int y = y0; y < y0 + high; ++y) {
         const std::int8_t* row = band.ptr<std::int8_t>(y);
-        const std::int8_t *up = band.ptr<std::int8_t>(y - 1), *down = band.ptr<std::int8_t>(y + 1);
-        for (int x = x0; x < std::min(x0 + kCell, band.cols - 1); ++x) {
-          if (row[x] == kNoBand || row[x - 1] == kNoBand || row[x + 1] == kNoBand ||
-              up[x] == kNoBand || down[x] == kNoBand)
+        for (int x = x0; x < x0 + wide; ++x) {
+          const std::int8_t* p = row + x;
+          if (p[0] == kNoBand || p[-1] == kNoBand || p[1] == kNoBand || p[-stride] == kNoBand ||
+              p[stride] == kNoBand)
             continue;
-          const int gx = row[x + 1] - row[x - 1], gy = down[x] - up[x];
-          cell.emplace_back(gx * gx + gy * gy, y * band.cols + x);
+          const int gx = p[1] - p[-1], gy = p[stride] - p[-stride], strength = gx * gx + gy * gy;
+          if (strength > strongest) strongest = strength, at = y * band.cols + x;
         }
       }
-      const std::size_t keep =
-          static_cast<std::size_t>(std::lround(share * static_cast<double>(cell.size())));
-      if (keep < cell.size())
-        std::nth_element(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(keep), cell.end(),
-                         [](const auto& a, const auto& b) {
-                           return a.first != b.first ? a.first > b.first : a.second < b.second;
-                         });
-      for (std::size_t i = 0; i < keep; ++i) points.push_back(cell[i].second);
+      if (strongest >= 0) points.push_back(at);
     }
-  std::sort(points.begin(), points.end());
   return points;
 }
 
@@ -144,18 +161,11 @@ DirectPyramid::DirectPyramid(const WorkingFrame& frame, const DirectOptions& opt
     cv::pyrUp(coarse, coarse, octaves[k].size());
     const cv::Mat band = Difference(octaves[k], smooth, coarse);
     const float deviation = DeviationOf(band);
-    level.band = cv::Mat(band.size(), CV_8SC1, cv::Scalar(kNoBand));
-    if (!(deviation > kLeastDeviation)) continue;
-    for (int y = 0; y < band.rows; ++y) {
-      const float* v = band.ptr<float>(y);
-      std::int8_t* out = level.band.ptr<std::int8_t>(y);
-      for (int x = 0; x < band.cols; ++x) {
-        if (v[x] > 1e8f) continue;
-        const float cut = std::clamp(v[x] / deviation, -kMostDeviations, kMostDeviations);
-        out[x] = static_cast<std::int8_t>(std::lrint(kBandUnit * cut));
-        ++level.valid;
-      }
+    if (!(deviation > kLeastDeviation)) {
+      level.band = cv::Mat(band.size(), CV_8SC1, cv::Scalar(kNoBand));
+      continue;
     }
+    level.valid = Quantise(band, deviation, level.band);
     level.points = StrongPoints(level.band, level.valid, options.most_points);
   }
   const DirectLevel& last = levels_[kDirectLevels - 1];

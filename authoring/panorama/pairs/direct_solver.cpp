@@ -218,16 +218,7 @@ bool DirectSolver::Solve(Motion motion, int most_iterations, double enough_px,
   return std::isfinite(cv::norm(b_from_a));
 }
 
-Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a) {
-  Evidence evidence;
-  const cv::Matx33d h = b_level_from_rectified_ * b_from_a * a_.level_from_rectified.inv();
-  patch_ = PatchOf(h);
-  if (!(patch_.reach_x > 2 && patch_.reach_y > 2)) return evidence;
-  gain_ = 0.5f, deviation_ = 1.0f;
-  Sums sums = Accumulate(h, false);
-  if (sums.points < kFewestPoints || !(sums.aa > 0) || !(sums.weight > 0)) return evidence;
-  gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, 0.0, 1.5));
-  deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
+double DirectSolver::ResponseAt(const cv::Matx33d& h) {
   double answer = 0, expected = 0;
   for (const int axis : {0, 3}) {
     const double step = 0.5;  // px of this level: within the band's linear range
@@ -241,7 +232,20 @@ Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a) {
     }
     answer += side[1] - side[0];
   }
-  evidence.response = expected > 0 ? std::clamp(answer / expected, 0.02, 1.5) : 0;
+  return expected > 0 ? std::clamp(answer / expected, 0.02, 1.5) : 0;
+}
+
+Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a, bool with_response) {
+  Evidence evidence;
+  const cv::Matx33d h = b_level_from_rectified_ * b_from_a * a_.level_from_rectified.inv();
+  patch_ = PatchOf(h);
+  if (!(patch_.reach_x > 2 && patch_.reach_y > 2)) return evidence;
+  gain_ = 0.5f, deviation_ = 1.0f;
+  Sums sums = Accumulate(h, false);
+  if (sums.points < kFewestPoints || !(sums.aa > 0) || !(sums.weight > 0)) return evidence;
+  gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, 0.0, 1.5));
+  deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
+  if (with_response) evidence.response = ResponseAt(h);
   sums = Accumulate(h, true);
   evidence.points = sums.points;
   evidence.overlap = static_cast<double>(sums.points) / static_cast<double>(x_.size());

@@ -49,8 +49,8 @@ class DirectSolver {
   // corners, or nothing when the frames do not overlap or the least squares is singular.
   bool Solve(Motion motion, int most_iterations, double enough_px, cv::Matx33d& b_from_a);
 
-  // With the cells and the scatter, which Solve needs not.
-  Evidence Weigh(const cv::Matx33d& b_from_a);
+  // What the pixels say at `b_from_a`; the response only when asked for, as it costs four passes.
+  Evidence Weigh(const cv::Matx33d& b_from_a, bool with_response);
 
  private:
   struct Sums {
@@ -60,6 +60,7 @@ class DirectSolver {
     Vec8 gradient = Vec8::zeros();
   };
   Patch PatchOf(const cv::Matx33d& h) const;
+  double ResponseAt(const cv::Matx33d& h);
   Sums Accumulate(const cv::Matx33d& h, bool with_cells);
 
   const DirectLevel& a_;

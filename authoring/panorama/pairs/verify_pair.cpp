@@ -89,8 +89,8 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
     return verdict;
   };
   if (!a.HasTexture() || !b.HasTexture()) return refuse("no texture to compare");
-  const Evidence middle = DirectSolver(a.level(1), b.level(1)).Weigh(pair.b_from_a);
-  const Evidence fine = DirectSolver(a.level(0), b.level(0)).Weigh(pair.b_from_a);
+  const Evidence middle = DirectSolver(a.level(1), b.level(1)).Weigh(pair.b_from_a, false);
+  const Evidence fine = DirectSolver(a.level(0), b.level(0)).Weigh(pair.b_from_a, true);
   pair.overlap = verdict.overlap = middle.overlap;
   pair.similarity = verdict.similarity = middle.similarity;
   verdict.certainty = middle.certainty;
