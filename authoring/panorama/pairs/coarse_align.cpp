@@ -95,13 +95,16 @@ bool Improve(DirectSolver& solver, Motion motion, int steps, CoarseCandidate& ca
   candidate.similarity = evidence.similarity;
   candidate.certainty = evidence.certainty;
   candidate.overlap = evidence.overlap;
+  // Each of nine equal parts would have a third of the whole's.
+  const double even = std::clamp(3 * evidence.weakest_part / (evidence.certainty + 1e-6), 0.0, 1.0);
+  candidate.score = evidence.certainty * (0.5 + 0.5 * even);
   return true;
 }
 
 // Best first; of those that are the same the best only. `size` of the frames in rectified px.
 void SortAndThin(cv::Size2d size, std::vector<CoarseCandidate>& found) {
   std::stable_sort(found.begin(), found.end(),
-                   [](const auto& p, const auto& q) { return p.certainty > q.certainty; });
+                   [](const auto& p, const auto& q) { return p.score > q.score; });
   std::vector<CoarseCandidate> kept;
   for (const CoarseCandidate& candidate : found)
     if (std::none_of(kept.begin(), kept.end(), [&](const CoarseCandidate& other) {
@@ -122,9 +125,11 @@ std::vector<CoarseCandidate> CoarseCandidates(const DirectPyramid& a, const Dire
   const cv::Matx33d start =
       predicted ? lb.level_from_rectified * *predicted * la.level_from_rectified.inv()
                 : cv::Matx33d::eye();
-  const cv::Size size = la.band.size(), canvas = SpectrumSize(size);
+  const cv::Size size = la.size(), canvas = SpectrumSize(size);
   const cv::Point2d centre(0.5 * (size.width - 1), 0.5 * (size.height - 1));
-  const cv::Mat soft = ApodisedBand(lb.band, lb.band.size());
+  cv::Mat soft[kTextures];
+  for (const Texture texture : {kColour, kRelief})
+    soft[texture] = ApodisedBand(lb.bands[texture], lb.size());
 
   std::vector<Peak> peaks;
   std::vector<double> zooms{1.0};
@@ -134,12 +139,14 @@ std::vector<CoarseCandidate> CoarseCandidates(const DirectPyramid& a, const Dire
   for (const double zoom : zooms)
     for (const double angle : TurnsWithin(reach, options.rotation_step)) {
       const cv::Matx33d turned = start * Turn(angle, zoom, centre);
-      cv::warpPerspective(soft, turned_b, turned, canvas, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                          cv::BORDER_CONSTANT);
-      cv::dft(turned_b, spectrum);
-      cv::mulSpectrums(spectrum, a.spectrum(), spectrum, 0, true);
-      cv::dft(spectrum, correlation, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-      AddPeaks(correlation, turned, peaks);
+      for (const Texture texture : {kColour, kRelief}) {
+        cv::warpPerspective(soft[texture], turned_b, turned, canvas,
+                            cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT);
+        cv::dft(turned_b, spectrum);
+        cv::mulSpectrums(spectrum, a.spectrum(texture), spectrum, 0, true);
+        cv::dft(spectrum, correlation, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
+        AddPeaks(correlation, turned, peaks);
+      }
     }
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Peak& p, const Peak& q) { return p.height > q.height; });
@@ -167,7 +174,7 @@ std::vector<CoarseCandidate> CoarseCandidates(const DirectPyramid& a, const Dire
     CoarseCandidate better = candidate;
     if (Improve(solver, Motion::kAffine, options.most_iterations, better) &&
         Improve(solver, Motion::kHomography, options.most_iterations, better) &&
-        better.certainty > candidate.certainty)
+        better.score > candidate.score)
       candidate = better;
   }
   SortAndThin(whole, found);

@@ -15,6 +15,8 @@ namespace arthro::authoring {
 struct CoarseCandidate {
   cv::Matx33d b_from_a;
   double similarity = 0, certainty = 0, overlap = 0;  // as in Evidence, coarsest level
+  // What ranks: the certainty, less where only part of the shared view looks alike.
+  double score = 0;
 };
 
 // Best first, no two alike. Empty when a frame has no texture. `predicted` (may be null) narrows

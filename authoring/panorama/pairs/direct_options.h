@@ -17,6 +17,7 @@ struct DirectOptions {
   int most_iterations = 12;
   double smallest_overlap = 0.12;
   double least_certainty = 9.0;
+  double least_part_certainty = 1.2;
   double most_corner_sigma = 6.0;
   template <class V>
   void Visit(V&& v) {
@@ -28,13 +29,15 @@ struct DirectOptions {
     v("zoom_reach", zoom_reach, Range{0.0, 0.5}, "",
       "Zooms by this share in and out are searched as well; 0: only the size as it is.");
     v("candidates", candidates, Range{1, 20}, "", "Peaks of the search that are tried out.");
-    v("most_points", most_points, Range{500, 200000}, "",
+    v("most_points", most_points, Range{2000, 200000}, "",
       "Pixels of a frame's finest level that are aligned: those with the strongest edges.");
     v("most_iterations", most_iterations, Range{1, 100}, "", "Least squares steps a level.");
     v("smallest_overlap", smallest_overlap, Range{0.01, 1.0}, "",
       "A pair that shares less than this of the first frame is refused.");
     v("least_certainty", least_certainty, Range{0.0, 100.0}, "sigma",
       "How far the likeness of the two frames must stand above chance.");
+    v("least_part_certainty", least_part_certainty, Range{-10.0, 100.0}, "sigma",
+      "The same for the least alike of nine parts of what the two share.");
     v("most_corner_sigma", most_corner_sigma, Range{0.1, 100.0}, "px",
       "A pair whose overlap would be known less well than this is refused.");
   }

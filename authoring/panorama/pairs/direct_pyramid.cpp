@@ -21,6 +21,9 @@ constexpr float kLeastGround = 0.8f;
 constexpr float kLeastDeviation = 0.05f;
 
 constexpr float kInvalid = 1e9f;
+// Of the option most_points, for one band of each level: coarse levels have fewer waves to place.
+constexpr double kShareOfPoints[kDirectLevels] = {0.4, 0.4, 0.25};
+constexpr std::size_t kFewestPoints = 64;  // of the coarsest level
 
 // Value times weight, and weight.
 cv::Mat Weighted(const WorkingFrame& frame) {
@@ -114,6 +117,40 @@ std::vector<std::int32_t> StrongPoints(const cv::Mat& band, int valid, int most)
   return points;
 }
 
+// The band's difference over kReach pixels each way along the radius from the middle.
+cv::Mat RadialDifference(const cv::Mat& band) {
+  constexpr int kReach = 1;  // px: a quarter of the shortest wave
+  cv::Mat out(band.size(), CV_32FC1, cv::Scalar(kInvalid));
+  const float cx = 0.5f * static_cast<float>(band.cols - 1),
+              cy = 0.5f * static_cast<float>(band.rows - 1);
+  for (int y = kReach; y < band.rows - kReach; ++y) {
+    const float *row = band.ptr<float>(y), *up = band.ptr<float>(y - kReach),
+                *down = band.ptr<float>(y + kReach);
+    float* to = out.ptr<float>(y);
+    const float ey = static_cast<float>(y) - cy;
+    for (int x = kReach; x < band.cols - kReach; ++x) {
+      const float left = row[x - kReach], right = row[x + kReach], ex = static_cast<float>(x) - cx;
+      const float along =
+          (ex * (right - left) + ey * (down[x] - up[x])) / std::sqrt(ex * ex + ey * ey + 1.0f);
+      const float largest = std::max(std::max(left, right), std::max(up[x], down[x]));
+      to[x] = std::max(largest, row[x]) < kInvalid ? along : kInvalid;
+    }
+  }
+  return out;
+}
+
+DirectBand Compact(const cv::Mat& band, int most_points) {
+  DirectBand compact;
+  const float deviation = DeviationOf(band);
+  if (!(deviation > kLeastDeviation)) {
+    compact.values = cv::Mat(band.size(), CV_8SC1, cv::Scalar(kNoBand));
+    return compact;
+  }
+  const int valid = Quantise(band, deviation, compact.values);
+  compact.points = StrongPoints(compact.values, valid, most_points);
+  return compact;
+}
+
 }  // namespace
 
 cv::Size SpectrumSize(cv::Size level) {
@@ -121,7 +158,8 @@ cv::Size SpectrumSize(cv::Size level) {
   return {cv::getOptimalDFTSize(level.width + 8), cv::getOptimalDFTSize(level.height + 8)};
 }
 
-cv::Mat ApodisedBand(const cv::Mat& band, cv::Size canvas) {
+cv::Mat ApodisedBand(const DirectBand& source, cv::Size canvas) {
+  const cv::Mat& band = source.values;
   cv::Mat soft(band.size(), CV_32FC1);
   for (int y = 0; y < band.rows; ++y)
     for (int x = 0; x < band.cols; ++x)
@@ -160,17 +198,17 @@ DirectPyramid::DirectPyramid(const WorkingFrame& frame, const DirectOptions& opt
     cv::pyrUp(octaves[k + 2], coarse, octaves[k + 1].size());
     cv::pyrUp(coarse, coarse, octaves[k].size());
     const cv::Mat band = Difference(octaves[k], smooth, coarse);
-    const float deviation = DeviationOf(band);
-    if (!(deviation > kLeastDeviation)) {
-      level.band = cv::Mat(band.size(), CV_8SC1, cv::Scalar(kNoBand));
-      continue;
-    }
-    level.valid = Quantise(band, deviation, level.band);
-    level.points = StrongPoints(level.band, level.valid, options.most_points);
+    const int most = static_cast<int>(kShareOfPoints[k] * options.most_points);
+    level.bands[kColour] = Compact(band, most);
+    level.bands[kRelief] = Compact(RadialDifference(band), most);
   }
   const DirectLevel& last = levels_[kDirectLevels - 1];
-  if (last.points.size() < 64) return;
-  cv::dft(ApodisedBand(last.band, SpectrumSize(last.band.size())), spectrum_, 0, last.band.rows);
+  if (last.bands[kColour].points.size() < kFewestPoints ||
+      last.bands[kRelief].points.size() < kFewestPoints)
+    return;
+  for (const Texture texture : {kColour, kRelief})
+    cv::dft(ApodisedBand(last.bands[texture], SpectrumSize(last.size())), spectra_[texture], 0,
+            last.size().height);
 }
 
 }  // namespace arthro::authoring

@@ -15,6 +15,8 @@ constexpr int kCellSide = 12;       // level px: over three times the band's cor
 // Independent values in a cell: the inverse variance of the correlation of two cells of unlike
 // texture.
 constexpr double kFreePerCell = 9.0;
+constexpr double kLeastPart = 0.04;  // share of the cells that make a part
+constexpr double kLeastGain = 0.1, kMostGain = 1.5;
 constexpr int kFewestPoints = 200;
 
 float Dot(const float* a, const float* b) {
@@ -45,33 +47,60 @@ cv::Mat BasisOf(Motion motion) {
   return cv::Mat::eye(8, motion == Motion::kAffine ? 6 : 8, CV_64F);
 }
 
+// Likeness of some cells, by texture.
+struct Likeness {
+  double sum[kTextures] = {};
+  int cells[kTextures] = {};
+
+  void Add(Texture texture, const BandSolver::Cell& cell) {
+    sum[texture] += cell.ab / std::sqrt(cell.aa * cell.bb);
+    ++cells[texture];
+  }
+  double Similarity() const {
+    double best = 0;
+    for (const Texture texture : {kColour, kRelief})
+      if (cells[texture] > 0) best = std::max(best, sum[texture] / cells[texture]);
+    return best;
+  }
+  // By the better texture, or by both where both agree.
+  double Certainty() const {
+    double best = 0, both = 0;
+    for (const Texture texture : {kColour, kRelief}) {
+      if (cells[texture] == 0) continue;
+      const double certainty = sum[texture] * std::sqrt(kFreePerCell / cells[texture]);
+      both += certainty / std::sqrt(2.0);
+      best = std::max(best, certainty);
+    }
+    return std::max(best, both);
+  }
+};
+
 }  // namespace
 
-DirectSolver::DirectSolver(const DirectLevel& a, const DirectLevel& b)
-    : a_(a), b_level_from_rectified_(b.level_from_rectified) {
-  target_.create(b.band.size(), CV_32FC1);
-  for (int y = 0; y < b.band.rows; ++y) {
-    const std::int8_t* band = b.band.ptr<std::int8_t>(y);
+BandSolver::BandSolver(const DirectBand& a, const DirectBand& b) : size_(a.values.size()) {
+  target_.create(b.values.size(), CV_32FC1);
+  for (int y = 0; y < b.values.rows; ++y) {
+    const std::int8_t* band = b.values.ptr<std::int8_t>(y);
     float* out = target_.ptr<float>(y);
-    for (int x = 0; x < b.band.cols; ++x)
+    for (int x = 0; x < b.values.cols; ++x)
       out[x] = band[x] == kNoBand ? kOutside : static_cast<float>(band[x]) * (1 / kBandUnit);
   }
   const std::size_t count = a.points.size();
   x_.resize(count), y_.resize(count), value_.resize(count), gx_.resize(count), gy_.resize(count);
-  const int width = a.band.cols;
+  const int width = a.values.cols;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int8_t* at = a.band.ptr<std::int8_t>() + a.points[i];
+    const std::int8_t* at = a.values.ptr<std::int8_t>() + a.points[i];
     x_[i] = static_cast<float>(a.points[i] % width);
     y_[i] = static_cast<float>(a.points[i] / width);
     value_[i] = static_cast<float>(at[0]) / kBandUnit;
     gx_[i] = static_cast<float>(at[1] - at[-1]) / (2 * kBandUnit);
     gy_[i] = static_cast<float>(at[width] - at[-width]) / (2 * kBandUnit);
   }
-  const int across = width / kCellSide + 1, down = a.band.rows / kCellSide + 1;
+  const int across = width / kCellSide + 1, down = a.values.rows / kCellSide + 1;
   cells_.resize(static_cast<std::size_t>(across) * down);
 }
 
-Patch DirectSolver::PatchOf(const cv::Matx33d& h) const {
+Patch BandSolver::PatchOf(const cv::Matx33d& h) const {
   double sx = 0, sy = 0, sxx = 0, syy = 0;
   int n = 0;
   for (std::size_t i = 0; i < x_.size(); i += 7) {
@@ -90,19 +119,19 @@ Patch DirectSolver::PatchOf(const cv::Matx33d& h) const {
           std::sqrt(2 * std::max(1.0, syy / n - my * my))};
 }
 
-DirectSolver::Sums DirectSolver::Accumulate(const cv::Matx33d& h, bool with_cells) {
+BandSolver::Sums BandSolver::Accumulate(const cv::Matx33d& h, const Patch& patch, bool with_cells) {
   Sums sums;
   float H[9];
   for (int i = 0; i < 9; ++i) H[i] = static_cast<float>(h.val[i] / h.val[8]);
-  const float cx = static_cast<float>(patch_.centre.x), cy = static_cast<float>(patch_.centre.y);
-  const float rx = static_cast<float>(patch_.reach_x), ry = static_cast<float>(patch_.reach_y);
+  const float cx = static_cast<float>(patch.centre.x), cy = static_cast<float>(patch.centre.y);
+  const float rx = static_cast<float>(patch.reach_x), ry = static_cast<float>(patch.reach_y);
   const float inverse = 1 / (kTolerance * deviation_ * kTolerance * deviation_);
   const float right = static_cast<float>(target_.cols - 1),
               bottom = static_cast<float>(target_.rows - 1);
   const std::size_t stride = target_.step1();
   const float* pixels = target_.ptr<float>();
   if (with_cells) std::fill(cells_.begin(), cells_.end(), Cell{});
-  const int across = a_.band.cols / kCellSide + 1;
+  const int across = size_.width / kCellSide + 1;
 
   alignas(16) float b[kBlock], u[kBlock], v[kBlock], a[kBlock], gx[kBlock], gy[kBlock], r[kBlock],
       w[kBlock], J[8][kBlock], wJ[8][kBlock], wr[kBlock], wa[kBlock], one[kBlock], slope[kBlock];
@@ -170,32 +199,57 @@ DirectSolver::Sums DirectSolver::Accumulate(const cv::Matx33d& h, bool with_cell
   return sums;
 }
 
+void BandSolver::Reset() { gain_ = 0.5f, deviation_ = 1.0f; }
+
+void BandSolver::Adapt(const Sums& sums) {
+  if (!(sums.weight > 0 && sums.aa > 0)) return;
+  gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, kLeastGain, kMostGain));
+  // Weighted mean magnitude of a normal deviate, to its deviation.
+  deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
+}
+
+DirectSolver::DirectSolver(const DirectLevel& a, const DirectLevel& b)
+    : size_(a.size()),
+      a_level_from_rectified_(a.level_from_rectified),
+      b_level_from_rectified_(b.level_from_rectified),
+      bands_{{a.bands[kColour], b.bands[kColour]}, {a.bands[kRelief], b.bands[kRelief]}} {}
+
+DirectSolver::Joint DirectSolver::Accumulate(const cv::Matx33d& h, const Patch& patch, bool adapt,
+                                             bool with_cells) {
+  Joint joint;
+  for (BandSolver& band : bands_) {
+    const BandSolver::Sums sums = band.Accumulate(h, patch, with_cells);
+    if (!(sums.weight > 0)) continue;
+    if (adapt) band.Adapt(sums);
+    // Weights fall where residuals grow, so the score answers less than the normal matrix says.
+    const double slope = std::clamp(sums.slope / sums.weight, 0.4, 1.0);
+    joint.points += sums.points;
+    joint.normal += sums.normal * (band.importance() * band.gain() * slope);
+    joint.gradient += sums.gradient * band.importance();
+  }
+  return joint;
+}
+
 bool DirectSolver::Solve(Motion motion, int most_iterations, double enough_px,
                          cv::Matx33d& b_from_a) {
-  const cv::Matx33d from_a = a_.level_from_rectified.inv();
-  cv::Matx33d h = b_level_from_rectified_ * b_from_a * from_a;
-  patch_ = PatchOf(h);
-  if (!(patch_.reach_x > 2 && patch_.reach_y > 2)) return false;
-  const cv::Matx33d norm(1 / patch_.reach_x, 0, -patch_.centre.x / patch_.reach_x, 0,
-                         1 / patch_.reach_y, -patch_.centre.y / patch_.reach_y, 0, 0, 1);
+  cv::Matx33d h = b_level_from_rectified_ * b_from_a * a_level_from_rectified_.inv();
+  const Patch patch = bands_[kColour].PatchOf(h);
+  if (!(patch.reach_x > 2 && patch.reach_y > 2)) return false;
+  const cv::Matx33d norm(1 / patch.reach_x, 0, -patch.centre.x / patch.reach_x, 0,
+                         1 / patch.reach_y, -patch.centre.y / patch.reach_y, 0, 0, 1);
   const cv::Matx33d norm_inverse = norm.inv();
   const cv::Mat basis = BasisOf(motion);
-  gain_ = 0.5f, deviation_ = 1.0f;
+  for (BandSolver& band : bands_) band.Reset();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const Sums sums = Accumulate(h, false);
-    if (sums.points < kFewestPoints || !(sums.weight > 0) || !(sums.aa > 0)) return false;
-    gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, 0.3, 1.5));
-    deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
-
-    cv::Mat normal = basis.t() * cv::Mat(sums.normal) * basis;
+    const Joint joint = Accumulate(h, patch, true, false);
+    if (joint.points < kFewestPoints) return false;
+    cv::Mat normal = basis.t() * cv::Mat(joint.normal) * basis;
     const double damping = 1e-3 * cv::trace(normal)[0] / normal.rows;
     for (int i = 0; i < normal.rows; ++i) normal.at<double>(i, i) += damping;
     cv::Mat step;
-    if (!cv::solve(normal, basis.t() * cv::Mat(sums.gradient), step, cv::DECOMP_CHOLESKY))
+    if (!cv::solve(normal, basis.t() * cv::Mat(joint.gradient), step, cv::DECOMP_CHOLESKY))
       return false;
-    // Weights fall where residuals grow, so the score answers less than the normal matrix says.
-    const double slope = std::clamp(sums.slope / sums.weight, 0.4, 1.0);
-    Vec8 p = Vec8(cv::Mat(basis * step)) * (1.0 / (gain_ * slope));
+    Vec8 p = Vec8(cv::Mat(basis * step));
 
     // Never further at once than the band's linear range.
     double longest = 0;
@@ -203,8 +257,8 @@ bool DirectSolver::Solve(Motion motion, int most_iterations, double enough_px,
       for (const double v : {-1.0, 1.0}) {
         const double q = p(6) * u + p(7) * v;
         longest =
-            std::max(longest, std::hypot((p(0) + p(1) * u + p(2) * v + u * q) * patch_.reach_x,
-                                         (p(3) + p(4) * u + p(5) * v + v * q) * patch_.reach_y));
+            std::max(longest, std::hypot((p(0) + p(1) * u + p(2) * v + u * q) * patch.reach_x,
+                                         (p(3) + p(4) * u + p(5) * v + v * q) * patch.reach_y));
       }
     constexpr double kLongestStep = 2.0;  // level px
     if (!(longest < 1e6)) return false;
@@ -213,12 +267,12 @@ bool DirectSolver::Solve(Motion motion, int most_iterations, double enough_px,
     h *= 1 / h(2, 2);
     if (longest < enough_px) break;
   }
-  b_from_a = b_level_from_rectified_.inv() * h * a_.level_from_rectified;
+  b_from_a = b_level_from_rectified_.inv() * h * a_level_from_rectified_;
   b_from_a *= 1 / b_from_a(2, 2);
   return std::isfinite(cv::norm(b_from_a));
 }
 
-double DirectSolver::ResponseAt(const cv::Matx33d& h) {
+double DirectSolver::ResponseAt(const cv::Matx33d& h, const Patch& patch) {
   double answer = 0, expected = 0;
   for (const int axis : {0, 3}) {
     const double step = 0.5;  // px of this level: within the band's linear range
@@ -226,9 +280,9 @@ double DirectSolver::ResponseAt(const cv::Matx33d& h) {
     for (const int sign : {0, 1}) {
       const double d = sign ? step : -step;
       const cv::Matx33d shift(1, 0, axis == 0 ? d : 0, 0, 1, axis == 3 ? d : 0, 0, 0, 1);
-      const Sums there = Accumulate(h * shift, false);
+      const Joint there = Accumulate(h * shift, patch, false, false);
       side[sign] = there.gradient(axis);
-      expected += there.normal(axis, axis) * step / (axis == 0 ? patch_.reach_x : patch_.reach_y);
+      expected += there.normal(axis, axis) * step / (axis == 0 ? patch.reach_x : patch.reach_y);
     }
     answer += side[1] - side[0];
   }
@@ -237,40 +291,55 @@ double DirectSolver::ResponseAt(const cv::Matx33d& h) {
 
 Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a, bool with_response) {
   Evidence evidence;
-  const cv::Matx33d h = b_level_from_rectified_ * b_from_a * a_.level_from_rectified.inv();
-  patch_ = PatchOf(h);
-  if (!(patch_.reach_x > 2 && patch_.reach_y > 2)) return evidence;
-  gain_ = 0.5f, deviation_ = 1.0f;
-  Sums sums = Accumulate(h, false);
-  if (sums.points < kFewestPoints || !(sums.aa > 0) || !(sums.weight > 0)) return evidence;
-  gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, 0.0, 1.5));
-  deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
-  if (with_response) evidence.response = ResponseAt(h);
-  sums = Accumulate(h, true);
-  evidence.points = sums.points;
-  evidence.overlap = static_cast<double>(sums.points) / static_cast<double>(x_.size());
-  evidence.gain = gain_;
-  evidence.deviation = deviation_;
-  evidence.normal = sums.normal;
-  double likeness = 0;
-  for (const Cell& cell : cells_) {
-    if (!(cell.aa > 0 && cell.bb > 0)) continue;
-    ++evidence.cells;
-    likeness += cell.ab / std::sqrt(cell.aa * cell.bb);
-    for (int j = 0; j < 8; ++j)
-      for (int k = 0; k < 8; ++k)
-        evidence.scatter(j, k) += static_cast<double>(cell.score[j]) * cell.score[k];
+  const cv::Matx33d h = b_level_from_rectified_ * b_from_a * a_level_from_rectified_.inv();
+  const Patch patch = bands_[kColour].PatchOf(h);
+  if (!(patch.reach_x > 2 && patch.reach_y > 2)) return evidence;
+  for (BandSolver& band : bands_) band.Reset();
+  if (Accumulate(h, patch, true, false).points < kFewestPoints) return evidence;
+  if (with_response) evidence.response = ResponseAt(h, patch);
+  const Joint joint = Accumulate(h, patch, false, true);
+  evidence.points = joint.points;
+  evidence.overlap = static_cast<double>(joint.points) /
+                     static_cast<double>(bands_[kColour].size() + bands_[kRelief].size());
+  evidence.normal = joint.normal;
+
+  const std::size_t count = bands_[kColour].cells().size();
+  const int across = size_.width / kCellSide + 1;
+  Likeness whole, parts[9];
+  for (std::size_t i = 0; i < count; ++i) {
+    // Thirds of the overlap each way; for an ellipse these hold about as many cells each.
+    const double x = (static_cast<int>(i) % across + 0.5) * kCellSide,
+                 y = (static_cast<int>(i) / across + 0.5) * kCellSide;
+    const auto third = [](double u) { return u < -0.45 ? 0 : u < 0.45 ? 1 : 2; };
+    Likeness& part = parts[3 * third((y - patch.centre.y) / patch.reach_y) +
+                           third((x - patch.centre.x) / patch.reach_x)];
+    Vec8 score = Vec8::zeros();
+    bool has_say = false;
+    for (const Texture texture : {kColour, kRelief}) {
+      const BandSolver::Cell& cell = bands_[texture].cells()[i];
+      if (!(cell.aa > 0 && cell.bb > 0)) continue;
+      has_say = true;
+      whole.Add(texture, cell);
+      part.Add(texture, cell);
+      for (int j = 0; j < 8; ++j)
+        score(j) += static_cast<double>(cell.score[j]) * bands_[texture].importance();
+    }
+    evidence.cells += has_say;
+    evidence.scatter += score * score.t();
   }
-  if (evidence.cells > 0) {
-    evidence.similarity = likeness / evidence.cells;
-    evidence.certainty = likeness * std::sqrt(kFreePerCell / evidence.cells);
-  }
-  const double scale = a_.level_from_rectified(0, 0);
-  const cv::Matx33d back = a_.level_from_rectified.inv();
+  evidence.similarity = whole.Similarity();
+  evidence.certainty = whole.Certainty();
+  evidence.weakest_part = evidence.certainty;
+  for (const Likeness& part : parts)
+    if (part.cells[kColour] > evidence.cells * kLeastPart)
+      evidence.weakest_part = std::min(evidence.weakest_part, part.Certainty());
+
+  const double scale = a_level_from_rectified_(0, 0);
+  const cv::Matx33d back = a_level_from_rectified_.inv();
   evidence.patch = {
-      {back(0, 0) * patch_.centre.x + back(0, 2), back(1, 1) * patch_.centre.y + back(1, 2)},
-      patch_.reach_x / scale,
-      patch_.reach_y / scale};
+      {back(0, 0) * patch.centre.x + back(0, 2), back(1, 1) * patch.centre.y + back(1, 2)},
+      patch.reach_x / scale,
+      patch.reach_y / scale};
   return evidence;
 }
 

@@ -15,6 +15,7 @@ struct PairVerdict {
   double overlap = 0;       // share of frame a's pixels that frame b shows
   double similarity = 0;    // correlation of the two bands there
   double certainty = 0;     // the same in deviations above chance
+  double weakest_part = 0;  // the least certainty of nine parts of the overlap
   double corner_sigma = 0;  // px: how well the worst corner of the overlap is known
 };
 
