@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "authoring/phantom/clip/equisolid.h"
 #include "authoring/phantom/clip/plane_light.h"
 #include "authoring/phantom/clip/plane_noise.h"
 #include "simulation/core/error.h"
@@ -42,15 +43,6 @@ Lens LensOf(const ClipOptions& options) {
 const ClipOptions& Checked(const ClipOptions& options) {
   CheckOptions(options);
   return options;
-}
-
-// The ray of a raw pixel. Written out here, so that a test of the lens has something to be held
-// against.
-cv::Vec3d RayOf(const Lens& lens, double x, double y) {
-  const double dx = x - lens.cx, dy = y - lens.cy, r = std::hypot(dx, dy);
-  const double theta = 2 * std::asin(std::min(r / (2 * lens.focal_px), 1.0));
-  const double k = r > 1e-9 ? std::sin(theta) / r : 1 / lens.focal_px;
-  return {dx * k, dy * k, std::cos(theta)};
 }
 
 int SamplesOf(const ClipOptions& options, double radius) {
@@ -109,7 +101,7 @@ void Clip::MakeWindow() {
       if (span[1] == 0) span[0] = x;
       span[1] = x + 1;
       window_.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(255 * cover + 0.5);
-      const cv::Vec3d ray = RayOf(lens_, x, y);
+      const cv::Vec3d ray = EquisolidRay(lens_, x, y);
       rays_.push_back(cv::Vec3f(ray));
       off_axis_.push_back(static_cast<float>(std::acos(std::clamp(ray[2], -1.0, 1.0)) /
                                              (options_.field_of_view / 2)));
@@ -139,8 +131,8 @@ cv::Rect Clip::Footprint() const {
       const cv::Matx33d panorama_from_ray = PanoramaFromRay(path_.At(t, i));
       for (int k = 0; k < 32; ++k) {
         const double a = 2 * CV_PI * k / 32;
-        cv::Vec3d ray = RayOf(lens_, lens_.cx + (radius_ + 2) * std::cos(a),
-                              lens_.cy + (radius_ + 2) * std::sin(a));
+        cv::Vec3d ray = EquisolidRay(lens_, lens_.cx + (radius_ + 2) * std::cos(a),
+                                     lens_.cy + (radius_ + 2) * std::sin(a));
         ray = panorama_from_ray * ray;
         if (!(ray[2] > 0.05))
           throw Error(Code::kBadArgument,

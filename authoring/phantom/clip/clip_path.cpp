@@ -11,13 +11,6 @@ namespace {
 constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr int kRows = 3;
 
-cv::Matx33d Rotation(double x, double y, double z) {
-  const double cx = std::cos(x), sx = std::sin(x), cy = std::cos(y), sy = std::sin(y),
-               cz = std::cos(z), sz = std::sin(z);
-  return cv::Matx33d(cz, -sz, 0, sz, cz, 0, 0, 0, 1) * cv::Matx33d(cy, 0, sy, 0, 1, 0, -sy, 0, cy) *
-         cv::Matx33d(1, 0, 0, 0, cx, -sx, 0, sx, cx);
-}
-
 // Where a share of the way along rows to and fro is; rows `length` long and `gap` apart.
 cv::Point2d AlongRows(double share, double length, double gap) {
   const double total = kRows * length + (kRows - 1) * gap;
@@ -35,6 +28,13 @@ cv::Point2d AlongRows(double share, double length, double gap) {
 }
 
 }  // namespace
+
+cv::Matx33d RotationOf(double x, double y, double z) {
+  const double cx = std::cos(x), sx = std::sin(x), cy = std::cos(y), sy = std::sin(y),
+               cz = std::cos(z), sz = std::sin(z);
+  return cv::Matx33d(cz, -sz, 0, sz, cz, 0, 0, 0, 1) * cv::Matx33d(cy, 0, sy, 0, 1, 0, -sy, 0, cy) *
+         cv::Matx33d(1, 0, 0, 0, cx, -sx, 0, sx, cx);
+}
 
 cv::Matx33d PanoramaFromRay(const ScopePose& pose) {
   return cv::Matx33d(pose.distance, 0, pose.at.x, 0, pose.distance, pose.at.y, 0, 0, 1) *
@@ -132,7 +132,7 @@ ScopePose ClipPathway::At(double t, int frame) const {
   ScopePose pose;
   pose.at = centre_ + place;
   pose.distance = focal_ * (1 + zoom_.At(t)) * std::pow(options_.zoom_sweep, share);
-  pose.plane_from_camera = Rotation(tilt_x_.At(t), tilt_y_.At(t), turn);
+  pose.plane_from_camera = RotationOf(tilt_x_.At(t), tilt_y_.At(t), turn);
   return pose;
 }
 

@@ -17,6 +17,9 @@ struct ScopePose {
 // Takes homogeneous (x, y, 1) on a camera's plane at unit distance to panorama pixels.
 cv::Matx33d PanoramaFromRay(const ScopePose& pose);
 
+// About x, then y, then z; rad.
+cv::Matx33d RotationOf(double x, double y, double z);
+
 class ClipPathway {
  public:
   // On a plane of `world` px, with a window of `radius` px and a lens of `focal` px. A frame at the
