@@ -44,7 +44,7 @@ struct ComposeReport {
   double hole_share = 0;     // of the imaged part, filled because every frame glares or is blocked
   double outlier_share = 0;  // of what frames show, dropped as tool, debris or glint
   double gain_spread = 1;    // largest over smallest gain of a frame
-  double seam_step = 0;      // grey levels: median brightness step between frames, light taken out
+  double light_residue = 0;  // grey levels: how far frames are from the consensus, median
   double light_ms = 0, seams_ms = 0, first_pass_ms = 0, second_pass_ms = 0;  // CPU
 };
 

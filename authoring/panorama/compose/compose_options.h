@@ -7,7 +7,6 @@ namespace arthro::authoring {
 
 struct ComposeOptions {
   double most_megapixels = 16;
-  int most_reduction = 16;
   double most_stretch = 12;
   bool even_light = true;
   bool estimate_response = true;
@@ -21,9 +20,6 @@ struct ComposeOptions {
   void Visit(V&& v) {
     v("most_megapixels", most_megapixels, Range{0.1, 200}, "Mpx",
       "A panorama larger than this is made smaller.");
-    v("most_reduction", most_reduction, Range{4, 64}, "",
-      "Largest side, in panorama pixels, of the cells in which light, seams and outliers are "
-      "decided; smaller cells are taken when memory allows.");
     v("most_stretch", most_stretch, Range{2, 1000}, "",
       "A frame whose area grows by more than this from its middle to its rim, or beyond the other "
       "frames, is left out.");

@@ -1,0 +1,49 @@
+// What most frames show at each cell, and how far each frame agrees: debris, tool and glints move
+// against the tissue, so that they are few among the frames that see a place.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "authoring/panorama/compose/frame_cells.h"
+#include "simulation/core/progress.h"
+
+namespace arthro::authoring {
+
+struct Consensus {
+  cv::Mat colour;            // CV_32FC3, grey levels; filled smoothly where nothing is known
+  cv::Mat is_known;          // CV_8UC1, 255: seen well by a frame; 128: only glaring; 0: not at all
+  double outlier_share = 0;  // of what frames show
+  double residue = 0;        // grey levels: median distance of what agrees
+};
+
+// Views (frame, and its box's row and column) of one cell after another, row by row.
+template <class F>
+void ForEachCell(const std::vector<FrameCells>& cells, const Layout& layout, int row, F&& visit) {
+  std::vector<int> here, views;
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    const cv::Rect& box = layout.frames[f].cells;
+    if (cells[f].is_seen() && row >= box.y && row < box.y + box.height)
+      here.push_back(static_cast<int>(f));
+  }
+  for (int x = 0; x < layout.cells.width; ++x) {
+    views.clear();
+    for (const int f : here) {
+      const cv::Rect& box = layout.frames[f].cells;
+      if (x >= box.x && x < box.x + box.width && cells[f].say.at<uchar>(row - box.y, x - box.x) > 0)
+        views.push_back(f);
+    }
+    if (!views.empty()) visit(x, views);
+  }
+}
+
+// Lowers the say of what does not agree.
+Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRays>& rays,
+                        const Layout& layout, const ComposeOptions& options,
+                        const Progress& progress);
+
+// Fills what `is_known` (non-zero) leaves open, smoothly, from around it.
+void FillSmoothly(cv::Mat& colour, const cv::Mat& is_known);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,44 @@
+// A frame as the decisions see it: one colour for each cell of the panorama that it shows.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "authoring/panorama/compose/layout.h"
+
+namespace arthro::authoring {
+
+// Grey levels are kept in 16 bits with this many steps each, with room above 255.
+constexpr double kGreySteps = 100.0;
+
+struct FrameCells {
+  cv::Mat colour;  // CV_16UC3, grey level times kGreySteps, mean over the cell
+  cv::Mat say;     // CV_8UC1, 255: a good view of the whole cell; 0: does not show it
+  bool is_seen() const { return !say.empty(); }
+};
+
+// Where a cell lies in the frame, by the homography back.
+class CellRays {
+ public:
+  CellRays(const LaidFrame& frame, int cell, const RectifiedView& view);
+  struct Ray {
+    double x, y;       // tan of the angle off the optical axis, right and down
+    double w;          // the homography's denominator: goes with the distance along the axis
+    double sharpness;  // raw px per panorama px, about; 1 on the axis of a frame drawn at scale 1
+  };
+  Ray At(int column, int row) const;  // of the cell, in the panorama's grid
+
+ private:
+  cv::Matx33d rectified_from_cell_, composed_from_rectified_;
+  RectifiedView view_;
+  double cell_, det_;
+};
+
+// Marks what is burnt out or a glint: CV_8UC1, 255 where tissue shows.
+cv::Mat TissueMask(const cv::Mat& rectified_rgb, const cv::Mat& lens_mask);
+
+FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
+                   const cv::Mat& lens_mask, const LaidFrame& frame, int cell);
+
+}  // namespace arthro::authoring

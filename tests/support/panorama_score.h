@@ -1,0 +1,20 @@
+// How far a composed panorama is from the evenly lit plane that it shows: PSNR and SSIM after the
+// slow ratio of brightness (blur of 80 px) is taken out, at half size, as the reference scorer has
+// it.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace arthro::test {
+
+struct PanoramaScore {
+  double psnr = 0;   // dB, over RGB
+  double ssim = 0;   // of green
+  double share = 0;  // of `truth` that was compared
+};
+
+// `rgba`: the panorama. `composed_from_truth` takes pixels of `truth` (CV_8UC3, RGB) to its pixels.
+PanoramaScore ScorePanorama(const cv::Mat& rgba, const cv::Mat& truth,
+                            const cv::Matx33d& composed_from_truth);
+
+}  // namespace arthro::test
