@@ -18,7 +18,8 @@ struct DirectOptions {
   double smallest_overlap = 0.12;
   double least_certainty = 9.0;
   double least_part_certainty = 1.2;
-  double most_corner_sigma = 6.0;
+  double least_part_share = 0.25;
+  double most_corner_sigma = 5.0;
   template <class V>
   void Visit(V&& v) {
     v("rotation_reach", rotation_reach, Range{0.0, 3.15}, "rad",
@@ -38,6 +39,8 @@ struct DirectOptions {
       "How far the likeness of the two frames must stand above chance.");
     v("least_part_certainty", least_part_certainty, Range{-10.0, 100.0}, "sigma",
       "The same for the least alike of nine parts of what the two share.");
+    v("least_part_share", least_part_share, Range{0.0, 1.0}, "",
+      "The same as a share of what it would be were all parts alike.");
     v("most_corner_sigma", most_corner_sigma, Range{0.1, 100.0}, "px",
       "A pair whose overlap would be known less well than this is refused.");
   }

@@ -13,6 +13,7 @@ namespace {
 // What no statistics of one pair can know: the lens's error, relief, light that moves with the
 // scope. Per coordinate of a control point, px.
 constexpr double kModelError = 0.05;
+constexpr double kSureCertainty = 22, kSureSimilarity = 0.5;
 // A homography between neighbouring looks of one scope keeps areas within this factor.
 constexpr double kMostAreaRatio = 4.0;
 
@@ -33,9 +34,10 @@ bool ParameterInformation(const Evidence& e, Mat8& information) {
 
 // By how much variances grow where the two frames are less alike than their noise explains: light
 // that moved, blur, haze. Fitted to d' Λ d of true pairs of the synthetic sequences: it rises as
-// exp(3.4 - 4.4 similarity), from about 0.8 at 0.8 to 5 at 0.4, with a third more for the spread.
+// exp(3.4 - 4.4 similarity), from about 0.8 at 0.8 to 5 at 0.4; the factor before it is for the
+// spread about that.
 double Unlikeness(double similarity) {
-  return std::max(0.7, 1.3 * std::exp(3.35 - 4.36 * similarity));
+  return std::max(0.7, 1.8 * std::exp(3.35 - 4.36 * similarity));
 }
 
 // d = M p: how the parameters move the images of the control points.
@@ -107,7 +109,9 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
   if (verdict.certainty < options.least_certainty)
     return refuse(fmt::format("the frames do not look alike (certainty {:.1f}, {:.1f} asked)",
                               verdict.certainty, options.least_certainty));
-  if (verdict.weakest_part < options.least_part_certainty)
+  // Of nine equal parts each has a third of the whole's certainty; much less is another place.
+  if (verdict.weakest_part <
+      std::max(options.least_part_certainty, options.least_part_share * verdict.certainty / 3))
     return refuse(fmt::format("only part of the shared view looks alike (certainty {:.1f})",
                               verdict.weakest_part));
   const FourPoints control = ControlOf(middle.patch);
