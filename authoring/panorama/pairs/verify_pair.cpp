@@ -13,6 +13,8 @@ namespace {
 // What no statistics of one pair can know: the lens's error, relief, light that moves with the
 // scope. Per coordinate of a control point, px.
 constexpr double kModelError = 0.05;
+// A part this certain is seen in hardly any wrong pair, however certain the whole is.
+constexpr double kPlainPart = 1.6;
 constexpr double kSureCertainty = 22, kSureSimilarity = 0.5;
 // A homography between neighbouring looks of one scope keeps areas within this factor.
 constexpr double kMostAreaRatio = 4.0;
@@ -110,8 +112,12 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
     return refuse(fmt::format("the frames do not look alike (certainty {:.1f}, {:.1f} asked)",
                               verdict.certainty, options.least_certainty));
   // Of nine equal parts each has a third of the whole's certainty; much less is another place.
-  if (verdict.weakest_part <
-      std::max(options.least_part_certainty, options.least_part_share * verdict.certainty / 3))
+  // A pair far above any wrong one that was seen (19 and 0.57) may have a part under debris.
+  const bool is_sure = verdict.certainty > kSureCertainty && verdict.similarity > kSureSimilarity;
+  const double asked =
+      std::max(options.least_part_certainty,
+               std::min(kPlainPart, options.least_part_share * verdict.certainty / 3));
+  if (!is_sure && verdict.weakest_part < asked)
     return refuse(fmt::format("only part of the shared view looks alike (certainty {:.1f})",
                               verdict.weakest_part));
   const FourPoints control = ControlOf(middle.patch);
