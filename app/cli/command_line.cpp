@@ -33,9 +33,11 @@ int RunCommandLine(int argc, char** argv) {
   AddDemoJob(program);
   AddDepthJob(program);
   AddEditJob(program);
+  AddLensJob(program);
   AddPhantomJob(program);
   AddPivotJob(program);
   AddPractiseJob(program);
+  AddRectifyJob(program);
   AddReplayJob(program);
   AddTetrahedralizeJob(program);
   AddViewJob(program);

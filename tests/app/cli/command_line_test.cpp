@@ -13,8 +13,9 @@ namespace {
 using test::ProgramResult;
 using test::RunProgram;
 
-constexpr std::array kJobs = {"demo", "phantom", "depth", "tetrahedralize", "pivot",   "centres",
-                              "view", "replay",  "check", "edit",           "practise"};
+constexpr std::array kJobs = {"demo",     "phantom", "depth",  "tetrahedralize", "pivot",
+                              "centres",  "view",    "replay", "check",          "edit",
+                              "practise", "lens",    "rectify"};
 
 TEST(CommandLine, HelpListsEveryJob) {
   const ProgramResult help = RunProgram("--help");

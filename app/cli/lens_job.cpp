@@ -1,0 +1,111 @@
+// arthroscene lens GRID_IMAGE... --spacing-mm S -o lens.json (design §5).
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/job_progress.h"
+#include "app/cli/jobs.h"
+#include "app/cli/options_cli.h"
+#include "authoring/footage/find_circle.h"
+#include "authoring/lens/calibrate_lens.h"
+#include "authoring/lens/calibration_report.h"
+#include "authoring/lens/target/detect_target.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/lens_io.h"
+
+namespace arthro::app {
+namespace {
+
+struct LensJob {
+  std::vector<std::string> pictures;
+  std::string output, report;
+  double spacing_mm = 0;
+  authoring::DetectOptions detect;
+  authoring::CalibrateOptions calibrate;
+};
+
+void Run(const LensJob& job) {
+  CheckOptions(job.detect);
+  CheckOptions(job.calibrate);
+  const Progress progress = TerminalProgress();
+  const double count = static_cast<double>(job.pictures.size());
+  std::vector<ColourImage> pictures;
+  authoring::CircleFinder finder;
+  for (const std::string& file : job.pictures) {
+    progress.Step("reading", static_cast<double>(pictures.size()) / count);
+    pictures.push_back(ReadColourImage(file));
+    ColourImage& picture = pictures.back();
+    const ColourImage& first = pictures.front();
+    if (picture.width != first.width || picture.height != first.height)
+      throw Error(Code::kBadImage,
+                  fmt::format("this picture is {} x {} px and {} is {} x {}; a lens is calibrated "
+                              "from pictures of one camera at one size",
+                              picture.width, picture.height, job.pictures.front(), first.width,
+                              first.height),
+                  file);
+    finder.Add(cv::Mat(picture.height, picture.width, CV_8UC3, picture.rgb.data()));
+  }
+  const LensCircle circle = finder.Find().circle;
+  std::vector<authoring::TargetView> views;
+  for (ColourImage& picture : pictures) {
+    progress.Step("looking for the target", static_cast<double>(views.size()) / count);
+    const cv::Mat rgb(picture.height, picture.width, CV_8UC3, picture.rgb.data());
+    views.push_back(authoring::DetectTarget(rgb, circle, job.detect));
+  }
+  const auto calibration =
+      authoring::CalibrateLens(views, {pictures.front().width, pictures.front().height}, circle,
+                               MetresFromMm(job.spacing_mm), job.calibrate, progress);
+  const std::string table = authoring::TableOf(calibration, job.pictures);
+  std::fputs(table.c_str(), job.output == "-" || job.report == "-" ? stderr : stdout);
+  if (!job.report.empty())
+    WriteAtomically(job.report, authoring::JsonOf(calibration, job.pictures));
+  if (calibration.verdict == authoring::LensVerdict::kRefused) {
+    std::string reason = calibration.sentences.front();
+    if (job.pictures.size() == 1 && !views.front().reason.empty()) reason = views.front().reason;
+    throw Error(Code::kBadImage, "no lens was written: " + reason,
+                job.pictures.size() == 1 ? job.pictures.front() : std::string());
+  }
+  WriteLens(job.output, calibration.lens);
+  if (calibration.verdict == authoring::LensVerdict::kDoubtful)
+    for (const std::string& sentence : calibration.sentences)
+      fmt::print(stderr, "warning: {}\n", sentence);
+}
+
+}  // namespace
+
+void AddLensJob(CLI::App& program) {
+  CLI::App* job = program.add_subcommand(
+      "lens", "Calibrate the scope's lens from pictures of a line grid, chessboard or dot grid.");
+  const auto own = std::make_shared<LensJob>();
+  job->add_option(
+         "GRID_IMAGE", own->pictures,
+         "Raw pictures of the flat target; best six, tilted to all sides, filling the window")
+      ->required();
+  job->add_option("--spacing-mm", own->spacing_mm,
+                  "From line to line, corner to corner or dot to dot, in mm")
+      ->required()
+      ->check(CLI::Range(1e-3, 1e4));
+  job->add_option("-o,--output", own->output, "lens.json to write; - for standard output")
+      ->required();
+  job->add_option("--report", own->report,
+                  "All numbers as JSON, also when the lens is refused; - for standard output");
+  AddOptions(*job, own->calibrate);
+  AddOptions(*job, own->detect);
+  job->footer(
+      "The table gives each model's residual, on the points and on pictures held out of the fit, "
+      "and "
+      "an estimate of the error at the rim. The verdict is good, doubtful (written, with the "
+      "reason) "
+      "or refused (nothing written, exit code 1).");
+  job->callback([own] { Run(*own); });
+}
+
+}  // namespace arthro::app

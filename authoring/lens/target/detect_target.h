@@ -1,0 +1,37 @@
+// Finds a calibration target in a raw picture: a Cartesian grid of dark lines (the paper's), a
+// chessboard or a grid of dark dots, of any size and also in part. Its kind is found out as well.
+#pragma once
+
+#include "authoring/lens/target/target_view.h"
+#include "simulation/core/options.h"
+#include "simulation/scene/lens.h"
+
+namespace arthro::authoring {
+
+enum class TargetChoice { kAny, kLines, kChessboard, kDots };
+
+struct DetectOptions {
+  TargetChoice target = TargetChoice::kAny;
+  double smallest_step = 7;  // px; lattice points closer together run into one another
+  int fewest_points = 16;
+
+  template <class V>
+  void Visit(V&& v) {
+    v("target", target,
+      Choices<TargetChoice>{{{TargetChoice::kAny, "any"},
+                             {TargetChoice::kLines, "lines"},
+                             {TargetChoice::kChessboard, "chessboard"},
+                             {TargetChoice::kDots, "dots"}}},
+      "", "What the pictures show; any finds it out.");
+    v("smallest_step", smallest_step, Range{4.0, 100.0}, "px",
+      "Points that lie closer together are left out.");
+    v("fewest_points", fewest_points, Range{9, 10000}, "",
+      "A picture with fewer points of the target is not used.");
+  }
+};
+
+// `raw`: 8-bit, grey or RGB. Points near the rim of `circle` (r = 0: none) are left out, since the
+// rim's own edge would draw them. Without a target the result says why.
+TargetView DetectTarget(const cv::Mat& raw, const LensCircle& circle, const DetectOptions& options);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,113 @@
+#include "authoring/lens/target/detect_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "simulation/core/error.h"
+#include "tests/authoring/lens/board_picture.h"
+
+namespace arthro::authoring {
+namespace {
+
+using test::BoardPicture;
+using test::BoardPlace;
+
+Lens Fisheye() {
+  Lens lens;
+  lens.width = 320;
+  lens.height = 256;
+  lens.focal_px = 180;
+  lens.cx = 161;
+  lens.cy = 126.5;
+  lens.circle = {161, 126.5, 120};
+  return lens;
+}
+
+test::RayOfPixel RaysOf(const Lens& lens) {
+  return [lens](double x, double y, glm::dvec3& ray) {
+    const auto found = RayFromPixel(lens, {x, y});
+    if (!found || std::hypot(x - lens.circle.cx, y - lens.circle.cy) > lens.circle.r) return false;
+    ray = *found;
+    return true;
+  };
+}
+
+BoardPlace Tilted(double distance) { return {0.3, -0.2, 0.2, {0.13, -0.21, distance}}; }
+
+// Where each labelled point should be, but for the lattice's origin and quarter turns: the nearest
+// true crossing. A wrong label would also break the fit, which its own test shows.
+double UsualDistance(const TargetView& view, const Lens& lens, const BoardPlace& place) {
+  const glm::dmat3 turn = test::TurnOf(place);
+  std::vector<double> distances;
+  for (const LatticePoint& point : view.points) {
+    double nearest = 1e9;
+    for (int i = -15; i <= 15; ++i)
+      for (int j = -15; j <= 15; ++j) {
+        const glm::dvec3 at = place.middle + turn * glm::dvec3(i, j, 0);
+        if (const auto pixel = PixelFromRay(lens, at))
+          nearest =
+              std::min(nearest, std::hypot(pixel->x - point.pixel.x, pixel->y - point.pixel.y));
+      }
+    distances.push_back(nearest);
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances[distances.size() * 19 / 20];
+}
+
+// 0.3 px for 19 points of 20; a stray one at the rim is the fit's to leave out.
+TEST(DetectTarget, KindAndPointsOfEveryTarget) {
+  const Lens lens = Fisheye();
+  struct Case {
+    TargetKind kind;
+    double (*look)(double, double);
+    std::size_t fewest;
+    double distance;
+  };
+  for (const Case& c : {Case{TargetKind::kChessboard, test::ChessAt, 63, 9},
+                        Case{TargetKind::kLines, test::LinesAt, 30, 6},
+                        Case{TargetKind::kDots, test::DotsAt, 60, 9}}) {
+    const BoardPlace place = Tilted(c.distance);
+    const cv::Mat picture = BoardPicture({320, 256}, RaysOf(lens), place, c.look);
+    const TargetView view = DetectTarget(picture, lens.circle, {});
+    EXPECT_EQ(view.kind, c.kind) << WordOf(view.kind) << " for " << WordOf(c.kind);
+    EXPECT_GE(view.points.size(), c.fewest) << WordOf(c.kind);
+    EXPECT_LT(UsualDistance(view, lens, place), 0.3) << WordOf(c.kind) << view.points.size();
+    EXPECT_NEAR(view.dot_radius, c.kind == TargetKind::kDots ? 0.2 : 0.0, 0.02);
+  }
+}
+
+TEST(DetectTarget, AGlintAndAMissingLineCostOnlyTheirPoints) {
+  const Lens lens = Fisheye();
+  const BoardPlace place = Tilted(9);
+  const auto look = [](double u, double v) {
+    // The line v = 1 is not there.
+    return std::abs(v - 1) < 0.3 && std::abs(u - std::round(u)) >= 0.055 ? 1.0
+                                                                         : test::LinesAt(u, v);
+  };
+  cv::Mat picture = BoardPicture({320, 256}, RaysOf(lens), place, look);
+  cv::circle(picture, {190, 110}, 14, cv::Scalar(255), cv::FILLED);
+  const TargetView view = DetectTarget(picture, lens.circle, {});
+  EXPECT_EQ(view.kind, TargetKind::kLines);
+  EXPECT_GE(view.points.size(), 40u);
+}
+
+TEST(DetectTarget, SaysWhyThereIsNone) {
+  EXPECT_EQ(DetectTarget(cv::Mat(20, 20, CV_8UC1, cv::Scalar(0)), {}, {}).kind, TargetKind::kNone);
+  for (const int grey : {0, 128, 255}) {
+    const TargetView view = DetectTarget(cv::Mat(200, 200, CV_8UC3, cv::Scalar::all(grey)), {}, {});
+    EXPECT_EQ(view.kind, TargetKind::kNone);
+    EXPECT_NE(view.reason.find("no line grid"), std::string::npos) << view.reason;
+  }
+  // One line alone.
+  cv::Mat line(200, 200, CV_8UC1, cv::Scalar(230));
+  cv::line(line, {0, 100}, {199, 120}, cv::Scalar(20), 3, cv::LINE_AA);
+  EXPECT_EQ(DetectTarget(line, {}, {}).kind, TargetKind::kNone);
+  EXPECT_THROW(DetectTarget(cv::Mat(200, 200, CV_16UC1, cv::Scalar(0)), {}, {}), Error);
+}
+
+}  // namespace
+}  // namespace arthro::authoring
