@@ -10,6 +10,7 @@
 #include "authoring/panorama/graph/pair_book.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/pairs/direct_pyramid.h"
+#include "authoring/panorama/pairs/frame_features.h"
 #include "authoring/panorama/working_frame.h"
 
 namespace arthro::authoring {
@@ -26,10 +27,12 @@ class FramePairs {
   std::optional<PairEstimate> Make(const PairRequest& request, std::string* why_not) const;
 
  private:
+  std::optional<PairEstimate> ByFeatures(const PairRequest& request, std::string* why_not) const;
   std::optional<PairEstimate> Direct(const PairRequest& request, std::string* why_not) const;
 
   const RegisterOptions& options_;
   std::vector<std::optional<DirectPyramid>> pyramids_;
+  std::vector<std::optional<FrameFeatures>> features_;  // none when only direct is asked for
   std::vector<std::string> unusable_;
 };
 

@@ -32,24 +32,36 @@ void RepairGaps(const std::vector<int>& usable, int frames, int searches, PairBo
   for (int k = 0; k + 1 < count; ++k)
     if (!book.Has(usable[At(k)], usable[At(k + 1)])) gaps.push_back(k);
 
-  // Steps in the order of what they cost; a gap leaves when its two sides hang together.
+  // Steps in the order of what they cost; a gap leaves when its two sides hang together. Most often
+  // a single frame is spoilt, so its neighbours are tried before anything is searched for.
   struct Step {
     int before, after;  // pair (k - before, k + 1 + after)
-    int motion;         // -1 the motion before, 1 the one after, 0 a search
+    int motion;         // -1 the motion before, 1 the one after, 2 as neighbours, 0 a search
   };
-  const Step steps[] = {{0, 0, -1}, {0, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 0, 0},
-                        {0, 1, 0},  {1, 0, 0}, {1, 1, 0},  {0, 2, 0}, {2, 0, 0}};
+  const Step steps[] = {{0, 0, -1}, {0, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, 2}, {1, 0, 2},
+                        {0, 0, 0},  {0, 1, 0}, {1, 0, 0},  {1, 1, 0}, {0, 2, 0}, {2, 0, 0}};
   int searched = 0;
   for (const Step& step : steps) {
     if (gaps.empty()) return;
-    if (step.motion == 0 && searched++ >= searches) return;
+    if (step.motion == 0) {
+      if (searched++ >= searches) return;
+      // Searches are dear: only for what joins more than single frames.
+      const std::vector<int> piece = PiecesOf(frames, book.pairs());
+      std::vector<int> size(piece.size(), 0);
+      for (const int i : usable) ++size[At(piece[At(i)])];
+      std::erase_if(gaps, [&](int k) {
+        return size[At(piece[At(usable[At(k)])])] < 2 || size[At(piece[At(usable[At(k + 1)])])] < 2;
+      });
+      if (gaps.empty()) return;
+    }
     std::vector<PairRequest> requests;
     for (const int k : gaps) {
       const int from = k - step.before, to = k + 1 + step.after;
       if (from < 0 || to >= count) continue;
       PairRequest request{usable[At(from)], usable[At(to)], PairEffort::kSearch,
                           cv::Matx33d::eye()};
-      if (step.motion != 0) {
+      if (step.motion == 2) request.effort = PairEffort::kNeighbours;
+      if (step.motion == -1 || step.motion == 1) {
         const auto motion = MotionAt(usable, book, k + step.motion);
         if (!motion) continue;
         request.effort = PairEffort::kPredicted;
@@ -62,15 +74,14 @@ void RepairGaps(const std::vector<int>& usable, int frames, int searches, PairBo
     }
     book.Ask(requests, true, kStage, progress);
     const std::vector<int> piece = PiecesOf(frames, book.pairs());
-    std::erase_if(gaps, [&](int k) {
-      return piece[At(usable[At(k)])] == piece[At(usable[At(k + 1)])];
-    });
+    std::erase_if(gaps,
+                  [&](int k) { return piece[At(usable[At(k)])] == piece[At(usable[At(k + 1)])]; });
   }
 }
 
 int AdoptOrphans(const std::vector<int>& usable, const std::vector<cv::Matx33d>& plane_from_frame,
-                 const std::vector<int>& piece, int main, const FrameWindow& window,
-                 PairBook& book, const Progress& progress) {
+                 const std::vector<int>& piece, int main, const FrameWindow& window, PairBook& book,
+                 const Progress& progress) {
   const int count = static_cast<int>(usable.size());
   const auto place = [&](int k) -> const cv::Matx33d* {
     if (k < 0 || k >= count || piece[At(usable[At(k)])] != main) return nullptr;
@@ -101,17 +112,15 @@ int AdoptOrphans(const std::vector<int>& usable, const std::vector<cv::Matx33d>&
         const double overlap = OverlapOf(window, m);
         if (overlap > 0.4) choices.push_back({overlap, usable[At(other)], Scaled(m)});
       }
-      std::stable_sort(choices.begin(), choices.end(), [](const Choice& x, const Choice& y) {
-        return x.overlap > y.overlap;
-      });
+      std::stable_sort(choices.begin(), choices.end(),
+                       [](const Choice& x, const Choice& y) { return x.overlap > y.overlap; });
       for (int i = 0; i < std::min<int>(kTriesPerOrphan, static_cast<int>(choices.size())); ++i) {
         const Choice& choice = choices[At(i)];
         const int orphan = usable[At(k)];
         const bool is_first = orphan < choice.frame;
-        requests.push_back({std::min(orphan, choice.frame), std::max(orphan, choice.frame),
-                            PairEffort::kPredicted,
-                            is_first ? choice.frame_from_orphan
-                                     : Scaled(choice.frame_from_orphan.inv())});
+        requests.push_back(
+            {std::min(orphan, choice.frame), std::max(orphan, choice.frame), PairEffort::kPredicted,
+             is_first ? choice.frame_from_orphan : Scaled(choice.frame_from_orphan.inv())});
       }
     }
   }

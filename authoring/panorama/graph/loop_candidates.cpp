@@ -15,6 +15,33 @@ struct Candidate {
 };
 
 constexpr double kMostVariance = 400;  // px^2: beyond it all loops are equally welcome
+constexpr double kUsualGrowth = 3.0;   // of a pair's error with what the frames do not share
+constexpr double kUsualError = 0.1;    // px, of frames that share everything
+
+// How a pair's error grows with what its frames do not share, error = e0 exp(k (1 - overlap)), as
+// the pairs so far show it. The middle of k over pairs holds against false ones.
+class ErrorGuess {
+ public:
+  explicit ErrorGuess(const std::vector<PairEstimate>& pairs) {
+    std::vector<double> growth;
+    for (const PairEstimate& pair : pairs) {
+      const double apart = 1 - pair.overlap, deviation = PairDeviation(pair, kUsualError);
+      if (apart > 0.05 && std::isfinite(deviation))
+        growth.push_back(std::log(deviation / kUsualError) / apart);
+    }
+    if (growth.empty()) return;
+    const auto middle = growth.begin() + static_cast<std::ptrdiff_t>(growth.size() / 2);
+    std::nth_element(growth.begin(), middle, growth.end());
+    growth_ = std::clamp(*middle, 1.0, 8.0);
+  }
+  double Variance(double overlap) const {
+    const double error = kUsualError * std::exp(growth_ * (1 - overlap));
+    return error * error;
+  }
+
+ private:
+  double growth_ = kUsualGrowth;
+};
 
 cv::Point2d CentreOf(const cv::Matx33d& place, const cv::Point2d& centre) {
   const cv::Vec3d q = place * cv::Vec3d(centre.x, centre.y, 1);
@@ -29,6 +56,7 @@ std::vector<PairRequest> LoopCandidates(const std::vector<cv::Matx33d>& plane_fr
   const int frames = static_cast<int>(plane_from_frame.size());
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const VarianceMap map(frames, book.pairs());
+  const ErrorGuess guess(book.pairs());
 
   // How far a window's rim lies from its centre in the plane: windows further apart share nothing.
   std::vector<cv::Point2d> centre(at(frames));
@@ -57,8 +85,9 @@ std::vector<PairRequest> LoopCandidates(const std::vector<cv::Matx33d>& plane_fr
       const double overlap = OverlapOf(window, b_from_a);
       if (overlap < limits.smallest_overlap) continue;
       if (variance.empty()) variance = map.From(a);
-      const double known = std::min(variance[at(b)], kMostVariance);
-      candidates.push_back({a, b, known * overlap * overlap, b_from_a * (1 / b_from_a(2, 2))});
+      const double gain = std::min(variance[at(b)], kMostVariance) / guess.Variance(overlap);
+      if (gain < limits.least_gain) continue;
+      candidates.push_back({a, b, gain, b_from_a * (1 / b_from_a(2, 2))});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -17,6 +17,7 @@ struct LoopLimits {
   int most_pairs = 0;      // in this round, of the whole clip
   int most_per_frame = 3;  // in this round
   double smallest_overlap = 0.35;
+  double least_gain = 0.3;
 };
 
 // `plane_from_frame` and `piece` of every frame (-1: none); only frames of one piece can be

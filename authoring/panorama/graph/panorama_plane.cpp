@@ -85,4 +85,18 @@ cv::Matx33d LeastStretchedPlane(const std::vector<cv::Matx33d>& reference_from_f
   return plane;
 }
 
+cv::Matx33d NaturalScale(const std::vector<cv::Matx33d>& reference_from_frame,
+                         const FrameWindow& window) {
+  double mean = 0;
+  int count = 0;
+  for (const cv::Matx33d& place : reference_from_frame) {
+    const Local local = LocalOf(place, window.centre);
+    if (!local.is_valid) continue;
+    mean += std::log(cv::determinant(local.jacobian));
+    ++count;
+  }
+  const double scale = count > 0 ? std::exp(-0.5 * mean / count) : 1.0;
+  return {scale, 0, 0, 0, scale, 0, 0, 0, 1};
+}
+
 }  // namespace arthro::authoring

@@ -17,4 +17,8 @@ namespace arthro::authoring {
 cv::Matx33d LeastStretchedPlane(const std::vector<cv::Matx33d>& reference_from_frame,
                                 const FrameWindow& window);
 
+// The same for a plane whose shape is right already: its size alone.
+cv::Matx33d NaturalScale(const std::vector<cv::Matx33d>& reference_from_frame,
+                         const FrameWindow& window);
+
 }  // namespace arthro::authoring

@@ -3,6 +3,7 @@
 // pictures.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ enum class GraphStages { kPairs, kLoops, kRefinement };
 struct GraphOptions {
   GraphStages stages = GraphStages::kRefinement;
   int loop_rounds = 2;
-  double loops_per_frame = 1.0;
-  double smallest_overlap = 0.4;
+  double loops_per_frame = 0.7;
+  double least_gain = 0.3;
+  double loop_overlap = 0.25;
   int searches_per_gap = 6;
   double bridge_similarity = 0.3;
   double most_surprise = 4.0;
@@ -38,7 +40,9 @@ struct GraphOptions {
       "Times that loops are looked for, each with the places of the one before.");
     v("loops_per_frame", loops_per_frame, Range{0.0, 20.0}, "",
       "Pairs beside the neighbours that may be tried, per frame and round.");
-    v("smallest_overlap", smallest_overlap, Range{0.1, 1.0}, "",
+    v("least_gain", least_gain, Range{0.0, 100.0}, "",
+      "A loop is tried when the variance that it would check is at least this times its own.");
+    v("loop_overlap", loop_overlap, Range{0.1, 1.0}, "",
       "Share of the window that two frames must have in common to be tried as a loop.");
     v("searches_per_gap", searches_per_gap, Range{0, 100}, "",
       "Pairs tried without prediction where neighbours do not agree.");
@@ -52,22 +56,24 @@ struct GraphOptions {
 
 struct PlacedGraph {
   std::vector<int> component;  // -1: not placed; 0: the panorama; 1…: pieces that do not join
-  std::vector<std::string> reason;                // why not placed
-  std::vector<cv::Matx33d> plane_from_frame;      // each component in its central frame's plane
-  std::vector<double> expected_error_px;          // in that plane
-  std::vector<PairEstimate> pairs;                // that are believed
-  std::vector<double> pair_error_px;              // what is left of each
+  std::vector<std::string> reason;            // why not placed
+  std::vector<cv::Matx33d> plane_from_frame;  // each component in its central frame's plane
+  std::vector<double> expected_error_px;      // in that plane
+  std::vector<PairEstimate> pairs;            // that are believed
+  std::vector<double> pair_error_px;          // what is left of each
   int tried = 0, dropped = 0, loops = 0, bridges_refused = 0;
-  double variance_factor = 1;
-  double drift_px = 0;     // worst disagreement of a loop with the way around it
-  double closure_px = 0;   // mean of the triangles
-  double refine_ms = 0;    // CPU, single thread
+  double variance_factor = 1, camera_deviation = 0;  // of component 0 (refine.h)
+  double drift_factor = 0;  // middle of the loops' squared disagreement over its expected variance
+  double drift_px = 0;      // worst disagreement of a loop with the way around it
+  double closure_px = 0;    // mean of the triangles
+  double refine_ms = 0;     // CPU, single thread
 };
 
-// `unusable`: why a frame cannot be placed whatever its pairs; empty: it can.
+// `camera`: of the rectified frames, if their lens is known. `unusable`: why a frame cannot be
+// placed whatever its pairs; empty: it can.
 PlacedGraph PlaceFrames(const std::vector<std::string>& unusable, const PairMaker& maker,
-                        const FrameWindow& window, const GraphOptions& options,
-                        const CycleOptions& cycles, const RefineOptions& refine, int threads,
-                        const Progress& progress);
+                        const FrameWindow& window, const std::optional<Pinhole>& camera,
+                        const GraphOptions& options, const CycleOptions& cycles,
+                        const RefineOptions& refine, int threads, const Progress& progress);
 
 }  // namespace arthro::authoring

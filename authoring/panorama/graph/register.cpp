@@ -60,7 +60,9 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
   const PlacedGraph graph = PlaceFrames(
       maker.unusable(),
       [&](const PairRequest& request, std::string* why) { return maker.Make(request, why); },
-      window, options.graph, options.cycles, options.refine, options.threads, progress);
+      window,
+      view.focal_px > 0 ? std::optional(Pinhole{view.focal_px, view.cx, view.cy}) : std::nullopt,
+      options.graph, options.cycles, options.refine, options.threads, progress);
   told.refine_ms = graph.refine_ms;
   told.pairs_ms = CpuMs() - begin - graph.refine_ms;
 
@@ -87,12 +89,15 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
   }
   for (std::size_t i = 0; i < frames.size(); ++i)
     if (weight[i] > 0) results[i].rms_px = std::sqrt(square[i] / weight[i]);
+  told.pairs = graph.pairs;
   told.pairs_tried = graph.tried;
   told.pairs_kept = static_cast<int>(graph.pairs.size());
   told.pairs_dropped = graph.dropped;
   told.drift_px = graph.drift_px;
   told.closure_px = graph.closure_px;
   told.variance_factor = graph.variance_factor;
+  told.drift_factor = graph.drift_factor;
+  told.camera_deviation = graph.camera_deviation;
   return results;
 }
 

@@ -11,6 +11,7 @@
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/graph/place_frames.h"
 #include "authoring/panorama/pairs/direct_options.h"
+#include "authoring/panorama/pairs/feature_options.h"
 #include "authoring/panorama/placed_frame.h"
 #include "authoring/panorama/working_frame.h"
 #include "simulation/core/progress.h"
@@ -22,6 +23,7 @@ enum class PairMethod { kFeaturesThenDirect, kDirect, kFeatures };
 struct RegisterOptions {
   PairMethod method = PairMethod::kDirect;
   int threads = 2;
+  FeatureOptions features;
   DirectOptions direct;
   GraphOptions graph;
   CycleOptions cycles;
@@ -34,6 +36,7 @@ struct RegisterOptions {
                            {PairMethod::kFeatures, "features"}}},
       "", "How pairs of frames are laid over each other.");
     v("threads", threads, Range{1, 64}, "", "Frames and pairs worked on at once.");
+    features.Visit(v);
     direct.Visit(v);
     graph.Visit(v);
     cycles.Visit(v);
@@ -46,7 +49,8 @@ struct RegisterReport {
   int pairs_tried = 0, pairs_kept = 0, pairs_dropped = 0;
   int feature_pairs = 0, direct_pairs = 0;  // kept, by what found them first
   int components = 0;
-  double drift_px = 0, closure_px = 0, variance_factor = 1;
+  double drift_px = 0, closure_px = 0, variance_factor = 1, camera_deviation = 0, drift_factor = 0;
+  std::vector<PairEstimate> pairs;  // that were kept
   std::vector<std::string> warnings;
 };
 

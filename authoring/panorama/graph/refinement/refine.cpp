@@ -5,14 +5,21 @@
 #include <limits>
 #include <memory>
 
+#include <Eigen/Cholesky>
 #include <ceres/ceres.h>
 
+#include "authoring/panorama/graph/refinement/camera_prior.h"
 #include "authoring/panorama/graph/refinement/pair_term.h"
 
 namespace arthro::authoring {
 namespace {
 
 constexpr double kMedianOfChi2 = 7.344;  // of eight degrees of freedom
+constexpr double kPriorLoss = 4.0;       // deviations at which a frame begins to be let off
+// Where the prior makes pairs disagree by more than this, it is the prior that is wrong.
+constexpr double kMostDisagreement = 1.25;
+constexpr double kWider = 4.0;
+constexpr double kWidest = 0.1;
 
 class PairCost final : public ceres::SizedCostFunction<8, 8, 8> {
  public:
@@ -40,6 +47,28 @@ class PairCost final : public ceres::SizedCostFunction<8, 8, 8> {
   const Eigen::Matrix3d a0_, b0_;
 };
 
+class CameraCost final : public ceres::SizedCostFunction<2, 8> {
+ public:
+  CameraCost(const CameraPrior& prior, const Eigen::Matrix3d& origin)
+      : prior_(prior), origin_(origin) {}
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    Eigen::Vector2d residual;
+    Eigen::Matrix<double, 2, 8> by_frame;
+    double* const j = jacobians ? jacobians[0] : nullptr;
+    if (!prior_.Evaluate(MoveInChart(origin_, Eigen::Map<const Vector8>(x[0])), origin_, &residual,
+                         j ? &by_frame : nullptr))
+      return false;
+    Eigen::Map<Eigen::Vector2d>(residuals, 2) = residual;
+    if (j) Eigen::Map<Eigen::Matrix<double, 2, 8, Eigen::RowMajor>>(j, 2, 8) = by_frame;
+    return true;
+  }
+
+ private:
+  const CameraPrior prior_;
+  const Eigen::Matrix3d origin_;
+};
+
 // What is kept between the rounds of one refinement.
 class Refinement {
  public:
@@ -47,8 +76,11 @@ class Refinement {
              const RefineOptions& options)
       : options_(options), normalisation_(NormalisationOf(pairs)) {
     for (const cv::Matx33d& m : start) places_.push_back(normalisation_.Normalise(m));
-    for (const PairEstimate& pair : pairs)
+    joined_.assign(start.size(), false);
+    for (const PairEstimate& pair : pairs) {
       terms_.emplace_back(pair, normalisation_, options.pair_floor);
+      joined_[At(pair.a)] = joined_[At(pair.b)] = true;
+    }
   }
 
   // Squared whitened residual of every pair; infinity where it cannot be evaluated.
@@ -66,7 +98,8 @@ class Refinement {
   }
 
   // One robust solve whose loss begins at `loss_at`, a whitened norm. Returns its iterations.
-  int Solve(int fixed_frame, double loss_at, RefineSolver solver) {
+  // `prior` may be null.
+  int Solve(int fixed_frame, double loss_at, const CameraPrior* prior, RefineSolver solver) {
     const std::vector<double> squares = Squares(nullptr);
     std::vector<Vector8> moves(places_.size(), Vector8::Zero());
     ceres::Problem problem;
@@ -78,12 +111,22 @@ class Refinement {
                                moves[At(term.b())].data());
     }
     if (problem.NumResidualBlocks() == 0) return 0;
-    if (problem.HasParameterBlock(moves[At(fixed_frame)].data()))
-      problem.SetParameterBlockConstant(moves[At(fixed_frame)].data());
+    double* const fixed = moves[At(fixed_frame)].data();
+    if (prior) {
+      for (std::size_t i = 0; i < places_.size(); ++i)
+        if (problem.HasParameterBlock(moves[i].data()))
+          problem.AddResidualBlock(new CameraCost(*prior, places_[i]),
+                                   new ceres::CauchyLoss(kPriorLoss), moves[i].data());
+      // The prior knows the plane but for a similarity: four of the fixed frame's numbers.
+      if (problem.HasParameterBlock(fixed))
+        problem.SetManifold(fixed, new ceres::SubsetManifold(8, {0, 1, 2, 5}));
+    } else if (problem.HasParameterBlock(fixed)) {
+      problem.SetParameterBlockConstant(fixed);
+    }
     ceres::Solver::Options how;
     how.linear_solver_type =
         solver == RefineSolver::kSparse ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
-    how.max_num_iterations = options_.most_iterations;
+    how.max_num_iterations = options_.refine_iterations;
     how.num_threads = 1;  // the order of sums, and so every bit, stays the same
     how.logging_type = ceres::SILENT;
     how.function_tolerance = 1e-9;
@@ -98,6 +141,59 @@ class Refinement {
     return static_cast<int>(summary.iterations.size());
   }
 
+  // Moves all frames to the plane in which the camera's rule holds best: shear, height and the two
+  // numbers of perspective, by damped Gauss-Newton. Where frames all look the same way some of them
+  // are free, and stay.
+  void Straighten(const Pinhole& camera) {
+    const CameraPrior rule(camera, normalisation_, 1.0);
+    const auto plane_of = [](const Eigen::Vector4d& p) {
+      Eigen::Matrix3d plane;
+      plane << 1, p[0], 0, 0, 1 + p[1], 0, p[2], p[3], 1;
+      return plane;
+    };
+    const auto residuals_of = [&](const Eigen::Vector4d& p) {
+      Eigen::VectorXd all = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(places_.size()));
+      const Eigen::Matrix3d plane = plane_of(p);
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        Eigen::Vector2d one = Eigen::Vector2d::Zero();
+        if (joined_[i] && rule.Evaluate(plane * places_[i], places_[i], &one, nullptr))
+          all.segment<2>(2 * static_cast<Eigen::Index>(i)) = one;
+      }
+      return all;
+    };
+    Eigen::Vector4d p = Eigen::Vector4d::Zero();
+    Eigen::VectorXd here = residuals_of(p);
+    double damping = 1e-3;
+    for (int step = 0; step < 30; ++step) {
+      constexpr double kStep = 1e-6;
+      Eigen::MatrixXd jacobian(here.size(), 4);
+      for (int j = 0; j < 4; ++j)
+        jacobian.col(j) = (residuals_of(p + kStep * Eigen::Vector4d::Unit(j)) - here) / kStep;
+      Eigen::Matrix4d normal = jacobian.transpose() * jacobian;
+      normal += damping * (normal.trace() / 4 + 1e-12) * Eigen::Matrix4d::Identity();
+      const Eigen::Vector4d move = -normal.ldlt().solve(jacobian.transpose() * here);
+      if (!move.allFinite()) break;
+      const Eigen::VectorXd there = residuals_of(p + move);
+      if (there.squaredNorm() < here.squaredNorm()) {
+        p += move;
+        here = there;
+        damping = std::max(1e-9, damping * 0.2);
+        if (move.norm() < 1e-9) break;
+      } else {
+        damping *= 10;
+        if (damping > 1e6) break;
+      }
+    }
+    for (Eigen::Matrix3d& place : places_) {
+      place = plane_of(p) * place;
+      place *= std::sqrt(3.0) / place.norm();
+    }
+  }
+
+  const Normalisation& normalisation() const { return normalisation_; }
+  const std::vector<Eigen::Matrix3d>& places() const { return places_; }
+  void SetPlaces(const std::vector<Eigen::Matrix3d>& places) { places_ = places; }
+
   cv::Matx33d PlaceOf(std::size_t i) const { return normalisation_.Denormalise(places_[i]); }
 
  private:
@@ -107,6 +203,7 @@ class Refinement {
   const Normalisation normalisation_;
   std::vector<Eigen::Matrix3d> places_;
   std::vector<PairTerm> terms_;
+  std::vector<bool> joined_;
 };
 
 // By how much covariances are too small, from the middle of what pairs disagree: half of them may
@@ -126,7 +223,8 @@ double FactorOf(std::vector<double> squares, std::size_t frames) {
 }  // namespace
 
 Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Matx33d>& start,
-               int fixed_frame, const RefineOptions& options, RefineSolver solver) {
+               int fixed_frame, const RefineOptions& options, const std::optional<Pinhole>& camera,
+               RefineSolver solver) {
   Refinement refinement(pairs, start, options);
   std::vector<bool> is_joined(start.size(), false);
   for (const PairEstimate& pair : pairs)
@@ -141,8 +239,27 @@ Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Mat
   double factor = std::max(25.0, FactorOf(refinement.Squares(nullptr), frames));
   for (int round = 0; round < 3; ++round) {
     const double loss_at = options.loss_scale * std::sqrt(8.0 * factor);
-    refined.iterations += refinement.Solve(fixed_frame, loss_at, solver);
+    refined.iterations += refinement.Solve(fixed_frame, loss_at, nullptr, solver);
     factor = FactorOf(refinement.Squares(nullptr), frames);
+  }
+
+  // Then as a calibrated scope sees it, as tightly as the pairs allow.
+  if (camera && options.camera_deviation > 0 && frames > 2) {
+    const std::vector<Eigen::Matrix3d> free = refinement.places();
+    for (double deviation = options.camera_deviation; deviation < kWidest; deviation *= kWider) {
+      refinement.Straighten(*camera);
+      const CameraPrior prior(*camera, refinement.normalisation(), deviation);
+      for (int round = 0; round < 2; ++round)
+        refined.iterations += refinement.Solve(
+            fixed_frame, options.loss_scale * std::sqrt(8.0 * factor), &prior, solver);
+      const double held = FactorOf(refinement.Squares(nullptr), frames);
+      if (held <= kMostDisagreement * factor) {
+        refined.camera_deviation = deviation;
+        factor = held;
+        break;
+      }
+      refinement.SetPlaces(free);
+    }
   }
 
   refined.variance_factor = factor;

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
+#include "authoring/panorama/graph/refinement/camera_prior.h"
 #include "authoring/panorama/graph/refinement/pair_term.h"
 #include "authoring/panorama/graph/refinement/selected_inverse.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 // Two degrees of freedom at 1 - 0.05 / 4: eight numbers move the nine points like four free ones.
 constexpr double kChi2OfWorst = 8.76;
+constexpr double kFixed = 1e9;  // in normalised units: known to 3e-5
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Linearised {
@@ -45,7 +47,8 @@ PointRows RowsOf(const Eigen::Matrix3d& place, const std::vector<cv::Point2d>& p
 Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
                                 const std::vector<double>& weights,
                                 const std::vector<cv::Matx33d>& plane_from_frame, int fixed_frame,
-                                const std::vector<cv::Point2d>& points, double pair_floor_px) {
+                                const std::vector<cv::Point2d>& points, double pair_floor_px,
+                                const std::optional<Pinhole>& camera, double camera_deviation) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   Uncertainty result;
   result.error_px.assign(plane_from_frame.size(), kNever);
@@ -54,7 +57,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
   std::vector<Eigen::Matrix3d> places;
   for (const cv::Matx33d& m : plane_from_frame) places.push_back(normalisation.Normalise(m));
 
-  // Rows of the frames that have any pair; the fixed one has none.
+  // Rows of the frames that have any pair.
   std::vector<Linearised> linear(pairs.size());
   std::vector<int> row_of(places.size(), -1);
   int unknowns = 0;
@@ -69,7 +72,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
     linear[i].by_a *= std::sqrt(weights[i]);
     linear[i].by_b *= std::sqrt(weights[i]);
     for (const int frame : {term.a(), term.b()})
-      if (frame != fixed_frame && row_of[at(frame)] < 0) row_of[at(frame)] = 8 * unknowns++;
+      if (row_of[at(frame)] < 0) row_of[at(frame)] = 8 * unknowns++;
   }
   if (unknowns == 0) {
     if (fixed_frame >= 0 && at(fixed_frame) < places.size()) result.error_px[at(fixed_frame)] = 0;
@@ -95,6 +98,23 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
     }
   }
   for (int i = 0; i < 8 * unknowns; ++i) entries.emplace_back(i, i, 1e-4);
+  const bool has_prior = camera && camera_deviation > 0;
+  if (has_prior) {
+    const CameraPrior prior(*camera, normalisation, camera_deviation);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Eigen::Vector2d residual;
+      Eigen::Matrix<double, 2, 8> j;
+      if (row_of[i] >= 0 && prior.Evaluate(places[i], places[i], &residual, &j))
+        add(row_of[i], row_of[i], j.transpose() * j);
+    }
+  }
+  // The fixed frame: all of it, or what the prior leaves open.
+  if (fixed_frame >= 0 && row_of[at(fixed_frame)] >= 0)
+    for (const int k : {0, 1, 2, 5, 3, 4, 6, 7}) {
+      if (has_prior && (k == 3 || k == 4 || k > 5)) continue;
+      const int row = row_of[at(fixed_frame)] + k;
+      entries.emplace_back(row, row, kFixed);
+    }
   Eigen::SparseMatrix<double> normal(8 * unknowns, 8 * unknowns);
   normal.setFromTriplets(entries.begin(), entries.end());
   const SelectedInverse inverse(normal);

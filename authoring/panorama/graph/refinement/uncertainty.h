@@ -8,10 +8,12 @@
 // frames for a chain with loops, and inv(N) B^T, eight solves.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
+#include "authoring/panorama/graph/refinement/pinhole.h"
 #include "authoring/panorama/pairs/pair_estimate.h"
 
 namespace arthro::authoring {
@@ -25,10 +27,13 @@ struct Uncertainty {
 };
 
 // `points` are those of a frame at which errors count. Frames that no pair holds take no part.
-// `weights` multiply the information of each pair (the robust loss's, over the variance factor).
+// With a camera and its deviation, the prior of camera_prior.h holds too; then the places must lie
+// in a plane of straight metric. `weights` multiply the information of each pair (the robust loss's, over the variance factor).
 Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
                                 const std::vector<double>& weights,
                                 const std::vector<cv::Matx33d>& plane_from_frame, int fixed_frame,
-                                const std::vector<cv::Point2d>& points, double pair_floor_px);
+                                const std::vector<cv::Point2d>& points, double pair_floor_px,
+                                const std::optional<Pinhole>& camera = std::nullopt,
+                                double camera_deviation = 0);
 
 }  // namespace arthro::authoring

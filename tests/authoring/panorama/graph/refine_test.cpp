@@ -36,7 +36,7 @@ RefineOptions WithoutFloor() {
 Refined RefineFromTree(const std::vector<PairEstimate>& pairs, int frames, int root,
                        const RefineOptions& options, RefineSolver solver = RefineSolver::kSparse) {
   return Refine(pairs, LeastVarianceTree(frames, pairs, root).root_from_frame, root, options,
-                solver);
+                std::nullopt, solver);
 }
 
 TEST(Refine, BeatsTheTreeItStartsFrom) {
