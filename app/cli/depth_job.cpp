@@ -41,12 +41,14 @@ void Run(const DepthJob& job) {
   if (report.is_overexposed)
     warn("too much of it is saturated to be glints; it was taken as near tissue");
   if (job.output == "-") return;  // standard output holds the picture
-  fmt::print(
-      "{}: {} x {} px, {:.1f} % imaged, {:.2f} % of it glints, greys {:.1f} to {:.1f} "
-      "became {:g} to {:g} mm\n",
-      job.output, depth.width, depth.height, 100.0 * report.imaged_share,
-      100.0 * report.highlight_share, report.low_grey, report.high_grey,
-      MmFromMetres(job.options.far_relief), MmFromMetres(job.options.near_relief));
+  const std::string what =
+      job.options.estimator == authoring::DepthEstimator::kPaper
+          ? fmt::format("greys {:.1f} to {:.1f}", report.low_grey, report.high_grey)
+          : fmt::format("relative distances {:.2f} to 1", report.distance_ratio);
+  fmt::print("{}: {} x {} px, {:.1f} % imaged, {:.2f} % of it glints, {} became {:g} to {:g} mm\n",
+             job.output, depth.width, depth.height, 100.0 * report.imaged_share,
+             100.0 * report.highlight_share, what, MmFromMetres(job.options.far_relief),
+             MmFromMetres(job.options.near_relief));
 }
 
 }  // namespace

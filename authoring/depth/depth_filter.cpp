@@ -12,6 +12,7 @@
 #include "authoring/depth/grey_plane.h"
 #include "authoring/depth/highlights.h"
 #include "authoring/depth/imaged_area.h"
+#include "authoring/depth/light_falloff.h"
 #include "authoring/depth/masked_median.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
@@ -38,12 +39,15 @@ void MaskSurround(GreyPlane& plane, const std::vector<std::uint8_t>& flags,
   for (std::size_t i = 0; i < outside.size(); ++i) plane.imaged[i] = outside[i] ? 0 : 1;
 }
 
-void RemoveHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& flags, std::size_t imaged,
-                      DepthReport& report) {
-  const auto highlight = FindHighlights(plane, flags);
+// What is to be filled; empty where there is nothing, or too much.
+std::vector<std::uint8_t> HighlightsOf(const GreyPlane& plane,
+                                       const std::vector<std::uint8_t>& flags, std::size_t imaged,
+                                       DepthReport& report) {
+  auto highlight = FindHighlights(plane, flags);
   report.highlight_share = static_cast<double>(Count(highlight)) / static_cast<double>(imaged);
   report.is_overexposed = report.highlight_share > kMostHighlights;
-  if (report.highlight_share > 0.0 && !report.is_overexposed) FillHighlights(plane, highlight);
+  if (report.highlight_share == 0.0 || report.is_overexposed) highlight.clear();
+  return highlight;
 }
 
 Histogram HistogramOf(const GreyPlane& plane) {
@@ -103,6 +107,43 @@ DepthMap Apply(const std::vector<float>& relief, const GreyPlane& plane) {
   return depth;
 }
 
+// Relative distances onto the range of relief: linear, exactly `far_relief` from the high distance
+// on and exactly `near_relief` up to the low one.
+DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& plane,
+                          std::size_t imaged, const DepthOptions& options, DepthReport& report) {
+  DepthMap depth(plane.width, plane.height, std::numeric_limits<float>::quiet_NaN());
+  if (imaged == 0) return depth;
+  std::vector<float> known;
+  known.reserve(imaged);
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (plane.imaged[i]) known.push_back(distance[i]);
+  // Nearest comes first, so the greys' percentiles count from the other end.
+  const auto at = [&](double percent) {
+    const auto rank = static_cast<std::ptrdiff_t>(
+        std::clamp(std::floor(percent / 100.0 * static_cast<double>(imaged)), 0.0,
+                   static_cast<double>(imaged - 1)));
+    std::nth_element(known.begin(), known.begin() + rank, known.end());
+    return known[static_cast<std::size_t>(rank)];
+  };
+  float nearest = at(100.0 - options.high_percentile),
+        furthest = at(100.0 - options.low_percentile);
+  if (nearest == furthest) {
+    nearest = at(0.0);
+    furthest = at(100.0);
+  }
+  report.is_flat = !(furthest > nearest * (1 + 1e-5f));  // smoothing leaves this much of nothing
+  report.distance_ratio = furthest / nearest;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (!plane.imaged[i]) continue;
+    const double nearness =
+        report.is_flat ? 0.0
+                       : std::clamp((furthest - distance[i]) / (furthest - nearest), 0.0f, 1.0f);
+    depth.relief[i] = static_cast<float>(options.far_relief +
+                                         nearness * (options.near_relief - options.far_relief));
+  }
+  return depth;
+}
+
 }  // namespace
 
 void CheckDepthOptions(const DepthOptions& options) {
@@ -139,7 +180,16 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
 
   // What is not depth: glints and noise.
   progress.Step("highlights", 0.2);
-  if (options.fill_highlights && imaged > 0) RemoveHighlights(plane, flags, imaged, told);
+  std::vector<std::uint8_t> highlight;
+  if (options.fill_highlights && imaged > 0) highlight = HighlightsOf(plane, flags, imaged, told);
+  if (options.estimator != DepthEstimator::kPaper) {
+    DepthMap depth =
+        ReliefByDistance(DistanceFromLight(panorama, plane, highlight, options, progress), plane,
+                         imaged, options, told);
+    progress.Step("done", 1.0);
+    return depth;
+  }
+  if (!highlight.empty()) FillHighlights(plane, highlight);
   progress.Step("median", 0.3);
   MaskedMedian(plane, options.median_radius);
 

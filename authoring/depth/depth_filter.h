@@ -6,6 +6,8 @@
 // where nothing was imaged. Steps: grey by weights; surround and rim masked; glints filled; median;
 // percentiles to [far, near] through the law. The paper normalises before its median; the two
 // commute, and this way noise does not set the range, and the range is filled exactly.
+// The other estimators (light_falloff.h) find a relative distance, whose percentiles become the
+// range in the same way.
 #pragma once
 
 #include "authoring/depth/depth_options.h"
@@ -18,7 +20,8 @@ struct DepthReport {
   double imaged_share = 0;      // of all pixels, 0 to 1; 0: nothing but surround
   double highlight_share = 0;   // of the imaged pixels that were glints
   double low_grey = 0;          // 0 to 255: what became furthest…
-  double high_grey = 0;         // …and nearest
+  double high_grey = 0;         // …and nearest; the paper's estimator only
+  double distance_ratio = 0;    // furthest over nearest distance; the other estimators only
   bool is_flat = false;         // one grey throughout: everything lies at the far relief
   bool is_overexposed = false;  // too much is saturated to be glints; it was left as it is
 };

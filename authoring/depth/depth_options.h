@@ -5,6 +5,13 @@
 
 namespace arthro::authoring {
 
+// What stands between brightness and distance. All of them rank what is nearer; none measures.
+enum class DepthEstimator {
+  kPaper,             // grey with little red, median, law [paper 3.4]
+  kInverseSquareRed,  // red, which blood hides least, tissue colour divided out, 1/sqrt(I)
+  kShading,           // the same, and slopes away from the light taken into account
+};
+
 // How the distance to a surface follows from its brightness under a light at the scope.
 enum class DepthLaw {
   kLinear,         // the paper's: relief grows in step with grey
@@ -12,6 +19,7 @@ enum class DepthLaw {
 };
 
 struct DepthOptions {
+  DepthEstimator estimator = DepthEstimator::kPaper;
   double red_weight = 0.2;
   double green_weight = 0.4;
   double blue_weight = 0.4;
@@ -25,9 +33,23 @@ struct DepthOptions {
   int surround_threshold = 12;
   int border_margin = 3;
   bool fill_highlights = true;
+  bool correct_tissue = true;
+  double field_of_view = RadiansFromDegrees(90);
+  double vignette = 0;
+  int iterations = 8;
 
   template <class V>
   void Visit(V&& v) {
+    v("estimator", estimator,
+      Choices<DepthEstimator>{{{DepthEstimator::kPaper, "paper"},
+                               {DepthEstimator::kInverseSquareRed, "inverse-square-red"},
+                               {DepthEstimator::kShading, "shading"}}},
+      "",
+      "paper: grey by the weights and the law below. The other two follow a light at the scope: "
+      "red "
+      "light over distance squared, and with shading also the slope. On a panorama, whose light "
+      "was "
+      "evened out, they tell how far a place stands out from its surroundings.");
     v("red_weight", red_weight, Range{0, 1}, "",
       "Share of red in the grey; small, since muscle and synovium are redder, not nearer.");
     v("green_weight", green_weight, Range{0, 1}, "", "Share of green in the grey.");
@@ -37,7 +59,7 @@ struct DepthOptions {
           {{DepthLaw::kLinear, "linear"}, {DepthLaw::kInverseSquare, "inverse-square"}}},
       "", "How brightness falls with distance.");
     v("gamma", gamma, Range{1, 3}, "",
-      "The camera's encoding, undone by the inverse-square law; 1 for a linear camera.");
+      "The camera's encoding, undone by all but the linear law; 1 for a linear camera.");
     v("near_relief", near_relief, Range{0, 0.5}, "m", "Relief of the brightest, nearest tissue.");
     v("far_relief", far_relief, Range{0, 0.5}, "m", "Relief of the darkest, furthest tissue.");
     v("low_percentile", low_percentile, Range{0, 100}, "%",
@@ -45,13 +67,23 @@ struct DepthOptions {
     v("high_percentile", high_percentile, Range{0, 100}, "%",
       "Grey above which everything counts as nearest.");
     v("median_radius", median_radius, Range{0, 15}, "px",
-      "Noise smaller than this is removed by a median; 0 leaves it.");
+      "Noise smaller than this is removed, by a median in the paper's way, else by a smoothing "
+      "that "
+      "keeps edges; 0 leaves it.");
     v("surround_threshold", surround_threshold, Range{0, 255}, "",
       "Darker than this and joined to the picture's edge is surround, not tissue.");
     v("border_margin", border_margin, Range{0, 100}, "px",
       "Rim of the imaged area, next to the surround, that is left out.");
     v("fill_highlights", fill_highlights, Any{}, "",
       "Fill glints from around them, so that they are no peaks.");
+    v("correct_tissue", correct_tissue, Any{}, "",
+      "Divide out how red a tissue is; not used by the paper's estimator.");
+    v("field_of_view", field_of_view, Range{RadiansFromDegrees(10), RadiansFromDegrees(360)}, "rad",
+      "Angle across the picture's shorter side, for slopes and vignette; up to 120 degrees as a "
+      "pinhole sees it, above in equal angles.");
+    v("vignette", vignette, Range{0, 0.95}, "",
+      "Share of light that the lens loses at the rim of a single frame; 0 for a panorama.");
+    v("iterations", iterations, Range{1, 30}, "", "Rounds of the shading estimator.");
   }
 };
 

@@ -106,7 +106,8 @@ TEST_F(DepthJob, HelpListsEveryOption) {
   for (const char* flag :
        {"--red-weight", "--law", "--gamma", "--near-relief-mm", "--far-relief-mm",
         "--low-percentile", "--high-percentile", "--median-radius", "--surround-threshold",
-        "--border-margin", "--fill-highlights", "--options", "inverse-square"})
+        "--border-margin", "--fill-highlights", "--estimator", "--vignette", "--field-of-view-deg",
+        "--correct-tissue", "--iterations", "--options", "inverse-square"})
     EXPECT_NE(result.out.find(flag), std::string::npos) << flag << "\n" << result.out;
 }
 

@@ -2,7 +2,6 @@
 // footage, where only sanity can be asked for.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 
 #include "authoring/depth/depth_filter.h"
 #include "simulation/scene/image_io.h"
+#include "tests/support/depth_score.h"
 #include "tests/support/knee_picture.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
@@ -17,32 +17,7 @@
 namespace arthro::authoring {
 namespace {
 
-std::vector<double> Ranks(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return values[a] < values[b]; });
-  std::vector<double> ranks(values.size());
-  for (std::size_t i = 0; i < order.size();) {
-    std::size_t j = i;
-    while (j < order.size() && values[order[j]] == values[order[i]]) ++j;
-    for (std::size_t k = i; k < j; ++k) ranks[order[k]] = 0.5 * static_cast<double>(i + j - 1);
-    i = j;
-  }
-  return ranks;
-}
-
-// Spearman's: 1 when one orders points as the other does.
-double RankCorrelation(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto ra = Ranks(a), rb = Ranks(b);
-  const double mean = 0.5 * static_cast<double>(a.size() - 1);
-  double ab = 0, aa = 0, bb = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (ra[i] - mean) * (rb[i] - mean);
-    aa += (ra[i] - mean) * (ra[i] - mean);
-    bb += (rb[i] - mean) * (rb[i] - mean);
-  }
-  return ab / std::sqrt(aa * bb);
-}
+using test::RankCorrelation;
 
 TEST(DepthTruth, NoisyReliefIsOrderedAsTheTruth) {
   constexpr int kWidth = 400, kHeight = 300;
