@@ -14,6 +14,7 @@
 #include "authoring/panorama/pairs/feature_options.h"
 #include "authoring/panorama/placed_frame.h"
 #include "authoring/panorama/working_frame.h"
+#include "simulation/core/part_visitor.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {
@@ -37,10 +38,10 @@ struct RegisterOptions {
       "", "How pairs of frames are laid over each other.");
     v("threads", threads, Range{1, 64}, "", "Frames and pairs worked on at once.");
     features.Visit(v);
-    direct.Visit(v);
-    graph.Visit(v);
-    cycles.Visit(v);
-    refine.Visit(v);
+    direct.Visit(PartVisitor<V>{v, "direct_"});
+    graph.Visit(PartVisitor<V>{v, "graph_"});
+    cycles.Visit(PartVisitor<V>{v, "cycles_"});
+    refine.Visit(PartVisitor<V>{v, "refine_"});
   }
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/options_json.h"
+#include "simulation/core/part_visitor.h"
 
 namespace arthro {
 namespace {
@@ -45,6 +46,33 @@ TEST(Options, SurviveJson) {
   const auto back = OptionsFromJson<SampleOptions>(json);
   EXPECT_DOUBLE_EQ(back.angle, options.angle);
   EXPECT_EQ(back.law, options.law);
+}
+
+struct NestedOptions {
+  int passes = 5;
+  SampleOptions near, far;
+  template <class V>
+  void Visit(V&& v) {
+    v("passes", passes, Range{1, 9}, "", "How often in all.");
+    near.Visit(PartVisitor<V>{v, "near_"});
+    far.Visit(PartVisitor<V>{v, "far_"});
+  }
+};
+
+TEST(Options, PartsMayUseOneWord) {
+  NestedOptions options;
+  options.near.passes = 2;
+  options.far.passes = 7;
+  options.far.angle = RadiansFromDegrees(10.0);
+  const nlohmann::json json = JsonFromOptions(options);
+  EXPECT_EQ(json.size(), 11u);
+  EXPECT_NEAR(json.at("far_angle_deg").get<double>(), 10.0, 1e-9);
+  const auto back = OptionsFromJson<NestedOptions>(json);
+  EXPECT_EQ(back.passes, 5);
+  EXPECT_EQ(back.near.passes, 2);
+  EXPECT_EQ(back.far.passes, 7);
+  options.far.passes = 12;
+  EXPECT_THROW(CheckOptions(options), Error);
 }
 
 TEST(Options, RefuseWithKeyAndRemedy) {
