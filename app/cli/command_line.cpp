@@ -34,6 +34,7 @@ int RunCommandLine(int argc, char** argv) {
   AddDepthJob(program);
   AddEditJob(program);
   AddLensJob(program);
+  AddPanoramaJob(program);
   AddPhantomJob(program);
   AddPivotJob(program);
   AddPractiseJob(program);

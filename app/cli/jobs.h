@@ -14,6 +14,7 @@ void AddDemoJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
 void AddEditJob(CLI::App& program);
 void AddLensJob(CLI::App& program);
+void AddPanoramaJob(CLI::App& program);
 void AddPhantomJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
 void AddPractiseJob(CLI::App& program);

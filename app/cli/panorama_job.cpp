@@ -1,0 +1,94 @@
+// arthroscene panorama FOOTAGE -o pano.png: a clip becomes one picture [paper 3.1].
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/job_progress.h"
+#include "app/cli/jobs.h"
+#include "app/cli/options_cli.h"
+#include "authoring/panorama/make_panorama.h"
+#include "authoring/panorama/report_io.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/lens_io.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PanoramaJob {
+  std::string lens, output, report;
+  std::vector<int> excluded;
+  authoring::PanoramaRequest request;
+};
+
+// pano.png, pano-2.png, pano-3.png …
+fs::path PieceName(const fs::path& output, std::size_t number) {
+  fs::path name = output;
+  name.replace_filename(
+      fmt::format("{}-{}{}", output.stem().string(), number, output.extension().string()));
+  return name;
+}
+
+void Run(PanoramaJob job) {
+  authoring::CheckPanoramaName(job.output);
+  if (job.output == "-" && job.report == "-")
+    throw Error(Code::kBadArgument,
+                "only one of the panorama and its report can go to standard output");
+  if (!job.lens.empty()) job.request.lens = ReadLens(job.lens);
+  job.request.excluded = {job.excluded.begin(), job.excluded.end()};
+  const Progress progress = TerminalProgress();
+  auto result = authoring::MakePanorama(job.request, progress);
+
+  // The panorama last: where it is, all of it is.
+  progress.Step("writing", 0.99);
+  auto& report = result.report;
+  std::size_t number = 1;
+  for (std::size_t i = 0; i < result.pieces.size(); ++i) {
+    if (job.output == "-" || result.pieces[i].empty()) continue;
+    const fs::path file = PieceName(job.output, ++number);
+    authoring::WritePanorama(file, result.pieces[i]);
+    report.pieces[i].file = file.filename().string();
+  }
+  if (!job.report.empty()) authoring::WriteReport(job.report, report);
+  authoring::WritePanorama(job.output, result.picture);
+  progress.Step("done", 1.0);
+
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (job.output == "-" || job.report == "-") return;  // standard output holds one of them
+  fmt::print("{}: {} x {} px, {}; expected error {:.2f} px on average, {:.2f} px at most\n",
+             job.output, result.picture.width, result.picture.height, report.summary,
+             report.mean_error_px, report.max_error_px);
+  for (const auto& piece : report.pieces)
+    if (!piece.file.empty())
+      fmt::print("{}: a separate piece of {} frames\n", piece.file, piece.frames);
+}
+
+}  // namespace
+
+void AddPanoramaJob(CLI::App& program) {
+  CLI::App* job = program.add_subcommand(
+      "panorama", "Join the frames of a clip into one panorama, with a report of every frame.");
+  const auto own = std::make_shared<PanoramaJob>();
+  job->add_option("FOOTAGE", own->request.footage,
+                  "A video, a folder of pictures, or a pattern such as frames/%04d.png")
+      ->required();
+  job->add_option("--lens", own->lens,
+                  "Lens file of `arthroscene lens`; without it the pictures are taken as they are");
+  job->add_option("-o,--output", own->output,
+                  "PNG, with what was imaged as alpha, or JPEG; - for standard output")
+      ->required();
+  job->add_option("--report", own->report, "JSON: where each frame lies, or why it does not");
+  job->add_option("--leave-out", own->excluded, "Frames that are not to be used, by their number")
+      ->delimiter(',');
+  AddOptionsFile(*job, own->request.options);
+  AddOptions(*job, own->request.options);
+  job->callback([own] { Run(*own); });
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,20 @@
+// What the stages found, put together as one report.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "authoring/panorama/compose_pieces.h"
+#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/prepared_clip.h"
+
+namespace arthro::authoring {
+
+// All of the report but what is not in the products: footage, options, costs. `placed` has a result
+// for each usable frame that was not excluded.
+PanoramaReport AssembleReport(const PreparedClip& clip, const std::vector<FrameResult>& placed,
+                              const RegisterReport& registration,
+                              const std::vector<ComposedPiece>& pieces,
+                              const std::set<int>& excluded);
+
+}  // namespace arthro::authoring

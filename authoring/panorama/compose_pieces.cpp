@@ -1,0 +1,95 @@
+#include "authoring/panorama/compose_pieces.h"
+
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "authoring/footage/footage.h"
+
+namespace arthro::authoring {
+namespace {
+
+// The placed frames' raw pictures in order; begins again after its end.
+class PlacedPictures {
+ public:
+  PlacedPictures(const std::filesystem::path& path, const std::vector<FrameResult>& frames)
+      : footage_(Footage::Open(path)) {
+    for (const FrameResult& frame : frames)
+      if (frame.is_placed && frame.component == 0) wanted_.insert(frame.index);
+  }
+
+  bool operator()(int& index, cv::Mat& rgb) {
+    while (!wanted_.empty() && footage_.index() < *wanted_.rbegin()) {
+      if (!wanted_.contains(footage_.index() + 1)) {
+        if (!footage_.Skip()) break;
+        continue;
+      }
+      if (!footage_.Next(rgb)) break;
+      if (rgb.empty()) continue;  // it could be read before; what changed is not ours
+      index = footage_.index();
+      return true;
+    }
+    footage_.Rewind();
+    return false;
+  }
+
+ private:
+  Footage footage_;
+  std::set<int> wanted_;
+};
+
+// A component's frames as if it were the panorama.
+std::vector<FrameResult> AsPanorama(std::vector<FrameResult> frames, int component) {
+  for (FrameResult& frame : frames) {
+    if (frame.component == component && component >= 0) {
+      frame.component = 0;
+      frame.is_placed = true;
+    } else {
+      frame.component = -1;
+      frame.is_placed = false;
+    }
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::map<int, int> FramesByComponent(const std::vector<FrameResult>& frames) {
+  std::map<int, int> counts;
+  for (const FrameResult& frame : frames)
+    if (frame.component >= 0) ++counts[frame.component];
+  return counts;
+}
+
+std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage,
+                                         const Rectifier& rectifier,
+                                         const std::vector<FrameResult>& frames, int least_piece,
+                                         const ComposeOptions& options, const Progress& progress,
+                                         const ComposeObserver& observer) {
+  // Each piece is a part of the stage, by its frames.
+  const auto counts = FramesByComponent(frames);
+  double all = 0, before = 0;
+  for (const auto& [component, count] : counts)
+    if (component == 0 || count >= least_piece) all += count;
+  std::vector<ComposedPiece> pieces;
+  for (const auto& [component, count] : counts) {
+    if (component > 0 && count < least_piece) continue;
+    const auto placed = AsPanorama(frames, component);
+    Progress part;
+    part.stop = progress.stop;
+    part.report = [&, share = count / all](std::string_view words, double done) {
+      progress.Step(words, before + share * done);
+    };
+    ComposedPiece piece;
+    piece.component = component;
+    PlacedPictures pictures(footage, placed);
+    piece.composed =
+        Compose([&](int& index, cv::Mat& rgb) { return pictures(index, rgb); }, rectifier, placed,
+                options, &piece.report, part, component == 0 ? observer : ComposeObserver());
+    pieces.push_back(std::move(piece));
+    before += count / all;
+  }
+  return pieces;
+}
+
+}  // namespace arthro::authoring

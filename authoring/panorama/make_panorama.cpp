@@ -1,0 +1,226 @@
+#include "authoring/panorama/make_panorama.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "authoring/panorama/assemble_report.h"
+#include "authoring/panorama/compose_pieces.h"
+#include "authoring/panorama/prepared_clip.h"
+#include "simulation/core/error.h"
+#include "simulation/core/options_json.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+
+RgbaPicture PlainPicture(const cv::Mat& rgba) {
+  RgbaPicture picture{rgba.cols, rgba.rows, {}};
+  if (rgba.empty()) return picture;
+  picture.rgba.resize(rgba.total() * 4);
+  const std::size_t row = static_cast<std::size_t>(rgba.cols) * 4;
+  for (int y = 0; y < rgba.rows; ++y)
+    std::memcpy(&picture.rgba[static_cast<std::size_t>(y) * row], rgba.ptr(y), row);
+  return picture;
+}
+
+ColourImage PlainColour(const cv::Mat& picture) {
+  ColourImage image(picture.cols, picture.rows);
+  if (picture.empty()) return image;
+  cv::Mat rgb(picture.rows, picture.cols, CV_8UC3, image.rgb.data());
+  if (picture.channels() == 1)
+    cv::cvtColor(picture, rgb, cv::COLOR_GRAY2RGB);
+  else
+    picture.copyTo(rgb);
+  return image;
+}
+
+// What a stage's product depends on, as text.
+template <class Options>
+std::string KeyOf(const Options& options) {
+  return JsonFromOptions(options).dump();
+}
+
+std::string KeyOf(const fs::path& footage) {
+  std::error_code ignored;
+  const auto changed = fs::last_write_time(footage, ignored).time_since_epoch().count();
+  return fmt::format("{}@{}", footage.string(), changed);
+}
+
+std::string KeyOf(const std::optional<Lens>& lens) {
+  if (!lens) return "none";
+  const Lens& l = *lens;
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(l.model),
+                     l.width, l.height, l.focal_px, l.cx, l.cy, l.aspect, l.k[0], l.k[1], l.k[2],
+                     l.k[3], l.field_of_view, l.circle.cx, l.circle.cy, l.circle.r);
+}
+
+// What registration cost, by its own parts; the rest of it is the graph's.
+std::vector<StageCost> RegisterCosts(const RegisterReport& report, double whole_ms) {
+  std::vector<StageCost> costs = {
+      {"features", report.features_ms}, {"pairs", report.pairs_ms}, {"refine", report.refine_ms}};
+  double named = 0;
+  for (const StageCost& cost : costs) named += cost.cpu_ms;
+  costs.push_back({"graph", std::max(0.0, whole_ms - named)});
+  return costs;
+}
+
+std::string FirstReason(const std::vector<FrameResult>& frames) {
+  for (const FrameResult& frame : frames)
+    if (!frame.reason.empty()) return fmt::format(" (frame {}: {})", frame.index, frame.reason);
+  return "";
+}
+
+}  // namespace
+
+struct PanoramaSession::Products {
+  PanoramaRequest request;  // of the last run
+  std::string clip_key, register_key, compose_key;
+  PreparedClip clip;
+  std::vector<StageCost> clip_costs, register_costs, compose_costs;
+  std::vector<FrameResult> placed;
+  RegisterReport registration;
+  std::vector<ComposedPiece> pieces;  // the panorama first
+};
+
+PanoramaSession::PanoramaSession() : products_(std::make_unique<Products>()) {}
+PanoramaSession::PanoramaSession(PanoramaSession&&) noexcept = default;
+PanoramaSession& PanoramaSession::operator=(PanoramaSession&&) noexcept = default;
+PanoramaSession::~PanoramaSession() = default;
+
+PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
+                                    const PanoramaObserver& observer, const Progress& progress) {
+  CheckOptions(request.options);
+  Products& made = *products_;
+  const PanoramaOptions& options = request.options;
+  made.request = request;
+
+  // Which products still hold.
+  const std::string clip_key = KeyOf(request.footage) + KeyOf(request.lens) +
+                               KeyOf(options.choose) + KeyOf(options.rectify) +
+                               KeyOf(options.prepare) + fmt::format("{}", options.working_scale);
+  std::string register_key = clip_key + KeyOf(options.registration);
+  for (const int index : request.excluded) register_key += fmt::format(" -{}", index);
+  const std::string compose_key =
+      register_key + KeyOf(options.compose) + fmt::format("{}", options.least_piece);
+  const bool has_clip = made.clip_key == clip_key,
+             has_places = has_clip && made.register_key == register_key,
+             has_pieces = has_places && made.compose_key == compose_key;
+  // CPU ms a frame, roughly; only their ratio counts.
+  StageClock clock(progress, {{"read", has_clip ? 0 : 20},
+                              {"prepare", has_clip ? 0 : 10},
+                              {"register", has_places ? 0 : 60},
+                              {"compose", has_pieces ? 0 : 80}});
+
+  if (!has_clip) {
+    made.clip_key = made.register_key = made.compose_key = "";
+    made.clip = {};
+    made.placed.clear();
+    made.pieces.clear();
+    FrameObserver on_frame;
+    if (observer.frame)
+      on_frame = [&](const FrameReport& row, const cv::Mat& small) {
+        observer.frame(row, PlainColour(small));
+      };
+    made.clip = PrepareClip(request.footage, request.lens, options, on_frame, clock);
+    made.clip_costs = clock.costs();
+    made.clip_key = clip_key;
+  }
+  const PreparedClip& clip = made.clip;
+
+  if (!has_places) {
+    made.register_key = made.compose_key = "";
+    made.pieces.clear();
+    std::vector<WorkingFrame> frames;  // shares the pictures
+    for (const WorkingFrame& frame : clip.frames)
+      if (!request.excluded.contains(frame.index)) frames.push_back(frame);
+    if (frames.size() < 2)
+      throw Error(Code::kBadImage,
+                  fmt::format("only {} frame{} left in; a panorama needs two", frames.size(),
+                              frames.size() == 1 ? " is" : "s are"),
+                  request.footage);
+    made.registration = {};
+    made.placed = Register(frames, clip.view, clip.mask, options.registration, &made.registration,
+                           clock.Begin("register"));
+    clock.End();
+    made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
+    made.register_key = register_key;
+  }
+  const auto counts = FramesByComponent(made.placed);
+  if (const auto main = counts.find(0); main == counts.end() || main->second < 2)
+    throw Error(Code::kBadImage,
+                fmt::format("no two of its {} usable frames could be laid over each other{}; take "
+                            "footage that moves slowly over tissue with some texture",
+                            made.placed.size(), FirstReason(made.placed)),
+                request.footage);
+
+  if (!has_pieces) {
+    made.compose_key = "";
+    made.pieces.clear();
+    const Rectifier rectifier(clip.lens.lens, options.rectify, 1.0);
+    ComposeObserver on_mosaic;
+    if (observer.mosaic)
+      on_mosaic = [&](const cv::Mat& small, double) { observer.mosaic(PlainPicture(small)); };
+    made.pieces = ComposePieces(request.footage, rectifier, made.placed, options.least_piece,
+                                options.compose, clock.Begin("compose"), on_mosaic);
+    if (made.pieces.front().composed.rgba.empty())
+      throw Error(Code::kBadImage,
+                  "its frames were placed, but none of them could be drawn; check the lens",
+                  request.footage);
+    clock.End();
+    made.compose_costs = {clock.costs().back()};
+    made.compose_key = compose_key;
+  }
+
+  PanoramaResult result;
+  PanoramaReport& report = result.report;
+  report = AssembleReport(clip, made.placed, made.registration, made.pieces, request.excluded);
+  report.footage = request.footage.string();
+  const auto chosen = JsonFromOptions(options);
+  report.options = chosen.dump();
+  report.detector = chosen.value("detector", "");
+  report.seed = chosen.value("seed", 0);
+  for (const auto& costs : {made.clip_costs, made.register_costs, made.compose_costs})
+    report.stages.insert(report.stages.end(), costs.begin(), costs.end());
+  report.peak_memory_mb = PeakMemoryMb();
+  for (const ComposedPiece& piece : made.pieces)
+    if (piece.component == 0) result.picture = PlainPicture(piece.composed.rgba);
+  // One entry a piece of the report, empty where it has too few frames.
+  for (const PieceReport& row : report.pieces) {
+    RgbaPicture& picture = result.pieces.emplace_back();
+    for (const ComposedPiece& piece : made.pieces)
+      if (piece.component == row.component) picture = PlainPicture(piece.composed.rgba);
+  }
+  if (observer.frame)
+    for (const FrameReport& row : result.report.frames) observer.frame(row, {});
+  return result;
+}
+
+std::optional<ColourImage> PanoramaSession::PictureOf(int index, FrameStage stage) const {
+  const PreparedClip& clip = products_->clip;
+  if (stage == FrameStage::kEvenLight) {
+    for (const WorkingFrame& frame : clip.frames)
+      if (frame.index == index) return PlainColour(frame.grey);
+    return std::nullopt;
+  }
+  if (index < 0 || index >= static_cast<int>(clip.reports.size())) return std::nullopt;
+  Footage footage = Footage::Open(products_->request.footage);
+  for (int i = 0; i < index; ++i)
+    if (!footage.Skip()) return std::nullopt;
+  cv::Mat rgb, rectified;
+  if (!footage.Next(rgb) || rgb.empty()) return std::nullopt;
+  if (stage == FrameStage::kRaw) return PlainColour(rgb);
+  if (rgb.cols != clip.info.width || rgb.rows != clip.info.height) return std::nullopt;
+  Rectifier(clip.lens.lens, products_->request.options.rectify, clip.scale).Rectify(rgb, rectified);
+  return PlainColour(rectified);
+}
+
+PanoramaResult MakePanorama(const PanoramaRequest& request, const Progress& progress) {
+  return PanoramaSession().Run(request, {}, progress);
+}
+
+}  // namespace arthro::authoring

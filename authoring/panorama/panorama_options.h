@@ -1,0 +1,37 @@
+// Every choice between footage and panorama, in one list: the stages' own options, each under its
+// stage's name where two stages could mean different things by one word.
+#pragma once
+
+#include "authoring/footage/choose_frames.h"
+#include "authoring/lens/rectifier.h"
+#include "authoring/panorama/compose/compose_options.h"
+#include "authoring/panorama/graph/register.h"
+#include "authoring/panorama/preparation/prepare.h"
+#include "simulation/core/options.h"
+
+namespace arthro::authoring {
+
+struct PanoramaOptions {
+  double working_scale = 0;
+  int least_piece = 3;
+  ChooseOptions choose;
+  RectifyOptions rectify;
+  PrepareOptions prepare;
+  RegisterOptions registration;
+  ComposeOptions compose;
+
+  template <class V>
+  void Visit(V&& v) {
+    v("working_scale", working_scale, Range{0, 2}, "",
+      "Size at which frames are matched, of their rectified size; 0: by the size of the picture.");
+    v("least_piece", least_piece, Range{2, 1000}, "frames",
+      "A separate piece that does not join the panorama is composed when it has this many.");
+    choose.Visit(v);
+    registration.Visit(v);
+    rectify.Visit(PartVisitor<V>{v, "rectify_"});
+    prepare.Visit(PartVisitor<V>{v, "prepare_"});
+    compose.Visit(PartVisitor<V>{v, "compose_"});
+  }
+};
+
+}  // namespace arthro::authoring
