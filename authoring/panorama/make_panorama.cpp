@@ -182,7 +182,8 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
   report.footage = request.footage.string();
   const auto chosen = JsonFromOptions(options);
   report.options = chosen.dump();
-  report.detector = chosen.value("detector", "");
+  const std::string method = chosen.value("method", "");
+  report.detector = method == "direct" ? method : chosen.value("detector", method);
   report.seed = chosen.value("seed", 0);
   for (const auto& costs : {made.clip_costs, made.register_costs, made.compose_costs})
     report.stages.insert(report.stages.end(), costs.begin(), costs.end());
