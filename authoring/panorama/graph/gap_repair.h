@@ -21,7 +21,7 @@ void RepairGaps(const std::vector<int>& usable, int frames, int searches, PairBo
 // same motion goes on), and tried against those `main` frames that the guess overlaps most.
 // Returns how many pairs were found.
 int AdoptOrphans(const std::vector<int>& usable, const std::vector<cv::Matx33d>& plane_from_frame,
-                 const std::vector<int>& piece, int main, const FrameWindow& window,
-                 PairBook& book, const Progress& progress);
+                 const std::vector<int>& piece, int main, const FrameWindow& window, PairBook& book,
+                 const Progress& progress);
 
 }  // namespace arthro::authoring

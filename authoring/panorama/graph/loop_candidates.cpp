@@ -67,9 +67,9 @@ std::vector<PairRequest> LoopCandidates(const std::vector<cv::Matx33d>& plane_fr
     centre[at(i)] = CentreOf(place, window.centre);
     frame_from_plane[at(i)] = place.inv();
     for (int k = 0; k < 8; ++k) {
-      const cv::Point2d rim = window.centre + cv::Point2d(std::cos(k * CV_PI / 4),
-                                                          std::sin(k * CV_PI / 4)) *
-                                                  window.radius;
+      const cv::Point2d rim =
+          window.centre +
+          cv::Point2d(std::cos(k * CV_PI / 4), std::sin(k * CV_PI / 4)) * window.radius;
       reach[at(i)] = std::max(reach[at(i)], cv::norm(CentreOf(place, rim) - centre[at(i)]));
     }
   }

@@ -12,7 +12,6 @@
 
 namespace arthro::authoring {
 
-
 struct LoopLimits {
   int most_pairs = 0;      // in this round, of the whole clip
   int most_per_frame = 3;  // in this round

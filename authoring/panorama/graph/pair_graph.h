@@ -30,8 +30,8 @@ struct Tree {
 // The way of least accumulated variance from the root to every frame that pairs reach.
 Tree LeastVarianceTree(int frames, const std::vector<PairEstimate>& pairs, int root);
 
-// Variance of each pair as an edge's length, px^2, and what adds up on the way from one frame to all
-// others (infinity: no way).
+// Variance of each pair as an edge's length, px^2, and what adds up on the way from one frame to
+// all others (infinity: no way).
 std::vector<double> EdgeVariances(const std::vector<PairEstimate>& pairs);
 class VarianceMap {
  public:

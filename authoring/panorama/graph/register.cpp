@@ -36,6 +36,26 @@ void CheckFrames(const std::vector<WorkingFrame>& frames) {
                               frames[0].grey.cols, frames[0].grey.rows, frames[0].scale));
 }
 
+// Signs that all is not as assumed; clips with known truth stay below a third of each.
+constexpr double kMostDriftFactor = 9;
+constexpr double kMostVarianceFactor = 2.5;
+
+void Warn(const RegisterOptions& options, RegisterReport& told) {
+  const bool is_flat = told.camera_deviation <= options.refine.camera_deviation * 1.01;
+  if (told.drift_factor > kMostDriftFactor || told.variance_factor > kMostVarianceFactor) {
+    told.warnings.push_back(
+        "loops do not close as pairs promise: check the lens file, its focal length above all");
+  } else if (!is_flat) {
+    told.warnings.push_back(
+        "surfaces at different depths (parallax): no flat panorama is true to all frames; expect "
+        "ghosts where they meet");
+  }
+  if (told.components > 1)
+    told.warnings.push_back(fmt::format(
+        "the clip falls into {} pieces that do not join; the panorama shows the largest",
+        told.components));
+}
+
 }  // namespace
 
 std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
@@ -98,6 +118,7 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
   told.variance_factor = graph.variance_factor;
   told.drift_factor = graph.drift_factor;
   told.camera_deviation = graph.camera_deviation;
+  Warn(options, told);
   return results;
 }
 
