@@ -288,7 +288,10 @@ class Calibration {
         worst = std::max(worst, std::abs(there.r - here.r));
       }
     }
-    return std::hypot(worst, 2 * best.fit.rms_px);
+    // Corners share an error of position (lines curve within their window), which tilts to all
+    // sides partly balance and one picture does not.
+    const double shared = used_.size() == 1 ? 4 : 2;  // times the residual
+    return std::hypot(worst, shared * best.fit.rms_px);
   }
 
   void Judge(const Candidate& best) {
