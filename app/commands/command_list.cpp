@@ -7,6 +7,7 @@
 
 #include "app/commands/depth_work.h"
 #include "app/commands/edits.h"
+#include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
 #include "app/commands/tissue_work.h"
 #include "simulation/core/units.h"
@@ -22,8 +23,9 @@ bool Idle(const State& state) { return InEditor(state) && !state.jobs.busy(); }
 bool HasPicture(const State& state) {
   return InEditor(state) && state.document().panorama != nullptr;
 }
+bool ShowsScope(const State& state) { return !ShowsFootage(state); }
 bool HasTissue(const State& state) {
-  return Idle(state) && state.tissue >= 0 &&
+  return Idle(state) && ShowsScope(state) && state.tissue >= 0 &&
          state.tissue < static_cast<int>(state.document().scene.tissues.size());
 }
 bool Practising(const State& state) { return state.practice.has_value(); }
@@ -97,7 +99,7 @@ constexpr Command kCommands[] = {
        GuardUnsaved(state, "begin a new scene", [](State& sure) {
          StartDocument(sure, NewDocument(), true);
          sure.step = Step::kPanorama;
-         sure.message = "A new scene. Import a panorama to begin.";
+         sure.message = "A new scene. Import a panorama, or make one from a video.";
        });
      }},
     {"open",
@@ -139,6 +141,30 @@ constexpr Command kCommands[] = {
        Browse(state, BrowseFor::kOpenFile, "Import a panorama", "Import", PictureFilters(),
               ImportPanorama);
      }},
+    {"make-panorama",
+     "Make one from a video…",
+     "Put a panorama together from the frames of a video, or of a folder of pictures.",
+     "Scene",
+     {GLFW_KEY_M, true},
+     {},
+     Idle,
+     BrowseForFootage},
+    {"run-footage",
+     "Run",
+     "Make the panorama. What was made before is kept until this is done.",
+     "Scene",
+     {GLFW_KEY_R, true},
+     {},
+     [](const State& state) { return InEditor(state) && CanRun(state); },
+     RunFootage},
+    {"use-panorama",
+     "Use this panorama",
+     "Make it the backdrop of the scene, and go on to its depth.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && state.footage && state.footage->made; },
+     UseMadePanorama},
     {"read-report",
      "Read its report…",
      "Take the panorama's middle and focal length from the report of `arthroscene panorama`.",
@@ -272,16 +298,16 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_HOME},
      {},
-     [](const State& state) { return state.document().panorama != nullptr; },
+     [](const State& state) { return state.document().panorama != nullptr && ShowsScope(state); },
      ResetHands},
-    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, Always, LookAt<0>},
+    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
     {"view-30",
      "30°",
      "Look 30° away from the scope.",
      "Practice",
      {GLFW_KEY_2},
      {},
-     Always,
+     ShowsScope,
      LookAt<30>},
     {"view-70",
      "70°",
@@ -289,7 +315,7 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_3},
      {},
-     Always,
+     ShowsScope,
      LookAt<70>},
     {"view-90",
      "90°",
@@ -297,7 +323,7 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_4},
      {},
-     Always,
+     ShowsScope,
      LookAt<90>},
     {"full-screen",
      "Full screen",
@@ -366,7 +392,7 @@ void Run(EditorState& state, const Command& command) {
 void Run(EditorState& state, std::string_view id) { Run(state, CommandOf(id)); }
 
 bool FinishWork(EditorState& state) {
-  bool changed = false;
+  bool changed = FinishFootage(state);
   if (state.jobs.busy()) {
     const std::string words = state.jobs.words();
     Guarded(state, words, [&] { changed = state.jobs.Finish(state); });

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "app/commands/depth_cache.h"
+#include "app/commands/footage/footage_board.h"
+#include "app/commands/footage/footage_makers.h"
 #include "app/commands/jobs.h"
 #include "app/commands/practice.h"
 #include "app/commands/recent_scenes.h"
@@ -61,6 +63,7 @@ struct EditorState {
       : history(std::move(document)),
         jobs(wake_window),
         preview_jobs(wake_window),
+        frame_jobs(wake_window),
         recent(std::move(recent_file)) {
     history.MarkSaved();  // nothing was done yet
   }
@@ -76,13 +79,19 @@ struct EditorState {
   bool practice_only = false;             // the practise job: no editor behind it
   std::vector<Dialog> dialogs;
   std::string message;  // last thing done, for the status bar
-  Jobs jobs;            // tetrahedra, reading pictures
+  Jobs jobs;            // tetrahedra, reading pictures, footage to panorama
   Jobs preview_jobs;    // depth
+  Jobs frame_jobs;      // one frame of the footage at full size
   DepthCache depth_cache;
   authoring::DepthOptions depth_in_work;  // what preview_jobs computes
   std::function<void(EditorState&)> when_depth_is_ready;
   bool dragging = false;  // a slider is held: preview now, full size after
-  ScratchFolder scratch;  // files of products until they are saved
+  std::optional<FootageBoard> footage;
+  FootageJob footage_job;
+  bool shows_footage = false;  // in the Panorama step: the clip, not the backdrop
+  FootageMakers makers;
+  std::filesystem::path lens_folder;  // presets
+  ScratchFolder scratch;              // files of products until they are saved
   RecentScenes recent;
   bool quit = false, full_screen = false;
 };

@@ -7,6 +7,7 @@
 
 #include "app/commands/depth_work.h"
 #include "app/commands/edits.h"
+#include "app/commands/footage/footage_work.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -52,6 +53,7 @@ void StartDocument(EditorState& state, Document document, bool saved) {
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
   state.practice.reset();
+  state.shows_footage = false;  // the scene is what was asked for
   ++state.document_number;
 }
 
@@ -124,6 +126,7 @@ void ImportPanorama(EditorState& state, const fs::path& picture) {
         next.depth = nullptr;
       });
       now.step = Step::kPanorama;
+      now.shows_footage = false;
     };
   });
 }
@@ -175,17 +178,20 @@ void OpenDropped(EditorState& state, const fs::path& file) {
   const auto is_one_of = [&](std::initializer_list<const char*> extensions) {
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
   };
-  if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"})) {
+  if (LooksLikeFootage(file)) {
+    OpenFootage(state, file);
+  } else if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"})) {
     ImportPanorama(state, file);
   } else if (is_one_of({".stl", ".obj", ".ply", ".off", ".vtp"})) {
     state.dialogs.push_back(UnitDialog{file});
   } else if (fs::is_directory(file) || is_one_of({".json", ".arthro"})) {
     GuardUnsaved(state, "open another scene", [file](EditorState& sure) { OpenScene(sure, file); });
   } else {
-    throw Error(Code::kBadArgument,
-                "this is no scene, picture or surface; drop a scene folder, a PNG, JPEG or TIFF "
-                "picture, or an STL, OBJ, PLY, OFF or VTP surface",
-                file);
+    throw Error(
+        Code::kBadArgument,
+        "this is no scene, picture, video or surface; drop a scene folder, a PNG, JPEG or TIFF "
+        "picture, a video or a folder of its frames, or an STL, OBJ, PLY, OFF or VTP surface",
+        file);
   }
 }
 

@@ -27,7 +27,7 @@ void ImportPanorama(EditorState& state, const std::filesystem::path& picture);
 // A panorama report says where the middle is and how many pixels a radian (design §5).
 void ReadPanoramaReport(EditorState& state, const std::filesystem::path& report);
 
-// A file that was dropped on the window: a scene, a picture, a surface or a report, by its name.
+// A file that was dropped on the window: a scene, a picture, footage or a surface, by its name.
 void OpenDropped(EditorState& state, const std::filesystem::path& file);
 
 // Runs `then` now if all is saved; else asks: Save, Discard or Cancel.

@@ -14,9 +14,12 @@
 
 #include "app/commands/command_list.h"
 #include "app/commands/edits.h"
+#include "app/commands/footage/footage_work.h"
 #include "app/commands/hand_motion.h"
 #include "app/commands/scene_files.h"
+#include "app/editor/footage_textures.h"
 #include "app/editor/pictures.h"
+#include "app/panels/footage/footage_panels.h"
 #include "app/panels/panels.h"
 #include "app/platform/script_runner.h"
 #include "app/platform/window.h"
@@ -143,6 +146,7 @@ class Editor {
       StartDocument(state_, std::move(document), true);
     }
     state_.practice_only = options_.practice;
+    state_.lens_folder = ResourceFolder() / "presets" / "lenses";
     if (!options_.practice && !state_.document().folder.empty())
       state_.recent.Add(state_.document().folder);
     if (options_.practice)
@@ -154,7 +158,7 @@ class Editor {
   // Sleeps until there is something to draw.
   void Wait() {
     const double since = Seconds(Clock::now() - last_draw_).count();
-    const bool busy = state_.jobs.busy() || state_.preview_jobs.busy();
+    const bool busy = Busy();
     if (!window_.input().empty() || script_ || options_.frames > 0) {
       window_.WaitEvents(0);
     } else if (state_.practice || window_.AnythingHeld()) {
@@ -170,6 +174,10 @@ class Editor {
     if (!window_.input().empty()) last_event_ = Clock::now();
   }
 
+  bool Busy() const {
+    return state_.jobs.busy() || state_.preview_jobs.busy() || state_.frame_jobs.busy();
+  }
+
   void Frame() {
     const auto now = Clock::now();
     const FrameNews news = window_.BeginFrame();
@@ -177,7 +185,8 @@ class Editor {
     TakeNews(state_, news);
     if (FinishWork(state_)) last_event_ = now;
     RunShortcuts(state_);
-    if (state_.dialogs.empty()) ApplyHeldKeys(state_, picture_focused_, step);
+    if (state_.dialogs.empty() && !ShowsFootage(state_))
+      ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.practice && state_.dialogs.empty()) state_.practice->Advance(step);
     window_.SetTitle(TitleOf(state_));
     window_.SetFullScreen(state_.full_screen);
@@ -194,8 +203,8 @@ class Editor {
     }
     window_.EndFrame();
     if (script_)
-      script_->AfterFrame(widgets_, state_.jobs.busy() || state_.preview_jobs.busy(),
-                          window_.input(), [&](const std::filesystem::path& file) {
+      script_->AfterFrame(widgets_, Busy(), window_.input(),
+                          [&](const std::filesystem::path& file) {
                             WriteColourImage(file, window_.ReadPicture());
                           });
     window_.Present();
@@ -222,16 +231,34 @@ class Editor {
       const Layout layout = EditorLayout(width, height, ui.scale);
       TopBar(ui, state_, layout.top);
       StepsPanel(ui, state_, layout.side);
-      DrawPictures(ui, layout);
-      const PictureInput input =
-          ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
-      picture_focused_ = input.focused;
-      TakePictureInput(input);
-      pictures_.HandleOverview(state_,
-                               OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
+      if (ShowsFootage(state_)) {
+        Footage(ui, layout);
+      } else {
+        Scene(ui, layout);
+      }
       StatusBar(ui, state_, layout.status, pictures_.notice());
     }
     Dialogs(ui, state_);
+  }
+
+  void Footage(Ui& ui, const Layout& layout) {
+    const Area board = {layout.picture.x, layout.picture.y,
+                        layout.overview.x + layout.overview.width - layout.picture.x,
+                        layout.picture.height};
+    picture_focused_ = false;
+    footage_textures_.BeginFrame();
+    FootageBoardPage(ui, state_, board,
+                     [&](const SharedPicture& picture) { return footage_textures_.IdOf(picture); });
+    footage_textures_.EndFrame();
+  }
+
+  void Scene(Ui& ui, const Layout& layout) {
+    DrawPictures(ui, layout);
+    const PictureInput input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+    picture_focused_ = input.focused;
+    TakePictureInput(input);
+    pictures_.HandleOverview(state_,
+                             OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
   }
 
   void TakePictureInput(const PictureInput& input) {
@@ -252,6 +279,7 @@ class Editor {
   const EditorOptions options_;
   Window window_;
   Pictures pictures_;
+  FootageTextures footage_textures_;
   EditorState state_;
   WidgetRegistry widgets_;
   std::optional<ScriptRunner> script_;

@@ -6,6 +6,7 @@
 
 #include "app/commands/command_list.h"
 #include "app/commands/depth_work.h"
+#include "app/commands/footage/footage_work.h"
 #include "app/panels/fixed_window.h"
 #include "app/panels/panels.h"
 
@@ -85,8 +86,13 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
 
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice) {
   const FixedWindow window(ui, "status", area, kBarWindow);
-  ui.widgets.RecordText(state.message);
-  ImGui::TextUnformatted(state.message.c_str());
+  // Work under way stands on the right, unless the page says it already.
+  const bool depth = DepthIsUnderWay(state);
+  const bool on_page =
+      ShowsFootage(state) && FootageIsUnderWay(state) && state.footage_job.makes_panorama;
+  const bool work = (state.jobs.busy() || depth) && !on_page;
+  const float left = ui.Px(12), half = 0.5f * (area.width - 2 * left);
+  ShortenedText(ui, state.message, state.message, work ? half - ui.Px(22) : 2 * half);
   if (!notice.empty()) {
     ui.widgets.RecordText(notice);
     ImGui::SameLine(0, ui.Px(22));
@@ -95,16 +101,13 @@ void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& 
     ImGui::PopStyleColor();
   }
 
-  // Work under way, on the right.
-  const bool depth = DepthIsUnderWay(state);
-  if (!state.jobs.busy() && !depth) return;
+  if (!work) return;
   const std::string words = state.jobs.busy() ? state.jobs.words() : "Depth";
   const double done = state.jobs.busy() ? state.jobs.done() : state.preview_jobs.done();
-  const float bar = ui.Px(160), stop = ui.Px(64);
-  const float text = ImGui::CalcTextSize(words.c_str()).x;
-  ImGui::SameLine(area.width - bar - stop - text - ui.Px(44));
-  ui.widgets.RecordText(words);
-  ImGui::TextUnformatted(words.c_str());
+  const float bar = ui.Px(160), stop = ui.Px(64), rest = bar + stop + ui.Px(44);
+  const float text = std::min(ImGui::CalcTextSize(words.c_str()).x, half - rest);
+  ImGui::SameLine(area.width - rest - text);
+  ShortenedText(ui, words, words, text + 1);
   ImGui::SameLine();
   ImGui::ProgressBar(static_cast<float>(done), {bar, ImGui::GetTextLineHeight()});
   if (!state.jobs.busy()) return;

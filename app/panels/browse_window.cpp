@@ -125,6 +125,11 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   }
   if (Button(ui, dialog.accept_words, !model.file_name.empty(), {ui.Px(120), 0})) accept = true;
   ImGui::SameLine();
+  if (model.purpose() == BrowseFor::kOpenFileOrFolder) {
+    if (Button(ui, "Use this folder", true, {ui.Px(160), 0}, "All pictures in it are the clip."))
+      acceptance = model.AcceptFolder();
+    ImGui::SameLine();
+  }
   const bool cancel =
       Button(ui, "Cancel", true, {ui.Px(120), 0}) || DialogKeyPressed(GLFW_KEY_ESCAPE);
   if (accept && !made_folder && acceptance == Acceptance::kNothing) acceptance = model.Accept();

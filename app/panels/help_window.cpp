@@ -54,6 +54,16 @@ void HelpWindow(Ui& ui, EditorState&) {
     ImGui::EndTable();
   }
   Gap(ui);
+  Heading(ui, "On the footage's board");
+  if (BeginRows(ui, "footage")) {
+    Row(ui, "Left, Right", "Frame before, or next");
+    Row(ui, "Page up, Page down", "Ten frames back, or on");
+    Row(ui, "Space, double-click", "Use this frame, or leave it out");
+    Row(ui, "Escape", "Back to the panorama");
+    Row(ui, "Wheel, drag", "Look closer, shift; double-click shows all");
+    ImGui::EndTable();
+  }
+  Gap(ui);
   Heading(ui, "Hands, while a key is held");
   if (BeginRows(ui, "hands")) {
     for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);
@@ -81,7 +91,7 @@ void HelpWindow(Ui& ui, EditorState&) {
   if (in_table) ImGui::EndTable(), Gap(ui);
   Heading(ui, "Anywhere");
   if (BeginRows(ui, "anywhere")) {
-    Row(ui, "Drop a file", "Open a scene, import a panorama or a surface");
+    Row(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");
     Row(ui, "Ctrl+click a slider", "Type its number");
     Row(ui, "?", "This page");
     ImGui::EndTable();

@@ -4,7 +4,9 @@
 
 #include "app/commands/command_list.h"
 #include "app/commands/edits.h"
+#include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
+#include "app/panels/footage/footage_panels.h"
 #include "app/panels/panels.h"
 #include "simulation/core/units.h"
 
@@ -33,15 +35,31 @@ void Drag(EditorState& state, const Change& change) {
   if (change.released) EndDrag(state);
 }
 
+// Which of the two this step is about, once there is a clip.
+void FootageOrBackdrop(Ui& ui, EditorState& state) {
+  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  if (ToggleButton(ui, "Footage", state.shows_footage, true, {half, 0},
+                   "The clip that a panorama is made from."))
+    state.shows_footage = true;
+  ImGui::SameLine();
+  if (ToggleButton(ui, "Backdrop", !state.shows_footage, true, {half, 0},
+                   "The panorama that the scene has."))
+    state.shows_footage = false;
+  Gap(ui, 2);
+}
+
 }  // namespace
 
 void PanoramaPanel(Ui& ui, EditorState& state) {
+  if (state.footage) FootageOrBackdrop(ui, state);
+  if (ShowsFootage(state)) return FootagePanel(ui, state);
   const authoring::Document document = state.document();  // a copy: edits below move it
   CommandButton(ui, state, "import-panorama", {-FLT_MIN, 0});
+  CommandButton(ui, state, "make-panorama", {-FLT_MIN, 0});
   if (!document.panorama) {
     QuietText(ui,
-              "A panorama is one picture of the joint, put together from a video. Drop it on the "
-              "window, or import it here.");
+              "A panorama is one picture of the joint, put together from a video. Drop either on "
+              "the window, or choose it here.");
     return RecentList(ui, state);
   }
   QuietText(ui, fmt::format("{} × {} px", document.panorama->width, document.panorama->height));

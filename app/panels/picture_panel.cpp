@@ -102,7 +102,7 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   if (texture != 0) {
     OpaqueImage(draw, texture, low, {low.x + edge, low.y + edge});
   } else {
-    const char* words = "Drop a panorama or a scene here";
+    const char* words = "Drop a panorama, a video or a scene here";
     ui.widgets.RecordText(words);
     const ImVec2 size = ImGui::CalcTextSize(words);
     draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet, words);

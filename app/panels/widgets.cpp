@@ -224,6 +224,32 @@ void ColouredText(Ui& ui, const std::string& text, unsigned colour) {
   ImGui::PopStyleColor();
 }
 
+void ShortenedText(Ui& ui, const std::string& text, const std::string& full, float room) {
+  if (room <= 0) room = ImGui::GetContentRegionAvail().x;
+  std::string shown = text;
+  // Whole characters go from the middle: bytes that go on with one begin with binary 10.
+  const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  std::size_t left = (text.size() + 1) / 2, right = left;
+  while (ImGui::CalcTextSize(shown.c_str()).x > room && (left > 0 || right < text.size())) {
+    if (left > 0 && left >= text.size() - right)
+      while (--left > 0 && goes_on(text[left])) {
+      }
+    else
+      while (++right < text.size() && goes_on(text[right])) {
+      }
+    shown = text.substr(0, left) + "…" + text.substr(right);
+  }
+  ImGui::TextUnformatted(shown.c_str());
+  ui.widgets.RecordText(text);
+  if (ImGui::IsItemHovered() && (shown != text || full != text)) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ui.Px(420));
+    ImGui::TextUnformatted(full.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+}
+
 void Gap(Ui& ui, double pixels) { ImGui::Dummy({0, ui.Px(pixels)}); }
 
 }  // namespace arthro::app

@@ -60,6 +60,9 @@ bool DialogKeyPressed(int key);  // GLFW_KEY_…
 void Heading(Ui& ui, const std::string& text);
 void Text(Ui& ui, const std::string& text);       // wrapped
 void QuietText(Ui& ui, const std::string& text);  // wrapped, secondary
+// One line that gives up its middle where there is no room for all; `full` is its tooltip. 0: up to
+// the window's edge.
+void ShortenedText(Ui& ui, const std::string& text, const std::string& full, float room = 0);
 void ColouredText(Ui& ui, const std::string& text, unsigned colour);
 void Tooltip(Ui& ui, const char* text);  // of the last item, when it is pointed at
 void Gap(Ui& ui, double pixels = 6);

@@ -129,8 +129,9 @@ bool FileBrowserModel::CreateFolder(const std::string& name) {
 
 Acceptance FileBrowserModel::Accept() {
   problem_.clear();
+  const bool opens = purpose_ == BrowseFor::kOpenFile || purpose_ == BrowseFor::kOpenFileOrFolder;
   if (file_name.empty()) {
-    problem_ = purpose_ == BrowseFor::kOpenFile ? "Choose a file first." : "Type a name first.";
+    problem_ = opens ? "Choose a file first." : "Type a name first.";
     return Acceptance::kNothing;
   }
   fs::path path = Typed(folder_, file_name);
@@ -147,7 +148,7 @@ Acceptance FileBrowserModel::Accept() {
     if (problem_.empty()) file_name.clear();
     return problem_.empty() ? Acceptance::kEntered : Acceptance::kNothing;
   }
-  if (purpose_ == BrowseFor::kOpenFile) {
+  if (opens) {
     if (!fs::exists(path, error)) {
       problem_ = "\"" + file_name + "\" is not in this folder.";
       return Acceptance::kNothing;
@@ -171,6 +172,13 @@ Acceptance FileBrowserModel::Accept() {
 
 Acceptance FileBrowserModel::AcceptOverwrite() {
   return accepted_.empty() ? Acceptance::kNothing : Acceptance::kDone;
+}
+
+Acceptance FileBrowserModel::AcceptFolder() {
+  const auto is_file = [](const FileEntry& entry) { return !entry.is_folder; };
+  if (std::any_of(entries_.begin(), entries_.end(), is_file)) return Finish(folder_);
+  problem_ = "There is no such file in this folder; open one first.";
+  return Acceptance::kNothing;
 }
 
 Acceptance FileBrowserModel::Finish(const fs::path& path) {

@@ -18,7 +18,7 @@ struct FileFilter {
   std::vector<std::string> extensions;
 };
 
-enum class BrowseFor { kOpenFile, kSaveFile, kSaveFolder };
+enum class BrowseFor { kOpenFile, kOpenFileOrFolder, kSaveFile, kSaveFolder };
 
 struct FileEntry {
   std::filesystem::path path;
@@ -53,6 +53,7 @@ class FileBrowserModel {
   bool CreateFolder(const std::string& name);  // and opens it
   Acceptance Accept();
   Acceptance AcceptOverwrite();
+  Acceptance AcceptFolder();  // the one that is open; with kOpenFileOrFolder
 
   BrowseFor purpose() const { return purpose_; }
   const std::filesystem::path& folder() const { return folder_; }

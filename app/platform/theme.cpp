@@ -100,6 +100,7 @@ void ApplyTheme(double scale) {
   c[ImGuiCol_Button] = Rgb(0x343B45);
   c[ImGuiCol_ButtonHovered] = Rgb(0x425063);
   c[ImGuiCol_ButtonActive] = Rgb(0x2A6E8A);
+  c[ImGuiCol_PlotHistogram] = Rgb(0x2F8FB5);  // bars of progress
   c[ImGuiCol_Header] = Rgb(0x2A5266);
   c[ImGuiCol_HeaderHovered] = Rgb(0x33637A);
   c[ImGuiCol_HeaderActive] = Rgb(0x2A6E8A);

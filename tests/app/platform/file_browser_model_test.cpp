@@ -71,6 +71,15 @@ TEST_F(FileBrowser, AcceptingAFolderEntersItAndUpLeavesIt) {
   EXPECT_TRUE(fs::equivalent(model.folder(), temp.path()));
 }
 
+TEST_F(FileBrowser, AFolderOfFilesIsTakenWholeWhereItMayBe) {
+  FileBrowserModel model(BrowseFor::kOpenFileOrFolder, kPictures, temp.path());
+  EXPECT_EQ(model.AcceptFolder(), Acceptance::kDone);
+  EXPECT_EQ(model.accepted(), fs::canonical(temp.path()));
+  model.GoTo(temp / "zebra");
+  EXPECT_EQ(model.AcceptFolder(), Acceptance::kNothing) << "there is nothing in it";
+  EXPECT_FALSE(model.problem().empty());
+}
+
 TEST_F(FileBrowser, AMissingFileIsRefusedWithASentenceThatNamesIt) {
   FileBrowserModel model(BrowseFor::kOpenFile, kPictures, temp.path(), "c.png");
   EXPECT_EQ(model.Accept(), Acceptance::kNothing);

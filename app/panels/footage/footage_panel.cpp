@@ -1,0 +1,131 @@
+// The controls of the footage: clip, lens, options, run and result.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/commands/command_list.h"
+#include "app/commands/footage/footage_words.h"
+#include "app/commands/footage/footage_work.h"
+#include "app/panels/footage/footage_panels.h"
+#include "app/panels/options_panel.h"
+
+namespace arthro::app {
+namespace {
+
+// Which options are there for everybody, and which are folded away.
+struct DetectorOnly {
+  OptionsPanelVisitor& panel;
+  template <class T, class R>
+  void operator()(const char* name, T& field, const R& range, const char* unit, const char* help) {
+    if (std::string_view(name) == "detector") panel(name, field, range, unit, help);
+  }
+};
+struct AllButDetector {
+  OptionsPanelVisitor& panel;
+  template <class T, class R>
+  void operator()(const char* name, T& field, const R& range, const char* unit, const char* help) {
+    if (std::string_view(name) != "detector") panel(name, field, range, unit, help);
+  }
+};
+
+void Clip(Ui& ui, EditorState& state) {
+  const FootageBoard& board = *state.footage;
+  ImGui::PushFont(ui.fonts.heading);
+  ShortenedText(ui, board.name, board.file.c_str());
+  ImGui::PopFont();
+  QuietText(ui, WordsOfClip(board));
+  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  if (Button(ui, "Another video…", CommandOf("make-panorama").enabled(state), {half, 0}))
+    Run(state, "make-panorama");
+  ImGui::SameLine();
+  if (Button(ui, "Close it", !FootageIsUnderWay(state), {half, 0},
+             "Take the clip off the board. The scene stays as it is."))
+    CloseFootage(state);
+}
+
+void LensChooser(Ui& ui, EditorState& state) {
+  const FootageBoard& board = *state.footage;
+  std::vector<std::string> words;
+  for (const LensChoice& lens : board.lenses) words.push_back(lens.words);
+  words.emplace_back("from a file…");
+  int chosen = board.lens;
+  const std::string help = board.lenses.at(static_cast<std::size_t>(board.lens)).help;
+  if (!Combo(ui, "Lens of the scope", chosen, words, help.c_str())) return;
+  if (chosen < static_cast<int>(board.lenses.size()))
+    SetFootageLens(state, chosen);
+  else
+    BrowseForLens(state);
+}
+
+// The one that goes on from here.
+bool MainButton(Ui& ui, const std::string& name, bool enabled, const char* help) {
+  ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_HeaderHovered));
+  const bool pressed = Button(ui, name, enabled, {-FLT_MIN, ui.Px(36)}, help);
+  ImGui::PopStyleColor(2);
+  return pressed;
+}
+
+void RunAndStop(Ui& ui, EditorState& state) {
+  const FootageBoard& board = *state.footage;
+  if (FootageIsUnderWay(state)) {
+    ImGui::ProgressBar(static_cast<float>(state.jobs.done()), {-FLT_MIN, 0});
+    Text(ui, state.jobs.stage());  // with the time left
+    if (Button(ui, "Stop", true, {-FLT_MIN, ui.Px(36)}, "What was there before stays."))
+      state.jobs.Stop();
+    return;
+  }
+  const Command& run = CommandOf("run-footage");
+  const bool again = board.session != nullptr;
+  const bool pressed =
+      again ? Button(ui, "Run again", run.enabled(state), {-FLT_MIN, ui.Px(36)}, run.help)
+            : MainButton(ui, "Run", run.enabled(state), run.help);
+  if (pressed) Run(state, run);
+  if (const std::string next = WordsOfNextRun(board); !next.empty()) QuietText(ui, next);
+}
+
+void Result(Ui& ui, EditorState& state) {
+  const FootageBoard& board = *state.footage;
+  if (!board.made) return;
+  Gap(ui, 2);
+  const std::vector<std::string> lines = WordsOfResult(board);
+  Heading(ui, lines.front());
+  const Command& use = CommandOf("use-panorama");
+  if (MainButton(ui, use.words, use.enabled(state), use.help)) Run(state, use);
+  Gap(ui, 1);
+  for (std::size_t i = 1; i < lines.size(); ++i) Text(ui, lines[i]);
+  for (const std::string& warning : WarningsOfResult(board)) ColouredText(ui, warning, kWarning);
+}
+
+}  // namespace
+
+void FootagePanel(Ui& ui, EditorState& state) {
+  Clip(ui, state);
+  if (!state.footage) return;
+  Gap(ui, 2);
+  LensChooser(ui, state);
+  authoring::PanoramaOptions options = state.footage->options;
+  OptionsPanelVisitor panel{ui};
+  DetectorOnly detector{panel};
+  options.Visit(detector);
+  Gap(ui, 2);
+  RunAndStop(ui, state);
+  if (!state.footage) return;
+  Result(ui, state);
+
+  Gap(ui, 2);
+  const bool open = ImGui::TreeNodeEx("More options", ImGuiTreeNodeFlags_NoTreePushOnOpen);
+  RecordItem(ui, "More options", true, open ? "on" : "off");
+  if (open) {
+    AllButDetector others{panel};
+    options.Visit(others);
+    if (Button(ui, "Back to the defaults", true, {-FLT_MIN, 0})) {
+      options = {};
+      panel.changed_field = "defaults";
+    }
+  }
+  if (!panel.changed_field.empty()) SetPanoramaOptions(state, options);
+}
+
+}  // namespace arthro::app
