@@ -4,6 +4,7 @@
 
 #include "app/commands/depth_cache.h"
 #include "app/commands/same.h"
+#include "authoring/project/document_io.h"
 
 namespace arthro::app {
 namespace {
@@ -51,6 +52,24 @@ void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string
   if (SameBackdrop(backdrop, state.document().scene.backdrop)) return;
   Edit(state, "Change " + what, Key("backdrop", what),
        [&](auto& next) { next.scene.backdrop = backdrop; });
+}
+
+void SetPanorama(EditorState& state, const std::string& name,
+                 const std::shared_ptr<const ColourImage>& panorama,
+                 const std::optional<Projection>& projection) {
+  Edit(state, name, "", [&](authoring::Document& next) {
+    const bool same_size = next.panorama && next.panorama->width == panorama->width &&
+                           next.panorama->height == panorama->height;
+    if (projection)
+      next.scene.backdrop.projection = *projection;
+    else if (!same_size)
+      next.scene.backdrop.projection =
+          authoring::GuessProjection(panorama->width, panorama->height);
+    next.panorama = panorama;
+    next.scene.backdrop.panorama = "panorama.png";
+    next.scene.backdrop.depth = "depth.tiff";
+    next.depth = nullptr;
+  });
 }
 
 void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,

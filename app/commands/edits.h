@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/commands/editor_state.h"
@@ -19,6 +20,11 @@ void Edit(EditorState& state, const std::string& name, const std::string& merge_
 void SetTitle(EditorState& state, const std::string& title);
 void SetAuthor(EditorState& state, const std::string& author);
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what);
+// Another picture as the backdrop, its depth to be made anew. No projection: the one there is stays
+// when the size is the same, else it is guessed.
+void SetPanorama(EditorState& state, const std::string& name,
+                 const std::shared_ptr<const ColourImage>& panorama,
+                 const std::optional<Projection>& projection = std::nullopt);
 void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
                      const std::string& what);
 void SetIncisionSpacing(EditorState& state, double spacing);  // m

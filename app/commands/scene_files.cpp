@@ -114,17 +114,7 @@ void ImportPanorama(EditorState& state, const fs::path& picture) {
   state.jobs.Start("Import " + picture.filename().string(), [picture](const Progress&) {
     auto panorama = std::make_shared<const ColourImage>(ReadColourImage(picture));
     return [picture, panorama](EditorState& now) {
-      Edit(now, "Import " + picture.filename().string(), "", [&](Document& next) {
-        const bool same_size = next.panorama && next.panorama->width == panorama->width &&
-                               next.panorama->height == panorama->height;
-        if (!same_size)
-          next.scene.backdrop.projection =
-              authoring::GuessProjection(panorama->width, panorama->height);
-        next.panorama = panorama;
-        next.scene.backdrop.panorama = "panorama.png";
-        next.scene.backdrop.depth = "depth.tiff";
-        next.depth = nullptr;
-      });
+      SetPanorama(now, "Import " + picture.filename().string(), panorama);
       now.step = Step::kPanorama;
       now.shows_footage = false;
     };

@@ -129,13 +129,7 @@ void UseMadePanorama(EditorState& state) {
   const MadePanorama& made = *state.footage->made;
   state.step = Step::kDepth;
   if (state.document().panorama == made.picture) return;  // it is the backdrop already
-  Edit(state, "Use the panorama of " + state.footage->name, "", [&](authoring::Document& next) {
-    next.scene.backdrop.projection = made.projection;
-    next.panorama = made.picture;
-    next.scene.backdrop.panorama = "panorama.png";
-    next.scene.backdrop.depth = "depth.tiff";
-    next.depth = nullptr;
-  });
+  SetPanorama(state, "Use the panorama of " + state.footage->name, made.picture, made.projection);
 }
 
 }  // namespace arthro::app
