@@ -59,6 +59,23 @@ std::string KeyOf(const std::optional<Lens>& lens) {
                      l.k[3], l.field_of_view, l.circle.cx, l.circle.cy, l.circle.r);
 }
 
+// A product holds as long as its key stays.
+struct Keys {
+  std::string clip, places, pieces;
+};
+
+Keys KeysOf(const PanoramaRequest& request) {
+  const PanoramaOptions& options = request.options;
+  Keys keys;
+  keys.clip = KeyOf(request.footage) + KeyOf(request.lens) + KeyOf(options.choose) +
+              KeyOf(options.rectify) + KeyOf(options.prepare) +
+              fmt::format("{}", options.working_scale);
+  keys.places = keys.clip + KeyOf(options.registration);
+  for (const int index : request.excluded) keys.places += fmt::format(" -{}", index);
+  keys.pieces = keys.places + KeyOf(options.compose) + fmt::format("{}", options.least_piece);
+  return keys;
+}
+
 // What registration cost, by its own parts; the rest of it is the graph's.
 std::vector<StageCost> RegisterCosts(const RegisterReport& report, double whole_ms) {
   std::vector<StageCost> costs = {
@@ -100,16 +117,10 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
   made.request = request;
 
   // Which products still hold.
-  const std::string clip_key = KeyOf(request.footage) + KeyOf(request.lens) +
-                               KeyOf(options.choose) + KeyOf(options.rectify) +
-                               KeyOf(options.prepare) + fmt::format("{}", options.working_scale);
-  std::string register_key = clip_key + KeyOf(options.registration);
-  for (const int index : request.excluded) register_key += fmt::format(" -{}", index);
-  const std::string compose_key =
-      register_key + KeyOf(options.compose) + fmt::format("{}", options.least_piece);
-  const bool has_clip = made.clip_key == clip_key,
-             has_places = has_clip && made.register_key == register_key,
-             has_pieces = has_places && made.compose_key == compose_key;
+  const Keys keys = KeysOf(request);
+  const bool has_clip = made.clip_key == keys.clip,
+             has_places = has_clip && made.register_key == keys.places,
+             has_pieces = has_places && made.compose_key == keys.pieces;
   // CPU ms a frame, roughly; only their ratio counts.
   StageClock clock(progress, {{"read", has_clip ? 0 : 20},
                               {"prepare", has_clip ? 0 : 10},
@@ -128,7 +139,7 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
       };
     made.clip = PrepareClip(request.footage, request.lens, options, on_frame, clock);
     made.clip_costs = clock.costs();
-    made.clip_key = clip_key;
+    made.clip_key = keys.clip;
   }
   const PreparedClip& clip = made.clip;
 
@@ -148,7 +159,7 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
                            clock.Begin("register"));
     clock.End();
     made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
-    made.register_key = register_key;
+    made.register_key = keys.places;
   }
   const auto counts = FramesByComponent(made.placed);
   if (const auto main = counts.find(0); main == counts.end() || main->second < 2)
@@ -157,6 +168,12 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
                             "footage that moves slowly over tissue with some texture",
                             made.placed.size(), FirstReason(made.placed)),
                 request.footage);
+
+  // Where every frame lies, before the panorama is drawn.
+  if (observer.frame && !has_pieces)
+    for (const FrameReport& row :
+         AssembleReport(clip, made.placed, made.registration, {}, request.excluded).frames)
+      observer.frame(row, {});
 
   if (!has_pieces) {
     made.compose_key = "";
@@ -173,7 +190,7 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
                   request.footage);
     clock.End();
     made.compose_costs = {clock.costs().back()};
-    made.compose_key = compose_key;
+    made.compose_key = keys.pieces;
   }
 
   PanoramaResult result;
@@ -199,6 +216,13 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
   if (observer.frame)
     for (const FrameReport& row : result.report.frames) observer.frame(row, {});
   return result;
+}
+
+std::string PanoramaSession::NextStage(const PanoramaRequest& request) const {
+  const Keys keys = KeysOf(request);
+  if (products_->clip_key != keys.clip) return "read";
+  if (products_->register_key != keys.places) return "register";
+  return products_->compose_key != keys.pieces ? "compose" : "";
 }
 
 std::optional<ColourImage> PanoramaSession::PictureOf(int index, FrameStage stage) const {

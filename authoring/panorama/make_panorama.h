@@ -37,7 +37,7 @@ struct PanoramaResult {
 // What a window shows while the job runs. Called from the job's thread; any may be empty.
 struct PanoramaObserver {
   // As frames are read, with a small picture (empty where there is none); again, without one, when
-  // it is known where they lie.
+  // it is known where they lie, and at the end.
   std::function<void(const FrameReport&, const ColourImage& small)> frame;
   // The panorama as it grows, small.
   std::function<void(const RgbaPicture&)> mosaic;
@@ -58,6 +58,10 @@ class PanoramaSession {
   // stages that were over by then are kept.
   PanoramaResult Run(const PanoramaRequest& request, const PanoramaObserver& observer,
                      const Progress& progress);
+
+  // The first stage that Run would do again for this request: "read", "register", "compose"; ""
+  // when it would do none.
+  std::string NextStage(const PanoramaRequest& request) const;
 
   // A frame of the last request that got as far as "prepare"; kEvenLight of usable frames only.
   // Nothing where there is no such picture. Reads the footage again for the other two.

@@ -16,15 +16,6 @@ std::string Capital(std::string words) {
   return words;
 }
 
-// The stages as the pipeline names them, in words that say what they do.
-std::string WordsOfStage(const std::string& stage) {
-  if (stage == "read") return "reading the frames";
-  if (stage == "prepare") return "evening out the light";
-  if (stage == "register") return "placing the frames";
-  if (stage == "compose") return "drawing the panorama";
-  return stage;
-}
-
 }  // namespace
 
 FrameNote NoteOf(const authoring::FrameReport& report, bool is_excluded) {
@@ -109,9 +100,14 @@ std::vector<std::string> WarningsOfResult(const FootageBoard& board) {
 std::string WordsOfNextRun(const FootageBoard& board) {
   if (!board.session) return "";
   if (board.next_stage.empty()) return board.made ? "Nothing changed since the last run." : "";
-  return "Begins with " + WordsOfStage(board.next_stage) +
-         (board.next_stage == "read" ? "." : "; what comes before is kept.");
+  if (board.next_stage == "register")
+    return "Begins with placing the frames; what comes before is kept.";
+  if (board.next_stage == "compose")
+    return "Begins with drawing the panorama; what comes before is kept.";
+  return "Begins with reading the frames.";
 }
+
+std::string WordsOfStage(const std::string& stage) { return Capital(stage); }
 
 Showing ShowingOf(const FootageBoard& board) {
   Showing showing;

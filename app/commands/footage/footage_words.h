@@ -17,6 +17,8 @@ std::vector<std::string> WordsOfResult(const FootageBoard& board);
 std::vector<std::string> WarningsOfResult(const FootageBoard& board);
 // Where the next run begins, or that it would change nothing; "" before the first one.
 std::string WordsOfNextRun(const FootageBoard& board);
+// What a run is about, as the job tells it: with the time left.
+std::string WordsOfStage(const std::string& stage);
 
 struct Showing {
   SharedPicture picture;     // null: nothing there yet

@@ -13,19 +13,51 @@
 namespace arthro::app {
 namespace {
 
-// Which options are there for everybody, and which are folded away.
-struct DetectorOnly {
+// How pairs of frames are found is there for everybody; the rest is folded away, by stage.
+bool IsInFront(std::string_view name) { return name == "method" || name == "detector"; }
+
+struct Part {
+  const char* prefix;
+  const char* words;
+};
+constexpr Part kParts[] = {{"rectify_", "Straightening"},
+                           {"prepare_", "Evening out the light"},
+                           {"features_", "Features"},
+                           {"direct_", "Direct alignment"},
+                           {"graph_", "Which frames are compared"},
+                           {"cycles_", "Loops that must close"},
+                           {"refine_", "Placing all frames at once"},
+                           {"compose_", "Drawing the panorama"}};
+
+struct InFront {
   OptionsPanelVisitor& panel;
   template <class T, class R>
   void operator()(const char* name, T& field, const R& range, const char* unit, const char* help) {
-    if (std::string_view(name) == "detector") panel(name, field, range, unit, help);
+    if (IsInFront(name)) panel(name, field, range, unit, help);
   }
 };
-struct AllButDetector {
+
+struct Folded {
   OptionsPanelVisitor& panel;
+  const Part* part = nullptr;
+  bool is_open = true;
   template <class T, class R>
   void operator()(const char* name, T& field, const R& range, const char* unit, const char* help) {
-    if (std::string_view(name) != "detector") panel(name, field, range, unit, help);
+    if (IsInFront(name)) return;
+    const Part* now = nullptr;
+    for (const Part& candidate : kParts)
+      if (std::string_view(name).starts_with(candidate.prefix)) now = &candidate;
+    if (now != part) {
+      part = now;
+      is_open = now == nullptr || Fold(panel.ui, now->words);
+    }
+    if (is_open) panel(name, field, range, unit, help);
+  }
+  static bool Fold(Ui& ui, const char* words) {
+    const bool open = ImGui::TreeNodeEx(
+        words, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    RecordItem(ui, words, true, open ? "on" : "off");
+    return open;
   }
 };
 
@@ -71,7 +103,7 @@ void RunAndStop(Ui& ui, EditorState& state) {
   const FootageBoard& board = *state.footage;
   if (FootageIsUnderWay(state)) {
     ImGui::ProgressBar(static_cast<float>(state.jobs.done()), {-FLT_MIN, 0});
-    Text(ui, state.jobs.stage());  // with the time left
+    Text(ui, WordsOfStage(state.jobs.stage()));
     if (Button(ui, "Stop", true, {-FLT_MIN, ui.Px(36)}, "What was there before stays."))
       state.jobs.Stop();
     return;
@@ -107,19 +139,19 @@ void FootagePanel(Ui& ui, EditorState& state) {
   LensChooser(ui, state);
   authoring::PanoramaOptions options = state.footage->options;
   OptionsPanelVisitor panel{ui};
-  DetectorOnly detector{panel};
-  options.Visit(detector);
+  InFront in_front{panel};
+  options.Visit(in_front);
   Gap(ui, 2);
   RunAndStop(ui, state);
   if (!state.footage) return;
   Result(ui, state);
 
   Gap(ui, 2);
-  const bool open = ImGui::TreeNodeEx("More options", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-  RecordItem(ui, "More options", true, open ? "on" : "off");
-  if (open) {
-    AllButDetector others{panel};
-    options.Visit(others);
+  if (Folded::Fold(ui, "More options")) {
+    ImGui::Indent(ui.Px(8));
+    Folded folded{panel};
+    options.Visit(folded);
+    ImGui::Unindent(ui.Px(8));
     if (Button(ui, "Back to the defaults", true, {-FLT_MIN, 0})) {
       options = {};
       panel.changed_field = "defaults";
