@@ -26,10 +26,8 @@ FrameNote NoteOf(const authoring::FrameReport& report, bool is_excluded) {
     note.status = FrameStatus::kPlaced;
   else if (report.component > 0)
     note.status = FrameStatus::kSeparate;
-  else if (!report.is_usable)
-    note.status = FrameStatus::kUnused;
-  else if (!report.reason.empty())
-    note.status = FrameStatus::kRejected;
+  else if (!report.reason.empty())  // none yet while the clip is read
+    note.status = report.is_usable ? FrameStatus::kRejected : FrameStatus::kUnused;
   return note;
 }
 
@@ -129,7 +127,7 @@ Showing ShowingOf(const FootageBoard& board) {
       break;
     case FrameView::kEvenLight:
       showing.picture = large.even_light;
-      if (board.compares) showing.before = large.rectified;
+      if (board.compares) showing.before = large.rectified ? large.rectified : large.raw;
       break;
   }
   // Until it is read, and where there is no such step, what there is.
