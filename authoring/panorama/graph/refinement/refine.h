@@ -19,7 +19,7 @@ struct RefineOptions {
   double pair_floor = 0.03;
   double loss_scale = 3.0;
   int refine_iterations = 40;
-  double camera_deviation = 0.003;
+  double camera_deviation = 0.0005;
   template <class V>
   void Visit(V&& v) {
     v("pair_floor", pair_floor, Range{0.0, 2.0}, "px",
