@@ -217,6 +217,28 @@ cv::Point2d LitMiddle(const cv::Mat& grey, const Levels& levels) {
   return {m.m10 / m.m00, m.m01 / m.m00};
 }
 
+// Less the rows and columns along the edges that stay black over the clip, or are half black and
+// half picture.
+cv::Rect LitPart(const cv::Mat& brightest) {
+  if (brightest.empty()) return {};
+  cv::Mat rows, columns;
+  cv::reduce(brightest, rows, 1, cv::REDUCE_MAX);
+  cv::reduce(brightest, columns, 0, cv::REDUCE_MAX);
+  constexpr int kBlack = 40;  // even the brightest pixel of a bar stays under it
+  constexpr int kBlur = 2;    // px next to a bar that it darkens
+  const auto part = [](const cv::Mat& line) {
+    const int count = static_cast<int>(line.total());
+    int first = 0, last = count;
+    while (first < last && line.data[first] < kBlack) ++first;
+    while (last > first && line.data[last - 1] < kBlack) --last;
+    const int before = first > 0 ? first + kBlur : 0;
+    const int after = last < count ? last - kBlur : last;
+    return cv::Range(before, std::max(before, after));
+  };
+  const cv::Range y = part(rows), x = part(columns);
+  return {x.start, y.start, x.size(), y.size()};
+}
+
 }  // namespace
 
 LensCircle FindCircle(const cv::Mat& picture) {
@@ -260,6 +282,12 @@ void CircleFinder::Add(const cv::Mat& rgb) {
 }
 
 ClipCircle CircleFinder::Find() const {
+  ClipCircle found = FindRound();
+  found.lit = LitPart(brightest_);
+  return found;
+}
+
+ClipCircle CircleFinder::FindRound() const {
   if (2 * circles_.size() < static_cast<std::size_t>(frames_) || circles_.empty())
     return {FindCircle(brightest_), 0};
   // The sensor's window keeps its size; a circle of another size is a mistake.

@@ -22,6 +22,7 @@ LensCircle FindCircle(const cv::Mat& grey);
 struct ClipCircle {
   LensCircle circle;   // what every frame shows; radius 0: no round window
   double wanders = 0;  // px: how far the window's middle moves over the clip
+  cv::Rect lit = {};   // the picture less black bars along its edges; empty: nothing is lit
 };
 
 class CircleFinder {
@@ -32,6 +33,8 @@ class CircleFinder {
   ClipCircle Find() const;
 
  private:
+  ClipCircle FindRound() const;
+
   cv::Mat brightest_, grey_;
   std::vector<LensCircle> circles_;
   int frames_ = 0;

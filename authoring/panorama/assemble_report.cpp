@@ -55,10 +55,14 @@ PanoramaReport AssembleReport(const PreparedClip& clip, const std::vector<FrameR
   // and not the part of it that the round window shows.
   cv::Matx33d view_from_rectified = cv::Matx33d::eye();
   if (lens.is_guessed) {
-    report.rectified = {lens.lens.width, lens.lens.height, clip.view.focal_px, lens.lens.cx,
-                        lens.lens.cy};
-    view_from_rectified(0, 2) = clip.view.cx - lens.lens.cx;
-    view_from_rectified(1, 2) = clip.view.cy - lens.lens.cy;
+    Lens& raw = report.lens;
+    raw.width = clip.info.width;
+    raw.height = clip.info.height;
+    for (double* x : {&raw.cx, &raw.circle.cx}) *x += lens.part.x;
+    for (double* y : {&raw.cy, &raw.circle.cy}) *y += lens.part.y;
+    report.rectified = {raw.width, raw.height, clip.view.focal_px, raw.cx, raw.cy};
+    view_from_rectified(0, 2) = clip.view.cx - raw.cx;
+    view_from_rectified(1, 2) = clip.view.cy - raw.cy;
   }
 
   std::map<int, cv::Matx33d> composed_from_plane;

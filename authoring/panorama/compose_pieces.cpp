@@ -61,7 +61,7 @@ std::map<int, int> FramesByComponent(const std::vector<FrameResult>& frames) {
   return counts;
 }
 
-std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage,
+std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, const cv::Rect& part,
                                          const Rectifier& rectifier,
                                          const std::vector<FrameResult>& frames, int least_piece,
                                          const ComposeOptions& options, const Progress& progress,
@@ -75,17 +75,21 @@ std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage,
   for (const auto& [component, count] : counts) {
     if (component > 0 && count < least_piece) continue;
     const auto placed = AsPanorama(frames, component);
-    Progress part;
-    part.stop = progress.stop;
-    part.report = [&, share = count / all](std::string_view words, double done) {
+    Progress of_piece;
+    of_piece.stop = progress.stop;
+    of_piece.report = [&, share = count / all](std::string_view words, double done) {
       progress.Step(words, before + share * done);
     };
     ComposedPiece piece;
     piece.component = component;
     PlacedPictures pictures(footage, placed);
-    piece.composed =
-        Compose([&](int& index, cv::Mat& rgb) { return pictures(index, rgb); }, rectifier, placed,
-                options, &piece.report, part, component == 0 ? observer : ComposeObserver());
+    const auto source = [&](int& index, cv::Mat& rgb) {
+      if (!pictures(index, rgb)) return false;
+      rgb = rgb(part);
+      return true;
+    };
+    piece.composed = Compose(source, rectifier, placed, options, &piece.report, of_piece,
+                             component == 0 ? observer : ComposeObserver());
     pieces.push_back(std::move(piece));
     before += count / all;
   }

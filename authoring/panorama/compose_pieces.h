@@ -22,8 +22,9 @@ struct ComposedPiece {
 std::map<int, int> FramesByComponent(const std::vector<FrameResult>& frames);
 
 // Component 0 first, then every other that has `least_piece` frames. Reads the footage again for
-// each. `rectifier` must have scale 1. Throws Error(kCancelled) and what reading throws.
-std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage,
+// each. `part` of a raw picture goes to `rectifier`, which must have scale 1. Throws
+// Error(kCancelled) and what reading throws.
+std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, const cv::Rect& part,
                                          const Rectifier& rectifier,
                                          const std::vector<FrameResult>& frames, int least_piece,
                                          const ComposeOptions& options, const Progress& progress,

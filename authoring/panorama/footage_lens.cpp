@@ -36,18 +36,18 @@ ClipCircle CircleOf(Footage& footage, int count, const Progress& progress) {
 }
 
 // A picture's own width is all that is known of how wide it sees.
-Lens GuessedLens(const FootageInfo& info, const LensCircle& circle) {
+Lens GuessedLens(const cv::Size& size, const LensCircle& circle) {
   constexpr double kHalfField = 37.5;  // degrees; arthroscopes see 70 to 80 across
   Lens lens;
   lens.model = LensModel::kPinhole;
-  lens.width = info.width;
-  lens.height = info.height;
+  lens.width = size.width;
+  lens.height = size.height;
   // Whole numbers, so that the rectified picture has the very pixels of the raw one.
-  lens.cx = std::round(circle.r > 0 ? circle.cx : 0.5 * (info.width - 1));
-  lens.cy = std::round(circle.r > 0 ? circle.cy : 0.5 * (info.height - 1));
-  lens.cx = std::clamp(lens.cx, 0.0, info.width - 1.0);
-  lens.cy = std::clamp(lens.cy, 0.0, info.height - 1.0);
-  const double radius = circle.r > 0 ? circle.r : 0.5 * std::hypot(info.width, info.height);
+  lens.cx = std::round(circle.r > 0 ? circle.cx : 0.5 * (size.width - 1));
+  lens.cy = std::round(circle.r > 0 ? circle.cy : 0.5 * (size.height - 1));
+  lens.cx = std::clamp(lens.cx, 0.0, size.width - 1.0);
+  lens.cy = std::clamp(lens.cy, 0.0, size.height - 1.0);
+  const double radius = circle.r > 0 ? circle.r : 0.5 * std::hypot(size.width, size.height);
   lens.focal_px = radius / std::tan(RadiansFromDegrees(kHalfField));
   lens.field_of_view = RadiansFromDegrees(2 * kHalfField);
   lens.circle = circle;
@@ -60,6 +60,7 @@ FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Pro
   constexpr int kFramesToFind = 12, kFramesToCheck = 3;
   const FootageInfo& info = footage.info();
   FootageLens found;
+  found.part = cv::Rect(0, 0, info.width, info.height);
   if (given && (given->width != info.width || given->height != info.height))
     throw Error(
         Code::kBadArgument,
@@ -68,7 +69,13 @@ FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Pro
                     given->width, given->height, info.name, info.width, info.height));
   if (!given) {
     const ClipCircle circle = CircleOf(footage, kFramesToFind, progress);
-    found.lens = GuessedLens(info, circle.circle);
+    // Black bars are no tissue, and where they end is no edge of it.
+    constexpr int kLeastPart = 32;  // px a side
+    if (circle.lit.width >= kLeastPart && circle.lit.height >= kLeastPart) found.part = circle.lit;
+    LensCircle window = circle.circle;
+    window.cx -= found.part.x;
+    window.cy -= found.part.y;
+    found.lens = GuessedLens(found.part.size(), window);
     found.is_guessed = true;
     found.wanders = circle.wanders;
     found.warnings.push_back(fmt::format(

@@ -16,6 +16,7 @@ struct FootageLens {
   Lens lens;                // its circle is what every frame shows
   bool is_guessed = false;  // no lens was given: a pinhole whose focal length is a guess
   double wanders = 0;       // px, how far the round window moves over the clip
+  cv::Rect part;            // of the raw picture that `lens` describes; all of it if it was given
   std::vector<std::string> warnings;
 };
 

@@ -182,8 +182,9 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
     ComposeObserver on_mosaic;
     if (observer.mosaic)
       on_mosaic = [&](const cv::Mat& small, double) { observer.mosaic(PlainPicture(small)); };
-    made.pieces = ComposePieces(request.footage, rectifier, made.placed, options.least_piece,
-                                options.compose, clock.Begin("compose"), on_mosaic);
+    made.pieces =
+        ComposePieces(request.footage, clip.lens.part, rectifier, made.placed, options.least_piece,
+                      options.compose, clock.Begin("compose"), on_mosaic);
     if (made.pieces.front().composed.rgba.empty())
       throw Error(Code::kBadImage,
                   "its frames were placed, but none of them could be drawn; check the lens",
@@ -240,7 +241,8 @@ std::optional<ColourImage> PanoramaSession::PictureOf(int index, FrameStage stag
   if (!footage.Next(rgb) || rgb.empty()) return std::nullopt;
   if (stage == FrameStage::kRaw) return PlainColour(rgb);
   if (rgb.cols != clip.info.width || rgb.rows != clip.info.height) return std::nullopt;
-  Rectifier(clip.lens.lens, products_->request.options.rectify, clip.scale).Rectify(rgb, rectified);
+  Rectifier(clip.lens.lens, products_->request.options.rectify, clip.scale)
+      .Rectify(rgb(clip.lens.part), rectified);
   return PlainColour(rectified);
 }
 

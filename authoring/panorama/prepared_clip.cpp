@@ -20,8 +20,8 @@ constexpr int kThumbWidth = 120;                    // px
 // again.
 class WorkingPictures {
  public:
-  WorkingPictures(Footage& footage, const Rectifier& rectifier)
-      : footage_(footage), rectifier_(rectifier) {}
+  WorkingPictures(Footage& footage, const cv::Rect& part, const Rectifier& rectifier)
+      : footage_(footage), part_(part), rectifier_(rectifier) {}
 
   void Keep(int index, const cv::Mat& working) {
     if (overflowed_) return;
@@ -53,12 +53,13 @@ class WorkingPictures {
     cv::Mat raw;
     if (!footage_.Next(raw) || raw.empty()) return false;
     working = cv::Mat();
-    rectifier_.Rectify(raw, working);
+    rectifier_.Rectify(raw(part_), working);
     return true;
   }
 
  private:
   Footage& footage_;
+  cv::Rect part_;
   const Rectifier& rectifier_;
   bool overflowed_ = false;
   std::size_t bytes_ = 0, next_ = 0;
@@ -101,8 +102,9 @@ std::vector<FrameLook> ReadAll(Footage& footage, const Rectifier& rectifier,
         row.reason = fmt::format("it is {} x {} px, the first frame {} x {}", raw.cols, raw.rows,
                                  info.width, info.height);
       } else {
-        look = looker.Look(raw);
-        rectifier.Rectify(raw, working);
+        const cv::Mat lit = raw(clip.lens.part);
+        look = looker.Look(lit);
+        rectifier.Rectify(lit, working);
         if (!options.choose.skip_blank || look.blank.empty()) pictures.Keep(i, working);
       }
     }
@@ -171,7 +173,7 @@ PreparedClip PrepareClip(const std::filesystem::path& path, const std::optional<
   clip.scale = options.working_scale > 0 ? options.working_scale : WorkingScaleOf(clip.view);
   const Rectifier rectifier(clip.lens.lens, options.rectify, clip.scale);
   clip.mask = rectifier.mask();
-  WorkingPictures pictures(footage, rectifier);
+  WorkingPictures pictures(footage, clip.lens.part, rectifier);
   auto looks = ReadAll(footage, rectifier, options, observer, reading, clip, pictures);
   const std::vector<int> chosen = Choose(looks, options, clip);
   if (chosen.size() < 2) {

@@ -97,6 +97,28 @@ TEST(MakePanorama, PlacesEveryFrameOfASmallClipWithoutALens) {
   }
 }
 
+// Bars along the picture's edges, of a film or a sensor, are no tissue and no edge of it.
+TEST(MakePanorama, BlackBarsDoNotReachThePanorama) {
+  const test::TempFolder folder;
+  const TinyClip clip;
+  const auto views = TinyClip::Arc(3);
+  for (int i = 0; i < 3; ++i) {
+    cv::Mat frame = clip.Frame(views[static_cast<std::size_t>(i)], 1u + static_cast<unsigned>(i));
+    frame.rowRange(0, 30) = cv::Scalar(2, 2, 2);
+    frame.rowRange(TinyClip::kHeight - 30, TinyClip::kHeight) = cv::Scalar(2, 2, 2);
+    TinyClip::Write(folder / fmt::format("{}.png", i), frame);
+  }
+  const PanoramaResult result = MakePanorama(RequestFor(folder.path()), {});
+  const PanoramaReport& report = result.report;
+  EXPECT_EQ(report.lens.height, TinyClip::kHeight);  // told of the raw picture all the same
+  EXPECT_NEAR(report.lens.circle.cy, TinyClip::kCy, 1.0);
+  for (int i = 1; i < 3; ++i) EXPECT_LT(PairError(report, views, i, i - 1), 0.5) << i;
+  int dark = 0;
+  for (std::size_t i = 0; i < result.picture.rgba.size(); i += 4)
+    dark += result.picture.rgba[i + 3] == 255 && result.picture.rgba[i] < 30;
+  EXPECT_EQ(dark, 0);
+}
+
 // Hard cases 2 and 13.
 TEST(MakePanorama, EveryFrameThatIsNotUsedSaysWhy) {
   const test::TempFolder folder;
