@@ -28,6 +28,7 @@ int RunCommandLine(int argc, char** argv) {
   program.set_help_all_flag("--help-all", "Help of every job");
   program.footer("`arthroscene JOB --help` says what a job takes.");
   program.require_subcommand(0, 1);
+  AddBenchJob(program);
   AddCentresJob(program);
   AddCheckJob(program);
   AddDemoJob(program);

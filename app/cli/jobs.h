@@ -8,6 +8,7 @@ class App;
 
 namespace arthro::app {
 
+void AddBenchJob(CLI::App& program);
 void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddDemoJob(CLI::App& program);

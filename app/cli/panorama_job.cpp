@@ -11,8 +11,10 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
+#include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
+#include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/lens_io.h"
 
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PanoramaJob {
-  std::string lens, output, report;
+  std::string lens, output, report, scene;
   std::vector<int> excluded;
   authoring::PanoramaRequest request;
 };
@@ -35,8 +37,24 @@ fs::path PieceName(const fs::path& output, std::size_t number) {
   return name;
 }
 
+// A scene that can be practised in at once: the panorama with the paper's depth map.
+void WriteScene(const fs::path& folder, const fs::path& panorama,
+                const authoring::PanoramaReport& report, const Progress& progress) {
+  authoring::Document document = authoring::DocumentFromPanorama(panorama);
+  document.scene.title = panorama.stem().string();
+  const authoring::PinholeView& view = report.panorama;
+  document.scene.backdrop.projection = {
+      ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px, {}};
+  document.depth = std::make_shared<const DepthMap>(authoring::DepthFromColour(
+      *document.panorama, document.depth_options, nullptr, {{}, progress.stop}));
+  authoring::SaveDocument(document, folder);
+}
+
 void Run(PanoramaJob job) {
   authoring::CheckPanoramaName(job.output);
+  if (!job.scene.empty() && job.output == "-")
+    throw Error(Code::kBadArgument,
+                "a scene is made from the panorama's file; give -o a name instead of -");
   if (job.output == "-" && job.report == "-")
     throw Error(Code::kBadArgument,
                 "only one of the panorama and its report can go to standard output");
@@ -57,6 +75,7 @@ void Run(PanoramaJob job) {
   }
   if (!job.report.empty()) authoring::WriteReport(job.report, report);
   authoring::WritePanorama(job.output, result.picture);
+  if (!job.scene.empty()) WriteScene(job.scene, job.output, report, progress);
   progress.Step("done", 1.0);
 
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -84,11 +103,18 @@ void AddPanoramaJob(CLI::App& program) {
                   "PNG, with what was imaged as alpha, or JPEG; - for standard output")
       ->required();
   job->add_option("--report", own->report, "JSON: where each frame lies, or why it does not");
+  job->add_option("--scene", own->scene,
+                  "Also write a scene of it into this folder, to edit and to practise in");
   job->add_option("--leave-out", own->excluded, "Frames that are not to be used, by their number")
       ->delimiter(',');
   AddOptionsFile(*job, own->request.options);
   AddOptions(*job, own->request.options);
-  job->callback([own] { Run(*own); });
+  job->callback([own, job] {
+    // Whoever names a detector wants it used; on its own, pairs are aligned without one.
+    if (job->count("--detector") > 0 && job->count("--method") == 0)
+      own->request.options.registration.method = authoring::PairMethod::kFeaturesThenDirect;
+    Run(*own);
+  });
 }
 
 }  // namespace arthro::app

@@ -8,6 +8,7 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
+#include "authoring/phantom/clip/phantom_footage.h"
 #include "authoring/phantom/phantom_io.h"
 
 namespace arthro::app {
@@ -15,19 +16,24 @@ namespace arthro::app {
 void AddPhantomJob(CLI::App& program) {
   struct Request {
     authoring::PhantomOptions options;
+    authoring::PhantomFootageOptions footage;
     std::string folder;
   };
   CLI::App* job = program.add_subcommand(
       "phantom", "Make a digital knee whose shape and tissue poses are known exactly.");
   const auto request = std::make_shared<Request>();
   AddOptions(*job, request->options);
+  AddOptions(*job, request->footage);
   job->add_option("-o,--output", request->folder,
                   "Folder to write; new, empty, or an earlier phantom, which is replaced")
       ->required();
   job->callback([request] {
     authoring::RequirePhantomFolder(request->folder);
-    authoring::WritePhantom(request->folder,
-                            authoring::MakePhantom(request->options, TerminalProgress()));
+    const Progress progress = TerminalProgress();
+    const authoring::Phantom phantom = authoring::MakePhantom(request->options, progress);
+    authoring::WritePhantom(request->folder, phantom, [&](const std::filesystem::path& folder) {
+      return authoring::WritePhantomFootage(folder, phantom, request->footage, progress);
+    });
   });
 }
 

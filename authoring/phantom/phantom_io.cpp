@@ -36,6 +36,8 @@ const std::set<std::string> kFiles{"scene.json",
                                    "depth_with_tissue.tiff",
                                    "meniscus.ply",
                                    "cartilage.ply",
+                                   "grid.png",
+                                   "lens.json",
                                    "truth.json",
                                    "trace.csv"};
 
@@ -52,10 +54,25 @@ Json JsonOf(const Pose& pose) {
           {"scale", pose.scale}};
 }
 
+// The frames of a clip and nothing else: 0000.png, 0001.png …
+bool IsFootage(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
+    if (!entry.is_regular_file() || (type != ".png" && type != ".jpg") ||
+        stem.find_first_not_of("0123456789") != std::string::npos)
+      return false;
+  }
+  return true;
+}
+
 bool IsEarlierPhantom(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder))
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory() && !entry.is_symlink() && entry.path().filename() == "footage" &&
+        IsFootage(entry.path()))
+      continue;
     if (!entry.is_regular_file() || !kFiles.contains(entry.path().filename().string()))
       return false;
+  }
   std::ifstream stream(folder / "truth.json");
   const Json truth = Json::parse(stream, nullptr, false);
   return truth.is_object() && truth.value("schema", Json()) == kSchema;
@@ -67,7 +84,7 @@ fs::path Plain(const fs::path& folder) {
   return plain.has_filename() ? plain : plain.parent_path();
 }
 
-void WriteFiles(const fs::path& folder, const Phantom& phantom) {
+void WriteFiles(const fs::path& folder, const Phantom& phantom, const FootageWriter& footage) {
   const std::string extension = Extension(phantom);
   WriteColourImage(folder / ("panorama" + extension), phantom.without_tissues.colour);
   WriteColourImage(folder / ("panorama_with_tissue" + extension), phantom.with_tissues.colour);
@@ -75,7 +92,10 @@ void WriteFiles(const fs::path& folder, const Phantom& phantom) {
   WriteDepthMap(folder / "depth_with_tissue.tiff", phantom.with_tissues.depth);
   WriteSurface(folder / "meniscus.ply", phantom.meniscus.surface);
   WriteSurface(folder / "cartilage.ply", phantom.cartilage.surface);
-  WriteAtomically(folder / "truth.json", TruthOf(phantom).dump(1) + "\n");
+  Json truth = TruthOf(phantom);
+  if (footage)
+    if (const Json filmed = footage(folder); !filmed.is_null()) truth["footage"] = filmed;
+  WriteAtomically(folder / "truth.json", truth.dump(1) + "\n");
   WriteAtomically(folder / "trace.csv", TraceCsv(phantom));
   WriteScene(folder / "scene.json", SceneOf(phantom));
 }
@@ -107,7 +127,7 @@ void RequirePhantomFolder(const fs::path& wanted) {
                 folder);
 }
 
-void WritePhantom(const fs::path& wanted, const Phantom& phantom) {
+void WritePhantom(const fs::path& wanted, const Phantom& phantom, const FootageWriter& footage) {
   RequirePhantomFolder(wanted);
   const fs::path folder = Plain(wanted);
   const auto beside = [&](const char* what) {
@@ -119,7 +139,7 @@ void WritePhantom(const fs::path& wanted, const Phantom& phantom) {
   std::error_code ignored;
   try {
     fs::create_directory(partial);
-    WriteFiles(partial, phantom);
+    WriteFiles(partial, phantom, footage);
     // An earlier phantom steps aside first, and comes back should the last step fail.
     const bool replaces = fs::exists(folder);
     if (replaces) fs::rename(folder, old);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,8 +18,13 @@ namespace arthro::authoring {
 // a phantom may then take its place. Call before the work, so that nobody waits in vain.
 void RequirePhantomFolder(const std::filesystem::path& folder);
 
+// Writes more files into the folder, and returns what truth.json says of them under "footage"; null
+// for nothing. See clip/phantom_footage.h.
+using FootageWriter = std::function<nlohmann::json(const std::filesystem::path& folder)>;
+
 // All files or none: written into a folder beside, which then takes the name.
-void WritePhantom(const std::filesystem::path& folder, const Phantom& phantom);
+void WritePhantom(const std::filesystem::path& folder, const Phantom& phantom,
+                  const FootageWriter& footage = {});
 
 Scene SceneOf(const Phantom& phantom);
 nlohmann::json TruthOf(const Phantom& phantom);

@@ -16,8 +16,8 @@
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/preparation/prepare.h"
+#include "authoring/phantom/clip/clip_score.h"
 #include "simulation/core/options_json.h"
-#include "tests/support/clip_score.h"
 
 namespace {
 
@@ -113,7 +113,8 @@ void Run(const std::filesystem::path& folder, const Args& args) {
   for (int i = 0; i < 8; ++i)
     nine.emplace_back(view.cx + view.focal_px * std::tan(theta) * std::cos(CV_PI / 4 * i),
                       view.cy + view.focal_px * std::tan(theta) * std::sin(CV_PI / 4 * i));
-  const test::ClipScore score = test::ScorePlaces(nine, truth, sequence.is_blank, results);
+  const authoring::ClipScore score =
+      authoring::ScorePlaces(nine, truth, sequence.is_blank, results);
 
   const double count = static_cast<double>(frames.size());
   double promised = 0;

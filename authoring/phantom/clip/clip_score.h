@@ -12,7 +12,7 @@
 #include "authoring/panorama/placed_frame.h"
 #include "authoring/phantom/clip/clip.h"
 
-namespace arthro::test {
+namespace arthro::authoring {
 
 inline constexpr double kRightPx = 10;
 
@@ -28,18 +28,17 @@ struct ClipScore {
 };
 
 // The nine points in rectified pixels.
-std::vector<cv::Point2d> NinePoints(const authoring::Clip& clip,
-                                    const authoring::RectifiedView& view);
+std::vector<cv::Point2d> NinePoints(const Clip& clip, const RectifiedView& view);
 
 // `truth` of each result, rectified to panorama px, and the nine points; with `is_blank` (may be
 // empty), whether the frame shows nothing.
 ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Matx33d> truth,
-                      const std::vector<bool>& is_blank,
-                      std::span<const authoring::FrameResult> results, int component = 0);
+                      const std::vector<bool>& is_blank, std::span<const FrameResult> results,
+                      int component = 0);
 
 // Of the results in `component`; `results[i].index` is the frame of the clip. Blank frames must not
 // be placed: one that is counts as wrong.
-ClipScore ScoreClip(const authoring::Clip& clip, const authoring::RectifiedView& view,
-                    std::span<const authoring::FrameResult> results, int component = 0);
+ClipScore ScoreClip(const Clip& clip, const RectifiedView& view,
+                    std::span<const FrameResult> results, int component = 0);
 
-}  // namespace arthro::test
+}  // namespace arthro::authoring

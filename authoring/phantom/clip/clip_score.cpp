@@ -1,4 +1,4 @@
-#include "tests/support/clip_score.h"
+#include "authoring/phantom/clip/clip_score.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
-namespace arthro::test {
+namespace arthro::authoring {
 namespace {
 
 cv::Point2d Map(const cv::Matx33d& h, const cv::Point2d& p) {
@@ -79,8 +79,7 @@ std::string ClipScore::Text() const {
       frames, placed, right, mean_px, max_px, wrong_as_good, 100 * covered);
 }
 
-std::vector<cv::Point2d> NinePoints(const authoring::Clip& clip,
-                                    const authoring::RectifiedView& view) {
+std::vector<cv::Point2d> NinePoints(const Clip& clip, const RectifiedView& view) {
   const Lens& lens = clip.lens();
   // 85 % of the window's radius as an angle, by the equisolid formula of lens.h.
   const double theta = 2 * std::asin(0.85 * lens.circle.r / (2 * lens.focal_px));
@@ -92,11 +91,11 @@ std::vector<cv::Point2d> NinePoints(const authoring::Clip& clip,
   return points;
 }
 
-ClipScore ScoreClip(const authoring::Clip& clip, const authoring::RectifiedView& view,
-                    std::span<const authoring::FrameResult> results, int component) {
+ClipScore ScoreClip(const Clip& clip, const RectifiedView& view,
+                    std::span<const FrameResult> results, int component) {
   std::vector<cv::Matx33d> truth;
   std::vector<bool> is_blank;
-  for (const authoring::FrameResult& result : results) {
+  for (const FrameResult& result : results) {
     truth.push_back(clip.PanoramaFromRectified(result.index, view));
     is_blank.push_back(clip.IsBlank(result.index));
   }
@@ -106,8 +105,8 @@ ClipScore ScoreClip(const authoring::Clip& clip, const authoring::RectifiedView&
 }
 
 ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Matx33d> truths,
-                      const std::vector<bool>& is_blank,
-                      std::span<const authoring::FrameResult> results, int component) {
+                      const std::vector<bool>& is_blank, std::span<const FrameResult> results,
+                      int component) {
   ClipScore score;
   score.frames = static_cast<int>(results.size());
   score.worst_px.assign(results.size(), std::numeric_limits<double>::quiet_NaN());
@@ -135,7 +134,7 @@ ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Mat
   int points = 0, covered = 0;
   for (std::size_t k = 0; k < which.size(); ++k) {
     const auto first = fit.errors.begin() + static_cast<std::ptrdiff_t>(9 * k);
-    const authoring::FrameResult& result = results[which[k]];
+    const FrameResult& result = results[which[k]];
     double worst = *std::max_element(first, first + 9);
     if (!std::isfinite(worst) || (!is_blank.empty() && is_blank[which[k]]))
       worst = std::numeric_limits<double>::infinity();
@@ -158,4 +157,4 @@ ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Mat
   return score;
 }
 
-}  // namespace arthro::test
+}  // namespace arthro::authoring

@@ -1,0 +1,72 @@
+// Speed against error of registration, on phantom clips whose every homography is known: detectors,
+// working scales and stages of our chain, and OpenCV's stitcher as peer, on the same frames in one
+// run. Processor time is the process's own, of everything from the decoded raw frame to the places;
+// drawing the clip and scoring are not counted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "authoring/panorama/graph/register.h"
+#include "authoring/phantom/clip/clip_options.h"
+#include "simulation/core/options.h"
+#include "simulation/core/progress.h"
+
+namespace arthro::app {
+
+struct RegistrationBenchOptions {
+  int seed = 1;
+  int frames = 0;
+  int width = 800, height = 640;
+  bool every_chain = false;
+  bool peers = true;
+  double peer_limit = 60;
+  template <class V>
+  void Visit(V&& v) {
+    v("seed", seed, Range{0, 2147483647}, "", "Which phantom clips.");
+    v("frames", frames, Range{0, 2000}, "", "Frames of each clip; 0: as many as its kind has.");
+    v("width", width, Range{64, 4096}, "px", "Width of a frame.");
+    v("height", height, Range{64, 4096}, "px", "Height of a frame.");
+    v("every_chain", every_chain, Any{}, "",
+      "Every detector at every scale with every set of stages, not only along the axes.");
+    v("peers", peers, Any{}, "", "Run OpenCV's stitcher beside ours.");
+    v("peer_limit", peer_limit, Range{1, 3600}, "s",
+      "Processor time after which the peer is stopped.");
+  }
+};
+
+struct RegistrationBenchRow {
+  std::string clip;   // "easy"
+  std::string chain;  // "SURF, 1/2, loops + refinement"
+  bool is_peer = false;
+  std::string outcome = "done";
+  int frames = 0, placed = 0, right = 0, wrong_as_good = 0;
+  double mean_px = 0, max_px = 0;  // NaN when nothing is right
+  double covered = 0;              // share of placed frames within their expected error
+  double cpu_ms = 0;               // a frame
+};
+
+struct RegistrationBench {
+  RegistrationBenchOptions options;
+  std::vector<RegistrationBenchRow> rows;
+};
+
+// The chains in the order in which they are run: name and what it sets.
+struct BenchChain {
+  std::string words;
+  double scale = 0.5;
+  authoring::RegisterOptions options;
+};
+std::vector<BenchChain> BenchChains(bool every_chain);
+
+RegistrationBench RunRegistrationBench(const RegistrationBenchOptions& options,
+                                       const Progress& progress);
+
+std::string MachineWords();  // processor, cores, build type, compiler
+std::string TableOf(const RegistrationBench& bench);
+nlohmann::json JsonOf(const RegistrationBench& bench);
+std::string PlotOf(const RegistrationBench& bench);  // SVG
+
+}  // namespace arthro::app

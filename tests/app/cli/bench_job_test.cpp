@@ -1,0 +1,54 @@
+// Claims about the benchmark of the registration, run as a user runs it, on clips small enough.
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "simulation/core/atomic_file.h"
+#include "tests/support/run_program.h"
+
+namespace arthro {
+namespace {
+
+TEST(BenchJob, HoldsEveryChainAgainstTruthAndThePeer) {
+  test::TempFolder folder;
+  const std::string json = (folder / "b.json").string(), plot = (folder / "b.svg").string();
+  const auto result =
+      test::RunProgram("bench panorama --frames 3 --width 200 --height 160 --peer-limit 5 --json " +
+                       json + " --plot " + plot);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("cv::Stitcher"), std::string::npos);
+  const auto bench = nlohmann::json::parse(ReadWholeFile(json));
+  EXPECT_EQ(bench.at("schema"), "arthroscene.bench.panorama/1");
+  std::set<std::string> clips, chains;
+  for (const auto& row : bench.at("rows")) {
+    clips.insert(row.at("clip"));
+    chains.insert(row.at("chain"));
+    EXPECT_EQ(row.at("frames"), 3);
+    EXPECT_LE(row.at("right"), row.at("placed"));
+    EXPECT_FALSE(row.at("outcome").get<std::string>().empty());
+    EXPECT_GT(row.at("cpu_ms_per_frame"), 0.0);
+    // Nothing right: there is no error to tell, rather than one of 0.
+    EXPECT_EQ(row.at("mean_px").is_null(), row.at("right") == 0) << row;
+  }
+  EXPECT_EQ(clips, (std::set<std::string>{"easy", "hard", "medium"}));
+  for (const char* chain : {"SURF 1/2 all", "SURF 1/2 loops", "SURF 1/2 pairs", "SURF 1/4 all",
+                            "SIFT 1/2 all", "AKAZE 1/2 all", "ORB 1/2 all", "SURF 1/2 alone",
+                            "direct 1/2 all", "cv::Stitcher scans", "cv::Stitcher panorama"})
+    EXPECT_TRUE(chains.contains(chain)) << chain;
+  const std::string svg = ReadWholeFile(plot);
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(BenchJob, TwoThingsToStandardOutputAreRefused) {
+  const auto result = test::RunProgram("bench panorama --json - --plot -");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("cannot both"), std::string::npos) << result.err;
+  EXPECT_EQ(test::RunProgram("bench").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace arthro
