@@ -68,11 +68,11 @@ void ClipLookBuilder::Add(const cv::Mat& working_rgb, const cv::Mat& mask) {
   noise_.Add(mixed, usable);
   const cv::Mat log = LogOf(mixed);
 
-  const cv::Mat light = MaskedLowPass(log, usable, kLightReach);
+  const cv::Mat light = MaskedSurround(usable, kLightReach).Of(log);
   const double exposure = cv::mean(light, usable)[0];
   // Without the rim's blur into the black around it.
   cv::erode(usable, usable, cv::Mat(), {-1, -1}, 2, cv::BORDER_CONSTANT, 0);
-  cv::Mat detail = log - MaskedLowPass(log, usable, kMarkReach);
+  cv::Mat detail = log - MaskedSurround(usable, kMarkReach).Of(log);
   cv::GaussianBlur(detail, detail, {3, 3}, 0.8);
   const double most = kMostDetail * SpreadOf(detail, usable);
   detail = cv::min(cv::max(detail, -most), most);
@@ -88,7 +88,7 @@ ClipLook ClipLookBuilder::Finish() {
   if (used_ == 0) return look;
   // Where no frame showed tissue the light is continued from the surround.
   cv::Mat light = light_ / cv::max(seen_, 1.0);
-  look.light = MaskedLowPass(light, seen_ > 0, kLightReach / 2);
+  look.light = MaskedSurround(seen_ > 0, kLightReach / 2).Of(light);
   look.noise = noise_;
   look.noise.Finish();
   if (used_ >= kFewest) FindStaticMarks(look);

@@ -10,65 +10,69 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kCell = 8;  // px; a light that needs a finer grid than this is texture
+constexpr int kCell = 8;           // px; a light that needs a finer grid than this is texture
+constexpr double kFineEnough = 6;  // cells that a sigma must span at least; 3 cost accuracy
 
 // Moments of the unmasked pixels about their cell's centre, in cells: what a plane is fitted from.
-enum Moment { kW, kX, kY, kXX, kXY, kYY, kF, kFX, kFY, kMoments };
-using Moments = std::array<double, kMoments>;
-
-void AddPixel(Moments& m, double x, double y, double f) {
-  m[kW] += 1;
-  m[kX] += x;
-  m[kY] += y;
-  m[kXX] += x * x;
-  m[kXY] += x * y;
-  m[kYY] += y * y;
-  m[kF] += f;
-  m[kFX] += f * x;
-  m[kFY] += f * y;
-}
+struct MaskMoments {
+  double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+};
+struct ValueMoments {
+  float f = 0, fx = 0, fy = 0;
+};
 
 // Adds moments that were taken about a centre (dx, dy) away from the sum's centre.
-void AddShifted(Moments& to, const Moments& from, double weight, double dx, double dy) {
-  const double w = weight * from[kW], x = weight * from[kX], y = weight * from[kY];
-  to[kW] += w;
-  to[kX] += x + w * dx;
-  to[kY] += y + w * dy;
-  to[kXX] += weight * from[kXX] + 2 * dx * x + w * dx * dx;
-  to[kXY] += weight * from[kXY] + dx * y + dy * x + w * dx * dy;
-  to[kYY] += weight * from[kYY] + 2 * dy * y + w * dy * dy;
-  const double f = weight * from[kF];
-  to[kF] += f;
-  to[kFX] += weight * from[kFX] + f * dx;
-  to[kFY] += weight * from[kFY] + f * dy;
+void AddShifted(MaskMoments& to, const MaskMoments& from, double weight, double dx, double dy) {
+  const double w = weight * from.w, x = weight * from.x, y = weight * from.y;
+  to.w += w;
+  to.x += x + w * dx;
+  to.y += y + w * dy;
+  to.xx += weight * from.xx + 2 * dx * x + w * dx * dx;
+  to.xy += weight * from.xy + dx * y + dy * x + w * dx * dy;
+  to.yy += weight * from.yy + 2 * dy * y + w * dy * dy;
 }
 
-// Value at the centre of the plane through the moments. A little ridge keeps the slope at 0 where
-// the pixels in reach do not tell it.
-double PlaneAtCentre(const Moments& m) {
-  if (m[kW] <= 0) return 0;
-  const double mx = m[kX] / m[kW], my = m[kY] / m[kW], mf = m[kF] / m[kW];
-  const double ridge = 0.02;  // cells squared
-  const double xx = m[kXX] / m[kW] - mx * mx + ridge, yy = m[kYY] / m[kW] - my * my + ridge;
-  const double xy = m[kXY] / m[kW] - mx * my;
-  const double fx = m[kFX] / m[kW] - mf * mx, fy = m[kFY] / m[kW] - mf * my;
-  const double determinant = xx * yy - xy * xy;
-  const double slope_x = (fx * yy - fy * xy) / determinant;
-  const double slope_y = (fy * xx - fx * xy) / determinant;
-  return mf - slope_x * mx - slope_y * my;
+void AddShifted(ValueMoments& to, const ValueMoments& from, float weight, float dx, float dy) {
+  const float f = weight * from.f;
+  to.f += f;
+  to.fx += weight * from.fx + f * dx;
+  to.fy += weight * from.fy + f * dy;
 }
 
-// One row or column of the separable Gaussian, about cells `stride` apart.
-void BlurLine(const Moments* from, Moments* to, int count, int stride, bool along_x,
-              const std::vector<double>& kernel) {
+// The separable Gaussian over a grid of cells.
+template <class M>
+void Blur(std::vector<M>& cells, int columns, int rows, const std::vector<float>& kernel) {
   const int reach = static_cast<int>(kernel.size()) - 1;
-  for (int i = 0; i < count; ++i) {
-    Moments sum{};
-    for (int k = std::max(-reach, -i); k <= std::min(reach, count - 1 - i); ++k) {
-      const Moments& m = from[(i + k) * stride];
-      if (m[kW] > 0) AddShifted(sum, m, kernel[std::abs(k)], along_x ? k : 0, along_x ? 0 : k);
+  std::vector<M> across(cells.size());
+  for (int y = 0; y < rows; ++y) {
+    const M* from = &cells[static_cast<std::size_t>(y) * columns];
+    M* to = &across[static_cast<std::size_t>(y) * columns];
+    for (int x = 0; x < columns; ++x) {
+      M sum;
+      for (int k = std::max(-reach, -x); k <= std::min(reach, columns - 1 - x); ++k)
+        AddShifted(sum, from[x + k], kernel[std::abs(k)], static_cast<float>(k), 0);
+      to[x] = sum;
     }
-    to[i * stride] = sum;
+  }
+  std::fill(cells.begin(), cells.end(), M());
+  for (int y = 0; y < rows; ++y)
+    for (int k = std::max(-reach, -y); k <= std::min(reach, rows - 1 - y); ++k) {
+      const M* from = &across[static_cast<std::size_t>(y + k) * columns];
+      M* to = &cells[static_cast<std::size_t>(y) * columns];
+      for (int x = 0; x < columns; ++x)
+        AddShifted(to[x], from[x], kernel[std::abs(k)], 0, static_cast<float>(k));
+    }
+}
+
+// Calls run(first pixel, pixels, whether all of them count) for each piece of a row that lies in
+// one cell and lets something through.
+template <class Run>
+void ForRuns(const std::uint8_t* mask, int count, const Run& run) {
+  for (int x = 0; x < count; x += kCell) {
+    const int pixels = std::min(kCell, count - x);
+    int unmasked = 0;
+    for (int i = 0; i < pixels; ++i) unmasked += mask[x + i] != 0;
+    if (unmasked > 0) run(x, pixels, unmasked == kCell);
   }
 }
 
@@ -140,35 +144,93 @@ void RemoveQuadratic(cv::Mat& value, const cv::Mat& mask) {
   }
 }
 
-cv::Mat MaskedLowPass(const cv::Mat& value, const cv::Mat& mask, double sigma) {
-  const int columns = (value.cols + kCell - 1) / kCell, rows = (value.rows + kCell - 1) / kCell;
-  std::vector<Moments> cells(static_cast<std::size_t>(columns) * rows), blurred(cells.size());
+MaskedSurround::MaskedSurround(const cv::Mat& mask, double sigma) : mask_(mask), cell_(kCell) {
+  while (sigma >= kFineEnough * 2 * cell_) cell_ *= 2;
+  columns_ = (mask.cols + cell_ - 1) / cell_;
+  rows_ = (mask.rows + cell_ - 1) / cell_;
+  const double sigma_cells = std::max(0.3, sigma / cell_);
+  kernel_.resize(static_cast<std::size_t>(std::ceil(3 * sigma_cells)) + 1);
+  for (std::size_t k = 0; k < kernel_.size(); ++k)
+    kernel_[k] = static_cast<float>(
+        std::exp(-0.5 * static_cast<double>(k * k) / (sigma_cells * sigma_cells)));
+
+  std::vector<MaskMoments> cells(static_cast<std::size_t>(columns_) * rows_);
+  for (int y = 0; y < mask.rows; ++y) {
+    const std::uint8_t* m = mask.ptr<std::uint8_t>(y);
+    MaskMoments* row = &cells[static_cast<std::size_t>(y / cell_) * columns_];
+    const double v = (y % cell_ + 0.5) / cell_ - 0.5;
+    ForRuns(m, mask.cols, [&](int x, int pixels, bool) {
+      int n = 0, sum = 0, squares = 0;
+      for (int i = 0; i < pixels; ++i) {
+        const int here = m[x + i] != 0;
+        n += here;
+        sum += here * i;
+        squares += here * i * i;
+      }
+      const double u = (x % cell_ + 0.5) / cell_ - 0.5, su = static_cast<double>(sum) / cell_;
+      const double along = n * u + su;
+      MaskMoments& cell = row[x / cell_];
+      cell.w += n;
+      cell.x += along;
+      cell.y += n * v;
+      cell.xx += n * u * u + 2 * u * su + static_cast<double>(squares) / (cell_ * cell_);
+      cell.xy += along * v;
+      cell.yy += n * v * v;
+    });
+  }
+  Blur(cells, columns_, rows_, kernel_);
+
+  // The value at the centre of the plane through a cell's pixels is linear in their values. A
+  // little ridge keeps the slope at 0 where the pixels in reach do not tell it.
+  planes_.resize(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const MaskMoments& m = cells[i];
+    if (m.w <= 0) continue;
+    const double mx = m.x / m.w, my = m.y / m.w;
+    const double ridge = 0.02 * kCell * kCell / (cell_ * cell_);  // cells squared
+    const double xx = m.xx / m.w - mx * mx + ridge, yy = m.yy / m.w - my * my + ridge;
+    const double xy = m.xy / m.w - mx * my, determinant = xx * yy - xy * xy;
+    const double p = (yy * mx - xy * my) / determinant, q = (xx * my - xy * mx) / determinant;
+    planes_[i] = {static_cast<float>((1 + p * mx + q * my) / m.w), static_cast<float>(-p / m.w),
+                  static_cast<float>(-q / m.w)};
+  }
+}
+
+cv::Mat MaskedSurround::Of(const cv::Mat& value) const {
+  std::vector<ValueMoments> cells(planes_.size());
+  const float per_px = 1.0f / static_cast<float>(cell_);
   for (int y = 0; y < value.rows; ++y) {
     const float* f = value.ptr<float>(y);
-    const std::uint8_t* m = mask.ptr<std::uint8_t>(y);
-    Moments* row = &cells[static_cast<std::size_t>(y / kCell) * columns];
-    const double v = (y % kCell + 0.5) / kCell - 0.5;
-    for (int cx = 0; cx < columns; ++cx)
-      for (int x = cx * kCell; x < std::min(value.cols, (cx + 1) * kCell); ++x)
-        if (m[x]) AddPixel(row[cx], (x - cx * kCell + 0.5) / kCell - 0.5, v, f[x]);
+    const std::uint8_t* m = mask_.ptr<std::uint8_t>(y);
+    ValueMoments* row = &cells[static_cast<std::size_t>(y / cell_) * columns_];
+    const float v = (static_cast<float>(y % cell_) + 0.5f) * per_px - 0.5f;
+    ForRuns(m, value.cols, [&](int x, int pixels, bool is_full) {
+      float sum = 0, first = 0;
+      if (is_full) {
+        for (int i = 0; i < kCell; ++i) {
+          sum += f[x + i];
+          first += f[x + i] * static_cast<float>(i);
+        }
+      } else {
+        for (int i = 0; i < pixels; ++i) {
+          if (!m[x + i]) continue;
+          sum += f[x + i];
+          first += f[x + i] * static_cast<float>(i);
+        }
+      }
+      const float u = (static_cast<float>(x % cell_) + 0.5f) * per_px - 0.5f;
+      ValueMoments& cell = row[x / cell_];
+      cell.f += sum;
+      cell.fx += sum * u + first * per_px;
+      cell.fy += sum * v;
+    });
   }
-
-  const double sigma_cells = std::max(0.3, sigma / kCell);
-  std::vector<double> kernel(static_cast<std::size_t>(std::ceil(3 * sigma_cells)) + 1);
-  for (std::size_t k = 0; k < kernel.size(); ++k)
-    kernel[k] = std::exp(-0.5 * static_cast<double>(k * k) / (sigma_cells * sigma_cells));
-  for (int y = 0; y < rows; ++y)
-    BlurLine(&cells[static_cast<std::size_t>(y) * columns],
-             &blurred[static_cast<std::size_t>(y) * columns], columns, 1, true, kernel);
-  for (int x = 0; x < columns; ++x) BlurLine(&blurred[x], &cells[x], rows, columns, false, kernel);
-
-  cv::Mat grid(rows, columns, CV_32F);
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x)
-      grid.at<float>(y, x) =
-          static_cast<float>(PlaneAtCentre(cells[static_cast<std::size_t>(y) * columns + x]));
-  cv::Mat whole;
-  cv::resize(grid, whole, {columns * kCell, rows * kCell}, 0, 0, cv::INTER_LINEAR);
+  Blur(cells, columns_, rows_, kernel_);
+  cv::Mat grid(rows_, columns_, CV_32F), whole;
+  float* out = grid.ptr<float>();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    out[i] = planes_[i][0] * cells[i].f + planes_[i][1] * cells[i].fx + planes_[i][2] * cells[i].fy;
+  cv::resize(grid, whole, {columns_ * cell_, rows_ * cell_}, 0, 0, cv::INTER_LINEAR);
   return whole(cv::Rect(0, 0, value.cols, value.rows));
 }
 

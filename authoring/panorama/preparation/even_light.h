@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -26,11 +27,22 @@ cv::Mat LogOf(const cv::Mat& mixed);
 // a falloff is, which would bend within the surround of a local mean.
 void RemoveQuadratic(cv::Mat& value, const cv::Mat& mask);
 
-// What of `value` (CV_32FC1) is smooth: at each pixel the plane that fits the unmasked surround
-// best, weighed by a Gaussian of `sigma` px, read at the pixel. A plane and not a mean, because at
-// the rim the surround lies on one side only and a mean would show the falloff as a halo.
-// Where no unmasked pixel is in reach, 0.
-cv::Mat MaskedLowPass(const cv::Mat& value, const cv::Mat& mask, double sigma);
+// What of a value is smooth: at each pixel the plane that fits the unmasked surround best, weighed
+// by a Gaussian of `sigma` px, read at the pixel. A plane and not a mean, because at the rim the
+// surround lies on one side only and a mean would show the falloff as a halo. Where no unmasked
+// pixel is in reach, 0. The mask's share of the work is done once for all values.
+class MaskedSurround {
+ public:
+  // `mask` CV_8UC1, kept and not copied.
+  MaskedSurround(const cv::Mat& mask, double sigma);
+  cv::Mat Of(const cv::Mat& value) const;  // CV_32FC1 of the mask's size, and so is the result
+
+ private:
+  cv::Mat mask_;
+  int cell_, columns_ = 0, rows_ = 0;         // px; wide surrounds take larger cells
+  std::vector<float> kernel_;                 // from its middle outwards
+  std::vector<std::array<float, 3>> planes_;  // weights of a cell's moments in its plane's value
+};
 
 // Sensor noise by brightness, standard deviation in grey levels of the mixed grey.
 class NoiseCurve {

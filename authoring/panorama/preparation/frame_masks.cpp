@@ -32,6 +32,14 @@ cv::Mat WhitenessOf(const cv::Mat& rgb) {
   return white;
 }
 
+// Halves of an odd side would not be whole pixels, which costs several times as much.
+cv::Mat EvenSided(const cv::Mat& picture) {
+  if (picture.cols % 2 == 0 && picture.rows % 2 == 0) return picture;
+  cv::Mat even;
+  cv::copyMakeBorder(picture, even, 0, picture.rows % 2, 0, picture.cols % 2, cv::BORDER_REPLICATE);
+  return even;
+}
+
 }  // namespace
 
 cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
@@ -40,8 +48,8 @@ cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
   // tissue is ground. The rim's black does not count.
   cv::Mat small, small_mask, low;
   const cv::Size half((rgb.cols + 1) / 2, (rgb.rows + 1) / 2);
-  cv::resize(white, small, half, 0, 0, cv::INTER_AREA);
-  cv::resize(mask, small_mask, half, 0, 0, cv::INTER_AREA);
+  cv::resize(EvenSided(white), small, half, 0, 0, cv::INTER_AREA);
+  cv::resize(EvenSided(mask), small_mask, half, 0, 0, cv::INTER_AREA);
   small_mask = small_mask == 255;  // a cell that is half rim is darker than its tissue
   const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {kGlintReach, kGlintReach});
   small.setTo(255, small_mask == 0);
@@ -49,7 +57,7 @@ cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
   low.setTo(0, small_mask == 0);
   cv::dilate(low, low, square);  // past the rim too
   cv::Mat ground;
-  cv::resize(low, ground, rgb.size(), 0, 0, cv::INTER_LINEAR);
+  cv::resize(low, ground, half * 2, 0, 0, cv::INTER_LINEAR);
 
   std::array<double, 256> least{};  // whiteness of a glint on each ground
   for (int g = 0; g < 256; ++g)
@@ -75,9 +83,12 @@ cv::Mat ToolMask(const cv::Mat& rgb, const cv::Mat& mask) {
   constexpr double kFilled = 0.72;      // of the rectangle around it: straight sides
   cv::Mat none = cv::Mat::zeros(rgb.size(), CV_8U);
   cv::Mat small, window;
-  cv::resize(rgb, small, {std::max(1, rgb.cols / 4), std::max(1, rgb.rows / 4)}, 0, 0,
-             cv::INTER_AREA);
-  cv::resize(mask, window, small.size(), 0, 0, cv::INTER_AREA);
+  // Whole blocks of 4 x 4 px; what is left over at the far edges belongs to the last of them.
+  const cv::Size quarter(rgb.cols / 4, rgb.rows / 4);
+  if (quarter.empty()) return none;
+  const cv::Rect blocks(0, 0, 4 * quarter.width, 4 * quarter.height);
+  cv::resize(rgb(blocks), small, quarter, 0, 0, cv::INTER_AREA);
+  cv::resize(mask(blocks), window, quarter, 0, 0, cv::INTER_AREA);
   window = window == 255;
   const int area = cv::countNonZero(window);
   if (area == 0) return none;
@@ -117,7 +128,9 @@ cv::Mat ToolMask(const cv::Mat& rgb, const cv::Mat& mask) {
   }
   if (cv::countNonZero(tool) == 0) return none;
   cv::dilate(tool, tool, Disc(2));  // its blurred and shaded sides
-  cv::resize(tool, none, rgb.size(), 0, 0, cv::INTER_NEAREST);
+  cv::resize(tool, tool, blocks.size(), 0, 0, cv::INTER_NEAREST);
+  cv::copyMakeBorder(tool, none, 0, rgb.rows - blocks.height, 0, rgb.cols - blocks.width,
+                     cv::BORDER_REPLICATE);
   cv::bitwise_and(none, mask, none);
   return none;
 }
