@@ -156,7 +156,7 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
                   request.footage);
     made.registration = {};
     made.placed = Register(frames, clip.view, clip.mask, options.registration, &made.registration,
-                           clock.Begin("register"));
+                           clock.Begin("register"), &clip.lens.lens);
     clock.End();
     made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
     made.register_key = keys.places;

@@ -1,7 +1,7 @@
 // Registration against exact truth: frames placed and right, their error, what was promised, and
 // the CPU time a frame, for each folder given (frames/ and gt.json of the reference generator).
 //   bench_panorama_register [--quick] [--method direct|features|both] [--stages pairs|loops|all]
-//                           [--set NAME=VALUE] [--verbose] [FOLDER...]
+//                           [--focal=FACTOR] [--NAME=VALUE] [--verbose] [FOLDER...]
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -97,22 +97,26 @@ void Run(const std::filesystem::path& folder, const Args& args) {
   const double prepared = CpuMs();
   RegisterReport report;
   const auto results =
-      Register(frames, rectifier.view(), rectifier.mask(), args.options, &report, {});
+      Register(frames, rectifier.view(), rectifier.mask(), args.options, &report, {}, &lens);
   const double registered = CpuMs();
 
   const RectifiedView& view = rectifier.view();
-  const double zoom = sequence.undistorted_f / view.focal_px;
+  // The nine points, one centre and a ring, as angles off the axis: what they are, and what the
+  // lens that was used takes them for. On them a wrong focal length is a zoom.
+  const double ring = 0.85 * sequence.lens.circle.r;
+  const double tan_true = std::tan(2 * std::asin(ring / (2 * sequence.lens.focal_px))),
+               tan_taken = std::tan(2 * std::asin(ring / (2 * lens.focal_px)));
+  const double zoom = sequence.undistorted_f * tan_true / (view.focal_px * tan_taken);
   const cv::Matx33d undistorted_from_rectified(zoom, 0, sequence.undistorted_cx - zoom * view.cx, 0,
                                                zoom, sequence.undistorted_cy - zoom * view.cy, 0, 0,
                                                1);
   std::vector<cv::Matx33d> truth;
   for (const cv::Matx33d& h : sequence.panorama_from_undistorted)
     truth.push_back(h * undistorted_from_rectified);
-  const double theta = 2 * std::asin(0.85 * sequence.lens.circle.r / (2 * sequence.lens.focal_px));
   std::vector<cv::Point2d> nine{{view.cx, view.cy}};
   for (int i = 0; i < 8; ++i)
-    nine.emplace_back(view.cx + view.focal_px * std::tan(theta) * std::cos(CV_PI / 4 * i),
-                      view.cy + view.focal_px * std::tan(theta) * std::sin(CV_PI / 4 * i));
+    nine.emplace_back(view.cx + view.focal_px * tan_taken * std::cos(CV_PI / 4 * i),
+                      view.cy + view.focal_px * tan_taken * std::sin(CV_PI / 4 * i));
   const authoring::ClipScore score =
       authoring::ScorePlaces(nine, truth, sequence.is_blank, results);
 
@@ -122,13 +126,16 @@ void Run(const std::filesystem::path& folder, const Args& args) {
     if (result.component == 0) promised += result.expected_error_px / std::max(1, score.placed);
   std::printf(
       "%-18s %4d %4d %4d %7.3f %6.2f %5d %5.0f%% %6.2f  %6.1f %6.1f %6.1f %6.1f %5.1f  "
-      "%4d %4d %4d %3d %6.1f %6.2f %5.1f %6.4f %5.2f\n",
+      "%4d %4d %4d %3d %6.1f %6.2f %5.1f %6.4f %5.2f %s\n",
       sequence.name.c_str(), score.frames, score.placed, score.right, score.mean_px, score.max_px,
       score.wrong_as_good, 100 * score.covered, promised, (prepared - begin) / count,
       (registered - prepared) / count, report.features_ms / count, report.pairs_ms / count,
       report.refine_ms / count, report.pairs_tried, report.pairs_kept, report.pairs_dropped,
       report.components, report.drift_px, report.closure_px, report.variance_factor,
-      report.camera_deviation, report.drift_factor);
+      report.camera_deviation, report.drift_factor,
+      report.focal.is_determined
+          ? fmt::format("{:.4f} +- {:.4f}", report.focal.factor, report.focal.deviation).c_str()
+          : "-");
   for (const std::string& warning : report.warnings) std::printf("    %s\n", warning.c_str());
   if (args.is_verbose)
     for (const PairEstimate& pair : report.pairs) {
@@ -184,9 +191,10 @@ int main(int argc, char** argv) {
   args.options = OptionsFromJson<RegisterOptions>(set);
   std::printf(
       "%-18s %4s %4s %4s %7s %6s %5s %6s %6s  %6s %6s %6s %6s %5s  %4s %4s %4s %3s %6s %6s "
-      "%5s\n",
+      "%5s %6s %5s %s\n",
       "sequence", "all", "in", "ok", "mean", "max", "wrong", "cover", "promis", "prep", "reg",
-      "look", "pairs", "refin", "tried", "kept", "drop", "cmp", "drift", "close", "factor");
+      "look", "pairs", "refin", "tried", "kept", "drop", "cmp", "drift", "close", "factor",
+      "camera", "loops", "focal");
   for (const auto& folder : args.folders) Run(folder, args);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "authoring/panorama/graph/frame_pairs.h"
+#include "authoring/panorama/graph/pair_graph.h"
 #include "simulation/core/error.h"
 
 namespace arthro::authoring {
@@ -36,13 +37,50 @@ void CheckFrames(const std::vector<WorkingFrame>& frames) {
                               frames[0].grey.cols, frames[0].grey.rows, frames[0].scale));
 }
 
+// By how much what another focal length would move is worse than it looks: pairs bent by a wrong
+// lens err together.
+constexpr double kFocalCaution = 1.5;
+
+void CheckFocal(const Lens& lens, const RectifiedView& view, const FrameWindow& window,
+                const RefineOptions& options, std::vector<FrameResult>& results,
+                RegisterReport& told) {
+  const int frames = static_cast<int>(results.size());
+  std::vector<cv::Matx33d> places;
+  for (const FrameResult& result : results) places.push_back(result.panorama_from_rectified);
+  for (int piece = 0; piece < told.components; ++piece) {
+    std::vector<PairEstimate> own;
+    for (const PairEstimate& pair : told.pairs)
+      if (results[static_cast<std::size_t>(pair.a)].component == piece) own.push_back(pair);
+    if (own.empty()) continue;
+    const int root = CentralFrame(frames, own, own[0].a);
+    if (piece == 0) told.focal = FitFocal(frames, own, root, lens, view, options);
+    if (!told.focal.is_determined) return;
+    const std::vector<double> moved = FocalErrors(
+        places, own, root, FocalChange(lens, view, told.focal.factor), window.nine, options);
+    for (std::size_t i = 0; i < results.size(); ++i)
+      if (results[i].component == piece)
+        results[i].expected_error_px =
+            std::hypot(results[i].expected_error_px, kFocalCaution * moved[i]);
+  }
+}
+
 // Signs that all is not as assumed; clips with known truth stay below a third of each.
 constexpr double kMostDriftFactor = 9;
 constexpr double kMostVarianceFactor = 2.5;
 
-void Warn(const RegisterOptions& options, RegisterReport& told) {
+// Of the focal length: on clips with a right lens it is found within a fifth of this.
+constexpr double kFocalIsWrong = 0.01;
+
+void Warn(const RegisterOptions& options, const Lens* lens, RegisterReport& told) {
+  const double off = told.focal.factor - 1;
   const bool is_flat = told.camera_deviation <= options.refine.camera_deviation * 1.01;
-  if (told.drift_factor > kMostDriftFactor || told.variance_factor > kMostVarianceFactor) {
+  if (lens && std::abs(off) > kFocalIsWrong) {
+    told.warnings.push_back(fmt::format(
+        "the focal length fits better at {:.1f} px: {:.1f} % {} than the lens says; calibrate "
+        "again, "
+        "or correct the lens file",
+        lens->focal_px * told.focal.factor, 100 * std::abs(off), off > 0 ? "more" : "less"));
+  } else if (told.drift_factor > kMostDriftFactor || told.variance_factor > kMostVarianceFactor) {
     told.warnings.push_back(
         "loops do not close as pairs promise: check the lens file, its focal length above all");
   } else if (!is_flat) {
@@ -61,7 +99,7 @@ void Warn(const RegisterOptions& options, RegisterReport& told) {
 std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
                                   const RectifiedView& view, const cv::Mat& mask,
                                   const RegisterOptions& options, RegisterReport* report,
-                                  const Progress& progress) {
+                                  const Progress& progress, const Lens* lens) {
   RegisterReport ignored;
   RegisterReport& told = report ? *report : ignored;
   told = {};
@@ -118,7 +156,13 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
   told.variance_factor = graph.variance_factor;
   told.drift_factor = graph.drift_factor;
   told.camera_deviation = graph.camera_deviation;
-  Warn(options, told);
+  if (lens && options.graph.stages == GraphStages::kRefinement) {
+    begin = CpuMs();
+    progress.Step("checking the lens", 0);
+    CheckFocal(*lens, view, window, options.refine, results, told);
+    told.refine_ms += CpuMs() - begin;
+  }
+  Warn(options, lens, told);
   return results;
 }
 

@@ -10,6 +10,7 @@
 
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/graph/place_frames.h"
+#include "authoring/panorama/graph/refinement/focal_fit.h"
 #include "authoring/panorama/pairs/direct_options.h"
 #include "authoring/panorama/pairs/feature_options.h"
 #include "authoring/panorama/placed_frame.h"
@@ -51,15 +52,18 @@ struct RegisterReport {
   int feature_pairs = 0, direct_pairs = 0;  // kept, by what found them first
   int components = 0;
   double drift_px = 0, closure_px = 0, variance_factor = 1, camera_deviation = 0, drift_factor = 0;
+  FocalFit focal;                   // of the lens; not determined without one
   std::vector<PairEstimate> pairs;  // that were kept
   std::vector<std::string> warnings;
 };
 
 // One result a frame, in order. `mask` is the view's, at scale 1 or any other. Throws
-// Error(kBadArgument) when working frames differ in size or scale, Error(kCancelled).
+// Error(kBadArgument) when working frames differ in size or scale, Error(kCancelled). With the lens
+// that rectified the frames its focal length is checked, and where it is wrong the expected errors
+// grow by what it costs.
 std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
                                   const RectifiedView& view, const cv::Mat& mask,
                                   const RegisterOptions& options, RegisterReport* report,
-                                  const Progress& progress);
+                                  const Progress& progress, const Lens* lens = nullptr);
 
 }  // namespace arthro::authoring

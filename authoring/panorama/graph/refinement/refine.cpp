@@ -134,6 +134,7 @@ class Refinement {
     ceres::Solver::Summary summary;
     ceres::Solve(how, &problem, &summary);
     if (!summary.IsSolutionUsable()) return 0;
+    cost_ = summary.final_cost;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const Eigen::Matrix3d moved = MoveInChart(places_[i], moves[i]);
       if (moved.allFinite()) places_[i] = moved / moved.norm() * std::sqrt(3.0);
@@ -190,6 +191,7 @@ class Refinement {
     }
   }
 
+  double cost() const { return cost_; }  // of the last solve
   const Normalisation& normalisation() const { return normalisation_; }
   const std::vector<Eigen::Matrix3d>& places() const { return places_; }
   void SetPlaces(const std::vector<Eigen::Matrix3d>& places) { places_ = places; }
@@ -204,6 +206,7 @@ class Refinement {
   std::vector<Eigen::Matrix3d> places_;
   std::vector<PairTerm> terms_;
   std::vector<bool> joined_;
+  double cost_ = 0;
 };
 
 // By how much covariances are too small, from the middle of what pairs disagree: half of them may
@@ -268,6 +271,19 @@ Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Mat
   for (std::size_t i = 0; i < start.size(); ++i)
     refined.plane_from_frame.push_back(is_joined[i] ? refinement.PlaceOf(i) : start[i]);
   return refined;
+}
+
+double CameraMisfit(const std::vector<PairEstimate>& pairs, int fixed_frame,
+                    const RefineOptions& options, const Pinhole& camera, double pair_factor,
+                    std::vector<cv::Matx33d>* places) {
+  Refinement refinement(pairs, *places, options);
+  const double loss_at = options.loss_scale * std::sqrt(8.0 * pair_factor);
+  refinement.Solve(fixed_frame, loss_at, nullptr, RefineSolver::kSparse);
+  refinement.Straighten(camera);
+  const CameraPrior prior(camera, refinement.normalisation(), options.camera_deviation);
+  refinement.Solve(fixed_frame, loss_at, &prior, RefineSolver::kSparse);
+  for (std::size_t i = 0; i < places->size(); ++i) (*places)[i] = refinement.PlaceOf(i);
+  return refinement.cost();
 }
 
 }  // namespace arthro::authoring

@@ -55,4 +55,10 @@ Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Mat
                const std::optional<Pinhole>& camera = std::nullopt,
                RefineSolver solver = RefineSolver::kSparse);
 
+// How ill pairs and camera agree, in half squared deviations, robust: to compare cameras. The prior
+// keeps its deviation, and `pair_factor` is the variance factor. `places` become the refined ones.
+double CameraMisfit(const std::vector<PairEstimate>& pairs, int fixed_frame,
+                    const RefineOptions& options, const Pinhole& camera, double pair_factor,
+                    std::vector<cv::Matx33d>* places);
+
 }  // namespace arthro::authoring
