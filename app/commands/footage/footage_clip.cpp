@@ -9,6 +9,7 @@
 #include "app/commands/footage/footage_mail.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
+#include "authoring/footage/find_circle.h"
 #include "authoring/footage/footage.h"
 #include "authoring/footage/picture_list.h"
 
@@ -46,17 +47,30 @@ fs::path ClipOf(const fs::path& file) {
   return authoring::PicturesIn(folder).size() > 1 ? folder : file;
 }
 
-// Reads the clip once; every frame goes into the mail as a small picture.
-void ReadThumbs(authoring::Footage& footage, FootageMail& mail, const Progress& progress) {
+// Reads the clip once; every frame goes into the mail as a small picture, and at the end where the
+// round window lies in them.
+void ReadClip(authoring::Footage& footage, FootageMail& mail, const Progress& progress) {
+  constexpr int kFramesForCircle = 12, kUnknownLength = 250;
   const int count = footage.info().frames;
   const int stride = count > kMostThumbs ? (count + kMostThumbs - 1) / kMostThumbs : 1;
+  const int circle_stride = std::max(1, (count > 0 ? count : kUnknownLength) / kFramesForCircle);
+  authoring::CircleFinder circle;
+  const auto put_circle = [&] { mail.PutCircle(circle.Find().circle); };
   cv::Mat frame;
-  for (int i = 0;; ++i) {
-    progress.Step("Read the frames", count > 0 ? std::min(1.0, static_cast<double>(i) / count) : 0);
-    const bool wanted = i % stride == 0;
-    if (!(wanted ? footage.Next(frame) : footage.Skip())) return;
-    mail.PutThumb(i, wanted ? PictureFromMat(frame, kThumbEdge) : nullptr);
+  try {
+    for (int i = 0;; ++i) {
+      progress.Step("Read the frames",
+                    count > 0 ? std::min(1.0, static_cast<double>(i) / count) : 0);
+      const bool is_thumb = i % stride == 0, is_for_circle = i % circle_stride == 0;
+      if (!(is_thumb || is_for_circle ? footage.Next(frame) : footage.Skip())) break;
+      mail.PutThumb(i, is_thumb ? PictureFromMat(frame, kThumbEdge) : nullptr);
+      if (is_for_circle) circle.Add(frame);
+    }
+  } catch (const Error&) {
+    put_circle();  // stopped: of what was seen
+    throw;
   }
+  put_circle();
 }
 
 FootageBoard NewBoard(const fs::path& file, const authoring::FootageInfo& info) {
@@ -94,7 +108,7 @@ void OpenFootage(EditorState& state, const fs::path& chosen) {
     // A clip that cannot be opened ends here; the board only changes once there is a clip.
     auto footage = authoring::Footage::Open(file);
     mail->PutClip({file, footage.info()});
-    ReadThumbs(footage, *mail, progress);
+    ReadClip(footage, *mail, progress);
     return [count = footage.index() + 1](EditorState& now) {
       TakeFootageMail(now);
       if (!now.footage) return;
@@ -112,6 +126,8 @@ void BeginBoard(EditorState& state, const FootageClip& clip) {
   board.lenses = state.footage ? state.footage->lenses : LensChoices(state.lens_folder);
   if (state.footage) {
     board.lens = state.footage->lens;
+    for (LensChoice& lens : board.lenses)
+      if (lens.preset) lens.lens.reset();  // its round window is to be found
     board.options = state.footage->options;
   }
   NoteNextRun(board);
@@ -129,6 +145,11 @@ void CloseFootage(EditorState& state) {
 void SetFootageLens(EditorState& state, int choice) {
   if (!state.footage || choice < 0 || choice >= static_cast<int>(state.footage->lenses.size()))
     return;
+  const LensChoice& lens = state.footage->lenses[static_cast<std::size_t>(choice)];
+  if (!lens.problem.empty()) {
+    state.dialogs.push_back(ErrorDialog{lens.words, lens.problem});
+    return;
+  }
   state.footage->lens = choice;
   state.footage->large = {};  // rectified by another lens
   NoteNextRun(*state.footage);

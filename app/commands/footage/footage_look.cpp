@@ -37,6 +37,12 @@ void TakeFootageMail(EditorState& state) {
     MakeRoom(board, frame);
     board.notes[static_cast<std::size_t>(frame)] = std::move(note);
   }
+  if (news.circle) {
+    FitPresets(board.lenses, board.width, board.height, *news.circle);
+    if (!board.lenses.at(static_cast<std::size_t>(board.lens)).problem.empty()) board.lens = 0;
+    board.large = {};
+    NoteNextRun(board);
+  }
   if (news.mosaic) board.mosaic = std::move(news.mosaic);
 }
 

@@ -19,7 +19,8 @@ struct FootageClip {
 };
 
 struct FootageNews {
-  std::optional<FootageClip> clip;  // it could be opened
+  std::optional<FootageClip> clip;   // it could be opened
+  std::optional<LensCircle> circle;  // the round window, once enough frames were seen
   std::vector<std::pair<int, SharedPicture>> thumbs;
   std::vector<std::pair<int, FrameNote>> notes;
   SharedPicture mosaic;  // the newest one
@@ -30,6 +31,10 @@ class FootageMail {
   void PutClip(FootageClip clip) {
     const std::lock_guard lock(mutex_);
     news_.clip = std::move(clip);
+  }
+  void PutCircle(const LensCircle& circle) {
+    const std::lock_guard lock(mutex_);
+    news_.circle = circle;
   }
   void PutThumb(int frame, SharedPicture thumb) {
     const std::lock_guard lock(mutex_);

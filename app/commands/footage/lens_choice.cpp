@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -35,19 +36,28 @@ std::vector<LensChoice> LensChoices(const fs::path& folder) {
       {"none",
        "The frames are taken as they are, as if the lens did not bend straight lines.",
        {}}};
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (it->path().extension() == ".json") files.push_back(it->path());
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) {
-    try {
-      choices.push_back(LensFromFile(file));
-    } catch (const Error&) {
-      // A broken preset must not keep the others away.
-    }
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return choices;
+  try {
+    for (const authoring::LensPreset& preset : authoring::ReadLensPresets(folder))
+      choices.push_back({preset.title, preset.known + " Assumed: " + preset.assumed, {}, preset});
+  } catch (const Error&) {
+    choices.resize(1);
   }
   return choices;
+}
+
+void FitPresets(std::vector<LensChoice>& choices, int width, int height, const LensCircle& circle) {
+  for (LensChoice& choice : choices) {
+    if (!choice.preset) continue;
+    choice.lens.reset();
+    choice.problem.clear();
+    try {
+      choice.lens = authoring::LensFromPreset(*choice.preset, {width, height}, circle);
+    } catch (const Error& error) {
+      choice.problem = error.sentence();
+    }
+  }
 }
 
 }  // namespace arthro::app

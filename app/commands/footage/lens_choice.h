@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "authoring/lens/lens_preset.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::app {
@@ -15,11 +16,16 @@ struct LensChoice {
   std::string words;  // as the list shows it
   std::string help;   // a sentence
   std::optional<Lens> lens;
+  std::optional<authoring::LensPreset> preset = {};
+  std::string problem = {};  // why the preset gives no lens for this clip
 };
 
-// None first, then every lens file in `folder` by its name; files that cannot be read are passed
-// over, for the program must open. A folder that is not there holds none.
+// None first, then every preset in `folder` by its name. A folder that is not there holds none; nor
+// does one with a broken file, for the program must open.
 std::vector<LensChoice> LensChoices(const std::filesystem::path& folder);
+
+// The presets' lenses on frames of this size with the round window there; radius 0: there is none.
+void FitPresets(std::vector<LensChoice>& choices, int width, int height, const LensCircle& circle);
 
 // Throws Error(kBadData) for what is no lens.
 LensChoice LensFromFile(const std::filesystem::path& file);

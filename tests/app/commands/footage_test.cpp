@@ -304,20 +304,30 @@ TEST_F(Footage, DeleteAndViewKeysDoNotReachTheSceneBehindTheBoard) {
   EXPECT_NE(state.document().scene.scope.view_angle, before);
 }
 
-TEST(LensChoices, AreNoneAndWhateverCanBeReadInTheFolder) {
-  test::TempFolder temp;
-  EXPECT_EQ(LensChoices(temp / "nowhere").size(), 1u);
-  Lens lens;
-  lens.width = 800, lens.height = 640, lens.focal_px = 400, lens.cx = 400, lens.cy = 320;
-  lens.field_of_view = 1.5;
-  WriteLens(temp / "my_scope.json", lens);
-  std::ofstream(temp / "broken.json") << "{";
-  const auto choices = LensChoices(temp.path());
-  ASSERT_EQ(choices.size(), 2u);
+TEST(LensChoices, AreNoneAndThePresetsWhichFitTheRoundWindowOfTheClip) {
+  EXPECT_EQ(LensChoices("/nowhere").size(), 1u);
+  auto choices = LensChoices(fs::path(ARTHRO_SOURCE_DIR) / "resources" / "presets" / "lenses");
+  ASSERT_GE(choices.size(), 2u);
   EXPECT_EQ(choices[0].words, "none");
+  FitPresets(choices, 800, 640, {400, 320, 300});
   EXPECT_FALSE(choices[0].lens);
-  EXPECT_EQ(choices[1].words, "my scope");
-  EXPECT_TRUE(choices[1].lens);
+  for (std::size_t i = 1; i < choices.size(); ++i) {
+    ASSERT_TRUE(choices[i].lens) << choices[i].problem;
+    EXPECT_EQ(choices[i].lens->width, 800);
+    EXPECT_EQ(choices[i].lens->circle.r, 300);
+  }
+  FitPresets(choices, 800, 640, {});
+  EXPECT_FALSE(choices[1].lens);
+  EXPECT_NE(choices[1].problem, "") << "without a round window nothing says where it ends";
+}
+
+TEST_F(Footage, APresetThatDoesNotFitTheClipIsRefusedInASentence) {
+  state.lens_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources" / "presets" / "lenses";
+  OpenClip();  // frames of one colour: there is no round window
+  ASSERT_GE(state.footage->lenses.size(), 2u);
+  SetFootageLens(state, 1);
+  EXPECT_EQ(state.footage->lens, 0);
+  ASSERT_EQ(state.dialogs.size(), 1u);
 }
 
 TEST(PictureZoom, TheWheelKeepsThePointUnderThePointer) {
