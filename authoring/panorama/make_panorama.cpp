@@ -155,8 +155,12 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
                               frames.size() == 1 ? " is" : "s are"),
                   request.footage);
     made.registration = {};
-    made.placed = Register(frames, clip.view, clip.mask, options.registration, &made.registration,
-                           clock.Begin("register"), &clip.lens.lens);
+    // A guessed focal length says nothing of what the scope can see of a plane.
+    RegisterOptions registration = options.registration;
+    if (clip.lens.is_guessed) registration.refine.camera_deviation = 0;
+    made.placed =
+        Register(frames, clip.view, clip.mask, registration, &made.registration,
+                 clock.Begin("register"), clip.lens.is_guessed ? nullptr : &clip.lens.lens);
     clock.End();
     made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
     made.register_key = keys.places;
