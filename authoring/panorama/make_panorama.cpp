@@ -1,6 +1,7 @@
 #include "authoring/panorama/make_panorama.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -17,6 +18,9 @@ namespace arthro::authoring {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A focal length that is far off is found less well than one that is nearly right.
+constexpr int kMostCorrections = 3;
 
 RgbaPicture PlainPicture(const cv::Mat& rgba) {
   RgbaPicture picture{rgba.cols, rgba.rows, {}};
@@ -111,6 +115,20 @@ PanoramaSession::~PanoramaSession() = default;
 
 PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
                                     const PanoramaObserver& observer, const Progress& progress) {
+  PanoramaResult result = RunOnce(request, observer, progress, kMostCorrections);
+  if (request.options.self_calibrate && request.lens &&
+      result.report.lens.focal_px != request.lens->focal_px)
+    result.report.warnings.insert(
+        result.report.warnings.begin(),
+        fmt::format("the lens file's focal length of {:.1f} px was replaced by {:.1f} px, on which "
+                    "the frames agree; calibrate the lens anew",
+                    request.lens->focal_px, result.report.lens.focal_px));
+  return result;
+}
+
+PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
+                                        const PanoramaObserver& observer, const Progress& progress,
+                                        int corrections_left) {
   CheckOptions(request.options);
   Products& made = *products_;
   const PanoramaOptions& options = request.options;
@@ -164,6 +182,16 @@ PanoramaResult PanoramaSession::Run(const PanoramaRequest& request,
     clock.End();
     made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
     made.register_key = keys.places;
+  }
+  // Once more through the focal length that the frames agree on.
+  const FocalFit focal = made.registration.focal;
+  if (options.self_calibrate && request.lens && focal.is_determined && corrections_left > 0 &&
+      std::abs(focal.factor - 1) > kFocalIsWrong) {
+    PanoramaRequest corrected = request;
+    Lens& lens = *corrected.lens;
+    lens.focal_px *= focal.factor;
+    if (const auto field_of_view = FieldOfViewOf(lens)) lens.field_of_view = *field_of_view;
+    return RunOnce(corrected, observer, progress, corrections_left - 1);
   }
   const auto counts = FramesByComponent(made.placed);
   if (const auto main = counts.find(0); main == counts.end() || main->second < 2)

@@ -69,6 +69,9 @@ class PanoramaSession {
 
  private:
   struct Products;
+  PanoramaResult RunOnce(const PanoramaRequest& request, const PanoramaObserver& observer,
+                         const Progress& progress, int corrections_left);
+
   std::unique_ptr<Products> products_;
 };
 

@@ -14,6 +14,7 @@ namespace arthro::authoring {
 struct PanoramaOptions {
   double working_scale = 0;
   int least_piece = 3;
+  bool self_calibrate = false;
   ChooseOptions choose;
   RectifyOptions rectify;
   PrepareOptions prepare;
@@ -26,6 +27,9 @@ struct PanoramaOptions {
       "Size at which frames are matched, of their rectified size; 0: by the size of the picture.");
     v("least_piece", least_piece, Range{2, 1000}, "frames",
       "A separate piece that does not join the panorama is composed when it has this many.");
+    v("self_calibrate", self_calibrate, Any{}, "",
+      "Where the frames agree on a focal length more than 1 % off the lens file's, begin anew with "
+      "theirs.");
     choose.Visit(v);
     registration.Visit(v);
     rectify.Visit(PartVisitor<V>{v, "rectify_"});

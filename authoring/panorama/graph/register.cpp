@@ -68,9 +68,6 @@ void CheckFocal(const Lens& lens, const RectifiedView& view, const FrameWindow& 
 constexpr double kMostDriftFactor = 9;
 constexpr double kMostVarianceFactor = 2.5;
 
-// Of the focal length: on clips with a right lens it is found within a fifth of this.
-constexpr double kFocalIsWrong = 0.01;
-
 void Warn(const RegisterOptions& options, const Lens* lens, RegisterReport& told) {
   const double off = told.focal.factor - 1;
   const bool is_flat = told.camera_deviation <= options.refine.camera_deviation * 1.01;

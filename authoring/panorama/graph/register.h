@@ -46,6 +46,10 @@ struct RegisterOptions {
   }
 };
 
+// Share by which a lens file's focal length may miss the frames' own before it counts as wrong; on
+// clips with a right lens it is found within a fifth of this.
+inline constexpr double kFocalIsWrong = 0.01;
+
 struct RegisterReport {
   double features_ms = 0, pairs_ms = 0, refine_ms = 0;  // CPU, all threads together
   int pairs_tried = 0, pairs_kept = 0, pairs_dropped = 0;
