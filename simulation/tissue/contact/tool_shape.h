@@ -1,0 +1,45 @@
+// What an instrument's working end is, as capsules, so that hook and shaft touch and not only a
+// point. Tool frame: origin at the tip, +z along the rod into the joint, +x the way the hook points
+// at roll 0; m.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/core/frames.h"
+
+namespace arthro::simulation {
+
+struct Capsule {
+  glm::dvec3 a{0.0}, b{0.0};
+  double radius = 5e-4;
+};
+
+// kProbe: hook; kPunch: basket forceps; kShaver: tube with a window; kGrasper.
+enum class ToolKind { kNone, kProbe, kPunch, kShaver, kGrasper };
+
+struct ToolShape {
+  ToolKind kind = ToolKind::kNone;
+  std::vector<Capsule> capsules;  // at opening 0 (closed); the jaw ones turn about `hinge`
+  std::vector<int> jaw;           // which capsules belong to the moving jaw
+  glm::dvec3 hinge{0.0}, hinge_axis{0, 1, 0};
+  double max_opening = 0;  // rad
+  Capsule bite;            // what a closing punch takes; of the shaver: its window
+};
+
+// Real dimensions: probe hook 4 mm long of 1.5 mm rod, punch 3.4 mm wide, shaver 4.5 mm.
+ToolShape ShapeOf(ToolKind kind);
+// "probe", "punch", "shaver", "grasper" of Instrument::kind; another word: kProbe.
+ToolKind ToolKindOf(const std::string& word);
+
+// A tool as it stands at a step, in the portal frame.
+struct ToolInput {
+  bool is_present = false;
+  Rigid3 portal_from_tool;
+  double opening = 0;       // 0 closed … 1 open; punch and grasper
+  bool is_running = false;  // shaver
+};
+
+}  // namespace arthro::simulation

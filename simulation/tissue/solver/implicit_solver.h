@@ -1,0 +1,102 @@
+// One deformable body through time: implicit Euler (or its static limit) by Newton's method with
+// line search. Each linear system is solved by conjugate gradients on the true tangent,
+// preconditioned with a stale sparse Cholesky factor that is rotated node by node [notes on
+// deformables, 1, 4]. Where the true tangent is not positive the projected one is used; where
+// elements are inverted the corotated law, until none is. Mesh's own frame, m, s, N. Step allocates
+// nothing once warm.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "simulation/core/options.h"
+#include "simulation/tissue/contact/contact_point.h"
+#include "simulation/tissue/fem/fem_model.h"
+
+namespace arthro::simulation {
+
+struct SolverOptions {
+  double tolerance = 1e-2;
+  int max_newton = 2;
+  int max_iterations = 200;
+  double max_speed = 20.0;
+  template <class V>
+  void Visit(V&& v) {
+    v("tolerance", tolerance, Range{1e-12, 0.5}, "",
+      "Residual force over the largest of load, inertia and internal forces at which a step ends.");
+    v("max_newton", max_newton, Range{1, 1000}, "", "Newton iterations a step.");
+    v("max_iterations", max_iterations, Range{1, 100000}, "",
+      "Conjugate-gradient iterations a Newton iteration.");
+    v("max_speed", max_speed, Range{0.01, 1e4}, "m/s", "Nodes are not let go faster; it is said.");
+  }
+};
+
+struct BodyState {
+  std::vector<glm::dvec3> x, v;  // m, m/s
+};
+
+// Bits 1, 2, 4 of a node's byte: its x, y, z do not move by forces; they stay where x says (or go
+// where `target` leads).
+using FixedAxes = std::vector<std::uint8_t>;
+
+struct StepReport {
+  double residual = 0;  // relative, as in `tolerance`
+  int newton = 0, iterations = 0;
+  int inverted = 0;
+  double energy = 0;       // J, elastic
+  bool converged = false;  // residual ≤ tolerance
+  bool used_fallback = false, clamped_speed = false;
+  bool is_finite = true;  // false: the state was put back to where the step began
+};
+
+class ImplicitSolver {
+ public:
+  // Factors the rest state. `fixed`: one byte a node, or empty.
+  ImplicitSolver(std::shared_ptr<const FemModel> model, FixedAxes fixed,
+                 const SolverOptions& options = {});
+  ~ImplicitSolver();
+  ImplicitSolver(ImplicitSolver&&) noexcept;
+  ImplicitSolver& operator=(ImplicitSolver&&) noexcept;
+
+  // Advances by dt under `load` (N a node) and `contacts`; `results` gets one a contact. `target`
+  // (empty, or a position a node) leads the fixed axes. noexcept: what goes wrong is in the report.
+  StepReport Step(BodyState& state, std::span<const glm::dvec3> load,
+                  std::span<const ContactPoint> contacts, std::span<const glm::dvec3> target,
+                  double dt, std::span<ContactResult> results) noexcept;
+
+  // Equilibrium from where `state` is; v is set to zero. Loads are stepped when that is what it
+  // takes.
+  StepReport SolveStatic(BodyState& state, std::span<const glm::dvec3> load,
+                         std::span<const ContactPoint> contacts, std::span<const glm::dvec3> target,
+                         double tolerance, std::span<ContactResult> results);
+
+  // The elastic forces at fixed axes in the last state: what holds them, N a node.
+  std::span<const glm::dvec3> reactions() const;
+
+  // A new factor of the tangent as it is now: Begin copies what it needs (on this thread), Run
+  // factors (on any other thread; touches nothing that Step reads), Take swaps (on this thread).
+  void BeginRefresh();
+  void RunRefresh() noexcept;
+  bool TakeRefreshed() noexcept;  // false: none was ready
+  int factor_age() const;         // steps since the factor in use was begun
+
+  // Condensed compliance of the last step's system without the contacts of `points` themselves:
+  // W = J A⁻¹ Jᵀ, 3m × 3m row-major, m/N, J the points' weights. Solved to `tolerance` by the same
+  // conjugate gradients.
+  void Compliance(std::span<const ContactPoint> points, double tolerance, std::span<double> w);
+
+  // The same body after a cut or new shares: node i of the new model was node parent[i] of the old
+  // one. The old factor goes on as preconditioner through that map until a refreshed one is taken.
+  void Replace(std::shared_ptr<const FemModel> model, FixedAxes fixed, std::span<const int> parent);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace arthro::simulation
