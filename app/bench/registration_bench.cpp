@@ -13,10 +13,10 @@
 #include "app/bench/stitcher_peer.h"
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/preparation/prepare.h"
-#include "authoring/panorama/stage_clock.h"
 #include "authoring/phantom/clip/clip.h"
 #include "authoring/phantom/clip/clip_score.h"
 #include "simulation/core/options_json.h"
+#include "simulation/core/process_cost.h"
 
 namespace arthro::app {
 namespace {
@@ -170,14 +170,14 @@ RegistrationBench RunRegistrationBench(const RegistrationBenchOptions& options,
     for (const BenchChain& chain : chains) {
       progress.Step(chain.words, run++ / runs);
       const authoring::Rectifier rectifier(clip.lens(), {}, chain.scale);
-      const double start = authoring::ProcessCpuMs();
+      const double start = ProcessCpuMs();
       const Prepared prepared = Prepare(raw, rectifier, chain.scale);
       const auto results = authoring::Register(prepared.frames, rectifier.view(), rectifier.mask(),
                                                chain.options, nullptr, {{}, progress.stop});
       RegistrationBenchRow row;
       row.clip = kind.words;
       row.chain = chain.words;
-      row.cpu_ms = (authoring::ProcessCpuMs() - start) / clip.frames();
+      row.cpu_ms = (ProcessCpuMs() - start) / clip.frames();
       Score(clip, rectifier.view(), results, row);
       bench.rows.push_back(row);
     }

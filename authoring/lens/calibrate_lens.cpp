@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <optional>
 
@@ -11,6 +10,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
+#include "simulation/core/process_cost.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
@@ -27,8 +27,6 @@ struct Candidate {
   LensFit fit;
   ModelTrial trial;
 };
-
-double CpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Residual of each view under a lens that was fitted without it.
 double CrossValidated(const std::vector<TargetView>& views, const LensFit& fit,
@@ -94,9 +92,9 @@ class Calibration {
         circle_.r > 0 ? cv::Point2d(circle_.cx, circle_.cy)
                       : cv::Point2d(0.5 * (picture_.width - 1), 0.5 * (picture_.height - 1));
     progress_.Step("fitting the lens", 0);
-    const double before = CpuMs();
+    const double before = ProcessCpuMs();
     auto start = StartFit(used_, picture_, centre, result_.rim_radius_px);
-    const double start_ms = CpuMs() - before;
+    const double start_ms = ProcessCpuMs() - before;
     if (!start)
       return Refuse("the points found do not lie as a flat target's would under any lens");
     LeaveOutWrongPoints(*start);
@@ -222,9 +220,9 @@ class Calibration {
   }
 
   double TimeOf(FitModel model, const LensFit& start) const {
-    const double before = CpuMs();
+    const double before = ProcessCpuMs();
     FitLens(used_, model, start, fit_options_);
-    return CpuMs() - before;
+    return ProcessCpuMs() - before;
   }
 
   void Describe(const Candidate& best) {

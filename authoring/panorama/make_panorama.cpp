@@ -13,6 +13,7 @@
 #include "authoring/panorama/prepared_clip.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
+#include "simulation/core/process_cost.h"
 
 namespace arthro::authoring {
 namespace {

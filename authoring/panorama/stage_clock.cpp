@@ -2,24 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <sys/resource.h>
 
 #include <fmt/format.h>
 
+#include "simulation/core/process_cost.h"
+
 namespace arthro::authoring {
-
-double ProcessCpuMs() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double PeakMemoryMb() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
-}
 
 StageClock::StageClock(const Progress& whole, std::vector<std::pair<std::string, double>> shares)
     : whole_(whole), shares_(std::move(shares)), started_(std::chrono::steady_clock::now()) {

@@ -11,9 +11,6 @@
 
 namespace arthro::authoring {
 
-double ProcessCpuMs();  // user and system time of all threads so far
-double PeakMemoryMb();  // largest resident size of the process so far, 1e6 bytes
-
 struct StageCost {
   std::string name;
   double cpu_ms = 0;

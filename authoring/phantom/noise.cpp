@@ -42,17 +42,6 @@ inline double Slope(std::uint32_t bits, double x, double y, double z) {
 
 }  // namespace
 
-std::uint64_t Random::Next() {
-  std::uint64_t z = (state_ += 0x9E3779B97F4A7C15ull);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-  return z ^ (z >> 31);
-}
-
-double Random::Uniform(double low, double high) {
-  return low + (high - low) * (static_cast<double>(Next() >> 11) * 0x1.0p-53);
-}
-
 double GradientNoise(const glm::dvec3& p, std::uint32_t seed) {
   const double fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
   const double x = p.x - fx, y = p.y - fy, z = p.z - fz;

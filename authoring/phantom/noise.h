@@ -7,21 +7,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/core/random.h"
+
 namespace arthro::authoring {
-
-// A random sequence of its own (SplitMix64): short, portable, and the same on every standard
-// library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t Next();
-  double Uniform(double low, double high);
-  // `value` give or take a share of it, evenly spread: Near(10, 0.1) lies between 9 and 11.
-  double Near(double value, double share) { return value * Uniform(1.0 - share, 1.0 + share); }
-
- private:
-  std::uint64_t state_;
-};
 
 // Gradient noise, smooth to the second derivative, within about ±1 and zero on average.
 double GradientNoise(const glm::dvec3& p, std::uint32_t seed);

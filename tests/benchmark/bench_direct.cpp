@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/pairs/direct_align.h"
 #include "authoring/panorama/preparation/prepare.h"
+#include "simulation/core/process_cost.h"
 #include "tests/authoring/panorama/pairs/faint_scene.h"
 
 using namespace arthro;
@@ -37,12 +37,6 @@ struct Clip {
   double rim = 0;         // radius of what the lens shows there
   double nine_reach = 0;  // of the eight outer points of the nine
 };
-
-double CpuMs() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 Clip ReadClip(const std::filesystem::path& folder) {
   nlohmann::json truth;
@@ -160,12 +154,12 @@ cv::Matx33d Off(std::mt19937& random, const cv::Point2d& centre) {
 
 void Measure(const Clip& clip) {
   const DirectOptions options;
-  double start = CpuMs();
+  double start = ProcessCpuMs();
   std::vector<DirectPyramid> pyramids;
   for (const WorkingFrame& frame : clip.frames) pyramids.emplace_back(frame, options);
   const int count = static_cast<int>(clip.frames.size());
   std::printf("%s: %d frames, pyramid %.1f CPU ms\n", clip.name.c_str(), count,
-              (CpuMs() - start) / count);
+              (ProcessCpuMs() - start) / count);
 
   Tally tallies[2][2];
   std::mt19937 random(1);
@@ -177,12 +171,12 @@ void Measure(const Clip& clip) {
       const cv::Matx33d predicted = Off(random, clip.centre) * truth;
       for (const bool is_predicted : {true, false}) {
         Tally& tally = tallies[gap > 1][is_predicted];
-        start = CpuMs();
+        start = ProcessCpuMs();
         const auto coarse =
             CoarseAlign(pyramids[a], pyramids[b], is_predicted ? &predicted : nullptr, options);
         std::optional<PairEstimate> pair;
         if (coarse) pair = AlignDirect(pyramids[a], pyramids[b], a, b, *coarse, options, nullptr);
-        tally.cpu_ms += CpuMs() - start;
+        tally.cpu_ms += ProcessCpuMs() - start;
         ++tally.pairs;
         if (!pair) continue;
         const double error = WorstError(clip, pair->b_from_a, truth);

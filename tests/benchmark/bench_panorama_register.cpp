@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -18,13 +17,12 @@
 #include "authoring/panorama/preparation/prepare.h"
 #include "authoring/phantom/clip/clip_score.h"
 #include "simulation/core/options_json.h"
+#include "simulation/core/process_cost.h"
 
 namespace {
 
 using namespace arthro;
 using namespace arthro::authoring;
-
-double CpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Sequence {
   std::string name;
@@ -71,7 +69,7 @@ void Run(const std::filesystem::path& folder, const Args& args) {
   const Sequence sequence = ReadSequence(folder);
   Lens lens = sequence.lens;
   lens.focal_px *= args.focal_factor;
-  const double begin = CpuMs();
+  const double begin = ProcessCpuMs();
   const RectifyOptions rectify;
   const Rectifier rectifier(lens, rectify, 0.5);
   Footage footage = Footage::Open(folder / "frames");
@@ -79,9 +77,9 @@ void Run(const std::filesystem::path& folder, const Args& args) {
   double read_ms = 0;
   ClipLookBuilder looks;
   for (cv::Mat rgb;;) {
-    const double before = CpuMs();
+    const double before = ProcessCpuMs();
     if (!footage.Next(rgb)) break;
-    read_ms += CpuMs() - before;
+    read_ms += ProcessCpuMs() - before;
     pictures.emplace_back();
     rectifier.Rectify(rgb, pictures.back());
     looks.Add(pictures.back(), rectifier.mask());
@@ -94,11 +92,11 @@ void Run(const std::filesystem::path& folder, const Args& args) {
         Prepare(static_cast<int>(i), pictures[i], 0.5, rectifier.mask(), look, prepare));
     pictures[i].release();
   }
-  const double prepared = CpuMs();
+  const double prepared = ProcessCpuMs();
   RegisterReport report;
   const auto results =
       Register(frames, rectifier.view(), rectifier.mask(), args.options, &report, {}, &lens);
-  const double registered = CpuMs();
+  const double registered = ProcessCpuMs();
 
   const RectifiedView& view = rectifier.view();
   // The nine points, one centre and a ring, as angles off the axis: what they are, and what the

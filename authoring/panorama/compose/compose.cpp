@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include <opencv2/imgproc.hpp>
 
@@ -13,17 +12,16 @@
 #include "authoring/panorama/compose/light_model.h"
 #include "authoring/panorama/compose/shares.h"
 #include "simulation/core/options_json.h"
+#include "simulation/core/process_cost.h"
 
 namespace arthro::authoring {
 namespace {
 
-double CpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 // Adds the processor time until its end to a field of the report.
 class CpuTimer {
  public:
-  explicit CpuTimer(double& total) : total_(total), start_(CpuMs()) {}
-  ~CpuTimer() { total_ += CpuMs() - start_; }
+  explicit CpuTimer(double& total) : total_(total), start_(ProcessCpuMs()) {}
+  ~CpuTimer() { total_ += ProcessCpuMs() - start_; }
   CpuTimer(const CpuTimer&) = delete;
   CpuTimer& operator=(const CpuTimer&) = delete;
 

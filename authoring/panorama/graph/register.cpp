@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include <fmt/format.h>
 
 #include "authoring/panorama/graph/frame_pairs.h"
 #include "authoring/panorama/graph/pair_graph.h"
 #include "simulation/core/error.h"
+#include "simulation/core/process_cost.h"
 
 namespace arthro::authoring {
 namespace {
@@ -24,8 +24,6 @@ class OneOpenCvThread {
  private:
   int before_;
 };
-
-double CpuMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void CheckFrames(const std::vector<WorkingFrame>& frames) {
   for (const WorkingFrame& frame : frames)
@@ -106,11 +104,11 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
   CheckFrames(frames);
   const OneOpenCvThread one_thread;
 
-  double begin = CpuMs();
+  double begin = ProcessCpuMs();
   const FramePairs maker(frames, options, progress);
-  told.features_ms = CpuMs() - begin;
+  told.features_ms = ProcessCpuMs() - begin;
 
-  begin = CpuMs();
+  begin = ProcessCpuMs();
   const FrameWindow window = WindowOf(view, mask);
   const PlacedGraph graph = PlaceFrames(
       maker.unusable(),
@@ -119,7 +117,7 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
       view.focal_px > 0 ? std::optional(Pinhole{view.focal_px, view.cx, view.cy}) : std::nullopt,
       options.graph, options.cycles, options.refine, options.threads, progress);
   told.refine_ms = graph.refine_ms;
-  told.pairs_ms = CpuMs() - begin - graph.refine_ms;
+  told.pairs_ms = ProcessCpuMs() - begin - graph.refine_ms;
 
   for (std::size_t i = 0; i < frames.size(); ++i) {
     FrameResult& result = results[i];
@@ -154,10 +152,10 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
   told.drift_factor = graph.drift_factor;
   told.camera_deviation = graph.camera_deviation;
   if (lens && options.graph.stages == GraphStages::kRefinement) {
-    begin = CpuMs();
+    begin = ProcessCpuMs();
     progress.Step("checking the lens", 0);
     CheckFocal(*lens, view, window, options.refine, results, told);
-    told.refine_ms += CpuMs() - begin;
+    told.refine_ms += ProcessCpuMs() - begin;
   }
   Warn(options, lens, told);
   return results;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "authoring/panorama/pairs/pair_estimate.h"
+#include "simulation/core/random.h"
 
 namespace arthro::authoring {
 namespace {
@@ -23,21 +24,6 @@ constexpr double kMostScale = 2.5;     // from frame to frame
 constexpr double kLeastSpread = 0.06;  // of the inliers across their line, shares of the reach
 constexpr double kMostArea = 6;        // factor by which an area may change between frames
 constexpr double kConfidence = 0.999;  // that a sample without outliers was drawn
-
-// SplitMix64 [Steele, Lea & Flood 2014]: the same numbers everywhere.
-class Draw {
- public:
-  explicit Draw(int seed) : state_(static_cast<std::uint64_t>(seed) + 0x9e3779b97f4a7c15u) {}
-  std::size_t Below(std::size_t n) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % n);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 // Moves the points about 0 at mean distance 1.
 cv::Matx33d Normalisation(const Points& points) {
@@ -99,7 +85,7 @@ struct Hypothesis {
 std::vector<Hypothesis> SampleSimilarities(const Points& a, const Points& b, double limit,
                                            const FeatureOptions& options) {
   std::vector<Hypothesis> best;
-  Draw draw(options.seed);
+  Random draw(static_cast<std::uint64_t>(options.seed));
   double trials = options.max_trials;
   for (int trial = 0; trial < trials; ++trial) {
     const std::size_t i = draw.Below(a.size()), j = draw.Below(a.size());
