@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
 
 #include "simulation/scope/rod_pose.h"
 
@@ -90,15 +88,10 @@ SurfaceMesh MakeProbeMesh(const ProbeShape& shape) {
 }
 
 Pose ProbePose(const glm::dvec3& portal, const glm::dvec3& proxy, double roll) {
-  const glm::dvec3 along = glm::normalize(proxy - portal);
-  simulation::RodPose rod;
-  rod.latitude = -std::asin(std::clamp(along.y, -1.0, 1.0));
-  rod.longitude = std::atan2(along.x, along.z);
-  const simulation::RodBasis basis = simulation::BasisOf(rod);
-  const glm::dvec3 hook = std::cos(roll) * basis.north + std::sin(roll) * basis.east;
+  const Rigid3 portal_from_tool = simulation::PortalFromTool(portal, proxy, roll);
   Pose pose;
-  pose.position = proxy;
-  pose.quaternion = glm::quat_cast(glm::dmat3(glm::cross(hook, basis.axis), hook, basis.axis));
+  pose.position = portal_from_tool.translation;
+  pose.quaternion = portal_from_tool.rotation;
   return pose;
 }
 

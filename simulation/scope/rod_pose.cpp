@@ -24,6 +24,16 @@ RodBasis BasisOf(const RodPose& pose) noexcept {
           {cos_lon, 0.0, -sin_lon}};
 }
 
+Rigid3 PortalFromTool(const glm::dvec3& portal, const glm::dvec3& tip, double roll) noexcept {
+  const glm::dvec3 rod = tip - portal;
+  RodPose pose;
+  pose.latitude = std::atan2(-rod.y, std::hypot(rod.x, rod.z));
+  pose.longitude = std::atan2(rod.x, rod.z);
+  const RodBasis basis = BasisOf(pose);
+  const glm::dvec3 hook = std::cos(roll) * basis.north + std::sin(roll) * basis.east;
+  return {glm::quat_cast(glm::dmat3(glm::cross(hook, basis.axis), hook, basis.axis)), tip};
+}
+
 glm::dvec3 TipInOwnPortal(const RodPose& pose) noexcept { return pose.depth * BasisOf(pose).axis; }
 
 RodPose RodPoseFromHip(const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device,

@@ -25,6 +25,11 @@ struct RodBasis {
 };
 RodBasis BasisOf(const RodPose& pose) noexcept;
 
+// A straight tool of which the portal and the tip are known, z along it from portal to tip, y the
+// way its hook points (north at no roll). A tip at the portal: as if it pointed along the portal's
+// z.
+Rigid3 PortalFromTool(const glm::dvec3& portal, const glm::dvec3& tip, double roll) noexcept;
+
 // Tip relative to the rod's own portal: ρ u.
 glm::dvec3 TipInOwnPortal(const RodPose& pose) noexcept;
 

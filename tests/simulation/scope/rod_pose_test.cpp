@@ -148,5 +148,19 @@ TEST(RodPose, HandOnThePivotKeepsTheLastDirection) {
   EXPECT_NEAR(pose.depth, rig.rod_length, 1e-12);
 }
 
+TEST(RodPose, ToolLiesAlongItsRodWithItsHookNorthAtNoRoll) {
+  const glm::dvec3 portal(0.03, 0.0, 0.0), tip(0.03, -0.01, 0.04);
+  for (const double roll : {0.0, 0.5 * std::numbers::pi}) {
+    const Rigid3 tool = PortalFromTool(portal, tip, roll);
+    EXPECT_EQ(tool.translation, tip);
+    const glm::dvec3 along = tool.rotation * glm::dvec3(0, 0, 1);
+    EXPECT_NEAR(glm::distance(along, glm::normalize(tip - portal)), 0.0, 1e-15);
+    const glm::dvec3 hook = tool.rotation * glm::dvec3(0, 1, 0);
+    // North is up (-y) as far as the rod lets it; east is right.
+    EXPECT_NEAR(roll == 0.0 ? -hook.y : hook.x, roll == 0.0 ? along.z : 1.0, 1e-12);
+  }
+  EXPECT_TRUE(std::isfinite(PortalFromTool(portal, portal, 0.3).rotation.w)) << "no rod at all";
+}
+
 }  // namespace
 }  // namespace arthro::simulation

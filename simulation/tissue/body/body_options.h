@@ -1,0 +1,32 @@
+// All options of living tissue in one list: solver, contact with tools, sleep, cuts.
+#pragma once
+
+#include "simulation/core/options.h"
+#include "simulation/tissue/contact/tool_contact.h"
+#include "simulation/tissue/solver/implicit_solver.h"
+
+namespace arthro::simulation {
+
+struct BodyOptions {
+  SolverOptions solver;
+  ToolContactOptions contact;
+  double sleep_speed = 2e-4;
+  int refresh_iterations = 12;
+  double coupling_tolerance = 0.03;
+  double cut_spacing = 3.5e-4;
+  template <class V>
+  void Visit(V&& v) {
+    solver.Visit(v);
+    contact.Visit(v);
+    v("sleep_speed", sleep_speed, Range{0, 1}, "m/s",
+      "A tissue that nothing touches and whose nodes are slower than this sleeps.");
+    v("refresh_iterations", refresh_iterations, Range{1, 1000}, "",
+      "A step that needed more has the preconditioner made anew, beside the next steps.");
+    v("coupling_tolerance", coupling_tolerance, Range{1e-8, 0.5}, "",
+      "Relative residual to which the stiffness that the servo gets is solved.");
+    v("cut_spacing", cut_spacing, Range{5e-5, 2e-3}, "m",
+      "Grid on which cuts are kept: the resolution of cut faces.");
+  }
+};
+
+}  // namespace arthro::simulation

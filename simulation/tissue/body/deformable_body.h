@@ -1,0 +1,88 @@
+// One living tissue: elements, solver, skin, what holds it and what was cut away. A step finds what
+// the tools touch, solves, moves the skin, and says how the servo will feel it until the next step.
+// A tissue that nothing touches and that has come to rest sleeps: its step costs a look at a box.
+// Own frame (the scene's tissue frame, scale applied), m, s, N; tools and couplings in the portal
+// frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/core/frames.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/tet_mesh.h"
+#include "simulation/tissue/body/body_options.h"
+#include "simulation/tissue/contact/coupling.h"
+#include "simulation/tissue/contact/rigid_obstacle.h"
+#include "simulation/tissue/contact/tool_shape.h"
+
+namespace arthro::simulation {
+
+struct BodySpec {
+  std::string name;
+  int tissue = 0;       // index in the scene
+  TetMesh mesh;         // own frame
+  SurfaceMesh surface;  // its fine skin, same frame, closed
+  Material material;
+  std::vector<Ball> fixed;  // nodes in any of these are held
+  Rigid3 portal_from_body;
+  bool is_cuttable = false;
+};
+
+// One tool for one step, portal frame.
+struct WorldTool {
+  ToolShape shape;
+  ToolInput now;
+};
+
+struct BodyReport {
+  StepReport step;
+  bool is_asleep = false;
+  bool was_reset = false;  // the solver failed: back at the last good state
+  int contacts = 0;
+  double max_speed = 0;  // m/s
+  int factor_age = 0;    // steps
+};
+
+class DeformableBody {
+ public:
+  // Throws Error(kBadMesh) for a mesh that cannot be computed with and Error(kBadScene) where balls
+  // are given but hold no node. With no ball it floats.
+  DeformableBody(BodySpec spec, const BodyOptions& options);
+  ~DeformableBody();
+  DeformableBody(DeformableBody&&) noexcept;
+  DeformableBody& operator=(DeformableBody&&) noexcept;
+
+  // `coupling`: one a tool, contacts of this body are added. `obstacle`: what it rests on, or null.
+  BodyReport Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle, double dt,
+                  std::span<ToolCoupling> coupling) noexcept;
+
+  // The factor of the solver is made anew on another thread between Begin and Take.
+  bool WantsRefresh() const noexcept;
+  void BeginRefresh();
+  void RunRefresh() noexcept;
+  void TakeRefresh() noexcept;
+
+  void Reset();  // as it was before it was touched or cut
+
+  const BodySpec& spec() const;
+  const BodyState& state() const;
+  std::span<const glm::dvec3> positions() const;  // of the skin's vertices
+  std::span<const glm::dvec3> normals() const;
+  const std::shared_ptr<const SurfaceMesh>& skin() const;  // at rest; another one after a cut
+  std::uint64_t shape_version() const;                     // grows when positions change
+  int held_nodes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace arthro::simulation
