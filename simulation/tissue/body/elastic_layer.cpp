@@ -1,0 +1,193 @@
+#include "simulation/tissue/body/elastic_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include "simulation/core/error.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSmallest = 0.01, kLargest = 10.0;  // contact radius over thickness
+
+// How much more a bonded layer gives than a half space under pressure of wave number k/h,
+// frictionless on top: w = (1−ν)/μ · M(k) h/k · p. Jaffar 1989, eq. 6, with κ = 3 − 4ν; multiplied
+// through by exp(−2k) so that nothing overflows. k → 0: the foundation; k → ∞: 1.
+double LayerFactor(double k, double nu) {
+  const double kappa = 3 - 4 * nu, e = std::exp(-2 * k);
+  return (kappa * (1 - e * e) - 4 * k * e) /
+         (kappa * (1 + e * e) + (kappa * kappa + 1 + 4 * k * k) * e);
+}
+
+// ∫₀^∞ (1 − M(k)) cos(k y) dk by Simpson's rule. 1 − M falls as k² exp(−2k): at 20 it is under
+// 1e-14.
+class LayerKernel {
+ public:
+  explicit LayerKernel(double nu) {
+    for (int i = 0; i <= kPoints; ++i) {
+      const double weight = i == 0 || i == kPoints ? 1 : i % 2 == 1 ? 4 : 2;
+      share_.push_back(weight * kStep / 3 * (1 - LayerFactor(i * kStep, nu)));
+    }
+  }
+  double At(double y) const {
+    double sum = 0;
+    for (int i = 0; i <= kPoints; ++i)
+      sum += share_[static_cast<std::size_t>(i)] * std::cos(i * kStep * y);
+    return sum;
+  }
+
+ private:
+  // Simpson's error is the step⁴ / 180 times the third derivative at 0, about y²: 8e-7 at y = 20.
+  static constexpr int kPoints = 800;
+  static constexpr double kStep = 20.0 / kPoints;
+  std::vector<double> share_;
+};
+
+// Of contact radius x (lengths over the thickness): force a depth and, for a ball, depth and force.
+struct Contact {
+  double kappa, depth, force;
+};
+
+// Lebedev & Ufliand's equation φ(s) − 1/π ∫₋ₓˣ H(s−t) φ(t) dt = G(s), φ even, by Simpson's rule:
+// for G = 1 (a flat end) and s² (what a paraboloid adds). A ball's pressure ends at zero, φ(x) = 0,
+// which is how deep it must be to touch just so far.
+Contact Solve(const LayerKernel& kernel, double x) {
+  constexpr int kCells = 40;
+  const double step = x / kCells;
+  std::array<double, 2 * kCells + 1> h{};
+  for (int i = 0; i <= 2 * kCells; ++i) h[static_cast<std::size_t>(i)] = kernel.At(i * step);
+  Eigen::VectorXd weight(kCells + 1);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(kCells + 1, kCells + 1), g(kCells + 1, 2);
+  for (int j = 0; j <= kCells; ++j)
+    weight[j] = step / 3 * (j == 0 || j == kCells ? 1 : j % 2 == 1 ? 4 : 2);
+  for (int i = 0; i <= kCells; ++i) {
+    for (int j = 0; j <= kCells; ++j)
+      a(i, j) -=
+          weight[j] / kPi *
+          (h[static_cast<std::size_t>(std::abs(i - j))] + h[static_cast<std::size_t>(i + j)]);
+    g(i, 0) = 1;
+    g(i, 1) = i * step * i * step;
+  }
+  const Eigen::MatrixXd phi = a.partialPivLu().solve(g);
+  const double flat = weight.dot(phi.col(0)), depth = phi(kCells, 1) / phi(kCells, 0);
+  return {flat / x, depth, depth * flat - weight.dot(phi.col(1))};
+}
+
+struct Value {
+  double y, slope;
+};
+
+// Cubic through two samples with their slopes.
+Value Hermite(double x0, double x1, double y0, double y1, double s0, double s1, double x) {
+  const double width = x1 - x0, t = (x - x0) / width, rise = (y1 - y0) / width;
+  const double a = s0 + s1 - 2 * rise, b = 3 * rise - 2 * s0 - s1;
+  return {y0 + width * t * (s0 + t * (b + t * a)), s0 + t * (2 * b + t * 3 * a)};
+}
+
+// The curve at x; outside its samples a straight line of slope `before` or of the last slope.
+template <class Curve>
+Value At(const Curve& xs, const Curve& ys, const Curve& slopes, double before, double x) {
+  if (x <= xs.front()) return {ys.front() + before * (x - xs.front()), before};
+  if (x >= xs.back()) return {ys.back() + slopes.back() * (x - xs.back()), slopes.back()};
+  const auto i = static_cast<std::size_t>(std::upper_bound(xs.begin(), xs.end(), x) - xs.begin());
+  return Hermite(xs[i - 1], xs[i], ys[i - 1], ys[i], slopes[i - 1], slopes[i], x);
+}
+
+// Slopes of samples whose own are not known: those of the parabola through the neighbours.
+template <class Curve>
+Curve SlopesOf(const Curve& xs, const Curve& ys) {
+  Curve slopes{};
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    const std::size_t m = std::clamp<std::size_t>(i, 1, xs.size() - 2);
+    const double left = (ys[m] - ys[m - 1]) / (xs[m] - xs[m - 1]);
+    const double right = (ys[m + 1] - ys[m]) / (xs[m + 1] - xs[m]);
+    const double bend = (right - left) / (xs[m + 1] - xs[m - 1]);
+    slopes[i] = left + bend * (2 * xs[i] - xs[m - 1] - xs[m]);
+  }
+  return slopes;
+}
+
+bool IsPressed(double radius, double amount) {
+  return std::isfinite(radius) && std::isfinite(amount) && radius > 0 && amount > 0;
+}
+
+}  // namespace
+
+ElasticLayer::ElasticLayer(const Material& material, double thickness) : thickness_(thickness) {
+  const double e = material.young_modulus, nu = material.poisson_ratio;
+  if (!std::isfinite(thickness) || thickness <= 0)
+    throw Error(
+        Code::kBadArgument,
+        fmt::format("an elastic layer is {} m thick; give it a thickness above 0", thickness));
+  if (!std::isfinite(e) || e <= 0 || !(nu > -1 && nu < 0.5))
+    throw Error(
+        Code::kBadArgument,
+        fmt::format("an elastic layer has Young's modulus {} Pa and Poisson's ratio {}; the "
+                    "modulus is above 0 and the ratio from -1 to below 0.5",
+                    e, nu));
+  const auto [mu, lambda] = LameOf(material);
+  foundation_ = (lambda + 2 * mu) / thickness;
+  flat_unit_ = 4 * mu * thickness / (1 - nu);
+
+  const LayerKernel kernel(nu);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const double share = static_cast<double>(i) / (kSamples - 1);
+    const double x = kSmallest * std::pow(kLargest / kSmallest, share);
+    const Contact contact = Solve(kernel, x);
+    log_radius_[i] = std::log(x);
+    log_kappa_[i] = std::log(contact.kappa);
+    log_depth_[i] = std::log(contact.depth);
+    log_force_[i] = std::log(contact.force);
+    // A little deeper, a ball moves what it touches as a flat end of that size would.
+    force_slope_[i] = x * contact.kappa * contact.depth / contact.force;
+  }
+  kappa_slope_ = SlopesOf(log_radius_, log_kappa_);
+  radius_slope_ = SlopesOf(log_depth_, log_radius_);
+}
+
+LayerTouch ElasticLayer::PressFlat(double radius, double depth) const noexcept {
+  if (!IsPressed(radius, depth)) return {};
+  const double x = radius / thickness_;
+  const double kappa = std::exp(At(log_radius_, log_kappa_, kappa_slope_, 0, std::log(x)).y);
+  const double stiffness = flat_unit_ * x * kappa;
+  return {stiffness * depth, stiffness, radius, depth > kDeepShare * thickness_};
+}
+
+double ElasticLayer::FlatDepth(double radius, double force) const noexcept {
+  if (!IsPressed(radius, force)) return 0;
+  return force / PressFlat(radius, thickness_).stiffness;
+}
+
+LayerTouch ElasticLayer::PressBall(double radius, double depth) const noexcept {
+  if (!IsPressed(radius, depth)) return {};
+  const double log_depth = std::log(depth / thickness_ * (radius / thickness_));
+  // Before the first sample: Hertz, F ~ δ^1.5 and a ~ δ^0.5.
+  const Value force = At(log_depth_, log_force_, force_slope_, 1.5, log_depth);
+  const Value touch = At(log_depth_, log_radius_, radius_slope_, 0.5, log_depth);
+  const double newton = flat_unit_ * thickness_ * (thickness_ / radius) * std::exp(force.y);
+  return {newton, newton / depth * force.slope, thickness_ * std::exp(touch.y),
+          depth > kDeepShare * thickness_};
+}
+
+double ElasticLayer::BallDepth(double radius, double force) const noexcept {
+  if (!IsPressed(radius, force)) return 0;
+  const double wanted = std::log(force / (flat_unit_ * thickness_) * (radius / thickness_));
+  // The curve rises everywhere, so halving finds the place; 60 halvings of a span of 40 (in the
+  // logarithm) leave nothing.
+  double low = log_depth_.front(), high = log_depth_.back();
+  if (wanted < log_force_.front()) low = high - 60;
+  if (wanted > log_force_.back()) high = low + 60;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (At(log_depth_, log_force_, force_slope_, 1.5, middle).y < wanted ? low : high) = middle;
+  }
+  return std::exp(0.5 * (low + high)) * thickness_ * (thickness_ / radius);
+}
+
+}  // namespace arthro::simulation
