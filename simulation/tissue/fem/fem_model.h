@@ -14,12 +14,14 @@
 
 #include "simulation/scene/tet_mesh.h"
 #include "simulation/tissue/fem/block_matrix.h"
+#include "simulation/tissue/fem/element_batches.h"
 #include "simulation/tissue/fem/material.h"
 
 namespace arthro::simulation {
 
 // How much of the tangent is asked for. kTrue is ∂²Ψ/∂F² as it is; kProjected has the negative
-// eigenvalues of each quadrature point's 9×9 set to zero, so the matrix is positive semidefinite.
+// eigenvalues of each quadrature point's 9×9 set to zero, those of the matrix and of the fibres
+// each for themselves, so the sum is positive semidefinite.
 enum class Tangent { kNone, kTrue, kProjected };
 
 struct Assembly {
@@ -66,7 +68,10 @@ class FemModel {
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<double> mass_;
   double volume_ = 0;
-  // (the rest is the implementer's)
+  ElementBatches batches_;
+  std::vector<double> whole_volume_;  // m³ a quadrature point, without shares
+  std::vector<double> share_;         // a quadrature point
+  std::vector<int> mirror_;           // an entry of the pattern: where the transposed one is
 };
 
 // `total` (N) as uniform traction over the surface triangles whose corners are all in `set` (0/1 a

@@ -1,0 +1,50 @@
+#include "simulation/tissue/fem/block_matrix.h"
+
+#include <algorithm>
+
+#include "simulation/tissue/fem/element_kernel.h"
+
+namespace arthro::simulation {
+
+int BlockPattern::Find(int row, int i) const {
+  const auto begin = column.begin() + row_begin[row], end = column.begin() + row_begin[row + 1];
+  const auto found = std::lower_bound(begin, end, i);
+  return found != end && *found == i ? static_cast<int>(found - column.begin()) : -1;
+}
+
+BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int node_count) {
+  // Elements of each node, then their nodes sorted, row by row.
+  const int n = nodes_per_element;
+  std::vector<int> begin(node_count + 1, 0);
+  for (const int node : elements) ++begin[node + 1];
+  for (int i = 0; i < node_count; ++i) begin[i + 1] += begin[i];
+  std::vector<int> element(elements.size()), next(begin.begin(), begin.end() - 1);
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    element[next[elements[k]]++] = static_cast<int>(k) / n;
+
+  BlockPattern pattern;
+  pattern.row_begin.push_back(0);
+  std::vector<int> row;
+  for (int i = 0; i < node_count; ++i) {
+    row.assign(1, i);  // also where no element is, so that a mass has its place
+    for (int k = begin[i]; k < begin[i + 1]; ++k)
+      row.insert(row.end(), elements.begin() + element[k] * n,
+                 elements.begin() + (element[k] + 1) * n);
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    const auto self = std::lower_bound(row.begin(), row.end(), i) - row.begin();
+    pattern.diagonal.push_back(static_cast<int>(pattern.column.size() + self));
+    pattern.column.insert(pattern.column.end(), row.begin(), row.end());
+    pattern.row_begin.push_back(static_cast<int>(pattern.column.size()));
+  }
+  return pattern;
+}
+
+void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x,
+              std::span<glm::dvec3> y) noexcept {
+  const BlockPattern& p = *a.pattern;
+  BestKernel().multiply(
+      {p.node_count(), p.row_begin.data(), p.column.data(), a.block.data(), x.data(), y.data()});
+}
+
+}  // namespace arthro::simulation

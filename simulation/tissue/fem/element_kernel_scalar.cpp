@@ -1,0 +1,23 @@
+// One double at a time: what the others are held against, and the only one on other processors.
+#include <cmath>
+
+#include "simulation/tissue/fem/element_kernel.h"
+
+namespace arthro::simulation::scalar {
+namespace {
+
+#define ARTHRO_INLINE __attribute__((always_inline)) inline
+#define ARTHRO_FUNCTION
+
+constexpr int kWidth = 1;
+constexpr const char* kName = "scalar";
+using V = double;
+ARTHRO_INLINE V Sqrt(V a) { return std::sqrt(a); }
+
+#include "simulation/tissue/fem/element_kernel.inc"
+
+}  // namespace
+
+const ElementKernel* Kernel() noexcept { return &kKernel; }
+
+}  // namespace arthro::simulation::scalar

@@ -1,0 +1,29 @@
+// Shape functions of T4 and T10 (VTK's node order) and of their faces, with the quadrature points
+// that this program uses: one for T4, four for T10 [Zienkiewicz & Taylor]. Points of the reference
+// tetrahedron are given by barycentric coordinates.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace arthro::simulation {
+
+struct TetShape {
+  double weight = 0;                 // part of the reference tetrahedron's volume
+  std::array<double, 10> value{};    // N_a
+  std::array<glm::dvec3, 10> slope;  // ∂N_a/∂(L1, L2, L3), L0 = 1 − L1 − L2 − L3
+};
+
+TetShape ShapeAt(int order, const glm::dvec4& barycentric);
+
+// The quadrature points of an element of that order.
+const std::vector<TetShape>& QuadratureOf(int order);
+
+// Corners of the four faces, outwards, each followed by the middles of its edges 01, 12, 20.
+inline constexpr std::array<std::array<int, 6>, 4> kTetFaces{
+    {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}}};
+
+}  // namespace arthro::simulation
