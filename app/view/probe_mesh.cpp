@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/geometric.hpp>
 
 #include "simulation/scope/rod_pose.h"
 
