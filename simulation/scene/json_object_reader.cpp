@@ -104,6 +104,14 @@ void JsonObjectReader::Angle(const char* name_deg, double& radians, const JsonLi
   if (!std::isnan(degrees)) radians = RadiansFromDegrees(degrees);
 }
 
+void JsonObjectReader::Flag(const char* name, bool& field) {
+  const nlohmann::json* entry = Find(name, kOptional, "");
+  if (!entry) return;
+  if (!entry->is_boolean())
+    return Fault(name, fmt::format("is {}; it must be true or false", Shown(*entry)));
+  field = entry->get<bool>();
+}
+
 void JsonObjectReader::Text(const char* name, std::string& field, Need need) {
   const nlohmann::json* entry = Find(name, need, "a text");
   if (!entry) return;
@@ -189,6 +197,16 @@ bool JsonObjectReader::List(const char* name, std::vector<double>& numbers) {
   }
   numbers = entry->get<std::vector<double>>();
   return true;
+}
+
+void JsonObjectReader::Texts(const char* name, std::vector<std::string>& texts) {
+  const nlohmann::json* entry = Find(name, kOptional, "");
+  if (!entry) return;
+  if (!entry->is_array() || !std::all_of(entry->begin(), entry->end(), [](const auto& value) {
+        return value.is_string() && !value.template get_ref<const std::string&>().empty();
+      }))
+    return Fault(name, fmt::format("is {}; it must be a list of texts", Shown(*entry)));
+  texts = entry->get<std::vector<std::string>>();
 }
 
 bool JsonObjectReader::Object(const char* name, Need need,

@@ -37,6 +37,7 @@ class JsonObjectReader {
   // An optional key that is absent leaves the field as it is; so does a fault.
   void Number(const char* name, double& field, const JsonLimits& limits, Need need = kOptional);
   void Angle(const char* name_deg, double& radians, const JsonLimits& limits_deg);
+  void Flag(const char* name, bool& field);
   void Text(const char* name, std::string& field, Need need = kOptional);
   // A file inside the scene's folder: relative, with no "..", no drive and no backslash.
   void Path(const char* name, std::filesystem::path& field, Need need = kOptional);
@@ -45,6 +46,8 @@ class JsonObjectReader {
   void Quaternion(const char* name, glm::dquat& field);  // [w, x, y, z]; made unit
   // A list of finite numbers, however many. False where it is absent or at fault.
   bool List(const char* name, std::vector<double>& numbers);
+  // A list of texts that are not empty, however many.
+  void Texts(const char* name, std::vector<std::string>& texts);
   // True when the object is there; a required one that is missing is a fault.
   bool Object(const char* name, Need need, const std::function<void(JsonObjectReader&)>& read);
   void Array(const char* name, const std::function<void(JsonObjectReader&, int index)>& read);
@@ -52,6 +55,9 @@ class JsonObjectReader {
   // Faults for the keys that nobody asked for, with the nearest known one. Keys that begin with
   // "x-" belong to others and are let pass when `extensions` says so.
   void RefuseOtherKeys(bool extensions = false);
+
+  // A key that someone else reads.
+  void Know(const std::string& name) { known_.insert(name); }
 
   // A fault of `name` in this object; the sentence follows the key.
   void Fault(const std::string& name, const std::string& sentence);

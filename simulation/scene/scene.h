@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,19 +53,41 @@ struct Rig {
   DeviceRig scope, instrument;
 };
 
+// Where a tissue is held: what of it lies inside does not move. A place and not a list of nodes, so
+// that it outlives a new mesh. In the tissue's own frame (before the scale of its pose), m.
+struct Ball {
+  glm::dvec3 centre{0.0};
+  double radius = 1e-3;
+  friend bool operator==(const Ball&, const Ball&) = default;
+};
+
+// What of a tissue's preset this scene says otherwise, under the names of CASE.json; SI.
+struct Elasticity {
+  std::optional<double> young_modulus;    // Pa
+  std::optional<double> poisson_ratio;    // under 0.5
+  std::optional<double> density;          // kg/m³
+  std::optional<double> fibre_stiffness;  // Pa
+  std::string fibre_axis;                 // "none", "circumferential_z"; empty: the preset's
+  std::optional<double> layer_thickness;  // m, of a thin layer on bone
+  friend bool operator==(const Elasticity&, const Elasticity&) = default;
+};
+
 struct Tissue {
   std::string name;
   std::filesystem::path surface;        // closed surface, in the tissue's own frame
-  std::filesystem::path mesh;           // VTU; empty until it is tetrahedralised
+  std::filesystem::path mesh;           // VTU; empty: it does not deform as a volume
   Pose pose;                            // portal_from_tissue
   std::string material = "meniscus";    // preset name
+  Elasticity elasticity;                // where it differs from the preset
+  std::vector<Ball> fixed;              // where it is held
+  bool is_cuttable = true;              // instruments may take of it
   glm::dvec3 colour{0.93, 0.90, 0.84};  // linear RGB
   AssetRights rights;
 };
 
 struct Instrument {
   std::string name = "probe";
-  std::string kind = "probe";
+  std::string kind = "probe";  // "probe", "punch", "shaver" or "grasper"
 };
 
 struct Task {

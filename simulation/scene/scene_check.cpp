@@ -10,6 +10,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/held_nodes.h"
 #include "simulation/scene/mesh_io.h"
 
 namespace arthro {
@@ -146,6 +147,39 @@ void LookAtTissue(const LoadedScene& loaded, std::size_t index, SceneFindings& f
         100.0 * static_cast<double>(outside) / static_cast<double>(surface.vertices.size())));
 }
 
+// A mesh that nothing holds drifts at the first touch; one that is held everywhere is rigid.
+void LookAtPins(const Tissue& tissue, const TetMesh& mesh, SceneFindings& findings) {
+  const std::string what = fmt::format("tissue \"{}\"", tissue.name);
+  const std::vector<std::uint8_t> held = HeldNodes(mesh.rest_positions, tissue.fixed);
+  const auto count = static_cast<std::size_t>(std::count(held.begin(), held.end(), 1));
+  // Three points that are not on one line keep a body from turning; a thin pin has fewer.
+  constexpr std::size_t kFewest = 3;
+  if (count == 0)
+    findings.warnings.push_back(
+        what + (tissue.fixed.empty()
+                    ? " is held nowhere (\"fixed\" is empty): it will drift when it is touched"
+                    : " has no node in any ball of \"fixed\", so nothing holds it: it will drift; "
+                      "move the balls onto it or make them larger"));
+  else if (count < kFewest)
+    findings.warnings.push_back(fmt::format(
+        "{} is held at {} of its nodes only and can turn about them; make a ball of \"fixed\" "
+        "larger",
+        what, count));
+  else if (count == held.size())
+    findings.warnings.push_back(what +
+                                " lies wholly inside the balls of \"fixed\", so it does not "
+                                "deform; make them smaller");
+  else
+    findings.found.push_back(fmt::format("{}: held at {} of {} nodes, {} balls", what, count,
+                                         held.size(), tissue.fixed.size()));
+  for (std::size_t i = 0; i < tissue.fixed.size(); ++i) {
+    const std::vector<std::uint8_t> own = HeldNodes(mesh.rest_positions, {&tissue.fixed[i], 1});
+    if (count > 0 && std::count(own.begin(), own.end(), 1) == 0)
+      findings.hints.push_back(
+          fmt::format("{}: ball {} of \"fixed\" holds no node; it does nothing", what, i + 1));
+  }
+}
+
 void LookAtScope(const Scene& scene, SceneFindings& findings) {
   findings.found.push_back(
       fmt::format("scope: {:g} degrees oblique, field of view {:g} degrees, rod of {:g} mm",
@@ -205,6 +239,7 @@ SceneFindings CheckScene(const std::filesystem::path& scene) {
                                            mesh.rest_positions.size()));
       for (const std::string& message : report.messages)
         findings.warnings.push_back(fmt::format("{}: {}", file.string(), message));
+      LookAtPins(tissue, mesh, findings);
     } catch (const Error& error) {
       errors.push_back(error.what());
     }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "simulation/core/units.h"
 #include "simulation/scene/scene_migration.h"
@@ -26,6 +28,13 @@ constexpr JsonLimits kShare{0, 1};
 // 16384 is the widest picture (image_io.cpp); a projection's centre may lie well outside of it.
 constexpr JsonLimits kPixel{-1e6, 1e6, "pixels"};
 constexpr JsonLimits kFocal{0, 1e6, "pixels", true};
+// Outside of these nothing can be computed with (simulation/tissue/fem/material.h).
+constexpr JsonLimits kYoungModulus{1, 1e12, "pascals"};
+constexpr JsonLimits kPoissonRatio{-0.9, 0.49999};
+constexpr JsonLimits kDensity{1e-3, 1e6, "kg/m³"};
+constexpr JsonLimits kFibreStiffness{0, 1e12, "pascals"};
+constexpr const char* kFibreAxes[] = {"none", "circumferential_z"};
+constexpr const char* kInstrumentKinds[] = {"probe", "punch", "shaver", "grasper"};
 constexpr JsonLimits kPixelsPerDegree{0, 1e5, "pixels per degree", true};
 
 void ReadRights(Reader& owner, AssetRights& rights) {
@@ -91,6 +100,34 @@ void ReadRig(Reader& reader, Rig& rig, double scope_rod_length) {
                 [&](Reader& instrument) { ReadDeviceRig(instrument, rig.instrument); });
 }
 
+// A text that is one of a few words.
+void ReadWord(Reader& reader, const char* name, std::string& field,
+              std::span<const char* const> words) {
+  std::string word = field;
+  reader.Text(name, word);
+  if (std::find(words.begin(), words.end(), word) != words.end())
+    return void(field = std::move(word));
+  reader.Fault(name, fmt::format("is {}; it must be one of: {}", nlohmann::json(word).dump(),
+                                 fmt::join(words, ", ")));
+}
+
+void ReadElasticity(Reader& reader, Elasticity& elasticity) {
+  const auto number = [&](const char* name, std::optional<double>& field,
+                          const JsonLimits& limits) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    reader.Number(name, value, limits);
+    if (!std::isnan(value)) field = value;
+  };
+  number("young_modulus", elasticity.young_modulus, kYoungModulus);
+  number("poisson_ratio", elasticity.poisson_ratio, kPoissonRatio);
+  number("density", elasticity.density, kDensity);
+  number("fibre_stiffness", elasticity.fibre_stiffness, kFibreStiffness);
+  std::string axis = kFibreAxes[0];
+  ReadWord(reader, "fibre_axis", axis, kFibreAxes);
+  if (reader.Has("fibre_axis")) elasticity.fibre_axis = axis;
+  number("layer_thickness", elasticity.layer_thickness, kLength);
+}
+
 void ReadTissue(Reader& reader, Tissue& tissue) {
   reader.Text("name", tissue.name, Reader::kRequired);
   reader.Path("surface", tissue.surface, Reader::kRequired);
@@ -101,6 +138,14 @@ void ReadTissue(Reader& reader, Tissue& tissue) {
     pose.Number("scale", tissue.pose.scale, kScale);
   });
   reader.Text("material", tissue.material);
+  reader.Object("elasticity", Reader::kOptional,
+                [&](Reader& inner) { ReadElasticity(inner, tissue.elasticity); });
+  reader.Array("fixed", [&](Reader& inner, int) {
+    Ball& ball = tissue.fixed.emplace_back();
+    inner.Point("centre", ball.centre, kCoordinate, Reader::kRequired);
+    inner.Number("radius", ball.radius, kLength, Reader::kRequired);
+  });
+  reader.Flag("cuttable", tissue.is_cuttable);
   reader.Point("colour", tissue.colour, kShare);
   ReadRights(reader, tissue.rights);
   // forces.csv tells contacts by these two words (design §5), one to a cell.
@@ -167,6 +212,20 @@ ordered_json JsonFromBackdrop(const Backdrop& backdrop) {
   return json;
 }
 
+ordered_json JsonFromElasticity(const Elasticity& elasticity) {
+  ordered_json json = ordered_json::object();
+  const auto put = [&](const char* key, const auto& field) {
+    if (field) json[key] = *field;
+  };
+  put("young_modulus", elasticity.young_modulus);
+  put("poisson_ratio", elasticity.poisson_ratio);
+  put("density", elasticity.density);
+  put("fibre_stiffness", elasticity.fibre_stiffness);
+  PutText(json, "fibre_axis", elasticity.fibre_axis);
+  put("layer_thickness", elasticity.layer_thickness);
+  return json;
+}
+
 ordered_json JsonFromTissue(const Tissue& tissue) {
   ordered_json json;
   json["name"] = tissue.name;
@@ -176,6 +235,11 @@ ordered_json JsonFromTissue(const Tissue& tissue) {
   json["pose"]["quaternion"] = JsonFromQuaternion(tissue.pose.quaternion);
   json["pose"]["scale"] = tissue.pose.scale;
   json["material"] = tissue.material;
+  if (const ordered_json elasticity = JsonFromElasticity(tissue.elasticity); !elasticity.empty())
+    json["elasticity"] = elasticity;
+  for (const Ball& ball : tissue.fixed)
+    json["fixed"].push_back({{"centre", JsonFromPoint(ball.centre)}, {"radius", ball.radius}});
+  if (!tissue.is_cuttable) json["cuttable"] = false;
   json["colour"] = JsonFromPoint(tissue.colour);
   PutRights(json, tissue.rights);
   return json;
@@ -228,7 +292,7 @@ Scene SceneFromJson(const nlohmann::json& json, std::vector<JsonFault>& faults) 
   reader.Array("instruments", [&](Reader& inner, int) {
     Instrument& instrument = scene.instruments.emplace_back();
     inner.Text("name", instrument.name, Reader::kRequired);
-    inner.Text("kind", instrument.kind);
+    ReadWord(inner, "kind", instrument.kind, kInstrumentKinds);
   });
   reader.Array("tasks", [&](Reader& inner, int) {
     Task& task = scene.tasks.emplace_back();

@@ -31,6 +31,7 @@ Scene WriteGoodScene(const fs::path& folder) {
   tissue.name = "meniscus";
   tissue.surface = "m.ply";
   tissue.mesh = "m.vtu";
+  tissue.fixed = {{{0.0033, 0.0033, 0.02}, 0.0076}};  // three of its four corners
   tissue.rights = rights;
   scene.tissues = {tissue};
   scene.instruments = {{"probe", "probe"}};

@@ -56,7 +56,18 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_EQ(meniscus.pose.scale, 1.25);
   EXPECT_EQ(meniscus.colour, glm::dvec3(0.9, 0.8, 0.7));
   EXPECT_EQ(meniscus.rights.consent, "given in writing");
+  EXPECT_EQ(meniscus.elasticity.young_modulus, 4e5);
+  EXPECT_EQ(meniscus.elasticity.poisson_ratio, 0.4);
+  EXPECT_EQ(meniscus.elasticity.density, 1050);
+  EXPECT_EQ(meniscus.elasticity.fibre_stiffness, 1e7);
+  EXPECT_EQ(meniscus.elasticity.fibre_axis, "circumferential_z");
+  EXPECT_EQ(meniscus.elasticity.layer_thickness, 0.002);
+  EXPECT_EQ(meniscus.fixed, (std::vector<Ball>{{{0.01, 0, 0.002}, 0.003}, {{0, -0.01, 0}, 0.002}}));
+  EXPECT_FALSE(meniscus.is_cuttable);
   EXPECT_EQ(scene.tissues[1].pose.scale, 1.0);
+  EXPECT_EQ(scene.tissues[1].elasticity, Elasticity{});
+  EXPECT_TRUE(scene.tissues[1].fixed.empty());
+  EXPECT_TRUE(scene.tissues[1].is_cuttable);
   ASSERT_EQ(scene.instruments.size(), 2u);
   EXPECT_EQ(scene.instruments[1].kind, "punch");
   ASSERT_EQ(scene.tasks.size(), 1u);

@@ -1,0 +1,76 @@
+#include "simulation/scene/scene_check.h"
+
+#include <gtest/gtest.h>
+
+#include "simulation/scene/held_nodes.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/mesh_io.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro {
+namespace {
+
+// A tetrahedron of 10 mm with its mid-edge nodes.
+TetMesh OneTet() {
+  TetMesh mesh;
+  mesh.order = 2;
+  const glm::dvec3 corner[4] = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
+  for (const glm::dvec3& x : corner) mesh.rest_positions.push_back(x);
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}})
+    mesh.rest_positions.push_back((corner[a] + corner[b]) * 0.5);
+  for (int i = 0; i < 10; ++i) mesh.elements.push_back(i);
+  return mesh;
+}
+
+SceneFindings FindingsWith(const std::vector<Ball>& fixed) {
+  test::TempFolder folder;
+  Scene scene;
+  scene.backdrop.panorama = "p.png";
+  scene.backdrop.projection = {ProjectionType::kGnomonic, {7.5, 3.5}, 9.0, 10.0};
+  Tissue& tissue = scene.tissues.emplace_back();
+  tissue.name = "flap";
+  tissue.surface = "flap.ply";
+  tissue.mesh = "flap.vtu";
+  tissue.fixed = fixed;
+  WriteColourImage(folder / "p.png", ColourImage(16, 8));
+  WriteSurface(folder / "flap.ply", {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}});
+  WriteTetMesh(folder / "flap.vtu", OneTet());
+  WriteScene(folder / "scene.json", scene);
+  SceneFindings findings = CheckScene(folder.path());
+  EXPECT_TRUE(findings.errors.empty());
+  return findings;
+}
+
+bool Says(const std::vector<std::string>& lines, const std::string& part) {
+  for (const std::string& line : lines)
+    if (line.find(part) != std::string::npos) return true;
+  return false;
+}
+
+TEST(HeldNodes, AreThoseInsideAnyBallAndOnItsBoundary) {
+  const std::vector<glm::dvec3> nodes = {{0, 0, 0}, {0.001, 0, 0}, {0.0011, 0, 0}, {0.01, 0, 0}};
+  const std::vector<Ball> balls = {{{0, 0, 0}, 0.001}, {{0.01, 0, 0}, 1e-6}};
+  EXPECT_EQ(HeldNodes(nodes, balls), (std::vector<std::uint8_t>{1, 1, 0, 1}));
+  EXPECT_EQ(HeldNodes(nodes, {}), (std::vector<std::uint8_t>{0, 0, 0, 0}));
+}
+
+TEST(SceneCheck, WarnsOfATissueThatNothingHolds) {
+  EXPECT_TRUE(Says(FindingsWith({}).warnings, "is held nowhere"));
+  EXPECT_TRUE(Says(FindingsWith({{{1, 1, 1}, 0.001}}).warnings, "nothing holds it: it will drift"));
+}
+
+TEST(SceneCheck, WarnsOfPinsThatHoldTooLittleOrAll) {
+  EXPECT_TRUE(Says(FindingsWith({{{0, 0, 0}, 0.001}}).warnings, "held at 1 of its nodes only"));
+  EXPECT_TRUE(Says(FindingsWith({{{0, 0, 0}, 0.1}}).warnings, "does not deform"));
+}
+
+TEST(SceneCheck, CountsWhatTheBallsHoldAndNamesAnIdleOne) {
+  // The corner at the origin and the three middles of its edges lie within 5 mm of it.
+  const SceneFindings findings = FindingsWith({{{0, 0, 0}, 0.0051}, {{0.5, 0, 0}, 0.001}});
+  EXPECT_TRUE(Says(findings.found, "\"flap\": held at 4 of 10 nodes, 2 balls"));
+  EXPECT_FALSE(Says(findings.warnings, "held"));
+  EXPECT_TRUE(Says(findings.hints, "ball 2 of \"fixed\" holds no node"));
+}
+
+}  // namespace
+}  // namespace arthro
