@@ -1,8 +1,9 @@
 // What an instrument's working end is, as capsules, so that hook and shaft touch and not only a
-// point. Tool frame: origin at the tip, +z along the rod into the joint, +x the way the hook points
+// point. Tool frame: origin at the tip, +z along the rod into the joint, +y the way the hook points
 // at roll 0; m.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,13 @@ struct ToolShape {
   ToolKind kind = ToolKind::kNone;
   std::vector<Capsule> capsules;  // at opening 0 (closed); the jaw ones turn about `hinge`
   std::vector<int> jaw;           // which capsules belong to the moving jaw
-  glm::dvec3 hinge{0.0}, hinge_axis{0, 1, 0};
-  double max_opening = 0;  // rad
-  Capsule bite;            // what a closing punch takes; of the shaver: its window
+  glm::dvec3 hinge{0.0}, hinge_axis{-1, 0, 0};  // opening turns by the right hand
+  double max_opening = 0;                       // rad
+  Capsule bite;  // what a closing punch takes; of the shaver: its window
 };
 
-// Real dimensions: probe hook 4 mm long of 1.5 mm rod, punch 3.4 mm wide, shaver 4.5 mm.
+// Real dimensions: probe hook 4 mm long of 1.5 mm rod (as app/view/probe_mesh draws it), punch 3.4
+// mm wide, shaver 4.5 mm.
 ToolShape ShapeOf(ToolKind kind);
 // "probe", "punch", "shaver", "grasper" of Instrument::kind; another word: kProbe.
 ToolKind ToolKindOf(const std::string& word);
@@ -41,5 +43,11 @@ struct ToolInput {
   double opening = 0;       // 0 closed … 1 open; punch and grasper
   bool is_running = false;  // shaver
 };
+
+inline constexpr int kMaxCapsules = 8;  // of a shape
+
+// The capsules as the tool stands, jaw opened, portal frame; how many. An absent tool has none.
+int PosedCapsules(const ToolShape& shape, const ToolInput& input,
+                  std::span<Capsule> capsules) noexcept;
 
 }  // namespace arthro::simulation

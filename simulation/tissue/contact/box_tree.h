@@ -1,0 +1,100 @@
+// A tree of boxes over items that move but stay neighbours: built once over the rest state, its
+// boxes fitted anew when the items have moved. m. Refit and Visit are noexcept and allocate
+// nothing; the order of visits depends on nothing but the boxes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "simulation/tissue/field/solid_field.h"
+
+namespace arthro::simulation {
+
+inline double Distance2(const Box3& box, const glm::dvec3& x) noexcept {
+  const glm::dvec3 d = glm::max(glm::max(box.low - x, x - box.high), glm::dvec3(0.0));
+  return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+inline double Distance2(const Box3& a, const Box3& b) noexcept {
+  const glm::dvec3 d = glm::max(glm::max(a.low - b.high, b.low - a.high), glm::dvec3(0.0));
+  return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(std::span<const Box3> boxes);
+
+  bool empty() const noexcept { return nodes_.empty(); }
+  const Box3& box() const noexcept { return nodes_.front().box; }  // of all; not when empty
+
+  // `box_of(i)`: the box of item i now.
+  template <class BoxOf>
+  void Refit(BoxOf&& box_of) noexcept {
+    for (std::size_t n = nodes_.size(); n-- > 0;) {
+      Node& node = nodes_[n];
+      if (node.count == 0) {
+        const Box3 &a = nodes_[n + 1].box, &b = nodes_[static_cast<std::size_t>(node.next)].box;
+        node.box = {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+        continue;
+      }
+      Box3 box{glm::dvec3(std::numeric_limits<double>::max()),
+               glm::dvec3(std::numeric_limits<double>::lowest())};
+      for (int i = node.next; i < node.next + node.count; ++i) {
+        const Box3 item = box_of(items_[static_cast<std::size_t>(i)]);
+        box = {glm::min(box.low, item.low), glm::max(box.high, item.high)};
+      }
+      node.box = box;
+    }
+  }
+
+  // Calls visit(i) for the items of every leaf whose box is not further from `shape` (a point or a
+  // box) than the root of `limit2`, nearer boxes first. `visit` may lower limit2; below zero: stop.
+  template <class Shape, class Visit>
+  void ForNear(const Shape& shape, double& limit2, Visit&& visit) const noexcept {
+    if (nodes_.empty()) return;
+    struct Entry {
+      std::int32_t node;
+      double distance2;
+    };
+    std::array<Entry, kDeepest> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {0, Distance2(nodes_.front().box, shape)};
+    while (depth > 0 && limit2 >= 0.0) {
+      const Entry entry = stack[--depth];
+      if (!(entry.distance2 <= limit2)) continue;
+      const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
+      if (node.count > 0) {
+        for (int i = node.next; i < node.next + node.count && limit2 >= 0.0; ++i)
+          visit(items_[static_cast<std::size_t>(i)]);
+        continue;
+      }
+      const auto child = [&](std::int32_t index) noexcept {
+        return Entry{index, Distance2(nodes_[static_cast<std::size_t>(index)].box, shape)};
+      };
+      const Entry first = child(entry.node + 1), second = child(node.next);
+      const bool is_second_nearer = second.distance2 < first.distance2;
+      stack[depth++] = is_second_nearer ? first : second;
+      stack[depth++] = is_second_nearer ? second : first;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kDeepest = 64;  // halving 2^31 items is 31 deep, two entries each
+  // Children of an inner node are node + 1 and `next`; a leaf has count > 0 items from `next`.
+  struct Node {
+    Box3 box;
+    std::int32_t next = 0, count = 0;
+  };
+  void Build(std::span<const Box3> boxes, int first, int count);
+
+  std::vector<Node> nodes_;
+  std::vector<int> items_;
+};
+
+}  // namespace arthro::simulation

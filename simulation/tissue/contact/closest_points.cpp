@@ -1,0 +1,188 @@
+#include "simulation/tissue/contact/closest_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::simulation {
+namespace {
+
+// Sine of the angle below which a segment counts as parallel to a line or a face: the middle of the
+// stretch is then as near as its ends to 1e-6 of its length.
+constexpr double kParallel = 1e-6;
+
+// Squared distance over area at which a point of a triangle's plane lies on the triangle.
+constexpr double kRounding = 1e-20;
+
+glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) noexcept {
+  return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
+}
+
+// Middle of the part of p + t d, t in [low, high], whose foot on c + s e lies in 0 ≤ s ≤ 1, for
+// parallel directions. False: there is none.
+bool ParallelMiddle(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec3& c,
+                    const glm::dvec3& e, double& t) noexcept {
+  const double dd = glm::dot(d, d);
+  const double t0 = glm::dot(c - p, d) / dd, t1 = glm::dot(c + e - p, d) / dd;
+  const double low = std::max(0.0, std::min(t0, t1)), high = std::min(1.0, std::max(t0, t1));
+  if (!(low <= high)) return false;
+  t = 0.5 * (low + high);
+  return true;
+}
+
+// Closest points of the segments p + t d and c + s e.
+double ClosestSegments(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec3& c,
+                       const glm::dvec3& e, double& t, double& s) noexcept {
+  const glm::dvec3 r = p - c;
+  const double dd = glm::dot(d, d), ee = glm::dot(e, e), de = glm::dot(d, e);
+  const double dr = glm::dot(d, r), er = glm::dot(e, r);
+  const double det = dd * ee - de * de;
+  if (!(ee > 0.0)) {
+    s = 0.0;
+    t = dd > 0.0 ? std::clamp(-dr / dd, 0.0, 1.0) : 0.0;
+  } else if (!(dd > 0.0)) {
+    t = 0.0;
+    s = std::clamp(er / ee, 0.0, 1.0);
+  } else if (det > kParallel * kParallel * dd * ee) {
+    t = std::clamp((de * er - ee * dr) / det, 0.0, 1.0);
+    s = std::clamp((de * t + er) / ee, 0.0, 1.0);
+    t = std::clamp((de * s - dr) / dd, 0.0, 1.0);
+  } else {
+    if (!ParallelMiddle(p, d, c, e, t)) t = std::clamp(-dr / dd, 0.0, 1.0);
+    s = std::clamp((de * t + er) / ee, 0.0, 1.0);
+    t = std::clamp((de * s - dr) / dd, 0.0, 1.0);
+  }
+  const glm::dvec3 gap = r + t * d - s * e;
+  return glm::dot(gap, gap);
+}
+
+}  // namespace
+
+glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x) noexcept {
+  const glm::dvec3 ab = corner[1] - corner[0], ac = corner[2] - corner[0], ax = x - corner[0];
+  const double d1 = glm::dot(ab, ax), d2 = glm::dot(ac, ax);
+  if (d1 <= 0.0 && d2 <= 0.0) return {1, 0, 0};
+  const glm::dvec3 bx = x - corner[1];
+  const double d3 = glm::dot(ab, bx), d4 = glm::dot(ac, bx);
+  if (d3 >= 0.0 && d4 <= d3) return {0, 1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+    const double v = d1 - d3 > 0.0 ? d1 / (d1 - d3) : 0.0;
+    return {1.0 - v, v, 0};
+  }
+  const glm::dvec3 cx = x - corner[2];
+  const double d5 = glm::dot(ab, cx), d6 = glm::dot(ac, cx);
+  if (d6 >= 0.0 && d5 <= d6) return {0, 0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+    const double w = d2 - d6 > 0.0 ? d2 / (d2 - d6) : 0.0;
+    return {1.0 - w, 0, w};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    const double whole = (d4 - d3) + (d5 - d6);
+    const double w = whole > 0.0 ? (d4 - d3) / whole : 0.0;
+    return {0, 1.0 - w, w};
+  }
+  const double sum = va + vb + vc;
+  if (!(sum > 0.0)) return {1, 0, 0};  // no area, and on none of its edges: not a number
+  return {1.0 - (vb + vc) / sum, vb / sum, vc / sum};
+}
+
+glm::dvec4 ClosestInTetrahedron(const std::array<glm::dvec3, 4>& corner,
+                                const glm::dvec3& x) noexcept {
+  const glm::dvec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0],
+                   e3 = corner[3] - corner[0], r = x - corner[0];
+  const double det = glm::dot(e1, glm::cross(e2, e3));
+  glm::dvec4 l(-1.0);
+  if (det != 0.0) {
+    l.y = glm::dot(r, glm::cross(e2, e3)) / det;
+    l.z = glm::dot(e1, glm::cross(r, e3)) / det;
+    l.w = glm::dot(e1, glm::cross(e2, r)) / det;
+    l.x = 1.0 - l.y - l.z - l.w;
+    if (l.x >= 0.0 && l.y >= 0.0 && l.z >= 0.0 && l.w >= 0.0) return l;
+  }
+  // Outside, the nearest point lies on a face that x sees.
+  constexpr std::array<std::array<int, 3>, 4> kFaceWithout{
+      {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+  double best = std::numeric_limits<double>::max();
+  glm::dvec4 nearest(1, 0, 0, 0);
+  for (int i = 0; i < 4; ++i) {
+    if (l[i] >= 0.0) continue;
+    const auto& face = kFaceWithout[static_cast<std::size_t>(i)];
+    TriangleCorners triangle;
+    for (std::size_t j = 0; j < 3; ++j) triangle[j] = corner[static_cast<std::size_t>(face[j])];
+    const glm::dvec3 on = ClosestOnTriangle(triangle, x), way = x - At(triangle, on);
+    const double distance2 = glm::dot(way, way);
+    if (!(distance2 < best)) continue;
+    best = distance2;
+    nearest = glm::dvec4(0.0);
+    for (int j = 0; j < 3; ++j) nearest[face[static_cast<std::size_t>(j)]] = on[j];
+  }
+  return nearest;
+}
+
+SegmentTriangle ClosestSegmentTriangle(const glm::dvec3& a, const glm::dvec3& b,
+                                       const TriangleCorners& corner) noexcept {
+  SegmentTriangle best;
+  best.distance2 = std::numeric_limits<double>::max();
+  const glm::dvec3 way = b - a;
+  const auto keep = [&best](double along, const glm::dvec3& l, double distance2) noexcept {
+    if (!(distance2 < best.distance2)) return;
+    best = {along, l, distance2};
+  };
+  const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const double area2 = glm::dot(normal, normal), up = glm::dot(way, normal);
+  const double length2 = glm::dot(way, way);
+  const auto at_point = [&](double along) noexcept {
+    const glm::dvec3 x = a + along * way, l = ClosestOnTriangle(corner, x), gap = x - At(corner, l);
+    return SegmentTriangle{along, l, glm::dot(gap, gap)};
+  };
+  // Above the face and parallel to it: the middle of the stretch over the face.
+  if (area2 > 0.0 && up * up <= kParallel * kParallel * area2 * length2) {
+    double low = 0.0, high = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3 inwards = glm::cross(normal, corner[(i + 1) % 3] - corner[i]);
+      const double h = glm::dot(a - corner[i], inwards), slope = glm::dot(way, inwards);
+      if (slope > 0.0)
+        low = std::max(low, -h / slope);
+      else if (slope < 0.0)
+        high = std::min(high, -h / slope);
+      else if (h < 0.0)
+        high = -1.0;
+    }
+    if (low <= high) return at_point(0.5 * (low + high));
+  }
+  // Through the face.
+  if (area2 > 0.0 && up != 0.0) {
+    const double t = glm::dot(corner[0] - a, normal) / up;
+    if (t >= 0.0 && t <= 1.0) {
+      SegmentTriangle through = at_point(t);
+      if (through.distance2 <= kRounding * std::sqrt(area2)) {
+        through.distance2 = 0.0;
+        return through;
+      }
+    }
+  }
+  // Otherwise the segment against an edge, or one of its ends against the face.
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const glm::dvec3& c = corner[static_cast<std::size_t>(i)];
+    double t = 0, s = 0;
+    const double distance2 =
+        ClosestSegments(a, way, c, corner[static_cast<std::size_t>(j)] - c, t, s);
+    glm::dvec3 l(0.0);
+    l[i] = 1.0 - s;
+    l[j] = s;
+    keep(t, l, distance2);
+  }
+  for (double end : {0.0, 1.0}) {
+    const SegmentTriangle point = at_point(end);
+    keep(point.along, point.triangle, point.distance2);
+  }
+  return best;
+}
+
+}  // namespace arthro::simulation
