@@ -39,6 +39,11 @@ Linearised LineariseAt(int order, const std::array<glm::dvec3, 10>& x,
   return result;
 }
 
+glm::dmat3 JacobianOf(const Linearised& linear) noexcept {
+  const auto& corner = linear.corner;
+  return {corner[1] - corner[0], corner[2] - corner[0], corner[3] - corner[0]};
+}
+
 }  // namespace
 
 ElementFinder::ElementFinder(const TetMesh& mesh)
@@ -114,9 +119,7 @@ EmbeddedPoint ElementFinder::PointAt(int element, const Local& local,
   // What is left of the way goes on linearly from the nearest point.
   const Linearised linear = LineariseAt(order_, PlacesOf(element, rest_), local.l);
   const glm::dvec3 way = rest - linear.at;
-  const glm::dmat3 jacobian(linear.corner[1] - linear.corner[0],
-                            linear.corner[2] - linear.corner[0],
-                            linear.corner[3] - linear.corner[0]);
+  const glm::dmat3 jacobian = JacobianOf(linear);
   const double det = glm::determinant(jacobian);
   if (glm::dot(way, way) == 0.0 || !(std::abs(det) > 0.0)) return point;
   const glm::dvec3 change = glm::inverse(jacobian) * way;
@@ -165,20 +168,46 @@ void ElementFinder::Refit(std::span<const glm::dvec3> x) noexcept {
   tree_.Refit([this](int i) noexcept { return BoxOf(i, x_); });
 }
 
-bool ElementFinder::FindDeformed(const glm::dvec3& place, EmbeddedPoint& point,
-                                 glm::dvec3& rest) const noexcept {
-  bool is_found = false;
+bool ElementFinder::FindDeformed(const glm::dvec3& place, int& element,
+                                 Local& local) const noexcept {
+  element = -1;
   double limit2 = 0.0;  // only boxes that hold the place
   tree_.ForNear(place, limit2, [&](int i) noexcept {
     if (Distance2(BoxOf(i, x_), place) > 0.0) return;
-    const Local local = Nearest(i, x_, place);
+    local = Nearest(i, x_, place);
     if (!(local.distance2 <= inside2_)) return;
-    point = {i, ShapeAt(order_, local.l).value};
-    is_found = true;
+    element = i;
     limit2 = -1.0;
   });
-  if (is_found) rest = PlaceOf(point, NodesOf(point.element), rest_);
-  return is_found;
+  return element >= 0;
+}
+
+bool ElementFinder::FindDeformed(const glm::dvec3& place, EmbeddedPoint& point,
+                                 glm::dvec3& rest) const noexcept {
+  int element = -1;
+  Local local;
+  if (!FindDeformed(place, element, local)) return false;
+  point = {element, ShapeAt(order_, local.l).value};
+  rest = PlaceOf(point, NodesOf(element), rest_);
+  return true;
+}
+
+bool ElementFinder::FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, glm::dvec3& rest,
+                                 glm::dmat3& gradient) const noexcept {
+  int element = -1;
+  Local local;
+  if (!FindDeformed(place, element, local)) return false;
+  point = {element, ShapeAt(order_, local.l).value};
+  rest = PlaceOf(point, NodesOf(element), rest_);
+  const glm::dmat3 before = JacobianOf(LineariseAt(order_, PlacesOf(element, rest_), local.l));
+  const glm::dmat3 now = JacobianOf(LineariseAt(order_, PlacesOf(element, x_), local.l));
+  gradient =
+      std::abs(glm::determinant(before)) > 0.0 ? now * glm::inverse(before) : glm::dmat3(1.0);
+  return true;
+}
+
+glm::dvec3 ElementFinder::PlaceNow(const EmbeddedPoint& point) const noexcept {
+  return PlaceOf(point, NodesOf(point.element), x_);
 }
 
 }  // namespace arthro::simulation

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -35,6 +36,11 @@ class ElementFinder {
   // outside all elements. Refit first when x has changed.
   void Refit(std::span<const glm::dvec3> x) noexcept;
   bool FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, glm::dvec3& rest) const noexcept;
+  // The same with the deformation gradient there, ∂x/∂X.
+  bool FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, glm::dvec3& rest,
+                    glm::dmat3& gradient) const noexcept;
+  // Where a point is since the last Refit.
+  glm::dvec3 PlaceNow(const EmbeddedPoint& point) const noexcept;
 
   std::span<const int> NodesOf(int element) const noexcept;
 
@@ -46,6 +52,7 @@ class ElementFinder {
   std::array<glm::dvec3, 10> PlacesOf(int element, std::span<const glm::dvec3> x) const noexcept;
   Box3 BoxOf(int element, std::span<const glm::dvec3> x) const noexcept;
   Local Nearest(int element, std::span<const glm::dvec3> x, const glm::dvec3& place) const noexcept;
+  bool FindDeformed(const glm::dvec3& place, int& element, Local& local) const noexcept;
   EmbeddedPoint PointAt(int element, const Local& local, const glm::dvec3& rest) const noexcept;
   int CommonNodes(int element, std::span<const int> beside) const noexcept;
 
