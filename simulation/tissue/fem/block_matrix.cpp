@@ -40,10 +40,11 @@ BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int
   return pattern;
 }
 
-void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x,
-              std::span<glm::dvec3> y) noexcept {
+void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
+              const ElementKernel* kernel) noexcept {
+  if (kernel == nullptr) kernel = &BestKernel();
   const BlockPattern& p = *a.pattern;
-  BestKernel().multiply(
+  kernel->multiply(
       {p.node_count(), p.row_begin.data(), p.column.data(), a.block.data(), x.data(), y.data()});
 }
 

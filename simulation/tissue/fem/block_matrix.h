@@ -28,8 +28,11 @@ struct BlockMatrix {
   std::vector<std::array<double, 9>> block;  // row-major, one an entry of pattern->column
 };
 
-// y = A x. Vectorised for the processor it runs on; the same bits on all of them.
-void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x,
-              std::span<glm::dvec3> y) noexcept;
+struct ElementKernel;
+
+// y = A x. Vectorised for the processor it runs on (`kernel`: null is the fastest); the same bits on
+// all of them.
+void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
+              const ElementKernel* kernel = nullptr) noexcept;
 
 }  // namespace arthro::simulation

@@ -20,7 +20,7 @@ struct LawConstants {
   bool fibres_bear_compression = true;
 };
 
-enum class InstructionSet { kScalar, kPlain, kAvx2, kAvx512 };
+enum class InstructionSet { kScalar, kSse2, kAvx2, kAvx512 };
 
 struct AssemblyJob {
   const ElementBatches* batches;

@@ -1,5 +1,6 @@
 // One double at a time: what the others are held against, and the only one on other processors.
 #include <cmath>
+#include <limits>
 
 #include "simulation/tissue/fem/element_kernel.h"
 

@@ -219,13 +219,15 @@ void FemModel::SetShares(std::span<const double> share) {
 }
 
 Assembly FemModel::Assemble(std::span<const glm::dvec3> x, Law law, Tangent tangent,
-                            std::span<glm::dvec3> force, BlockMatrix* stiffness) const noexcept {
+                            std::span<glm::dvec3> force, BlockMatrix* stiffness,
+                            const ElementKernel* kernel) const noexcept {
+  if (kernel == nullptr) kernel = &BestKernel();
   if (stiffness == nullptr) tangent = Tangent::kNone;
   std::fill(force.begin(), force.end(), glm::dvec3(0.0));
   if (tangent != Tangent::kNone)
     std::fill(stiffness->block.begin(), stiffness->block.end(), std::array<double, 9>{});
   const Lame lame = LameOf(material_);
-  const Assembly result = BestKernel().assemble(
+  const Assembly result = kernel->assemble(
       {&batches_,
        {lame.mu, lame.lambda, material_.fibre_stiffness, material_.fibres_bear_compression},
        law,
@@ -235,20 +237,26 @@ Assembly FemModel::Assemble(std::span<const glm::dvec3> x, Law law, Tangent tang
        tangent == Tangent::kNone ? nullptr : stiffness->block.data()});
   if (tangent == Tangent::kNone) return result;
   // The kernel has filled the upper triangle.
-  for (int row = 0; row < node_count(); ++row)
+  for (int row = 0; row < node_count(); ++row) {
+    auto& own = stiffness->block[pattern_->diagonal[row]];
+    own[3] = own[1];
+    own[6] = own[2];
+    own[7] = own[5];
     for (int e = pattern_->diagonal[row] + 1; e < pattern_->row_begin[row + 1]; ++e) {
       const auto& from = stiffness->block[e];
       auto& to = stiffness->block[mirror_[e]];
       to = {from[0], from[3], from[6], from[1], from[4], from[7], from[2], from[5], from[8]};
     }
+  }
   return result;
 }
 
-void FemModel::NodeRotations(std::span<const glm::dvec3> x,
-                             std::span<glm::dmat3> rotation) const noexcept {
+void FemModel::NodeRotations(std::span<const glm::dvec3> x, std::span<glm::dmat3> rotation,
+                             const ElementKernel* kernel) const noexcept {
+  if (kernel == nullptr) kernel = &BestKernel();
   std::fill(rotation.begin(), rotation.end(), glm::dmat3(0.0));
-  BestKernel().add_gradients(batches_, x.data(), rotation.data());
-  BestKernel().rotations(rotation);
+  kernel->add_gradients(batches_, x.data(), rotation.data());
+  kernel->rotations(rotation);
 }
 
 void FemModel::AddBodyForce(const glm::dvec3& per_volume, std::span<glm::dvec3> force) const {

@@ -24,6 +24,8 @@ namespace arthro::simulation {
 // each for themselves, so the sum is positive semidefinite.
 enum class Tangent { kNone, kTrue, kProjected };
 
+struct ElementKernel;  // element_kernel.h: the inner loops, once an instruction set
+
 struct Assembly {
   double energy = 0;     // J, elastic
   int inverted = 0;      // elements with J ≤ 0 at a quadrature point
@@ -51,13 +53,16 @@ class FemModel {
   // Elastic energy, forces (−gradient; overwritten) and, unless kNone, the tangent −∂force/∂x
   // (overwritten; its pattern must be pattern()). `law` may differ from the material's own: the
   // fallback that recovers from any start is corotated. Allocates nothing, fixed order of sums: the
-  // same bits on every processor. Not finite in, not finite out, no crash.
+  // same bits on every processor. Not finite in, not finite out, no crash. `kernel`: null is the
+  // fastest of this processor.
   Assembly Assemble(std::span<const glm::dvec3> x, Law law, Tangent tangent,
-                    std::span<glm::dvec3> force, BlockMatrix* stiffness) const noexcept;
+                    std::span<glm::dvec3> force, BlockMatrix* stiffness,
+                    const ElementKernel* kernel = nullptr) const noexcept;
 
   // Rotation of each node's neighbourhood, from the volume-weighted mean F of its elements (proper,
   // also where that is inverted or flat).
-  void NodeRotations(std::span<const glm::dvec3> x, std::span<glm::dmat3> rotation) const noexcept;
+  void NodeRotations(std::span<const glm::dvec3> x, std::span<glm::dmat3> rotation,
+                     const ElementKernel* kernel = nullptr) const noexcept;
 
   // ∫ N b dV of a constant force a volume (N/m³), consistently integrated, with the shares.
   void AddBodyForce(const glm::dvec3& per_volume, std::span<glm::dvec3> force) const;

@@ -1,0 +1,27 @@
+// Four doubles at a time.
+#if defined(__x86_64__)
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+
+#include "simulation/tissue/fem/element_kernel.h"
+
+namespace arthro::simulation::avx2 {
+namespace {
+
+#define ARTHRO_INLINE __attribute__((always_inline, target("avx2"))) inline
+#define ARTHRO_FUNCTION __attribute__((target("avx2")))
+
+constexpr int kWidth = 4;
+constexpr const char* kName = "AVX2";
+typedef double V __attribute__((vector_size(8 * kWidth)));
+ARTHRO_INLINE V Sqrt(V a) { return V(_mm256_sqrt_pd(a)); }
+
+#include "simulation/tissue/fem/element_kernel.inc"
+
+}  // namespace
+
+const ElementKernel* Kernel() noexcept { return &kKernel; }
+
+}  // namespace arthro::simulation::avx2
+#endif

@@ -1,0 +1,28 @@
+// Eight doubles at a time.
+#if defined(__x86_64__)
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+
+#include "simulation/tissue/fem/element_kernel.h"
+
+namespace arthro::simulation::avx512 {
+namespace {
+
+#define ARTHRO_INLINE __attribute__((always_inline, target("avx512f,avx512dq"))) inline
+#define ARTHRO_FUNCTION __attribute__((target("avx512f,avx512dq")))
+
+constexpr int kWidth = 8;
+constexpr const char* kName = "AVX-512";
+typedef double V __attribute__((vector_size(8 * kWidth)));
+// With a mask, since g++ 12 warns of an uninitialised value inside the plain one.
+ARTHRO_INLINE V Sqrt(V a) { return V(_mm512_maskz_sqrt_pd(0xFF, a)); }
+
+#include "simulation/tissue/fem/element_kernel.inc"
+
+}  // namespace
+
+const ElementKernel* Kernel() noexcept { return &kKernel; }
+
+}  // namespace arthro::simulation::avx512
+#endif

@@ -1,0 +1,27 @@
+// Two doubles at a time: every x86-64 processor has this.
+#if defined(__x86_64__)
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+
+#include "simulation/tissue/fem/element_kernel.h"
+
+namespace arthro::simulation::sse2 {
+namespace {
+
+#define ARTHRO_INLINE __attribute__((always_inline)) inline
+#define ARTHRO_FUNCTION
+
+constexpr int kWidth = 2;
+constexpr const char* kName = "SSE2";
+typedef double V __attribute__((vector_size(8 * kWidth)));
+ARTHRO_INLINE V Sqrt(V a) { return V(_mm_sqrt_pd(a)); }
+
+#include "simulation/tissue/fem/element_kernel.inc"
+
+}  // namespace
+
+const ElementKernel* Kernel() noexcept { return &kKernel; }
+
+}  // namespace arthro::simulation::sse2
+#endif
