@@ -199,6 +199,30 @@ double SolidField::CutDistance(const glm::dvec3& x) const noexcept {
   return Interpolate(CornersAt(cut_, grid_, place.index), place.part);
 }
 
+void SolidField::CutDistances(std::span<const glm::dvec3> x,
+                              std::span<double> distance) const noexcept {
+  for (std::size_t i = 0; i < x.size(); ++i) distance[i] = CutDistance(x[i]);
+}
+
+bool SolidField::MayBeCut(const Box3& box) const noexcept {
+  if (cut_.empty() || box.empty()) return false;
+  // All nodes of all cells that the box meets, clamped into the grid as queries are.
+  std::array<int, 3> first, last;
+  for (int a = 0; a < 3; ++a) {
+    const double end = grid_.count[static_cast<std::size_t>(a)] - 1;
+    const auto node = [&](double x) { return std::min(std::max(0.0, x), end); };
+    const double low = (box.low[a] - grid_.origin[a]) / grid_.spacing;
+    const double high = (box.high[a] - grid_.origin[a]) / grid_.spacing;
+    first[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(node(low)));
+    last[static_cast<std::size_t>(a)] = static_cast<int>(std::ceil(node(high)));
+  }
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i)
+        if (cut_[grid_.Index(i, j, k)] > 0.0f) return true;
+  return false;
+}
+
 SolidField::NodeBox SolidField::NodesIn(const Box3& box) const {
   NodeBox nodes;
   for (int a = 0; a < 3; ++a) {

@@ -72,7 +72,9 @@ class SolidField {
   // The same of what edits took away alone: positive where it was taken, negative elsewhere,
   // −band() where no edit came near.
   double CutDistance(const glm::dvec3& x) const noexcept;
-  bool IsCut() const { return !cut_.empty(); }  // did any edit change anything?
+  void CutDistances(std::span<const glm::dvec3> x, std::span<double> distance) const noexcept;
+  // Could CutDistance be positive anywhere in the box? False is certain.
+  bool MayBeCut(const Box3& box) const noexcept;
 
   double spacing() const { return grid_.spacing; }
   double band() const;  // m, beyond which distances are only a sign
