@@ -1,0 +1,125 @@
+#include "simulation/tissue/contact/obstacle_contact.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/simulation/tissue/contact/slab.h"
+#include "tests/support/allocation_counter.h"
+
+namespace arthro::simulation {
+namespace {
+
+// A ball of bone below the slab, in the portal frame; counts how often it is asked.
+struct Bone : RigidObstacle {
+  double Gap(const glm::dvec3& x, glm::dvec3& normal) const noexcept override {
+    ++asked;
+    normal = glm::normalize(x - centre);
+    return glm::length(x - centre) - radius;
+  }
+  glm::dvec3 centre{0.0};
+  double radius = 0.02;
+  mutable int asked = 0;
+};
+
+// How the slab lies in the portal frame, and a bone that reaches `depth` into its underside.
+const Rigid3 kPose{glm::angleAxis(0.8, glm::normalize(glm::dvec3(1, 2, 0.5))), {0.01, -0.02, 0.05}};
+Bone BoneAt(double depth) {
+  Bone bone;
+  bone.centre = kPose * glm::dvec3(0, 0, test::kSlabLow.z - bone.radius + depth);
+  return bone;
+}
+
+TEST(SurfaceNodes, AreThoseOfTheOutside) {
+  for (int order : {1, 2}) {
+    const TetMesh mesh = test::SlabMesh(order, {4, 4, 4});
+    std::vector<int> expected;
+    for (std::size_t i = 0; i < mesh.rest_positions.size(); ++i)
+      if (std::abs(test::BoxDistance(mesh.rest_positions[i])) < 1e-12)
+        expected.push_back(static_cast<int>(i));
+    EXPECT_EQ(SurfaceNodes(mesh), expected) << order;
+  }
+}
+
+TEST(ObstacleContact, NodesInTheMarginAreHeldOutOfTheirHalfSpace) {
+  const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
+  ObstacleContact contact(mesh, {});
+  const Bone bone = BoneAt(3e-4);
+  std::vector<ContactPoint> found;
+  ObstacleContactOptions options;
+  contact.Find(bone, kPose, mesh.rest_positions, options, found);
+  std::size_t expected = 0;
+  for (int node : SurfaceNodes(mesh)) {
+    glm::dvec3 normal;
+    expected += bone.Gap(kPose * mesh.rest_positions[node], normal) < options.margin;
+  }
+  ASSERT_EQ(found.size(), expected);
+  EXPECT_GT(expected, 20u);
+  for (const ContactPoint& c : found) {
+    const glm::dvec3& x = mesh.rest_positions[c.node[0]];
+    glm::dvec3 normal;
+    const double gap = bone.Gap(kPose * x, normal);
+    EXPECT_NEAR(glm::dot(c.normal, x - c.foot), gap, 1e-15);
+    EXPECT_LT(glm::length(kPose.rotation * c.normal - normal), 1e-12);
+    EXPECT_EQ(c.owner, -1);
+    EXPECT_EQ(c.start, x);
+    EXPECT_EQ(c.stiffness, options.stiffness);
+  }
+}
+
+TEST(ObstacleContact, NodesThatCannotMoveAreNotAsked) {
+  const TetMesh mesh = test::SlabMesh(1);
+  const std::vector<std::uint8_t> fixed(mesh.rest_positions.size(), 7);
+  ObstacleContact contact(mesh, fixed);
+  const Bone bone = BoneAt(1e-3);
+  std::vector<ContactPoint> found;
+  contact.Find(bone, kPose, mesh.rest_positions, {}, found);
+  EXPECT_EQ(contact.watched_nodes(), 0);
+  EXPECT_TRUE(found.empty());
+  EXPECT_EQ(bone.asked, 0);
+}
+
+TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
+  const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
+  ObstacleContact lazy(mesh, {});
+  const Bone bone = BoneAt(0.0);
+  std::vector<glm::dvec3> x = mesh.rest_positions;
+  std::vector<ContactPoint> found, expected;
+  found.reserve(mesh.rest_positions.size());
+  lazy.Find(bone, kPose, x, {}, found);
+  found.clear();
+  const int first = bone.asked;
+  const long before = test::Allocations();
+  lazy.Find(bone, kPose, x, {}, found);
+  EXPECT_EQ(test::Allocations(), before);
+  EXPECT_LT(bone.asked - first, first / 5) << "a fifth of the nodes are near";
+  // The slab sinks onto the bone: both must always agree.
+  for (int step = 0; step < 30; ++step) {
+    for (glm::dvec3& p : x) p.z -= 1e-4;
+    ObstacleContact fresh(mesh, {});
+    found.clear();
+    expected.clear();
+    lazy.Find(bone, kPose, x, {}, found);
+    fresh.Find(bone, kPose, x, {}, expected);
+    ASSERT_EQ(found.size(), expected.size()) << step;
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].foot, expected[i].foot);
+  }
+}
+
+TEST(ObstacleContact, AGapThatIsNotANumberHoldsNothing) {
+  struct Hole : RigidObstacle {
+    double Gap(const glm::dvec3&, glm::dvec3&) const noexcept override {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  } hole;
+  const TetMesh mesh = test::SlabMesh(1);
+  ObstacleContact contact(mesh, {});
+  std::vector<ContactPoint> found;
+  contact.Find(hole, {}, mesh.rest_positions, {}, found);
+  EXPECT_TRUE(found.empty());
+}
+
+}  // namespace
+}  // namespace arthro::simulation
