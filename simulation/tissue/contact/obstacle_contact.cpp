@@ -61,6 +61,17 @@ ObstacleContact::ObstacleContact(const TetMesh& mesh, std::span<const std::uint8
   }
 }
 
+void ObstacleContact::LayAtRest(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
+                                std::span<const glm::dvec3> rest) noexcept {
+  for (Node& node : nodes_) {
+    glm::dvec3 normal(0, 0, 1);
+    const double gap =
+        obstacle.Gap(portal_from_body * rest[static_cast<std::size_t>(node.index)], normal);
+    node.rest_gap = std::isfinite(gap) ? std::min(0.0, gap) : 0.0;
+  }
+  Forget();
+}
+
 void ObstacleContact::Forget() noexcept {
   for (Node& node : nodes_) node.clear = -1.0;
 }
@@ -74,7 +85,7 @@ void ObstacleContact::Find(const RigidObstacle& obstacle, const Rigid3& portal_f
     const glm::dvec3 gone = place - node.seen;
     if (node.clear > 0.0 && glm::dot(gone, gone) < node.clear * node.clear) continue;
     glm::dvec3 normal(0, 0, 1);
-    const double gap = obstacle.Gap(portal_from_body * place, normal);
+    const double gap = obstacle.Gap(portal_from_body * place, normal) - node.rest_gap;
     if (!std::isfinite(gap)) continue;
     node.seen = place;
     node.clear = kTrusted * (gap - options.margin);

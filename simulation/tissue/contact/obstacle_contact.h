@@ -25,6 +25,11 @@ class ObstacleContact {
   // `fixed`: a byte a node, 7 for one that cannot move (solver's FixedAxes); or empty.
   ObstacleContact(const TetMesh& mesh, std::span<const std::uint8_t> fixed);
 
+  // A node that lies below the obstacle when nothing is deformed rests there, since models are laid
+  // by hand: from now on only what it goes deeper counts. `rest`: the mesh's rest positions.
+  void LayAtRest(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
+                 std::span<const glm::dvec3> rest) noexcept;
+
   // Appends the contacts (owner −1) of the nodes at `x`. Allocates only where `contacts` must grow.
   void Find(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
             std::span<const glm::dvec3> x, const ObstacleContactOptions& options,
@@ -39,6 +44,7 @@ class ObstacleContact {
     int index = 0;
     glm::dvec3 seen{0.0};  // where it was when it was last looked at
     double clear = -1;     // how far it may go from there unseen; negative: not seen yet
+    double rest_gap = 0;   // m, 0 or below: where it lay before
   };
   std::vector<Node> nodes_;
 };

@@ -43,6 +43,27 @@ TEST(SurfaceNodes, AreThoseOfTheOutside) {
   }
 }
 
+TEST(ObstacleContact, WhatLayBelowAtRestIsNotPushed) {
+  const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
+  ObstacleContact contact(mesh, {});
+  const Bone bone = BoneAt(3e-4);
+  contact.LayAtRest(bone, kPose, mesh.rest_positions);
+  std::vector<ContactPoint> found;
+  contact.Find(bone, kPose, mesh.rest_positions, {}, found);
+  double deepest = 0.0;
+  for (const ContactPoint& c : found)
+    deepest = std::min(deepest, glm::dot(c.normal, c.start - c.foot));
+  EXPECT_GT(deepest, -1e-12) << "nothing is below what it rests on";
+  // Pressed down by 0.1 mm, what lay below is that much deeper.
+  found.clear();
+  std::vector<glm::dvec3> pressed = mesh.rest_positions;
+  for (glm::dvec3& x : pressed) x.z -= 1e-4;
+  contact.Find(bone, kPose, pressed, {}, found);
+  for (const ContactPoint& c : found)
+    deepest = std::min(deepest, glm::dot(c.normal, c.start - c.foot));
+  EXPECT_NEAR(deepest, -1e-4, 2e-6);
+}
+
 TEST(ObstacleContact, NodesInTheMarginAreHeldOutOfTheirHalfSpace) {
   const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
   ObstacleContact contact(mesh, {});
