@@ -35,6 +35,7 @@ const std::set<std::string> kFiles{"scene.json",
                                    "depth.tiff",
                                    "depth_with_tissue.tiff",
                                    "meniscus.ply",
+                                   "meniscus.vtu",
                                    "cartilage.ply",
                                    "grid.png",
                                    "lens.json",
@@ -91,6 +92,7 @@ void WriteFiles(const fs::path& folder, const Phantom& phantom, const FootageWri
   WriteDepthMap(folder / "depth.tiff", phantom.without_tissues.depth);
   WriteDepthMap(folder / "depth_with_tissue.tiff", phantom.with_tissues.depth);
   WriteSurface(folder / "meniscus.ply", phantom.meniscus.surface);
+  WriteTetMesh(folder / "meniscus.vtu", phantom.meniscus.mesh);
   WriteSurface(folder / "cartilage.ply", phantom.cartilage.surface);
   Json truth = TruthOf(phantom);
   if (footage)
@@ -176,6 +178,8 @@ Scene SceneOf(const Phantom& phantom) {
   Tissue meniscus;
   meniscus.name = phantom.meniscus.name;
   meniscus.surface = "meniscus.ply";
+  meniscus.mesh = "meniscus.vtu";
+  meniscus.fixed = phantom.meniscus.fixed;
   meniscus.pose = phantom.meniscus.portal_from_tissue;
   meniscus.material = "meniscus";
   meniscus.colour = {0.78, 0.70, 0.57};
@@ -183,11 +187,17 @@ Scene SceneOf(const Phantom& phantom) {
   Tissue cartilage = meniscus;
   cartilage.name = phantom.cartilage.name;
   cartilage.surface = "cartilage.ply";
+  cartilage.mesh.clear();
+  cartilage.fixed.clear();
+  cartilage.is_cuttable = false;
   cartilage.pose = phantom.cartilage.portal_from_tissue;
   cartilage.material = "cartilage";
   cartilage.colour = {0.81, 0.72, 0.57};
   scene.tissues = {meniscus, cartilage};
-  scene.instruments = {Instrument{}};
+  scene.instruments = {{"probe", "probe"},
+                       {"basket forceps", "punch"},
+                       {"shaver", "shaver"},
+                       {"grasper", "grasper"}};
   return scene;
 }
 

@@ -9,7 +9,9 @@
 
 #include "authoring/phantom/cavity.h"
 #include "simulation/core/frames.h"
+#include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/tet_mesh.h"
 
 namespace arthro::authoring {
 
@@ -23,7 +25,9 @@ struct PhantomTissue {
   SurfaceMesh surface;      // own frame, m
   Pose portal_from_tissue;  // scale 1
   std::vector<double>
-      rims;  // a vertex: 0 at the meniscus' free edge, 1 at its outer rim; else empty
+      rims;      // a vertex: 0 at the meniscus' free edge, 1 at its outer rim; else empty
+  TetMesh mesh;  // quadratic; empty: a thin layer, which needs none
+  std::vector<Ball> fixed;  // where it is held
   std::vector<Landmark> landmarks;
 };
 

@@ -23,7 +23,50 @@ int EdgeBetween(int a, int b) {
   return -1;
 }
 
+// det(dx/dξ) of a quadratic element at barycentric coordinates, ξ = the last three of them.
+double JacobianAt(const std::array<glm::dvec3, 10>& x, const std::array<double, 4>& l) {
+  // Corner k: N = l(2l − 1), middle of ab: N = 4 la lb; derivatives by each l.
+  std::array<glm::dvec3, 4> by{};
+  for (int k = 0; k < 4; ++k) by[k] = (4.0 * l[k] - 1.0) * x[k];
+  for (int m = 0; m < 6; ++m) {
+    const auto& [a, b] = kEdges[m];
+    by[a] += 4.0 * l[b] * x[4 + m];
+    by[b] += 4.0 * l[a] * x[4 + m];
+  }
+  const glm::dvec3 u = by[1] - by[0], v = by[2] - by[0], w = by[3] - by[0];
+  return glm::dot(glm::cross(u, v), w);
+}
+
+// Corners, middles and the four quadrature points (a = 0.585…, b = 0.138…).
+std::array<std::array<double, 4>, 14> SamplePoints() {
+  std::array<std::array<double, 4>, 14> points{};
+  const double b = (5.0 - std::sqrt(5.0)) / 20.0, a = 1.0 - 3.0 * b;
+  for (int k = 0; k < 4; ++k) {
+    points[k][k] = 1.0;
+    points[10 + k] = {b, b, b, b};
+    points[10 + k][k] = a;
+  }
+  for (int m = 0; m < 6; ++m) points[4 + m][kEdges[m][0]] = points[4 + m][kEdges[m][1]] = 0.5;
+  return points;
+}
+
+std::array<glm::dvec3, 10> NodesOf(const TetMesh& mesh, int element) {
+  std::array<glm::dvec3, 10> x;
+  for (int k = 0; k < 10; ++k)
+    x[k] = mesh.rest_positions[mesh.elements[static_cast<std::size_t>(element) * 10 + k]];
+  return x;
+}
+
 }  // namespace
+
+double JacobianShare(const TetMesh& mesh, int element) {
+  if (mesh.order != 2) return 1.0;
+  static const auto points = SamplePoints();
+  const std::array<glm::dvec3, 10> x = NodesOf(mesh, element);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& point : points) least = std::min(least, JacobianAt(x, point));
+  return least / glm::dot(glm::cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]);
+}
 
 TetQuality MeasureTets(const TetMesh& mesh) {
   TetQuality quality;
@@ -40,6 +83,15 @@ TetQuality MeasureTets(const TetMesh& mesh) {
     const glm::dvec3 u = x[1] - x[0], v = x[2] - x[0], w = x[3] - x[0];
     const double six_volumes = glm::dot(glm::cross(u, v), w);
     quality.volume += six_volumes / 6.0;
+    if (mesh.order == 2) {
+      quality.worst_jacobian = std::min(quality.worst_jacobian, JacobianShare(mesh, i));
+      // The mean over the four quadrature points; exact for a det of second order, else nearly.
+      static const auto points = SamplePoints();
+      const auto all = NodesOf(mesh, i);
+      for (int p = 10; p < 14; ++p) quality.curved_volume += JacobianAt(all, points[p]) / 24.0;
+    } else {
+      quality.curved_volume += six_volumes / 6.0;
+    }
     quality.inverted += !(six_volumes > 0);
     double shortest = std::numeric_limits<double>::infinity(), longest = 0;
     for (const auto& [a, b] : kEdges) {

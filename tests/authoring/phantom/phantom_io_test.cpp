@@ -41,6 +41,17 @@ TEST(PhantomFolder, LoadsAsASceneWithBothTissues) {
   EXPECT_EQ(loaded.panorama.width, 1024);
   EXPECT_EQ(loaded.depth.height, 768);
   ASSERT_EQ(loaded.surfaces.size(), 2u);
+  // The meniscus deforms as a volume that is held, the cartilage as a layer on bone.
+  const auto& tissues = loaded.scene.tissues;
+  TetReadReport report;
+  EXPECT_EQ(ReadTetMesh(folder / "knee" / tissues[0].mesh, &report).elements,
+            SmallPhantom().meniscus.mesh.elements);
+  EXPECT_TRUE(report.messages.empty());
+  EXPECT_LT(fs::file_size(folder / "knee" / tissues[0].mesh), 300'000u);
+  EXPECT_EQ(tissues[0].fixed, SmallPhantom().meniscus.fixed);
+  EXPECT_TRUE(tissues[0].is_cuttable);
+  EXPECT_TRUE(tissues[1].mesh.empty());
+  EXPECT_FALSE(tissues[1].is_cuttable);
   EXPECT_EQ(loaded.surfaces[0].vertices, SmallPhantom().meniscus.surface.vertices);
   EXPECT_EQ(loaded.depth.relief, SmallPhantom().without_tissues.depth.relief);
   EXPECT_TRUE(fs::exists(folder / "knee/panorama_with_tissue.png"));
@@ -145,6 +156,12 @@ TEST(DemoScene, IsWhatItsCommandMakes) {
   }
   EXPECT_EQ(ReadWholeFile(shipped / "scene.json"), ReadWholeFile(folder / "demo/scene.json"));
   EXPECT_EQ(ReadWholeFile(shipped / "trace.csv"), ReadWholeFile(folder / "demo/trace.csv"));
+  const TetMesh mesh = ReadTetMesh(shipped / "meniscus.vtu"),
+                made_mesh = ReadTetMesh(folder / "demo/meniscus.vtu");
+  EXPECT_EQ(mesh.elements, made_mesh.elements);
+  ASSERT_EQ(mesh.rest_positions.size(), made_mesh.rest_positions.size());
+  for (std::size_t i = 0; i < mesh.rest_positions.size(); ++i)
+    EXPECT_LT(glm::distance(mesh.rest_positions[i], made_mesh.rest_positions[i]), 1e-9);
   for (const char* name : {"meniscus.ply", "cartilage.ply"}) {
     const SurfaceMesh a = ReadSurface(shipped / name, 1.0),
                       b = ReadSurface(folder / "demo" / name, 1.0);

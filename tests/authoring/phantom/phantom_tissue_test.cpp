@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "authoring/phantom/tissue_caster.h"
+#include "authoring/tissue/tet_quality.h"
+#include "simulation/scene/held_nodes.h"
 
 namespace arthro::authoring {
 namespace {
@@ -106,6 +108,52 @@ TEST_P(EveryTissue, MeniscusIsThinAtItsFreeEdgeAndThickAtItsRim) {
   EXPECT_GT(highest, 4.5e-3);
   EXPECT_LT(highest, 7e-3);
   EXPECT_LT(highest_edge, 0.8e-3);
+}
+
+TEST_P(EveryTissue, OnlyTheMeniscusIsFilledWithTetrahedraAndHeld) {
+  EXPECT_EQ(tissues[0].mesh.order, 2);
+  EXPECT_TRUE(tissues[1].mesh.elements.empty());
+  EXPECT_TRUE(tissues[1].fixed.empty());
+}
+
+// Few enough to be solved at display rate, curved as the surface is and folded nowhere.
+TEST_P(EveryTissue, MeniscusIsFilledWithSoundCurvedElements) {
+  const TetMesh& mesh = tissues[0].mesh;
+  const TetQuality quality = MeasureTets(mesh);
+  std::printf(
+      "%d elements, %zu nodes, worst det %.2f of straight, dihedral %.1f to %.1f deg, "
+      "volume %.1f of %.1f mm3\n",
+      mesh.ElementCount(), mesh.rest_positions.size(), quality.worst_jacobian,
+      quality.min_dihedral * 180 / M_PI, quality.max_dihedral * 180 / M_PI,
+      quality.curved_volume * 1e9, Volume(tissues[0].surface) * 1e9);
+  EXPECT_LE(mesh.ElementCount(), 600);
+  EXPECT_EQ(quality.inverted, 0);
+  EXPECT_GT(quality.worst_jacobian, 0.2);  // 0: folded; 1: straight edges
+  EXPECT_GT(quality.min_dihedral, 5.0 * M_PI / 180);
+  // The surface has 0.5 mm of bevel at either horn that the elements have not.
+  EXPECT_NEAR(quality.curved_volume / Volume(tissues[0].surface), 1.0, 0.03);
+}
+
+TEST_P(EveryTissue, MeniscusIsHeldAtHornsAndRimAndFreeAtItsEdge) {
+  const PhantomTissue& meniscus = tissues[0];
+  const std::vector<std::uint8_t> held = HeldNodes(meniscus.surface.vertices, meniscus.fixed);
+  int rim = 0, rim_held = 0, edge = 0, edge_held = 0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (meniscus.rims[i] == 1.0) ++rim, rim_held += held[i];
+    if (meniscus.rims[i] < 0.5) ++edge, edge_held += held[i];
+  }
+  const std::vector<std::uint8_t> nodes = HeldNodes(meniscus.mesh.rest_positions, meniscus.fixed);
+  const auto held_nodes = std::count(nodes.begin(), nodes.end(), 1);
+  std::printf("held: %d of %d rim vertices, %d of %d of the inner half, %ld of %zu nodes\n",
+              rim_held, rim, edge_held, edge, held_nodes, nodes.size());
+  EXPECT_GT(rim_held, rim / 3);  // its lower part, where the capsule is
+  EXPECT_LT(edge_held, edge / 8);  // at the horns' roots only
+  EXPECT_GT(held_nodes, 100);
+  EXPECT_LT(held_nodes, static_cast<long>(nodes.size()) / 3);
+  for (const Ball& ball : meniscus.fixed) {
+    const std::vector<std::uint8_t> own = HeldNodes(meniscus.mesh.rest_positions, {&ball, 1});
+    EXPECT_GT(std::count(own.begin(), own.end(), 1), 0) << "a ball that does nothing";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, EveryTissue, testing::Values(0, 1, 2, 3, 4, 5, 17, 99));

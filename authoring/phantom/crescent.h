@@ -1,0 +1,48 @@
+// The crescent that the phantom's meniscus is made from, as formulas over its angle: what its fine
+// surface and its tetrahedra have in common. Plateau frame, m, rad.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "authoring/phantom/cavity.h"
+#include "authoring/phantom/phantom_tissue.h"
+#include "simulation/core/units.h"
+
+namespace arthro::authoring {
+
+// Sizes; angles from medial (0) to posterior (90°).
+struct Crescent {
+  glm::dvec2 centre{0.0};
+  double outer_x = 0, outer_y = 0;  // radii of the outer rim
+  double from = 0, to = 0;          // anterior and posterior horn
+  double body_width = 0, posterior_width = 0, anterior_width = 0;
+  double body_height = 0, posterior_height = 0, anterior_height = 0;
+  double edge = 0.42 * kMetrePerMillimetre;  // thickness of the free edge
+  double film = 0.10 * kMetrePerMillimetre;  // of fluid between meniscus and plateau
+  Rigid3 plateau_from_tissue;
+};
+Crescent MakeCrescent(const Cavity& cavity);
+
+// Width and height of the wedge at an angle; both taper towards the horns.
+struct Wedge {
+  double width, height;
+};
+Wedge WedgeAt(const Crescent& crescent, double angle);
+
+double OuterRadius(const Crescent& crescent, double angle);
+// A place over the plateau, at a distance from the crescent's centre.
+glm::dvec3 OnPlateau(const Cavity& cavity, const Crescent& crescent, double angle, double r,
+                     double lift);
+// Of the free edge; thin where the wedge is low.
+double EdgeThickness(const Crescent& crescent, const Wedge& wedge);
+// Height of the upper face over the plateau at a share q of the width, 0 at the free edge: a wedge
+// with a slightly hollow back, that turns over at its outer shoulder.
+double TopOf(const Crescent& crescent, const Wedge& wedge, double q);
+// How far the rim stands out at a share of its height.
+double RimBulge(const Wedge& wedge, double up);
+
+// The tetrahedra of the same crescent and where it is held.
+void FillMeniscus(const Cavity& cavity, const Crescent& crescent, PhantomTissue& tissue);
+
+}  // namespace arthro::authoring

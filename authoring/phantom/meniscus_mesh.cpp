@@ -1,0 +1,163 @@
+// The crescent filled with quadratic tetrahedra: a cross-section of eleven triangles, finer towards
+// the free edge where instruments work, swept from horn to horn. Middles of edges lie on the same
+// formulas as the surface, so elements are curved as it is.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "authoring/phantom/crescent.h"
+
+namespace arthro::authoring {
+namespace {
+
+constexpr double kMm = kMetrePerMillimetre;
+
+// Place in a cross-section: q from the free edge (0) to the rim (1), t from bottom to top.
+struct SectionPoint {
+  double q, t;
+};
+// Two points a column while the wedge is thin, three where it is thick.
+constexpr std::array<SectionPoint, 12> kSection = {{{0.0, 0.0},
+                                                    {0.0, 1.0},
+                                                    {0.20, 0.0},
+                                                    {0.20, 1.0},
+                                                    {0.44, 0.0},
+                                                    {0.44, 1.0},
+                                                    {0.72, 0.0},
+                                                    {0.72, 0.5},
+                                                    {0.72, 1.0},
+                                                    {1.0, 0.0},
+                                                    {1.0, 0.5},
+                                                    {1.0, 1.0}}};
+constexpr std::array<std::array<int, 3>, 11> kTriangles = {{{0, 2, 1},
+                                                            {1, 2, 3},
+                                                            {2, 4, 3},
+                                                            {3, 4, 5},
+                                                            {4, 6, 7},
+                                                            {4, 7, 5},
+                                                            {5, 7, 8},
+                                                            {6, 9, 7},
+                                                            {7, 9, 10},
+                                                            {7, 10, 11},
+                                                            {7, 11, 8}}};
+constexpr int kSlices = 18;  // 18 x 11 x 3 = 594 elements, some 2.6 mm long
+constexpr int kInSection = static_cast<int>(kSection.size());
+
+struct Parameters {
+  double angle, q, t;
+};
+
+glm::dvec3 PlaceOf(const Cavity& cavity, const Crescent& c, const Parameters& p) {
+  const Wedge wedge = WedgeAt(c, p.angle);
+  const double bottom = c.film, top = TopOf(c, wedge, p.q);
+  // The bulge of the rim fades inwards, so that elements beside it keep their shape.
+  const double share = std::max(0.0, (p.q - 0.72) / 0.28);
+  const double r =
+      OuterRadius(c, p.angle) - (1.0 - p.q) * wedge.width + share * RimBulge(wedge, p.t);
+  return OnPlateau(cavity, c, p.angle, r, bottom + p.t * (top - bottom));
+}
+
+// Angle of the plane before a slice. The two slices at either horn are shorter, since the wedge
+// tapers there.
+double AngleOf(const Crescent& c, int slice) {
+  constexpr double kShort = 0.55;
+  const auto ends = [](int n) { return kShort * std::min(n, 2) + std::max(n - 2, 0); };
+  const double all = 4.0 * kShort + kSlices - 4;
+  const double passed = slice <= kSlices / 2 ? ends(slice) : all - ends(kSlices - slice);
+  return c.from + (c.to - c.from) * passed / all;
+}
+
+Parameters CornerOf(const Crescent& c, int node) {
+  const int slice = node / kInSection;
+  const SectionPoint& s = kSection[static_cast<std::size_t>(node % kInSection)];
+  return {AngleOf(c, slice), s.q, s.t};
+}
+
+double SixVolumes(const std::vector<glm::dvec3>& x, const std::array<int, 4>& e) {
+  return glm::dot(glm::cross(x[e[1]] - x[e[0]], x[e[2]] - x[e[0]]), x[e[3]] - x[e[0]]);
+}
+
+// Each prism between two slices as three tetrahedra. The corners of a triangle are climbed in the
+// order of their numbers, so that neighbours agree on the diagonal between them; every second slice
+// is climbed the other way, so that no direction is stiffer.
+std::vector<std::array<int, 4>> CornersOfElements(const std::vector<glm::dvec3>& x) {
+  std::vector<std::array<int, 4>> elements;
+  for (int slice = 0; slice < kSlices; ++slice)
+    for (std::array<int, 3> triangle : kTriangles) {
+      std::sort(triangle.begin(), triangle.end());
+      const bool is_turned = slice % 2 == 1;
+      const int low = (slice + (is_turned ? 1 : 0)) * kInSection;
+      const int high = (slice + (is_turned ? 0 : 1)) * kInSection;
+      const auto [a, b, c] = triangle;
+      for (std::array<int, 4> element : {std::array{low + a, low + b, low + c, high + c},
+                                         std::array{low + a, low + b, high + b, high + c},
+                                         std::array{low + a, high + a, high + b, high + c}}) {
+        if (SixVolumes(x, element) < 0) std::swap(element[0], element[1]);
+        elements.push_back(element);
+      }
+    }
+  return elements;
+}
+
+}  // namespace
+
+void FillMeniscus(const Cavity& cavity, const Crescent& c, PhantomTissue& tissue) {
+  const Rigid3 tissue_from_plateau = Inverse(c.plateau_from_tissue);
+  const auto place = [&](const Parameters& p) {
+    return tissue_from_plateau * PlaceOf(cavity, c, p);
+  };
+  TetMesh& mesh = tissue.mesh;
+  mesh.order = 2;
+  for (int node = 0; node < (kSlices + 1) * kInSection; ++node)
+    mesh.rest_positions.push_back(place(CornerOf(c, node)));
+
+  // Curved on the surface, straight inside, where a curve would only cost shape.
+  const auto middle_of = [&](const std::pair<int, int>& edge) {
+    const Parameters u = CornerOf(c, edge.first), v = CornerOf(c, edge.second);
+    const bool is_outside =
+        (u.t == v.t && (u.t == 0.0 || u.t == 1.0)) || (u.q == v.q && (u.q == 0.0 || u.q == 1.0));
+    return is_outside ? place({0.5 * (u.angle + v.angle), 0.5 * (u.q + v.q), 0.5 * (u.t + v.t)})
+                      : 0.5 * (mesh.rest_positions[static_cast<std::size_t>(edge.first)] +
+                               mesh.rest_positions[static_cast<std::size_t>(edge.second)]);
+  };
+  constexpr std::array<std::array<int, 2>, 6> kEdges = {
+      {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+  std::map<std::pair<int, int>, int> middles;
+  for (const std::array<int, 4>& element : CornersOfElements(mesh.rest_positions)) {
+    mesh.elements.insert(mesh.elements.end(), element.begin(), element.end());
+    for (const auto& [i, j] : kEdges) {
+      const std::pair<int, int> edge = std::minmax(element[i], element[j]);
+      const auto [entry, is_new] =
+          middles.emplace(edge, static_cast<int>(mesh.rest_positions.size()));
+      if (is_new) {
+        mesh.rest_positions.push_back(middle_of(edge));
+      }
+      mesh.elements.push_back(entry->second);
+    }
+  }
+
+  // Held as in the knee: the horns at their roots, the rim along the capsule. The balls of the rim
+  // stand outside and reach in by 1 mm.
+  const auto hold = [&](const glm::dvec3& centre, double radius) {
+    constexpr double kStep = 1e-5;  // m; finer figures would say nothing
+    tissue.fixed.push_back({glm::round(centre / kStep) * kStep, radius});
+  };
+  for (const double angle : {c.from, c.to}) hold(place({angle, 0.5, 0.5}), 2.2 * kMm);
+  constexpr int kRimBalls = 22;
+  constexpr double kFromHorn = 0.4;  // rad; the roots end there
+  constexpr double kRadius = 2.5 * kMm, kReach = 1.0 * kMm;
+  for (int i = 0; i < kRimBalls; ++i) {
+    const double share = (i + 0.5) / kRimBalls;
+    const double angle = c.from + kFromHorn + share * (c.to - c.from - 2.0 * kFromHorn);
+    const glm::dvec3 rim = place({angle, 1.0, 0.3});
+    const glm::dvec3 inwards = place({angle, 0.9, 0.3}) - rim;
+    const glm::dvec3 level = glm::normalize(glm::dvec3(inwards.x, inwards.y, 0.0));
+    hold(rim - (kRadius - kReach) * level, kRadius);
+  }
+}
+
+}  // namespace arthro::authoring
