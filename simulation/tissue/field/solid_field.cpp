@@ -157,10 +157,7 @@ Box3 SolidField::box() const {
   return {grid_.origin, grid_.Place(grid_.count[0] - 1, grid_.count[1] - 1, grid_.count[2] - 1)};
 }
 
-double SolidField::Volume() const {
-  return static_cast<double>(volume_) / static_cast<double>(kCellUnits) * grid_.spacing *
-         grid_.spacing * grid_.spacing;
-}
+double SolidField::Volume() const { return VolumeOf(volume_); }
 
 double SolidField::Distance(const glm::dvec3& x) const noexcept {
   if (value_.empty()) return band();
@@ -237,6 +234,18 @@ SolidField::NodeBox SolidField::NodesIn(const Box3& box) const {
   return nodes;
 }
 
+std::int64_t SolidField::CellUnits(int i, int j, int k) const {
+  const double part = SolidPart(CornersAt(value_, grid_, grid_.Index(i, j, k)).value);
+  return std::llround(part * static_cast<double>(kCellUnits));
+}
+
+double SolidField::VolumeOf(std::int64_t units) const {
+  return static_cast<double>(units) / static_cast<double>(kCellUnits) * grid_.spacing *
+         grid_.spacing * grid_.spacing;
+}
+
+double SolidField::CellVolume(int i, int j, int k) const { return VolumeOf(CellUnits(i, j, k)); }
+
 std::int64_t SolidField::BrickVolume(int bi, int bj, int bk) const {
   std::int64_t sum = 0;
   const auto end = [&](int b, std::size_t a) {
@@ -244,10 +253,7 @@ std::int64_t SolidField::BrickVolume(int bi, int bj, int bk) const {
   };
   for (int k = bk * kBrick; k < end(bk, 2); ++k)
     for (int j = bj * kBrick; j < end(bj, 1); ++j)
-      for (int i = bi * kBrick; i < end(bi, 0); ++i) {
-        const double part = SolidPart(CornersAt(value_, grid_, grid_.Index(i, j, k)).value);
-        sum += std::llround(part * static_cast<double>(kCellUnits));
-      }
+      for (int i = bi * kBrick; i < end(bi, 0); ++i) sum += CellUnits(i, j, k);
   return sum;
 }
 
@@ -317,8 +323,7 @@ FieldEdit SolidField::Edit(const NodeBox& nodes, const Change& change) {
         removed += before - brick_volume_[brick];
       }
   volume_ -= removed;
-  edit.removed = static_cast<double>(removed) / static_cast<double>(kCellUnits) * grid_.spacing *
-                 grid_.spacing * grid_.spacing;
+  edit.removed = VolumeOf(removed);
   const glm::dvec3 cell(grid_.spacing);
   edit.changed = {grid_.Place(near.low[0], near.low[1], near.low[2]) - cell,
                   grid_.Place(near.high[0], near.high[1], near.high[2]) + cell};
@@ -353,6 +358,62 @@ FieldEdit SolidField::Add(const Box3& box,
     const float put = static_cast<float>(std::clamp(d, -band_now, band_now));
     value = std::min(value, put);
     cut = std::min(cut, put);
+  });
+}
+
+FieldEdit SolidField::Erode(const Box3& box,
+                            const std::function<double(const glm::dvec3&)>& distance,
+                            double volume) {
+  if (value_.empty() || !(volume > 0.0)) return {};
+  const NodeBox nodes = NodesIn(box);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (nodes.low[a] > nodes.high[a]) return {};
+  const auto length = [&](std::size_t a) {
+    return static_cast<std::size_t>(nodes.high[a] - nodes.low[a] + 1);
+  };
+  const auto local = [&](int i, int j, int k) {
+    return (static_cast<std::size_t>(k - nodes.low[2]) * length(1) +
+            static_cast<std::size_t>(j - nodes.low[1])) *
+               length(0) +
+           static_cast<std::size_t>(i - nodes.low[0]);
+  };
+  std::vector<double> tool(length(0) * length(1) * length(2));
+  for (int k = nodes.low[2]; k <= nodes.high[2]; ++k)
+    for (int j = nodes.low[1]; j <= nodes.high[1]; ++j)
+      for (int i = nodes.low[0]; i <= nodes.high[0]; ++i)
+        tool[local(i, j, k)] = distance(grid_.Place(i, j, k));
+  // Area of the surface in the tool: a surface of unit normal n crosses |n_a|/h² grid edges along
+  // axis a on each unit of area, so |n_a| h², summed over all crossings, is the area.
+  double area = 0.0;
+  for (int k = nodes.low[2]; k <= nodes.high[2]; ++k)
+    for (int j = nodes.low[1]; j <= nodes.high[1]; ++j)
+      for (int i = nodes.low[0]; i <= nodes.high[0]; ++i)
+        for (int a = 0; a < 3; ++a) {
+          std::array<int, 3> end{i, j, k};
+          const auto axis = static_cast<std::size_t>(a);
+          if (++end[axis] > nodes.high[axis]) continue;
+          const double here = static_cast<double>(value_[grid_.Index(i, j, k)]),
+                       there = static_cast<double>(value_[grid_.Index(end[0], end[1], end[2])]);
+          if ((here < 0) == (there < 0)) continue;
+          const double t = here / (here - there), in_tool = tool[local(i, j, k)];
+          if (!(in_tool + t * (tool[local(end[0], end[1], end[2])] - in_tool) < 0)) continue;
+          glm::dvec3 crossing = grid_.Place(i, j, k);
+          crossing[a] += t * grid_.spacing;
+          const glm::dvec3 slope = Gradient(crossing);
+          const double steepness = glm::length(slope);
+          if (steepness > 0.0) area += std::abs(slope[a]) / steepness;
+        }
+  area *= grid_.spacing * grid_.spacing;
+  if (!(area > 0.0)) return {};
+  const float depth = static_cast<float>(std::min(volume / area, 0.5 * grid_.spacing));
+  const double band_now = band();
+  return Edit(nodes, [&](int i, int j, int k, float& value, float& cut) {
+    const double d = tool[local(i, j, k)];
+    if (!std::isfinite(d)) return;
+    const float taken =
+        std::min(static_cast<float>(std::clamp(-d, -band_now, band_now)), value + depth);
+    value = std::max(value, taken);
+    cut = std::max(cut, taken);
   });
 }
 

@@ -86,11 +86,18 @@ class SolidField {
   FieldEdit Subtract(const Box3& box, const std::function<double(const glm::dvec3&)>& distance);
   // Puts back or adds (min(old, distance)), within box() too.
   FieldEdit Add(const Box3& box, const std::function<double(const glm::dvec3&)>& distance);
+  // Takes away about `volume` (m³) of what lies where distance(x) < 0, evenly from the surface
+  // inwards and no deeper than half a spacing at once: a shaver's window.
+  FieldEdit Erode(const Box3& box, const std::function<double(const glm::dvec3&)>& distance,
+                  double volume);
   // Takes away these nodes (indices of grid()) whatever their value: crumbs.
   FieldEdit RemoveNodes(std::span<const std::size_t> nodes);
 
   // Grows with every edit that changed something.
   std::uint64_t version() const { return version_; }
+
+  // Solid in one cell, m³, in the whole units that Volume() and FieldEdit::removed are sums of.
+  double CellVolume(int i, int j, int k) const;
 
   // For who walks the grid: polygoniser, pieces.
   const FieldGrid& grid() const { return grid_; }
@@ -106,6 +113,8 @@ class SolidField {
   NodeBox NodesIn(const Box3& box) const;
   void Prepare(const Box3& box, double spacing, std::int64_t max_cells);
   void SumBricks();
+  std::int64_t CellUnits(int i, int j, int k) const;
+  double VolumeOf(std::int64_t units) const;
   std::int64_t BrickVolume(int bi, int bj, int bk) const;
   bool IsAtSurface(int i, int j, int k) const;
   std::size_t BrickIndex(int i, int j, int k) const {

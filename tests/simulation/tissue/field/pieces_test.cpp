@@ -1,0 +1,97 @@
+#include "simulation/tissue/field/pieces.h"
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/tissue/field/polygonise.h"
+#include "tests/support/shapes.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kMm = 1e-3, kMm3 = 1e-9;
+
+// A bar of 12 × 4 × 4 mm.
+SolidField Bar() {
+  return SolidField::FromSurface(test::Box(glm::dvec3(0), glm::dvec3(12, 4, 4) * kMm), 0.3 * kMm);
+}
+void CutAcross(SolidField& bar, double x) {
+  bar.Subtract(bar.box(), [=](const glm::dvec3& p) { return std::abs(p.x - x) - 0.25 * kMm; });
+}
+double Sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// How many surfaces the skin is made of.
+int SurfacesOf(const SurfaceMesh& surface) {
+  std::vector<int> root(surface.vertices.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int v) {
+    while (root[static_cast<std::size_t>(v)] != v) v = root[static_cast<std::size_t>(v)];
+    return v;
+  };
+  for (const auto& [a, b, c] : surface.triangles) {
+    root[static_cast<std::size_t>(find(a))] = find(b);
+    root[static_cast<std::size_t>(find(b))] = find(c);
+  }
+  int count = 0;
+  for (std::size_t v = 0; v < root.size(); ++v) count += root[v] == static_cast<int>(v);
+  return count;
+}
+
+TEST(Pieces, CutsMakePiecesWhoseVolumesAreTheFieldsVolume) {
+  SolidField bar = Bar();
+  EXPECT_EQ(PiecesOf(bar).count(), 1);
+  EXPECT_NEAR(PiecesOf(bar).volume[0], bar.Volume(), 1e-12 * bar.Volume());
+  CutAcross(bar, 3.1 * kMm);
+  CutAcross(bar, 7.7 * kMm);
+  const FieldPieces pieces = PiecesOf(bar);
+  ASSERT_EQ(pieces.count(), 3);
+  EXPECT_NEAR(Sum(pieces.volume), bar.Volume(), 1e-12 * bar.Volume());
+  const std::array<double, 3> lengths{3.1 - 0.25, 7.7 - 3.1 - 0.5, 12 - 7.7 - 0.25};
+  for (std::size_t i = 0; i < 3; ++i)  // edges are rounded by 0.25 h² a length at most (see field)
+    EXPECT_NEAR(pieces.volume[i], lengths[i] * 16 * kMm3, 0.03 * lengths[i] * 16 * kMm3);
+  EXPECT_EQ(SurfacesOf(Polygonise(bar)), 3) << "the skin falls apart as the solid does";
+}
+
+TEST(Pieces, WhatNoAnchorHoldsIsLoose) {
+  SolidField bar = Bar();
+  CutAcross(bar, 3.1 * kMm);
+  CutAcross(bar, 7.7 * kMm);
+  const FieldPieces pieces = PiecesOf(bar);
+  const std::vector<Ball> anchors{{glm::dvec3(0, 2, 2) * kMm, 1 * kMm},
+                                  {glm::dvec3(12, 2, 2) * kMm, 1 * kMm},
+                                  {glm::dvec3(40, 2, 2) * kMm, 1 * kMm}};
+  EXPECT_EQ(HeldPieces(bar, pieces, anchors), (std::vector<unsigned char>{1, 0, 1}));
+  EXPECT_EQ(HeldPieces(bar, pieces, {}), (std::vector<unsigned char>{0, 0, 0}));
+}
+
+TEST(Pieces, CrumbsAreRemovedByVolumeAndCounted) {
+  SolidField bar = Bar();
+  CutAcross(bar, 0.9 * kMm);
+  CutAcross(bar, 6 * kMm);
+  const FieldPieces before = PiecesOf(bar);
+  ASSERT_EQ(before.count(), 3);
+  const double whole = bar.Volume();
+  const CrumbReport report = RemoveCrumbs(bar, 20 * kMm3);
+  EXPECT_EQ(report.crumbs, 1);
+  // A slot of a spacing and more has no cell with corners of both sides, so just its volume goes.
+  EXPECT_NEAR(report.edit.removed, before.volume[0], 1e-12 * whole);
+  EXPECT_NEAR(report.edit.removed + bar.Volume(), whole, 1e-12 * whole);
+  EXPECT_EQ(PiecesOf(bar).count(), 2);
+  EXPECT_EQ(RemoveCrumbs(bar, 20 * kMm3).crumbs, 0);
+}
+
+TEST(Pieces, AnEmptyFieldHasNone) {
+  SolidField none;
+  EXPECT_EQ(PiecesOf(none).count(), 0);
+  EXPECT_EQ(RemoveCrumbs(none, 1.0).crumbs, 0);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
