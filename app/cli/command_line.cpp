@@ -41,6 +41,7 @@ int RunCommandLine(int argc, char** argv) {
   AddPractiseJob(program);
   AddRectifyJob(program);
   AddReplayJob(program);
+  AddSolveJob(program);
   AddTetrahedralizeJob(program);
   AddViewJob(program);
   try {

@@ -21,6 +21,7 @@ void AddPivotJob(CLI::App& program);
 void AddPractiseJob(CLI::App& program);
 void AddRectifyJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
+void AddSolveJob(CLI::App& program);
 void AddTetrahedralizeJob(CLI::App& program);
 void AddViewJob(CLI::App& program);
 

@@ -17,6 +17,7 @@
 #include "simulation/core/options.h"
 #include "simulation/tissue/contact/contact_point.h"
 #include "simulation/tissue/fem/fem_model.h"
+#include "simulation/tissue/solver/fixed_axes.h"
 
 namespace arthro::simulation {
 
@@ -39,10 +40,6 @@ struct SolverOptions {
 struct BodyState {
   std::vector<glm::dvec3> x, v;  // m, m/s
 };
-
-// Bits 1, 2, 4 of a node's byte: its x, y, z do not move by forces; they stay where x says (or go
-// where `target` leads).
-using FixedAxes = std::vector<std::uint8_t>;
 
 struct StepReport {
   double residual = 0;  // relative, as in `tolerance`

@@ -1,0 +1,80 @@
+// CASE.json and result.json of the job `solve` (design §5): one body, what holds, moves and loads
+// it, and what became of it. SI, the mesh's own frame. A set is a 0/1 point array of the VTU; a
+// mid-edge node is in it when both ends are; a load spreads over the surface triangles whose
+// corners are all in the set.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/scene/tet_mesh.h"
+#include "simulation/tissue/fem/material.h"
+
+namespace arthro::simulation {
+
+struct CaseFixed {
+  std::string set;
+  std::uint8_t axes = 7;  // bits 1, 2, 4: x, y, z
+};
+struct CaseDisplaced {
+  std::string set;
+  glm::dvec3 displacement{0.0};  // m
+};
+struct CaseLoad {
+  std::string set;
+  glm::dvec3 total_force{0.0};  // N
+};
+
+struct TissueCase {
+  TetMesh mesh;
+  std::vector<std::string> messages;  // what reading the mesh changed
+  Material material;
+  std::vector<CaseFixed> fixed;
+  std::vector<CaseDisplaced> displaced;
+  std::vector<CaseLoad> loads;
+  glm::dvec3 body_force{0.0};  // N/m³
+  bool is_dynamic = false;
+  double dt = 1.0 / 60;  // s
+  int steps = 60;
+  double tolerance = 1e-8;  // relative residual of every equilibrium or step
+};
+
+// The mesh is read too; its name is relative to the case's folder. Throws Error: every fault of the
+// file in one sentence each, with its key.
+TissueCase ReadCase(const std::filesystem::path& file);
+
+struct SetResult {
+  glm::dvec3 mean_displacement{0.0};  // m, plain mean over the nodes
+  glm::dvec3 reaction{0.0};           // N, sum of what holds its fixed axes
+};
+using SetResults = std::map<std::string, SetResult>;
+
+struct CaseMoment {
+  double t = 0;        // s
+  double wall_ms = 0;  // of this step
+  SetResults sets;
+};
+
+struct CaseResult {
+  bool converged = false;
+  double residual = 0;        // relative; of a dynamic case the largest of its steps
+  int iterations = 0;         // Newton's
+  int linear_iterations = 0;  // of conjugate gradients
+  double wall_ms = 0;         // factoring included, reading and writing not
+  SetResults sets;
+  double energy = 0;  // J, elastic
+  int inverted_elements = 0;
+  bool used_fallback = false;       // elements were inverted on the way
+  std::vector<CaseMoment> history;  // dynamic: one a step
+  std::vector<glm::dvec3> x;        // m, the nodes in the end; not in the file
+};
+
+// The text of result.json.
+std::string JsonFromResult(const CaseResult& result);
+
+}  // namespace arthro::simulation

@@ -1,0 +1,51 @@
+// Preconditioned conjugate gradients on a body's linear system (K + M/dt² + Σ JᵀkJ) d = b over its
+// free axes. Sums are in a fixed order; nothing is allocated.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/tissue/fem/block_matrix.h"
+#include "simulation/tissue/solver/contact_springs.h"
+#include "simulation/tissue/solver/fixed_axes.h"
+#include "simulation/tissue/solver/rotated_factor.h"
+
+namespace arthro::simulation {
+
+struct LinearSystem {
+  const BlockMatrix* stiffness = nullptr;
+  std::span<const double> added;  // M/dt², N/m a node
+  std::span<const ContactSpring> springs;
+  std::span<const glm::dvec3> is_free;  // 1 or 0 an axis
+
+  // y = A p, 0 at fixed axes; p may have values there.
+  void Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept;
+};
+
+struct CgGoal {
+  double relative = 1e-2;  // of the error's energy norm, as the preconditioner sees it
+  double residual = 0;     // and, unless 0, ‖b − A d‖ is to be under this, N
+  int max_iterations = 200;
+  // Goes on where the stiffness is negative: to a saddle, if the system is one's.
+  bool takes_saddles = false;
+};
+
+struct CgResult {
+  int iterations = 0;
+  bool converged = false;
+  bool is_positive = true;  // false: met a direction of no or negative stiffness; d is unfinished
+};
+
+struct CgVectors {
+  std::vector<glm::dvec3> r, z, p, q;
+  void Resize(int nodes);
+};
+
+// b must be 0 at fixed axes; d is overwritten.
+CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditioner,
+                          std::span<const glm::dvec3> b, const CgGoal& goal, CgVectors& vectors,
+                          std::span<glm::dvec3> d) noexcept;
+
+}  // namespace arthro::simulation

@@ -1,0 +1,118 @@
+// The inside of ImplicitSolver: the incremental potential
+//   E(x) = Ψ(x) − f·x + Σ contact + ½ Σ m |x − y|²/dt²,   y = x₀ + dt v₀ (no last term when static)
+// and Newton's method on it. One evaluation a step: the tangent at a step's end is the next one's
+// beginning. SI, the mesh's own frame.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "simulation/tissue/solver/conjugate_gradients.h"
+#include "simulation/tissue/solver/contact_springs.h"
+#include "simulation/tissue/solver/implicit_solver.h"
+#include "simulation/tissue/solver/rotated_factor.h"
+
+namespace arthro::simulation {
+
+// What a step is solved under.
+struct Problem {
+  std::span<const glm::dvec3> load;
+  std::span<const ContactPoint> contacts;
+  std::span<const glm::dvec3> target;  // empty: fixed axes stay
+  double load_share = 1, target_share = 1;
+  double dt = 0;  // 0: static
+};
+
+struct NewtonGoal {
+  double tolerance = 1e-2;
+  int max_newton = 2;
+  int max_iterations = 200;
+  bool refactors = false;  // a new factor where the old one asks for many iterations
+  // Plain Newton: to the equilibrium next to the start, stable or not, instead of downhill.
+  bool follows = false;
+  int patience = 1 << 30;  // iterations after which a tangent that was not positive ends it
+};
+
+struct ImplicitSolver::Impl {
+  Impl(std::shared_ptr<const FemModel> model_in, FixedAxes fixed_in,
+       const SolverOptions& options_in);
+
+  // Memory for the model, its pattern and its fixed axes.
+  void Fit();
+  void FactorRest();
+
+  // newton.cpp
+  StepReport Newton(std::span<glm::dvec3> x, const Problem& problem, const NewtonGoal& goal);
+  void Evaluate(std::span<const glm::dvec3> x, Law law, Tangent tangent);
+  double Potential(std::span<const glm::dvec3> x, const Problem& problem, double& magnitude);
+  void SetSprings(std::span<const glm::dvec3> x, bool renews_friction);
+  double Gradient(std::span<const glm::dvec3> x, const Problem& problem);  // -> scale, N
+  void FindDirection(std::span<const glm::dvec3> x, const Problem& problem, const NewtonGoal& goal,
+                     double scale, double residual, bool leads, StepReport& report);
+  bool SearchAlong(std::span<glm::dvec3> x, const Problem& problem, Law law, Tangent tangent);
+  LinearSystem System() const;
+
+  // factor_refresh.cpp
+  void FactorNow(std::span<const glm::dvec3> x);
+  void AddSprings(BlockMatrix& to) const;
+
+  void FinishReactions(const Problem& problem);
+  void FillResults(std::span<const glm::dvec3> x, std::span<ContactResult> results);
+  bool Take(const Problem& problem);  // false: it cannot be computed with
+
+  std::shared_ptr<const FemModel> model;
+  FixedAxes fixed;
+  SolverOptions options;
+  std::vector<glm::dvec3> is_free;
+  double least_force = 0;   // N, what counts as no force at all
+  double energy_noise = 0;  // J, rounding of the elastic energy
+
+  // The last evaluation.
+  std::vector<glm::dvec3> at;
+  Law at_law = Law::kStableNeoHookean;
+  Tangent at_tangent = Tangent::kNone;
+  bool is_evaluated = false;
+  Assembly assembly;
+  std::vector<glm::dvec3> force;
+  BlockMatrix stiffness;
+
+  // The step's.
+  std::vector<ContactSpring> springs;
+  std::vector<double> pressing;        // normal force a contact, of the iteration before
+  std::vector<ContactPoint> contacts;  // copied, so that Compliance can leave some out
+  std::vector<double> added;           // M/dt²
+  double last_dt = 0;
+  std::vector<glm::dvec3> goal_x;  // y
+  std::vector<glm::dvec3> begin_x, good_x, good_v;
+  std::vector<glm::dvec3> gradient, direction, right, lead, trial, reaction, unit_load;
+  std::vector<glm::dmat3> rotation;
+  CgVectors vectors;
+  bool is_recovering = false;  // from inverted elements, by the corotated law
+  int recovery_steps = 0;
+  bool has_given_up = false;  // recovering ended with elements inverted: they are meant to be
+  bool met_negative = false;   // since Newton began, the true tangent was not positive
+  int projected_left = 0;     // Newton iterations that go on with the projected tangent
+
+  std::unique_ptr<RotatedFactor> factor;
+  int age = 0;
+
+  // A factor being made. `job_*` is read by the thread that runs it.
+  std::unique_ptr<RotatedFactor> spare;
+  std::vector<int> spare_parent;  // the body's nodes in the spare's, where cut since
+  bool was_cut_since = false;
+  std::shared_ptr<const FactorPlan> plan;
+  std::shared_ptr<const FemModel> job_model;
+  FixedAxes job_fixed;
+  BlockMatrix job_stiffness;
+  std::vector<double> job_added;
+  std::vector<glm::dvec3> job_x, job_force;
+  std::vector<glm::dmat3> job_rotation;
+  Law job_law = Law::kStableNeoHookean;
+  enum class Job { kNone, kBegun, kDone };
+  std::atomic<Job> job{Job::kNone};
+  int job_age = 0;
+};
+
+}  // namespace arthro::simulation

@@ -1,0 +1,233 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "simulation/tissue/solver/implicit_solver_impl.h"
+#include "simulation/tissue/solver/node_vectors.h"
+
+namespace arthro::simulation {
+namespace {
+
+// Beyond this residual, inverted elements are a state to be left; below, an answer under load.
+constexpr double kFarFromRest = 0.2;
+constexpr int kLongestRecovery = 200;    // Newton iterations
+constexpr int kProjectedIterations = 3;  // after the true tangent was found not to be positive
+constexpr double kAsleep = 1e-3;     // of the tolerance: a step that begins there has nothing to do
+constexpr int kManyIterations = 12;  // that call for a new factor where one may be made
+
+}  // namespace
+
+void ImplicitSolver::Impl::Evaluate(std::span<const glm::dvec3> x, Law law, Tangent tangent) {
+  const bool is_known = is_evaluated && at_law == law &&
+                        (tangent == Tangent::kNone || at_tangent == tangent) &&
+                        std::equal(x.begin(), x.end(), at.begin());
+  if (is_known) return;
+  assembly =
+      model->Assemble(x, law, tangent, force, tangent == Tangent::kNone ? nullptr : &stiffness);
+  std::copy(x.begin(), x.end(), at.begin());
+  at_law = law;
+  at_tangent = tangent;
+  is_evaluated = true;
+}
+
+void ImplicitSolver::Impl::SetSprings(std::span<const glm::dvec3> x, bool renews_friction) {
+  springs.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (renews_friction) pressing[i] = NormalForce(contacts[i], x);
+    springs.push_back(SpringAt(contacts[i], x, pressing[i]));
+  }
+}
+
+// The value at the last evaluation; `magnitude` is the sum of its parts' sizes, for its rounding.
+double ImplicitSolver::Impl::Potential(std::span<const glm::dvec3> x, const Problem& problem,
+                                       double& magnitude) {
+  double work = 0, inertia = 0, contact = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) work += glm::dot(problem.load[i], x[i] - begin_x[i]);
+  work *= problem.load_share;
+  if (problem.dt > 0)
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const glm::dvec3 off = (x[i] - goal_x[i]) * is_free[i];
+      inertia += 0.5 * added[i] * glm::dot(off, off);
+    }
+  for (const ContactSpring& spring : springs) contact += spring.energy;
+  magnitude = std::abs(assembly.energy) + std::abs(work) + inertia + contact;
+  return assembly.energy - work + inertia + contact;
+}
+
+// Into `gradient`, 0 at fixed axes; and the size that residuals are held against.
+double ImplicitSolver::Impl::Gradient(std::span<const glm::dvec3> x, const Problem& problem) {
+  double inertia = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    gradient[i] = -force[i] - problem.load_share * problem.load[i];
+    if (problem.dt > 0) {
+      const glm::dvec3 pull = added[i] * (x[i] - goal_x[i]) * is_free[i];
+      inertia += glm::dot(pull, pull);
+      gradient[i] += pull;
+    }
+  }
+  double pressed = 0;
+  for (const ContactSpring& spring : springs) {
+    const ContactPoint& contact = *spring.contact;
+    for (int i = 0; i < contact.count; ++i)
+      gradient[contact.node[i]] -= contact.weight[i] * spring.force;
+    pressed += glm::dot(spring.force, spring.force);
+  }
+  double loaded = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    gradient[i] *= is_free[i];
+    const glm::dvec3 load = problem.load_share * problem.load[i] * is_free[i];
+    loaded += glm::dot(load, load);
+  }
+  return std::max(
+      {std::sqrt(inertia), std::sqrt(pressed), std::sqrt(loaded), Norm(force), least_force});
+}
+
+LinearSystem ImplicitSolver::Impl::System() const {
+  return {&stiffness, last_dt > 0 ? std::span<const double>(added) : std::span<const double>(),
+          springs, is_free};
+}
+
+// Into `direction`: the Newton step, with the fixed axes' own way (`lead`) in it.
+void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Problem& problem,
+                                         const NewtonGoal& goal, double scale, double residual,
+                                         bool leads, StepReport& report) {
+  const bool is_static = problem.dt == 0;
+  CgGoal linear;
+  linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : goal.tolerance;
+  linear.residual = is_static ? 0.0 : 0.5 * goal.tolerance * scale;
+  linear.max_iterations = goal.max_iterations;
+  linear.takes_saddles = goal.follows;
+  model->NodeRotations(x, rotation);
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const LinearSystem system = System();
+    for (std::size_t i = 0; i < x.size(); ++i) right[i] = -gradient[i];
+    if (leads) {
+      system.Apply(lead, direction);
+      for (std::size_t i = 0; i < x.size(); ++i) right[i] -= direction[i];
+    }
+    factor->TurnTo(rotation);
+    factor->SetDiagonal(stiffness, system.added);
+    const CgResult result = SolveByGradients(system, *factor, right, linear, vectors, direction);
+    report.iterations += result.iterations;
+    if ((result.is_positive || (goal.follows && result.converged)) &&
+        (!goal.refactors || result.iterations <= kManyIterations || attempt > 0))
+      break;
+    met_negative = met_negative || !result.is_positive;
+    if (!result.is_positive && !goal.follows) {
+      // What was found so far goes downhill all the same; the projected tangent gives a whole step.
+      projected_left = kProjectedIterations;
+      if (at_tangent == Tangent::kProjected) break;
+      Evaluate(x, at_law, Tangent::kProjected);
+    } else if (result.converged) {
+      FactorNow(x);  // for the next iteration
+      break;
+    } else {
+      FactorNow(x);
+    }
+  }
+  if (leads)
+    for (std::size_t i = 0; i < x.size(); ++i) direction[i] += lead[i];
+}
+
+// Goes along `direction` as far as the potential falls [Armijo]. The whole step is evaluated with
+// its tangent, since it is nearly always taken. False: nowhere.
+bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& problem, Law law,
+                                       Tangent tangent) {
+  constexpr double kArmijo = 1e-4;
+  constexpr int kMostHalvings = 30;
+  double magnitude = 0;
+  const double before = Potential(x, problem, magnitude);
+  const double slope = Dot(gradient, direction);
+  const double noise = energy_noise + 1e-13 * magnitude;
+  if (!(slope < 0)) return false;
+  double step = 1;
+  for (int halving = 0; halving < kMostHalvings; ++halving) {
+    for (std::size_t i = 0; i < x.size(); ++i) trial[i] = x[i] + step * direction[i];
+    Evaluate(trial, law, halving == 0 ? tangent : Tangent::kNone);
+    SetSprings(trial, false);
+    const double after = Potential(trial, problem, magnitude);
+    if (after <= before + kArmijo * step * slope + noise) {
+      std::copy(trial.begin(), trial.end(), x.begin());
+      return true;
+    }
+    // Where a parabola through both values and the slope is lowest.
+    const double rise = after - before - step * slope;
+    const double lowest = std::isfinite(rise) && rise > 0 ? -0.5 * slope * step * step / rise : 0;
+    step = std::clamp(lowest, 0.1 * step, 0.5 * step);
+  }
+  return false;
+}
+
+StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& problem,
+                                        const NewtonGoal& goal) {
+  StepReport report;
+  const Law own = model->material().law;
+  bool leads = false;
+  if (!problem.target.empty())
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      lead[i] = problem.target_share * (problem.target[i] - x[i]) * (glm::dvec3(1.0) - is_free[i]);
+      leads = leads || glm::dot(lead[i], lead[i]) > 0;
+    }
+  int stuck = 0;
+  met_negative = false;
+  while (true) {
+    Law law = is_recovering ? Law::kCorotated : own;
+    Tangent tangent = is_recovering || projected_left > 0 ? Tangent::kProjected : Tangent::kTrue;
+    Evaluate(x, law, tangent);
+    if (is_recovering && assembly.inverted == 0) {
+      is_recovering = false;
+      recovery_steps = 0;
+      continue;
+    }
+    if (assembly.inverted == 0) has_given_up = false;
+    SetSprings(x, true);
+    const double scale = Gradient(x, problem);
+    const double residual = Norm(gradient) / scale;
+    report.residual = residual;
+    report.inverted = assembly.inverted;
+    report.energy = assembly.energy;
+    report.used_fallback = report.used_fallback || is_recovering;
+    if (!std::isfinite(residual) || !std::isfinite(assembly.energy)) {
+      report.is_finite = false;
+      return report;
+    }
+    if (!is_recovering && !has_given_up && assembly.inverted > 0 && residual > kFarFromRest) {
+      is_recovering = true;
+      continue;
+    }
+    if (is_recovering && (++recovery_steps > kLongestRecovery || residual <= goal.tolerance)) {
+      is_recovering = false;
+      has_given_up = true;
+      recovery_steps = 0;
+      continue;
+    }
+    const double enough = report.newton == 0
+                              ? std::min(goal.tolerance, 1e-2) * (problem.dt > 0 ? kAsleep : 1.0)
+                              : goal.tolerance;
+    report.converged = residual <= goal.tolerance && !leads && !is_recovering;
+    if ((residual <= enough && !leads && !is_recovering) || report.newton >= goal.max_newton ||
+        stuck > 2)
+      return report;
+    ++report.newton;
+    FindDirection(x, problem, goal, scale, residual, leads, report);
+    tangent = at_tangent;
+    projected_left = std::max(0, projected_left - 1);
+    if (leads || goal.follows) {
+      // The fixed axes go where they are led, whatever that costs.
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] += direction[i];
+        if (leads && problem.target_share == 1)  // exactly
+          x[i] += (glm::dvec3(1.0) - is_free[i]) * (problem.target[i] - x[i]);
+      }
+      leads = false;
+    } else if (SearchAlong(x, problem, law, tangent)) {
+      stuck = 0;
+    } else {
+      ++stuck;
+      projected_left = kProjectedIterations;
+    }
+  }
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,260 @@
+#include "simulation/tissue/solver/panel_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace arthro::simulation {
+namespace {
+
+typedef double Doubles __attribute__((vector_size(64)));
+typedef float Floats __attribute__((vector_size(64)));
+#define ARTHRO_INLINE __attribute__((always_inline)) inline
+
+// From and to memory that is aligned to its numbers only.
+#define ARTHRO_LOAD(V, name, from) \
+  V name;                          \
+  std::memcpy(&name, from, sizeof name)
+#define ARTHRO_STORE(name, to) std::memcpy(to, &name, sizeof name)
+
+// 16 rows of kColumns columns of c at once, in registers.
+template <int kColumns>
+ARTHRO_INLINE void Tile(int k, const double* a, int lda, const double* b, int ldb, double* c,
+                        int ldc, double sign, bool adds) {
+  Doubles low[kColumns] = {}, high[kColumns] = {};
+  for (int p = 0; p < k; ++p) {
+    ARTHRO_LOAD(Doubles, a0, a);
+    ARTHRO_LOAD(Doubles, a1, a + 8);
+#pragma GCC unroll 8
+    for (int j = 0; j < kColumns; ++j) {
+      low[j] += a0 * b[j];
+      high[j] += a1 * b[j];
+    }
+    a += lda;
+    b += ldb;
+  }
+#pragma GCC unroll 8
+  for (int j = 0; j < kColumns; ++j, c += ldc) {
+    low[j] *= sign;
+    high[j] *= sign;
+    if (adds) {
+      ARTHRO_LOAD(Doubles, c0, c);
+      ARTHRO_LOAD(Doubles, c1, c + 8);
+      low[j] += c0;
+      high[j] += c1;
+    }
+    ARTHRO_STORE(low[j], c);
+    ARTHRO_STORE(high[j], c + 8);
+  }
+}
+
+ARTHRO_INLINE void MultiplyBody(int m, int n, int k, const double* a, int lda, const double* b,
+                                int ldb, double* c, int ldc, double sign, bool adds) {
+  for (int j = 0; j < n; j += 6) {
+    const double* bj = b + j;
+    double* cj = c + static_cast<long>(j) * ldc;
+    for (int i = 0; i < m; i += kStrip) switch (n - j) {
+        case 1:
+          Tile<1>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          break;
+        case 2:
+          Tile<2>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          break;
+        case 3:
+          Tile<3>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          break;
+        case 4:
+          Tile<4>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          break;
+        case 5:
+          Tile<5>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          break;
+        default:
+          Tile<6>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+      }
+  }
+}
+
+template <int kColumns>
+ARTHRO_INLINE void AddColumns(const float* p, int stride, int first, const float* x, float* t) {
+  for (int i = first; i < stride; i += kStrip) {
+    ARTHRO_LOAD(Floats, sum, t + i);
+#pragma GCC unroll 8
+    for (int j = 0; j < kColumns; ++j) {
+      ARTHRO_LOAD(Floats, pij, p + static_cast<long>(j) * stride + i);
+      sum += pij * x[j];
+    }
+    ARTHRO_STORE(sum, t + i);
+  }
+}
+
+ARTHRO_INLINE void PanelBody(const Panel& panel, const float* x, float* t) {
+  std::fill_n(t, panel.stride, 0.0f);
+  int j = 0;
+  for (; j + 6 <= panel.columns; j += 6)
+    AddColumns<6>(panel.value + static_cast<long>(j) * panel.stride, panel.stride,
+                  j / kStrip * kStrip, x + j, t);
+  for (; j + 3 <= panel.columns; j += 3)
+    AddColumns<3>(panel.value + static_cast<long>(j) * panel.stride, panel.stride,
+                  j / kStrip * kStrip, x + j, t);
+  for (; j < panel.columns; ++j)
+    AddColumns<1>(panel.value + static_cast<long>(j) * panel.stride, panel.stride,
+                  j / kStrip * kStrip, x + j, t);
+}
+
+template <int kColumns>
+ARTHRO_INLINE void DotColumns(const float* p, int stride, int first, const float* t, float* x) {
+  Floats sum[kColumns] = {};
+  for (int i = first; i < stride; i += kStrip) {
+    ARTHRO_LOAD(Floats, ti, t + i);
+#pragma GCC unroll 8
+    for (int j = 0; j < kColumns; ++j) {
+      ARTHRO_LOAD(Floats, pij, p + static_cast<long>(j) * stride + i);
+      sum[j] += pij * ti;
+    }
+  }
+#pragma GCC unroll 8
+  for (int j = 0; j < kColumns; ++j) {
+    float half[8];
+    for (int l = 0; l < 8; ++l) half[l] = sum[j][l] + sum[j][l + 8];
+    x[j] =
+        ((half[0] + half[4]) + (half[1] + half[5])) + ((half[2] + half[6]) + (half[3] + half[7]));
+  }
+}
+
+ARTHRO_INLINE void PanelTransposedBody(const Panel& panel, const float* t, float* x) {
+  int j = 0;
+  for (; j + 6 <= panel.columns; j += 6)
+    DotColumns<6>(panel.value + static_cast<long>(j) * panel.stride, panel.stride,
+                  j / kStrip * kStrip, t, x + j);
+  for (; j + 3 <= panel.columns; j += 3)
+    DotColumns<3>(panel.value + static_cast<long>(j) * panel.stride, panel.stride,
+                  j / kStrip * kStrip, t, x + j);
+  for (; j < panel.columns; ++j)
+    DotColumns<1>(panel.value + static_cast<long>(j) * panel.stride, panel.stride,
+                  j / kStrip * kStrip, t, x + j);
+}
+
+struct Kernels {
+  void (*multiply)(int, int, int, const double*, int, const double*, int, double*, int, double,
+                   bool) noexcept;
+  void (*panel)(const Panel&, const float*, float*) noexcept;
+  void (*panel_transposed)(const Panel&, const float*, float*) noexcept;
+};
+
+#define ARTHRO_KERNELS(NAME, ATTRIBUTE)                                                            \
+  struct NAME {                                                                                    \
+    ATTRIBUTE static void Multiply(int m, int n, int k, const double* a, int lda, const double* b, \
+                                   int ldb, double* c, int ldc, double sign, bool adds) noexcept { \
+      MultiplyBody(m, n, k, a, lda, b, ldb, c, ldc, sign, adds);                                   \
+    }                                                                                              \
+    ATTRIBUTE static void Forward(const Panel& p, const float* x, float* t) noexcept {             \
+      PanelBody(p, x, t);                                                                          \
+    }                                                                                              \
+    ATTRIBUTE static void Backward(const Panel& p, const float* t, float* x) noexcept {            \
+      PanelTransposedBody(p, t, x);                                                                \
+    }                                                                                              \
+    static constexpr Kernels kAll{Multiply, Forward, Backward};                                    \
+  };
+#if defined(__x86_64__)
+ARTHRO_KERNELS(Wide, __attribute__((target("avx512f,avx512dq"))))
+ARTHRO_KERNELS(Middle, __attribute__((target("avx2"))))
+#endif
+ARTHRO_KERNELS(Plain, )
+
+Kernels Chosen() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) return Wide::kAll;
+  if (__builtin_cpu_supports("avx2")) return Middle::kAll;
+#endif
+  return Plain::kAll;
+}
+const Kernels kKernels = Chosen();
+
+// Up to this size the plain loops are as quick as the tiles.
+constexpr int kSmall = 12;
+
+bool FactorSmall(int n, double* a, int lda, double* inverse, int ldi, double least) {
+  for (int j = 0; j < n; ++j) {
+    double* column = a + static_cast<long>(j) * lda;
+    if (!(column[j] > least) || !std::isfinite(column[j])) return false;
+    const double pivot = std::sqrt(column[j]);
+    column[j] = pivot;
+    for (int i = j + 1; i < n; ++i) column[i] /= pivot;
+    for (int k = j + 1; k < n; ++k) {
+      double* next = a + static_cast<long>(k) * lda;
+      for (int i = k; i < n; ++i) next[i] -= column[i] * column[k];
+    }
+  }
+  // L⁻¹ column by column: L y = e_j.
+  for (int j = 0; j < n; ++j) {
+    double* y = inverse + static_cast<long>(j) * ldi;
+    for (int i = 0; i < n; ++i) y[i] = 0.0;
+    y[j] = 1.0;
+    for (int k = j; k < n; ++k) {
+      const double* column = a + static_cast<long>(k) * lda;
+      y[k] /= column[k];
+      for (int i = k + 1; i < n; ++i) y[i] -= column[i] * y[k];
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void MultiplyTransposed(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
+                        double* c, int ldc, double sign, bool adds) noexcept {
+  kKernels.multiply(m, n, k, a, lda, b, ldb, c, ldc, sign, adds);
+}
+
+void MultiplyPanel(const Panel& p, const float* x, float* t) noexcept { kKernels.panel(p, x, t); }
+
+void MultiplyPanelTransposed(const Panel& p, const float* t, float* x) noexcept {
+  kKernels.panel_transposed(p, t, x);
+}
+
+// By halves: L₂₁ = A₂₁ L₁₁⁻ᵀ, A₂₂ −= L₂₁ L₂₁ᵀ, and (L⁻¹)₂₁ = −L₂₂⁻¹ L₂₁ L₁₁⁻¹. Products are made in
+// `work` and copied, since whole strips would run over into what stands beside.
+bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double* work,
+                     double least) noexcept {
+  if (n <= kSmall) return FactorSmall(n, a, lda, inverse, ldi, least);
+  const int n1 = n / 2, n2 = n - n1, stride = StripsOf(n2);
+  if (!FactorAndInvert(n1, a, lda, inverse, ldi, work, least)) return false;
+  double* a21 = a + n1;
+  double* a22 = a + static_cast<long>(n1) * lda + n1;
+  const auto copy = [&](double* to, int ld, int columns, bool adds) {
+    for (int j = 0; j < columns; ++j)
+      for (int i = 0; i < n2; ++i) {
+        double& x = to[static_cast<long>(j) * ld + i];
+        const double y = work[static_cast<long>(j) * stride + i];
+        x = adds ? x + y : y;
+      }
+  };
+  MultiplyTransposed(n2, n1, n1, a21, lda, inverse, ldi, work, stride, 1.0, false);
+  copy(a21, lda, n1, false);
+  MultiplyTransposed(n2, n2, n1, a21, lda, a21, lda, work, stride, -1.0, false);
+  copy(a22, lda, n2, true);
+  double* inverse22 = inverse + static_cast<long>(n1) * ldi + n1;
+  if (!FactorAndInvert(n2, a22, lda, inverse22, ldi, work, least)) return false;
+  // First L₂₁ L₁₁⁻¹, with the transpose of L₁₁⁻¹ beyond the product.
+  double* transposed = work + static_cast<long>(n1) * stride;
+  const int stride1 = StripsOf(n1);
+  for (int j = 0; j < n1; ++j)
+    for (int i = 0; i < n1; ++i)
+      transposed[static_cast<long>(j) * stride1 + i] = inverse[static_cast<long>(i) * ldi + j];
+  MultiplyTransposed(n2, n1, n1, a21, lda, transposed, stride1, work, stride, 1.0, false);
+  // Its transpose, to be what the kernel takes on the right.
+  double* right = transposed;
+  for (int j = 0; j < n2; ++j)
+    for (int i = 0; i < n1; ++i)
+      right[static_cast<long>(j) * stride1 + i] = work[static_cast<long>(i) * stride + j];
+  MultiplyTransposed(n2, n1, n2, inverse22, ldi, right, stride1, work, stride, -1.0, false);
+  double* inverse21 = inverse + n1;
+  copy(inverse21, ldi, n1, false);
+  for (int j = 0; j < n2; ++j)
+    for (int i = 0; i < n1; ++i) inverse[static_cast<long>(n1 + j) * ldi + i] = 0.0;
+  return true;
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,48 @@
+// The preconditioner: a Cholesky factor of the body as it was some time ago, turned node by node to
+// where the body is now: P⁻¹ = Q A₀⁻¹ Qᵀ with Q the rotation of each node's neighbourhood since
+// then [notes on deformables, 4: four iterations where the unturned one needs eleven]. Through
+// `parent` it serves a body that has been cut since.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "simulation/tissue/solver/sparse_factor.h"
+
+namespace arthro::simulation {
+
+class RotatedFactor {
+ public:
+  // `rotation`: of the nodes when the matrix was taken.
+  RotatedFactor(std::unique_ptr<SparseFactor> factor, std::span<const glm::dmat3> rotation);
+
+  SparseFactor& factor() { return *factor_; }
+  // For factoring anew into the same memory.
+  void SetRotations(std::span<const glm::dmat3> rotation);
+
+  // Node i of the body is now what node parent[i] was before; `fixed` are its fixed axes.
+  void Inherit(std::span<const int> parent, const FixedAxes& fixed);
+
+  // The rotations of the body's nodes now.
+  void TurnTo(std::span<const glm::dmat3> rotation) noexcept;
+  // The body's block diagonal now; needed where nodes have split, does nothing where none have.
+  void SetDiagonal(const BlockMatrix& a, std::span<const double> added) noexcept;
+
+  // z = P⁻¹ r; 0 at fixed axes. Allocates nothing.
+  void Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept;
+
+ private:
+  std::unique_ptr<SparseFactor> factor_;
+  FixedAxes fixed_;                      // of the body
+  std::vector<glm::dmat3> then_, turn_;  // a node of the body: rotation when factored, Q
+  std::vector<int> parent_;              // empty: the body is as it was
+  std::vector<glm::dmat3> block_;        // where split: inverse of the diagonal block, else 0
+  std::vector<unsigned char> is_split_;
+  std::vector<glm::dvec3> right_, left_;  // nodes of the factor
+};
+
+}  // namespace arthro::simulation

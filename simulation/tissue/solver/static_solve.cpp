@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/core/error.h"
+#include "simulation/tissue/solver/implicit_solver_impl.h"
+#include "simulation/tissue/solver/node_vectors.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kNewtonWhole = 60;      // iterations before the load is taken in steps
+constexpr int kNewtonRecovery = 300;  // where elements start inverted
+// Newton's last iteration is the cheapest one: aiming under the tolerance costs at most one more.
+constexpr double kMargin = 0.03;
+constexpr double kStepTolerance = 1e-3;       // on the way
+constexpr double kSmallestShare = 1.0 / 256;  // of the load
+constexpr int kPatienceAtSaddle = 8;          // Newton iterations
+constexpr int kNewtonFollowing = 15;          // plain ones, which converge soon or not at all
+constexpr int kMostIterations = 2000;         // conjugate-gradient iterations a Newton iteration
+
+}  // namespace
+
+// Newton's method to the whole load; where that fails, over equilibria under growing parts of load
+// and lead, whose step halves on failure and doubles on success.
+StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dvec3> load,
+                                       std::span<const ContactPoint> contacts,
+                                       std::span<const glm::dvec3> target, double tolerance,
+                                       std::span<ContactResult> results) {
+  Impl& body = *impl_;
+  StepReport total;
+  const std::size_t nodes = body.is_free.size();
+  Problem problem{load.empty() ? body.unit_load : load, contacts, target, 1, 1, 0};
+  const bool is_state_good = state.x.size() == nodes && AllFinite(state.x);
+  if (!is_state_good) state.x = body.good_x;
+  state.v.assign(nodes, glm::dvec3(0.0));
+  if (!is_state_good || !(tolerance > 0) || !body.Take(problem)) {
+    total.is_finite = false;
+    return total;
+  }
+  std::copy(state.x.begin(), state.x.end(), body.begin_x.begin());
+  const std::vector<glm::dvec3> start = state.x;
+  NewtonGoal goal{tolerance, kNewtonWhole, std::max(kMostIterations, body.options.max_iterations),
+                  true};
+
+  const auto attempt = [&](double share, double from, bool is_last) {
+    problem.load_share = share;
+    // The part of the way that is left of where the fixed axes are now.
+    problem.target_share = from < 1 ? (share - from) / (1 - from) : 1;
+    goal.tolerance = kMargin * (is_last ? tolerance : std::max(tolerance, kStepTolerance));
+    body.Evaluate(state.x, body.model->material().law, Tangent::kTrue);
+    goal.max_newton = goal.follows                 ? kNewtonFollowing
+                      : body.assembly.inverted > 0 ? kNewtonRecovery
+                                                   : kNewtonWhole;
+    const StepReport one = body.Newton(state.x, problem, goal);
+    total.newton += one.newton;
+    total.iterations += one.iterations;
+    total.residual = one.residual;
+    total.inverted = one.inverted;
+    total.energy = one.energy;
+    total.converged =
+        one.is_finite && one.residual <= goal.tolerance / kMargin && !body.is_recovering;
+    total.is_finite = one.is_finite;
+    total.used_fallback = total.used_fallback || one.used_fallback;
+    return total.converged;
+  };
+  const auto from_start = [&] {
+    state.x = start;
+    body.is_recovering = body.has_given_up = false;
+    body.projected_left = 0;
+  };
+  // Over growing parts of load and lead.
+  const auto climb = [&](double step) {
+    from_start();
+    double share = 0;
+    std::vector<glm::dvec3> good = state.x;
+    while (share < 1 && step >= kSmallestShare) {
+      const double next = std::min(1.0, share + step);
+      if (attempt(next, share, next == 1)) {
+        share = next;
+        good = state.x;
+        step *= 2;
+      } else {
+        state.x = good;
+        step /= 2;
+      }
+    }
+    return share == 1;
+  };
+  goal.patience = kPatienceAtSaddle;
+  bool is_done = attempt(1, 0, true);
+  if (!is_done && body.met_negative) {
+    // Several equilibria: the one on the way that the load grows is asked for.
+    goal.follows = true;
+    is_done = climb(1.0);
+    goal.follows = false;
+    if (!is_done) from_start();
+    goal.patience = kNewtonRecovery;
+    if (!is_done) is_done = attempt(1, 0, true);
+  }
+  if (!is_done) {
+    const StepReport whole = total;
+    const std::vector<glm::dvec3> whole_x = state.x;
+    // The nearer of the two is what there is.
+    if (!climb(0.5) && whole.is_finite) {
+      state.x = whole_x;
+      total = whole;
+    }
+  }
+  problem.load_share = problem.target_share = 1;
+  if (!AllFinite(state.x)) {
+    state.x = start;
+    total.is_finite = false;
+    body.is_evaluated = false;
+    return total;
+  }
+  body.Evaluate(state.x, body.model->material().law, Tangent::kTrue);
+  body.SetSprings(state.x, false);
+  body.FillResults(state.x, results);
+  body.FinishReactions(problem);
+  body.good_x = state.x;
+  std::fill(body.good_v.begin(), body.good_v.end(), glm::dvec3(0.0));
+  return total;
+}
+
+}  // namespace arthro::simulation

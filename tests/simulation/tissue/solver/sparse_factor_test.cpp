@@ -1,0 +1,143 @@
+#include "simulation/tissue/solver/sparse_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/random.h"
+
+namespace arthro::simulation {
+namespace {
+
+// A grid of nodes coupled to all neighbours by random blocks, dominated by its diagonal.
+BlockMatrix Grid(int nx, int ny, int nz) {
+  auto pattern = std::make_shared<BlockPattern>();
+  const auto node = [&](int x, int y, int z) { return (z * ny + y) * nx + x; };
+  pattern->row_begin.push_back(0);
+  for (int z = 0; z < nz; ++z)
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) {
+        for (int c = std::max(z - 1, 0); c <= std::min(z + 1, nz - 1); ++c)
+          for (int b = std::max(y - 1, 0); b <= std::min(y + 1, ny - 1); ++b)
+            for (int a = std::max(x - 1, 0); a <= std::min(x + 1, nx - 1); ++a) {
+              if (a == x && b == y && c == z)
+                pattern->diagonal.push_back(static_cast<int>(pattern->column.size()));
+              pattern->column.push_back(node(a, b, c));
+            }
+        pattern->row_begin.push_back(static_cast<int>(pattern->column.size()));
+      }
+  BlockMatrix matrix{pattern, std::vector<std::array<double, 9>>(pattern->column.size())};
+  Random random(7);
+  for (int i = 0; i < pattern->node_count(); ++i)
+    for (int k = pattern->row_begin[i]; k < pattern->row_begin[i + 1]; ++k) {
+      const int j = pattern->column[k];
+      if (j < i) continue;
+      auto& block = matrix.block[k];
+      for (double& value : block) value = random.Uniform(-0.15, 0.15);
+      if (j == i) {
+        block = {6, block[1], block[2], block[1], 6, block[5], block[2], block[5], 6};
+        continue;
+      }
+      for (int a = 0; a < 3; ++a) block[4 * a] -= 0.2;
+      auto& mirror = matrix.block[pattern->Find(j, i)];
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) mirror[3 * b + a] = block[3 * a + b];
+    }
+  return matrix;
+}
+
+struct Solved {
+  double residual = 0, shift = 0;
+  std::vector<glm::dvec3> x;
+};
+
+Solved SolveGrid(const BlockMatrix& a, const FixedAxes& fixed, std::span<const double> added = {}) {
+  const auto nodes = static_cast<std::size_t>(a.pattern->node_count());
+  SparseFactor factor(std::make_shared<FactorPlan>(a.pattern, fixed));
+  Solved solved;
+  solved.shift = factor.Factor(a, added);
+  std::vector<glm::dvec3> b(nodes), y(nodes);
+  solved.x.resize(nodes);
+  Random random(3);
+  for (glm::dvec3& v : b) v = {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)};
+  factor.Solve(b, solved.x);
+  Multiply(a, solved.x, y);
+  double off = 0, all = 0;
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const bool is_fixed = !fixed.empty() && (fixed[i] >> c & 1);
+      if (is_fixed) {
+        EXPECT_EQ(solved.x[i][c], 0.0);
+        continue;
+      }
+      const double r = y[i][c] + (added.empty() ? 0.0 : added[i]) * solved.x[i][c] - b[i][c];
+      off += r * r;
+      all += b[i][c] * b[i][c];
+    }
+  solved.residual = std::sqrt(off / all);
+  return solved;
+}
+
+// The panels are kept in float: 24 bits, a few sums.
+constexpr double kFloatPanels = 2e-6;
+
+TEST(SparseFactor, SolvesWhatItFactored) {
+  for (const auto& [x, y, z] : {std::array{1, 1, 1}, {2, 1, 1}, {5, 4, 3}, {20, 9, 4}, {9, 9, 9}}) {
+    const BlockMatrix a = Grid(x, y, z);
+    const Solved solved = SolveGrid(a, {});
+    EXPECT_EQ(solved.shift, 0.0);
+    EXPECT_LE(solved.residual, kFloatPanels) << x << "x" << y << "x" << z;
+  }
+}
+
+TEST(SparseFactor, LeavesFixedAxesOutOneByOne) {
+  const BlockMatrix a = Grid(7, 5, 4);
+  FixedAxes fixed(7 * 5 * 4, 0);
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    fixed[i] = static_cast<std::uint8_t>(i % 11 < 8 ? i % 11 : 0);
+  EXPECT_LE(SolveGrid(a, fixed).residual, kFloatPanels);
+}
+
+TEST(SparseFactor, AllFixedIsNothingToDo) {
+  const BlockMatrix a = Grid(3, 2, 2);
+  const Solved solved = SolveGrid(a, FixedAxes(12, 7));
+  for (const glm::dvec3& x : solved.x) EXPECT_EQ(x, glm::dvec3(0.0));
+}
+
+TEST(SparseFactor, AddsToTheDiagonal) {
+  const BlockMatrix a = Grid(6, 5, 4);
+  const std::vector<double> added(120, 2.5);
+  EXPECT_LE(SolveGrid(a, {}, added).residual, kFloatPanels);
+}
+
+TEST(SparseFactor, AnIndefiniteMatrixIsShiftedUntilItIsNot) {
+  BlockMatrix a = Grid(6, 5, 4);
+  for (std::size_t i = 0; i < 120; ++i)
+    for (int c = 0; c < 3; ++c) a.block[a.pattern->diagonal[i]][4 * c] -= 5.5;
+  SparseFactor factor(std::make_shared<FactorPlan>(a.pattern, FixedAxes{}));
+  EXPECT_GT(factor.Factor(a, {}), 0.0);
+  // Of a shifted, positive matrix: xᵀ A⁻¹ x > 0.
+  std::vector<glm::dvec3> b(120), x(120);
+  Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    double product = 0;
+    for (glm::dvec3& v : b)
+      v = {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)};
+    factor.Solve(b, x);
+    for (std::size_t i = 0; i < b.size(); ++i)
+      product += b[i].x * x[i].x + b[i].y * x[i].y + b[i].z * x[i].z;
+    EXPECT_GT(product, 0.0);
+  }
+}
+
+TEST(SparseFactor, NotFiniteIsSaid) {
+  BlockMatrix a = Grid(3, 3, 3);
+  a.block[a.pattern->diagonal[4]][4] = std::nan("");
+  SparseFactor factor(std::make_shared<FactorPlan>(a.pattern, FixedAxes{}));
+  EXPECT_EQ(factor.Factor(a, {}), -1.0);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
