@@ -14,14 +14,8 @@ constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two,
 constexpr double kCoarse = 0.55;                                 // of the full size
 
 bool Same(const Picture& a, const Picture& b) {
-  const auto same_instrument = [&] {
-    if (a.instrument.has_value() != b.instrument.has_value()) return false;
-    return !a.instrument ||
-           (a.instrument->portal == b.instrument->portal &&
-            a.instrument->proxy == b.instrument->proxy && a.instrument->roll == b.instrument->roll);
-  };
   return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
-         a.field_of_view == b.field_of_view && a.notch == b.notch && same_instrument();
+         a.field_of_view == b.field_of_view && a.notch == b.notch && a.instrument == b.instrument;
 }
 
 // What a projection in pixels of one picture is in pixels of a smaller one, whose pixel (x, y)

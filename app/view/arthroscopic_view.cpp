@@ -18,6 +18,7 @@
 #include "app/view/lens_model.h"
 #include "app/view/lens_shader.h"
 #include "app/view/probe_mesh.h"
+#include "app/view/tool_mesh.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -43,14 +44,45 @@ struct ArthroscopicView::Parts {
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkLight> light;
   vtkNew<BackdropProp> backdrop;
-  LensModel probe{LensModel::Look::kSteel};
+  LensModel tool{LensModel::Look::kSteel}, moving{LensModel::Look::kSteel};
+  simulation::ToolKind tool_kind = simulation::ToolKind::kNone;  // that these two are of
+  ToolMesh tool_mesh;
   std::vector<std::unique_ptr<LensModel>> tissues;
   std::vector<std::size_t> vertex_counts;
   std::string notice;
   int size = 0;
 
+  void ShowTool(const Picture& picture, const LensFrame& frame);
   vtkOpenGLFramebufferObject& drawn() const { return *window->GetRenderFramebuffer(); }
 };
+
+void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& frame) {
+  const bool is_shown = picture.instrument && !picture.plain &&
+                        glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
+  if (!is_shown) {
+    tool.Show(false);
+    moving.Show(false);
+    return;
+  }
+  const InstrumentView& instrument = *picture.instrument;
+  if (instrument.kind != tool_kind) {
+    tool_kind = instrument.kind;
+    tool_mesh = MakeToolMesh(tool_kind);
+    tool.SetSurface(tool_mesh.body);
+    moving.SetSurface(tool_mesh.moving);
+    tool.SetEtched(tool_kind == simulation::ToolKind::kProbe);
+    moving.SetEtched(false);
+  }
+  const Pose pose = ProbePose(instrument.portal, instrument.proxy, instrument.roll);
+  const Pose part = MovingPart(tool_mesh, instrument.opening, instrument.turn);
+  tool.SetPose(pose);
+  tool.SetLength(glm::distance(instrument.proxy, instrument.portal));
+  moving.SetPose({pose * part.position, pose.quaternion * part.quaternion, 1.0});
+  for (LensModel* model : {&tool, &moving}) {
+    model->SetFrame(frame);
+    model->Show(true);
+  }
+}
 
 ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
   Parts& p = *parts_;
@@ -64,10 +96,11 @@ ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
   p.light->SetLightTypeToHeadlight();
   p.renderer->AddLight(p.light);
   p.renderer->AddViewProp(p.backdrop);
-  p.probe.SetSurface(MakeProbeMesh());
-  p.probe.SetColour(glm::dvec3(0.72, 0.74, 0.77));
-  p.probe.actor()->VisibilityOff();
-  p.renderer->AddViewProp(p.probe.actor());
+  for (LensModel* model : {&p.tool, &p.moving}) {
+    model->SetColour(glm::dvec3(0.72, 0.74, 0.77));
+    model->actor()->VisibilityOff();
+    p.renderer->AddViewProp(model->actor());
+  }
   // The first frame initialises OpenGL, so that textures can be uploaded before the next.
   p.window->Render();
   if (!p.window->IsReady())
@@ -110,13 +143,21 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
   }
 }
 
-void ArthroscopicView::SetTissueVertices(int index, std::span<const glm::dvec3> vertices) {
+bool ArthroscopicView::SetTissueShape(int index, std::span<const glm::dvec3> positions,
+                                      std::span<const glm::dvec3> normals) {
   const auto i = static_cast<std::size_t>(index);
-  if (i >= parts_->tissues.size() || vertices.size() != parts_->vertex_counts[i])
+  if (i >= parts_->tissues.size() || positions.size() != parts_->vertex_counts[i] ||
+      (!normals.empty() && normals.size() != positions.size()))
     throw Error(Code::kBadArgument, "tissue " + std::to_string(index) + " was given " +
-                                        std::to_string(vertices.size()) +
+                                        std::to_string(positions.size()) +
                                         " vertices to draw; its surface has another number");
-  parts_->tissues[i]->SetVertices(vertices);
+  return parts_->tissues[i]->SetShape(positions, normals);
+}
+
+void ArthroscopicView::SetTissueSurface(int index, const SurfaceMesh& surface,
+                                        std::span<const std::uint8_t> fresh) {
+  parts_->tissues.at(static_cast<std::size_t>(index))->SetSurface(surface, fresh);
+  parts_->vertex_counts[static_cast<std::size_t>(index)] = surface.vertices.size();
 }
 
 void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) {
@@ -149,15 +190,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
     tissue->SetFrame(frame);
     tissue->Show(!picture.plain);
   }
-  p.probe.SetFrame(frame);
-  const bool probe = picture.instrument && !picture.plain &&
-                     glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
-  p.probe.Show(probe);
-  if (probe) {
-    p.probe.SetPose(
-        ProbePose(picture.instrument->portal, picture.instrument->proxy, picture.instrument->roll));
-    p.probe.SetLength(glm::distance(picture.instrument->proxy, picture.instrument->portal));
-  }
+  p.ShowTool(picture, frame);
   p.window->Render();
 }
 

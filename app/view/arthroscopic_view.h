@@ -9,6 +9,7 @@
 // have no parallax and hide what lies behind them where they are seen.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/arthroscope.h"
+#include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::app {
 
@@ -26,6 +28,10 @@ namespace arthro::app {
 struct InstrumentView {
   glm::dvec3 portal{0.0}, proxy{0.0};  // m
   double roll = 0;                     // γ about its own rod: where the hook points
+  simulation::ToolKind kind = simulation::ToolKind::kProbe;
+  double opening = 0;  // of its jaw, 0 to 1
+  double turn = 0;     // of the shaver's blade, rad
+  friend bool operator==(const InstrumentView&, const InstrumentView&) = default;
 };
 
 // One frame.
@@ -54,8 +60,15 @@ class ArthroscopicView {
   bool SetGeometry(const Backdrop& backdrop);
   // One surface a tissue, in its own frame; an empty one is not drawn.
   void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
-  // Moves the vertices of tissue `index` (as many as its surface has) in the tissue's own frame.
-  void SetTissueVertices(int index, std::span<const glm::dvec3> vertices);
+  // A tissue as it is deformed: as many vertices and unit normals as its surface has, in its own
+  // frame. Without normals they are computed. Nothing is uploaded where nothing moved; says whether
+  // something did.
+  bool SetTissueShape(int index, std::span<const glm::dvec3> positions,
+                      std::span<const glm::dvec3> normals = {});
+  // Another surface for one tissue: it was cut. `fresh` (empty, or 1 a vertex of a cut face) is
+  // drawn paler, as the inside of a tissue is.
+  void SetTissueSurface(int index, const SurfaceMesh& surface,
+                        std::span<const std::uint8_t> fresh = {});
   void SetTissuePose(int index, const Pose& portal_from_tissue);
 
   // Draws into the texture, size x size pixels. The caller binds its own framebuffer,

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <vtkDataObject.h>
 #include <vtkMatrix4x4.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
@@ -96,6 +97,8 @@ constexpr const char* kTissueLook = R"(
   shine = max(dot(normal, halfway), 0.0);
   vec3 own = modelColour * (1.0 + 0.04 * coarse.w + 0.02 * fine.w) *
              mix(vec3(1.0), vec3(1.0, 0.96, 0.92), 0.5 + 0.5 * coarse.w);
+  // A cut face is paler than the skin, yellowish, and shows its fibres as fine streaks.
+  own = mix(own, vec3(0.86, 0.80, 0.62) * (1.0 + 0.10 * fine.w), 0.75 * fresh);
   // Light that has gone through tissue comes out warmer and softer where it turns away.
   float wrapped = (facing + 0.3) / 1.3;
   vec3 scattered = mix(vec3(0.95, 0.70, 0.58), vec3(1.0), smoothstep(0.0, 0.75, facing));
@@ -110,7 +113,7 @@ constexpr const char* kSteelLook = R"(
   if (-modelPoint.z > rodLength) discard;
   // Etched rings every 5 mm from the tip, four of them.
   float ring = -modelPoint.z / 0.005;
-  float etched = ring > 0.9 && ring < 4.5 ? 1.0 - smoothstep(0.03, 0.045, abs(ring - round(ring))) : 0.0;
+  float etched = etchedRings > 0.5 && ring > 0.9 && ring < 4.5 ? 1.0 - smoothstep(0.03, 0.045, abs(ring - round(ring))) : 0.0;
   vec3 steel = modelColour * (1.0 - 0.85 * etched);
   // Brushed: it mirrors the joint greyly and mostly at its edges, and the lamp as a streak.
   vec3 mirror = reflect(-toLens, normal);
@@ -152,6 +155,12 @@ LensModel::LensModel(Look look) {
   normal_array_->SetNumberOfComponents(3);
   data_->SetPoints(points_);
   data_->GetPointData()->SetNormals(normal_array_);
+  if (look == Look::kTissue) {
+    fresh_array_->SetName("Fresh");
+    data_->GetPointData()->AddArray(fresh_array_);
+    mapper_->MapDataArrayToVertexAttribute("freshMC", "Fresh",
+                                           vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  }
   mapper_->SetInputData(data_);
   mapper_->ScalarVisibilityOff();
   // Coordinates are metres within a joint: float holds them, and the shader wants them as they are.
@@ -160,15 +169,22 @@ LensModel::LensModel(Look look) {
   actor_->ForceOpaqueOn();
 
   vtkShaderProperty* shader = actor_->GetShaderProperty();
+  const bool is_tissue = look == Look::kTissue;
   shader->AddVertexShaderReplacement(
-      "//VTK::Normal::Dec", true, "//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n",
+      "//VTK::Normal::Dec", true,
+      std::string("//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n") +
+          (is_tissue ? "in float freshMC;\nout float fresh;\n" : ""),
       false);
-  shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, kWarp, false);
+  shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true,
+                                     std::string(kWarp) + (is_tissue ? "  fresh = freshMC;\n" : ""),
+                                     false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                        std::string("//VTK::Light::Dec\n") + kDepthShader +
                                            kLightShader + (look == Look::kTissue ? kNoise : ""),
                                        false);
-  shader->AddFragmentShaderReplacement("//VTK::Normal::Dec", true, kFragmentHead, false);
+  shader->AddFragmentShaderReplacement(
+      "//VTK::Normal::Dec", true,
+      std::string(kFragmentHead) + (is_tissue ? "in float fresh;\n" : ""), false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
                                        std::string(kFragmentStart) +
                                            (look == Look::kTissue ? kTissueLook : kSteelLook) +
@@ -180,36 +196,55 @@ LensModel::LensModel(Look look) {
   vtkUniforms* fragment = shader->GetFragmentCustomUniforms();
   fragment->SetUniformf("nearest", Float(kNearest));
   fragment->SetUniformf("farthest", Float(kFarthest));
-  if (look == Look::kSteel) SetLength(1.0);
+  if (look == Look::kSteel) {
+    SetLength(1.0);
+    SetEtched(true);
+  }
   SetColour(glm::dvec3(1.0));
   SetFrame({});
 }
 
-void LensModel::SetSurface(const SurfaceMesh& surface) {
+void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh) {
   triangles_ = surface.triangles;
+  const auto count = static_cast<vtkIdType>(surface.vertices.size());
   vtkNew<vtkCellArray> polys;
   for (const auto& triangle : triangles_)
     polys->InsertNextCell({triangle[0], triangle[1], triangle[2]});
   data_->SetPolys(polys);
-  points_->SetNumberOfPoints(static_cast<vtkIdType>(surface.vertices.size()));
-  normal_array_->SetNumberOfTuples(static_cast<vtkIdType>(surface.vertices.size()));
-  SetVertices(surface.vertices);
+  points_->SetNumberOfPoints(count);
+  normal_array_->SetNumberOfTuples(count);
+  fresh_array_->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i)
+    fresh_array_->SetValue(i, !fresh.empty() && fresh[static_cast<std::size_t>(i)] ? 1.0f : 0.0f);
+  fresh_array_->Modified();
+  SetShape(surface.vertices);
+  points_->Modified();
+  data_->Modified();
   // Of a closed surface the inside is never seen, and half the work is saved.
   actor_->GetProperty()->SetBackfaceCulling(IsClosedAndOutward(surface) ? 1 : 0);
 }
 
-void LensModel::SetVertices(std::span<const glm::dvec3> vertices) {
-  ComputeVertexNormals(vertices, triangles_, normals_);
-  auto* points = static_cast<float*>(points_->GetVoidPointer(0));
-  float* normals = normal_array_->GetPointer(0);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      points[i * 3 + static_cast<std::size_t>(c)] = Float(vertices[i][c]);
-      normals[i * 3 + static_cast<std::size_t>(c)] = Float(normals_[i][c]);
+bool LensModel::SetShape(std::span<const glm::dvec3> positions,
+                         std::span<const glm::dvec3> normals) {
+  if (normals.empty()) {
+    ComputeVertexNormals(positions, triangles_, normals_);
+    normals = normals_;
+  }
+  auto* point = static_cast<float*>(points_->GetVoidPointer(0));
+  float* normal = normal_array_->GetPointer(0);
+  bool has_moved = false;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (int c = 0; c < 3; ++c, ++point, ++normal) {
+      const float x = Float(positions[i][c]), n = Float(normals[i][c]);
+      has_moved = has_moved || x != *point || n != *normal;
+      *point = x;
+      *normal = n;
     }
+  if (!has_moved) return false;
   points_->Modified();
   normal_array_->Modified();
   data_->Modified();
+  return true;
 }
 
 void LensModel::SetPose(const Pose& pose) {
@@ -229,6 +264,11 @@ void LensModel::SetColour(const glm::dvec3& linear_rgb) {
 
 void LensModel::SetLength(double length) {
   actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("rodLength", Float(length));
+}
+
+void LensModel::SetEtched(bool is_etched) {
+  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("etchedRings",
+                                                                        is_etched ? 1.0f : 0.0f);
 }
 
 void LensModel::SetFrame(const LensFrame& frame) {

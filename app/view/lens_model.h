@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,19 +38,24 @@ class LensModel {
 
   vtkActor* actor() { return actor_; }
   void Show(bool visible) { actor_->SetVisibility(visible && !triangles_.empty() ? 1 : 0); }
-  void SetSurface(const SurfaceMesh& surface);
-  void SetVertices(std::span<const glm::dvec3> vertices);
+  // `fresh`: 1 a vertex of a cut face; empty: none is.
+  void SetSurface(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh = {});
+  // As many as the surface has; normals are computed where none are given. False, and nothing
+  // uploaded, where all is where it was.
+  bool SetShape(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> normals = {});
   void SetPose(const Pose& portal_from_model);
   void SetColour(const glm::dvec3& linear_rgb);
   void SetFrame(const LensFrame& frame);
   // Steel only: nothing is drawn further than this behind the origin along z, m.
   void SetLength(double length);
+  // Steel only: the probe's marks every 5 mm.
+  void SetEtched(bool is_etched);
 
  private:
   std::vector<std::array<int, 3>> triangles_;
   std::vector<glm::dvec3> normals_;
   vtkNew<vtkPoints> points_;
-  vtkNew<vtkFloatArray> normal_array_;
+  vtkNew<vtkFloatArray> normal_array_, fresh_array_;
   vtkNew<vtkPolyData> data_;
   vtkNew<vtkOpenGLPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;

@@ -32,6 +32,7 @@
 #include "app/view/overview_parts.h"
 #include "app/view/probe_mesh.h"
 #include "app/view/srgb.h"
+#include "app/view/tool_mesh.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 
@@ -102,6 +103,7 @@ struct Overview::Parts {
   vtkSmartPointer<vtkActor> scope = MakeActor({0.62, 0.66, 0.70});
   vtkSmartPointer<vtkActor> cone = MakeActor(kScopeColour, 0.7);
   vtkSmartPointer<vtkActor> probe = MakeActor({0.70, 0.70, 0.72});
+  vtkSmartPointer<vtkActor> moving = MakeActor({0.70, 0.70, 0.72});
   vtkSmartPointer<vtkActor> scope_portal = MakeActor(kScopeColour, 0.5);
   vtkSmartPointer<vtkActor> instrument_portal = MakeActor(kInstrumentColour, 0.5);
   vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope portal", kScopeColour);
@@ -150,7 +152,7 @@ void Overview::Parts::BuildScene() {
   // The bowl is looked into from any side: only its inside is drawn.
   relief->GetProperty()->BackfaceCullingOn();
   relief->VisibilityOff();
-  for (vtkActor* metal : {scope.Get(), probe.Get()}) {
+  for (vtkActor* metal : {scope.Get(), probe.Get(), moving.Get()}) {
     metal->GetProperty()->SetSpecular(0.5);
     metal->GetProperty()->SetSpecularPower(30);
     metal->VisibilityOff();
@@ -158,8 +160,8 @@ void Overview::Parts::BuildScene() {
   cone->VisibilityOff();
   SetData(*scope_portal, MakeBars(PortalRing({0, 0, 0}, 3.2e-3), 0.6e-3));
   scope_label->SetPosition(-0.002, -0.005, 0.0);
-  for (vtkActor* actor : {relief.Get(), scope.Get(), cone.Get(), probe.Get(), scope_portal.Get(),
-                          instrument_portal.Get()})
+  for (vtkActor* actor : {relief.Get(), scope.Get(), cone.Get(), probe.Get(), moving.Get(),
+                          scope_portal.Get(), instrument_portal.Get()})
     renderer->AddActor(actor);
   renderer->AddActor(scope_label);
   renderer->AddActor(instrument_label);
@@ -310,15 +312,27 @@ void Overview::SetTissuePose(int index, const Pose& portal_from_tissue) {
   p.changed = true;
 }
 
-void Overview::SetTissueVertices(int index, std::span<const glm::dvec3> vertices) {
+bool Overview::SetTissueShape(int index, std::span<const glm::dvec3> positions,
+                              std::span<const glm::dvec3> normals) {
   auto& model = parts_->tissues.at(static_cast<std::size_t>(index));
-  if (vertices.size() != model.surface.vertices.size())
+  if (positions.size() != model.surface.vertices.size() ||
+      (!normals.empty() && normals.size() != positions.size()))
     throw Error(Code::kBadArgument,
                 fmt::format("tissue {} was given {} vertices to draw; its "
                             "surface has {}",
-                            index, vertices.size(), model.surface.vertices.size()));
-  model.surface.vertices.assign(vertices.begin(), vertices.end());
-  MoveSurfaceData(*model.data, model.surface);
+                            index, positions.size(), model.surface.vertices.size()));
+  if (std::equal(positions.begin(), positions.end(), model.surface.vertices.begin())) return false;
+  model.surface.vertices.assign(positions.begin(), positions.end());
+  MoveSurfaceData(*model.data, model.surface, normals);
+  parts_->changed = true;
+  return true;
+}
+
+void Overview::SetTissueSurface(int index, const SurfaceMesh& surface) {
+  auto& model = parts_->tissues.at(static_cast<std::size_t>(index));
+  model.surface = surface;
+  model.data = MakeSurfaceData(surface);
+  SetData(*model.actor, model.data);
   parts_->changed = true;
 }
 
@@ -344,13 +358,18 @@ void Overview::SetTools(const OverviewTools& tools) {
   const double inside =
       tools.instrument ? glm::distance(tools.instrument->proxy, tools.instrument->portal) : 0.0;
   p.probe->SetVisibility(inside > 1e-6 ? 1 : 0);
+  p.moving->SetVisibility(inside > 1e-6 ? 1 : 0);
   if (inside > 1e-6) {
-    ProbeShape shape;
-    shape.shaft_length = inside + kRodBehindPortal;
-    shape.ring_spacing = 4e-3;  // no lens bends it here
-    SetData(*p.probe, MakeSurfaceData(MakeProbeMesh(shape)));
-    p.probe->SetUserMatrix(MatrixOf(
-        ProbePose(tools.instrument->portal, tools.instrument->proxy, tools.instrument->roll)));
+    const InstrumentView& instrument = *tools.instrument;
+    // No lens bends it here, so rings may lie far apart.
+    const ToolMesh tool = MakeToolMesh(instrument.kind, 4e-3, inside + kRodBehindPortal);
+    SetData(*p.probe, MakeSurfaceData(tool.body));
+    SetData(*p.moving, MakeSurfaceData(tool.moving));
+    const Pose pose = ProbePose(instrument.portal, instrument.proxy, instrument.roll);
+    const Pose part = MovingPart(tool, instrument.opening, instrument.turn);
+    p.probe->SetUserMatrix(MatrixOf(pose));
+    p.moving->SetUserMatrix(
+        MatrixOf({pose * part.position, pose.quaternion * part.quaternion, 1.0}));
   }
   p.changed = true;
 }

@@ -42,7 +42,10 @@ class Overview {
   void SetRelief(const DepthMap& depth, const Backdrop& backdrop);
   void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
   void SetTissuePose(int index, const Pose& portal_from_tissue);
-  void SetTissueVertices(int index, std::span<const glm::dvec3> vertices);
+  // As ArthroscopicView's.
+  bool SetTissueShape(int index, std::span<const glm::dvec3> positions,
+                      std::span<const glm::dvec3> normals = {});
+  void SetTissueSurface(int index, const SurfaceMesh& surface);
   void SetIncisionSpacing(double spacing);
   void SetTools(const OverviewTools& tools);
 

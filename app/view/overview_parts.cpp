@@ -96,9 +96,10 @@ vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface) {
   return data;
 }
 
-void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface) {
-  std::vector<glm::dvec3> normals;
-  ComputeVertexNormals(surface.vertices, surface.triangles, normals);
+void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
+                     std::span<const glm::dvec3> given_normals) {
+  std::vector<glm::dvec3> normals(given_normals.begin(), given_normals.end());
+  if (normals.empty()) ComputeVertexNormals(surface.vertices, surface.triangles, normals);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const glm::dvec3 &p = surface.vertices[i], &n = normals[i];
     data.GetPoints()->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);

@@ -1,6 +1,7 @@
 // What the overview is put together from, as VTK data in the portal frame, m.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,9 @@ vtkSmartPointer<vtkTexture> MakePanoramaTexture(const ColourImage& panorama);
 
 // With smooth normals.
 vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface);
-void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface);
+// Normals are computed where none are given.
+void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
+                     std::span<const glm::dvec3> given_normals = {});
 
 // A round bar along each line of points.
 vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>& lines,

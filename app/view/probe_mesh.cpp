@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-
 #include "simulation/scope/rod_pose.h"
 
 namespace arthro::app {

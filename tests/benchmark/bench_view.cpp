@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
           for (std::size_t i = 0; i < vertices.size(); ++i)
             vertices[i].z = ring.vertices[i].z + 1e-4 * std::sin(0.3 * frame + 900 * vertices[i].x);
           ++frame;
-          view.SetTissueVertices(0, vertices);
+          view.SetTissueShape(0, vertices);
           render();
         });
   }

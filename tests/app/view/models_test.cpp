@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/view/probe_mesh.h"
+#include "app/view/tool_mesh.h"
 #include "app/view/vertex_normals.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
@@ -240,15 +241,116 @@ TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
   SurfaceMesh pressed = loaded.surfaces[0];
   for (glm::dvec3& vertex : pressed.vertices)
     vertex.z -= 0.0015 * std::exp(-1e5 * vertex.x * vertex.x);
-  view_->SetTissueVertices(0, pressed.vertices);
+  EXPECT_TRUE(view_->SetTissueShape(0, pressed.vertices));
+  EXPECT_FALSE(view_->SetTissueShape(0, pressed.vertices)) << "where it was: nothing is uploaded";
   view_->Render(picture, 200);
   const ColourImage after = view_->ReadPixels();
   EXPECT_NE(before.rgb, after.rgb);
   view_->SetTissues(loaded.scene.tissues, std::span(&pressed, 1));
   view_->Render(picture, 200);
   EXPECT_EQ(after.rgb, view_->ReadPixels().rgb);
-  EXPECT_THROW(view_->SetTissueVertices(0, std::span(pressed.vertices).first(3)), Error);
-  EXPECT_THROW(view_->SetTissueVertices(1, pressed.vertices), Error);
+  EXPECT_THROW(view_->SetTissueShape(0, std::span(pressed.vertices).first(3)), Error);
+  EXPECT_THROW(view_->SetTissueShape(1, pressed.vertices), Error);
+}
+
+TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
+  LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  const Picture picture = PictureFromPose({-0.1, 0, 0, 0.012}, 0.3, 1.5);
+  const auto drawn = [&] {
+    view_->Render(picture, 200);
+    return view_->ReadPixels().rgb;
+  };
+  const auto before = drawn();
+  const std::vector<glm::dvec3>& places = loaded.surfaces[0].vertices;
+  const std::vector<glm::dvec3> turned(places.size(), glm::dvec3(1, 0, 0));
+  EXPECT_TRUE(view_->SetTissueShape(0, places, turned));
+  EXPECT_NE(drawn(), before);
+  EXPECT_THROW(view_->SetTissueShape(0, places, std::span(turned).first(2)), Error);
+  // The half of the ring that is left, with another number of vertices.
+  const SurfaceMesh half = Ring(0.007, 0.0024, 40, 20);
+  view_->SetTissueSurface(0, half);
+  const auto plain = drawn();
+  EXPECT_NE(plain, before);
+  std::vector<std::uint8_t> fresh(half.vertices.size(), 0);
+  view_->SetTissueSurface(0, half, fresh);
+  EXPECT_EQ(drawn(), plain);
+  fresh.assign(fresh.size(), 1);
+  view_->SetTissueSurface(0, half, fresh);
+  EXPECT_NE(drawn(), plain);
+  EXPECT_NO_THROW(view_->SetTissueShape(0, half.vertices));
+  EXPECT_THROW(view_->SetTissueShape(0, places), Error);
+}
+
+TEST_F(ModelsView, EachInstrumentLooksItsOwnWayAndItsJawMoves) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.3, 1.5);
+  picture.instrument = ProbeInFront();
+  using simulation::ToolKind;
+  std::vector<std::vector<std::uint8_t>> seen;
+  const auto drawn = [&](ToolKind kind, double opening, double turn) {
+    picture.instrument->kind = kind;
+    picture.instrument->opening = opening;
+    picture.instrument->turn = turn;
+    view_->Render(picture, 200);
+    return view_->ReadPixels().rgb;
+  };
+  for (const ToolKind kind :
+       {ToolKind::kProbe, ToolKind::kPunch, ToolKind::kShaver, ToolKind::kGrasper}) {
+    const auto closed = drawn(kind, 0, 0);
+    for (const auto& other : seen) EXPECT_NE(closed, other);
+    seen.push_back(closed);
+    const bool has_jaw = kind == ToolKind::kPunch || kind == ToolKind::kGrasper;
+    EXPECT_EQ(drawn(kind, 1, 0) != closed, has_jaw) << static_cast<int>(kind);
+    EXPECT_EQ(drawn(kind, 0, 2) != closed, kind == ToolKind::kShaver) << static_cast<int>(kind);
+    EXPECT_EQ(drawn(kind, 0, 0), closed);
+  }
+}
+
+// Drawn is what touches: no vertex lies off the shape's capsules, closed or open.
+TEST(ToolMesh, OfPunchAndGrasperLiesOnTheirCapsules) {
+  using namespace simulation;
+  for (const ToolKind kind : {ToolKind::kPunch, ToolKind::kGrasper}) {
+    const ToolShape shape = ShapeOf(kind);
+    const app::ToolMesh mesh = app::MakeToolMesh(kind);
+    for (const double opening : {0.0, 0.6, 1.0}) {
+      std::vector<Capsule> capsules(shape.capsules.size());
+      PosedCapsules(shape, {true, {}, opening, false}, capsules);
+      const auto off = [&](const glm::dvec3& x) {
+        double least = 1;
+        for (const Capsule& c : capsules) {
+          const glm::dvec3 way = c.b - c.a;
+          const double t = std::clamp(glm::dot(x - c.a, way) / glm::dot(way, way), 0.0, 1.0);
+          least = std::min(least, std::abs(glm::distance(x, c.a + t * way) - c.radius));
+        }
+        return least;
+      };
+      const Pose part = app::MovingPart(mesh, opening, 0.0);
+      for (const glm::dvec3& x : mesh.body.vertices) ASSERT_LT(off(x), 5e-6);
+      for (const glm::dvec3& x : mesh.moving.vertices) ASSERT_LT(off(part * x), 5e-6);
+    }
+  }
+}
+
+TEST(ToolMesh, TheShaversBladeTurnsInsideItsTubeBehindAWindow) {
+  using namespace simulation;
+  const app::ToolMesh mesh = app::MakeToolMesh(ToolKind::kShaver);
+  const double tube = ShapeOf(ToolKind::kShaver).capsules[0].radius;
+  for (const glm::dvec3& x : mesh.body.vertices) EXPECT_LE(std::hypot(x.x, x.y), tube + 1e-9);
+  for (const double turn : {0.0, 1.0, 4.0}) {
+    const Pose part = app::MovingPart(mesh, 0.5, turn);
+    for (const glm::dvec3& x : mesh.moving.vertices)
+      EXPECT_LT(std::hypot((part * x).x, (part * x).y), tube - 0.2e-3);
+  }
+  // The window is open where tissue is taken: no triangle of the tube lies over its middle.
+  const Capsule bite = ShapeOf(ToolKind::kShaver).bite;
+  const glm::dvec3 middle{0, tube, 0.5 * (bite.a.z + bite.b.z)};
+  for (const auto& [a, b, c] : mesh.body.triangles) {
+    const auto& v = mesh.body.vertices;
+    EXPECT_GT(glm::distance((v[a] + v[b] + v[c]) / 3.0, middle), 1e-3);
+  }
 }
 
 TEST(ProbeMesh, IsClosedRoundTheHookAndTouchesItsOriginWithTheHooksSide) {

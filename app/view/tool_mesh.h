@@ -1,0 +1,28 @@
+// Instruments as they are drawn, in the tool's frame of simulation/tissue/contact/tool_shape.h: the
+// tip at the origin, +z along the rod into the joint, hook, window and moving jaw towards +y. What
+// is drawn is what touches: jaws and shafts have the shape's own capsules. m, rad.
+#pragma once
+
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/tissue/contact/tool_shape.h"
+
+namespace arthro::app {
+
+struct ToolMesh {
+  SurfaceMesh body, moving;  // the moving jaw, or the shaver's blade; empty: nothing moves
+  glm::dvec3 hinge{0.0}, axis{-1, 0, 0};
+  double max_opening = 0;     // rad
+  bool turns_freely = false;  // a blade that runs, not a jaw that opens
+};
+
+// Rings along a shaft this close together keep its bent picture smooth (probe_mesh.h).
+inline constexpr double kToolRingSpacing = 0.5e-3;  // m
+
+// The shaft ends `shaft_length` behind the tip.
+ToolMesh MakeToolMesh(simulation::ToolKind kind, double ring_spacing = kToolRingSpacing,
+                      double shaft_length = 0.13);
+
+// tool_from_moving: `opening` is 0 (closed) to 1, `turn` the blade's angle.
+Pose MovingPart(const ToolMesh& mesh, double opening, double turn);
+
+}  // namespace arthro::app
