@@ -30,8 +30,8 @@ struct BlockMatrix {
 
 struct ElementKernel;
 
-// y = A x. Vectorised for the processor it runs on (`kernel`: null is the fastest); the same bits on
-// all of them.
+// y = A x. Vectorised for the processor it runs on (`kernel`: null is the fastest); the same bits
+// on all of them.
 void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
               const ElementKernel* kernel = nullptr) noexcept;
 

@@ -62,6 +62,8 @@ struct ElementKernel {
   void (*rotations)(std::span<glm::dmat3>) noexcept;
   // The mean gradient of each element, weighted by volume, added to its nodes.
   void (*add_gradients)(const ElementBatches&, const glm::dvec3* x, glm::dmat3* at_node) noexcept;
+  // Fills the lower triangle; `mirror`: an entry of the pattern to the transposed one.
+  void (*mirror)(const BlockPattern&, const int* mirror, std::array<double, 9>* block) noexcept;
   void (*multiply)(const MultiplyJob&) noexcept;
   PointAnswer (*point)(const PointJob&) noexcept;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <immintrin.h>
 #include <limits>
+#include <utility>
 
 #include "simulation/tissue/fem/element_kernel.h"
 
@@ -12,11 +13,15 @@ namespace {
 #define ARTHRO_INLINE __attribute__((always_inline, target("avx512f,avx512dq"))) inline
 #define ARTHRO_FUNCTION __attribute__((target("avx512f,avx512dq")))
 
-constexpr int kWidth = 8;
+#define ARTHRO_WIDTH 8
+constexpr int kWidth = ARTHRO_WIDTH;
 constexpr const char* kName = "AVX-512";
 typedef double V __attribute__((vector_size(8 * kWidth)));
 // With a mask, since g++ 12 warns of an uninitialised value inside the plain one.
 ARTHRO_INLINE V Sqrt(V a) { return V(_mm512_maskz_sqrt_pd(0xFF, a)); }
+ARTHRO_INLINE bool IsAnyAbove(V a, double limit) {
+  return _mm512_cmp_pd_mask(a, V{} + limit, _CMP_GT_OQ) != 0;
+}
 
 #include "simulation/tissue/fem/element_kernel.inc"
 

@@ -1,6 +1,7 @@
 // One double at a time: what the others are held against, and the only one on other processors.
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simulation/tissue/fem/element_kernel.h"
 
@@ -10,10 +11,12 @@ namespace {
 #define ARTHRO_INLINE __attribute__((always_inline)) inline
 #define ARTHRO_FUNCTION
 
-constexpr int kWidth = 1;
+#define ARTHRO_WIDTH 1
+constexpr int kWidth = ARTHRO_WIDTH;
 constexpr const char* kName = "scalar";
 using V = double;
 ARTHRO_INLINE V Sqrt(V a) { return std::sqrt(a); }
+ARTHRO_INLINE bool IsAnyAbove(V a, double limit) { return a > limit; }
 
 #include "simulation/tissue/fem/element_kernel.inc"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <immintrin.h>
 #include <limits>
+#include <utility>
 
 #include "simulation/tissue/fem/element_kernel.h"
 
@@ -12,10 +13,14 @@ namespace {
 #define ARTHRO_INLINE __attribute__((always_inline)) inline
 #define ARTHRO_FUNCTION
 
-constexpr int kWidth = 2;
+#define ARTHRO_WIDTH 2
+constexpr int kWidth = ARTHRO_WIDTH;
 constexpr const char* kName = "SSE2";
 typedef double V __attribute__((vector_size(8 * kWidth)));
 ARTHRO_INLINE V Sqrt(V a) { return V(_mm_sqrt_pd(a)); }
+ARTHRO_INLINE bool IsAnyAbove(V a, double limit) {
+  return _mm_movemask_pd(__m128d(a > (V{} + limit))) != 0;
+}
 
 #include "simulation/tissue/fem/element_kernel.inc"
 

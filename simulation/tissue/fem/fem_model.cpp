@@ -225,7 +225,9 @@ Assembly FemModel::Assemble(std::span<const glm::dvec3> x, Law law, Tangent tang
   if (stiffness == nullptr) tangent = Tangent::kNone;
   std::fill(force.begin(), force.end(), glm::dvec3(0.0));
   if (tangent != Tangent::kNone)
-    std::fill(stiffness->block.begin(), stiffness->block.end(), std::array<double, 9>{});
+    for (int row = 0; row < node_count(); ++row)  // the upper triangle, which the kernel fills
+      std::fill(stiffness->block.begin() + pattern_->diagonal[row],
+                stiffness->block.begin() + pattern_->row_begin[row + 1], std::array<double, 9>{});
   const Lame lame = LameOf(material_);
   const Assembly result = kernel->assemble(
       {&batches_,
@@ -235,19 +237,7 @@ Assembly FemModel::Assemble(std::span<const glm::dvec3> x, Law law, Tangent tang
        x.data(),
        force.data(),
        tangent == Tangent::kNone ? nullptr : stiffness->block.data()});
-  if (tangent == Tangent::kNone) return result;
-  // The kernel has filled the upper triangle.
-  for (int row = 0; row < node_count(); ++row) {
-    auto& own = stiffness->block[pattern_->diagonal[row]];
-    own[3] = own[1];
-    own[6] = own[2];
-    own[7] = own[5];
-    for (int e = pattern_->diagonal[row] + 1; e < pattern_->row_begin[row + 1]; ++e) {
-      const auto& from = stiffness->block[e];
-      auto& to = stiffness->block[mirror_[e]];
-      to = {from[0], from[3], from[6], from[1], from[4], from[7], from[2], from[5], from[8]};
-    }
-  }
+  if (tangent != Tangent::kNone) kernel->mirror(*pattern_, mirror_.data(), stiffness->block.data());
   return result;
 }
 

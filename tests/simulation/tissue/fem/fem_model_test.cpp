@@ -253,7 +253,7 @@ TEST_P(EachOrderAndLaw, ProjectedMatrixIsPositive) {
 TEST_P(EachOrderAndLaw, NotFiniteInIsNotFiniteOut) {
   const TetMesh mesh = Crescent(order());
   const FemModel model(mesh, Fibred(law()));
-  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e200})
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
     for (const std::size_t node : {std::size_t{0}, mesh.rest_positions.size() - 1}) {
       std::vector<glm::dvec3> x = mesh.rest_positions;
       x[node].y = bad;
