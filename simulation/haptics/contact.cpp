@@ -70,14 +70,18 @@ glm::dvec3 PushOf(const PlaneSet& planes, const glm::dvec3& goal, double kink, d
 
 ContactForce TickContact(const Surroundings& surroundings, const ContactOptions& options,
                          double stiffness, const glm::dvec3& portal, const glm::dvec3& tip,
-                         double dt, ContactState& state) noexcept {
+                         double dt, ContactState& state, const TissuePull& tissue) noexcept {
   const double radius = options.tip_radius;
+  const bool is_pulled = tissue.force != glm::dvec3(0.0) && options.stiffness > 0.0;
+  const glm::dvec3 shift = is_pulled ? tissue.force / options.stiffness : glm::dvec3(0.0);
+  const glm::dvec3 held = is_pulled ? tip + shift : tip;
   const bool is_first = !state.has_started;
   if (is_first) {
     state = ContactState{};
     state.has_started = true;
     state.proxy.position = portal;
     state.tip = tip;
+    state.held = held;
   }
   // First-order low pass of the difference; the step in time is the true one.
   if (dt > 0.0) {
@@ -87,15 +91,22 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
 
   // Move the proxy, unless friction holds it.
   glm::dvec3 goal;
-  const bool sticks = Grip(options, state, tip, goal);
+  const bool sticks = Grip(options, state, held, goal);
   if (!sticks || !IsOutOfBackdrop(surroundings, radius, state.proxy)) {
-    const double travel = glm::length(tip - state.tip) + 2.0 * surroundings.field.pixel_size();
+    const double travel = glm::length(held - state.held) + 2.0 * surroundings.field.pixel_size();
     MoveProxy(surroundings, radius, goal, travel, state.contact < 0, state.proxy);
   }
   state.tip = tip;
+  state.held = held;
 
-  // What holds the proxy away from its tip, and how hard. Friction drew it aside from the goal.
+  // What the tissue does, whatever the surfaces add.
   ContactForce result;
+  if (is_pulled) {
+    result.contact = tissue.contact;
+    result.penetration = glm::length(shift);
+    result.force = stiffness * shift;
+  }
+  // What holds the proxy away from there, and how hard. Friction drew it aside from the goal.
   const auto leave = [&state]() noexcept {
     state.normal = glm::dvec3(0.0);
     state.share = 0.0;
@@ -107,9 +118,16 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
   const double depth = glm::length(push);
   if (!(depth > 0.0)) return leave(), result;
   state.normal = planes.count > 0 ? push / depth : glm::dvec3(0.0);
-  result.contact = state.contact;
-  result.penetration = depth;
-  result.force = stiffness * state.share * (push + (goal - tip));
+  const glm::dvec3 of_surfaces = stiffness * state.share * (push + (goal - held));
+  if (!is_pulled) {
+    result.contact = state.contact;
+    result.penetration = depth;
+    result.force = of_surfaces;
+  } else {
+    if (glm::length(of_surfaces) > glm::length(result.force)) result.contact = state.contact;
+    result.penetration = glm::length(push + shift);
+    result.force += of_surfaces;
+  }
 
   const double approach = glm::dot(state.velocity, state.normal);
   if (approach < 0.0 && options.stiffness > 0.0) {

@@ -2,7 +2,10 @@
 // while approaching, with Coulomb friction as stick and slip of the proxy (no velocity in it, so no
 // drift).
 //   F = w k (proxy − tip) − w b min(v·n, 0) n
-// The proxy moves by no more than the tip and two pixels a tick, so k times that bounds each step.
+// Living tissue holds the tip too, by a force that its own model gives: the proxy's goal is then
+// not the tip but the place where that force meets the spring, tip + F/k. The backdrop holds the
+// proxy out of itself, and k (proxy − tip) is the force of both: nothing is counted twice. The
+// proxy moves by no more than the tip and two pixels a tick, so k times that bounds each step.
 // Portal frame, m, N, s; noexcept, allocates nothing [notes on haptics, 4.2].
 #pragma once
 
@@ -42,11 +45,18 @@ struct ContactState {
   bool has_started = false;  // false: the tip enters through its portal at the next tick
   Proxy proxy;
   glm::dvec3 tip{0.0}, velocity{0.0};
+  glm::dvec3 held{0.0};  // the tip, or where tissue holds it
   // Of the last tick: unit normal of the force (zero: there was none), what the fade left of it,
   // and whose it was.
   glm::dvec3 normal{0.0};
   double share = 0;
   int contact = -1;
+};
+
+// What tissue that is not among the surroundings does.
+struct TissuePull {
+  glm::dvec3 force{0.0};  // on the tip, of a spring of options.stiffness between tip and proxy
+  int contact = -1;       // 1 + i of the tissue that gives most of it
 };
 
 struct ContactForce {
@@ -56,9 +66,9 @@ struct ContactForce {
 };
 
 // `portal` is where the tool enters; `stiffness` is options.stiffness or less (lever.h), and lowers
-// the damping with it.
+// the damping and the tissue's force with it.
 ContactForce TickContact(const Surroundings& surroundings, const ContactOptions& options,
                          double stiffness, const glm::dvec3& portal, const glm::dvec3& tip,
-                         double dt, ContactState& state) noexcept;
+                         double dt, ContactState& state, const TissuePull& tissue = {}) noexcept;
 
 }  // namespace arthro::simulation

@@ -11,6 +11,7 @@ enum class Fault {
   kLost,       // the same sample for longer than lost_after
   kNotFinite,  // a position or a force that is not a number
   kTooFast,    // the hand is faster than max_hand_speed
+  kTissue,     // a tissue could not be computed and was reset
 };
 
 // One word, as written to forces.csv.
@@ -28,6 +29,8 @@ constexpr const char* Word(Fault fault) noexcept {
       return "not_finite";
     case Fault::kTooFast:
       return "too_fast";
+    case Fault::kTissue:
+      return "tissue";
   }
   return "none";
 }

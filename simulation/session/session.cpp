@@ -12,6 +12,9 @@
 namespace arthro::simulation {
 namespace {
 
+// A step of the tissue is felt evenly over the frame until the next one.
+constexpr double kTissueFrame = 1.0 / 60.0;  // s
+
 bool IsFinite(const glm::dvec3& x) noexcept {
   return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
 }
@@ -44,12 +47,27 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   instrument_.rig = scene.rig.instrument;
   const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
   for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
+  away_.resize(count);
+  is_live_.assign(count, 0);
 }
 
 void Session::SetIncisionSpacing(double spacing) noexcept {
   if (spacing == spacing_) return;
   spacing_ = spacing;
   instrument_.contact = ContactState{};
+}
+
+void Session::SetLiveTissues(std::span<const std::uint8_t> is_live) {
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    const std::uint8_t now = i < is_live.size() && is_live[i] != 0 ? 1 : 0;
+    if (now == is_live_[i]) continue;
+    std::swap(meshes_[i], away_[i]);
+    is_live_[i] = now;
+  }
+}
+
+void Session::SetCoupling(const ToolCoupling& coupling) noexcept {
+  if (coupling.step != instrument_.tissue.to.step) TakeCoupling(instrument_.tissue, coupling);
 }
 
 // Is the sample new, how old is it, how fast is the hand?
@@ -90,15 +108,22 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
           LeverAt(tool.rig.portal_from_device * (sample.hip_in_device - tool.rig.pivot),
                   tool.rig.rod_length, options_.lever);
       const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
+      TissuePull pull;
+      if (tool.tissue.to.step > 0) {
+        const CoupledForce tissue = BlendedForce(tool.tissue, tip, dt, kTissueFrame);
+        pull = {tissue.force, tissue.tissue < 0 ? kNoContact : 1 + tissue.tissue};
+        if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
+      }
       contact = TickContact({field_, meshes_}, options_.contact, stiffness, portal, tip, dt,
-                            tool.contact);
+                            tool.contact, pull);
       hand_force = HandForce(lever, contact.force);
     } else {
       fault = Fault::kNotFinite;
     }
   }
   // A tool that is gone, or not a number, enters anew when it comes back.
-  if (fault != Fault::kNone && fault != Fault::kStale) tool.contact = ContactState{};
+  if (fault != Fault::kNone && fault != Fault::kStale && fault != Fault::kTissue)
+    tool.contact = ContactState{};
   const LimitedForce limited =
       LimitForce(options_.limiter, hand_force, tool.hand_speed, fault, dt, tool.limiter);
   state.proxy_in_portal =

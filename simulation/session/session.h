@@ -4,6 +4,7 @@
 // Both tools go the same way: rod pose, contact of the tip, lever, limiter. Portal frame, m, N, s.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/session/session_options.h"
 #include "simulation/session/snapshot.h"
+#include "simulation/tissue/contact/coupling.h"
 
 namespace arthro::simulation {
 
@@ -41,6 +43,14 @@ class Session {
   void SetOptions(const SessionOptions& options) noexcept { options_ = options; }
   const SessionOptions& options() const noexcept { return options_; }
 
+  // Which tissues are computed as living ones, a flag each (missing: not); those are left out of
+  // the rigid surfaces. Not on the servo path: it moves meshes.
+  void SetLiveTissues(std::span<const std::uint8_t> is_live);
+  // What living tissue does to the instrument from now on; call with each step of the tissue, every
+  // frame also when it rests, or the force fades. The same step again changes nothing. A faulty one
+  // gives Fault::kTissue and no force until a good one comes.
+  void SetCoupling(const ToolCoupling& coupling) noexcept;
+
   const DeviceRig& scope_rig() const noexcept { return scope_.rig; }
   const DeviceRig& instrument_rig() const noexcept { return instrument_.rig; }
 
@@ -53,6 +63,7 @@ class Session {
     DeviceSample last;      // the newest one
     double age = 0;         // s since it came
     double hand_speed = 0;  // m/s, between the last two
+    CouplingBlend tissue;
   };
   Fault Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept;
   void TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
@@ -60,7 +71,9 @@ class Session {
 
   SessionOptions options_;
   DepthField field_;
-  std::vector<SurfaceBvh> meshes_;  // one a tissue
+  std::vector<SurfaceBvh> meshes_;  // one a tissue; of living ones nothing
+  std::vector<SurfaceBvh> away_;    // what living ones are when they do not live
+  std::vector<std::uint8_t> is_live_;
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;

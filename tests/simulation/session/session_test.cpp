@@ -1,6 +1,9 @@
 #include "simulation/session/session.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -225,6 +228,137 @@ TEST(Session, SceneWithNothingToTouchHasNoForce) {
   EXPECT_EQ(hands.session.snapshot().scope.contact, kNoContact);
 }
 
+// What a tissue gives that is a spring of 300 N/m at z = 0.030, pushing towards the portal.
+ToolCoupling TissueSpring(const glm::dvec3& tip, std::uint64_t step, double k = 300.0,
+                          double level = 0.030) {
+  ToolCoupling coupling;
+  coupling.step = step;
+  coupling.tip = tip;
+  coupling.count = 1;
+  coupling.contact[0].normal = {0, 0, -1};
+  coupling.contact[0].force = {0, 0, -k * (tip.z - level)};
+  coupling.contact[0].stiffness[2][2] = k;
+  coupling.contact[0].tissue = 0;
+  return coupling;
+}
+
+TEST(LiveTissue, IsFeltAsItsCouplingSaysAndTheToolIsDrawnWhereItHoldsIt) {
+  Hands hands(MakeScene(false, false));
+  hands.Lead({0.03, 0, 0.032}, 1000);
+  for (int step = 1; step <= 20; ++step) {
+    hands.session.SetCoupling(
+        TissueSpring(hands.session.snapshot().instrument.tip_in_portal, step));
+    hands.Tick(16);
+  }
+  const ToolState& tool = hands.session.snapshot().instrument;
+  EXPECT_NEAR(tool.tip_force.z, -300.0 * 0.002, 1e-9);
+  EXPECT_NEAR(tool.proxy_in_portal.z, 0.032 - 300.0 * 0.002 / 500.0, 2e-8) << "10 uN of the spring";
+  EXPECT_EQ(tool.contact, 1);
+  EXPECT_NEAR(tool.penetration, 0.0012, 1e-9);
+  EXPECT_EQ(tool.fault, Fault::kNone);
+  EXPECT_EQ(hands.session.snapshot().scope.contact, kNoContact) << "only the instrument touches it";
+}
+
+// The hand is 1 mm deep in the backdrop at 46 mm and 0.5 mm in tissue that lies on it.
+TEST(LiveTissue, BackdropAndTissueTogetherAreNotCountedTwice) {
+  SessionOptions options;
+  options.contact.static_friction = options.contact.sliding_friction = 0.0;
+  Hands hands(MakeScene(true, false), options);
+  hands.session.SetIncisionSpacing(0.0);
+  hands.Lead({0, 0, 0.047}, 2000);
+  hands.Tick(500);
+  const double alone = hands.session.snapshot().instrument.tip_force.z;
+  EXPECT_NEAR(alone, -0.5, 0.02);
+  const auto press = [&](double k) {
+    for (int step = 1; step <= 20; ++step) {
+      hands.session.SetCoupling(TissueSpring(hands.session.snapshot().instrument.tip_in_portal,
+                                             static_cast<std::uint64_t>(1000 * k) + step, k,
+                                             0.0465));
+      hands.Tick(16);
+    }
+    return hands.session.snapshot().instrument;
+  };
+  // A soft tissue holds the tool less than the backdrop does: the backdrop still has it at its
+  // surface, and the force is that of the one spring between tip and surface.
+  const ToolState soft = press(300.0);
+  EXPECT_NEAR(soft.tip_force.z, alone, 2e-3);
+  EXPECT_NEAR(glm::length(soft.proxy_in_portal), 0.046, 1e-5);
+  EXPECT_EQ(soft.contact, kBackdropContact) << "0.15 N of the tissue, the rest of the backdrop";
+  // A stiff tissue holds it off the backdrop: 1.5 kN/m · 0.5 mm.
+  const ToolState stiff = press(1500.0);
+  EXPECT_NEAR(stiff.tip_force.z, -0.75, 2e-3);
+  EXPECT_EQ(stiff.contact, 1);
+}
+
+TEST(LiveTissue, IsLeftOutOfTheRigidSurfaces) {
+  Hands hands(MakeScene());
+  hands.session.SetLiveTissues(std::array<std::uint8_t, 1>{1});
+  EXPECT_EQ(hands.Lead({0.0115, 0, 0.0368}, 3000).instrument.contact, kNoContact);
+  hands.Lead({0.03, 0, 0.02}, 1000);
+  hands.session.SetLiveTissues({});
+  EXPECT_EQ(hands.Lead({0.0115, 0, 0.0368}, 3000).instrument.contact, 1);
+}
+
+// Hard case 16: what a tissue says that is not a number is a fault, and the session goes on.
+TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
+  Hands hands(MakeScene(false, false));
+  hands.Lead({0.03, 0, 0.032}, 1000);
+  std::uint64_t step = 0;
+  const auto feel = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      hands.session.SetCoupling(
+          TissueSpring(hands.session.snapshot().instrument.tip_in_portal, ++step));
+      hands.Tick(16);
+    }
+  };
+  feel(40);
+  EXPECT_GT(glm::length(hands.session.snapshot().instrument.hand_force), 0.1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int kind = 0; kind < 3; ++kind) {
+    ToolCoupling bad = TissueSpring({0.03, 0, 0.032}, ++step);
+    if (kind == 0) bad.contact[0].force.x = nan;
+    if (kind == 1) bad.contact[0].stiffness[1][1] = std::numeric_limits<double>::infinity();
+    if (kind == 2) bad.is_faulty = true;
+    hands.session.SetCoupling(bad);
+    const ToolState& tool = hands.Tick(3).instrument;
+    EXPECT_EQ(tool.fault, Fault::kTissue) << kind;
+    EXPECT_EQ(tool.tip_force, glm::dvec3(0.0));
+    EXPECT_EQ(tool.hand_force, glm::dvec3(0.0));
+    EXPECT_TRUE(std::isfinite(tool.proxy_in_portal.z));
+    EXPECT_EQ(hands.session.snapshot().scope.fault, Fault::kNone);
+    // The next good step is felt again, from nothing.
+    feel(1);
+    EXPECT_EQ(hands.session.snapshot().instrument.fault, Fault::kNone);
+    EXPECT_LT(glm::length(hands.session.snapshot().instrument.hand_force), 0.05);
+    feel(40);
+    EXPECT_GT(glm::length(hands.session.snapshot().instrument.hand_force), 0.1);
+  }
+}
+
+TEST(LiveTissue, ATissueThatAppearsIsNotAKick) {
+  Hands hands(MakeScene(false, false));
+  hands.Lead({0.03, 0, 0.036}, 1000);
+  hands.Tick(1000);
+  hands.session.SetCoupling(TissueSpring({0.03, 0, 0.036}, 1));
+  glm::dvec3 last(0.0);
+  double largest = 0;
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec3 force = hands.Tick().instrument.tip_force;
+    largest = std::max(largest, glm::length(force - last));
+    last = force;
+  }
+  EXPECT_NEAR(last.z, -1.8, 1e-6);
+  EXPECT_LT(largest, 1.8 * 60 * kTick * 1.01) << "over a frame";
+}
+
+TEST(LiveTissue, ThatFallsSilentFades) {
+  Hands hands(MakeScene(false, false));
+  hands.Lead({0.03, 0, 0.032}, 1000);
+  hands.session.SetCoupling(TissueSpring({0.03, 0, 0.032}, 1));
+  EXPECT_NEAR(hands.Tick(90).instrument.tip_force.z, -0.6, 1e-6);
+  EXPECT_EQ(hands.Tick(70).instrument.tip_force, glm::dvec3(0.0));
+}
+
 TEST(ServoTick, AllocatesNothing) {
   LoadedScene loaded = MakeScene();
   loaded.surfaces[0] = test::Sphere({0, 0, 0}, 0.005, 5);
@@ -236,10 +370,14 @@ TEST(ServoTick, AllocatesNothing) {
     hands.instrument.Set({0.1 * std::sin(3 * s), -0.5 + 0.2 * std::sin(s), s, 0.043});
     hands.Tick();
     if (i == 1500) hands.session.SetIncisionSpacing(-0.03);
+    if (i % 16 == 0)
+      hands.session.SetCoupling(TissueSpring(hands.session.snapshot().instrument.tip_in_portal,
+                                             static_cast<std::uint64_t>(1 + i / 16)));
   }
   EXPECT_EQ(test::Allocations(), before);
 }
 
+static_assert(noexcept(std::declval<Session&>().SetCoupling(std::declval<const ToolCoupling&>())));
 static_assert(noexcept(std::declval<Session&>().Tick(std::declval<const DeviceSample&>(),
                                                      std::declval<const DeviceSample&>(), 0.001)));
 
