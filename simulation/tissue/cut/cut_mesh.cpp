@@ -100,6 +100,7 @@ MeshCutter::MeshCutter(TetMesh whole, double spacing, const CutOptions& options)
   elements_.resize(At(count));
   before_of_.assign(At(count), -1);
   BuildFaces();
+  touching_.resize(faces_.size());
   for (int e = 0; e < count; ++e) {
     Part part;
     part.share.fill(1.0);
@@ -186,7 +187,8 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
     places_.resize(count);
     values_.resize(count);
     PlacesIn(e, places_);
-    field.CutDistances(places_, values_);
+    grid_node_.resize(count);
+    field.CutDistances(places_, values_, grid_node_);
     is_whole = std::none_of(values_.begin(), values_.end(), [](double v) { return v > 0.0; });
   }
   if (is_whole) {
@@ -196,7 +198,7 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
     element.parts = {part};
     return;
   }
-  // Parts: solid points that hang together.
+  // Parts: solid points that are neighbours and hang together in the field's grid, too.
   element.parts.clear();
   element.label.assign(count, kNone);
   auto& front = front_;
@@ -212,23 +214,26 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
       for (auto i = lattice.neighbour_begin[q]; i < lattice.neighbour_begin[q + 1]; ++i) {
         const auto other = At(lattice.neighbour[At(i)]);
         if (values_[other] > 0.0 || element.label[other] != kNone) continue;
+        if (!field.AreJoined(grid_node_[q], grid_node_[other])) continue;
         element.label[other] = label;
         front.push_back(lattice.neighbour[At(i)]);
       }
     }
   }
-  // A lattice part's solid corners are all neighbours, so it belongs to one part of the solid.
+  // A lattice part's solid corners are all neighbours: but at a hinge they are of one part.
   const bool has_one_point = whole_.order == 1;
   for (std::size_t t = 0; t < lattice.part.size(); ++t) {
     const auto& corner = lattice.part[t];
-    std::array<double, 4> value;
-    std::uint8_t label = kNone;
-    for (std::size_t c = 0; c < 4; ++c) {
-      value[c] = values_[At(corner[c])];
-      label = std::min(label, element.label[At(corner[c])]);
-    }
+    std::array<std::uint8_t, 4> labels;
+    for (std::size_t c = 0; c < 4; ++c) labels[c] = element.label[At(corner[c])];
+    const std::uint8_t label = *std::min_element(labels.begin(), labels.end());
     if (label == kNone) continue;
-    const double solid = NegativePart(value);
+    double solid = 1.0;
+    if (*std::max_element(labels.begin(), labels.end()) == kNone) {
+      std::array<double, 4> value;
+      for (std::size_t c = 0; c < 4; ++c) value[c] = values_[At(corner[c])];
+      solid = NegativePart(value);
+    }
     Part& part = element.parts[label];
     if (has_one_point)
       part.share[0] += solid;
@@ -245,13 +250,13 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
 
 // Which parts of the two elements touch through their common face: on at least one of the coarser
 // one's triangles all three points are solid in both.
-bool MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const {
+void MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const {
   pairs.clear();
   const Element &a = elements_[At(face.first)], &b = elements_[At(face.second)];
-  if (a.parts.empty() || b.parts.empty()) return false;
+  if (a.parts.empty() || b.parts.empty()) return;
   if (a.label.empty() && b.label.empty()) {
     pairs.push_back({0, 0});
-    return true;
+    return;
   }
   const TetLattice &la = LatticeOf(face.first), &lb = LatticeOf(face.second);
   const int n = std::min(la.n, lb.n);
@@ -273,8 +278,11 @@ bool MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs)
     for (std::size_t i = 0; i < 3; ++i) l[At(corner[i])] = m[i] * (lattice.n / n);
     return element.label[At(lattice.PointAt(l[1], l[2], l[3]))];
   };
+  std::array<int, 2> last{-1, -1};
   const auto keep = [&](int i, int j) {
     const std::array<int, 2> pair{i, j};
+    if (i == last[0] && j == last[1]) return;
+    last = pair;
     if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
   };
   for (int i = 0; i < n; ++i)
@@ -297,7 +305,6 @@ bool MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs)
         if (is_solid)
           for (std::size_t c = 0; c < 3; ++c) keep(in_a[c], in_b[c]);
       }
-  return !pairs.empty();
 }
 
 const CutMesh& MeshCutter::Assemble(const SolidField& field) {
@@ -323,10 +330,12 @@ const CutMesh& MeshCutter::Assemble(const SolidField& field) {
     }
   // Pieces and nodes: joined where solid touches solid through a face.
   Sets pieces(copies.size()), nodes(copies.size() * per_element);
-  std::vector<std::array<int, 2>> pairs;
   const std::size_t face_nodes = whole_.order == 2 ? 6 : 3;
-  for (const Face& face : faces_) {
-    if (!Touch(face, pairs)) continue;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    auto& pairs = touching_[f];
+    if (!is_assembled_ || before_of_[At(face.first)] >= 0 || before_of_[At(face.second)] >= 0)
+      Touch(face, pairs);
     for (const auto& [p, q] : pairs) {
       const int a = elements_[At(face.first)].parts[At(p)].copy,
                 b = elements_[At(face.second)].parts[At(q)].copy;
@@ -454,6 +463,7 @@ const CutMesh& MeshCutter::Assemble(const SolidField& field) {
   }
   for (Element& element : elements_)
     for (Part& part : element.parts) part.previous_copy = part.copy;
+  is_assembled_ = true;
   before_.clear();
   std::fill(before_of_.begin(), before_of_.end(), -1);
   return result_;

@@ -94,7 +94,7 @@ class MeshCutter {
   void LookAt(const SolidField& field, int e);
   void BuildFaces();
   const CutMesh& Assemble(const SolidField& field);
-  bool Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const;
+  void Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const;
   const TetLattice& LatticeOf(int e) const {
     return (*lattices_)[level_[static_cast<std::size_t>(e)]];
   }
@@ -111,11 +111,14 @@ class MeshCutter {
   std::vector<Box3> box_;
   std::vector<double> volume_;  // m³ a quadrature point
   std::vector<Face> faces_;
+  std::vector<std::vector<std::array<int, 2>>> touching_;  // a face: parts of its two elements
+  bool is_assembled_ = false;
   std::vector<std::array<int, 4>> beside_;  // an element: through which face which other; −1
   std::vector<Element> elements_, before_;  // before_: of those looked at, as they were
   std::vector<int> before_of_;              // an element: its place in before_; −1
   std::vector<glm::dvec3> places_;          // scratch: the points of one element,
   std::vector<double> values_;              // the field there,
+  std::vector<NodeNear> grid_node_;         // the field's nodes that they belong to,
   std::vector<std::int16_t> front_;         // and those still to be visited
   int looked_at_ = 0;
   CutMesh result_;

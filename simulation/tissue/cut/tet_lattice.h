@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -40,11 +41,12 @@ struct TetLattice {
 
 // Adds `part` to the regions that a part belongs to.
 inline void AddToRegions(std::uint8_t region, double part, std::array<double, 4>& sum) {
-  constexpr std::array<double, 5> kEach{0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0};
-  const int ties = (region & 1) + (region >> 1 & 1) + (region >> 2 & 1) + (region >> 3 & 1);
-  const double each = part * kEach[static_cast<std::size_t>(ties)];
+  if (std::has_single_bit(region)) {
+    sum[static_cast<std::size_t>(std::countr_zero(region))] += part;
+    return;
+  }
   for (std::size_t c = 0; c < 4; ++c)
-    if ((region >> c & 1) != 0) sum[c] += each;
+    if ((region >> c & 1) != 0) sum[c] += part / std::popcount(region);
 }
 
 TetLattice MakeTetLattice(int n);

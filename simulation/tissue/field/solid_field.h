@@ -52,6 +52,12 @@ struct FieldGrid {
   glm::dvec3 Place(int i, int j, int k) const { return origin + spacing * glm::dvec3(i, j, k); }
 };
 
+// A place's node: the nearest corner of its cell that was not taken away.
+struct NodeNear {
+  std::int32_t index = -1;    // in the grid; −1: all were, or none near was
+  bool is_cell_whole = true;  // no corner of the cell was
+};
+
 class SolidField {
  public:
   static constexpr int kBrick = 8;  // cells an edge
@@ -72,7 +78,13 @@ class SolidField {
   // The same of what edits took away alone: positive where it was taken, negative elsewhere,
   // −band() where no edit came near.
   double CutDistance(const glm::dvec3& x) const noexcept;
-  void CutDistances(std::span<const glm::dvec3> x, std::span<double> distance) const noexcept;
+  // CutDistance at many places and, where it is not positive, to which of the grid's nodes that
+  // were not taken away the place belongs.
+  void CutDistances(std::span<const glm::dvec3> x, std::span<double> distance,
+                    std::span<NodeNear> node) const noexcept;
+  // Do two places no more than a spacing apart hang together along grid edges? What only touches
+  // at a corner of a cell does not, as in the skin and the pieces.
+  bool AreJoined(const NodeNear& a, const NodeNear& b) const noexcept;
   // Could CutDistance be positive anywhere in the box? False is certain.
   bool MayBeCut(const Box3& box) const noexcept;
 

@@ -1,7 +1,6 @@
 #include "simulation/tissue/cut/cut_mesh.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -12,27 +11,20 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/tissue_meshes.h"
+#include "simulation/core/process_cost.h"
 #include "simulation/tissue/fem/fem_model.h"
+#include "tests/simulation/tissue/cut/cut_checks.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"
-#include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kMm = 1e-3, kMm3 = 1e-9;
+using test::ExpectSound;
+using test::kMm;
+using test::kMm3;
+using test::SameTopology;
 using Shape = std::function<double(const glm::dvec3&)>;
 
-// A block of 12 × 8 × 4 mm in elements of 2 mm, and its field.
-TetMesh Block(int order) {
-  return app::GridMesh(order,
-                       {app::EvenTicks(0, 12 * kMm, 6), app::EvenTicks(0, 8 * kMm, 4),
-                        app::EvenTicks(0, 4 * kMm, 2)},
-                       [](const glm::dvec3& p) { return p; });
-}
-SolidField BlockField(double spacing = 0.35 * kMm) {
-  return SolidField::FromSurface(test::Box(glm::dvec3(0), glm::dvec3(12, 8, 4) * kMm), spacing);
-}
 // 576 T10, as in the reference.
 TetMesh Meniscus(int order) {
   TetMesh mesh = app::MeniscusMesh(order, app::MeniscusTicks({16, 3, 2}));
@@ -51,44 +43,6 @@ double Sum(const std::vector<double>& values) {
 }
 
 double WholeVolume(const TetMesh& mesh) { return FemModel(mesh, {}).volume(); }
-
-// What every cut mesh must be.
-void ExpectSound(const CutMesh& cut, const TetMesh& whole) {
-  const std::size_t points = whole.order == 2 ? 4 : 1;
-  const auto count = static_cast<std::size_t>(cut.mesh.ElementCount());
-  ASSERT_EQ(cut.share.size(), count * points);
-  ASSERT_EQ(cut.solid_share.size(), count * points);
-  ASSERT_EQ(cut.parent_element.size(), count);
-  ASSERT_EQ(cut.piece.size(), count);
-  std::vector<int> uses(cut.mesh.rest_positions.size(), 0);
-  std::vector<double> share_of_parent(static_cast<std::size_t>(whole.ElementCount()) * points, 0);
-  const auto n = static_cast<std::size_t>(whole.NodesPerElement());
-  for (std::size_t e = 0; e < count; ++e) {
-    double mean = 0;
-    for (std::size_t q = 0; q < points; ++q) {
-      const double share = cut.share[e * points + q], solid = cut.solid_share[e * points + q];
-      ASSERT_GT(share, 0.0) << "no quadrature point is empty";
-      ASSERT_LE(share, 1.0);
-      ASSERT_GE(solid, 0.0);
-      mean += solid / static_cast<double>(points);
-      share_of_parent[static_cast<std::size_t>(cut.parent_element[e]) * points + q] += solid;
-    }
-    ASSERT_GT(mean, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const int node = cut.mesh.elements[e * n + i];
-      ++uses[static_cast<std::size_t>(node)];
-      ASSERT_EQ(cut.parent_node[static_cast<std::size_t>(node)],
-                whole.elements[static_cast<std::size_t>(cut.parent_element[e]) * n + i]);
-    }
-  }
-  for (const int use : uses) ASSERT_GT(use, 0) << "every node is some element's";
-  for (const double share : share_of_parent) ASSERT_LE(share, 1.0 + 1e-12);
-}
-
-bool SameTopology(const CutMesh& a, const CutMesh& b) {
-  return a.mesh.elements == b.mesh.elements && a.parent_element == b.parent_element &&
-         a.parent_node == b.parent_node && a.piece == b.piece;
-}
 
 TEST(TetLattice, PartsFillTheElementEvenlyAndEachRegionIsAQuarter) {
   for (const int n : {2, 4, 8, 16}) {
@@ -151,8 +105,8 @@ TEST(CutMesh, AFieldThatWasNotCutGivesBackTheSameMesh) {
 
 TEST(CutMesh, ABiteTakesItsVolumeAndLeavesElementsFarFromItWhole) {
   for (const int order : {1, 2}) {
-    const TetMesh whole = Block(order);
-    SolidField field = BlockField();
+    const TetMesh whole = test::CutBlock(order);
+    SolidField field = test::CutBlockField();
     const glm::dvec3 centre = glm::dvec3(6.1, 3.9, 4) * kMm;
     const FieldEdit edit =
         field.Subtract({centre - 3 * kMm, centre + 3 * kMm}, BallAt(centre, 2 * kMm));
@@ -192,8 +146,8 @@ TEST(CutMesh, ABiteTakesItsVolumeAndLeavesElementsFarFromItWhole) {
 // A slot of a grid spacing and a half through elements of 2 mm: no vertex, edge or face is near it.
 TEST(CutMesh, AThinSlotThroughTheMiddleOfElementsSeparates) {
   for (const int order : {1, 2}) {
-    const TetMesh whole = Block(order);
-    SolidField field = BlockField();
+    const TetMesh whole = test::CutBlock(order);
+    SolidField field = test::CutBlockField();
     field.Subtract(field.box(), Slab(0, 5.1 * kMm, 0.525 * kMm));
     const CutMesh cut = CutByField(whole, field);
     ExpectSound(cut, whole);
@@ -216,8 +170,8 @@ TEST(CutMesh, AThinSlotThroughTheMiddleOfElementsSeparates) {
 
 // A slot that ends inside: one piece, but its two lips have nodes of their own.
 TEST(CutMesh, ATearThatEndsInsideOpensAndHoldsAtItsEnd) {
-  const TetMesh whole = Block(2);
-  SolidField field = BlockField();
+  const TetMesh whole = test::CutBlock(2);
+  SolidField field = test::CutBlockField();
   const glm::dvec3 low = glm::dvec3(-1, -1, -1) * kMm, high = glm::dvec3(13, 4.2, 5) * kMm;
   field.Subtract({low, high}, Slab(0, 5.1 * kMm, 0.6 * kMm));
   const CutMesh cut = CutByField(whole, field);
@@ -263,8 +217,8 @@ TEST(CutMesh, UpdatingWhereTheFieldChangedGivesWhatARebuildGives) {
 
 // After a split, nodes of each half come from the one node that was both.
 TEST(CutMesh, NodesRememberWhichNodeTheyWereInTheMeshBefore) {
-  const TetMesh whole = Block(1);
-  SolidField field = BlockField();
+  const TetMesh whole = test::CutBlock(1);
+  SolidField field = test::CutBlockField();
   MeshCutter cutter(whole, field.spacing());
   cutter.Update(field, field.Subtract(field.box(), Slab(0, 5.1 * kMm, 0.6 * kMm)).changed);
   const CutMesh first = cutter.result();
@@ -289,8 +243,8 @@ TEST(CutMesh, NodesRememberWhichNodeTheyWereInTheMeshBefore) {
 
 // A skin vertex on either lip of a slot is carried by the copy on its own side.
 TEST(CutMesh, PointsOnEachSideOfASlotFindTheirOwnCopy) {
-  const TetMesh whole = Block(2);
-  SolidField field = BlockField();
+  const TetMesh whole = test::CutBlock(2);
+  SolidField field = test::CutBlockField();
   field.Subtract(field.box(), Slab(0, 5.1 * kMm, 0.6 * kMm));
   MeshCutter cutter(whole, field.spacing());
   const CutMesh& cut = cutter.Rebuild(field);
@@ -331,8 +285,8 @@ TEST(CutMesh, PointsOnEachSideOfASlotFindTheirOwnCopy) {
 }
 
 TEST(CutMesh, CrumbsGoWithTheCutAndAreCounted) {
-  const TetMesh whole = Block(2);
-  SolidField field = BlockField(0.25 * kMm);
+  const TetMesh whole = test::CutBlock(2);
+  SolidField field = test::CutBlockField(0.25 * kMm);
   // All of one corner is taken but a ball of 0.25 mm radius: 0.065 mm³.
   const glm::dvec3 corner = glm::dvec3(11.2, 7.2, 3.2) * kMm;
   field.Subtract(field.box(), [&](const glm::dvec3& x) {
@@ -348,8 +302,8 @@ TEST(CutMesh, CrumbsGoWithTheCutAndAreCounted) {
 }
 
 TEST(CutMesh, EverythingTakenLeavesAnEmptyMesh) {
-  const TetMesh whole = Block(2);
-  SolidField field = BlockField();
+  const TetMesh whole = test::CutBlock(2);
+  SolidField field = test::CutBlockField();
   field.Subtract(field.box(), [](const glm::dvec3&) { return -1.0; });
   const CutMesh cut = CutByField(whole, field);
   EXPECT_EQ(cut.mesh.ElementCount(), 0);
@@ -361,21 +315,18 @@ TEST(CutMesh, EverythingTakenLeavesAnEmptyMesh) {
 TEST(CutMesh, TimesOfAMeniscusOf600) {
   const TetMesh whole = Meniscus(2);
   SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto ms = [&](auto start) {
-    return std::chrono::duration<double, std::milli>(now() - start).count();
-  };
-  auto start = now();
+  const auto ms = [](double start) { return ThreadCpuMs() - start; };
+  double start = ThreadCpuMs();
   MeshCutter cutter(whole, field.spacing());
   const double built = ms(start);
   const glm::dvec3 centre = glm::dvec3(11, 0, 2) * kMm;
   const FieldEdit edit =
       field.Subtract({centre - 2.5 * kMm, centre + 2.5 * kMm}, BallAt(centre, 1.7 * kMm));
-  start = now();
+  start = ThreadCpuMs();
   cutter.Update(field, edit.changed);
   const double bite = ms(start);
   const int local = cutter.elements_looked_at();
-  start = now();
+  start = ThreadCpuMs();
   cutter.Rebuild(field);
   std::printf("%d T10: made in %.1f ms; a bite of 3.4 mm %.2f ms (%d elements); all %.1f ms\n",
               whole.ElementCount(), built, bite, local, ms(start));

@@ -1,6 +1,5 @@
 #include "simulation/tissue/cut/cutters.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
+#include "simulation/core/process_cost.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/tissue/field/pieces.h"
 #include "tests/support/shapes.h"
@@ -100,15 +100,12 @@ TEST(Cutters, ResettingADemoMeniscusAfter30BitesIsACopyOfTheOriginal) {
   }
   SolidField field = CutAll(original, cuts);
   EXPECT_LT(field.Volume(), original.Volume());
-  const auto start = std::chrono::steady_clock::now();
+  const double start = ThreadCpuMs();
   field = original;
-  const double reset =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  const auto again = std::chrono::steady_clock::now();
+  const double reset = ThreadCpuMs() - start;
+  const double again = ThreadCpuMs();
   const SolidField undone = CutAll(original, std::span(cuts).first(29));
-  std::printf(
-      "reset %.2f ms; undo of the last of 30 cuts %.1f ms\n", reset,
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - again).count());
+  std::printf("reset %.2f ms; undo of the last of 30 cuts %.1f ms\n", reset, ThreadCpuMs() - again);
   EXPECT_EQ(field.Volume(), original.Volume());
   EXPECT_EQ(field.version(), original.version());
   EXPECT_FALSE(field.MayBeCut(field.box()));

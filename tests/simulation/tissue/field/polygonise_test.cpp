@@ -1,7 +1,6 @@
 #include "simulation/tissue/field/polygonise.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/process_cost.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/tissue/field/cell_patches.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
@@ -179,19 +179,16 @@ TEST(Polygonise, NothingSolidGivesNoTriangles) {
 TEST(Polygonise, DemoMeniscusIsAClosedManifold) {
   SolidField field = SolidField::FromSurface(
       ReadSurface(ARTHRO_SOURCE_DIR "/resources/demo/meniscus.ply", 1.0), 0.35 * kMm);
-  const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto ms = [&](auto start) {
-    return std::chrono::duration<double, std::milli>(now() - start).count();
-  };
-  auto start = now();
+  const auto ms = [](double start) { return ThreadCpuMs() - start; };
+  double start = ThreadCpuMs();
   FieldSkin skin(field);
   const double whole = ms(start);
   const glm::dvec3 centre = skin.surface().vertices[skin.surface().vertices.size() / 2];
-  start = now();
+  start = ThreadCpuMs();
   field.Subtract({centre - 2.5 * kMm, centre + 2.5 * kMm},
                  [&](const glm::dvec3& x) { return glm::length(x - centre) - 1.7 * kMm; });
   const double edit = ms(start);
-  start = now();
+  start = ThreadCpuMs();
   const SkinUpdate update = skin.Update(field);
   std::printf(
       "demo meniscus at 0.35 mm: %zu triangles in %.1f ms; a bite of 3.4 mm: field %.2f ms, skin "
