@@ -1,14 +1,13 @@
 #include "app/bench/registration_bench.h"
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/machine_words.h"
 #include "app/bench/speed_error_plot.h"
 #include "app/bench/stitcher_peer.h"
 #include "authoring/lens/rectifier.h"
@@ -193,18 +192,6 @@ RegistrationBench RunRegistrationBench(const RegistrationBenchOptions& options,
     }
   }
   return bench;
-}
-
-std::string MachineWords() {
-  std::string processor = "unknown processor";
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) {
-      processor = line.substr(line.find(':') + 2);
-      break;
-    }
-  return fmt::format("{}, {} cores, {}, gcc {}", processor, std::thread::hardware_concurrency(),
-                     ARTHRO_BUILD_TYPE, __VERSION__);
 }
 
 std::string TableOf(const RegistrationBench& bench) {

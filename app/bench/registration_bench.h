@@ -64,7 +64,6 @@ std::vector<BenchChain> BenchChains(bool every_chain);
 RegistrationBench RunRegistrationBench(const RegistrationBenchOptions& options,
                                        const Progress& progress);
 
-std::string MachineWords();  // processor, cores, build type, compiler
 std::string TableOf(const RegistrationBench& bench);
 nlohmann::json JsonOf(const RegistrationBench& bench);
 std::string PlotOf(const RegistrationBench& bench);  // SVG

@@ -57,6 +57,18 @@ std::vector<double> EvenTicks(double low, double high, int cells) {
   return ticks;
 }
 
+std::vector<double> GradedTicks(double low, double high, int cells, double ratio) {
+  double whole = 0, cell = 1;
+  for (int i = 0; i < cells; ++i, cell *= ratio) whole += cell;
+  std::vector<double> ticks{low};
+  double done = 0;
+  cell = 1;
+  for (int i = 0; i + 1 < cells; ++i, cell *= ratio)
+    ticks.push_back(low + (high - low) * (done += cell) / whole);
+  ticks.push_back(high);
+  return ticks;
+}
+
 TetMesh GridMesh(int order, const GridTicks& ticks,
                  const std::function<glm::dvec3(const glm::dvec3&)>& place) {
   for (const auto& axis : ticks)
@@ -188,6 +200,17 @@ GridTicks MeniscusTicks(const std::vector<double>& degrees, const std::vector<do
   for (const double mm : radius_mm) ticks[1].push_back(MetresFromMm(mm));
   ticks[2] = height;
   return ticks;
+}
+
+GridTicks BentMeniscusTicks(int beyond, int across) {
+  const std::vector<double> radius = across == 3 ? std::vector<double>{10, 12.5, 15, 20}
+                                                 : std::vector<double>{10, 12.5, 15, 17.2, 20};
+  return MeniscusTicks(GradedTicks(kPatchDegrees, kSweepDegrees / 2, beyond, 0.9), radius, {0, 1});
+}
+
+GridTicks PressedMeniscusTicks() {
+  return MeniscusTicks({7, kPatchDegrees, 10.5, 20, kSweepDegrees / 2},
+                       {10, 12, 12.5, 12.8, 14.5, 15, 16, 20}, {0, 0.8, 1});
 }
 
 }  // namespace arthro::app

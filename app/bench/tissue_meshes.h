@@ -20,6 +20,8 @@ using GridTicks = std::array<std::vector<double>, 3>;
 using Cells = std::array<int, 3>;
 
 std::vector<double> EvenTicks(double low, double high, int cells);
+// Each cell `ratio` times as long as the one before.
+std::vector<double> GradedTicks(double low, double high, int cells, double ratio);
 
 // Nodes in the order of the grid, the last parameter running fastest; of order 2 it is the grid of
 // half the cells. `place` must keep the handedness of the parameters.
@@ -57,5 +59,15 @@ GridTicks MeniscusTicks(const Cells& cells);
 // patch, 100 / 12 degrees, 12.5 and 15 mm are among them.
 GridTicks MeniscusTicks(const std::vector<double>& degrees, const std::vector<double>& radius_mm,
                         const std::vector<double>& height);
+
+// One cell under the patch along the sweep and `beyond` on each side of it, shorter towards the
+// horns, where the crescent bends most; three cells across it, or four; one over the height. For
+// loads that bend the whole body: 6 (2 beyond + 1) × 3 or 4 elements.
+GridTicks BentMeniscusTicks(int beyond, int across);
+
+// Cells of 0.3 to 0.5 mm along the patch's rim, where the pressure under a flat tool is largest,
+// and of the far body hardly any: for a meniscus that rests on the plateau and is pressed locally.
+// 126 cells, 756 elements.
+GridTicks PressedMeniscusTicks();
 
 }  // namespace arthro::app

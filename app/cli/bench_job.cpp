@@ -1,4 +1,4 @@
-// arthroscene bench panorama: speed and error side by side, on clips whose truth is known.
+// arthroscene bench panorama, tissue: speed and error side by side, on inputs whose truth is known.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -10,6 +10,7 @@
 
 #include "app/bench/registration_bench.h"
 #include "app/bench/stitcher_peer.h"
+#include "app/bench/tissue_bench.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -18,19 +19,32 @@
 namespace arthro::app {
 namespace {
 
-struct PanoramaBenchJob {
+template <class Options>
+struct BenchArguments {
   std::string json, plot;
-  RegistrationBenchOptions options;
+  Options options;
 };
 
-void Run(const PanoramaBenchJob& job) {
+// `measure`: options and progress to a bench that has TableOf, JsonOf and PlotOf.
+template <class Options, class Measure>
+void Run(const BenchArguments<Options>& job, Measure measure) {
   if (job.json == "-" && job.plot == "-")
     throw Error(Code::kBadArgument,
                 "table and plot cannot both go to standard output; give one of them a file");
-  const RegistrationBench bench = RunRegistrationBench(job.options, TerminalProgress());
+  const auto bench = measure(job.options, TerminalProgress());
   if (!job.json.empty()) WriteAtomically(job.json, JsonOf(bench).dump(2) + "\n");
   if (!job.plot.empty()) WriteAtomically(job.plot, PlotOf(bench));
   if (job.json != "-" && job.plot != "-") fmt::print("{}", TableOf(bench));
+}
+
+template <class Options, class Measure>
+void AddBench(CLI::App& bench, const char* name, const char* help, Measure measure) {
+  CLI::App* job = bench.add_subcommand(name, help);
+  const auto own = std::make_shared<BenchArguments<Options>>();
+  job->add_option("--json", own->json, "Write the rows as JSON; - for standard output");
+  job->add_option("--plot", own->plot, "Write an SVG of error over time");
+  AddOptions(*job, own->options);
+  job->callback([own, measure] { Run(*own, measure); });
 }
 
 // The other half of the peer: OpenCV's stitcher in a process of its own.
@@ -59,14 +73,14 @@ void AddBenchJob(CLI::App& program) {
   CLI::App* bench = program.add_subcommand(
       "bench", "Measure speed and error side by side, on inputs whose truth is known.");
   bench->require_subcommand(1);
-  CLI::App* panorama = bench->add_subcommand(
-      "panorama",
-      "Registration: detector, scale and stages against truth, beside OpenCV's stitcher.");
-  const auto own = std::make_shared<PanoramaBenchJob>();
-  panorama->add_option("--json", own->json, "Write the rows as JSON; - for standard output");
-  panorama->add_option("--plot", own->plot, "Write an SVG of error over time");
-  AddOptions(*panorama, own->options);
-  panorama->callback([own] { Run(*own); });
+  AddBench<RegistrationBenchOptions>(
+      *bench, "panorama",
+      "Registration: detector, scale and stages against truth, beside OpenCV's stitcher.",
+      RunRegistrationBench);
+  AddBench<TissueBenchOptions>(
+      *bench, "tissue",
+      "Deformable tissue: element, mesh, tolerance and law against continuum values.",
+      RunTissueBench);
   AddWorker(program);
 }
 

@@ -1,5 +1,6 @@
 // Claims about the benchmark of the registration, run as a user runs it, on clips small enough.
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -41,6 +42,38 @@ TEST(BenchJob, HoldsEveryChainAgainstTruthAndThePeer) {
   const std::string svg = ReadWholeFile(plot);
   EXPECT_TRUE(svg.starts_with("<svg"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(BenchJob, HoldsTissueAgainstTheContinuum) {
+  test::TempFolder folder;
+  const std::string json = (folder / "t.json").string(), plot = (folder / "t.svg").string();
+  const auto result =
+      test::RunProgram("bench tissue --only meniscus_load --max-elements 200 --frames 9 --json " +
+                       json + " --plot " + plot);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("mesh budget"), std::string::npos);
+  const auto bench = nlohmann::json::parse(ReadWholeFile(json));
+  EXPECT_EQ(bench.at("schema"), "arthroscene.bench.tissue/1");
+  std::set<std::string> courses, laws;
+  double error = 1;
+  for (const auto& row : bench.at("rows")) {
+    courses.insert(row.at("course"));
+    laws.insert(row.at("law"));
+    EXPECT_LE(row.at("elements"), 200);
+    EXPECT_TRUE(row.at("converged").get<bool>()) << row;
+    // A mesh of more elements is nearer: rows go from coarse to fine.
+    const double now = std::abs(row.at("model_error").get<double>());
+    EXPECT_LT(now, error + 1e-3) << row;
+    error = now;
+  }
+  EXPECT_EQ(courses, (std::set<std::string>{"frames", "static"}));
+  EXPECT_EQ(laws, (std::set<std::string>{"cor", "snh"}));
+  const std::string svg = ReadWholeFile(plot);
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  const auto refused = test::RunProgram("bench tissue --only elbow");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("meniscus_load"), std::string::npos) << refused.err;
 }
 
 TEST(BenchJob, TwoThingsToStandardOutputAreRefused) {
