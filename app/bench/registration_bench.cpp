@@ -242,7 +242,8 @@ std::string PlotOf(const RegistrationBench& bench) {
     marks.push_back({row.clip, row.chain, row.cpu_ms, row.mean_px,
                      row.frames > 0 ? static_cast<double>(row.right) / row.frames : 0});
   return SpeedErrorSvg({"Registration: speed against error", "processor time a frame, ms",
-                        "mean corner error of right frames, px", "filled: share of frames right"},
+                        "mean corner error of right frames, px",
+                        "top edge: nothing right · filled: share of frames right"},
                        marks);
 }
 

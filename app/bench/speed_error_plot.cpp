@@ -71,9 +71,9 @@ std::string SpeedErrorSvg(const PlotWords& words, const std::vector<PlotMark>& m
       most_x = is_first_x ? mark.milliseconds : std::max(most_x, mark.milliseconds);
       is_first_x = false;
     }
-    if (std::isfinite(mark.error_px) && mark.error_px > 0) {
-      least_y = is_first_y ? mark.error_px : std::min(least_y, mark.error_px);
-      most_y = is_first_y ? mark.error_px : std::max(most_y, mark.error_px);
+    if (std::isfinite(mark.error) && mark.error > 0) {
+      least_y = is_first_y ? mark.error : std::min(least_y, mark.error);
+      most_y = is_first_y ? mark.error : std::max(most_y, mark.error);
       is_first_y = false;
     }
   }
@@ -107,11 +107,10 @@ std::string SpeedErrorSvg(const PlotWords& words, const std::vector<PlotMark>& m
       "fill=\"#111111\">{8}</text>\n",
       kLeft, kTop, kHeight - kBottom, kWidth - kRight, (kLeft + kWidth - kRight) / 2,
       kHeight - 18.0, Escaped(words.x), (kTop + kHeight - kBottom) / 2, Escaped(words.y));
-  fmt::format_to(
-      out,
-      "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"end\" fill=\"#666666\">top edge: nothing "
-      "right · {}</text>\n",
-      kWidth - kRight, 28.0, Escaped(words.share));
+  fmt::format_to(out,
+                 "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"end\" fill=\"#666666\">"
+                 "{}</text>\n",
+                 kWidth - kRight, 28.0, Escaped(words.share));
 
   // Legend in a row, in the order of first appearance.
   std::vector<std::string> series;
@@ -136,7 +135,7 @@ std::string SpeedErrorSvg(const PlotWords& words, const std::vector<PlotMark>& m
   std::vector<Box> taken;
   const auto place = [&](const PlotMark& mark) {
     return std::pair{x.At(mark.milliseconds),
-                     std::isfinite(mark.error_px) ? y.At(mark.error_px) : kTop + 8};
+                     std::isfinite(mark.error) ? y.At(mark.error) : kTop + 8};
   };
   for (const PlotMark& mark : marks) {
     const auto [px, py] = place(mark);
