@@ -22,6 +22,12 @@ ARTHRO_INLINE bool IsAnyAbove(V a, double limit) {
   return _mm256_movemask_pd(__m256d(a > (V{} + limit))) != 0;
 }
 
+ARTHRO_INLINE V LoadThree(const double* x) {
+  return V(_mm256_maskload_pd(x, _mm256_setr_epi64x(-1, -1, -1, 0)));
+}
+typedef long long Index __attribute__((vector_size(8 * kWidth)));
+constexpr Index kColumnOf[2] = {{0, 1, 2, 0}, {1, 2, 0, 1}};  // of a block's entries
+
 #include "simulation/tissue/fem/element_kernel.inc"
 
 }  // namespace

@@ -23,6 +23,10 @@ ARTHRO_INLINE bool IsAnyAbove(V a, double limit) {
   return _mm512_cmp_pd_mask(a, V{} + limit, _CMP_GT_OQ) != 0;
 }
 
+ARTHRO_INLINE V LoadThree(const double* x) { return V(_mm512_maskz_loadu_pd(7, x)); }
+typedef long long Index __attribute__((vector_size(8 * kWidth)));
+constexpr Index kColumnOf[1] = {{0, 1, 2, 0, 1, 2, 0, 1}};  // of a block's entries
+
 #include "simulation/tissue/fem/element_kernel.inc"
 
 }  // namespace

@@ -21,6 +21,7 @@ ARTHRO_INLINE V Sqrt(V a) { return V(_mm_sqrt_pd(a)); }
 ARTHRO_INLINE bool IsAnyAbove(V a, double limit) {
   return _mm_movemask_pd(__m128d(a > (V{} + limit))) != 0;
 }
+typedef long long Index __attribute__((vector_size(8 * kWidth)));
 
 #include "simulation/tissue/fem/element_kernel.inc"
 
