@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "simulation/tissue/fem/element_kernel.h"
+#include "simulation/tissue/fem/kernel/element_kernel.h"
 
 namespace arthro::simulation::scalar {
 namespace {
@@ -18,7 +18,7 @@ using V = double;
 ARTHRO_INLINE V Sqrt(V a) { return std::sqrt(a); }
 ARTHRO_INLINE bool IsAnyAbove(V a, double limit) { return a > limit; }
 
-#include "simulation/tissue/fem/element_kernel.inc"
+#include "simulation/tissue/fem/kernel/element_kernel.inc"
 
 }  // namespace
 

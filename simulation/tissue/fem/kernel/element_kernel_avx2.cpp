@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "simulation/tissue/fem/element_kernel.h"
+#include "simulation/tissue/fem/kernel/element_kernel.h"
 
 namespace arthro::simulation::avx2 {
 namespace {
@@ -28,7 +28,7 @@ ARTHRO_INLINE V LoadThree(const double* x) {
 typedef long long Index __attribute__((vector_size(8 * kWidth)));
 constexpr Index kColumnOf[2] = {{0, 1, 2, 0}, {1, 2, 0, 1}};  // of a block's entries
 
-#include "simulation/tissue/fem/element_kernel.inc"
+#include "simulation/tissue/fem/kernel/element_kernel.inc"
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "simulation/tissue/fem/element_kernel.h"
+#include "simulation/tissue/fem/kernel/element_kernel.h"
 
 namespace arthro::simulation::sse2 {
 namespace {
@@ -23,7 +23,7 @@ ARTHRO_INLINE bool IsAnyAbove(V a, double limit) {
 }
 typedef long long Index __attribute__((vector_size(8 * kWidth)));
 
-#include "simulation/tissue/fem/element_kernel.inc"
+#include "simulation/tissue/fem/kernel/element_kernel.inc"
 
 }  // namespace
 

@@ -1,0 +1,48 @@
+#include "simulation/tissue/fem/block_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/simulation/tissue/fem/tissue_bodies.h"
+
+namespace arthro::simulation {
+namespace {
+
+TEST(BlockMatrix, MultipliesAsTheSumOfItsBlocks) {
+  const TetMesh mesh = Crescent(2);
+  const FemModel model(mesh, Rubber());
+  const Assembled a = AssembleAt(model, Shaken(mesh, 1e-4));
+  const std::vector<glm::dvec3> x = Shaken(mesh, 1e-3, 9);
+  std::vector<glm::dvec3> y(x.size());
+  Multiply(a.matrix, x, y);
+  double worst = 0;
+  for (int row = 0; row < model.node_count(); ++row)
+    for (int i = 0; i < 3; ++i) {
+      long double sum = 0, size = 0;
+      for (int e = model.pattern()->row_begin[row]; e < model.pattern()->row_begin[row + 1]; ++e)
+        for (int k = 0; k < 3; ++k) {
+          const long double term = static_cast<long double>(a.matrix.block[e][3 * i + k]) *
+                                   x[model.pattern()->column[e]][k];
+          sum += term;
+          size += std::abs(term);
+        }
+      worst = std::max(worst, static_cast<double>(std::abs(y[row][i] - sum) / size));
+    }
+  EXPECT_LT(worst, 1e-14);
+}
+
+TEST(BlockMatrix, PatternHasNodesOfNoElementAndNothingTwice) {
+  const std::vector<int> elements{0, 1, 2, 4, 1, 2, 4, 5};
+  const BlockPattern p = PatternOf(elements, 4, 7);
+  EXPECT_EQ(p.node_count(), 7);
+  EXPECT_EQ(p.row_begin, (std::vector<int>{0, 4, 9, 14, 15, 20, 24, 25}));
+  EXPECT_EQ(p.column[p.diagonal[3]], 3);
+  EXPECT_EQ(p.Find(0, 5), -1);
+  EXPECT_GE(p.Find(1, 5), 0);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
