@@ -72,6 +72,7 @@ class CaseReader {
       std::string axes = "xyz";
       one.Text("axes", axes);
       fixed.axes = 0;
+      if (axes.empty()) one.Fault("axes", "is empty; it must be of the letters x, y and z");
       for (const char letter : axes) {
         if (letter < 'x' || letter > 'z') {
           one.Fault("axes", fmt::format("is \"{}\"; it must be of the letters x, y and z", axes));

@@ -1,6 +1,7 @@
 #include "simulation/tissue/solver/conjugate_gradients.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "simulation/tissue/solver/node_vectors.h"
@@ -58,6 +59,61 @@ CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditio
     rz = next;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + turn * p[i];
   }
+  return result;
+}
+
+CgResult SolveThree(const LinearSystem& system, RotatedFactor& preconditioner,
+                    std::span<const std::vector<glm::dvec3>, 3> b, const CgGoal& goal,
+                    std::span<CgVectors, 3> vectors,
+                    std::span<std::vector<glm::dvec3>, 3> d) noexcept {
+  CgResult result;
+  std::array<std::span<const glm::dvec3>, 3> r;
+  std::array<std::span<glm::dvec3>, 3> z;
+  std::array<double, 3> rz{}, enough{};
+  std::array<bool, 3> is_done{};
+  for (int c = 0; c < 3; ++c) {
+    std::copy(b[c].begin(), b[c].end(), vectors[c].r.begin());
+    std::fill(d[c].begin(), d[c].end(), glm::dvec3(0.0));
+    r[c] = vectors[c].r;
+    z[c] = vectors[c].z;
+  }
+  preconditioner.Solve(r, z);
+  for (int c = 0; c < 3; ++c) {
+    rz[c] = Dot(r[c], z[c]);
+    enough[c] = goal.relative * goal.relative * rz[c];
+    is_done[c] = !(rz[c] > 0);
+    std::copy(z[c].begin(), z[c].end(), vectors[c].p.begin());
+  }
+  while (!(is_done[0] && is_done[1] && is_done[2]) && result.iterations < goal.max_iterations) {
+    ++result.iterations;
+    for (int c = 0; c < 3; ++c) {
+      if (is_done[c]) continue;
+      auto& v = vectors[c];
+      system.Apply(v.p, v.q);
+      const double curvature = Dot(v.p, v.q);
+      if (!(curvature > 0)) {
+        result.is_positive = false;
+        is_done[c] = true;
+        continue;
+      }
+      const double step = rz[c] / curvature;
+      for (std::size_t i = 0; i < v.r.size(); ++i) {
+        d[c][i] += step * v.p[i];
+        v.r[i] -= step * v.q[i];
+      }
+    }
+    preconditioner.Solve(r, z);
+    for (int c = 0; c < 3; ++c) {
+      if (is_done[c]) continue;
+      auto& v = vectors[c];
+      const double next = Dot(v.r, v.z);
+      is_done[c] = !std::isfinite(next) || next <= enough[c];
+      const double turn = next / rz[c];
+      rz[c] = next;
+      for (std::size_t i = 0; i < v.p.size(); ++i) v.p[i] = v.z[i] + turn * v.p[i];
+    }
+  }
+  result.converged = is_done[0] && is_done[1] && is_done[2] && result.is_positive;
   return result;
 }
 

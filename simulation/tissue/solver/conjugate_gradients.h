@@ -48,4 +48,11 @@ CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditio
                           std::span<const glm::dvec3> b, const CgGoal& goal, CgVectors& vectors,
                           std::span<glm::dvec3> d) noexcept;
 
+// The same matrix with three right-hand sides, in step with one another: a factor's panels are then
+// read once for all three. Ends when all have reached the relative goal.
+CgResult SolveThree(const LinearSystem& system, RotatedFactor& preconditioner,
+                    std::span<const std::vector<glm::dvec3>, 3> b, const CgGoal& goal,
+                    std::span<CgVectors, 3> vectors,
+                    std::span<std::vector<glm::dvec3>, 3> d) noexcept;
+
 }  // namespace arthro::simulation

@@ -42,18 +42,17 @@ struct Symbolic {
 
 // Lower triangle of the pattern, one row a node.
 Matrix NodeGraph(Session& session, const BlockPattern& pattern) {
-  const auto n = static_cast<std::size_t>(pattern.node_count());
+  const auto n = pattern.node_count();
   Matrix graph{session, cholmod_allocate_sparse(n, n, pattern.column.size(), true, true, -1,
                                                 CHOLMOD_PATTERN, &session.common)};
   if (!graph.value) GiveUp();
   auto* begin = static_cast<int*>(graph.value->p);
   auto* row = static_cast<int*>(graph.value->i);
   int count = 0;
-  for (std::size_t j = 0; j < n; ++j) {
+  for (int j = 0; j < n; ++j) {
     begin[j] = count;
     for (int k = pattern.row_begin[j]; k < pattern.row_begin[j + 1]; ++k)
-      if (const int i = pattern.column[static_cast<std::size_t>(k)]; i >= static_cast<int>(j))
-        row[count++] = i;
+      if (const int i = pattern.column[k]; i >= static_cast<int>(j)) row[count++] = i;
   }
   begin[n] = count;
   return graph;
@@ -64,13 +63,13 @@ Matrix NodeGraph(Session& session, const BlockPattern& pattern) {
 FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fixed)
     : pattern_(std::move(pattern)), fixed_(std::move(fixed)) {
   const int nodes = pattern_->node_count();
-  if (fixed_.empty()) fixed_.assign(static_cast<std::size_t>(nodes), 0);
+  if (fixed_.empty()) fixed_.assign(nodes, 0);
   // Free axes in the mesh's order.
-  std::vector<int> index(static_cast<std::size_t>(nodes) * 3, -1), axis;
+  std::vector<int> index(nodes * 3, -1), axis;
   for (int i = 0; i < nodes; ++i)
     for (int a = 0; a < 3; ++a)
-      if (!(fixed_[static_cast<std::size_t>(i)] >> a & 1)) {
-        index[static_cast<std::size_t>(3 * i + a)] = static_cast<int>(axis.size());
+      if (!(fixed_[i] >> a & 1)) {
+        index[3 * i + a] = static_cast<int>(axis.size());
         axis.push_back(3 * i + a);
       }
   size_ = static_cast<int>(axis.size());
@@ -81,10 +80,9 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
   // The scalar pattern, lower triangle.
   std::size_t entries = 0;
   for (int j : axis)
-    entries +=
-        3 * static_cast<std::size_t>(pattern_->row_begin[static_cast<std::size_t>(j / 3 + 1)] -
-                                     pattern_->row_begin[static_cast<std::size_t>(j / 3)]);
-  const auto n = static_cast<std::size_t>(size_);
+    entries += 3 * pattern_->row_begin[static_cast<std::size_t>(j / 3 + 1)] -
+               pattern_->row_begin[static_cast<std::size_t>(j / 3)];
+  const auto n = size_;
   const Matrix scalar{session, cholmod_allocate_sparse(n, n, entries, true, true, -1,
                                                        CHOLMOD_PATTERN, &session.common)};
   if (!scalar.value) GiveUp();
@@ -92,14 +90,12 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
   auto* row = static_cast<int*>(scalar.value->i);
   std::vector<std::int32_t> from;
   int count = 0;
-  for (std::size_t j = 0; j < n; ++j) {
+  for (int j = 0; j < n; ++j) {
     begin[j] = count;
     const int node = axis[j] / 3, along = axis[j] % 3;
-    for (int k = pattern_->row_begin[static_cast<std::size_t>(node)];
-         k < pattern_->row_begin[static_cast<std::size_t>(node + 1)]; ++k)
+    for (int k = pattern_->row_begin[node]; k < pattern_->row_begin[node + 1]; ++k)
       for (int a = 0; a < 3; ++a) {
-        const int i =
-            index[static_cast<std::size_t>(3 * pattern_->column[static_cast<std::size_t>(k)] + a)];
+        const int i = index[3 * pattern_->column[static_cast<std::size_t>(k)] + a];
         if (i < static_cast<int>(j)) continue;
         row[count++] = i;
         from.push_back(k * 9 + along * 3 +
@@ -113,7 +109,7 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
   double best = 0;
   std::vector<int> best_order;
   for (const bool dissects : {true, false}) {
-    std::vector<int> order(static_cast<std::size_t>(nodes));
+    std::vector<int> order(nodes);
     const int done =
         dissects ? cholmod_metis(graph.value, nullptr, 0, true, order.data(), &session.common)
                  : cholmod_amd(graph.value, nullptr, 0, order.data(), &session.common);
@@ -121,8 +117,7 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
     std::vector<int> scalars;
     for (int node : order)
       for (int a = 0; a < 3; ++a)
-        if (const int i = index[static_cast<std::size_t>(3 * node + a)]; i >= 0)
-          scalars.push_back(i);
+        if (const int i = index[3 * node + a]; i >= 0) scalars.push_back(i);
     const Symbolic symbolic{
         session, cholmod_analyze_p(scalar.value, scalars.data(), nullptr, 0, &session.common)};
     if (!symbolic.value) continue;
@@ -146,9 +141,9 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
   std::vector<int> permuted(n);
   axis_.resize(n);
   owner_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    permuted[static_cast<std::size_t>(permutation[i])] = static_cast<int>(i);
-    axis_[i] = axis[static_cast<std::size_t>(permutation[i])];
+  for (int i = 0; i < n; ++i) {
+    permuted[permutation[i]] = static_cast<int>(i);
+    axis_[i] = axis[permutation[i]];
   }
   row_.assign(rows, rows + rows_begin[l.nsuper]);
   for (std::size_t s = 0; s < l.nsuper; ++s) {
@@ -158,23 +153,21 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
     panel_size_ += static_cast<std::int64_t>(node.stride) * node.columns;
     widest_ = std::max(widest_, node.columns);
     tallest_ = std::max(tallest_, node.rows);
-    for (int c = 0; c < node.columns; ++c)
-      owner_[static_cast<std::size_t>(node.first + c)] = static_cast<int>(s);
+    for (int c = 0; c < node.columns; ++c) owner_[node.first + c] = static_cast<int>(s);
     supernode_.push_back(node);
   }
 
   // Where each entry of the matrix goes.
   entry_.reserve(from.size());
-  for (std::size_t j = 0; j < n; ++j)
+  for (int j = 0; j < n; ++j)
     for (int k = begin[j]; k < begin[j + 1]; ++k) {
-      const int a = permuted[j], b = permuted[static_cast<std::size_t>(row[k])];
+      const int a = permuted[j], b = permuted[row[k]];
       const int column = std::min(a, b), below = std::max(a, b);
-      const Supernode& s =
-          supernode_[static_cast<std::size_t>(owner_[static_cast<std::size_t>(column)])];
+      const Supernode& s = supernode_[owner_[static_cast<std::size_t>(column)]];
       const auto list = row_.begin() + s.row;
       const auto place = std::lower_bound(list, list + s.rows, below) - list;
-      entry_.push_back({s.value + static_cast<std::int64_t>(column - s.first) * s.stride + place,
-                        from[static_cast<std::size_t>(k)]});
+      entry_.push_back(
+          {s.value + static_cast<std::int64_t>(column - s.first) * s.stride + place, from[k]});
     }
 }
 

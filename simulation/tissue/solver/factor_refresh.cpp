@@ -1,5 +1,7 @@
-#include <algorithm>
+#include <exception>
+#include <utility>
 
+#include "simulation/core/error.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
 
 namespace arthro::simulation {
@@ -34,13 +36,101 @@ void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x) {
   for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (dt * dt);
   BlockMatrix matrix = stiffness;
   AddSprings(matrix);
-  if (!plan || plan->node_count() != model->node_count())
-    plan = std::make_shared<FactorPlan>(model->pattern(), fixed);
-  auto made = std::make_unique<SparseFactor>(plan);
+  const FactorPlan& old = factor->factor().plan();
+  auto plan = old.pattern() == matrix.pattern && old.fixed() == fixed
+                  ? factor->factor().shared_plan()
+                  : std::make_shared<const FactorPlan>(matrix.pattern, fixed);
+  auto made = std::make_unique<SparseFactor>(std::move(plan));
   if (made->Factor(matrix, with) < 0) return;  // the old one is better than none
   model->NodeRotations(x, rotation);
   factor = std::make_unique<RotatedFactor>(std::move(made), rotation);
   age = 0;
+}
+
+void ImplicitSolver::BeginRefresh() {
+  Impl& body = *impl_;
+  if (body.job == Impl::Job::kBegun) return;  // the one that is being made comes first
+  if (!body.is_evaluated || body.at_tangent == Tangent::kNone) {
+    const std::vector<glm::dvec3> x = body.good_x;
+    body.Evaluate(x, body.model->material().law, Tangent::kTrue);
+  }
+  body.job_fixed = body.fixed;
+  body.job_stiffness = body.stiffness;
+  body.AddSprings(body.job_stiffness);
+  const auto mass = body.model->mass();
+  const double dt = body.last_dt > 0 ? body.last_dt : kStaticStep;
+  body.job_added.resize(mass.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) body.job_added[i] = mass[i] / (dt * dt);
+  body.job_rotation.resize(mass.size());
+  body.model->NodeRotations(body.at, body.job_rotation);
+  body.job_parent.clear();
+  body.job_age = 0;
+  body.job = Impl::Job::kBegun;
+}
+
+void ImplicitSolver::RunRefresh() noexcept {
+  Impl& body = *impl_;
+  if (body.job != Impl::Job::kBegun) return;
+  try {
+    const auto& pattern = body.job_stiffness.pattern;
+    const bool fits = body.spare && body.spare->factor().plan().pattern() == pattern &&
+                      body.spare->factor().plan().fixed() == body.job_fixed;
+    if (!fits)
+      body.spare = std::make_unique<RotatedFactor>(
+          std::make_unique<SparseFactor>(
+              std::make_shared<const FactorPlan>(pattern, body.job_fixed)),
+          body.job_rotation);
+    const bool is_good = body.spare->factor().Factor(body.job_stiffness, body.job_added) >= 0;
+    body.spare->SetRotations(body.job_rotation);
+    body.job = is_good ? Impl::Job::kDone : Impl::Job::kFailed;
+  } catch (const std::exception&) {  // no memory for it: the old factor goes on
+    body.spare.reset();
+    body.job = Impl::Job::kFailed;
+  }
+}
+
+bool ImplicitSolver::TakeRefreshed() noexcept {
+  Impl& body = *impl_;
+  if (body.job == Impl::Job::kFailed) body.job = Impl::Job::kNone;
+  if (body.job != Impl::Job::kDone) return false;
+  std::swap(body.factor, body.spare);
+  if (!body.job_parent.empty()) body.factor->Inherit(body.job_parent, body.fixed);
+  body.age = body.job_age;
+  body.job = Impl::Job::kNone;
+  return true;
+}
+
+int ImplicitSolver::factor_age() const { return impl_->age; }
+
+void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fixed,
+                             std::span<const int> parent) {
+  Impl& body = *impl_;
+  const auto old_nodes = static_cast<int>(body.is_free.size());
+  if (static_cast<int>(parent.size()) != model->node_count())
+    throw Error(Code::kBadArgument, "a cut body must say of every node which one it was");
+  for (const int p : parent)
+    if (p < 0 || p >= old_nodes)
+      throw Error(
+          Code::kBadArgument,
+          "a cut body names a node that was not there before; give 0 to the number of nodes");
+  std::vector<int> of_job(parent.begin(), parent.end());
+  if (!body.job_parent.empty())
+    for (int& p : of_job) p = body.job_parent[p];
+  std::vector<glm::dvec3> x(parent.size()), v(parent.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    x[i] = body.good_x[parent[i]];
+    v[i] = body.good_v[parent[i]];
+  }
+  body.model = std::move(model);
+  body.fixed = std::move(fixed);
+  body.Fit();
+  body.factor->Inherit(parent, body.fixed);
+  body.job_parent = std::move(of_job);
+  body.good_x = std::move(x);
+  body.good_v = std::move(v);
+  body.springs.clear();  // they name nodes of before
+  body.contacts.clear();
+  body.is_recovering = body.has_given_up = false;
 }
 
 }  // namespace arthro::simulation

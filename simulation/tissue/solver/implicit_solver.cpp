@@ -43,15 +43,14 @@ void ImplicitSolver::Impl::Fit() {
                     fixed.size(), nodes));
   stiffness.pattern = model->pattern();
   stiffness.block.resize(model->pattern()->column.size());
-  job_stiffness.block.resize(stiffness.block.size());
   for (auto* v : {&at, &force, &goal_x, &begin_x, &gradient, &direction, &right, &lead, &trial,
-                  &reaction, &unit_load, &job_x, &job_force})
+                  &reaction, &unit_load, &tool_right[0], &tool_right[1], &tool_right[2],
+                  &tool_left[0], &tool_left[1], &tool_left[2]})
     v->assign(nodes, glm::dvec3(0.0));
   rotation.assign(nodes, glm::dmat3(1.0));
-  job_rotation = rotation;
   added.assign(nodes, 0.0);
-  job_added = added;
   vectors.Resize(model->node_count());
+  for (CgVectors& v : tool_vectors) v.Resize(model->node_count());
   is_evaluated = false;
 
   // What counts as nothing: forces and energies that are rounding.
@@ -63,6 +62,7 @@ void ImplicitSolver::Impl::Fit() {
 
   // Nodes of empty elements stay where they are.
   Evaluate(model->mesh().rest_positions, m.law, Tangent::kTrue);
+  force_noise = 10 * Norm(force) + 1e-14 * m.young_modulus * std::cbrt(volume * volume);
   double mean = 0;
   const auto stiffness_of = [&](std::size_t i) {
     const auto& block = stiffness.block[stiffness.pattern->diagonal[i]];
@@ -77,11 +77,10 @@ void ImplicitSolver::Impl::Fit() {
 }
 
 void ImplicitSolver::Impl::FactorRest() {
-  plan = std::make_shared<FactorPlan>(model->pattern(), fixed);
   const auto mass = model->mass();
-  for (std::size_t i = 0; i < mass.size(); ++i) job_added[i] = mass[i] / (kUsualStep * kUsualStep);
-  auto made = std::make_unique<SparseFactor>(plan);
-  if (made->Factor(stiffness, job_added) < 0)
+  for (std::size_t i = 0; i < mass.size(); ++i) added[i] = mass[i] / (kUsualStep * kUsualStep);
+  auto made = std::make_unique<SparseFactor>(std::make_shared<FactorPlan>(model->pattern(), fixed));
+  if (made->Factor(stiffness, added) < 0)
     throw Error(Code::kBadMesh,
                 "the stiffness of the mesh at rest cannot be computed with; make the mesh again");
   factor = std::make_unique<RotatedFactor>(std::move(made), rotation);
@@ -168,6 +167,7 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
       body.Newton(state.x, problem,
                   {body.options.tolerance, body.options.max_newton, body.options.max_iterations});
   ++body.age;
+  ++body.job_age;
   if (!report.is_finite || !AllFinite(state.x)) {
     std::copy(body.begin_x.begin(), body.begin_x.end(), state.x.begin());
     report.is_finite = false;

@@ -87,6 +87,14 @@ class ImplicitSolver {
   // conjugate gradients.
   void Compliance(std::span<const ContactPoint> points, double tolerance, std::span<double> w);
 
+  // How the force on a tool grows when it is moved, all contacts of `owner` together, the tissue
+  // following: K = Σ kᵢ Pᵢ − Bᵀ A⁻¹ B, B = Σ Jᵢᵀ kᵢ Pᵢ, with A the last step's system, springs and
+  // friction included, and kᵢ Pᵢ the stiffness of a contact that bears (along its normal, and
+  // sideways while friction sticks). N/m, symmetric, positive semidefinite. Three right-hand sides
+  // of the same conjugate gradients at once; allocates nothing.
+  glm::dmat3 ToolStiffness(std::span<const ContactPoint> contacts, int owner,
+                           double tolerance) noexcept;
+
   // The same body after a cut or new shares: node i of the new model was node parent[i] of the old
   // one. The old factor goes on as preconditioner through that map until a refreshed one is taken.
   void Replace(std::shared_ptr<const FemModel> model, FixedAxes fixed, std::span<const int> parent);

@@ -4,6 +4,7 @@
 // beginning. SI, the mesh's own frame.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <span>
@@ -54,6 +55,9 @@ struct ImplicitSolver::Impl {
   bool SearchAlong(std::span<glm::dvec3> x, const Problem& problem, Law law, Tangent tangent);
   LinearSystem System() const;
 
+  // compliance.cpp
+  std::vector<ContactSpring> SpringsWithout(std::span<const ContactPoint> points) const;
+
   // factor_refresh.cpp
   void FactorNow(std::span<const glm::dvec3> x);
   void AddSprings(BlockMatrix& to) const;
@@ -66,7 +70,8 @@ struct ImplicitSolver::Impl {
   FixedAxes fixed;
   SolverOptions options;
   std::vector<glm::dvec3> is_free;
-  double least_force = 0;   // N, what counts as no force at all
+  double least_force = 0;   // N, what counts as no load at all
+  double force_noise = 0;   // N, rounding of all elastic forces together
   double energy_noise = 0;  // J, rounding of the elastic energy
 
   // The last evaluation.
@@ -89,29 +94,27 @@ struct ImplicitSolver::Impl {
   std::vector<glm::dvec3> gradient, direction, right, lead, trial, reaction, unit_load;
   std::vector<glm::dmat3> rotation;
   CgVectors vectors;
+  std::array<CgVectors, 3> tool_vectors;  // of ToolStiffness
+  std::array<std::vector<glm::dvec3>, 3> tool_right, tool_left;
   bool is_recovering = false;  // from inverted elements, by the corotated law
   int recovery_steps = 0;
   bool has_given_up = false;  // recovering ended with elements inverted: they are meant to be
-  bool met_negative = false;   // since Newton began, the true tangent was not positive
+  bool met_negative = false;  // since Newton began, the true tangent was not positive
   int projected_left = 0;     // Newton iterations that go on with the projected tangent
 
   std::unique_ptr<RotatedFactor> factor;
   int age = 0;
 
-  // A factor being made. `job_*` is read by the thread that runs it.
+  // A factor being made: while begun, `job_*` and `spare` belong to whoever runs it.
+  enum class Job { kNone, kBegun, kDone, kFailed };
+  std::atomic<Job> job{Job::kNone};
   std::unique_ptr<RotatedFactor> spare;
-  std::vector<int> spare_parent;  // the body's nodes in the spare's, where cut since
-  bool was_cut_since = false;
-  std::shared_ptr<const FactorPlan> plan;
-  std::shared_ptr<const FemModel> job_model;
   FixedAxes job_fixed;
   BlockMatrix job_stiffness;
   std::vector<double> job_added;
-  std::vector<glm::dvec3> job_x, job_force;
   std::vector<glm::dmat3> job_rotation;
-  Law job_law = Law::kStableNeoHookean;
-  enum class Job { kNone, kBegun, kDone };
-  std::atomic<Job> job{Job::kNone};
+  // These are the step's own.
+  std::vector<int> job_parent;  // the body's nodes in the job's, where cut since it began; or empty
   int job_age = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFarFromRest = 0.2;
 constexpr int kLongestRecovery = 200;    // Newton iterations
 constexpr int kProjectedIterations = 3;  // after the true tangent was found not to be positive
-constexpr double kAsleep = 1e-3;     // of the tolerance: a step that begins there has nothing to do
+constexpr double kAsleep = 1e-4;     // of the tolerance: a step that begins there has nothing to do
 constexpr int kManyIterations = 12;  // that call for a new factor where one may be made
 
 }  // namespace
@@ -202,13 +202,16 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
       recovery_steps = 0;
       continue;
     }
-    const double enough = report.newton == 0
-                              ? std::min(goal.tolerance, 1e-2) * (problem.dt > 0 ? kAsleep : 1.0)
-                              : goal.tolerance;
-    report.converged = residual <= goal.tolerance && !leads && !is_recovering;
-    if ((residual <= enough && !leads && !is_recovering) || report.newton >= goal.max_newton ||
-        stuck > 2)
-      return report;
+    const bool is_rounding = Norm(gradient) <= force_noise;
+    const bool is_free_to_end = !leads && !is_recovering;
+    report.converged = (residual <= goal.tolerance || is_rounding) && is_free_to_end;
+    // A step that begins nearly balanced has nothing to do; others go on by one Newton iteration at
+    // least, so that a settling body comes far closer than the tolerance of one step.
+    const double enough =
+        problem.dt > 0 && report.newton == 0 ? kAsleep * goal.tolerance : goal.tolerance;
+    if ((residual <= enough || is_rounding) && is_free_to_end) return report;
+    if (report.newton >= goal.max_newton || stuck > 2) return report;
+    if (met_negative && !goal.follows && report.newton > goal.patience) return report;
     ++report.newton;
     FindDirection(x, problem, goal, scale, residual, leads, report);
     tangent = at_tangent;

@@ -4,6 +4,7 @@
 // `parent` it serves a body that has been cut since.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,7 +22,7 @@ class RotatedFactor {
   RotatedFactor(std::unique_ptr<SparseFactor> factor, std::span<const glm::dmat3> rotation);
 
   SparseFactor& factor() { return *factor_; }
-  // For factoring anew into the same memory.
+  // After factoring anew into the same memory: a factor of its own plan's body again.
   void SetRotations(std::span<const glm::dmat3> rotation);
 
   // Node i of the body is now what node parent[i] was before; `fixed` are its fixed axes.
@@ -33,7 +34,12 @@ class RotatedFactor {
   void SetDiagonal(const BlockMatrix& a, std::span<const double> added) noexcept;
 
   // z = P⁻¹ r; 0 at fixed axes. Allocates nothing.
-  void Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept;
+  void Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept {
+    Solve(std::span(&r, 1), std::span(&z, 1));
+  }
+  // The same for 1 or 3 vectors at once.
+  void Solve(std::span<const std::span<const glm::dvec3>> r,
+             std::span<const std::span<glm::dvec3>> z) noexcept;
 
  private:
   std::unique_ptr<SparseFactor> factor_;
@@ -42,7 +48,7 @@ class RotatedFactor {
   std::vector<int> parent_;              // empty: the body is as it was
   std::vector<glm::dmat3> block_;        // where split: inverse of the diagonal block, else 0
   std::vector<unsigned char> is_split_;
-  std::vector<glm::dvec3> right_, left_;  // nodes of the factor
+  std::array<std::vector<glm::dvec3>, 3> right_, left_;  // nodes of the factor
 };
 
 }  // namespace arthro::simulation

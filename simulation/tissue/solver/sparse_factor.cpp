@@ -1,33 +1,36 @@
 #include "simulation/tissue/solver/sparse_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "simulation/tissue/solver/panel_kernels.h"
 
 namespace arthro::simulation {
+namespace {
+
+constexpr int kMostRight = 3;  // right-hand sides
+
+}  // namespace
 
 SparseFactor::SparseFactor(std::shared_ptr<const FactorPlan> plan) : plan_(std::move(plan)) {
   const FactorPlan& p = *plan_;
-  storage_.assign(static_cast<std::size_t>(p.panel_size_) + 2 * kStrip, 0.0f);
+  storage_.assign(p.panel_size_ + 2 * kStrip, 0.0f);
   panels_ = storage_.data();
   while (reinterpret_cast<std::uintptr_t>(panels_) % 64) ++panels_;
-  vector_.resize(static_cast<std::size_t>(p.size_));
-  strip_.resize(static_cast<std::size_t>(StripsOf(p.tallest_)) + kStrip);
-  short_.resize(static_cast<std::size_t>(p.widest_) + kStrip);
+  vector_.resize(static_cast<std::size_t>(kMostRight) * p.size_);
+  strip_.resize(static_cast<std::size_t>(kMostRight) * StripsOf(p.tallest_));
+  short_.resize(static_cast<std::size_t>(kMostRight) * p.widest_);
 }
 
 double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added) {
   const FactorPlan& p = *plan_;
-  const auto widest = static_cast<std::size_t>(p.widest_),
-             tallest = static_cast<std::size_t>(StripsOf(p.tallest_));
-  work_.resize(static_cast<std::size_t>(p.panel_size_) + kStrip);
-  inverse_.resize(widest * static_cast<std::size_t>(StripsOf(p.widest_)) + kStrip);
+  const std::int64_t widest = p.widest_, tallest = StripsOf(p.tallest_);
+  work_.resize(p.panel_size_ + kStrip);
+  inverse_.resize(widest * StripsOf(p.widest_) + kStrip);
   right_.resize(inverse_.size());
-  product_.resize(
-      std::max(widest * tallest, 2 * widest * static_cast<std::size_t>(StripsOf(p.widest_))) +
-      kStrip);
-  map_.resize(static_cast<std::size_t>(p.size_));
+  product_.resize(std::max(widest * tallest, 2 * widest * StripsOf(p.widest_)) + kStrip);
+  map_.resize(p.size_);
   head_.resize(p.supernode_.size());
   next_.resize(p.supernode_.size());
   position_.resize(p.supernode_.size());
@@ -41,41 +44,35 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
   const FactorPlan& p = *plan_;
   // The matrix into the panels.
   std::fill(work_.begin(), work_.end(), 0.0);
-  for (const FactorPlan::Entry& e : p.entry_)
-    work_[static_cast<std::size_t>(e.to)] =
-        a.block[static_cast<std::size_t>(e.from / 9)][static_cast<std::size_t>(e.from % 9)];
+  for (const FactorPlan::Entry& e : p.entry_) work_[e.to] = a.block[e.from / 9][e.from % 9];
   double largest = 0;
   for (const FactorPlan::Supernode& s : p.supernode_)
     for (int j = 0; j < s.columns; ++j) {
-      double& diagonal =
-          work_[static_cast<std::size_t>(s.value + static_cast<std::int64_t>(j) * s.stride + j)];
-      if (!added.empty())
-        diagonal +=
-            added[static_cast<std::size_t>(p.axis_[static_cast<std::size_t>(s.first + j)] / 3)];
+      double& diagonal = work_[s.value + static_cast<std::int64_t>(j) * s.stride + j];
+      if (!added.empty()) diagonal += added[p.axis_[static_cast<std::size_t>(s.first + j)] / 3];
       diagonal += shift * std::abs(diagonal);
       largest = std::max(largest, diagonal);
     }
   if (!std::isfinite(largest)) return false;
   for (const FactorPlan::Supernode& s : p.supernode_)
     for (int j = 0; j < s.columns && shift > 0; ++j)
-      work_[static_cast<std::size_t>(s.value + static_cast<std::int64_t>(j) * s.stride + j)] +=
-          1e-3 * shift * largest;
+      work_[s.value + static_cast<std::int64_t>(j) * s.stride + j] += 1e-3 * shift * largest;
   constexpr double kLeastPivot = 1e-14;  // of the largest diagonal entry: below is rounding
   const double least = kLeastPivot * largest;
 
   const int count = static_cast<int>(p.supernode_.size());
   std::fill(head_.begin(), head_.end(), -1);
   for (int i = 0; i < count; ++i) {
-    const FactorPlan::Supernode& s = p.supernode_[static_cast<std::size_t>(i)];
+    const FactorPlan::Supernode& s = p.supernode_[i];
     const int* rows = p.row_.data() + s.row;
     double* panel = work_.data() + s.value;
-    for (int r = 0; r < s.rows; ++r) map_[static_cast<std::size_t>(rows[r])] = r;
+    for (int r = 0; r < s.rows; ++r) map_[rows[r]] = r;
     // What finished supernodes that have rows among these columns take away.
-    for (int d = head_[static_cast<std::size_t>(i)]; d >= 0;) {
-      const int following = next_[static_cast<std::size_t>(d)];
-      const FactorPlan::Supernode& from = p.supernode_[static_cast<std::size_t>(d)];
+    for (int d = head_[i]; d >= 0;) {
+      const int following = next_[d];
+      const FactorPlan::Supernode& from = p.supernode_[d];
       const int* from_rows = p.row_.data() + from.row;
-      const int begin = position_[static_cast<std::size_t>(d)];
+      const int begin = position_[d];
       int end = begin;
       while (end < from.rows && from_rows[end] < s.first + s.columns) ++end;
       const int m = from.rows - begin, n = end - begin, stride = StripsOf(m);
@@ -85,14 +82,12 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       for (int c = 0; c < n; ++c) {
         double* to = panel + static_cast<std::int64_t>(from_rows[begin + c] - s.first) * s.stride;
         const double* column = product_.data() + static_cast<std::int64_t>(c) * stride;
-        for (int r = c; r < m; ++r)
-          to[map_[static_cast<std::size_t>(from_rows[begin + r])]] -= column[r];
+        for (int r = c; r < m; ++r) to[map_[from_rows[begin + r]]] -= column[r];
       }
       if (end < from.rows) {
-        position_[static_cast<std::size_t>(d)] = end;
-        int& head =
-            head_[static_cast<std::size_t>(p.owner_[static_cast<std::size_t>(from_rows[end])])];
-        next_[static_cast<std::size_t>(d)] = head;
+        position_[d] = end;
+        int& head = head_[p.owner_[static_cast<std::size_t>(from_rows[end])]];
+        next_[d] = head;
         head = d;
       }
       d = following;
@@ -105,7 +100,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
     for (int j = 0; j < n; ++j)
       for (int r = 0; r < n; ++r)
         kept[static_cast<std::int64_t>(j) * s.stride + r] =
-            static_cast<float>(inverse_[static_cast<std::size_t>(j * ldi + r)]);
+            static_cast<float>(inverse_[j * ldi + r]);
     if (m > 0) {
       const int stride = StripsOf(m);
       MultiplyTransposed(m, n, n, panel + n, s.stride, inverse_.data(), ldi, product_.data(),
@@ -115,54 +110,64 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
                     panel + static_cast<std::int64_t>(j) * s.stride + n);
       // And what is kept of it: L₂₁ L₁₁⁻¹.
       for (int j = 0; j < n; ++j)
-        for (int r = 0; r < n; ++r)
-          right_[static_cast<std::size_t>(r * ldi + j)] =
-              inverse_[static_cast<std::size_t>(j * ldi + r)];
+        for (int r = 0; r < n; ++r) right_[r * ldi + j] = inverse_[j * ldi + r];
       MultiplyTransposed(m, n, n, panel + n, s.stride, right_.data(), ldi, product_.data(), stride,
                          1.0, false);
       for (int j = 0; j < n; ++j)
         for (int r = 0; r < m; ++r)
-          kept[static_cast<std::int64_t>(j) * s.stride + n + r] = static_cast<float>(
-              product_[static_cast<std::size_t>(static_cast<std::int64_t>(j) * stride + r)]);
-      position_[static_cast<std::size_t>(i)] = n;
-      int& head = head_[static_cast<std::size_t>(p.owner_[static_cast<std::size_t>(rows[n])])];
-      next_[static_cast<std::size_t>(i)] = head;
+          kept[static_cast<std::int64_t>(j) * s.stride + n + r] =
+              static_cast<float>(product_[static_cast<std::int64_t>(j) * stride + r]);
+      position_[i] = n;
+      int& head = head_[p.owner_[static_cast<std::size_t>(rows[n])]];
+      next_[i] = head;
       head = i;
     }
   }
   return true;
 }
 
-void SparseFactor::Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept {
+void SparseFactor::Solve(std::span<const std::span<const glm::dvec3>> b,
+                         std::span<const std::span<glm::dvec3>> x) noexcept {
   const FactorPlan& p = *plan_;
-  float* v = vector_.data();
-  float* t = strip_.data();
-  // One scale for the whole vector, so that neither tiny nor huge forces leave float's range.
-  double largest = 0;
-  for (const glm::dvec3& bi : b)
-    largest = std::max(largest, std::max(std::abs(bi.x), std::max(std::abs(bi.y), std::abs(bi.z))));
-  std::fill(x.begin(), x.end(), glm::dvec3(0.0));
-  if (!(largest > 0) || !std::isfinite(largest)) return;
-  const double* from = &b[0].x;
-  for (int i = 0; i < p.size_; ++i)
-    v[i] = static_cast<float>(from[p.axis_[static_cast<std::size_t>(i)]] / largest);
+  const int right = static_cast<int>(b.size()), n = p.size_, tall = StripsOf(p.tallest_);
+  float *v = vector_.data(), *t = strip_.data();
+  // One scale a vector, so that neither tiny nor huge forces leave float's range.
+  std::array<double, kMostRight> scale{};
+  for (int c = 0; c < right; ++c) {
+    double largest = 0;
+    for (const glm::dvec3& bi : b[c])
+      largest = std::max({largest, std::abs(bi.x), std::abs(bi.y), std::abs(bi.z)});
+    std::fill(x[c].begin(), x[c].end(), glm::dvec3(0.0));
+    scale[c] = largest > 0 && std::isfinite(largest) ? largest : 0.0;
+    const double* from = &b[c][0].x;
+    for (int i = 0; i < n; ++i)
+      v[c * n + i] = scale[c] > 0 ? static_cast<float>(from[p.axis_[i]] / largest) : 0.0f;
+  }
   for (const FactorPlan::Supernode& s : p.supernode_) {
-    MultiplyPanel({panels_ + s.value, s.columns, s.stride}, v + s.first, t);
-    std::copy_n(t, s.columns, v + s.first);
+    MultiplyPanel({panels_ + s.value, s.columns, s.stride}, right, v + s.first, n, t, tall);
     const int* rows = p.row_.data() + s.row;
-    for (int r = s.columns; r < s.rows; ++r) v[rows[r]] -= t[r];
+    for (int c = 0; c < right; ++c) {
+      std::copy_n(t + c * tall, s.columns, v + c * n + s.first);
+      for (int r = s.columns; r < s.rows; ++r) v[c * n + rows[r]] -= t[c * tall + r];
+    }
   }
   for (auto s = p.supernode_.rbegin(); s != p.supernode_.rend(); ++s) {
-    std::copy_n(v + s->first, s->columns, t);
     const int* rows = p.row_.data() + s->row;
-    for (int r = s->columns; r < s->rows; ++r) t[r] = -v[rows[r]];
-    std::fill(t + s->rows, t + s->stride, 0.0f);
-    MultiplyPanelTransposed({panels_ + s->value, s->columns, s->stride}, t, short_.data());
-    std::copy_n(short_.data(), s->columns, v + s->first);
+    for (int c = 0; c < right; ++c) {
+      float* strip = t + c * tall;
+      std::copy_n(v + c * n + s->first, s->columns, strip);
+      for (int r = s->columns; r < s->rows; ++r) strip[r] = -v[c * n + rows[r]];
+      std::fill(strip + s->rows, strip + s->stride, 0.0f);
+    }
+    MultiplyPanelTransposed({panels_ + s->value, s->columns, s->stride}, right, t, tall,
+                            short_.data(), p.widest_);
+    for (int c = 0; c < right; ++c)
+      std::copy_n(short_.data() + c * p.widest_, s->columns, v + c * n + s->first);
   }
-  double* to = &x[0].x;
-  for (int i = 0; i < p.size_; ++i)
-    to[p.axis_[static_cast<std::size_t>(i)]] = largest * static_cast<double>(v[i]);
+  for (int c = 0; c < right; ++c) {
+    double* to = &x[c][0].x;
+    for (int i = 0; i < n; ++i) to[p.axis_[i]] = scale[c] * static_cast<double>(v[c * n + i]);
+  }
 }
 
 }  // namespace arthro::simulation

@@ -28,6 +28,7 @@ class FactorPlan {
   int size() const { return size_; }                   // free axes
   double flops() const { return flops_; }              // of one factorisation
   std::int64_t stored() const { return panel_size_; }  // numbers in the panels, padding included
+  const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   const FixedAxes& fixed() const { return fixed_; }
 
  private:
@@ -63,9 +64,15 @@ class SparseFactor {
   double Factor(const BlockMatrix& a, std::span<const double> added);
 
   // x = A⁻¹ b; 0 at fixed axes. Not for two threads at once: it works in its own buffer.
-  void Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept;
+  void Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept {
+    Solve(std::span(&b, 1), std::span(&x, 1));
+  }
+  // The same for 1 or 3 right-hand sides at once.
+  void Solve(std::span<const std::span<const glm::dvec3>> b,
+             std::span<const std::span<glm::dvec3>> x) noexcept;
 
   const FactorPlan& plan() const { return *plan_; }
+  const std::shared_ptr<const FactorPlan>& shared_plan() const { return plan_; }
 
  private:
   bool TryFactor(const BlockMatrix& a, std::span<const double> added, double shift);
@@ -75,8 +82,8 @@ class SparseFactor {
   std::vector<double> inverse_, product_, right_;
   std::vector<int> map_, head_, next_, position_;
   std::vector<float> storage_;
-  float* panels_ = nullptr;  // 64-byte aligned
-  std::vector<float> vector_, strip_, short_;
+  float* panels_ = nullptr;                    // 64-byte aligned
+  std::vector<float> vector_, strip_, short_;  // for three right-hand sides
 };
 
 }  // namespace arthro::simulation

@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include <glm/matrix.hpp>
+
+#include "simulation/core/error.h"
+#include "simulation/tissue/solver/implicit_solver_impl.h"
+#include "simulation/tissue/solver/node_vectors.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kMostIterations = 200;
+
+bool IsSamePlace(const ContactPoint& a, const ContactPoint& b) {
+  return a.count == b.count && a.owner == b.owner && a.normal == b.normal &&
+         std::equal(a.node.begin(), a.node.begin() + a.count, b.node.begin()) &&
+         std::equal(a.weight.begin(), a.weight.begin() + a.count, b.weight.begin());
+}
+
+}  // namespace
+
+std::vector<ContactSpring> ImplicitSolver::Impl::SpringsWithout(
+    std::span<const ContactPoint> points) const {
+  std::vector<ContactSpring> kept;
+  for (const ContactSpring& spring : springs)
+    if (std::none_of(points.begin(), points.end(),
+                     [&](const ContactPoint& p) { return IsSamePlace(p, *spring.contact); }))
+      kept.push_back(spring);
+  return kept;
+}
+
+void ImplicitSolver::Compliance(std::span<const ContactPoint> points, double tolerance,
+                                std::span<double> w) {
+  Impl& body = *impl_;
+  const std::size_t columns = 3 * points.size();
+  if (w.size() != columns * columns)
+    throw Error(Code::kBadArgument, "compliance of m contacts is a matrix of 3m times 3m numbers");
+  for (const ContactPoint& point : points)
+    if (!IsUsable(point, body.model->node_count()))
+      throw Error(Code::kBadArgument, "a contact names nodes that are not there, or is not finite");
+  const std::vector<ContactSpring> springs = body.SpringsWithout(points);
+  LinearSystem system = body.System();
+  system.springs = springs;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (int c = 0; c < 3; ++c) {
+      std::fill(body.tool_right[c].begin(), body.tool_right[c].end(), glm::dvec3(0.0));
+      for (int i = 0; i < points[k].count; ++i) {
+        const int node = points[k].node[i];
+        body.tool_right[c][node][c] += points[k].weight[i] * body.is_free[node][c];
+      }
+    }
+    SolveThree(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations},
+               body.tool_vectors, body.tool_left);
+    for (std::size_t j = 0; j < points.size(); ++j)
+      for (int c = 0; c < 3; ++c) {
+        const glm::dvec3 moved = PointOf(points[j], body.tool_left[c]);
+        for (int a = 0; a < 3; ++a) w[(3 * j + a) * columns + 3 * k + c] = moved[a];
+      }
+  }
+  // Symmetric, as it is but for what the tolerance leaves.
+  for (std::size_t i = 0; i < columns; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      w[i * columns + j] = w[j * columns + i] = 0.5 * (w[i * columns + j] + w[j * columns + i]);
+}
+
+glm::dmat3 ImplicitSolver::ToolStiffness(std::span<const ContactPoint> contacts, int owner,
+                                         double tolerance) noexcept {
+  Impl& body = *impl_;
+  glm::dmat3 stiffness(0.0);
+  for (auto& column : body.tool_right) std::fill(column.begin(), column.end(), glm::dvec3(0.0));
+  bool bears = false;
+  for (const ContactPoint& contact : contacts) {
+    if (contact.owner != owner || !IsUsable(contact, body.model->node_count())) continue;
+    const ContactSpring spring = SpringAt(contact, body.at, NormalForce(contact, body.at));
+    if (!(spring.gap < 0)) continue;
+    bears = true;
+    stiffness += spring.stiffness;
+    for (int c = 0; c < 3; ++c)
+      for (int i = 0; i < contact.count; ++i) {
+        const int node = contact.node[i];
+        body.tool_right[c][node] += contact.weight[i] * spring.stiffness[c] * body.is_free[node];
+      }
+  }
+  if (!bears || !body.is_evaluated) return glm::dmat3(0.0);
+  SolveThree(body.System(), *body.factor, body.tool_right, {tolerance, 0, kMostIterations},
+             body.tool_vectors, body.tool_left);
+  for (int a = 0; a < 3; ++a)
+    for (int c = 0; c < 3; ++c) stiffness[c][a] -= Dot(body.tool_right[a], body.tool_left[c]);
+  return 0.5 * (stiffness + glm::transpose(stiffness));
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,104 @@
+#include "simulation/tissue/solver/case_io.h"
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/bench/tissue_meshes.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/mesh_io.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::simulation {
+namespace {
+
+nlohmann::json GoodCase() {
+  return nlohmann::json::parse(
+      R"({"mesh": "beam.vtu", "order": 1, "mode": "static", "tolerance": 1e-8,
+    "material": {"model": "stable_neo_hookean", "young_modulus": 1e6, "poisson_ratio": 0.3, "density": 1100},
+    "fixed": [{"set": "clamp", "axes": "xz"}], "loads": [{"set": "end", "total_force": [0.5, 0, 0]}]})");
+}
+
+TissueCase Read(const nlohmann::json& json, TetMesh mesh = app::BeamMesh(1, {2, 1, 1})) {
+  const test::TempFolder folder;
+  mesh.sets["nobody"].assign(mesh.rest_positions.size(), 0);
+  WriteTetMesh(folder / "beam.vtu", mesh);
+  std::ofstream(folder / "case.json") << json.dump();
+  return ReadCase(folder / "case.json");
+}
+
+TEST(CaseIo, ReadsWhatACaseSays) {
+  const TissueCase c = Read(GoodCase());
+  EXPECT_EQ(c.material.young_modulus, 1e6);
+  EXPECT_EQ(c.fixed.at(0).axes, 1 | 4);
+  EXPECT_EQ(c.loads.at(0).total_force, glm::dvec3(0.5, 0, 0));
+  EXPECT_FALSE(c.is_dynamic);
+}
+
+TEST(CaseIo, AMiddleNodeIsInASetWhenBothEndsAre) {
+  auto json = GoodCase();
+  json["order"] = 2;
+  TetMesh mesh = app::BeamMesh(2, {2, 2, 2});
+  const std::vector<std::uint8_t> whole = mesh.sets["clamp"];
+  for (std::size_t e = 0; e < mesh.elements.size(); e += 10)
+    for (int a = 4; a < 10; ++a) mesh.sets["clamp"][mesh.elements[e + a]] = 0;
+  ASSERT_NE(mesh.sets["clamp"], whole);
+  EXPECT_EQ(Read(json, mesh).mesh.sets["clamp"], whole);
+}
+
+struct BadCase {
+  const char* pointer;
+  nlohmann::json value;  // null: the key is removed
+  const char* says;
+};
+
+TEST(CaseIo, SaysWhatIsWrong) {
+  const std::vector<BadCase> bad = {
+      {"/mesh", nullptr, "mesh is missing"},
+      {"/mesh", "other.vtu", "other.vtu"},
+      {"/order", 2, "order is 2"},
+      {"/order", "1", "order is"},
+      {"/mode", "quick", "static or dynamic"},
+      {"/mode", "dynamic", "dt is missing"},
+      {"/mode", 3, "mode is 3"},
+      {"/material", nullptr, "material is missing"},
+      {"/material", 3, "material must be"},
+      {"/material/poisson_ratio", 0.5, "poisson_ratio"},
+      {"/material/young_modulus", -1, "young_modulus"},
+      {"/material/density", 0, "density"},
+      {"/material/model", "rubber", "stable_neo_hookean"},
+      {"/material/fibre_stiffness", 1e6, "fibre_axis"},
+      {"/material/colour", 1, "colour"},
+      {"/fixed/0/set", "clmap", "it has clamp, end, nobody, tip"},
+      {"/fixed/0/set", "nobody", "without a node"},
+      {"/fixed/0/axes", "xq", "letters x, y and z"},
+      {"/fixed/0/axes", "", "letters x, y and z"},
+      {"/fixed", nlohmann::json::array(), "nothing holds the body"},
+      {"/loads/0/set", "nobody", "without a node"},
+      {"/loads/0/total_force", {1, 2}, "3 numbers"},
+      {"/loads/0/total_force", {1, 2, "x"}, "3 numbers"},
+      {"/loads/0/total_forse", {1, 2, 3}, "total_forse"},
+      {"/tolerance", -1, "tolerance"},
+      {"/tolerence", 1e-8, "did you mean \"tolerance\""},
+  };
+  for (const BadCase& one : bad) {
+    auto json = GoodCase();
+    if (one.value.is_null())
+      json.erase(std::string(one.pointer).substr(1));
+    else
+      json[nlohmann::json::json_pointer(one.pointer)] = one.value;
+    try {
+      Read(json);
+      ADD_FAILURE() << one.pointer << " was let pass";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(one.says), std::string::npos)
+          << one.pointer << ": " << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace arthro::simulation
