@@ -222,23 +222,36 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
   }
   // A lattice part's solid corners are all neighbours: but at a hinge they are of one part.
   const bool has_one_point = whole_.order == 1;
-  for (std::size_t t = 0; t < lattice.part.size(); ++t) {
-    const auto& corner = lattice.part[t];
-    std::array<std::uint8_t, 4> labels;
-    for (std::size_t c = 0; c < 4; ++c) labels[c] = element.label[At(corner[c])];
-    const std::uint8_t label = *std::min_element(labels.begin(), labels.end());
-    if (label == kNone) continue;
-    double solid = 1.0;
-    if (*std::max_element(labels.begin(), labels.end()) == kNone) {
-      std::array<double, 4> value;
-      for (std::size_t c = 0; c < 4; ++c) value[c] = values_[At(corner[c])];
-      solid = NegativePart(value);
+  const std::uint8_t* labels = element.label.data();
+  for (const TetLattice::Cell& cell : lattice.cell) {
+    const std::uint8_t first = labels[cell.corner[0]];
+    bool is_even = true;
+    for (const std::int16_t corner : cell.corner) is_even &= labels[corner] == first;
+    if (is_even) {
+      if (first == kNone) continue;
+      Part& part = element.parts[first];
+      if (has_one_point)
+        part.share[0] += cell.last - cell.first;
+      else
+        for (std::size_t q = 0; q < 4; ++q) part.share[q] += cell.region[q];
+      continue;
     }
-    Part& part = element.parts[label];
-    if (has_one_point)
-      part.share[0] += solid;
-    else
-      AddToRegions(lattice.region[t], solid, part.share);
+    for (std::int32_t t = cell.first; t < cell.last; ++t) {
+      const auto& corner = lattice.part[At(t)];
+      std::array<double, 4> value;
+      std::uint8_t label = kNone;
+      for (std::size_t c = 0; c < 4; ++c) {
+        value[c] = values_[At(corner[c])];
+        label = std::min(label, labels[corner[c]]);
+      }
+      if (label == kNone) continue;
+      const double solid = NegativePart(value);
+      Part& part = element.parts[label];
+      if (has_one_point)
+        part.share[0] += solid;
+      else
+        AddToRegions(lattice.region[At(t)], solid, part.share);
+    }
   }
   for (Part& part : element.parts)
     for (std::size_t q = 0; q < 4; ++q) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 
 namespace arthro::simulation {
 namespace {
@@ -38,7 +39,8 @@ TetLattice MakeTetLattice(int n) {
                                                        {xy, xz, yz, xyz}}};
   for (int k = 0; k < n; ++k)
     for (int j = 0; j + k < n; ++j)
-      for (int i = 0; i + j + k < n; ++i)
+      for (int i = 0; i + j + k < n; ++i) {
+        const auto first = static_cast<std::int32_t>(lattice.part.size());
         for (const auto& steps : kParts) {
           std::array<std::int16_t, 4> part{};
           bool is_inside = true;
@@ -50,6 +52,8 @@ TetLattice MakeTetLattice(int n) {
           }
           if (is_inside) lattice.part.push_back(part);
         }
+        lattice.cell.push_back({first, static_cast<std::int32_t>(lattice.part.size()), {}, {}});
+      }
   // The region of a part is that of the largest coordinate of its middle; ties are shared.
   for (const auto& part : lattice.part) {
     std::array<int, 4> sum{};
@@ -61,6 +65,16 @@ TetLattice MakeTetLattice(int n) {
       if (sum[c] == largest) region = static_cast<std::uint8_t>(region | 1 << c);
     lattice.region.push_back(region);
     AddToRegions(region, 1.0, lattice.region_total);
+  }
+  for (auto& cell : lattice.cell) {
+    std::set<std::int16_t> corners;
+    for (auto p = static_cast<std::size_t>(cell.first); p < static_cast<std::size_t>(cell.last);
+         ++p) {
+      corners.insert(lattice.part[p].begin(), lattice.part[p].end());
+      AddToRegions(lattice.region[p], 1.0, cell.region);
+    }
+    cell.corner.fill(*corners.begin());
+    std::copy(corners.begin(), corners.end(), cell.corner.begin());
   }
   std::vector<std::vector<std::int16_t>> beside(lattice.point.size());
   for (const auto& part : lattice.part)

@@ -21,6 +21,14 @@ struct TetLattice {
   // corner c. Several: it is shared evenly.
   std::vector<std::uint8_t> region;
   std::array<double, 4> region_total{};
+  // Parts about one corner of a cubic arrangement lie in a row: where all their points are alike
+  // they are counted at once.
+  struct Cell {
+    std::int32_t first = 0, last = 0;      // parts
+    std::array<std::int16_t, 8> corner{};  // all their points; some more than once
+    std::array<double, 4> region{};        // sums of their regions
+  };
+  std::vector<Cell> cell;
   std::vector<std::int32_t> neighbour_begin;  // of each point, in `neighbour`
   std::vector<std::int16_t> neighbour;        // points that share a part with it
 

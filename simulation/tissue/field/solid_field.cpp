@@ -33,11 +33,12 @@ struct CellPlace {
 CellPlace Locate(const FieldGrid& grid, const glm::dvec3& x) noexcept {
   CellPlace place;
   std::array<int, 3> cell;
+  const double per_spacing = 1.0 / grid.spacing;
   for (int a = 0; a < 3; ++a) {
     const int last = grid.count[static_cast<std::size_t>(a)] - 1;
     // In this order NaN becomes 0.
     const double t =
-        std::min(std::max(0.0, (x[a] - grid.origin[a]) / grid.spacing), static_cast<double>(last));
+        std::min(std::max(0.0, (x[a] - grid.origin[a]) * per_spacing), static_cast<double>(last));
     const int i = std::min(static_cast<int>(t), last - 1);
     cell[static_cast<std::size_t>(a)] = i;
     place.part[a] = t - i;
@@ -206,22 +207,26 @@ void SolidField::CutDistances(std::span<const glm::dvec3> x, std::span<double> d
     const Corners corners = CornersAt(cut_, grid_, place.index);
     distance[i] = Interpolate(corners, place.part);
     if (distance[i] > 0.0) continue;
-    // A value of zero or less has a corner of zero or less.
-    double largest = -1.0;
     const std::size_t row = static_cast<std::size_t>(grid_.count[0]);
     const std::size_t layer = row * static_cast<std::size_t>(grid_.count[1]);
+    const auto index = [&](std::size_t c) {
+      return static_cast<std::int32_t>(place.index + (c & 1) + (c >> 1 & 1) * row +
+                                       (c >> 2) * layer);
+    };
+    for (const double value : corners.value) node[i].is_cell_whole &= value <= 0.0;
+    const glm::dvec3& t = place.part;
+    if (node[i].is_cell_whole) {
+      node[i].index = index((t.x > 0.5 ? 1u : 0u) + (t.y > 0.5 ? 2u : 0u) + (t.z > 0.5 ? 4u : 0u));
+      continue;
+    }
+    // A value of zero or less has a corner of zero or less.
+    double largest = -1.0;
     for (std::size_t c = 0; c < 8; ++c) {
-      const glm::dvec3& t = place.part;
       const double weight = ((c & 1) != 0 ? t.x : 1 - t.x) * ((c & 2) != 0 ? t.y : 1 - t.y) *
                             ((c & 4) != 0 ? t.z : 1 - t.z);
-      if (corners.value[c] > 0.0) {
-        node[i].is_cell_whole = false;
-        continue;
-      }
-      if (weight <= largest) continue;
+      if (corners.value[c] > 0.0 || weight <= largest) continue;
       largest = weight;
-      node[i].index =
-          static_cast<std::int32_t>(place.index + (c & 1) + (c >> 1 & 1) * row + (c >> 2) * layer);
+      node[i].index = index(c);
     }
   }
 }
