@@ -83,17 +83,24 @@ class MeshCutter {
     int seed = 0;                       // one of its points
     int copy = -1, previous_copy = -1;  // element of result_; −1: left out
   };
+  static constexpr std::uint8_t kNoPart = 255;
   struct Element {
-    std::vector<std::uint8_t> label;  // a lattice point: which part; kNone. Empty: whole
+    std::vector<std::uint8_t> label;  // a lattice point: which part; kNoPart. Empty: whole
     std::vector<Part> parts;
   };
   struct Face {  // between two elements
     int first = -1, second = -1, first_face = 0, second_face = 0;
   };
 
+  struct Draft;
+
   void LookAt(const SolidField& field, int e);
   void BuildFaces();
   const CutMesh& Assemble(const SolidField& field);
+  void MakeCopies(Draft& draft);
+  void JoinCopies(Draft& draft);
+  void ListElements(const SolidField& field, Draft& draft);
+  void NumberNodes(const CutMesh& old, Draft& draft);
   void Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const;
   const TetLattice& LatticeOf(int e) const {
     return (*lattices_)[level_[static_cast<std::size_t>(e)]];

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <malloc.h>
+#include <memory>
 #include <numeric>
 #include <random>
 
@@ -15,6 +16,7 @@
 #include "simulation/tissue/fem/fem_model.h"
 #include "simulation/tissue/field/pieces.h"
 #include "simulation/tissue/field/polygonise.h"
+#include "simulation/tissue/solver/implicit_solver.h"
 #include "tests/simulation/tissue/cut/cut_checks.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
@@ -226,6 +228,44 @@ TEST(HardCase15, AHingeInsideElementsStaysFinite) {
     EXPECT_TRUE(std::isfinite(model.volume()));
   }
   std::printf("hinges inside elements: %d of 8 came apart\n", apart);
+}
+
+// A cut body is a body: elements with a hundredth left in them do not spoil the system.
+TEST(HardCase22, CutBodiesAreSolvedInAboutAsManyIterationsAsWholeOnes) {
+  const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
+  SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
+  MeshCutter cutter(whole, field.spacing());
+  std::mt19937 random(5);
+  int of_whole = 0;
+  for (int cuts = 0; cuts <= 120; cuts += 40) {
+    for (int i = 0; cuts > 0 && i < 40; ++i) {
+      const glm::dvec3 at =
+          whole.rest_positions[static_cast<std::size_t>(random() % whole.rest_positions.size())];
+      cutter.Update(field, Apply(field, CapsuleCut{at, at + glm::dvec3(0, 0, 1e-3), kMm}).changed);
+    }
+    const CutMesh& cut = cutter.result();
+    FixedAxes fixed;
+    for (const std::uint8_t is_horn : cut.mesh.sets.at("horns"))
+      fixed.push_back(is_horn != 0 ? 7 : 0);
+    ImplicitSolver solver(std::make_shared<FemModel>(cut.mesh, Material(), cut.share), fixed);
+    BodyState state{cut.mesh.rest_positions,
+                    std::vector<glm::dvec3>(cut.mesh.rest_positions.size(), glm::dvec3(0))};
+    std::vector<glm::dvec3> load(state.x.size(), glm::dvec3(0));
+    FemModel(cut.mesh, Material(), cut.share).AddBodyForce({0, 0, -1100 * 9.81}, load);
+    StepReport worst;
+    for (int step = 0; step < 20; ++step) {
+      const StepReport report = solver.Step(state, load, {}, {}, 1.0 / 60, {});
+      ASSERT_TRUE(report.is_finite) << cuts;
+      EXPECT_EQ(report.inverted, 0) << cuts;
+      worst.iterations = std::max(worst.iterations, report.iterations);
+      worst.residual = std::max(worst.residual, report.residual);
+    }
+    std::printf("%3d bites, %d pieces: %d iterations a step at most, residual %.1e\n", cuts,
+                cut.piece_count(), worst.iterations, worst.residual);
+    if (cuts == 0) of_whole = worst.iterations;
+    EXPECT_LE(worst.residual, SolverOptions().tolerance);
+    EXPECT_LE(worst.iterations, std::max(60, 4 * of_whole));
+  }
 }
 
 // 0 to 200 cuts of all kinds, twice from the original: sound after each, and the second round
