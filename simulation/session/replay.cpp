@@ -52,6 +52,25 @@ void Count(const ToolState& state, double dt, HandReport& hand) {
   hand.deepest = std::max(hand.deepest, state.penetration);
 }
 
+void CountTissues(const WorldPicture& world, std::vector<TissueReport>& reports) {
+  reports.resize(world.bodies.size());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const BodyPicture& body = world.bodies[i];
+    TissueReport& report = reports[i];
+    report.tissue = body.tissue;
+    if (body.report.is_asleep) continue;
+    ++report.steps;
+    report.resets += body.report.was_reset;
+    report.most_iterations = std::max(report.most_iterations, body.report.step.iterations);
+    report.step_ms += body.step_ms;  // a sum until the end
+    report.cut = body.cut;
+    if (body.skin == nullptr) continue;
+    for (std::size_t v = 0; v < body.positions.size(); ++v)
+      report.deepest =
+          std::max(report.deepest, glm::distance(body.positions[v], body.skin->vertices[v]));
+  }
+}
+
 std::string ContactName(int contact, const Scene& scene) {
   if (contact < 0) return "none";
   if (contact == kBackdropContact) return "backdrop";
@@ -73,12 +92,13 @@ std::string CsvField(const std::string& name) {
 
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options, const Progress& progress,
-                             ReplayReport* report) {
+                             ReplayReport* report, std::vector<BodySpec> bodies) {
   using Clock = std::chrono::steady_clock;
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
   Session session(loaded, options);
+  session.Enliven(std::move(bodies), TissuePace::kInline);
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   ReplayReport counts;
   TickTimes times;
@@ -88,6 +108,8 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
     session.Tick(scope_sample, instrument_sample, dt);
     times.Add(std::chrono::duration<double>(Clock::now() - start).count());
     ++counts.ticks;
+    session.TickTissues(dt);
+    if (session.HasNewTissues()) CountTissues(*session.tissues(), counts.tissues);
     if (scope_sample.valid) Count(session.snapshot().scope, dt, counts.hand[0]);
     if (instrument_sample.valid) Count(session.snapshot().instrument, dt, counts.hand[1]);
   };
@@ -119,6 +141,8 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
   if (report != nullptr) {
     for (HandReport& hand : counts.hand)
       if (hand.time_in_contact > 0.0) hand.mean_force /= hand.time_in_contact;
+    for (TissueReport& tissue : counts.tissues)
+      if (tissue.steps > 0) tissue.step_ms /= static_cast<double>(tissue.steps);
     counts.duration = end - begin;
     counts.tick_median = times.Quantile(0.5);
     counts.tick_p99 = times.Quantile(0.99);
@@ -166,6 +190,18 @@ std::string ReportText(const ReplayReport& report, const Scene& scene) {
       entry["contacts"][ContactName(contact, scene)] = seconds;
     entry["faults"] = nlohmann::ordered_json::object();
     for (const auto& [fault, ticks] : hand.faults) entry["faults"][Word(fault)] = ticks;
+  }
+  for (const TissueReport& tissue : report.tissues) {
+    nlohmann::ordered_json& entry = json["tissues"][ContactName(1 + tissue.tissue, scene)];
+    entry["steps_awake"] = tissue.steps;
+    entry["resets"] = tissue.resets;
+    entry["most_iterations"] = tissue.most_iterations;
+    entry["mean_step_ms"] = tissue.step_ms;
+    entry["largest_displacement"] = tissue.deepest;
+    entry["removed_mm3"] = tissue.cut.removed * 1e9;
+    entry["cuts"] = tissue.cut.cuts;
+    entry["pieces"] = tissue.cut.pieces;
+    entry["debris"] = tissue.cut.debris;
   }
   json["tick_us"] = {{"median", report.tick_median * 1e6}, {"p99", report.tick_p99 * 1e6}};
   return json.dump(2) + "\n";

@@ -29,6 +29,28 @@ DepthField FieldOf(const LoadedScene& loaded, const DepthFieldOptions& options) 
   return {loaded.scene.backdrop, loaded.panorama.width, loaded.panorama.height, options};
 }
 
+// Jaws close and open in this time, so that what they bite is between them.
+constexpr double kJawTime = 0.15;  // s
+
+// The backdrop as what tissue rests on.
+class BackdropObstacle : public RigidObstacle {
+ public:
+  explicit BackdropObstacle(std::shared_ptr<const DepthField> field) : field_(std::move(field)) {}
+  double Gap(const glm::dvec3& x, glm::dvec3& normal) const noexcept override {
+    // Nothing is asked of pixels there while the whole backdrop is further out.
+    const double clear = field_->free_radius() - glm::length(x);
+    if (clear > kFar) return clear;
+    const FieldQuery query = field_->Query(x);
+    if (!(query.weight > 0.0)) return kFar;
+    normal = query.normal;
+    return query.clearance;
+  }
+
+ private:
+  static constexpr double kFar = 2e-3;  // m
+  std::shared_ptr<const DepthField> field_;
+};
+
 }  // namespace
 
 Session::Session(const LoadedScene& loaded, const SessionOptions& options)
@@ -37,7 +59,7 @@ Session::Session(const LoadedScene& loaded, const SessionOptions& options)
 Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMesh> surfaces,
                  const SessionOptions& options)
     : options_(options),
-      field_(std::move(field)),
+      field_(std::make_shared<const DepthField>(std::move(field))),
       projection_(scene.backdrop.projection),
       radius_(scene.backdrop.radius),
       spacing_(scene.portals.incision_spacing),
@@ -49,6 +71,7 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
   away_.resize(count);
   is_live_.assign(count, 0);
+  if (!scene.instruments.empty()) kind_ = ToolKindOf(scene.instruments.front().kind);
 }
 
 void Session::SetIncisionSpacing(double spacing) noexcept {
@@ -64,6 +87,23 @@ void Session::SetLiveTissues(std::span<const std::uint8_t> is_live) {
     std::swap(meshes_[i], away_[i]);
     is_live_[i] = now;
   }
+}
+
+void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace) {
+  std::vector<std::uint8_t> is_live(meshes_.size(), 0);
+  for (const BodySpec& body : bodies)
+    if (body.tissue >= 0 && static_cast<std::size_t>(body.tissue) < is_live.size())
+      is_live[static_cast<std::size_t>(body.tissue)] = 1;
+  BodyOptions options = options_.tissue;
+  options.contact.stiffness = options_.contact.stiffness;
+  auto obstacle = field_->empty() ? nullptr : std::make_shared<const BackdropObstacle>(field_);
+  TissueWorld world(std::move(bodies), options, std::move(obstacle), pace == TissuePace::kThread);
+  tissues_ = world.IsEmpty() ? nullptr : std::make_unique<TissueLoop>(std::move(world), pace);
+  SetLiveTissues(is_live);
+}
+
+void Session::ResetTissues() {
+  if (tissues_) tissues_->Reset();
 }
 
 void Session::SetCoupling(const ToolCoupling& coupling) noexcept {
@@ -109,12 +149,18 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
                   tool.rig.rod_length, options_.lever);
       const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
       TissuePull pull;
+      // The tissue has the tool where the backdrop alone would let the hand put it, by the push of
+      // the last tick.
+      state.tissue_tip_in_portal =
+          tip + (tool.contact.has_started ? tool.contact.proxy.position - tool.contact.held
+                                          : glm::dvec3(0.0));
       if (tool.tissue.to.step > 0) {
-        const CoupledForce tissue = BlendedForce(tool.tissue, tip, dt, kTissueFrame);
+        const CoupledForce tissue =
+            BlendedForce(tool.tissue, state.tissue_tip_in_portal, dt, kTissueFrame);
         pull = {tissue.force, tissue.tissue < 0 ? kNoContact : 1 + tissue.tissue};
         if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
       }
-      contact = TickContact({field_, meshes_}, options_.contact, stiffness, portal, tip, dt,
+      contact = TickContact({*field_, meshes_}, options_.contact, stiffness, portal, tip, dt,
                             tool.contact, pull);
       hand_force = HandForce(lever, contact.force);
     } else {
@@ -133,6 +179,25 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
   state.contact = contact.contact;
   state.penetration = contact.penetration;
   state.fault = limited.fault;
+}
+
+// The jaws follow the button, and the tissue the tool.
+void Session::TickTissues(double dt) noexcept {
+  ToolState& state = snapshot_.instrument;
+  const bool is_pressed = instrument_.has_sample && (instrument_.last.buttons & 1u) != 0;
+  state.opening = std::clamp(state.opening + (is_pressed ? -dt : dt) / kJawTime, 0.0, 1.0);
+  state.is_running = is_pressed;
+  if (!tissues_) return;
+  Instrumentation hand;
+  hand.kind = kind_;
+  hand.now.is_present = instrument_.contact.has_started;
+  hand.now.portal_from_tool =
+      PortalFromTool({spacing_, 0.0, 0.0}, state.tissue_tip_in_portal, state.pose.roll);
+  hand.now.opening = state.opening;
+  hand.now.is_running = state.is_running;
+  tissues_->Tick(hand, dt);
+  ToolCoupling coupling;
+  if (tissues_->TakeCoupling(coupling)) SetCoupling(coupling);
 }
 
 void Session::Tick(const DeviceSample& scope, const DeviceSample& instrument, double dt) noexcept {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/session/session_options.h"
 #include "simulation/session/snapshot.h"
+#include "simulation/session/tissue_loop.h"
 #include "simulation/tissue/contact/coupling.h"
 
 namespace arthro::simulation {
@@ -43,6 +45,20 @@ class Session {
   void SetOptions(const SessionOptions& options) noexcept { options_ = options; }
   const SessionOptions& options() const noexcept { return options_; }
 
+  // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
+  // TissuePace::kInline the same inputs give the same bits. Not on the servo path. Throws Error.
+  void Enliven(std::vector<BodySpec> bodies, TissuePace pace);
+  // After each tick, by the same thread: the jaws and the tissue's own, slower clock. Inline it
+  // steps here; on a thread this only hands the tool over.
+  void TickTissues(double dt) noexcept;
+  // The picture of them, from the one thread that draws; nullptr: none lives.
+  const WorldPicture* tissues() noexcept { return tissues_ ? &tissues_->Read() : nullptr; }
+  bool HasNewTissues() const noexcept { return tissues_ && tissues_->HasNew(); }
+  void ResetTissues();  // whole and at rest again; not on the servo path
+  // The instrument in the hand, between ticks.
+  void SetInstrument(ToolKind kind) noexcept { kind_ = kind; }
+  ToolKind instrument() const noexcept { return kind_; }
+
   // Which tissues are computed as living ones, a flag each (missing: not); those are left out of
   // the rigid surfaces. Not on the servo path: it moves meshes.
   void SetLiveTissues(std::span<const std::uint8_t> is_live);
@@ -70,14 +86,16 @@ class Session {
                 ToolState& state) noexcept;
 
   SessionOptions options_;
-  DepthField field_;
-  std::vector<SurfaceBvh> meshes_;  // one a tissue; of living ones nothing
-  std::vector<SurfaceBvh> away_;    // what living ones are when they do not live
+  std::shared_ptr<const DepthField> field_;  // shared with what tissue rests on
+  std::vector<SurfaceBvh> meshes_;           // one a tissue; of living ones nothing
+  std::vector<SurfaceBvh> away_;             // what living ones are when they do not live
   std::vector<std::uint8_t> is_live_;
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;
   Snapshot snapshot_;
+  ToolKind kind_ = ToolKind::kProbe;
+  std::unique_ptr<TissueLoop> tissues_;
 };
 
 }  // namespace arthro::simulation

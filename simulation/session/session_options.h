@@ -6,6 +6,7 @@
 #include "simulation/haptics/depth_field.h"
 #include "simulation/haptics/force_limiter.h"
 #include "simulation/haptics/lever.h"
+#include "simulation/tissue/body/body_options.h"
 
 namespace arthro::simulation {
 
@@ -14,12 +15,14 @@ struct SessionOptions {
   ContactOptions contact;
   LeverOptions lever;
   LimiterOptions limiter;
+  BodyOptions tissue;  // its tool spring is contact.stiffness, whatever it says itself
   template <class V>
   void Visit(V&& v) {
     depth.Visit(v);
     contact.Visit(v);
     lever.Visit(v);
     limiter.Visit(v);
+    tissue.Visit(v);
   }
 };
 

@@ -16,12 +16,16 @@ struct ToolState {
   RodPose pose;                     // about the tool's own portal
   glm::dvec3 tip_in_portal{0.0};    // where the hand puts the tip
   glm::dvec3 proxy_in_portal{0.0};  // where the surfaces let it be: draw the tool here
-  glm::dvec3 tip_force{0.0};        // of the surfaces on the tip; no ramp, no limit
-  glm::dvec3 hand_force{0.0};       // what the device is told, after the lever and the limits
-  int contact = kNoContact;         // of the surface that carries most of the force
-  double penetration = 0;           // depth of the tip below the surfaces, m
-  glm::dvec2 pixel{0.0};  // scope: centre of its view; instrument: under its tip; NaN: none
+  // Where living tissue has the hand: the tip, moved by what the backdrop alone pushes.
+  glm::dvec3 tissue_tip_in_portal{0.0};
+  glm::dvec3 tip_force{0.0};   // of the surfaces on the tip; no ramp, no limit
+  glm::dvec3 hand_force{0.0};  // what the device is told, after the lever and the limits
+  int contact = kNoContact;    // of the surface that carries most of the force
+  double penetration = 0;      // depth of the tip below the surfaces, m
+  glm::dvec2 pixel{0.0};       // scope: centre of its view; instrument: under its tip; NaN: none
   Fault fault = Fault::kNoSample;  // why hand_force is zero
+  double opening = 1;              // of the jaws, 0 closed; the first button closes them
+  bool is_running = false;         // the shaver, while the first button is held
 };
 
 struct Snapshot {

@@ -3,6 +3,7 @@
 
 #include "simulation/core/options.h"
 #include "simulation/tissue/contact/tool_contact.h"
+#include "simulation/tissue/cut/cutters.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 
 namespace arthro::simulation {
@@ -10,6 +11,7 @@ namespace arthro::simulation {
 struct BodyOptions {
   SolverOptions solver;
   ToolContactOptions contact;
+  ShaverOptions shaver;
   double sleep_speed = 2e-4;
   int refresh_iterations = 12;
   double coupling_tolerance = 0.03;
@@ -18,6 +20,7 @@ struct BodyOptions {
   void Visit(V&& v) {
     solver.Visit(v);
     contact.Visit(v);
+    shaver.Visit(v);
     v("sleep_speed", sleep_speed, Range{0, 1}, "m/s",
       "A tissue that nothing touches and whose nodes are slower than this sleeps.");
     v("refresh_iterations", refresh_iterations, Range{1, 1000}, "",

@@ -45,10 +45,20 @@ struct WorldTool {
 struct BodyReport {
   StepReport step;
   bool is_asleep = false;
+  bool was_cut = false;    // in this step
   bool was_reset = false;  // the solver failed: back at the last good state
   int contacts = 0;
   double max_speed = 0;  // m/s
   int factor_age = 0;    // steps
+};
+
+// What was taken of a body so far.
+struct CutReport {
+  double removed = 0;        // m³ by tools, debris included
+  int pieces = 1;            // that it has fallen into, debris not counted
+  int debris = 0;            // loose fragments that were washed away
+  double debris_volume = 0;  // m³
+  int cuts = 0;              // bites, and updates of shaving
 };
 
 class DeformableBody {
@@ -78,6 +88,8 @@ class DeformableBody {
   std::span<const glm::dvec3> normals() const;
   const std::shared_ptr<const SurfaceMesh>& skin() const;  // at rest; another one after a cut
   std::uint64_t shape_version() const;                     // grows when positions change
+  const TetMesh& mesh() const;                             // as state() has nodes; cut or whole
+  CutReport cut_report() const;
   int held_nodes() const;
 
  private:

@@ -1,0 +1,27 @@
+// The tissues of a scene that deform, made ready: those with tetrahedra, with their preset and what
+// the scene says otherwise. Frames: each body's own is its tissue's with the scale applied.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
+#include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/body/tissue_preset.h"
+
+namespace arthro::simulation {
+
+// Where the bytes of an asset lie, by the name that the scene uses.
+using FileOf = std::function<std::filesystem::path(const std::filesystem::path& name)>;
+
+// `surfaces` has one a tissue. What reading a mesh repaired goes to `messages`, a sentence each.
+// Throws Error for a mesh that cannot be read and a preset that is not there.
+std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
+                                    const FileOf& file_of, const std::vector<TissuePreset>& presets,
+                                    std::vector<std::string>* messages = nullptr);
+
+}  // namespace arthro::simulation

@@ -1,0 +1,268 @@
+#include "simulation/tissue/body/deformable_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "simulation/core/error.h"
+#include "simulation/tissue/body/deformable_body_impl.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kQuietSteps = 20;    // slow and untouched for so long, then it sleeps
+constexpr int kGoodEvery = 30;     // steps between two copies of a state to fall back to
+constexpr int kRefreshPause = 10;  // steps between two factors, so that none is wasted
+
+FixedAxes FixedBy(const std::vector<Ball>& balls, const TetMesh& mesh) {
+  FixedAxes fixed(mesh.rest_positions.size(), 0);
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    for (const Ball& ball : balls)
+      if (glm::distance(mesh.rest_positions[i], ball.centre) <= ball.radius) fixed[i] = 7;
+  return fixed;
+}
+
+// Of the elements' corners, m.
+double MeanEdge(const TetMesh& mesh) {
+  double sum = 0;
+  for (int e = 0; e < mesh.ElementCount(); ++e) {
+    const int* node = &mesh.elements[static_cast<std::size_t>(e * mesh.NodesPerElement())];
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        sum += glm::distance(mesh.rest_positions[static_cast<std::size_t>(node[i])],
+                             mesh.rest_positions[static_cast<std::size_t>(node[j])]);
+  }
+  return mesh.ElementCount() > 0 ? sum / (6.0 * mesh.ElementCount()) : 0.0;
+}
+
+bool IsFinite(std::span<const glm::dvec3> x) noexcept {
+  double sum = 0;
+  for (const glm::dvec3& p : x) sum += std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
+  return std::isfinite(sum);
+}
+
+std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder& finder,
+                                      const SolidField& field) {
+  return std::make_unique<BodyShape>(spec.mesh, std::span<const double>{}, spec,
+                                     EmbedSkin(spec.surface, spec.mesh, finder), field);
+}
+
+}  // namespace
+
+BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
+                     EmbeddedSkin carried, const SolidField& field)
+    : mesh(std::move(elements)),
+      model(std::make_shared<const FemModel>(mesh, spec.material, share)),
+      fixed(FixedBy(spec.fixed, mesh)),
+      skin(std::move(carried)),
+      skin_contact(skin, mesh, field),
+      rest_contact(mesh, fixed),
+      skin_at_rest(std::make_shared<const SurfaceMesh>(skin.rest)) {}
+
+DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
+    : spec(std::move(given)),
+      options(chosen),
+      body_from_portal(Inverse(spec.portal_from_body)),
+      finder(spec.mesh),
+      field(SolidField::FromSurface(spec.surface, options.cut_spacing)),
+      shape(WholeShape(spec, finder, field)),
+      solver(shape->model, shape->fixed, options.solver) {
+  on_obstacle.stiffness = spec.material.young_modulus * MeanEdge(spec.mesh);
+  on_obstacle.friction = options.contact.friction;
+  if (!spec.fixed.empty() &&
+      std::none_of(shape->fixed.begin(), shape->fixed.end(), [](auto bits) { return bits != 0; }))
+    throw Error(Code::kBadScene,
+                fmt::format("{}: none of the {} balls that should hold it contains a node of its "
+                            "mesh; paint where it is held again",
+                            spec.name, spec.fixed.size()));
+  state.x = spec.mesh.rest_positions;
+  state.v.assign(state.x.size(), glm::dvec3(0.0));
+  MakeRoom();
+}
+
+// For everything that has as many entries as the shape has nodes or the skin vertices.
+void DeformableBody::Impl::MakeRoom() {
+  load.assign(state.x.size(), glm::dvec3(0.0));
+  contacts.reserve(state.x.size() + placed.size() * kMaxToolContacts);
+  results.resize(contacts.capacity());
+  good = state;
+  since_good = 0;
+  positions.resize(shape->skin.rest.vertices.size());
+  normals.resize(positions.size());
+  lies_on = nullptr;
+  MoveSkin();
+}
+
+void DeformableBody::Impl::MoveSkin() noexcept {
+  DeformSkin(shape->skin, shape->mesh, state.x, positions, normals);
+  shape->skin_contact.Refit(positions, normals, state.x);
+  ++shape_version;
+}
+
+void DeformableBody::Impl::TakeTools(std::span<const WorldTool> tools) noexcept {
+  tool_count = std::min(tools.size(), placed.size());
+  for (std::size_t i = 0; i < tool_count; ++i) {
+    PlacedTool& tool = placed[i];
+    tool.count = PosedCapsules(tools[i].shape, tools[i].now, tool.capsules);
+    for (int k = 0; k < tool.count; ++k) {
+      Capsule& capsule = tool.capsules[static_cast<std::size_t>(k)];
+      capsule.a = body_from_portal * capsule.a;
+      capsule.b = body_from_portal * capsule.b;
+      if (!std::isfinite(glm::length(capsule.a) + glm::length(capsule.b))) tool.count = 0;
+    }
+    const Rigid3 body_from_tool = body_from_portal * tools[i].now.portal_from_tool;
+    tool.bite = {body_from_tool * tools[i].shape.bite.a, body_from_tool * tools[i].shape.bite.b,
+                 tools[i].shape.bite.radius};
+    const bool goes_on = tool.was_present && tool.count > 0;
+    tool.motion = goes_on ? body_from_tool.translation - tool.tip : glm::dvec3(0.0);
+    if (!goes_on) tool.grip = ToolGrip{};
+    tool.tip = body_from_tool.translation;
+    tool.was_present = tool.count > 0;
+  }
+}
+
+bool DeformableBody::Impl::IsTouchedSoon() const noexcept {
+  for (std::size_t i = 0; i < tool_count; ++i) {
+    const PlacedTool& tool = placed[i];
+    const double reach = options.contact.margin + glm::length(tool.motion);
+    if (tool.count > 0 && shape->skin_contact.IsNear(tool.Capsules(), reach)) return true;
+  }
+  return false;
+}
+
+void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> of_tools,
+                                       std::span<const ContactResult> of_results,
+                                       ToolCoupling& coupling) noexcept {
+  const bool is_touching = std::any_of(of_tools.begin(), of_tools.end(),
+                                       [tool](const ContactPoint& c) { return c.owner == tool; });
+  if (!is_touching) return;
+  const glm::dmat3 stiffness = solver.ToolStiffness(contacts, tool, options.coupling_tolerance);
+  AddContacts(of_tools, of_results, tool, stiffness, options.contact.stiffness,
+              spec.portal_from_body.rotation, spec.tissue, coupling);
+}
+
+DeformableBody::DeformableBody(BodySpec spec, const BodyOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(spec), options)) {}
+DeformableBody::~DeformableBody() = default;
+DeformableBody::DeformableBody(DeformableBody&&) noexcept = default;
+DeformableBody& DeformableBody::operator=(DeformableBody&&) noexcept = default;
+
+BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle,
+                                double dt, std::span<ToolCoupling> coupling) noexcept {
+  Impl& own = *impl_;
+  BodyReport report;
+  own.TakeTools(tools);
+  if (own.is_asleep && !own.IsTouchedSoon()) {
+    report.is_asleep = true;
+    return report;
+  }
+  own.is_asleep = false;
+  if (own.spec.is_cuttable) {
+    try {
+      report.was_cut = own.CutWithTools(tools, dt);
+    } catch (const std::exception&) {  // out of memory: the tissue is whole again, and it is said
+      Reset();
+      report.was_reset = true;
+      return report;
+    }
+  }
+
+  // What holds it where it is now.
+  own.contacts.clear();
+  for (std::size_t i = 0; i < own.tool_count; ++i)
+    if (own.placed[i].count > 0)
+      own.shape->skin_contact.Find(own.placed[i].Capsules(), own.placed[i].motion,
+                                   static_cast<int>(i), own.options.contact, own.contacts,
+                                   &own.placed[i].grip);
+  const std::size_t of_tools = own.contacts.size();
+  report.contacts = static_cast<int>(of_tools);
+  if (obstacle != nullptr) {
+    if (obstacle != own.lies_on)
+      own.shape->rest_contact.LayAtRest(*obstacle, own.spec.portal_from_body,
+                                        own.shape->mesh.rest_positions);
+    own.lies_on = obstacle;
+    own.shape->rest_contact.Find(*obstacle, own.spec.portal_from_body, own.state.x, own.on_obstacle,
+                                 own.contacts);
+  }
+
+  // Solve; a state that is no state goes back to the last good one, and says so.
+  const std::span<ContactResult> results(own.results.data(), own.contacts.size());
+  report.step = own.solver.Step(own.state, own.load, own.contacts, {}, dt, results);
+  if (!report.step.is_finite || !IsFinite(own.state.x)) {
+    own.state = own.good;
+    own.MoveSkin();
+    report.was_reset = true;
+    for (ToolCoupling& of_tool : coupling) of_tool.is_faulty = true;
+    return report;
+  }
+  own.MoveSkin();
+  for (std::size_t i = 0; i < own.tool_count; ++i)
+    UpdateGrip(own.contacts, results, static_cast<int>(i), own.options.contact, own.placed[i].grip);
+  for (const glm::dvec3& v : own.state.v)
+    report.max_speed = std::max(report.max_speed, glm::length(v));
+  if (++own.since_good >= kGoodEvery && report.step.inverted == 0) {
+    own.good = own.state;
+    own.since_good = 0;
+  }
+
+  // How the servo feels it until the next step.
+  for (std::size_t i = 0; i < own.tool_count && i < coupling.size(); ++i)
+    own.AddCoupling(static_cast<int>(i), {own.contacts.data(), of_tools}, results.first(of_tools),
+                    coupling[i]);
+
+  // A preconditioner that grows old is made anew; a body at rest sleeps.
+  ++own.since_refresh;
+  report.factor_age = own.solver.factor_age();
+  if (report.step.iterations > own.options.refresh_iterations * std::max(1, report.step.newton) &&
+      own.since_refresh >= kRefreshPause)
+    own.wants_refresh = true;
+  const bool is_quiet = of_tools == 0 && report.max_speed < own.options.sleep_speed;
+  own.quiet = is_quiet ? own.quiet + 1 : 0;
+  if (own.quiet >= kQuietSteps) {
+    own.is_asleep = true;
+    own.quiet = 0;
+    std::fill(own.state.v.begin(), own.state.v.end(), glm::dvec3(0.0));
+  }
+  return report;
+}
+
+bool DeformableBody::WantsRefresh() const noexcept { return impl_->wants_refresh; }
+
+void DeformableBody::BeginRefresh() {
+  impl_->wants_refresh = false;
+  impl_->since_refresh = 0;
+  impl_->solver.BeginRefresh();
+}
+
+void DeformableBody::RunRefresh() noexcept { impl_->solver.RunRefresh(); }
+
+void DeformableBody::TakeRefresh() noexcept { impl_->solver.TakeRefreshed(); }
+
+void DeformableBody::Reset() {
+  const std::uint64_t version = impl_->shape_version;
+  impl_ = std::make_unique<Impl>(impl_->spec, impl_->options);
+  impl_->shape_version += version;
+}
+
+const BodySpec& DeformableBody::spec() const { return impl_->spec; }
+const BodyState& DeformableBody::state() const { return impl_->state; }
+std::span<const glm::dvec3> DeformableBody::positions() const { return impl_->positions; }
+std::span<const glm::dvec3> DeformableBody::normals() const { return impl_->normals; }
+const std::shared_ptr<const SurfaceMesh>& DeformableBody::skin() const {
+  return impl_->shape->skin_at_rest;
+}
+std::uint64_t DeformableBody::shape_version() const { return impl_->shape_version; }
+const TetMesh& DeformableBody::mesh() const { return impl_->shape->mesh; }
+CutReport DeformableBody::cut_report() const {
+  return impl_->cut != nullptr ? impl_->cut->report : CutReport{};
+}
+int DeformableBody::held_nodes() const {
+  return static_cast<int>(std::count_if(impl_->shape->fixed.begin(), impl_->shape->fixed.end(),
+                                        [](auto bits) { return bits != 0; }));
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,172 @@
+// Taking parts of a body away: the field in rest space, the elements after it, the skin, the
+// solver.
+#include <algorithm>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "simulation/tissue/body/deformable_body_impl.h"
+#include "simulation/tissue/field/pieces.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kOpened = 0.5, kClosed = 0.15;  // shares of the jaws' opening: ready, bitten
+constexpr int kShaveEvery = 6;  // steps; what is shaved is taken ten times a second
+
+// A loose fragment of less is washed away; the largest that a 4.5 mm shaver's window lets through.
+constexpr double kDebrisVolume = 60e-9;  // m³
+
+Box3 Union(const Box3& a, const Box3& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+bool Meet(const Box3& a, const Box3& b) {
+  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
+// Where the nodes of the new mesh come from in the one before. A node that was in none goes with a
+// node of its element that was.
+std::vector<int> PreviousNodes(const CutMesh& cut) {
+  std::vector<int> previous = cut.previous_node;
+  const int nodes = cut.mesh.NodesPerElement();
+  for (int e = 0; e < cut.mesh.ElementCount(); ++e) {
+    const int* of_element = &cut.mesh.elements[static_cast<std::size_t>(e * nodes)];
+    int known = -1;
+    for (int i = 0; i < nodes && known < 0; ++i)
+      known = cut.previous_node[static_cast<std::size_t>(of_element[i])];
+    for (int i = 0; i < nodes; ++i) {
+      int& of_node = previous[static_cast<std::size_t>(of_element[i])];
+      if (of_node < 0) of_node = std::max(known, 0);
+    }
+  }
+  return previous;
+}
+
+}  // namespace
+
+// At rest, of the elements that are now where the tool is.
+Box3 DeformableBody::Impl::RestBoxOf(const Capsule& tool) const {
+  const double reach = tool.radius + 3.0 * field.spacing();
+  const Box3 around{glm::min(tool.a, tool.b) - reach, glm::max(tool.a, tool.b) + reach};
+  Box3 rest = kEmptyBox;
+  const int nodes = shape->mesh.NodesPerElement();
+  for (int e = 0; e < shape->mesh.ElementCount(); ++e) {
+    Box3 now = kEmptyBox, then = kEmptyBox;
+    for (int i = 0; i < nodes; ++i) {
+      const auto node =
+          static_cast<std::size_t>(shape->mesh.elements[static_cast<std::size_t>(e * nodes + i)]);
+      now = Union(now, {state.x[node], state.x[node]});
+      then = Union(then, {shape->mesh.rest_positions[node], shape->mesh.rest_positions[node]});
+    }
+    if (Meet(now, around)) rest = Union(rest, then);
+  }
+  if (rest.empty()) return rest;
+  return {rest.low - 2.0 * field.spacing(), rest.high + 2.0 * field.spacing()};
+}
+
+bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double dt) {
+  bool was_cut = false;
+  for (std::size_t i = 0; i < tool_count; ++i) {
+    PlacedTool& tool = placed[i];
+    if (tool.count == 0) continue;
+    if (tools[i].shape.kind == ToolKind::kPunch) {
+      const double opening = tools[i].now.opening;
+      if (opening > kOpened) tool.is_ready_to_bite = true;
+      if (opening >= kClosed || !tool.is_ready_to_bite) continue;
+      tool.is_ready_to_bite = false;
+      was_cut |= CutWith(tool.bite, false, dt);
+    } else if (tools[i].shape.kind == ToolKind::kShaver && tools[i].now.is_running &&
+               ++since_shave >= kShaveEvery) {
+      was_cut |= CutWith(tool.bite, true, dt * since_shave);
+      since_shave = 0;
+    }
+  }
+  return was_cut;
+}
+
+bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double dt) {
+  const Box3 box = RestBoxOf(tool);
+  if (box.empty()) return false;
+  if (cut == nullptr) {
+    cut = std::make_unique<CutState>(
+        CutState{MeshCutter(spec.mesh, field.spacing()), FieldSkin(field), field, {}, {}, {}});
+    cut->cutter.Rebuild(field);
+  }
+  const Deformation place_of = [this](const glm::dvec3& rest, glm::dvec3& place) {
+    const ElementCopy copy = cut->cutter.FindCopy(finder.Find(rest).element, rest);
+    if (copy.element < 0) return false;
+    const int nodes = shape->mesh.NodesPerElement();
+    place = glm::dvec3(0.0);
+    for (int i = 0; i < nodes; ++i)
+      place += copy.weight[static_cast<std::size_t>(i)] *
+               state.x[static_cast<std::size_t>(
+                   shape->mesh.elements[static_cast<std::size_t>(copy.element * nodes + i)])];
+    return true;
+  };
+  const ToolDistance distance = [&tool](const glm::dvec3& place) {
+    return DistanceToCapsule(place, tool.a, tool.b, tool.radius);
+  };
+  FieldEdit edit = is_shaver
+                       ? Shave(field, box, place_of, distance, options.shaver, dt, cut->shaver)
+                       : SubtractDeformed(field, box, place_of, distance);
+  if (edit.changed.empty()) return false;
+  cut->report.removed += edit.removed;
+  ++cut->report.cuts;
+
+  // Fragments that nothing holds any more are washed away when they are small.
+  if (!spec.fixed.empty()) {
+    const FieldPieces pieces = PiecesOf(field);
+    std::vector<unsigned char> is_debris = HeldPieces(field, pieces, spec.fixed);
+    for (std::size_t i = 0; i < is_debris.size(); ++i)
+      is_debris[i] = is_debris[i] == 0 && pieces.volume[i] < kDebrisVolume;
+    const CrumbReport gone = RemovePieces(field, pieces, is_debris);
+    edit.changed = Union(edit.changed, gone.edit.changed);
+    cut->report.debris += gone.crumbs;
+    cut->report.debris_volume += gone.edit.removed;
+    cut->report.removed += gone.edit.removed;
+  }
+  FollowField(edit.changed);
+  return true;
+}
+
+void DeformableBody::Impl::FollowField(const Box3& box) {
+  const CutMesh& after = cut->cutter.Update(field, box);
+  cut->report.pieces = after.piece_count();
+
+  // The skin of what is left, on the elements that are left.
+  cut->skin.Update(field);
+  EmbeddedSkin skin{cut->skin.surface(), {}};
+  const std::span<const int> previous = cut->skin.previous();
+  std::vector<int> element_of(skin.rest.vertices.size());
+  skin.point.resize(element_of.size());
+  for (std::size_t v = 0; v < element_of.size(); ++v) {
+    const glm::dvec3& rest = skin.rest.vertices[v];
+    const auto before = v < previous.size() ? previous[v] : -1;
+    element_of[v] = before >= 0 && static_cast<std::size_t>(before) < cut->element_of_vertex.size()
+                        ? cut->element_of_vertex[static_cast<std::size_t>(before)]
+                        : finder.Find(rest).element;
+    const ElementCopy copy = cut->cutter.FindCopy(element_of[v], rest);
+    skin.point[v] = {std::max(copy.element, 0), copy.weight};
+  }
+  cut->element_of_vertex = std::move(element_of);
+
+  const std::vector<int> from = PreviousNodes(after);
+  shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin), field);
+  solver.Replace(shape->model, shape->fixed, from);
+  BodyState moved;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto k = static_cast<std::size_t>(from[i]);
+    moved.x.push_back(state.x[k]);
+    moved.v.push_back(state.v[k]);
+  }
+  state = std::move(moved);
+  for (PlacedTool& tool : placed) tool.grip = ToolGrip{};
+  wants_refresh = true;
+  MakeRoom();
+}
+
+}  // namespace arthro::simulation

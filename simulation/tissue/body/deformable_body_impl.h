@@ -1,0 +1,92 @@
+// What is inside a DeformableBody, for the files that it is written in: stepping and cutting.
+#pragma once
+
+#include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/contact/embedded_skin.h"
+#include "simulation/tissue/contact/obstacle_contact.h"
+#include "simulation/tissue/contact/tool_contact.h"
+#include "simulation/tissue/cut/cut_mesh.h"
+#include "simulation/tissue/cut/cutters.h"
+#include "simulation/tissue/field/polygonise.h"
+#include "simulation/tissue/field/solid_field.h"
+
+namespace arthro::simulation {
+
+// All that a cut makes anew: elements, what is held, the skin and what finds contacts on it.
+struct BodyShape {
+  BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
+            EmbeddedSkin carried, const SolidField& field);
+
+  TetMesh mesh;
+  std::shared_ptr<const FemModel> model;
+  FixedAxes fixed;
+  EmbeddedSkin skin;
+  SkinContact skin_contact;
+  ObstacleContact rest_contact;
+  std::shared_ptr<const SurfaceMesh> skin_at_rest;
+};
+
+// Kept from the first cut on.
+struct CutState {
+  MeshCutter cutter;
+  FieldSkin skin;
+  SolidField original;
+  std::vector<int> element_of_vertex;  // of the whole mesh, one a vertex of the field's skin
+  Shaver shaver;
+  CutReport report;
+};
+
+// A tool in the body's own frame.
+struct PlacedTool {
+  std::array<Capsule, kMaxCapsules> capsules;
+  int count = 0;
+  bool was_present = false;
+  glm::dvec3 tip{0.0}, motion{0.0};
+  ToolGrip grip;
+  Capsule bite;                   // what it takes when it closes or runs
+  bool is_ready_to_bite = false;  // was opened since the last bite
+  std::span<const Capsule> Capsules() const {
+    return {capsules.data(), static_cast<std::size_t>(count)};
+  }
+};
+
+struct DeformableBody::Impl {
+  Impl(BodySpec given, const BodyOptions& chosen);
+
+  void MoveSkin() noexcept;
+  void TakeTools(std::span<const WorldTool> tools) noexcept;
+  bool IsTouchedSoon() const noexcept;
+  void AddCoupling(int tool, std::span<const ContactPoint> of_tools,
+                   std::span<const ContactResult> results, ToolCoupling& coupling) noexcept;
+  // Bites and shavings of this step; true when something was taken.
+  bool CutWithTools(std::span<const WorldTool> tools, double dt);
+  bool CutWith(const Capsule& tool, bool is_shaver, double dt);
+  // The field changed within `box`: elements, state, solver and skin follow.
+  void FollowField(const Box3& box);
+  // For everything that has as many entries as the shape has nodes or the skin vertices.
+  void MakeRoom();
+  Box3 RestBoxOf(const Capsule& tool) const;
+
+  BodySpec spec;
+  BodyOptions options;
+  Rigid3 body_from_portal;
+  ElementFinder finder;  // of the whole mesh
+  SolidField field;
+  std::unique_ptr<BodyShape> shape;
+  std::unique_ptr<CutState> cut;  // null: whole
+  ImplicitSolver solver;
+  ObstacleContactOptions on_obstacle;
+  const RigidObstacle* lies_on = nullptr;  // that shape->rest_contact knows
+  BodyState state, good;
+  std::vector<glm::dvec3> load, positions, normals;
+  std::vector<ContactPoint> contacts;
+  std::vector<ContactResult> results;
+  std::array<PlacedTool, 2> placed;
+  std::size_t tool_count = 0;
+  std::uint64_t shape_version = 0;
+  bool is_asleep = true;  // at rest until it is touched
+  int quiet = 0, since_good = 0, since_refresh = 0, since_shave = 0;
+  bool wants_refresh = false;
+};
+
+}  // namespace arthro::simulation

@@ -1,0 +1,114 @@
+#include "simulation/tissue/body/tissue_world.h"
+
+#include <utility>
+
+#include "simulation/core/background_worker.h"
+#include "simulation/core/process_cost.h"
+
+namespace arthro::simulation {
+namespace {
+
+// Steps from the begin of a new factor to its use, done or waited for: always as many, so that a
+// session gives the same bits on a fast and on a slow machine.
+constexpr int kRefreshSteps = 2;
+
+}  // namespace
+
+struct TissueWorld::Impl {
+  Impl(std::shared_ptr<const RigidObstacle> rests_on, bool second_thread)
+      : obstacle(std::move(rests_on)), worker(second_thread) {
+    for (std::size_t i = 0; i < tools.size(); ++i)
+      tools[i].shape = ShapeOf(static_cast<ToolKind>(i));
+  }
+
+  struct Held {
+    DeformableBody body;
+    BodyReport report;
+    double step_ms = 0;
+  };
+
+  // One body at a time has its factor made anew.
+  void Refresh() noexcept {
+    if (refreshing != nullptr) {
+      if (++refresh_age < kRefreshSteps) return;
+      worker.Wait();
+      refreshing->TakeRefresh();
+      refreshing = nullptr;
+    }
+    for (Held& held : bodies) {
+      if (!held.body.WantsRefresh()) continue;
+      refreshing = &held.body;
+      refresh_age = 0;
+      refreshing->BeginRefresh();
+      worker.Start([](void* body) noexcept { static_cast<DeformableBody*>(body)->RunRefresh(); },
+                   refreshing);
+      return;
+    }
+  }
+
+  std::vector<Held> bodies;
+  std::array<WorldTool, static_cast<std::size_t>(ToolKind::kGrasper) + 1> tools;  // by kind
+  std::shared_ptr<const RigidObstacle> obstacle;
+  ToolCoupling coupling;
+  std::uint64_t step = 0;
+  DeformableBody* refreshing = nullptr;
+  int refresh_age = 0;
+  BackgroundWorker worker;
+};
+
+TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
+                         std::shared_ptr<const RigidObstacle> obstacle, bool second_thread)
+    : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
+  impl_->bodies.reserve(specs.size());
+  for (BodySpec& spec : specs)
+    impl_->bodies.push_back({DeformableBody(std::move(spec), options), {}, 0});
+}
+TissueWorld::~TissueWorld() = default;
+TissueWorld::TissueWorld(TissueWorld&&) noexcept = default;
+TissueWorld& TissueWorld::operator=(TissueWorld&&) noexcept = default;
+
+void TissueWorld::Step(const Instrumentation& instrument, double dt) noexcept {
+  Impl& own = *impl_;
+  WorldTool& tool = own.tools[static_cast<std::size_t>(instrument.kind)];
+  tool.now = instrument.now;
+  own.Refresh();
+  ToolCoupling coupling;
+  coupling.step = ++own.step;
+  coupling.tip = instrument.now.portal_from_tool.translation;
+  for (Impl::Held& held : own.bodies) {
+    const double begin = ThreadCpuMs();
+    held.report = held.body.Step({&tool, 1}, own.obstacle.get(), dt, {&coupling, 1});
+    held.step_ms = ThreadCpuMs() - begin;
+  }
+  own.coupling = coupling;
+}
+
+const ToolCoupling& TissueWorld::coupling() const noexcept { return impl_->coupling; }
+
+void TissueWorld::Show(WorldPicture& picture) const {
+  picture.step = impl_->step;
+  picture.bodies.resize(impl_->bodies.size());
+  for (std::size_t i = 0; i < picture.bodies.size(); ++i) {
+    const Impl::Held& held = impl_->bodies[i];
+    BodyPicture& shown = picture.bodies[i];
+    shown.tissue = held.body.spec().tissue;
+    shown.report = held.report;
+    shown.cut = held.body.cut_report();
+    shown.step_ms = held.step_ms;
+    if (shown.shape == held.body.shape_version() && shown.skin == held.body.skin()) continue;
+    shown.shape = held.body.shape_version();
+    shown.skin = held.body.skin();
+    shown.positions.assign(held.body.positions().begin(), held.body.positions().end());
+    shown.normals.assign(held.body.normals().begin(), held.body.normals().end());
+  }
+}
+
+bool TissueWorld::IsEmpty() const noexcept { return impl_->bodies.empty(); }
+
+void TissueWorld::Reset() {
+  impl_->worker.Wait();
+  impl_->refreshing = nullptr;
+  for (Impl::Held& held : impl_->bodies) held.body.Reset();
+}
+
+}  // namespace arthro::simulation

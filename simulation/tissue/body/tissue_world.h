@@ -1,0 +1,64 @@
+// All living tissues of a scene and the tools among them, one step at a time [design §1: tissue
+// loop]. No clock and no threads of its own but one, on request, that makes factors anew; with it
+// or without, the same inputs give the same bits. Portal frame, m, s, N.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "simulation/tissue/body/deformable_body.h"
+
+namespace arthro::simulation {
+
+// The instrument in the hand at a step: any of the kinds, changed in mid-session.
+struct Instrumentation {
+  ToolKind kind = ToolKind::kProbe;
+  ToolInput now;
+};
+
+// Of one tissue, for the picture and the panels.
+struct BodyPicture {
+  int tissue = -1;                          // in the scene
+  std::uint64_t shape = 0;                  // another number: positions changed
+  std::shared_ptr<const SurfaceMesh> skin;  // at rest; another pointer: cut
+  std::vector<glm::dvec3> positions,
+      normals;  // of the skin's vertices, tissue frame, scale applied
+  BodyReport report;
+  CutReport cut;
+  double step_ms = 0;  // of the processor
+};
+
+struct WorldPicture {
+  std::uint64_t step = 0;
+  std::vector<BodyPicture> bodies;
+};
+
+class TissueWorld {
+ public:
+  // `obstacle`: what tissue rests on, or null. `second_thread`: factors are made there.
+  TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
+              std::shared_ptr<const RigidObstacle> obstacle, bool second_thread);
+  ~TissueWorld();
+  TissueWorld(TissueWorld&&) noexcept;
+  TissueWorld& operator=(TissueWorld&&) noexcept;
+
+  // Advances all bodies by dt with the instrument as it is now; the scope pushes nothing aside.
+  // noexcept: what goes wrong is in the reports.
+  void Step(const Instrumentation& instrument, double dt) noexcept;
+
+  const ToolCoupling& coupling() const noexcept;
+  // Copies what changed since `picture` was last filled.
+  void Show(WorldPicture& picture) const;
+
+  bool IsEmpty() const noexcept;
+  void Reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace arthro::simulation

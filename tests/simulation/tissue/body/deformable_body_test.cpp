@@ -1,0 +1,152 @@
+// A tissue among tools, step by step: 20 × 20 × 6 mm slab of T10, held at its underside.
+#include "simulation/tissue/body/deformable_body.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/core/error.h"
+#include "tests/simulation/tissue/contact/slab.h"
+#include "tests/simulation/tissue/cut/mesh_boundary.h"
+#include "tests/support/allocation_counter.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kFrame = 1.0 / 60.0;
+
+// The slab's sides in squares of half a millimetre, joined at the edges.
+SurfaceMesh ClosedSkin() { return test::BoundaryOf(test::SlabMesh(1, {40, 40, 12})); }
+
+BodySpec SlabBody() {
+  BodySpec spec;
+  spec.name = "slab";
+  spec.mesh = test::SlabMesh(2);
+  spec.surface = ClosedSkin();
+  spec.material.young_modulus = 5e5;
+  // Balls along the underside: all of its nodes, and none above.
+  for (double x = -0.01; x <= 0.01; x += 0.5e-3)
+    for (double y = -0.01; y <= 0.01; y += 0.5e-3)
+      spec.fixed.push_back({{x, y, test::kSlabLow.z}, 0.9e-3});
+  spec.portal_from_body = {glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))),
+                           {0.01, 0.02, 0.03}};
+  return spec;
+}
+
+// A probe that points down onto the slab's top, its tip `depth` below the top at rest.
+WorldTool ProbeAt(const BodySpec& spec, double depth, double x = 0.0) {
+  WorldTool tool;
+  tool.shape = ShapeOf(ToolKind::kProbe);
+  tool.now.is_present = true;
+  // Tool z (along the rod) is the slab's −z.
+  const Rigid3 body_from_tool{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)),
+                              {x, 0.0, -depth}};
+  tool.now.portal_from_tool = spec.portal_from_body * body_from_tool;
+  return tool;
+}
+
+TEST(DeformableBody, SleepsUntilItIsTouchedAndAgainAfterwards) {
+  const BodySpec spec = SlabBody();
+  DeformableBody body(spec, {});
+  EXPECT_GT(body.held_nodes(), 100);
+  ToolCoupling coupling;
+  const auto step = [&](double depth) {
+    coupling = {};
+    const WorldTool tool = ProbeAt(spec, depth);
+    return body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
+  };
+  EXPECT_TRUE(step(-0.02).is_asleep);
+  const auto untouched = body.shape_version();
+  for (int i = 0; i < 30; ++i) {
+    const BodyReport report = step(1e-3);
+    EXPECT_FALSE(report.is_asleep);
+    EXPECT_FALSE(report.was_reset);
+  }
+  EXPECT_GT(body.shape_version(), untouched);
+  ASSERT_GT(coupling.count, 0);
+  const glm::dvec3 up = spec.portal_from_body.rotation * glm::dvec3(0, 0, 1);
+  EXPECT_GT(glm::dot(ForceOf(coupling, coupling.tip).force, up), 0.05) << "N";
+  int steps = 0;
+  while (!step(-0.02).is_asleep && steps < 600) ++steps;
+  EXPECT_LT(steps, 120) << "two seconds after it was let go";
+  double off = 0;
+  for (std::size_t i = 0; i < body.state().x.size(); ++i)
+    off = std::max(off, glm::distance(body.state().x[i], spec.mesh.rest_positions[i]));
+  EXPECT_LT(off, 1e-5) << "m from its rest shape";
+}
+
+TEST(DeformableBody, ForceGrowsWithDepthAndTheServoForetellsIt) {
+  const BodySpec spec = SlabBody();
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  double before = 0;
+  for (double depth = 0.25e-3; depth < 2.1e-3; depth += 0.25e-3) {
+    // What the coupling of the last depth says of this one, and what the tissue then gives.
+    const WorldTool tool = ProbeAt(spec, depth);
+    const double foretold =
+        glm::length(ForceOf(coupling, tool.now.portal_from_tool.translation).force);
+    for (int i = 0; i < 40; ++i) {
+      coupling = {};
+      coupling.tip = tool.now.portal_from_tool.translation;
+      body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
+    }
+    const double force =
+        glm::length(ForceOf(coupling, tool.now.portal_from_tool.translation).force);
+    EXPECT_GT(force, before);
+    if (before > 0) {
+      RecordProperty("off_percent_at_" + std::to_string(depth * 1e3) + "_mm",
+                     std::to_string(100 * (foretold / force - 1)));
+      printf("depth %.2f mm: %.4f N, foretold from 0.25 mm before %.4f N (%+.1f %%)\n", depth * 1e3,
+             force, foretold, 100 * (foretold / force - 1));
+    }
+    before = force;
+  }
+}
+
+TEST(DeformableBody, StepsAllocateNothingOnceWarm) {
+  const BodySpec spec = SlabBody();
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  const auto step = [&](double depth, double x) {
+    const WorldTool tool = ProbeAt(spec, depth, x);
+    coupling = {};
+    const long before = test::Allocations();
+    body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
+    return test::Allocations() - before;
+  };
+  for (int i = 0; i < 20; ++i) step(1e-3, 1e-4 * i);
+  long allocations = 0;
+  for (int i = 0; i < 20; ++i) allocations += step(1.2e-3, 1e-4 * (20 - i));
+  EXPECT_EQ(allocations, 0);
+}
+
+TEST(DeformableBody, PoseThatIsNotANumberIsNoTool) {
+  const BodySpec spec = SlabBody();
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  WorldTool tool = ProbeAt(spec, 1e-3);
+  for (int i = 0; i < 10; ++i) body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
+  tool.now.portal_from_tool.translation.y = std::nan("");
+  for (int i = 0; i < 10; ++i) {
+    coupling = {};
+    const BodyReport report = body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
+    EXPECT_FALSE(report.was_reset);
+    EXPECT_EQ(coupling.count, 0);
+  }
+  for (const glm::dvec3& x : body.state().x) ASSERT_TRUE(std::isfinite(x.x + x.y + x.z));
+}
+
+TEST(DeformableBody, BallsThatHoldNothingAreRefused) {
+  BodySpec spec = SlabBody();
+  spec.fixed = {{{1.0, 0.0, 0.0}, 1e-3}};
+  try {
+    DeformableBody body(spec, {});
+    FAIL() << "was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("hold"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace arthro::simulation
