@@ -113,6 +113,28 @@ Curve SlopesOf(const Curve& xs, const Curve& ys) {
   return slopes;
 }
 
+// A ball on a half space at depth d (of its radius) beside the paraboloid of the same curvature:
+// force over Hertz's with its derivative by d, and contact radius over Hertz's [Sneddon 1965:
+// d = e atanh e, F ~ (1 + e²) atanh e − e, e the contact's radius over the ball's; Hertz: e² = d,
+// F ~ 4/3 d^1.5].
+struct Roundness {
+  double force = 1, slope = -0.1, radius = 1;
+};
+Roundness RoundnessAt(double d) {
+  if (d < 1e-4) return {1 - 0.1 * d, -0.1, 1 - d / 6};  // the next terms are d²
+  const double hertz = 4.0 / 3 * d * std::sqrt(d);
+  if (d > 8)  // the contact is the ball's whole width but for 1e-7 of it: e = 1
+    return {(2 * d - 1) / hertz, (2 - (2 * d - 1) * 1.5 / d) / hertz, 1 / std::sqrt(d)};
+  // Newton from above, where the function is convex: eight steps leave rounding only.
+  double e = std::min(std::sqrt(d), std::tanh(d / std::tanh(d)));
+  for (int i = 0; i < 8; ++i) {
+    const double turn = std::atanh(e);
+    e -= (e * turn - d) / (turn + e / (1 - e * e));
+  }
+  const double ball = (1 + e * e) * std::atanh(e) - e;
+  return {ball / hertz, (2 * e - ball * 1.5 / d) / hertz, e / std::sqrt(d)};
+}
+
 bool IsPressed(double radius, double amount) {
   return std::isfinite(radius) && std::isfinite(amount) && radius > 0 && amount > 0;
 }
@@ -170,24 +192,24 @@ LayerTouch ElasticLayer::PressBall(double radius, double depth) const noexcept {
   // Before the first sample: Hertz, F ~ δ^1.5 and a ~ δ^0.5.
   const Value force = At(log_depth_, log_force_, force_slope_, 1.5, log_depth);
   const Value touch = At(log_depth_, log_radius_, radius_slope_, 0.5, log_depth);
-  const double newton = flat_unit_ * thickness_ * (thickness_ / radius) * std::exp(force.y);
-  return {newton, newton / depth * force.slope, thickness_ * std::exp(touch.y),
-          depth > kDeepShare * thickness_};
+  const Roundness round = RoundnessAt(depth / radius);
+  const double paraboloid = flat_unit_ * thickness_ * (thickness_ / radius) * std::exp(force.y);
+  return {paraboloid * round.force,
+          paraboloid * (force.slope / depth * round.force + round.slope / radius),
+          thickness_ * std::exp(touch.y) * round.radius,
+          depth > kDeepShare * thickness_ || depth > kDeepBallShare * radius};
 }
 
 double ElasticLayer::BallDepth(double radius, double force) const noexcept {
   if (!IsPressed(radius, force)) return 0;
-  const double wanted = std::log(force / (flat_unit_ * thickness_) * (radius / thickness_));
-  // The curve rises everywhere, so halving finds the place; 60 halvings of a span of 40 (in the
+  // The force rises everywhere, so halving finds the depth; 70 halvings of a span of 80 (in the
   // logarithm) leave nothing.
-  double low = log_depth_.front(), high = log_depth_.back();
-  if (wanted < log_force_.front()) low = high - 60;
-  if (wanted > log_force_.back()) high = low + 60;
-  for (int i = 0; i < 60; ++i) {
+  double low = std::log(thickness_) - 70, high = std::log(thickness_) + 10;
+  for (int i = 0; i < 70; ++i) {
     const double middle = 0.5 * (low + high);
-    (At(log_depth_, log_force_, force_slope_, 1.5, middle).y < wanted ? low : high) = middle;
+    (PressBall(radius, std::exp(middle)).force < force ? low : high) = middle;
   }
-  return std::exp(0.5 * (low + high)) * thickness_ * (thickness_ / radius);
+  return std::exp(0.5 * (low + high));
 }
 
 }  // namespace arthro::simulation

@@ -105,14 +105,17 @@ TEST(ElasticLayer, StiffnessIsTheDerivativeOfTheForceAndDepthItsInverse) {
         // may straddle two samples, where the second derivative jumps.
         EXPECT_NEAR(touch.stiffness / slope, 1, 1e-5) << nu << " " << radius << " " << depth;
         EXPECT_NEAR(layer.BallDepth(radius, touch.force) / depth, 1, 1e-9);
-        EXPECT_EQ(touch.is_deep, depth > 0.3 * kThickness);
+        EXPECT_EQ(touch.is_deep, depth > 0.3 * kThickness || depth > 0.8 * radius);
         const LayerTouch flat = layer.PressFlat(radius, depth);
         EXPECT_NEAR(flat.force, flat.stiffness * depth, 1e-12 * flat.force);
         EXPECT_NEAR(layer.FlatDepth(radius, flat.force) / depth, 1, 1e-12);
-        // The theorem that gives the samples their slopes holds between them as well.
-        EXPECT_NEAR(touch.stiffness / layer.PressFlat(touch.contact_radius, depth).stiffness, 1,
-                    0.01)
-            << nu << " " << radius << " " << depth;
+        // The theorem that gives the samples their slopes holds between them as well, for the
+        // paraboloid that a ball is where it is shallow.
+        if (depth < 0.02 * radius) {
+          EXPECT_NEAR(touch.stiffness / layer.PressFlat(touch.contact_radius, depth).stiffness, 1,
+                      0.01)
+              << nu << " " << radius << " " << depth;
+        }
       }
   }
 }
