@@ -14,6 +14,7 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/living_tissues_of.h"
 #include "app/resource_folder.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/atomic_file.h"
@@ -88,7 +89,8 @@ void Run(const DemoJob& job) {
   const auto trace = simulation::ReadTrace(demo / "trace.csv");
   const Progress progress = TerminalProgress();
   simulation::ReplayReport report;
-  const auto rows = simulation::Replay(loaded, trace, {}, progress, &report);
+  const auto rows =
+      simulation::Replay(loaded, trace, {}, progress, &report, LivingTissuesOf(loaded));
 
   std::error_code fault;
   fs::create_directories(job.folder, fault);

@@ -7,6 +7,7 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/living_tissues_of.h"
 #include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -36,7 +37,8 @@ void Run(const ReplayJob& job) {
   const std::vector<simulation::TraceRow> trace = simulation::ReadTrace(job.trace);
   const LoadedScene loaded = LoadScene(job.scene);
   simulation::ReplayReport report;
-  const auto rows = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report);
+  const auto rows = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report,
+                                       LivingTissuesOf(loaded));
   WriteAtomically(job.forces, simulation::ForcesText(rows, loaded.scene));
   if (!job.report.empty())
     WriteAtomically(job.report, simulation::ReportText(report, loaded.scene));

@@ -32,8 +32,9 @@ bool Practising(const State& state) { return state.practice.has_value(); }
 
 void StartPractice(State& state) {
   WhenDepthIsReady(state, [](State& ready) {
-    ready.jobs.Start("Practise", [document = ready.document()](const Progress&) {
-      const auto practice = std::make_shared<Practice>(document);
+    ready.jobs.Start("Practise", [document = ready.document(), presets = ready.tissue_presets,
+                                  pace = ready.pace](const Progress&) {
+      const auto practice = std::make_shared<Practice>(document, presets, pace);
       return [practice](State& now) {  // shared only because a std::function is copied
         now.practice.emplace(std::move(*practice));
         now.message = "Practice. Esc leaves it.";

@@ -91,6 +91,8 @@ struct EditorState {
   bool shows_footage = false;  // in the Panorama step: the clip, not the backdrop
   FootageMakers makers;
   std::filesystem::path lens_folder;  // presets
+  std::vector<simulation::TissuePreset> tissue_presets;
+  simulation::TissuePace pace = simulation::TissuePace::kThread;  // of living tissue
   ScratchFolder scratch;              // files of products until they are saved
   RecentScenes recent;
   bool quit = false, full_screen = false;

@@ -7,13 +7,16 @@
 
 #include "simulation/core/error.h"
 #include "simulation/scope/arthroscope.h"
+#include "simulation/session/living_tissues.h"
 
 namespace arthro::app {
 namespace {
 
 constexpr double kTick = 1e-3;  // s
 
-simulation::Session SessionOf(const authoring::Document& document) {
+simulation::Session SessionOf(const authoring::Document& document,
+                              const std::vector<simulation::TissuePreset>& presets,
+                              simulation::TissuePace pace) {
   if (!document.panorama || document.panorama->empty())
     throw Error(Code::kBadScene,
                 "a scene without a panorama cannot be practised; import one first");
@@ -24,7 +27,13 @@ simulation::Session SessionOf(const authoring::Document& document) {
   auto field = document.depth ? simulation::DepthField(backdrop, *document.depth)
                               : simulation::DepthField(backdrop, document.panorama->width,
                                                        document.panorama->height);
-  return simulation::Session(document.scene, std::move(field), surfaces);
+  simulation::Session session(document.scene, std::move(field), surfaces);
+  const auto file_of = [&document](const std::filesystem::path& name) {
+    const auto found = document.files.find(name.generic_string());
+    return found != document.files.end() ? found->second.file : document.folder / name;
+  };
+  session.Enliven(simulation::LivingTissues(document.scene, surfaces, file_of, presets), pace);
+  return session;
 }
 
 }  // namespace
@@ -72,8 +81,10 @@ simulation::RodPose StartOfInstrument(const Scene& scene) {
   return pose;
 }
 
-Practice::Practice(const authoring::Document& document)
-    : session_(SessionOf(document)),
+Practice::Practice(const authoring::Document& document,
+                   const std::vector<simulation::TissuePreset>& presets,
+                   simulation::TissuePace pace)
+    : session_(SessionOf(document, presets, pace)),
       scope_(session_.scope_rig(), StartOfScope(document.scene), ScopeLimits(document.scene)),
       instrument_(session_.instrument_rig(), StartOfInstrument(document.scene),
                   InstrumentLimits(document.scene)) {
@@ -89,6 +100,7 @@ void Practice::Advance(double seconds) {
     t_ += kTick;
     const double remaining = (ticks - tick) * kTick;
     session_.Tick(scope_.Sample(t_, remaining), instrument_.Sample(t_, remaining), kTick);
+    session_.TickTissues(kTick);
     peak_force_ = std::max(peak_force_, glm::length(session_.snapshot().instrument.tip_force));
   }
 }

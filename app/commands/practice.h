@@ -8,14 +8,18 @@
 #include "authoring/project/document.h"
 #include "simulation/session/scripted_device.h"
 #include "simulation/session/session.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::app {
 
 class Practice {
  public:
-  // Throws Error where the scene cannot be practised: no panorama. Builds the depth field and the
-  // tissues' trees, which takes a moment: make it in a job.
-  explicit Practice(const authoring::Document& document);
+  // Throws Error where the scene cannot be practised: no panorama, a material that is not among
+  // the presets. Builds the depth field, the tissues' trees and their elements, which takes a
+  // moment: make it in a job. Tissues that deform step on a thread of their own, or, so that the
+  // same input gives the same pictures, inline.
+  Practice(const authoring::Document& document,
+           const std::vector<simulation::TissuePreset>& presets, simulation::TissuePace pace);
 
   // Runs the session for `seconds` more; the hands move evenly to where they are now. A pause
   // longer than kLongestPause is not made up for: the session then stood still.
@@ -26,6 +30,14 @@ class Practice {
   double incision_spacing() const { return session_.incision_spacing(); }
   double view_angle() const { return session_.view_angle(); }
   void SetViewAngle(double view_angle) { session_.SetViewAngle(view_angle); }
+
+  // Living tissues as they are now; nullptr: none lives.
+  const simulation::WorldPicture* tissues() { return session_.tissues(); }
+  void ResetTissues() { session_.ResetTissues(); }
+  simulation::ToolKind instrument_kind() const { return session_.instrument(); }
+  void SetInstrument(simulation::ToolKind kind) { session_.SetInstrument(kind); }
+  // The button under the finger: jaws close, a shaver runs.
+  void Press(bool is_pressed) { instrument_.SetButtons(is_pressed ? 1u : 0u); }
 
   double peak_force() const { return peak_force_; }  // N, largest on the instrument's tip so far
 

@@ -147,6 +147,8 @@ class Editor {
     }
     state_.practice_only = options_.practice;
     state_.lens_folder = ResourceFolder() / "presets" / "lenses";
+    state_.tissue_presets = simulation::ReadTissuePresets(ResourceFolder() / "presets" / "tissues");
+    if (options_.script) state_.pace = simulation::TissuePace::kInline;
     if (!options_.practice && !state_.document().folder.empty())
       state_.recent.Add(state_.document().folder);
     if (options_.practice)

@@ -66,8 +66,8 @@ void CountTissues(const WorldPicture& world, std::vector<TissueReport>& reports)
     report.cut = body.cut;
     if (body.skin == nullptr) continue;
     for (std::size_t v = 0; v < body.positions.size(); ++v)
-      report.deepest =
-          std::max(report.deepest, glm::distance(body.positions[v], body.skin->vertices[v]));
+      report.deepest = std::max(report.deepest,
+                                glm::distance(body.positions[v], body.skin->surface.vertices[v]));
   }
 }
 

@@ -45,6 +45,14 @@ bool IsFinite(std::span<const glm::dvec3> x) noexcept {
   return std::isfinite(sum);
 }
 
+// Vertices on faces that cuts have made.
+std::vector<std::uint8_t> FreshIn(const SurfaceMesh& skin, const SolidField& field) {
+  std::vector<std::uint8_t> fresh;
+  for (const glm::dvec3& x : skin.vertices)
+    fresh.push_back(field.CutDistance(x) > -0.3 * field.spacing() ? 1 : 0);
+  return fresh;
+}
+
 std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder& finder,
                                       const SolidField& field) {
   return std::make_unique<BodyShape>(spec.mesh, std::span<const double>{}, spec,
@@ -61,7 +69,8 @@ BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const Body
       skin(std::move(carried)),
       skin_contact(skin, mesh, field),
       rest_contact(mesh, fixed),
-      skin_at_rest(std::make_shared<const SurfaceMesh>(skin.rest)) {}
+      skin_at_rest(std::make_shared<const BodySkin>(BodySkin{
+          skin.rest, share.empty() ? std::vector<std::uint8_t>{} : FreshIn(skin.rest, field)})) {}
 
 DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
     : spec(std::move(given)),
@@ -252,7 +261,7 @@ const BodySpec& DeformableBody::spec() const { return impl_->spec; }
 const BodyState& DeformableBody::state() const { return impl_->state; }
 std::span<const glm::dvec3> DeformableBody::positions() const { return impl_->positions; }
 std::span<const glm::dvec3> DeformableBody::normals() const { return impl_->normals; }
-const std::shared_ptr<const SurfaceMesh>& DeformableBody::skin() const {
+const std::shared_ptr<const BodySkin>& DeformableBody::skin() const {
   return impl_->shape->skin_at_rest;
 }
 std::uint64_t DeformableBody::shape_version() const { return impl_->shape_version; }

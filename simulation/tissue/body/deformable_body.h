@@ -61,6 +61,12 @@ struct CutReport {
   int cuts = 0;              // bites, and updates of shaving
 };
 
+// The skin of a body at rest, whole or after a cut.
+struct BodySkin {
+  SurfaceMesh surface;
+  std::vector<std::uint8_t> is_fresh;  // a vertex: 1 on a cut face; empty: whole
+};
+
 class DeformableBody {
  public:
   // Throws Error(kBadMesh) for a mesh that cannot be computed with and Error(kBadScene) where balls
@@ -86,9 +92,9 @@ class DeformableBody {
   const BodyState& state() const;
   std::span<const glm::dvec3> positions() const;  // of the skin's vertices
   std::span<const glm::dvec3> normals() const;
-  const std::shared_ptr<const SurfaceMesh>& skin() const;  // at rest; another one after a cut
-  std::uint64_t shape_version() const;                     // grows when positions change
-  const TetMesh& mesh() const;                             // as state() has nodes; cut or whole
+  const std::shared_ptr<const BodySkin>& skin() const;  // at rest; another one after a cut
+  std::uint64_t shape_version() const;                  // grows when positions change
+  const TetMesh& mesh() const;                          // as state() has nodes; cut or whole
   CutReport cut_report() const;
   int held_nodes() const;
 

@@ -23,7 +23,7 @@ struct BodyShape {
   EmbeddedSkin skin;
   SkinContact skin_contact;
   ObstacleContact rest_contact;
-  std::shared_ptr<const SurfaceMesh> skin_at_rest;
+  std::shared_ptr<const BodySkin> skin_at_rest;
 };
 
 // Kept from the first cut on.

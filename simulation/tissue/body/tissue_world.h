@@ -21,9 +21,9 @@ struct Instrumentation {
 
 // Of one tissue, for the picture and the panels.
 struct BodyPicture {
-  int tissue = -1;                          // in the scene
-  std::uint64_t shape = 0;                  // another number: positions changed
-  std::shared_ptr<const SurfaceMesh> skin;  // at rest; another pointer: cut
+  int tissue = -1;                       // in the scene
+  std::uint64_t shape = 0;               // another number: positions changed
+  std::shared_ptr<const BodySkin> skin;  // at rest; another pointer: cut
   std::vector<glm::dvec3> positions,
       normals;  // of the skin's vertices, tissue frame, scale applied
   BodyReport report;

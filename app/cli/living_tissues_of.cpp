@@ -1,0 +1,19 @@
+#include "app/cli/living_tissues_of.h"
+
+#include <fmt/format.h>
+
+#include "app/resource_folder.h"
+
+namespace arthro::app {
+
+std::vector<simulation::BodySpec> LivingTissuesOf(const LoadedScene& loaded) {
+  std::vector<std::string> messages;
+  auto bodies = simulation::LivingTissues(
+      loaded.scene, loaded.surfaces,
+      [&loaded](const std::filesystem::path& name) { return loaded.folder / name; },
+      simulation::ReadTissuePresets(ResourceFolder() / "presets" / "tissues"), &messages);
+  for (const std::string& message : messages) fmt::print(stderr, "note: {}\n", message);
+  return bodies;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,14 @@
+// The living tissues of a scene as jobs compute them: with the presets that the program ships. What
+// reading their meshes repaired is said on stderr.
+#pragma once
+
+#include <vector>
+
+#include "simulation/scene/scene_io.h"
+#include "simulation/session/living_tissues.h"
+
+namespace arthro::app {
+
+std::vector<simulation::BodySpec> LivingTissuesOf(const LoadedScene& loaded);
+
+}  // namespace arthro::app

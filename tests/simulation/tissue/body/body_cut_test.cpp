@@ -1,0 +1,129 @@
+// A living tissue under the punch and the shaver, while it is touched.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/tissue/body/deformable_body.h"
+#include "tests/simulation/tissue/body/slab_body.h"
+
+namespace arthro::simulation {
+namespace {
+
+// The punch bites the slab's edge at x = 10 mm: the tool lies along −x with its mouth over the
+// edge.
+WorldTool PunchAt(const BodySpec& spec, double reach, double opening) {
+  WorldTool tool;
+  tool.shape = ShapeOf(ToolKind::kPunch);
+  tool.now.is_present = true;
+  // Tool z is the slab's −x.
+  const Rigid3 body_from_tool{glm::angleAxis(-0.5 * std::numbers::pi, glm::dvec3(0, 1, 0)),
+                              {0.01 - reach, 0.0, -0.003}};
+  tool.now.portal_from_tool = spec.portal_from_body * body_from_tool;
+  tool.now.opening = opening;
+  return tool;
+}
+
+bool IsSound(const DeformableBody& body) {
+  for (const glm::dvec3& x : body.state().x)
+    if (!std::isfinite(x.x + x.y + x.z) || glm::length(x) > 0.1) return false;
+  for (const glm::dvec3& n : body.normals())
+    if (!std::isfinite(n.x + n.y + n.z)) return false;
+  return true;
+}
+
+TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  const auto step = [&](const WorldTool& tool) {
+    coupling = {};
+    coupling.tip = tool.now.portal_from_tool.translation;
+    return body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  const auto whole = body.skin();
+  step(PunchAt(spec, 2e-3, 1.0));
+  EXPECT_EQ(body.cut_report().cuts, 0) << "open jaws take nothing";
+  const BodyReport bite = step(PunchAt(spec, 2e-3, 0.0));
+  EXPECT_TRUE(bite.was_cut);
+  const CutReport report = body.cut_report();
+  EXPECT_EQ(report.cuts, 1);
+  EXPECT_GT(report.removed, 1e-9) << "m³";
+  EXPECT_LT(report.removed, 60e-9);
+  EXPECT_NE(body.skin(), whole);
+  EXPECT_TRUE(std::ranges::count(body.skin()->is_fresh, 1) > 10) << "a cut face is to be seen";
+  step(PunchAt(spec, 2e-3, 0.0));
+  EXPECT_EQ(body.cut_report().cuts, 1) << "closed jaws bite once";
+  for (int i = 0; i < 60; ++i) EXPECT_FALSE(step(PunchAt(spec, -5e-3, 0.0)).was_reset);
+  EXPECT_TRUE(IsSound(body));
+
+  body.Reset();
+  EXPECT_EQ(body.cut_report().removed, 0.0);
+  EXPECT_EQ(body.positions().size(), whole->surface.vertices.size());
+}
+
+TEST(BodyCut, ShaverTakesNoFasterThanItsRate) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  BodyOptions options;
+  DeformableBody body(spec, options);
+  WorldTool shaver = test::ToolAbove(spec, ToolKind::kShaver, 1e-3);
+  shaver.now.is_running = true;
+  ToolCoupling coupling;
+  const int steps = 60;
+  for (int i = 0; i < steps; ++i) {
+    coupling = {};
+    EXPECT_FALSE(body.Step({&shaver, 1}, nullptr, test::kFrame, {&coupling, 1}).was_reset);
+  }
+  const double allowed = options.shaver.rate * steps * test::kFrame;
+  EXPECT_GT(body.cut_report().removed, 0.1e-9);
+  EXPECT_LT(body.cut_report().removed, 1.2 * allowed) << "m³, of " << allowed;
+  EXPECT_TRUE(IsSound(body));
+}
+
+TEST(BodyCut, TissueThatMayNotBeCutIsLeftAlone) {
+  const BodySpec spec = test::SlabBody();
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  for (double opening : {1.0, 0.0}) {
+    const WorldTool punch = PunchAt(spec, 2e-3, opening);
+    body.Step({&punch, 1}, nullptr, test::kFrame, {&coupling, 1});
+  }
+  EXPECT_EQ(body.cut_report().cuts, 0);
+}
+
+// Hard case 22, with the preconditioner handed on from cut to cut.
+TEST(HardCase22, CutsWhileTouchedStaySound) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  int most = 0, cuts = 0;
+  for (int bite = 0; bite < 24; ++bite) {
+    const double x = -8e-3 + 0.7e-3 * bite;
+    WorldTool punch = test::ToolAbove(spec, ToolKind::kPunch, 2.5e-3, x);
+    for (const double opening : {1.0, 1.0, 0.0, 0.0}) {
+      punch.now.opening = opening;
+      coupling = {};
+      const BodyReport report = body.Step({&punch, 1}, nullptr, test::kFrame, {&coupling, 1});
+      ASSERT_FALSE(report.was_reset) << bite;
+      most = std::max(most, report.step.iterations / std::max(1, report.step.newton));
+      cuts += report.was_cut;
+      if (body.WantsRefresh()) {
+        body.BeginRefresh();
+        body.RunRefresh();
+        body.TakeRefresh();
+      }
+    }
+    ASSERT_TRUE(IsSound(body)) << bite;
+  }
+  printf("%d cuts, at most %d iterations\n", cuts, most);
+  EXPECT_GT(cuts, 12);
+  EXPECT_LE(most, 60);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
