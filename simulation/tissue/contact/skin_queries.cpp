@@ -14,9 +14,11 @@
 namespace arthro::simulation {
 namespace {
 
-// A piece that lies along a face is touched in its middle; one that dips to one side by more than
-// this is touched there. In between the point goes over evenly.
-constexpr double kDip = 5e-5;  // m
+// How much further off than the nearest triangle others still count.
+constexpr double kSoftness = 3e-4;  // m
+
+// Of the sum of areas; less is left where skins on both sides of a piece face it.
+constexpr double kOpposed = 0.05;
 
 // Nearer than this to the skin the way to it has no direction.
 constexpr double kOnSkin = 1e-9;  // m
@@ -85,32 +87,49 @@ bool SkinContact::IsInside(const glm::dvec3& x) const noexcept {
   return finder_.FindDeformed(x, point, rest) && field_->Distance(rest) < 0.0;
 }
 
+// Tissue that gives way lies about a tool like a cup, in which the one nearest point runs to and
+// fro at the least motion. A piece therefore touches where the skin near it lies on the whole:
+// point and normal are means over the triangles that face it, weighted by area and by how near they
+// are.
 bool SkinContact::TouchOf(const Piece& piece, double margin, Touch& touch) const noexcept {
   touch.radius = piece.radius;
-  // The nearest point of the whole piece and how much nearer it is than the middle.
   double along = 0.5;
   const double limit = piece.radius + margin;
   const double nearest = NearestAlong(piece, limit, along);
   if (!(nearest < limit)) return TouchFromInside(piece, touch);
   // An axis that goes through the skin is deepest elsewhere.
   if (nearest <= kOnSkin && TouchFromInside(piece, touch)) return true;
-  const glm::dvec3 middle = 0.5 * (piece.a + piece.b), way = piece.b - piece.a;
-  const double half = 0.5 * glm::length(way);
-  const OnSkin at_middle = NearestTo(middle, limit + half);
-  const double dip = at_middle.triangle < 0 ? kDip : std::sqrt(at_middle.distance2) - nearest;
-  touch.axis = middle + std::clamp(dip / kDip, 0.0, 1.0) * (along - 0.5) * way;
-  const OnSkin on = NearestTo(touch.axis, limit + half);
-  if (on.triangle < 0) return false;
 
-  const auto& triangle = skin_->rest.triangles[static_cast<std::size_t>(on.triangle)];
+  const Box3 box{glm::min(piece.a, piece.b), glm::max(piece.a, piece.b)};
+  const double reach = nearest + kSoftness;
+  double limit2 = reach * reach, whole = 0.0, sum_along = 0.0;
+  glm::dvec3 sum_normal(0.0);
+  tree_.ForNear(box, limit2, [&](int i) noexcept {
+    if (Distance2(BoxOf(i), box) > limit2) return;
+    const TriangleCorners corner = Corners(i);
+    const SegmentTriangle on = ClosestSegmentTriangle(piece.a, piece.b, corner);
+    const double near = reach - std::sqrt(on.distance2);
+    const glm::dvec3 across = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const glm::dvec3 axis = piece.a + on.along * (piece.b - piece.a);
+    if (!(near > 0.0) || !(glm::dot(axis - At(corner, on.triangle), across) > 0.0)) return;
+    const double weight = near * glm::length(across);
+    whole += weight;
+    sum_along += weight * on.along;
+    sum_normal += near * across;
+  });
+  const double length = glm::length(sum_normal);
+  // Nothing faces it: it is behind the skin.
+  if (!(whole > 0.0) || !(length > kOpposed * whole)) return TouchFromInside(piece, touch);
+  touch.normal = sum_normal / length;
+  touch.axis = piece.a + sum_along / whole * (piece.b - piece.a);
+  // The tissue's point is sought from within the tool: from its axis every point of a cup would be
+  // as near, from its surface that of an edge which it dents would not be seen.
+  const OnSkin on = NearestTo(touch.axis - kCore * piece.radius * touch.normal,
+                              limit + glm::length(piece.b - piece.a));
+  if (on.triangle < 0) return false;
   touch.skin = Blend(on, positions_);
-  const glm::dvec3 up = Blend(on, normals_), out = touch.axis - touch.skin;
-  const double distance = std::sqrt(on.distance2);
-  // Behind the skin is in the tissue, unless it is the air of another side.
-  if (distance > kOnSkin && !(glm::dot(out, up) > 0.0) && TouchFromInside(piece, touch))
-    return true;
-  touch.normal = distance > kOnSkin ? out / distance : up;
-  touch.gap = distance - piece.radius;
+  touch.gap = glm::dot(touch.normal, touch.axis - touch.skin) - piece.radius;
+  const auto& triangle = skin_->rest.triangles[static_cast<std::size_t>(on.triangle)];
   const std::array<int, 3> beside{skin_->point[static_cast<std::size_t>(triangle[0])].element,
                                   skin_->point[static_cast<std::size_t>(triangle[1])].element,
                                   skin_->point[static_cast<std::size_t>(triangle[2])].element};

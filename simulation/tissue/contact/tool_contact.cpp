@@ -21,6 +21,11 @@ constexpr double kLayer = 2e-4;  // m
 constexpr double kShareGain = 0.3;
 constexpr double kLeastShare = 1e-3;
 
+// So do normals and the offset across them. A tool that goes on takes them sooner: what it touches
+// is another place.
+constexpr double kTurnGain = 0.3;
+constexpr double kTurnsWithin = 2e-3;  // m
+
 constexpr int kMaxAdvances = 16;       // of the sweep; each goes as far as nothing can be met
 constexpr double kArrived = 1e-5;      // m
 constexpr double kLongestGrip = 0.02;  // m, 10 N; a tool further from its hand has slipped off
@@ -130,6 +135,8 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
   const std::span<const Piece> near(pieces.data(), count);
   const glm::dvec3 offset = grip == nullptr ? glm::dvec3(0.0) : Follow(near, motion, *grip);
 
+  const double turn = std::min(1.0, kTurnGain + glm::length(motion) / kTurnsWithin);
+
   // What each touches where the tissue holds it.
   std::array<Touch, kMaxPieces> touches;
   std::size_t touching = 0;
@@ -140,6 +147,10 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
     touch.piece = number[i];
     if (!TouchOf(moved, options.margin, touch)) continue;
     touch.weight = glm::length(moved.b - moved.a) + moved.radius;
+    if (grip != nullptr && grip->share[static_cast<std::size_t>(number[i])] > 0.0) {
+      const glm::dvec3& before = grip->facing[static_cast<std::size_t>(number[i])];
+      touch.normal = glm::normalize(before + turn * (touch.normal - before));
+    }
     least_gap = std::min(least_gap, touch.gap);
     touches[touching++] = touch;
   }
@@ -193,16 +204,28 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
   if (grip == nullptr) return;
   grip->offset = offset;
   grip->share = share;
+  for (std::size_t i = 0; i < kept; ++i)
+    grip->facing[static_cast<std::size_t>(touches[i].piece)] = touches[i].normal;
   grip->count = static_cast<int>(groups);
   grip->normal = normal;
 }
 
 void UpdateGrip(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
                 int owner, const ToolContactOptions& options, ToolGrip& grip) noexcept {
-  glm::dvec3 force(0.0);
-  for (std::size_t i = 0; i < std::min(contacts.size(), results.size()); ++i)
-    if (contacts[i].owner == owner) force -= results[i].force;
-  grip.offset = IsFinite(force) ? force / options.stiffness : glm::dvec3(0.0);
+  glm::dvec3 force(0.0), along(0.0);
+  for (std::size_t i = 0; i < std::min(contacts.size(), results.size()); ++i) {
+    if (contacts[i].owner != owner) continue;
+    force -= results[i].force;
+    along -= contacts[i].stiffness * contacts[i].normal;
+  }
+  const double length = glm::length(along);
+  if (!IsFinite(force) || !(length > 0.0)) {
+    grip.offset = glm::dvec3(0.0);
+    return;
+  }
+  const glm::dvec3 change = force / options.stiffness - grip.offset;
+  const glm::dvec3 up = glm::dot(change, along / length) * along / length;
+  grip.offset += up + kTurnGain * (change - up);
 }
 
 }  // namespace arthro::simulation

@@ -43,7 +43,9 @@ struct ToolGrip {
   glm::dvec3 offset{0.0};  // from the hand's tool to the tool as the tissue holds it, F/k
   int count = 0;           // of normals, away from the tissue, where it was touched last
   std::array<glm::dvec3, kMaxToolContacts> normal{};
-  std::array<double, kMaxPieces> share{};  // of the patch, a piece
+  // A piece: its part of the patch, and the normal that it met.
+  std::array<double, kMaxPieces> share{};
+  std::array<glm::dvec3, kMaxPieces> facing{};
 };
 
 // The skin with a tree over its triangles, refitted as it deforms.

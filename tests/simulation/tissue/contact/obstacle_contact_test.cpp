@@ -129,27 +129,6 @@ TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
   }
 }
 
-TEST(ObstacleContact, WhatWasLaidInTheObstacleRestsThere) {
-  const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
-  ObstacleContact contact(mesh, {});
-  const Bone bone = BoneAt(5e-4);
-  contact.LayAtRest(bone, kPose, mesh.rest_positions);
-  std::vector<ContactPoint> found;
-  contact.Find(bone, kPose, mesh.rest_positions, {}, found);
-  ASSERT_FALSE(found.empty());
-  for (const ContactPoint& c : found)
-    EXPECT_GE(glm::dot(c.normal, mesh.rest_positions[c.node[0]] - c.foot), -1e-15);
-  // A tenth of a millimetre further down it is pushed by that much, and no more.
-  std::vector<glm::dvec3> x = mesh.rest_positions;
-  for (glm::dvec3& p : x) p.z -= 1e-4;
-  found.clear();
-  contact.Find(bone, kPose, x, {}, found);
-  double deepest = 0;
-  for (const ContactPoint& c : found)
-    deepest = std::min(deepest, glm::dot(c.normal, x[c.node[0]] - c.foot));
-  EXPECT_NEAR(deepest, -1e-4, 2e-6) << "less by what the ball curves away";
-}
-
 TEST(ObstacleContact, AGapThatIsNotANumberHoldsNothing) {
   struct Hole : RigidObstacle {
     double Gap(const glm::dvec3&, glm::dvec3&) const noexcept override {
