@@ -152,8 +152,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       // The tissue has the tool where the backdrop alone would let the hand put it, by the push of
       // the last tick.
       state.tissue_tip_in_portal =
-          tip + (tool.contact.has_started ? tool.contact.proxy.position - tool.contact.held
-                                          : glm::dvec3(0.0));
+          tool.contact.contact >= 0 ? tip + (tool.contact.proxy.position - tool.contact.held) : tip;
       if (tool.tissue.to.step > 0) {
         const CoupledForce tissue =
             BlendedForce(tool.tissue, state.tissue_tip_in_portal, dt, kTissueFrame);

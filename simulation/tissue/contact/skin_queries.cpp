@@ -15,7 +15,7 @@ namespace arthro::simulation {
 namespace {
 
 // How much further off than the nearest triangle others still count.
-constexpr double kSoftness = 3e-4;  // m
+constexpr double kSoftness = 5e-4;  // m
 
 // Of the sum of areas; less is left where skins on both sides of a piece face it.
 constexpr double kOpposed = 0.05;
@@ -91,7 +91,8 @@ bool SkinContact::IsInside(const glm::dvec3& x) const noexcept {
 // fro at the least motion. A piece therefore touches where the skin near it lies on the whole:
 // point and normal are means over the triangles that face it, weighted by area and by how near they
 // are.
-bool SkinContact::TouchOf(const Piece& piece, double margin, Touch& touch) const noexcept {
+bool SkinContact::TouchOf(const Piece& piece, double margin, const Facing* before, double turn,
+                          Touch& touch) const noexcept {
   touch.radius = piece.radius;
   double along = 0.5;
   const double limit = piece.radius + margin;
@@ -121,7 +122,12 @@ bool SkinContact::TouchOf(const Piece& piece, double margin, Touch& touch) const
   // Nothing faces it: it is behind the skin.
   if (!(whole > 0.0) || !(length > kOpposed * whole)) return TouchFromInside(piece, touch);
   touch.normal = sum_normal / length;
-  touch.axis = piece.a + sum_along / whole * (piece.b - piece.a);
+  touch.along = sum_along / whole;
+  if (before != nullptr) {
+    touch.along = before->along + turn * (touch.along - before->along);
+    touch.normal = glm::normalize(before->normal + turn * (touch.normal - before->normal));
+  }
+  touch.axis = piece.a + touch.along * (piece.b - piece.a);
   // The tissue's point is sought from within the tool: from its axis every point of a cup would be
   // as near, from its surface that of an edge which it dents would not be seen.
   const OnSkin on = NearestTo(touch.axis - kCore * piece.radius * touch.normal,
@@ -183,7 +189,9 @@ bool SkinContact::TouchFromInside(const Piece& piece, Touch& touch) const noexce
     if (on.element < 0 || !(distance < deepest)) continue;
     deepest = distance;
     is_found = true;
+    touch.is_inside = true;
     touch.axis = x;
+    touch.along = along;
     touch.normal = normal;
     touch.skin = skin;
     touch.point = on;

@@ -18,12 +18,12 @@ constexpr double kLayer = 2e-4;  // m
 
 // A share goes this part of the way to its new value in a step: at full speed the shares of
 // neighbours, which answer to what the tissue did under the last ones, would swing.
-constexpr double kShareGain = 0.3;
+constexpr double kShareGain = 0.2;
 constexpr double kLeastShare = 1e-3;
 
-// So do normals and the offset across them. A tool that goes on takes them sooner: what it touches
-// is another place.
-constexpr double kTurnGain = 0.3;
+// So do the places and normals of pieces, and the offset across them. A tool that goes on takes
+// them sooner: what it touches is another place.
+constexpr double kTurnGain = 0.2;
 constexpr double kTurnsWithin = 2e-3;  // m
 
 constexpr int kMaxAdvances = 16;       // of the sweep; each goes as far as nothing can be met
@@ -145,12 +145,11 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
     const Piece moved{pieces[i].a + offset, pieces[i].b + offset, pieces[i].radius};
     Touch touch;
     touch.piece = number[i];
-    if (!TouchOf(moved, options.margin, touch)) continue;
+    const auto p = static_cast<std::size_t>(number[i]);
+    const bool is_known = grip != nullptr && grip->share[p] > 0.0;
+    if (!TouchOf(moved, options.margin, is_known ? &grip->facing[p] : nullptr, turn, touch))
+      continue;
     touch.weight = glm::length(moved.b - moved.a) + moved.radius;
-    if (grip != nullptr && grip->share[static_cast<std::size_t>(number[i])] > 0.0) {
-      const glm::dvec3& before = grip->facing[static_cast<std::size_t>(number[i])];
-      touch.normal = glm::normalize(before + turn * (touch.normal - before));
-    }
     least_gap = std::min(least_gap, touch.gap);
     touches[touching++] = touch;
   }
@@ -202,10 +201,16 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
     contacts.push_back(contact);
   }
   if (grip == nullptr) return;
+  *grip = {};
   grip->offset = offset;
+  // A tool that is still being led out has nothing to hold on to: the next step looks anew.
+  const auto is_led_out = [](const Touch& touch) noexcept { return touch.is_inside; };
+  if (std::any_of(touches.begin(), touches.begin() + static_cast<std::ptrdiff_t>(kept), is_led_out))
+    return;
   grip->share = share;
   for (std::size_t i = 0; i < kept; ++i)
-    grip->facing[static_cast<std::size_t>(touches[i].piece)] = touches[i].normal;
+    grip->facing[static_cast<std::size_t>(touches[i].piece)] = {touches[i].along,
+                                                                touches[i].normal};
   grip->count = static_cast<int>(groups);
   grip->normal = normal;
 }

@@ -38,14 +38,20 @@ struct ToolContactOptions {
 
 inline constexpr int kMaxPieces = 128;  // of a tool; 1.5 mm or more each
 
+// How a piece of a tool meets the skin.
+struct Facing {
+  double along = 0.5;          // where on the piece, 0 to 1
+  glm::dvec3 normal{0, 0, 1};  // away from the tissue
+};
+
 // What is remembered of one tool on one tissue. A tool that was away begins with an empty one.
 struct ToolGrip {
   glm::dvec3 offset{0.0};  // from the hand's tool to the tool as the tissue holds it, F/k
   int count = 0;           // of normals, away from the tissue, where it was touched last
   std::array<glm::dvec3, kMaxToolContacts> normal{};
-  // A piece: its part of the patch, and the normal that it met.
+  // A piece: its part of the patch, and how it met the skin.
   std::array<double, kMaxPieces> share{};
-  std::array<glm::dvec3, kMaxPieces> facing{};
+  std::array<Facing, kMaxPieces> facing{};
 };
 
 // The skin with a tree over its triangles, refitted as it deforms.
@@ -77,11 +83,13 @@ class SkinContact {
     int piece = 0;
     double gap = 0;              // m, of the tool as held; negative: in the tissue
     double weight = 0;           // of the patch
+    double along = 0.5;          // where on the piece
     glm::dvec3 axis{0.0};        // the piece's point
     glm::dvec3 normal{0, 0, 1};  // away from the tissue
     glm::dvec3 skin{0.0};        // the tissue's point
     EmbeddedPoint point;
     double radius = 0;
+    bool is_inside = false;  // found by the field
   };
   struct OnSkin {
     int triangle = -1;
@@ -94,7 +102,8 @@ class SkinContact {
   double NearestAlong(const Piece& piece, double limit, double& along) const noexcept;
   bool IsInside(const glm::dvec3& x) const noexcept;
   glm::dvec3 Blend(const OnSkin& on, const std::vector<glm::dvec3>& of) const noexcept;
-  bool TouchOf(const Piece& piece, double margin, Touch& touch) const noexcept;
+  bool TouchOf(const Piece& piece, double margin, const Facing* before, double turn,
+               Touch& touch) const noexcept;
   bool TouchFromInside(const Piece& piece, Touch& touch) const noexcept;
   double Clearance(std::span<const Piece> pieces, const glm::dvec3& offset,
                    double limit) const noexcept;

@@ -273,20 +273,22 @@ TEST(LiveTissue, BackdropAndTissueTogetherAreNotCountedTwice) {
     for (int step = 1; step <= 20; ++step) {
       hands.session.SetCoupling(TissueSpring(hands.session.snapshot().instrument.tip_in_portal,
                                              static_cast<std::uint64_t>(1000 * k) + step, k,
-                                             0.0465));
+                                             0.0455));
       hands.Tick(16);
     }
     return hands.session.snapshot().instrument;
   };
-  // A soft tissue holds the tool less than the backdrop does: the backdrop still has it at its
-  // surface, and the force is that of the one spring between tip and surface.
-  const ToolState soft = press(300.0);
+  // A soft tissue, half a millimetre before the backdrop, holds the tool less than the backdrop
+  // does: the backdrop still has it at its surface, and the force is that of the one spring between
+  // tip and surface. The tissue is pressed by no more than the backdrop lets the tool go:
+  // F = 200 N/m (0.5 mm + F/k), so 0.167 N of the 0.5 N.
+  const ToolState soft = press(200.0);
   EXPECT_NEAR(soft.tip_force.z, alone, 2e-3);
   EXPECT_NEAR(glm::length(soft.proxy_in_portal), 0.046, 1e-5);
-  EXPECT_EQ(soft.contact, kBackdropContact) << "0.15 N of the tissue, the rest of the backdrop";
-  // A stiff tissue holds it off the backdrop: 1.5 kN/m · 0.5 mm.
-  const ToolState stiff = press(1500.0);
-  EXPECT_NEAR(stiff.tip_force.z, -0.75, 2e-3);
+  EXPECT_EQ(soft.contact, kBackdropContact) << "0.17 N of the tissue, the rest of the backdrop";
+  // A stiff tissue (in series with the tool's own 500 N/m) holds it off: 400 N/m · 1.5 mm.
+  const ToolState stiff = press(400.0);
+  EXPECT_NEAR(stiff.tip_force.z, -0.6, 2e-3);
   EXPECT_EQ(stiff.contact, 1);
 }
 

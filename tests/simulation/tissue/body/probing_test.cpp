@@ -1,0 +1,301 @@
+// Tools pressed into tissue that is solved: hard cases of the notes on deformables, section 7, by
+// number, and how far the servo's force is from the whole solve while the hand moves.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/tissue/contact/coupling.h"
+#include "simulation/tissue/contact/tool_contact.h"
+#include "simulation/tissue/solver/implicit_solver.h"
+#include "tests/simulation/tissue/contact/slab.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kFrame = 1.0 / 60, kRadius = 0.75e-3;
+
+// A slab of 0.5 MPa, 20 × 20 mm, held where `is_held` says, and what is needed to press tools into
+// it.
+struct Slab {
+  template <class IsHeld>
+  Slab(double thickness, const app::Cells& cells, IsHeld&& is_held)
+      : low(-0.01, -0.01, -thickness),
+        mesh(test::SlabMesh(2, cells, low, test::kSlabHigh)),
+        finder(mesh),
+        skin(EmbedSkin(test::SlabSkin(5e-4, low, test::kSlabHigh), mesh, finder)),
+        field(SolidField::FromFunction(
+            {low - 2e-3, test::kSlabHigh + 2e-3}, 2.5e-4,
+            [this](const glm::dvec3& p) { return test::BoxDistance(p, low, test::kSlabHigh); })),
+        contact(skin, mesh, field),
+        model(std::make_shared<FemModel>(mesh, Material{})),
+        positions(skin.point.size()),
+        normals(skin.point.size()) {
+    for (const glm::dvec3& x : mesh.rest_positions) fixed.push_back(is_held(x) ? 7 : 0);
+    solver = std::make_unique<ImplicitSolver>(model, fixed);
+    SolverOptions tight;
+    tight.tolerance = 1e-6;
+    tight.max_newton = 50;
+    tight.max_iterations = 2000;
+    exact = std::make_unique<ImplicitSolver>(model, fixed, tight);
+    state.x = mesh.rest_positions;
+    state.v.assign(state.x.size(), glm::dvec3(0.0));
+    load.assign(state.x.size(), glm::dvec3(0.0));
+  }
+  Slab(const Slab&) = delete;
+
+  // One step with a tool, which is owner `owner`.
+  struct Tool {
+    std::vector<Capsule> capsules;
+    glm::dvec3 motion{0.0};
+    ToolGrip grip;
+  };
+  StepReport Step(std::span<Tool> tools, ImplicitSolver& with, BodyState& at) {
+    contacts.clear();
+    for (std::size_t i = 0; i < tools.size(); ++i)
+      contact.Find(tools[i].capsules, tools[i].motion, static_cast<int>(i), options, contacts,
+                   &tools[i].grip);
+    results.assign(contacts.size(), {});
+    const StepReport report = with.Step(at, load, contacts, {}, kFrame, results);
+    for (std::size_t i = 0; i < tools.size(); ++i)
+      UpdateGrip(contacts, results, static_cast<int>(i), options, tools[i].grip);
+    return report;
+  }
+  StepReport Step(std::span<Tool> tools) {
+    const StepReport report = Step(tools, *solver, state);
+    Refit();
+    return report;
+  }
+  void Refit() {
+    DeformSkin(skin, mesh, state.x, positions, normals);
+    contact.Refit(positions, normals, state.x);
+  }
+  glm::dvec3 ForceOn(int owner) const {
+    glm::dvec3 force(0.0);
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      if (contacts[i].owner == owner) force -= results[i].force;
+    return force;
+  }
+  // How deep the tool as the tissue holds it still is in the skin as it is now.
+  double Penetration(const Tool& tool) const {
+    std::vector<Capsule> held = tool.capsules;
+    for (Capsule& capsule : held) capsule.a += tool.grip.offset, capsule.b += tool.grip.offset;
+    std::vector<ContactPoint> found;
+    contact.Find(held, {}, 0, options, found);
+    double deepest = 0;
+    for (const ContactPoint& c : found) {
+      glm::dvec3 x(0.0);
+      for (int k = 0; k < c.count; ++k) x += c.weight[k] * state.x[c.node[k]];
+      deepest = std::max(deepest, -glm::dot(c.normal, x - c.foot));
+    }
+    return deepest;
+  }
+
+  glm::dvec3 low;
+  TetMesh mesh;
+  ElementFinder finder;
+  EmbeddedSkin skin;
+  SolidField field;
+  SkinContact contact;
+  std::shared_ptr<FemModel> model;
+  std::unique_ptr<ImplicitSolver> solver, exact;
+  FixedAxes fixed;
+  BodyState state;
+  ToolContactOptions options;
+  std::vector<glm::dvec3> positions, normals, load;
+  std::vector<ContactPoint> contacts;
+  std::vector<ContactResult> results;
+};
+
+bool OnTheGround(const glm::dvec3& x) { return x.z < -0.0059; }
+
+// A probe whose hook lies level on the slab, its underside at height z.
+Slab::Tool ProbeAt(double z, double x = 0.0003) {
+  ToolInput input;
+  input.is_present = true;
+  input.portal_from_tool = {glm::angleAxis(3.14159265358979, glm::dvec3(1, 0, 0)), {x, 0.002, z}};
+  std::array<Capsule, kMaxCapsules> capsules;
+  const int count = PosedCapsules(ShapeOf(ToolKind::kProbe), input, capsules);
+  return {{capsules.begin(), capsules.begin() + count}, {}, {}};
+}
+
+void MoveTo(Slab::Tool& tool, const Slab::Tool& place) {
+  tool.motion = place.capsules[0].a - tool.capsules[0].a;
+  tool.capsules = place.capsules;
+}
+
+class Teleport : public testing::TestWithParam<bool> {};
+
+// Hard case 9. A probe that was just above the tissue is 5 mm deep at the next step; or it was
+// nowhere before (its device came back), and nothing is known of its way.
+TEST_P(Teleport, HardCase9FiveMillimetresIntoTheTissueAreResolvedInFiveFrames) {
+  // 12 mm thick: up is the shortest way out.
+  Slab slab(0.012, {8, 8, 6}, [](const glm::dvec3& x) { return x.z < -0.0119; });
+  const bool was_seen = GetParam();
+  std::vector<Slab::Tool> tool{ProbeAt(0.0002)};
+  if (was_seen)
+    for (int i = 0; i < 3; ++i) slab.Step(tool);
+  const Slab::Tool there = ProbeAt(-0.005);
+  if (was_seen)
+    MoveTo(tool[0], there);
+  else
+    tool[0].capsules = there.capsules;
+  std::array<double, 5> depth{}, force{};
+  double peak = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const StepReport report = slab.Step(tool);
+    tool[0].motion = glm::dvec3(0.0);
+    EXPECT_TRUE(report.is_finite);
+    EXPECT_EQ(report.inverted, 0) << frame;
+    const double now = glm::length(slab.ForceOn(0));
+    peak = std::max(peak, now);
+    if (frame < 5) {
+      depth[frame] = slab.Penetration(tool[0]);
+      force[frame] = now;
+    }
+  }
+  const double settled = glm::length(slab.ForceOn(0));
+  std::printf("%s: depth left %.3f %.3f %.3f %.3f %.3f mm, force %.2f … %.2f N, peak %.2f N\n",
+              was_seen ? "seen before" : "from nowhere", 1e3 * depth[0], 1e3 * depth[1],
+              1e3 * depth[2], 1e3 * depth[3], 1e3 * depth[4], force[0], settled, peak);
+  EXPECT_LT(depth[4], 2e-4);
+  EXPECT_GT(settled, 0.5);
+  EXPECT_LE(peak, 2.0 * settled);
+  EXPECT_GT(slab.ForceOn(0).z, 0.9 * settled) << "up, the way it came from";
+}
+
+INSTANTIATE_TEST_SUITE_P(SeenBeforeAndFromNowhere, Teleport, testing::Values(true, false));
+
+// Hard case 16: no frame is lost, the tissue stays, the next good pose is felt.
+TEST(Probing, HardCase16APoseThatIsNotANumberLeavesTheTissueAsItIs) {
+  Slab slab(0.006, {8, 8, 4}, OnTheGround);
+  std::vector<Slab::Tool> tool{ProbeAt(-0.001)};
+  for (int i = 0; i < 10; ++i) slab.Step(tool);
+  const double before = glm::length(slab.ForceOn(0));
+  EXPECT_GT(before, 0.1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, std::numeric_limits<double>::infinity(), 1e300}) {
+    std::vector<Slab::Tool> lost = tool;
+    for (Capsule& capsule : lost[0].capsules) capsule.a.x = bad;
+    lost[0].motion = glm::dvec3(bad);
+    const StepReport report = slab.Step(lost);
+    EXPECT_TRUE(report.is_finite);
+    for (const glm::dvec3& x : slab.state.x) ASSERT_TRUE(std::isfinite(x.x + x.y + x.z));
+  }
+  for (int i = 0; i < 30; ++i) slab.Step(tool);
+  EXPECT_NEAR(glm::length(slab.ForceOn(0)), before, 0.05 * before);
+}
+
+// The tool's condensed stiffness by a sparse factor of the step's own matrix with the springs of
+// closed contacts in it: K = Σ kᵢ nᵢ nᵢᵀ − Bᵀ A⁻¹ B, B = Σ Jᵢᵀ kᵢ nᵢ nᵢᵀ. Without friction.
+glm::dmat3 StiffnessOf(const Slab& slab) {
+  const FixedAxes& fixed = slab.fixed;
+  const FemModel& model = *slab.model;
+  BlockMatrix tangent{model.pattern(), {}};
+  tangent.block.resize(model.pattern()->column.size());
+  std::vector<glm::dvec3> force(slab.state.x.size());
+  model.Assemble(slab.state.x, model.material().law, Tangent::kTrue, force, &tangent);
+  const auto size = static_cast<Eigen::Index>(3 * slab.state.x.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < model.node_count(); ++row) {
+    const bool is_fixed = fixed[row] != 0;
+    for (int e = model.pattern()->row_begin[row]; e < model.pattern()->row_begin[row + 1]; ++e) {
+      const int column = model.pattern()->column[e];
+      if (is_fixed || fixed[column] != 0) continue;
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+          entries.emplace_back(3 * row + a, 3 * column + b, tangent.block[e][3 * a + b]);
+    }
+    for (int a = 0; a < 3; ++a)
+      entries.emplace_back(3 * row + a, 3 * row + a,
+                           is_fixed ? 1.0 : model.mass()[row] / (kFrame * kFrame));
+  }
+  Eigen::Matrix3d springs = Eigen::Matrix3d::Zero();
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(size, 3);
+  for (std::size_t i = 0; i < slab.contacts.size(); ++i) {
+    const ContactPoint& c = slab.contacts[i];
+    if (!(glm::dot(slab.results[i].force, c.normal) > 0)) continue;
+    const Eigen::Vector3d n(c.normal.x, c.normal.y, c.normal.z);
+    springs += c.stiffness * n * n.transpose();
+    for (int p = 0; p < c.count; ++p) {
+      moved.middleRows<3>(3 * c.node[p]) += c.stiffness * c.weight[p] * n * n.transpose();
+      for (int q = 0; q < c.count; ++q)
+        for (int a = 0; a < 3; ++a)
+          for (int b = 0; b < 3; ++b)
+            entries.emplace_back(3 * c.node[p] + a, 3 * c.node[q] + b,
+                                 c.stiffness * c.weight[p] * c.weight[q] * n[a] * n[b]);
+    }
+  }
+  Eigen::SparseMatrix<double> system(size, size);
+  system.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(system);
+  const Eigen::Matrix3d k = springs - moved.transpose() * Eigen::MatrixXd(factor.solve(moved));
+  glm::dmat3 result;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) result[column][row] = k(row, column);
+  return result;
+}
+
+// Target 6 of the notes: within 2 % of the full solve at the same pose. A frame's motion is 3 mm at
+// 0.2 m/s, 1 mm at 60 mm/s; careful probing goes at 5 to 20 mm/s. Held to it in and out of the
+// tissue; aslant, the patch turns under the tool, which K does not know: that error is printed.
+TEST(Probing, TheServosForceIsThatOfTheWholeSolveWhileTheHandMoves) {
+  Slab slab(0.006, {8, 8, 4}, OnTheGround);
+  slab.options.friction = 0.0;
+  std::vector<Slab::Tool> tool{ProbeAt(0.0)};
+  for (int i = 0; i < 60; ++i) {
+    MoveTo(tool[0], ProbeAt(-0.002 * std::min(1.0, i / 20.0)));
+    slab.Step(tool);
+  }
+  tool[0].motion = glm::dvec3(0.0);
+  slab.Step(tool, *slab.exact, slab.state);
+  slab.Refit();
+  ToolCoupling coupling;
+  coupling.step = 1;
+  AddContacts(slab.contacts, slab.results, 0, StiffnessOf(slab), slab.options.stiffness,
+              {1, 0, 0, 0}, 0, coupling);
+  const glm::dvec3 before = slab.ForceOn(0);
+  EXPECT_LT(glm::length(ForceOf(coupling, coupling.tip).force - before), 1e-9);
+  std::printf("pressed 2 mm: %.3f N, stiffness %.0f N/m\n", before.z, [&] {
+    double k = 0;
+    for (int i = 0; i < coupling.count; ++i) k += coupling.contact[i].stiffness[2][2];
+    return k;
+  }());
+  const std::array<double, 4> ways{1e-4, 5e-4, 1e-3, 3e-3};
+  const std::array<std::pair<const char*, glm::dvec3>, 3> directions{
+      {{"inwards", {0, 0, -1}},
+       {"aslant", glm::normalize(glm::dvec3(1, 0, -1))},
+       {"out", {0, 0, 1}}}};
+  for (const auto& [name, direction] : directions) {
+    std::array<double, 4> error{};
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      const glm::dvec3 way = ways[w] * direction;
+      std::vector<Slab::Tool> moved = tool;
+      for (Capsule& capsule : moved[0].capsules) capsule.a += way, capsule.b += way;
+      moved[0].motion = way;
+      BodyState there = slab.state;
+      const StepReport report = slab.Step(moved, *slab.exact, there);
+      EXPECT_LT(report.residual, 1e-5);
+      const glm::dvec3 full = slab.ForceOn(0);
+      error[w] = glm::length(ForceOf(coupling, way).force - full) /
+                 std::max(glm::length(full), 0.5 * glm::length(before));
+    }
+    std::printf("%-8s error at 0.1 / 0.5 / 1 / 3 mm: %.2f %.2f %.2f %.2f %%\n", name,
+                100 * error[0], 100 * error[1], 100 * error[2], 100 * error[3]);
+    if (direction.x != 0.0) continue;  // said above: how the patch turns is not in K
+    EXPECT_LT(error[0], 0.02) << name;
+    EXPECT_LT(error[1], 0.02) << name;
+    EXPECT_LT(error[2], 0.02) << name;
+  }
+}
+
+}  // namespace
+}  // namespace arthro::simulation
