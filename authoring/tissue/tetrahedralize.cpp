@@ -150,6 +150,7 @@ TetMesh Fill(const Run& run, double max_edge) {
   // z: numbers from 0; Y: no new nodes on the surface; Q: silent.
   for (const std::string& switches :
        {"p" + quality + "zQ" + order, "pY" + quality + "zQ" + order, "pYzQ" + order}) {
+    if (options.keep_surface && switches.find('Y') == switches.npos) continue;
     if (auto mesh = RunTetgen(run, switches, max_edge)) return *std::move(mesh);
   }
   std::string tried;
@@ -299,6 +300,7 @@ nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSourc
       {"max_dihedral_deg", DegreesFromRadians(quality.max_dihedral)},
       {"worst_radius_edge", quality.worst_radius_edge},
       {"worst_relative_volume", quality.worst_relative_volume},
+      {"worst_jacobian", quality.worst_jacobian},
       {"longest_edge", quality.longest_edge},
       {"median_edge", quality.median_edge},
       {"surface",

@@ -26,6 +26,7 @@ struct TetrahedralizeOptions {
   double max_edge = 0.0;
   double min_dihedral = 10.0 * std::numbers::pi / 180.0;
   double radius_edge = 1.4;
+  bool keep_surface = false;
   double thickness = 0.0;
   int max_triangles = 0;
   int fill_holes = 0;
@@ -44,6 +45,8 @@ struct TetrahedralizeOptions {
       "Elements with a flatter dihedral angle are refined where the surface lets them.");
     v("radius_edge", radius_edge, Range{1.1, 10.0}, "",
       "Elements whose circumradius is more than so many shortest edges are refined.");
+    v("keep_surface", keep_surface, Any{}, "",
+      "No node is added on the surface: few elements, as uneven as its triangles.");
     v("thickness", thickness, Range{-0.02, 0.02}, "m",
       "An open sheet, such as a scanned joint surface, becomes a layer of this thickness behind "
       "its "

@@ -1,0 +1,122 @@
+#include "authoring/tissue/mesh_budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "simulation/core/error.h"
+
+namespace arthro::authoring {
+namespace {
+
+// The digital knee's meniscus (seed 1) under a probe's 0.2 N on the free edge, at three places,
+// against 6231 elements on the same surface, 1.152 mm; made without regard to what is held they
+// leave 46, 29 and 14 %. One step: a Newton iteration with a stale factor, on one core with
+// AVX-512.
+constexpr std::array<MeshBudget, 3> kBudgets = {{{MeshSize::kCoarse, "coarse", 150, 0.37, 0.3},
+                                                 {MeshSize::kDefault, "default", 300, 0.12, 0.65},
+                                                 {MeshSize::kFine, "fine", 600, 0.11, 1.5}}};
+
+// Passes until the count is near what was asked for; elements grow a little faster than triangles.
+constexpr int kPasses = 6;
+constexpr double kGrowth = 1.4;
+constexpr double kNear = 0.12;
+
+// 1 where it is held, up to kFree where it is freest.
+std::function<double(const glm::dvec3&)> FreedomWeight(const SurfaceMesh& surface,
+                                                       const std::vector<Ball>& fixed) {
+  constexpr double kFree = 12.0;
+  if (fixed.empty()) return [](const glm::dvec3&) { return 1.0; };
+  const auto distance = [fixed](const glm::dvec3& x) {
+    double least = INFINITY;
+    for (const Ball& ball : fixed)
+      least = std::min(least, std::max(0.0, glm::distance(x, ball.centre) - ball.radius));
+    return least;
+  };
+  double farthest = 0;
+  for (const glm::dvec3& x : surface.vertices) farthest = std::max(farthest, distance(x));
+  if (!(farthest > 0)) return [](const glm::dvec3&) { return 1.0; };
+  return [distance, farthest](const glm::dvec3& x) {
+    const double t = std::min(distance(x) / farthest, 1.0);
+    return 1.0 + (kFree - 1.0) * t * t * (3.0 - 2.0 * t);
+  };
+}
+
+}  // namespace
+
+std::span<const MeshBudget> MeshBudgets() { return kBudgets; }
+
+const MeshBudget& BudgetOf(MeshSize size) {
+  return *std::find_if(kBudgets.begin(), kBudgets.end(),
+                       [&](const MeshBudget& budget) { return budget.size == size; });
+}
+
+std::string BudgetWords(const MeshBudget& budget) {
+  return fmt::format(
+      "About {} elements: gives way some {:.0f} % too little under a probe, {:.2g} ms a step.",
+      budget.elements, 100 * budget.error, budget.step_ms);
+}
+
+TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& source,
+                               MeshSize size, const std::vector<Ball>& fixed,
+                               TetrahedralizeReport* report, const Progress& progress,
+                               const std::filesystem::path& program) {
+  TetrahedralizeReport own_report;
+  TetrahedralizeReport& result = report ? *report : own_report;
+  TetrahedralizeOptions options;
+  options.order = 2;
+  options.keep_surface = true;
+  options.min_dihedral = 0;  // that is the triangles' matter here
+  const int wanted = BudgetOf(size).elements;
+
+  // What the author drew is checked and told of before it is made coarse.
+  RepairedSurface repaired = RepairSurface(surface, {});
+  SurfaceSource repaired_source = source;
+  repaired_source.triangle_in_file = repaired.source_triangle;
+  const SurfaceCheck check = CheckSurface(repaired.surface);
+  RequireTissueSize(check, repaired_source);
+  RequireMeshable(check, repaired_source);
+
+  const auto weight = FreedomWeight(repaired.surface, fixed);
+  TetMesh best;
+  double best_off = INFINITY, triangles = 0.85 * wanted, fewest = 0;
+  for (int pass = 0; pass < kPasses && best_off > kNear; ++pass) {
+    SurfaceMesh coarse = repaired.surface;
+    TetrahedralizeReport attempt;
+    attempt.reading = result.reading;
+    attempt.simplification = SimplifyEvenly(coarse, static_cast<int>(triangles), weight);
+    if (CheckSurface(coarse).self_intersections.count > 0) {
+      triangles = fewest = 1.08 * triangles;  // so few run through one another
+      continue;
+    }
+    TetMesh mesh = Tetrahedralize(coarse, source, options, &attempt, progress, program);
+    const double off = std::abs(std::log(static_cast<double>(attempt.elements) / wanted));
+    const bool is_whole =
+        attempt.simplification.triangles_after == attempt.simplification.triangles_before;
+    triangles = std::max(
+        fewest,
+        triangles * std::pow(static_cast<double>(wanted) / attempt.elements, 1.0 / kGrowth));
+    if (off >= best_off) continue;
+    best_off = off;
+    best = std::move(mesh);
+    const SurfaceReadReport reading = result.reading;
+    result = attempt;
+    result.reading = reading;
+    if (is_whole && attempt.elements < wanted) break;  // it has no more triangles
+  }
+  if (best.elements.empty())
+    throw Error(Code::kBadMesh,
+                "this surface runs through itself when it is made coarse enough for a tissue that "
+                "deforms; fill it with `arthroscene tetrahedralize` and a longer edge",
+                source.file);
+  result.repairs = repaired.repairs;
+  PullMiddles(best, repaired.surface);
+  result.quality = MeasureTets(best);
+  result.volume_error = std::abs(result.quality.curved_volume - check.volume) / check.volume;
+  return best;
+}
+
+}  // namespace arthro::authoring
