@@ -9,6 +9,8 @@
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
+#include "app/commands/tissue/tissue_hold.h"
+#include "app/commands/tissue/tissue_poke.h"
 #include "app/commands/tissue_work.h"
 #include "simulation/core/units.h"
 
@@ -217,6 +219,53 @@ constexpr Command kCommands[] = {
      {},
      HasTissue,
      TetrahedraliseTissue},
+    {"hold-brush",
+     "Hold it here…",
+     "Click on the tissue in the overview: it is held there, in a ball of the radius above.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) {
+       state.hold_brush = !state.hold_brush;
+       state.message = state.hold_brush ? "Click on the tissue in the overview to hold it there."
+                                        : "The overview turns and moves again.";
+     }},
+    {"hold-at-instrument",
+     "Hold it at the instrument",
+     "Hold the chosen tissue where the instrument's tip is.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     HoldAtInstrument},
+    {"release-ball",
+     "Release this one",
+     "Take the chosen ball away.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && HasChosenBall(state); },
+     ReleaseChosenBall},
+    {"release-tissue",
+     "Release all",
+     "Take all balls away: nothing holds the tissue any more.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) {
+       return HasTissue(state) &&
+              !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].fixed.empty();
+     },
+     ReleaseAll},
+    {"poke",
+     "Poke it",
+     "Let the instrument press on the tissue, here in your own view.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state) && ShowsScope(state); },
+     [](State& state) { state.poke ? EndPoke(state) : StartPoke(state); }},
     {"duplicate-tissue",
      "Duplicate",
      "Add a copy of the chosen tissue beside it.",
@@ -400,6 +449,7 @@ bool FinishWork(EditorState& state) {
     changed = changed || !state.jobs.busy();
   }
   changed = FinishDepth(state) || changed;
+  KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   return changed;
 }

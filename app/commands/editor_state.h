@@ -21,12 +21,17 @@
 #include "app/commands/scratch_folder.h"
 #include "app/platform/file_browser_model.h"
 #include "authoring/project/history.h"
+#include "authoring/tissue/mesh_budget.h"
 #include "simulation/scope/rod_pose.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::app {
 
 // The author's way through a scene, one page of controls each.
 enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice };
+
+// What of the chosen tissue is worked on.
+enum class TissuePage { kPlace, kMaterial, kMesh, kHold };
 
 // ---- Dialogs; the last one of the stack is on top and takes all input. ----
 struct ErrorDialog {
@@ -71,11 +76,22 @@ struct EditorState {
   authoring::History history;
   const authoring::Document& document() const { return history.current(); }
 
+  // The session that runs: a practice, or the author's poke; null: none.
+  const Practice* live() const { return practice ? &*practice : poke ? &*poke : nullptr; }
+
   int document_number = 0;  // grows when another document is begun
   Step step = Step::kPanorama;
-  int tissue = -1;                        // chosen one, -1 none
+  int tissue = -1;             // chosen one, -1 none
+  TissuePage tissue_page = TissuePage::kPlace;
+  int ball = -1;               // chosen one of its `fixed`, -1 none
+  bool hold_brush = false;     // a click on tissue in the overview holds it there
+  double hold_radius = 2e-3;   // m, of the next ball
+  bool shows_sources = false;  // of the material's values
+  authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own
   std::optional<Practice> practice;       // while it runs
+  std::optional<Practice> poke;           // the author's live poke (tissue/tissue_poke.h)
+  int poke_of = 0;                        // position of the history that it was made of
   bool practice_only = false;             // the practise job: no editor behind it
   std::vector<Dialog> dialogs;
   std::string message;  // last thing done, for the status bar
@@ -91,9 +107,10 @@ struct EditorState {
   bool shows_footage = false;  // in the Panorama step: the clip, not the backdrop
   FootageMakers makers;
   std::filesystem::path lens_folder;  // presets
+  std::filesystem::path tissue_preset_folder;
   std::vector<simulation::TissuePreset> tissue_presets;
   simulation::TissuePace pace = simulation::TissuePace::kThread;  // of living tissue
-  ScratchFolder scratch;              // files of products until they are saved
+  ScratchFolder scratch;  // files of products until they are saved
   RecentScenes recent;
   bool quit = false, full_screen = false;
 };

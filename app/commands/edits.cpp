@@ -144,7 +144,9 @@ void SetTissue(EditorState& state, int tissue, const Tissue& changed, const std:
   const Tissue& old = state.document().scene.tissues[static_cast<std::size_t>(tissue)];
   if (SamePose(changed.pose, old.pose) && changed.name == old.name &&
       changed.material == old.material && changed.colour == old.colour &&
-      changed.mesh == old.mesh && changed.surface == old.surface)
+      changed.mesh == old.mesh && changed.surface == old.surface &&
+      changed.elasticity == old.elasticity && changed.fixed == old.fixed &&
+      changed.is_cuttable == old.is_cuttable)
     return;
   Edit(state, what + " " + old.name, Key("tissue " + std::to_string(tissue), what),
        [&](auto& next) { next.scene.tissues[static_cast<std::size_t>(tissue)] = changed; });

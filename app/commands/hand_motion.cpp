@@ -84,6 +84,10 @@ bool MoveHands(EditorState& state, const RodPose& scope, const RodPose& instrume
   };
   state.scope = moved(state.scope, scope, ScopeLimits(scene));
   state.instrument = moved(state.instrument, instrument, InstrumentLimits(scene));
+  if (state.poke) {
+    state.poke->scope().Set(state.scope);
+    state.poke->instrument().Set(state.instrument);
+  }
   return true;
 }
 

@@ -9,7 +9,7 @@
 
 #include "app/commands/edits.h"
 #include "app/commands/scene_files.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/mesh_budget.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
@@ -64,6 +64,7 @@ void TetrahedraliseTissue(EditorState& state) {
   const Tissue tissue = document.scene.tissues.at(static_cast<std::size_t>(index));
   const auto surface = document.surfaces.at(static_cast<std::size_t>(index));
   if (!surface) return;
+  const authoring::MeshSize size = state.mesh_size;
   // Kept beside the window until the scene is saved; saving copies it into the scene's folder.
   const fs::path file = state.scratch.path() / (FileNameOf(tissue.name) + ".vtu");
   state.jobs.Start("Make tetrahedra of " + tissue.name, [=](const Progress& progress) {
@@ -72,7 +73,8 @@ void TetrahedraliseTissue(EditorState& state) {
     source.unit = "mm";
     source.metres_per_unit = kMetrePerMillimetre;
     authoring::TetrahedralizeReport report;
-    const TetMesh mesh = authoring::Tetrahedralize(*surface, source, {}, &report, progress);
+    const TetMesh mesh =
+        authoring::TetrahedralizeToBudget(*surface, source, size, tissue.fixed, &report, progress);
     WriteTetMesh(file, mesh);
     return [=](EditorState& now) {
       // The list may have changed meanwhile.
@@ -87,8 +89,8 @@ void TetrahedraliseTissue(EditorState& state) {
         next.scene.tissues[at].mesh = name;
         next.files[name].file = file;
       });
-      now.message = fmt::format("{}: {} tetrahedra, flattest angle {:.1f}°", tissue.name,
-                                report.elements, DegreesFromRadians(report.quality.min_dihedral));
+      now.message = fmt::format("{}: {} curved tetrahedra, volume off by {:.1f} %", tissue.name,
+                                report.elements, 100 * report.volume_error);
     };
   });
 }

@@ -17,6 +17,7 @@
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/hand_motion.h"
 #include "app/commands/scene_files.h"
+#include "app/commands/tissue/tissue_material.h"
 #include "app/editor/footage_textures.h"
 #include "app/editor/pictures.h"
 #include "app/panels/footage/footage_panels.h"
@@ -147,7 +148,8 @@ class Editor {
     }
     state_.practice_only = options_.practice;
     state_.lens_folder = ResourceFolder() / "presets" / "lenses";
-    state_.tissue_presets = simulation::ReadTissuePresets(ResourceFolder() / "presets" / "tissues");
+    state_.tissue_preset_folder = ResourceFolder() / "presets" / "tissues";
+    LoadTissuePresets(state_);
     if (options_.script) state_.pace = simulation::TissuePace::kInline;
     if (!options_.practice && !state_.document().folder.empty())
       state_.recent.Add(state_.document().folder);
@@ -163,7 +165,7 @@ class Editor {
     const bool busy = Busy();
     if (!window_.input().empty() || script_ || options_.frames > 0) {
       window_.WaitEvents(0);
-    } else if (state_.practice || window_.AnythingHeld()) {
+    } else if (state_.live() || window_.AnythingHeld()) {
       window_.WaitEvents(0);
       if (since < kFrame) std::this_thread::sleep_for(Seconds(kFrame - since));
     } else if (Seconds(Clock::now() - last_event_).count() < kLivelyAfter || unsettled_ > 0) {
@@ -190,6 +192,7 @@ class Editor {
     if (state_.dialogs.empty() && !ShowsFootage(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.practice && state_.dialogs.empty()) state_.practice->Advance(step);
+    if (state_.poke && state_.dialogs.empty()) state_.poke->Advance(step);
     window_.SetTitle(TitleOf(state_));
     window_.SetFullScreen(state_.full_screen);
 

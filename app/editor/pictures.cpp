@@ -5,6 +5,7 @@
 
 #include "app/commands/edits.h"
 #include "app/commands/same.h"
+#include "app/commands/tissue/tissue_hold.h"
 
 namespace arthro::app {
 namespace {
@@ -39,8 +40,11 @@ Picture PictureOf(const EditorState& state) {
         InstrumentView{portal, snapshot.instrument.proxy_in_portal, snapshot.instrument.pose.roll};
   } else {
     picture.view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
-    picture.instrument = InstrumentView{
-        portal, portal + simulation::TipInOwnPortal(state.instrument), state.instrument.roll};
+    picture.instrument =
+        InstrumentView{portal,
+                       state.poke ? state.poke->snapshot().instrument.proxy_in_portal
+                                  : portal + simulation::TipInOwnPortal(state.instrument),
+                       state.instrument.roll};
   }
   return picture;
 }
@@ -149,8 +153,17 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
   }
   // The box is there while tissue is worked on.
-  const int chosen = state.step == Step::kTissue ? state.tissue : -1;
+  const bool is_brush = state.step == Step::kTissue && state.hold_brush;
+  const int chosen = state.step == Step::kTissue && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
+  const auto& tissues = state.document().scene.tissues;
+  const bool has_tissue = state.step == Step::kTissue && state.tissue_page == TissuePage::kHold &&
+                          state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size());
+  if (has_tissue)
+    overview_.ShowBalls(state.tissue, tissues[static_cast<std::size_t>(state.tissue)].fixed,
+                        state.ball);
+  else
+    overview_.ShowBalls(-1, {}, -1);
   // What the user looks at comes first.
   const auto now = std::chrono::steady_clock::now();
   if (!steady_ && milliseconds_ > kSlow && !overview_held_ &&
@@ -186,6 +199,11 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
   for (int button = 0; button < 3; ++button) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
+      if (button == 0 && state.hold_brush && state.step == Step::kTissue)
+        if (const auto place = overview_.PickTissue(event.x, event.y)) {
+          HoldAt(state, place->tissue, place->x_in_tissue);
+          continue;
+        }
       event.kind = Kind::kPress;
       overview_.Handle(event);
     }

@@ -15,8 +15,10 @@
 namespace arthro::app {
 namespace {
 
-constexpr double kForceOfFullBar = 8.5;  // N: above it tissue is hurt; the bar's end
-constexpr double kForceOfCare = 3.0;     // N: amber from here
+// Above it tissue is hurt; marked on the bar, which goes on a little.
+constexpr double kForceOfHarm = simulation::kSafeProbingForce;
+constexpr double kForceOfFullBar = 10.0;  // N
+constexpr double kForceOfCare = 3.0;      // N: amber from here
 
 std::string ClockWords(double seconds) {
   const int whole = static_cast<int>(seconds);
@@ -64,7 +66,7 @@ void ForceBar(Ui& ui, double force, double peak) {
   const auto at = [&](double newton) {
     return corner.x + width * static_cast<float>(std::clamp(newton / kForceOfFullBar, 0.0, 1.0));
   };
-  const unsigned colour = force < kForceOfCare ? kGood : force < kForceOfFullBar ? kWarning : kBad;
+  const unsigned colour = force < kForceOfCare ? kGood : force < kForceOfHarm ? kWarning : kBad;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
                       ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
@@ -74,6 +76,8 @@ void ForceBar(Ui& ui, double force, double peak) {
   // The largest force so far as a line, and where care begins as a thin one.
   draw->AddLine({at(kForceOfCare), corner.y}, {at(kForceOfCare), corner.y + height}, kQuiet,
                 ui.Px(1));
+  draw->AddLine({at(kForceOfHarm), corner.y}, {at(kForceOfHarm), corner.y + height}, kBad,
+                ui.Px(2));
   if (peak > 0)
     draw->AddLine({at(peak), corner.y}, {at(peak), corner.y + height}, 0xFFFFFFFF, ui.Px(2));
   ImGui::Dummy({width, height});
@@ -105,11 +109,12 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
 
   QuietText(ui, "Force on the tissue");
   Large(ui, fmt::format("{:.2f} N", force),
-        force < kForceOfCare      ? 0xFFEEEBE9
-        : force < kForceOfFullBar ? kWarning
-                                  : kBad);
+        force < kForceOfCare   ? 0xFFEEEBE9
+        : force < kForceOfHarm ? kWarning
+                               : kBad);
   ForceBar(ui, force, practice.peak_force());
-  QuietText(ui, fmt::format("largest so far {:.2f} N", practice.peak_force()));
+  QuietText(ui, fmt::format("largest so far {:.2f} N; harm above {:.1f} N (red mark)",
+                            practice.peak_force(), kForceOfHarm));
   Gap(ui);
   QuietText(ui, "The instrument touches");
   Heading(ui, ContactWords(state, instrument.contact));

@@ -1,13 +1,21 @@
 // Step 3: deformable models in the scene.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <imgui.h>
 
 #include "app/commands/command_list.h"
 #include "app/commands/edits.h"
+#include "app/commands/tissue/tissue_hold.h"
+#include "app/commands/tissue/tissue_material.h"
 #include "app/commands/tissue_pose.h"
 #include "app/panels/panels.h"
+#include "simulation/core/options.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -63,6 +71,166 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (change.released) EndDrag(state);
 }
 
+// A number of the material: what differs from the preset is kept with the scene.
+void ElasticityField(Ui& ui, EditorState& state, const Tissue& tissue, const std::string& name,
+                     double shown, double factor, std::optional<double> Elasticity::*field,
+                     const Range& range, const char* format, const char* help) {
+  double value = shown / factor;
+  const double step = 0.01 * std::max(std::abs(value), 0.1);
+  QuietText(ui, name);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const Change change =
+      NumberField(ui, name, value, step, range.min / factor, range.max / factor, format, help);
+  if (change) {
+    Elasticity own = tissue.elasticity;
+    own.*field = value * factor;
+    SetElasticity(state, state.tissue, own, "Change " + name + " of");
+  }
+  if (change.held) state.dragging = true;
+  if (change.released) EndDrag(state);
+}
+
+void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
+  std::vector<std::string> titles;
+  int chosen = -1;
+  const auto* own = simulation::FindTissuePreset(state.tissue_presets, tissue.material);
+  for (const auto& preset : state.tissue_presets) {
+    if (own == &preset) chosen = static_cast<int>(titles.size());
+    titles.push_back(preset.title);
+  }
+  if (Combo(ui, "Preset", chosen, titles, "What it is made of; values come with their sources."))
+    ChoosePreset(state, state.tissue, state.tissue_presets[static_cast<std::size_t>(chosen)].name);
+  const auto preset = PresetOf(state, tissue);
+  if (!preset) {
+    ColouredText(ui, fmt::format("There is no preset \"{}\"; choose one.", tissue.material),
+                 kWarning);
+    return;
+  }
+  const simulation::Material& material = preset->material;
+  ElasticityField(ui, state, tissue, "Stiffness", material.young_modulus, 1e6,
+                  &Elasticity::young_modulus, {1e3, 1e9}, "%.3g MPa",
+                  "Young's modulus, at small strain. Drag, or double-click to type.");
+  ElasticityField(ui, state, tissue, "Poisson's ratio", material.poisson_ratio, 1.0,
+                  &Elasticity::poisson_ratio, {0.0, 0.499}, "%.3f",
+                  "How little the volume changes: 0.5 would be not at all.");
+  if (preset->is_thin)
+    ElasticityField(ui, state, tissue, "Thickness of the layer", preset->layer_thickness,
+                    kMetrePerMillimetre, &Elasticity::layer_thickness, {1e-4, 0.02}, "%.1f mm",
+                    "On the bone; it needs no tetrahedra.");
+  else
+    ElasticityField(ui, state, tissue, "Fibres along the rim", material.fibre_stiffness, 1e6,
+                    &Elasticity::fibre_stiffness, {0.0, 1e9}, "%.3g MPa",
+                    "Stiffness along circles about the tissue's own z axis; 0: none.");
+  if (!(tissue.elasticity == Elasticity{})) QuietText(ui, "Differs from the preset.");
+  QuietText(ui, preset->probing);
+  if (ToggleButton(ui, "Sources", state.shows_sources, true, {-FLT_MIN, 0},
+                   "Where each value comes from."))
+    state.shows_sources = !state.shows_sources;
+  if (state.shows_sources)
+    for (const std::string& source : preset->sources) QuietText(ui, source);
+  bool is_cuttable = tissue.is_cuttable;
+  if (Checkbox(ui, "Instruments may cut it", is_cuttable)) {
+    Tissue changed = tissue;
+    changed.is_cuttable = is_cuttable;
+    SetTissue(state, state.tissue, changed, is_cuttable ? "Let cut" : "Keep whole");
+    EndDrag(state);
+  }
+}
+
+void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceMesh* surface) {
+  QuietText(ui, fmt::format("{} triangles, {}", surface ? surface->triangles.size() : 0,
+                            tissue.mesh.empty() ? "no tetrahedra yet" : "filled with tetrahedra"));
+  std::vector<std::string> sizes;
+  int chosen = 0;
+  for (const authoring::MeshBudget& budget : authoring::MeshBudgets()) {
+    if (budget.size == state.mesh_size) chosen = static_cast<int>(sizes.size());
+    sizes.push_back(budget.name);
+  }
+  if (Combo(ui, "Mesh size", chosen, sizes, "Finer is truer and slower."))
+    state.mesh_size = authoring::MeshBudgets()[static_cast<std::size_t>(chosen)].size;
+  QuietText(ui, authoring::BudgetWords(authoring::BudgetOf(state.mesh_size)));
+  CommandButton(ui, state, "tetrahedralise", {-FLT_MIN, 0});
+}
+
+void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
+  if (tissue.fixed.empty())
+    ColouredText(ui, "Nothing holds it: it will drift when it is touched.", kWarning);
+  else
+    QuietText(ui, fmt::format("{} {} hold it.", tissue.fixed.size(),
+                              tissue.fixed.size() == 1 ? "ball" : "balls"));
+  constexpr int kRows = 3;  // seen at once; the rest is scrolled to
+  const float row = ImGui::GetTextLineHeightWithSpacing();
+  if (!tissue.fixed.empty()) {
+    const float rows = static_cast<float>(std::min<std::size_t>(tissue.fixed.size(), kRows));
+    ImGui::BeginChild("held", {0, rows * row}, true);
+    for (int i = 0; i < static_cast<int>(tissue.fixed.size()); ++i) {
+      const Ball& ball = tissue.fixed[static_cast<std::size_t>(i)];
+      const glm::dvec3 mm = ball.centre / kMetrePerMillimetre;
+      const std::string name = fmt::format("Ball {}", i + 1);
+      const std::string words =
+          fmt::format("{}: {:.1f}, {:.1f}, {:.1f} mm", name, mm.x, mm.y, mm.z);
+      if (ImGui::Selectable(words.c_str(), state.ball == i)) state.ball = i;
+      RecordItem(ui, name, true, state.ball == i ? "on" : "off");
+    }
+    ImGui::EndChild();
+  }
+  if (HasChosenBall(state)) {
+    Ball ball = tissue.fixed[static_cast<std::size_t>(state.ball)];
+    double mm = MmFromMetres(ball.radius * tissue.pose.scale);
+    const Change change = Slider(ui, "Radius of this ball", mm, 0.2, 15.0, "%.1f mm");
+    if (change) {
+      ball.radius = MetresFromMm(mm) / tissue.pose.scale;
+      SetBall(state, state.tissue, state.ball, ball, "Change a ball of");
+    }
+    if (change.held) state.dragging = true;
+    if (change.released) EndDrag(state);
+    const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+    CommandButton(ui, state, "release-ball", {half, 0});
+    ImGui::SameLine(0, ui.Px(8));
+    CommandButton(ui, state, "release-tissue", {half, 0});
+  }
+  double mm = MmFromMetres(state.hold_radius);
+  if (Slider(ui, "Radius of the next ball", mm, 0.2, 15.0, "%.1f mm"))
+    state.hold_radius = MetresFromMm(mm);
+  const Command& brush = CommandOf("hold-brush");
+  if (ToggleButton(ui, brush.words, state.hold_brush, brush.enabled(state), {-FLT_MIN, 0},
+                   brush.help))
+    Run(state, brush);
+  CommandButton(ui, state, "hold-at-instrument", {-FLT_MIN, 0});
+}
+
+// The author's instrument on the tissue, with the force that it gives.
+void PokeFields(Ui& ui, EditorState& state) {
+  const Command& poke = CommandOf("poke");
+  if (ToggleButton(ui, poke.words, state.poke.has_value(), poke.enabled(state),
+                   {-FLT_MIN, ui.Px(36)}, poke.help))
+    Run(state, poke);
+  if (!state.poke) return;
+  const double force = glm::length(state.poke->snapshot().instrument.tip_force);
+  ColouredText(ui,
+               fmt::format("{:.2f} N; instruments do harm above {:.1f} N", force,
+                           simulation::kSafeProbingForce),
+               force < simulation::kSafeProbingForce ? kGood : kBad);
+  QuietText(ui, "Right drag over the picture and Ctrl+wheel move the instrument.");
+}
+
+void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
+  std::string name = tissue.name;
+  if (TextField(ui, "Name", name) && !name.empty()) {
+    Tissue changed = tissue;
+    changed.name = name;
+    SetTissue(state, state.tissue, changed, "Rename");
+    EndDrag(state);
+  }
+  PoseFields(ui, state, tissue);
+  QuietText(ui, "Or drag the box around it in the overview.");
+  Gap(ui);
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  CommandButton(ui, state, "duplicate-tissue", {half, 0});
+  ImGui::SameLine(0, ui.Px(8));
+  CommandButton(ui, state, "remove-tissue", {half, 0});
+}
+
 }  // namespace
 
 void TissuePanel(Ui& ui, EditorState& state) {
@@ -78,7 +246,10 @@ void TissuePanel(Ui& ui, EditorState& state) {
   for (int i = 0; i < static_cast<int>(tissues.size()); ++i) {
     const std::string& name = tissues[static_cast<std::size_t>(i)].name;
     ImGui::PushID(i);
-    if (ImGui::Selectable(name.c_str(), state.tissue == i)) state.tissue = i;
+    if (ImGui::Selectable(name.c_str(), state.tissue == i)) {
+      state.ball = state.tissue == i ? state.ball : -1;
+      state.tissue = i;
+    }
     RecordItem(ui, name, true, state.tissue == i ? "on" : "off");
     ImGui::PopID();
   }
@@ -86,24 +257,36 @@ void TissuePanel(Ui& ui, EditorState& state) {
   ImGui::Separator();
   const Tissue tissue = tissues[static_cast<std::size_t>(state.tissue)];
 
-  std::string name = tissue.name;
-  if (TextField(ui, "Name", name) && !name.empty()) {
-    Tissue changed = tissue;
-    changed.name = name;
-    SetTissue(state, state.tissue, changed, "Rename");
-    EndDrag(state);
-  }
-  PoseFields(ui, state, tissue);
-  QuietText(ui, "Or drag the box around it in the overview.");
+  PokeFields(ui, state);
   Gap(ui);
-  const auto& surface = document.surfaces[static_cast<std::size_t>(state.tissue)];
-  QuietText(ui, fmt::format("{} triangles, {}", surface ? surface->triangles.size() : 0,
-                            tissue.mesh.empty() ? "no tetrahedra yet" : "filled with tetrahedra"));
-  CommandButton(ui, state, "tetrahedralise", {-FLT_MIN, 0});
-  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-  CommandButton(ui, state, "duplicate-tissue", {half, 0});
-  ImGui::SameLine(0, ui.Px(8));
-  CommandButton(ui, state, "remove-tissue", {half, 0});
+  constexpr std::pair<TissuePage, const char*> kPages[] = {{TissuePage::kPlace, "Place"},
+                                                           {TissuePage::kMaterial, "Material"},
+                                                           {TissuePage::kMesh, "Mesh"},
+                                                           {TissuePage::kHold, "Hold"}};
+  const float page_width = (ImGui::GetContentRegionAvail().x - 3 * ui.Px(4)) / 4;
+  for (const auto& [page, words] : kPages) {
+    if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
+    if (ToggleButton(ui, words, state.tissue_page == page, true, {page_width, 0})) {
+      state.tissue_page = page;
+      state.hold_brush = false;
+    }
+  }
+  Gap(ui);
+  switch (state.tissue_page) {
+    case TissuePage::kPlace:
+      PlaceFields(ui, state, tissue);
+      break;
+    case TissuePage::kMaterial:
+      MaterialFields(ui, state, tissue);
+      break;
+    case TissuePage::kMesh:
+      MeshFields(ui, state, tissue,
+                 document.surfaces[static_cast<std::size_t>(state.tissue)].get());
+      break;
+    case TissuePage::kHold:
+      HeldFields(ui, state, tissue);
+      break;
+  }
 }
 
 }  // namespace arthro::app

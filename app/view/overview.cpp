@@ -110,7 +110,15 @@ struct Overview::Parts {
   vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
       MakeLabel("instrument portal", kInstrumentColour);
 
+  // Translucent: what they hold is seen through them.
+  vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
+  vtkSmartPointer<vtkActor> held_chosen = MakeActor({1.0, 0.85, 0.3});
+
   std::vector<Model> tissues;
+  std::vector<Ball> balls;
+  Pose balls_pose;
+  bool shows_balls = false;
+  int chosen_ball = -1;
   int chosen = -1;
   double radius = 0.05;
   glm::ivec2 panorama_size{0};
@@ -163,6 +171,13 @@ void Overview::Parts::BuildScene() {
   for (vtkActor* actor : {relief.Get(), scope.Get(), cone.Get(), probe.Get(), moving.Get(),
                           scope_portal.Get(), instrument_portal.Get()})
     renderer->AddActor(actor);
+  for (vtkActor* balls_of : {held.Get(), held_chosen.Get()}) {
+    balls_of->ForceOpaqueOff();
+    balls_of->ForceTranslucentOn();
+    balls_of->GetProperty()->SetOpacity(0.45);
+    balls_of->VisibilityOff();
+    renderer->AddActor(balls_of);
+  }
   renderer->AddActor(scope_label);
   renderer->AddActor(instrument_label);
 
@@ -381,6 +396,59 @@ void Overview::ChooseTissue(int index) {
   p.chosen = index;
   p.PlaceBox();
   p.changed = true;
+}
+
+void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
+  Parts& p = *parts_;
+  if (tissue >= static_cast<int>(p.tissues.size())) tissue = -1;
+  const bool is_shown = tissue >= 0 && !balls.empty();
+  const Pose pose = is_shown ? p.tissues[std::size_t(tissue)].pose : Pose{};
+  const bool is_same = is_shown == p.shows_balls && chosen == p.chosen_ball &&
+                       std::equal(balls.begin(), balls.end(), p.balls.begin(), p.balls.end()) &&
+                       pose.position == p.balls_pose.position &&
+                       pose.quaternion == p.balls_pose.quaternion &&
+                       pose.scale == p.balls_pose.scale;
+  if (is_same) return;
+  p.shows_balls = is_shown;
+  p.chosen_ball = chosen;
+  p.balls.assign(balls.begin(), balls.end());
+  p.balls_pose = pose;
+  std::vector<Ball> others, lit;
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    (static_cast<int>(i) == chosen ? lit : others).push_back(balls[i]);
+  for (const auto& [actor, some] :
+       {std::pair{p.held.Get(), &others}, {p.held_chosen.Get(), &lit}}) {
+    SetData(*actor, MakeSurfaceData(MakeBalls(*some)));
+    actor->SetUserMatrix(MatrixOf(pose));
+    actor->SetVisibility(is_shown && !some->empty() ? 1 : 0);
+  }
+  p.changed = true;
+}
+
+std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) const {
+  const Parts& p = *parts_;
+  glm::dvec3 ends[2];
+  for (int i = 0; i < 2; ++i) {
+    double world[4];
+    p.renderer->SetDisplayPoint(x, p.height - 1 - y, i);
+    p.renderer->DisplayToWorld();
+    p.renderer->GetWorldPoint(world);
+    ends[i] = glm::dvec3(world[0], world[1], world[2]) / world[3];
+  }
+  std::optional<TissuePlace> place;
+  double nearest = 1.0;  // share of the way between the ends
+  for (std::size_t i = 0; i < p.tissues.size(); ++i) {
+    const Pose& pose = p.tissues[i].pose;
+    const auto own = [&](const glm::dvec3& world) {
+      return (glm::conjugate(pose.quaternion) * (world - pose.position)) / pose.scale;
+    };
+    const glm::dvec3 from = own(ends[0]), way = own(ends[1]) - from;
+    if (const auto share = FirstHit(p.tissues[i].surface, from, way); share && *share < nearest) {
+      nearest = *share;
+      place = TissuePlace{static_cast<int>(i), from + *share * way};
+    }
+  }
+  return place;
 }
 
 void Overview::Handle(const PointerEvent& event) {

@@ -52,6 +52,14 @@ class Overview {
   // Puts the box round a tissue; -1 takes it away. A left drag on it moves it across the picture,
   // with Shift or Control it turns, a right drag scales.
   void ChooseTissue(int index);
+  // The balls of one tissue, in its own frame, the chosen one lit; -1: none are shown.
+  void ShowBalls(int tissue, std::span<const Ball> balls, int chosen);
+  // The place of a tissue's surface under a pixel, in its own frame.
+  struct TissuePlace {
+    int tissue = -1;
+    glm::dvec3 x_in_tissue{0.0};
+  };
+  std::optional<TissuePlace> PickTissue(double x, double y) const;
   // Called while the box is dragged, with the pose it asks for; `finished` with the last one.
   std::function<void(int tissue, const Pose& pose, bool finished)> on_pose;
 

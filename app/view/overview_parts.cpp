@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include <glm/geometric.hpp>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -108,6 +109,49 @@ void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
   data.GetPoints()->Modified();
   data.GetPointData()->GetNormals()->Modified();
   data.Modified();
+}
+
+SurfaceMesh MakeBalls(std::span<const Ball> balls) {
+  constexpr int kAround = 20, kAlong = 10;
+  SurfaceMesh mesh;
+  for (const Ball& ball : balls) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (int j = 0; j <= kAlong; ++j)
+      for (int i = 0; i < kAround; ++i) {
+        const double a = 2.0 * std::numbers::pi * i / kAround, b = std::numbers::pi * j / kAlong;
+        mesh.vertices.push_back(ball.centre + ball.radius * glm::dvec3(std::sin(b) * std::cos(a),
+                                                                       std::sin(b) * std::sin(a),
+                                                                       std::cos(b)));
+      }
+    for (int j = 0; j < kAlong; ++j)
+      for (int i = 0; i < kAround; ++i) {
+        const int p = first + j * kAround + i, q = first + j * kAround + (i + 1) % kAround;
+        mesh.triangles.push_back({p, p + kAround, q + kAround});
+        mesh.triangles.push_back({p, q + kAround, q});
+      }
+  }
+  return mesh;
+}
+
+std::optional<double> FirstHit(const SurfaceMesh& surface, const glm::dvec3& from,
+                               const glm::dvec3& way) {
+  std::optional<double> first;
+  for (const auto& [i, j, k] : surface.triangles) {
+    // Möller and Trumbore's test.
+    const glm::dvec3& a = surface.vertices[static_cast<std::size_t>(i)];
+    const glm::dvec3 u = surface.vertices[static_cast<std::size_t>(j)] - a,
+                     v = surface.vertices[static_cast<std::size_t>(k)] - a;
+    const glm::dvec3 across = glm::cross(way, v), offset = from - a;
+    const double determinant = glm::dot(u, across);
+    if (determinant == 0.0) continue;
+    const double s = glm::dot(offset, across) / determinant;
+    const glm::dvec3 turned = glm::cross(offset, u);
+    const double t = glm::dot(way, turned) / determinant;
+    const double share = glm::dot(v, turned) / determinant;
+    if (s < 0.0 || t < 0.0 || s + t > 1.0 || share < 0.0 || share > 1.0) continue;
+    if (!first || share < *first) first = share;
+  }
+  return first;
 }
 
 vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>& lines,

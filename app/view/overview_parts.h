@@ -1,6 +1,7 @@
 // What the overview is put together from, as VTK data in the portal frame, m.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,13 @@ vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface);
 // Normals are computed where none are given.
 void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
                      std::span<const glm::dvec3> given_normals = {});
+
+// A sphere for each ball.
+SurfaceMesh MakeBalls(std::span<const Ball> balls);
+
+// Where from + share · way first meets a surface, 0 ≤ share ≤ 1; either side of a triangle counts.
+std::optional<double> FirstHit(const SurfaceMesh& surface, const glm::dvec3& from,
+                               const glm::dvec3& way);
 
 // A round bar along each line of points.
 vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>& lines,

@@ -12,6 +12,8 @@
 #include "app/commands/edits.h"
 #include "app/commands/hand_motion.h"
 #include "app/commands/scene_files.h"
+#include "app/commands/tissue/tissue_hold.h"
+#include "app/commands/tissue/tissue_material.h"
 #include "app/commands/tissue_work.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/scene_json.h"
@@ -305,6 +307,116 @@ TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
   EXPECT_EQ(state.step, Step::kTissue);
   EXPECT_EQ(state.scope.latitude, scope.latitude);
   EXPECT_EQ(state.scope.depth, scope.depth);
+}
+
+TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
+  Open();
+  state.tissue = 0;
+  state.hold_radius = 0.003;
+  HoldAt(state, 0, {0.006, 0, 0});
+  HoldAt(state, 0, {0, 0.006, 0});
+  const auto& fixed = [&]() -> const std::vector<Ball>& {
+    return state.document().scene.tissues[0].fixed;
+  };
+  ASSERT_EQ(fixed().size(), 2u);
+  EXPECT_EQ(state.ball, 1);
+  EXPECT_EQ(fixed()[0], (Ball{{0.006, 0, 0}, 0.003}));
+  SetBall(state, 0, 1, {{0, 0.006, 0}, 0.001}, "Change a ball of");
+  EXPECT_EQ(fixed()[1].radius, 0.001);
+  EndDrag(state);
+  app::Run(state, "undo");
+  EXPECT_EQ(fixed()[1].radius, 0.003);
+  app::Run(state, "undo");
+  EXPECT_EQ(fixed().size(), 1u) << "each ball is a step of its own";
+  app::Run(state, "redo");
+  state.ball = 0;
+  app::Run(state, "release-ball");
+  ASSERT_EQ(fixed().size(), 1u);
+  EXPECT_EQ(fixed()[0].centre, glm::dvec3(0, 0.006, 0));
+  app::Run(state, "release-tissue");
+  EXPECT_TRUE(fixed().empty());
+  EXPECT_FALSE(CommandOf("release-tissue").enabled(state));
+  app::Run(state, "undo");
+  EXPECT_EQ(fixed().size(), 1u);
+}
+
+TEST_F(Commands, ABallAtTheInstrumentLiesAtItsTipInTheTissuesOwnFrame) {
+  Open();
+  state.tissue = 0;
+  Tissue turned = state.document().scene.tissues[0];
+  turned.pose.quaternion = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
+  turned.pose.scale = 2;
+  SetTissue(state, 0, turned, "Turn");
+  app::Run(state, "hold-at-instrument");
+  const Tissue& tissue = state.document().scene.tissues[0];
+  ASSERT_EQ(tissue.fixed.size(), 1u);
+  const glm::dvec3 tip = glm::dvec3(0.03, 0, 0) + simulation::TipInOwnPortal(state.instrument);
+  EXPECT_LT(glm::distance(tissue.pose * tissue.fixed[0].centre, tip), 1e-12);
+  EXPECT_NEAR(tissue.fixed[0].radius * 2, state.hold_radius, 1e-15);
+}
+
+TEST_F(Commands, MaterialsArePresetsAndWhatTheSceneSaysOtherwise) {
+  Open();
+  state.tissue_preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
+  LoadTissuePresets(state);
+  ASSERT_EQ(state.tissue_presets.size(), 4u);
+  const auto tissue = [&]() -> const Tissue& { return state.document().scene.tissues[0]; };
+  Elasticity own;
+  own.young_modulus = 3e5;
+  SetElasticity(state, 0, own, "Change");
+  EXPECT_EQ(PresetOf(state, tissue())->material.young_modulus, 3e5);
+  EXPECT_EQ(PresetOf(state, tissue())->material.fibre_stiffness, 2e7);
+  own.young_modulus = 5e5;  // the preset's own
+  SetElasticity(state, 0, own, "Change");
+  EXPECT_EQ(tissue().elasticity, Elasticity{});
+  own.poisson_ratio = 0.3;
+  SetElasticity(state, 0, own, "Change");
+  EndDrag(state);
+  ChoosePreset(state, 0, "cartilage-literature");
+  EXPECT_EQ(tissue().elasticity, Elasticity{});
+  EXPECT_EQ(PresetOf(state, tissue())->material.young_modulus, 1.5e7);
+  app::Run(state, "undo");
+  EXPECT_EQ(tissue().material, "meniscus");
+  EXPECT_EQ(tissue().elasticity.poisson_ratio, 0.3);
+  Tissue unknown = tissue();
+  unknown.material = "jelly";
+  EXPECT_FALSE(PresetOf(state, unknown));
+}
+
+TEST_F(Commands, ABrokenPresetIsToldOnce) {
+  Open();
+  std::ofstream(temp / "bad.json") << "{";
+  state.tissue_preset_folder = temp.path();
+  LoadTissuePresets(state);
+  LoadTissuePresets(state);
+  EXPECT_EQ(state.dialogs.size(), 1u);
+}
+
+// The poke's session has the author's hands: the instrument stops at the tissue, and the force is
+// felt.
+TEST_F(Commands, PokingHoldsTheInstrumentOutOfTheTissueUntilAnEditEndsIt) {
+  Open();
+  app::Run(state, "poke");
+  Settle(state);
+  ASSERT_TRUE(state.poke);
+  ASSERT_FALSE(state.practice);
+  EXPECT_EQ(state.live(), &*state.poke);
+  // Towards the joint's surface until it must have met it.
+  state.instrument = {0.0, -0.5, 0.0, 0.046};
+  MoveHands(state, {}, {0, 0, 0, 0.001});
+  for (int i = 0; i < 30; ++i) state.poke->Advance(0.016);
+  EXPECT_GT(glm::length(state.poke->snapshot().instrument.tip_force), 0.05);
+  EXPECT_EQ(state.instrument.depth, 0.047) << "the author's own hand is what moved";
+  FinishWork(state);
+  EXPECT_TRUE(state.poke);
+  SetTitle(state, "another");
+  FinishWork(state);
+  EXPECT_FALSE(state.poke);
+  app::Run(state, "poke");
+  Settle(state);
+  ASSERT_TRUE(state.poke);
+  app::Run(state, "poke");
+  EXPECT_FALSE(state.poke) << "the same command ends it";
 }
 
 TEST_F(Commands, ASceneWithoutAPanoramaCannotBePractised) {

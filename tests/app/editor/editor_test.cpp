@@ -171,7 +171,12 @@ TEST_F(EditorWindow, TissueIsTypedIntoPlaceAndFilledWithTetrahedra) {
 click Tissue
 set "Position (right, down, in), in" 25
 expect value "Position (right, down, in), in" "25.0 mm"
+click Mesh
 expect "no tetrahedra yet"
+expect "About 300 elements"
+click "Mesh size"
+click coarse
+expect "About 150 elements"
 click "Make tetrahedra"
 wait job
 expect "filled with tetrahedra"
@@ -181,7 +186,86 @@ expect "Saved in"
 )");
   const Scene saved = ReadScene(scene);
   EXPECT_NEAR(saved.tissues.at(0).pose.position.z, 0.025, 1e-12);
-  EXPECT_GT(ReadTetMesh(scene / saved.tissues.at(0).mesh).ElementCount(), 0);
+  const TetMesh mesh = ReadTetMesh(scene / saved.tissues.at(0).mesh);
+  EXPECT_GT(mesh.ElementCount(), 0);
+  EXPECT_EQ(mesh.order, 2);
+}
+
+TEST_F(EditorWindow, MaterialIsChosenWithItsSourcesAndItsStiffnessTyped) {
+  Drive(R"(
+click Tissue
+click Material
+expect value Preset "Meniscus, for probing"
+expect value "Stiffness" "0.5 MPa"
+click Sources
+expect "Danso 2018"
+click Sources
+set "Stiffness" 0.3
+expect value "Stiffness" "0.3 MPa"
+expect "Differs from the preset."
+click "Instruments may cut it"
+click Preset
+click "Cartilage, for probing"
+expect "Thickness of the layer"
+expect not "Differs from the preset."
+click Undo
+expect value "Stiffness" "0.3 MPa"
+click Save
+wait job
+expect "Saved in"
+)");
+  const Scene saved = ReadScene(scene);
+  EXPECT_EQ(saved.tissues.at(0).material, "meniscus");
+  EXPECT_NEAR(saved.tissues.at(0).elasticity.young_modulus.value_or(0), 3e5, 1e-3);
+  EXPECT_FALSE(saved.tissues.at(0).elasticity.poisson_ratio);
+  EXPECT_FALSE(saved.tissues.at(0).is_cuttable);
+}
+
+TEST_F(EditorWindow, AClickInTheOverviewHoldsTheTissueThereAndIsUndone) {
+  Drive(R"(
+click Tissue
+set "Position (right, down, in), down" 3
+set "Position (right, down, in), in" 22.5
+click Hold
+expect "Nothing holds it"
+click "Hold it here…"
+wait frames 3
+click Overview
+wait frames 3
+expect "1 ball hold"
+expect value "Ball 1" on
+set "Radius of this ball" 3
+click "Hold it at the instrument"
+expect "2 balls hold it."
+click Undo
+expect "1 ball hold"
+click Save
+wait job
+expect "Saved in"
+)");
+  const Scene saved = ReadScene(scene);
+  ASSERT_EQ(saved.tissues.at(0).fixed.size(), 1u);
+  const Ball& ball = saved.tissues[0].fixed[0];
+  EXPECT_NEAR(ball.radius, 0.003, 1e-9);
+  // On the octahedron of 6 mm: |x| + |y| + |z| is its radius all over its surface.
+  EXPECT_NEAR(std::abs(ball.centre.x) + std::abs(ball.centre.y) + std::abs(ball.centre.z), 0.006,
+              1e-6);
+}
+
+TEST_F(EditorWindow, TheAuthorPokesInTheirOwnViewAndAnEditEndsIt) {
+  Drive(R"(
+click Tissue
+click "Poke it"
+wait job
+wait frames 5
+expect "instruments do harm above 8.5 N"
+expect value "Poke it" on
+drag Picture 20 0 right
+wait frames 5
+set "Position (right, down, in), in" 25
+wait frames 3
+expect not "instruments do harm above 8.5 N"
+)");
 }
 
 TEST_F(EditorWindow, TheBoxInTheOverviewMovesTheTissueInOneStep) {

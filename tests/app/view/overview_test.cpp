@@ -106,6 +106,39 @@ TEST_F(OverviewTest, RightDragScalesAllDirectionsAlike) {
   EXPECT_NEAR(std::abs(pose_.quaternion.w), 1.0, 1e-6);
 }
 
+TEST_F(OverviewTest, APixelOverATissueIsAPlaceOfItsSurface) {
+  const auto place = overview_->PickTissue(middle_.x, middle_.y);
+  EXPECT_FALSE(overview_->PickTissue(2, 2));
+  // The ring has a hole; somewhere near the middle it is met.
+  std::optional<Overview::TissuePlace> met = place;
+  for (double dx = -60; !met && dx <= 60; dx += 4)
+    met = overview_->PickTissue(middle_.x + dx, middle_.y);
+  ASSERT_TRUE(met);
+  EXPECT_EQ(met->tissue, 0);
+  double nearest = 1;
+  for (const glm::dvec3& x : scene_.surfaces[0].vertices)
+    nearest = std::min(nearest, glm::distance(x, met->x_in_tissue));
+  EXPECT_LT(nearest, 0.5e-3);  // its triangles are smaller than a millimetre
+}
+
+TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldAndTheChosenOneIsLit) {
+  const auto drawn = [&] {
+    overview_->Render(kSize, kSize);
+    return overview_->ReadPixels().rgb;
+  };
+  const auto before = drawn();
+  const std::vector<Ball> balls = {{{0.007, 0, 0.002}, 0.003}, {{-0.007, 0, 0.002}, 0.003}};
+  overview_->ShowBalls(0, balls, -1);
+  const auto held = drawn();
+  EXPECT_NE(held, before);
+  overview_->ShowBalls(0, balls, -1);
+  EXPECT_FALSE(overview_->Render(kSize, kSize)) << "nothing changed";
+  overview_->ShowBalls(0, balls, 1);
+  EXPECT_NE(drawn(), held);
+  overview_->ShowBalls(-1, {}, -1);
+  EXPECT_EQ(drawn(), before);
+}
+
 TEST_F(OverviewTest, WithoutAChosenTissueADragTurnsTheViewOnly) {
   const ColourImage before = overview_->ReadPixels();
   Drag(Button::kLeft, middle_, middle_ + glm::dvec2(60, 20));
