@@ -73,6 +73,11 @@ void LookAt(State& state) {
   state.message = "View angle " + std::to_string(degrees) + "°";
 }
 
+template <simulation::ToolKind kind>
+void TakeInstrument(State& state) {
+  state.practice->SetInstrument(kind);
+}
+
 template <Step step>
 void Open(State& state) {
   state.step = step;
@@ -350,6 +355,49 @@ constexpr Command kCommands[] = {
      {},
      [](const State& state) { return state.document().panorama != nullptr && ShowsScope(state); },
      ResetHands},
+    {"instrument-probe",
+     "Probe",
+     "Feel and lift with the hook.",
+     "Practice",
+     {GLFW_KEY_5},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kProbe>},
+    {"instrument-punch",
+     "Punch",
+     "Bite with the basket forceps: C closes the jaws.",
+     "Practice",
+     {GLFW_KEY_6},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kPunch>},
+    {"instrument-shaver",
+     "Shaver",
+     "Take tissue away while C is held.",
+     "Practice",
+     {GLFW_KEY_7},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kShaver>},
+    {"instrument-grasper",
+     "Grasper",
+     "Blunt jaws: C closes them.",
+     "Practice",
+     {GLFW_KEY_8},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kGrasper>},
+    {"reset-tissues",
+     "Whole tissue again",
+     "Every tissue as it was before it was touched or cut.",
+     "Practice",
+     {},
+     {},
+     [](const State& state) { return Practising(state) && state.practice->tissues() != nullptr; },
+     [](State& state) {
+       state.practice->ResetTissues();
+       state.message = "The tissue is whole again.";
+     }},
     {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
     {"view-30",
      "30°",

@@ -31,6 +31,9 @@ simulation::RodPose MotionOfKeys(bool instrument, bool picture_has_focus, double
 simulation::RodPose MotionOfDrag(const simulation::RodPose& pose, const simulation::ScopeView& view,
                                  double field_of_view, double dx, double dy);
 
+// Held in practice: jaws close, the shaver runs. GLFW_KEY_C.
+inline constexpr int kActKey = 67;
+
 // One notch of the wheel.
 inline constexpr double kInsertionANotch = 1e-3;     // m
 inline constexpr double kRollANotch = 0.0872664626;  // rad, 5°

@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kTick = 1e-3;  // s
 
+// As slow as an eye follows; a real blade turns fifty times a second, which a picture at 60 Hz
+// would show standing still.
+constexpr double kBladeSpeed = 30.0;  // rad/s
+
 simulation::Session SessionOf(const authoring::Document& document,
                               const std::vector<simulation::TissuePreset>& presets,
                               simulation::TissuePace pace) {
@@ -90,6 +94,7 @@ Practice::Practice(const authoring::Document& document,
                   InstrumentLimits(document.scene)) {
   // One tick, so that there is something to show before time has passed.
   session_.Tick(scope_.Sample(t_), instrument_.Sample(t_), kTick);
+  tissues_ = session_.tissues();
 }
 
 void Practice::Advance(double seconds) {
@@ -101,8 +106,10 @@ void Practice::Advance(double seconds) {
     const double remaining = (ticks - tick) * kTick;
     session_.Tick(scope_.Sample(t_, remaining), instrument_.Sample(t_, remaining), kTick);
     session_.TickTissues(kTick);
+    if (session_.snapshot().instrument.is_running) blade_turn_ += kBladeSpeed * kTick;
     peak_force_ = std::max(peak_force_, glm::length(session_.snapshot().instrument.tip_force));
   }
+  tissues_ = session_.tissues();
 }
 
 }  // namespace arthro::app

@@ -31,13 +31,14 @@ class Practice {
   double view_angle() const { return session_.view_angle(); }
   void SetViewAngle(double view_angle) { session_.SetViewAngle(view_angle); }
 
-  // Living tissues as they are now; nullptr: none lives.
-  const simulation::WorldPicture* tissues() { return session_.tissues(); }
+  // Living tissues as of the last Advance; nullptr: none lives.
+  const simulation::WorldPicture* tissues() const { return tissues_; }
   void ResetTissues() { session_.ResetTissues(); }
   simulation::ToolKind instrument_kind() const { return session_.instrument(); }
   void SetInstrument(simulation::ToolKind kind) { session_.SetInstrument(kind); }
   // The button under the finger: jaws close, a shaver runs.
   void Press(bool is_pressed) { instrument_.SetButtons(is_pressed ? 1u : 0u); }
+  double blade_turn() const { return blade_turn_; }  // of the shaver, rad
 
   double peak_force() const { return peak_force_; }  // N, largest on the instrument's tip so far
 
@@ -47,7 +48,8 @@ class Practice {
  private:
   simulation::Session session_;
   simulation::ScriptedDevice scope_, instrument_;
-  double t_ = 0, pending_ = 0, peak_force_ = 0;
+  double t_ = 0, pending_ = 0, peak_force_ = 0, blade_turn_ = 0;
+  const simulation::WorldPicture* tissues_ = nullptr;
 };
 
 // How both hands stand when a practice or an editor begins: the scope a third of the way in, the

@@ -41,6 +41,7 @@ class Pictures {
   void Take(const EditorState& state);
   void TakeBackdrop(const EditorState& state);
   void TakeTissues(const authoring::Document& document);
+  void TakeLiveTissues(const EditorState& state);
 
   ArthroscopicView scope_;
   Overview overview_;
@@ -57,6 +58,12 @@ class Pictures {
   Backdrop backdrop_;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
+  struct LiveBody {
+    std::shared_ptr<const simulation::BodySkin> skin;
+    std::uint64_t shape = 0;
+  };
+  const Practice* live_ = nullptr;  // whose bodies are shown
+  std::vector<LiveBody> live_bodies_;
   int chosen_ = -1, document_number_ = -1;
   Picture overview_tools_;  // as the overview last got them
   glm::dvec2 pointer_{-1.0};

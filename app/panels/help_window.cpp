@@ -67,6 +67,7 @@ void HelpWindow(Ui& ui, EditorState&) {
   Heading(ui, "Hands, while a key is held");
   if (BeginRows(ui, "hands")) {
     for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);
+    Row(ui, "C", "Close the jaws, run the shaver");
     ImGui::EndTable();
   }
   QuietText(ui, "Arrow and page keys move the scope once the picture was clicked.");

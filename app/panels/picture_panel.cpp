@@ -161,6 +161,7 @@ bool ApplyHeldKeys(EditorState& state, bool picture_has_focus, double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) return false;
   const auto held = [&](int key) { return io.KeysDown[key]; };
+  if (state.practice) state.practice->Press(held(kActKey));
   return MoveHands(state, MotionOfKeys(false, picture_has_focus, seconds, held),
                    MotionOfKeys(true, picture_has_focus, seconds, held));
 }

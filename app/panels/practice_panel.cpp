@@ -84,6 +84,37 @@ void ForceBar(Ui& ui, double force, double peak) {
   RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force));
 }
 
+// Which one is in the hand, and what was taken with it.
+void Instruments(Ui& ui, EditorState& state) {
+  QuietText(ui, "Instrument (C closes or runs it)");
+  constexpr std::pair<const char*, simulation::ToolKind> kInstruments[] = {
+      {"instrument-probe", simulation::ToolKind::kProbe},
+      {"instrument-punch", simulation::ToolKind::kPunch},
+      {"instrument-shaver", simulation::ToolKind::kShaver},
+      {"instrument-grasper", simulation::ToolKind::kGrasper}};
+  const float width = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
+  int column = 0;
+  for (const auto& [id, kind] : kInstruments) {
+    if (column++ % 2 == 1) ImGui::SameLine(0, ui.Px(6));
+    const Command& command = CommandOf(id);
+    const bool chosen = state.practice->instrument_kind() == kind;
+    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(44)}, command.help))
+      Run(state, command);
+  }
+  const auto* world = state.practice->tissues();
+  if (world == nullptr) return;
+  double removed = 0;
+  int debris = 0;
+  for (const auto& body : world->bodies) {
+    removed += body.cut.removed;
+    debris += body.cut.debris;
+  }
+  Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ taken away", removed * 1e9)
+                       : fmt::format("{:.1f} mm³ taken away, {} loose piece{}", removed * 1e9,
+                                     debris, debris == 1 ? "" : "s"));
+  if (removed > 0) CommandButton(ui, state, "reset-tissues", {-FLT_MIN, ui.Px(44)});
+}
+
 }  // namespace
 
 void PracticeStepPanel(Ui& ui, EditorState& state) {
@@ -135,6 +166,8 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
     if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(48)}, command.help))
       Run(state, command);
   }
+  Gap(ui);
+  Instruments(ui, state);
   Gap(ui);
   CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(48)});
   Gap(ui);

@@ -6,8 +6,9 @@ namespace arthro::app {
 
 void StartPoke(EditorState& state) {
   WhenDepthIsReady(state, [](EditorState& ready) {
-    ready.jobs.Start("Poke", [document = ready.document()](const Progress&) {
-      const auto session = std::make_shared<Practice>(document);
+    ready.jobs.Start("Poke", [document = ready.document(), presets = ready.tissue_presets,
+                              pace = ready.pace](const Progress&) {
+      const auto session = std::make_shared<Practice>(document, presets, pace);
       return [session](EditorState& now) {  // shared only because a std::function is copied
         if (now.practice || now.practice_only) return;
         session->SetViewAngle(now.document().scene.scope.view_angle);
