@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/living_tissues_of.h"
+#include "app/cli/replay_pictures.h"
 #include "app/resource_folder.h"
-#include "app/view/still_picture.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/image_io.h"
@@ -36,51 +37,49 @@ struct DemoJob {
   int size = 512;
 };
 
-// What both hands were doing when a picture is taken.
+// What both hands and the tissues were doing when a picture is taken.
 struct Moment {
-  double t = 0;
-  simulation::ToolState scope, instrument;
+  double t = 0;  // s of the trace
+  simulation::Snapshot snapshot;
+  simulation::ToolKind kind = simulation::ToolKind::kProbe;
+  std::optional<simulation::WorldPicture> world;
 };
 
 // The trace in as many equal parts as there are pictures; of each part the moment of the largest
 // force on the instrument, or its middle where nothing was touched.
-std::vector<Moment> ChooseMoments(const std::vector<ForceRow>& rows, int count) {
-  const double begin = rows.front().t, part = (rows.back().t - begin) / count;
-  std::vector<Moment> moments(static_cast<std::size_t>(count));
-  std::vector<double> best(moments.size(), -1.0);
-  Moment now;
-  for (const ForceRow& row : rows) {
-    (row.device == DeviceRole::kScope ? now.scope : now.instrument) = row.state;
-    now.t = row.t;
+class Moments {
+ public:
+  Moments(double begin, double end, int count)
+      : begin_(begin),
+        part_((end - begin) / count),
+        moments_(static_cast<std::size_t>(count)),
+        best_(moments_.size(), -1.0) {}
+
+  void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+             const simulation::WorldPicture* world) {
+    const int last = static_cast<int>(moments_.size()) - 1;
     const auto index = static_cast<std::size_t>(
-        std::clamp(part > 0.0 ? static_cast<int>((row.t - begin) / part) : 0, 0, count - 1));
-    const double middle = begin + (static_cast<double>(index) + 0.5) * part;
-    const double force = glm::length(now.instrument.tip_force);
+        std::clamp(part_ > 0.0 ? static_cast<int>((t - begin_) / part_) : 0, 0, last));
+    const double middle = begin_ + (static_cast<double>(index) + 0.5) * part_;
+    const double force = glm::length(snapshot.instrument.tip_force);
     // Below a thousandth of a newton nothing is touched; then nearness to the middle decides.
-    const double score = force > 1e-3 ? 1.0 + force : 1.0 / (1.0 + std::abs(now.t - middle));
-    if (score > best[index]) {
-      best[index] = score;
-      moments[index] = now;
-    }
+    const double score = force > 1e-3 ? 1.0 + force : 1.0 / (1.0 + std::abs(t - middle));
+    if (score <= best_[index]) return;
+    best_[index] = score;
+    moments_[index] = {t, snapshot, kind, world ? std::optional(*world) : std::nullopt};
   }
-  return moments;
-}
+  const std::vector<Moment>& all() const { return moments_; }
+
+ private:
+  double begin_, part_;
+  std::vector<Moment> moments_;
+  std::vector<double> best_;
+};
 
 std::string ContactName(int contact, const Scene& scene) {
   if (contact == simulation::kNoContact) return "none";
   if (contact == simulation::kBackdropContact) return "backdrop";
   return scene.tissues[static_cast<std::size_t>(contact - 1)].name;
-}
-
-Picture PictureOf(const Moment& moment, const Scene& scene) {
-  // The camera head is held upright, as surgeons do, while the scope turns in it.
-  Picture picture =
-      PictureFromPose(moment.scope.pose, scene.scope.view_angle, scene.scope.field_of_view, 0.0);
-  if (moment.instrument.fault == simulation::Fault::kNone)
-    picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
-                                        moment.instrument.proxy_in_portal,
-                                        moment.instrument.pose.roll};
-  return picture;
 }
 
 void Run(const DemoJob& job) {
@@ -89,8 +88,13 @@ void Run(const DemoJob& job) {
   const auto trace = simulation::ReadTrace(demo / "trace.csv");
   const Progress progress = TerminalProgress();
   simulation::ReplayReport report;
+  if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
+  Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
   const auto rows =
-      simulation::Replay(loaded, trace, {}, progress, &report, LivingTissuesOf(loaded));
+      simulation::Replay(loaded, trace, {}, progress, &report, LivingTissuesOf(loaded),
+                         [&](double t, const auto& snapshot, auto kind, const auto* world) {
+                           moments.Watch(t, snapshot, kind, world);
+                         });
 
   std::error_code fault;
   fs::create_directories(job.folder, fault);
@@ -101,15 +105,19 @@ void Run(const DemoJob& job) {
   StillPictures pictures(loaded);
   auto json = nlohmann::json::parse(simulation::ReportText(report, loaded.scene));
   json["pictures"] = nlohmann::json::array();
-  const auto moments = ChooseMoments(rows, job.pictures);
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    progress.Step("pictures", static_cast<double>(i) / static_cast<double>(moments.size()));
+  LiveTissues tissues;
+  const std::size_t count = moments.all().size();
+  for (std::size_t i = 0; i < count; ++i) {
+    progress.Step("pictures", static_cast<double>(i) / static_cast<double>(count));
+    const Moment& moment = moments.all()[i];
+    if (moment.world) tissues.Show(*moment.world, loaded.scene.tissues, pictures.view(), nullptr);
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
-    WriteColourImage(job.folder / name,
-                     pictures.Draw(PictureOf(moments[i], loaded.scene), job.size));
-    const simulation::ToolState& instrument = moments[i].instrument;
+    WriteColourImage(
+        job.folder / name,
+        pictures.Draw(PictureOf(moment.snapshot, moment.kind, loaded.scene), job.size));
+    const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},
-                                {"t", moments[i].t},
+                                {"t", moment.t},
                                 {"contact", ContactName(instrument.contact, loaded.scene)},
                                 {"force", glm::length(instrument.tip_force)}});
   }

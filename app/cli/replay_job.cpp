@@ -1,6 +1,7 @@
 // arthroscene replay SCENE TRACE.csv -o forces.csv [--report r.json]
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/living_tissues_of.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/replay_pictures.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/session/replay.h"
@@ -21,6 +23,9 @@ namespace fs = std::filesystem;
 struct ReplayJob {
   fs::path scene, trace, forces, report;
   simulation::SessionOptions options;
+  fs::path pictures;
+  int size = 512;
+  double rate = 30.0;  // a second
 };
 
 bool IsSameFile(const fs::path& a, const fs::path& b) {
@@ -36,9 +41,17 @@ void Run(const ReplayJob& job) {
                   output);
   const std::vector<simulation::TraceRow> trace = simulation::ReadTrace(job.trace);
   const LoadedScene loaded = LoadScene(job.scene);
+  std::optional<ReplayPictures> pictures;
+  simulation::ReplayWatch watch;
+  if (!job.pictures.empty()) {
+    pictures.emplace(loaded, job.pictures, job.size, job.rate);
+    watch = [&](double t, const auto& snapshot, auto kind, const auto* world) {
+      pictures->Watch(t, snapshot, kind, world);
+    };
+  }
   simulation::ReplayReport report;
   const auto rows = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report,
-                                       LivingTissuesOf(loaded));
+                                       LivingTissuesOf(loaded), watch);
   WriteAtomically(job.forces, simulation::ForcesText(rows, loaded.scene));
   if (!job.report.empty())
     WriteAtomically(job.report, simulation::ReportText(report, loaded.scene));
@@ -55,6 +68,14 @@ void AddReplayJob(CLI::App& program) {
   command->add_option("-o,--output", job->forces, "forces.csv; - writes to standard output")
       ->required();
   command->add_option("--report", job->report, "Report as JSON: peaks, contacts, faults, times");
+  command->add_option("--pictures", job->pictures,
+                      "Folder for what the scope saw: frame_00000.png and on");
+  command->add_option("--size", job->size, "Width and height of a picture, px")
+      ->check(CLI::Range(StillPictures::kMinSize, StillPictures::kMaxSize))
+      ->capture_default_str();
+  command->add_option("--rate", job->rate, "Pictures a second")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
   AddOptions(*command, job->options, "Force");
   command->callback([job] { Run(*job); });
 }

@@ -115,40 +115,15 @@ void Pictures::TakeTissues(const authoring::Document& document) {
 // Tissues that live are shown as they are; when the session ends, as the document has them.
 void Pictures::TakeLiveTissues(const EditorState& state) {
   const Practice* live = state.live();
-  const simulation::WorldPicture* world = live != nullptr ? live->tissues() : nullptr;
   if (live_ != live) {
-    if (!live_bodies_.empty()) surfaces_.clear();  // they are shown anew
+    if (!live_tissues_.empty()) surfaces_.clear();  // they are shown anew
     live_ = live;
-    live_bodies_.clear();
+    live_tissues_.Forget();
     TakeTissues(state.document());
   }
-  if (world == nullptr) return;
-  live_bodies_.resize(world->bodies.size());
-  for (std::size_t i = 0; i < world->bodies.size(); ++i) {
-    const simulation::BodyPicture& body = world->bodies[i];
-    LiveBody& shown = live_bodies_[i];
-    if (body.skin == nullptr || (shown.skin == body.skin && shown.shape == body.shape)) continue;
-    // The view's tissue frame is before the scale of its pose, the body's is after it.
-    const double scale =
-        state.document().scene.tissues[static_cast<std::size_t>(body.tissue)].pose.scale;
-    const auto unscaled = [scale](std::vector<glm::dvec3> x) {
-      for (glm::dvec3& p : x) p /= scale;
-      return x;
-    };
-    const bool is_cut =
-        shown.skin != body.skin && (shown.skin != nullptr || !body.skin->is_fresh.empty());
-    if (is_cut) {
-      SurfaceMesh surface = body.skin->surface;
-      surface.vertices = unscaled(std::move(surface.vertices));
-      scope_.SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
-      overview_.SetTissueSurface(body.tissue, surface);
-    }
-    shown = {body.skin, body.shape};
-    const std::vector<glm::dvec3> positions = unscaled(body.positions);
-    const bool moved = scope_.SetTissueShape(body.tissue, positions, body.normals);
-    overview_.SetTissueShape(body.tissue, positions, body.normals);
-    changed_ = changed_ || moved || is_cut;
-  }
+  if (live == nullptr || live->tissues() == nullptr) return;
+  if (live_tissues_.Show(*live->tissues(), state.document().scene.tissues, scope_, &overview_))
+    changed_ = true;
 }
 
 void Pictures::Take(const EditorState& state) {

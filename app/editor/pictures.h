@@ -10,6 +10,7 @@
 #include "app/commands/editor_state.h"
 #include "app/panels/panels.h"
 #include "app/view/arthroscopic_view.h"
+#include "app/view/live_tissues.h"
 #include "app/view/overview.h"
 
 namespace arthro::app {
@@ -58,12 +59,8 @@ class Pictures {
   Backdrop backdrop_;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
-  struct LiveBody {
-    std::shared_ptr<const simulation::BodySkin> skin;
-    std::uint64_t shape = 0;
-  };
   const Practice* live_ = nullptr;  // whose bodies are shown
-  std::vector<LiveBody> live_bodies_;
+  LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1;
   Picture overview_tools_;  // as the overview last got them
   glm::dvec2 pointer_{-1.0};

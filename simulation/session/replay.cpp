@@ -92,7 +92,8 @@ std::string CsvField(const std::string& name) {
 
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options, const Progress& progress,
-                             ReplayReport* report, std::vector<BodySpec> bodies) {
+                             ReplayReport* report, std::vector<BodySpec> bodies,
+                             const ReplayWatch& watch) {
   using Clock = std::chrono::steady_clock;
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
@@ -102,6 +103,7 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   ReplayReport counts;
   TickTimes times;
+  const WorldPicture* world = session.tissues();
   const auto tick = [&](double t, double dt) {
     const DeviceSample scope_sample = scope.At(t), instrument_sample = instrument.At(t);
     const Clock::time_point start = Clock::now();
@@ -109,7 +111,7 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
     times.Add(std::chrono::duration<double>(Clock::now() - start).count());
     ++counts.ticks;
     session.TickTissues(dt);
-    if (session.HasNewTissues()) CountTissues(*session.tissues(), counts.tissues);
+    if (session.HasNewTissues()) CountTissues(*(world = session.tissues()), counts.tissues);
     if (scope_sample.valid) Count(session.snapshot().scope, dt, counts.hand[0]);
     if (instrument_sample.valid) Count(session.snapshot().instrument, dt, counts.hand[1]);
   };
@@ -136,6 +138,7 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
                         is_scope ? session.snapshot().scope : session.snapshot().instrument});
       ++counts.hand[is_scope ? 0 : 1].rows;
     }
+    if (watch) watch(next, session.snapshot(), session.instrument(), world);
   }
   progress.Step("replay", 1.0);
   if (report != nullptr) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -51,10 +52,16 @@ struct ReplayReport {
   std::vector<TissueReport> tissues;     // those that live
 };
 
+// Called after the ticks of each instant of the trace, its own t in s; `world` is null where
+// nothing lives.
+using ReplayWatch =
+    std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
+
 // `bodies`: the tissues that live, of LivingTissues; with none all are rigid. They step inline.
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options = {}, const Progress& progress = {},
-                             ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {});
+                             ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
+                             const ReplayWatch& watch = {});
 
 // forces.csv of design §5: contact none|backdrop|tissue name, fault none|…; a tool over no pixel
 // has u_px and v_px nan.

@@ -1,0 +1,45 @@
+#include "app/view/live_tissues.h"
+
+#include <utility>
+
+namespace arthro::app {
+namespace {
+
+// A body's own frame is its tissue's after the scale of the pose; the views' is before it.
+std::vector<glm::dvec3> Unscaled(std::vector<glm::dvec3> x, double scale) {
+  if (scale != 1.0)
+    for (glm::dvec3& p : x) p /= scale;
+  return x;
+}
+
+}  // namespace
+
+bool LiveTissues::Show(const simulation::WorldPicture& world, std::span<const Tissue> tissues,
+                       ArthroscopicView& scope, Overview* overview) {
+  bool changed = false;
+  shown_.resize(world.bodies.size());
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const simulation::BodyPicture& body = world.bodies[i];
+    Shown& shown = shown_[i];
+    if (body.skin == nullptr || (shown.skin == body.skin && shown.shape == body.shape)) continue;
+    const double scale = tissues[static_cast<std::size_t>(body.tissue)].pose.scale;
+
+    // The scene's own surface is there already; any other one comes from a cut or its undoing.
+    const bool is_other =
+        shown.skin != body.skin && (shown.skin != nullptr || !body.skin->is_fresh.empty());
+    if (is_other) {
+      const SurfaceMesh surface{Unscaled(body.skin->surface.vertices, scale),
+                                body.skin->surface.triangles};
+      scope.SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
+      if (overview != nullptr) overview->SetTissueSurface(body.tissue, surface);
+    }
+    shown = {body.skin, body.shape};
+    const std::vector<glm::dvec3> positions = Unscaled(body.positions, scale);
+    const bool moved = scope.SetTissueShape(body.tissue, positions, body.normals);
+    if (overview != nullptr) overview->SetTissueShape(body.tissue, positions, body.normals);
+    changed = changed || moved || is_other;
+  }
+  return changed;
+}
+
+}  // namespace arthro::app
