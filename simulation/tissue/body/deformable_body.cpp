@@ -251,9 +251,16 @@ void DeformableBody::RunRefresh() noexcept { impl_->solver.RunRefresh(); }
 
 void DeformableBody::TakeRefresh() noexcept { impl_->solver.TakeRefreshed(); }
 
+void DeformableBody::WhenCut(std::function<void()> finish) {
+  impl_->finish_refresh = std::move(finish);
+}
+
 void DeformableBody::Reset() {
   const std::uint64_t version = impl_->shape_version;
+  std::function<void()> finish = impl_->finish_refresh;
+  if (finish) finish();
   impl_ = std::make_unique<Impl>(impl_->spec, impl_->options);
+  impl_->finish_refresh = std::move(finish);
   impl_->shape_version += version;
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -85,6 +86,9 @@ class DeformableBody {
   void BeginRefresh();
   void RunRefresh() noexcept;
   void TakeRefresh() noexcept;
+  // A cut needs a new factor at once: `finish` is called before, to wait for one that is being made
+  // elsewhere and take it.
+  void WhenCut(std::function<void()> finish);
 
   void Reset();  // as it was before it was touched or cut
 

@@ -1,6 +1,8 @@
 // What is inside a DeformableBody, for the files that it is written in: stepping and cutting.
 #pragma once
 
+#include <functional>
+
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/contact/obstacle_contact.h"
@@ -32,6 +34,8 @@ struct CutState {
   FieldSkin skin;
   SolidField original;
   std::vector<int> element_of_vertex;  // of the whole mesh, one a vertex of the field's skin
+  std::vector<int> element_of_node;  // of the whole mesh, one a node of the field; −1: not asked
+  std::vector<unsigned char> is_near;  // of the whole mesh: an element where the tool is now
   Shaver shaver;
   CutReport report;
 };
@@ -61,11 +65,15 @@ struct DeformableBody::Impl {
   // Bites and shavings of this step; true when something was taken.
   bool CutWithTools(std::span<const WorldTool> tools, double dt);
   bool CutWith(const Capsule& tool, bool is_shaver, double dt);
+  void BeginCutting();
   // The field changed within `box`: elements, state, solver and skin follow.
   void FollowField(const Box3& box);
   // For everything that has as many entries as the shape has nodes or the skin vertices.
   void MakeRoom();
-  Box3 RestBoxOf(const Capsule& tool) const;
+  // At rest, of the elements that are where the tool is now; they are flagged in cut->is_near.
+  Box3 RestBoxOf(const Capsule& tool);
+  // Where a node of the field is now; false: not near the tool, or no tissue.
+  bool PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place);
 
   BodySpec spec;
   BodyOptions options;
@@ -87,6 +95,7 @@ struct DeformableBody::Impl {
   bool is_asleep = true;  // at rest until it is touched
   int quiet = 0, since_good = 0, since_refresh = 0, since_shave = 0;
   bool wants_refresh = false;
+  std::function<void()> finish_refresh;  // ends one that runs elsewhere
 };
 
 }  // namespace arthro::simulation

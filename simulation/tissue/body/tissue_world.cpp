@@ -27,13 +27,18 @@ struct TissueWorld::Impl {
     double step_ms = 0;
   };
 
+  void FinishRefresh() noexcept {
+    if (refreshing == nullptr) return;
+    worker.Wait();
+    refreshing->TakeRefresh();
+    refreshing = nullptr;
+  }
+
   // One body at a time has its factor made anew.
   void Refresh() noexcept {
     if (refreshing != nullptr) {
       if (++refresh_age < kRefreshSteps) return;
-      worker.Wait();
-      refreshing->TakeRefresh();
-      refreshing = nullptr;
+      FinishRefresh();
     }
     for (Held& held : bodies) {
       if (!held.body.WantsRefresh()) continue;
@@ -60,8 +65,10 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
                          std::shared_ptr<const RigidObstacle> obstacle, bool second_thread)
     : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
   impl_->bodies.reserve(specs.size());
-  for (BodySpec& spec : specs)
+  for (BodySpec& spec : specs) {
     impl_->bodies.push_back({DeformableBody(std::move(spec), options), {}, 0});
+    impl_->bodies.back().body.WhenCut([own = impl_.get()] { own->FinishRefresh(); });
+  }
 }
 TissueWorld::~TissueWorld() = default;
 TissueWorld::TissueWorld(TissueWorld&&) noexcept = default;
@@ -106,8 +113,7 @@ void TissueWorld::Show(WorldPicture& picture) const {
 bool TissueWorld::IsEmpty() const noexcept { return impl_->bodies.empty(); }
 
 void TissueWorld::Reset() {
-  impl_->worker.Wait();
-  impl_->refreshing = nullptr;
+  impl_->FinishRefresh();
   for (Impl::Held& held : impl_->bodies) held.body.Reset();
 }
 
