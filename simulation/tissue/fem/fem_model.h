@@ -46,6 +46,7 @@ class FemModel {
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   std::span<const double> mass() const { return mass_; }  // kg a node, lumped (HRZ), positive
   double volume() const { return volume_; }               // m³, with the shares
+  std::span<const double> shares() const { return share_; }
 
   // New shares on the same elements; masses follow.
   void SetShares(std::span<const double> share);

@@ -40,8 +40,8 @@ struct Symbolic {
               "the mesh is too large to be factored in this computer's memory; use fewer elements");
 }
 
-// Lower triangle of the pattern, one row a node.
-Matrix NodeGraph(Session& session, const BlockPattern& pattern) {
+// Lower triangle of the pattern, one row a node; nodes that are held altogether meet nobody.
+Matrix NodeGraph(Session& session, const BlockPattern& pattern, const FixedAxes& fixed) {
   const auto n = pattern.node_count();
   Matrix graph{session, cholmod_allocate_sparse(n, n, pattern.column.size(), true, true, -1,
                                                 CHOLMOD_PATTERN, &session.common)};
@@ -52,7 +52,8 @@ Matrix NodeGraph(Session& session, const BlockPattern& pattern) {
   for (int j = 0; j < n; ++j) {
     begin[j] = count;
     for (int k = pattern.row_begin[j]; k < pattern.row_begin[j + 1]; ++k)
-      if (const int i = pattern.column[k]; i >= static_cast<int>(j)) row[count++] = i;
+      if (const int i = pattern.column[k]; i == j || (i > j && fixed[i] != 7 && fixed[j] != 7))
+        row[count++] = i;
   }
   begin[n] = count;
   return graph;
@@ -76,12 +77,10 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
   if (size_ == 0) return;
 
   Session session;
-  const Matrix graph = NodeGraph(session, *pattern_);
+  const Matrix graph = NodeGraph(session, *pattern_, fixed_);
   // The scalar pattern, lower triangle.
   std::size_t entries = 0;
-  for (int j : axis)
-    entries += 3 * pattern_->row_begin[static_cast<std::size_t>(j / 3 + 1)] -
-               pattern_->row_begin[static_cast<std::size_t>(j / 3)];
+  for (int j : axis) entries += 3 * (pattern_->row_begin[j / 3 + 1] - pattern_->row_begin[j / 3]);
   const auto n = size_;
   const Matrix scalar{session, cholmod_allocate_sparse(n, n, entries, true, true, -1,
                                                        CHOLMOD_PATTERN, &session.common)};

@@ -121,6 +121,7 @@ void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fi
     x[i] = body.good_x[parent[i]];
     v[i] = body.good_v[parent[i]];
   }
+  body.recovery_factor.reset();  // made again should it be needed
   body.model = std::move(model);
   body.fixed = std::move(fixed);
   body.Fit();

@@ -29,6 +29,7 @@ ImplicitSolver::Impl::Impl(std::shared_ptr<const FemModel> model_in, FixedAxes f
   CheckOptions(options);
   Fit();
   FactorRest();
+  MakeRecovery();
   begin_x = good_x = model->mesh().rest_positions;
   good_v.assign(begin_x.size(), glm::dvec3(0.0));
 }
@@ -176,7 +177,9 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
   }
   body.FillResults(state.x, results);
   body.FinishReactions(problem);
-  for (std::size_t i = 0; i < nodes; ++i) state.v[i] = (state.x[i] - body.begin_x[i]) / dt;
+  // A body that was laid anew has not flown there.
+  for (std::size_t i = 0; i < nodes; ++i)
+    state.v[i] = body.was_laid ? glm::dvec3(0.0) : (state.x[i] - body.begin_x[i]) / dt;
   report.clamped_speed = slow_down() || came_fast;
   std::copy(state.x.begin(), state.x.end(), body.good_x.begin());
   std::copy(state.v.begin(), state.v.end(), body.good_v.begin());

@@ -55,6 +55,11 @@ struct ImplicitSolver::Impl {
   bool SearchAlong(std::span<glm::dvec3> x, const Problem& problem, Law law, Tangent tangent);
   LinearSystem System() const;
 
+  // shape_recovery.cpp
+  void MakeRecovery();
+  void LayRestShape(std::span<glm::dvec3> x) const;
+  void RecoverShape(std::span<glm::dvec3> x, const Problem& problem);
+
   // compliance.cpp
   std::vector<ContactSpring> SpringsWithout(std::span<const ContactPoint> points) const;
 
@@ -96,11 +101,18 @@ struct ImplicitSolver::Impl {
   CgVectors vectors;
   std::array<CgVectors, 3> tool_vectors;  // of ToolStiffness
   std::array<std::vector<glm::dvec3>, 3> tool_right, tool_left;
-  bool is_recovering = false;  // from inverted elements, by the corotated law
-  int recovery_steps = 0;
+  bool is_recovering = false;  // from inverted elements
+  bool was_laid = false;       // this step put the rest shape where the body was
+  int recovery_rounds = 0, rounds_once_clean = 0;
   bool has_given_up = false;  // recovering ended with elements inverted: they are meant to be
+  bool wants_factor = false;  // the last system asked for many iterations
   bool met_negative = false;  // since Newton began, the true tangent was not positive
   int projected_left = 0;     // Newton iterations that go on with the projected tangent
+
+  // The corotated law without sideways stiffness, and a factor that bounds its tangent everywhere.
+  std::unique_ptr<const FemModel> recovery_model;
+  std::unique_ptr<SparseFactor> recovery_factor;
+  std::vector<glm::dvec3> recovery_force;
 
   std::unique_ptr<RotatedFactor> factor;
   int age = 0;

@@ -11,10 +11,10 @@ namespace {
 
 // Beyond this residual, inverted elements are a state to be left; below, an answer under load.
 constexpr double kFarFromRest = 0.2;
-constexpr int kLongestRecovery = 200;    // Newton iterations
 constexpr int kProjectedIterations = 3;  // after the true tangent was found not to be positive
-constexpr double kAsleep = 1e-4;     // of the tolerance: a step that begins there has nothing to do
-constexpr int kManyIterations = 12;  // that call for a new factor where one may be made
+constexpr int kFollowingIterations = 300;
+constexpr double kAsleep = 1e-4;    // of the tolerance: a step that begins there has nothing to do
+constexpr int kManyIterations = 8;  // that call for a new factor where one may be made
 
 }  // namespace
 
@@ -97,8 +97,17 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
   linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : goal.tolerance;
   linear.residual = is_static ? 0.0 : 0.5 * goal.tolerance * scale;
   linear.max_iterations = goal.max_iterations;
-  linear.takes_saddles = goal.follows;
+  if (goal.follows) {
+    // The energy of an indefinite system's error says nothing, and plain Newton needs its whole
+    // step.
+    linear.takes_saddles = true;
+    linear.max_iterations = std::min(linear.max_iterations, kFollowingIterations);
+    linear.relative = 1e-5;
+    linear.residual = 1e-5 * residual * scale;
+  }
   model->NodeRotations(x, rotation);
+  if (goal.refactors && wants_factor) FactorNow(x);
+  wants_factor = false;
   for (int attempt = 0; attempt < 3; ++attempt) {
     const LinearSystem system = System();
     for (std::size_t i = 0; i < x.size(); ++i) right[i] = -gradient[i];
@@ -110,17 +119,14 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     factor->SetDiagonal(stiffness, system.added);
     const CgResult result = SolveByGradients(system, *factor, right, linear, vectors, direction);
     report.iterations += result.iterations;
-    if ((result.is_positive || (goal.follows && result.converged)) &&
-        (!goal.refactors || result.iterations <= kManyIterations || attempt > 0))
-      break;
+    wants_factor = wants_factor || result.iterations > kManyIterations;
     met_negative = met_negative || !result.is_positive;
     if (!result.is_positive && !goal.follows) {
       // What was found so far goes downhill all the same; the projected tangent gives a whole step.
       projected_left = kProjectedIterations;
       if (at_tangent == Tangent::kProjected) break;
       Evaluate(x, at_law, Tangent::kProjected);
-    } else if (result.converged) {
-      FactorNow(x);  // for the next iteration
+    } else if (result.converged || !goal.refactors || attempt > 0) {
       break;
     } else {
       FactorNow(x);
@@ -171,15 +177,11 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     }
   int stuck = 0;
   met_negative = false;
+  was_laid = false;
   while (true) {
-    Law law = is_recovering ? Law::kCorotated : own;
-    Tangent tangent = is_recovering || projected_left > 0 ? Tangent::kProjected : Tangent::kTrue;
-    Evaluate(x, law, tangent);
-    if (is_recovering && assembly.inverted == 0) {
-      is_recovering = false;
-      recovery_steps = 0;
-      continue;
-    }
+    const Tangent tangent =
+        projected_left > 0 && !goal.follows ? Tangent::kProjected : Tangent::kTrue;
+    Evaluate(x, own, tangent);
     if (assembly.inverted == 0) has_given_up = false;
     SetSprings(x, true);
     const double scale = Gradient(x, problem);
@@ -187,20 +189,21 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     report.residual = residual;
     report.inverted = assembly.inverted;
     report.energy = assembly.energy;
-    report.used_fallback = report.used_fallback || is_recovering;
+    const bool is_far = assembly.inverted > 0 && !has_given_up && residual > kFarFromRest;
+    if (is_far && goal.follows) return report;  // led astray: a shorter way may do
+    if ((is_far || is_recovering) && report.newton < goal.max_newton && std::isfinite(residual)) {
+      // Elements that are inside out: another way, until none is.
+      report.used_fallback = true;
+      report.newton += 1;
+      for (std::size_t i = 0; i < x.size() && leads; ++i) x[i] += lead[i];
+      leads = false;
+      if (!recovery_factor) MakeRecovery();  // after a cut
+      RecoverShape(x, problem);
+      continue;
+    }
     if (!std::isfinite(residual) || !std::isfinite(assembly.energy)) {
       report.is_finite = false;
       return report;
-    }
-    if (!is_recovering && !has_given_up && assembly.inverted > 0 && residual > kFarFromRest) {
-      is_recovering = true;
-      continue;
-    }
-    if (is_recovering && (++recovery_steps > kLongestRecovery || residual <= goal.tolerance)) {
-      is_recovering = false;
-      has_given_up = true;
-      recovery_steps = 0;
-      continue;
     }
     const bool is_rounding = Norm(gradient) <= force_noise;
     const bool is_free_to_end = !leads && !is_recovering;
@@ -214,7 +217,7 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     if (met_negative && !goal.follows && report.newton > goal.patience) return report;
     ++report.newton;
     FindDirection(x, problem, goal, scale, residual, leads, report);
-    tangent = at_tangent;
+    const Tangent used = at_tangent;
     projected_left = std::max(0, projected_left - 1);
     if (leads || goal.follows) {
       // The fixed axes go where they are led, whatever that costs.
@@ -224,7 +227,7 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
           x[i] += (glm::dvec3(1.0) - is_free[i]) * (problem.target[i] - x[i]);
       }
       leads = false;
-    } else if (SearchAlong(x, problem, law, tangent)) {
+    } else if (SearchAlong(x, problem, own, used)) {
       stuck = 0;
     } else {
       ++stuck;

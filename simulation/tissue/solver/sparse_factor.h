@@ -1,9 +1,12 @@
 // Cholesky factor of a sparse symmetric positive definite matrix of 3×3 blocks, over the axes that
 // are free. CHOLMOD orders the nodes and finds the supernodes, once; the numbers are our own:
-// supernodal, left-looking, the same bits whatever BLAS is installed (Debian's default one is 10
-// times slower). Factored in double, kept in float as panels [L₁₁⁻¹; L₂₁ L₁₁⁻¹], so that a solve is
-// one streaming product a panel each way: half the memory traffic of double, which is what bounds
-// it; good to about 1e-6, as a preconditioner wants. Solve allocates nothing.
+// supernodal, left-looking, with the same bits whatever BLAS is installed. Factored in double, kept
+// in float as panels [L₁₁⁻¹; L₂₁ L₁₁⁻¹], so that a solve is one streaming product a panel each way:
+// half the memory traffic of double, which is what bounds it; good to about 1e-6, as a
+// preconditioner wants (panels in double saved no iteration, at nu = 0.4999 neither). At 5.9
+// thousand axes 29 ms to factor and 0.44 ms to solve, where CHOLMOD takes 54 and 1.1 with ATLAS,
+// 103 and 1.6 with Debian's reference BLAS (processor time on the project's machine, -O2). Solve
+// allocates nothing.
 #pragma once
 
 #include <cstdint>

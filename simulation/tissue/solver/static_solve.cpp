@@ -15,7 +15,8 @@ constexpr double kMargin = 0.03;
 constexpr double kStepTolerance = 1e-3;        // on the way
 constexpr double kSmallestShare = 1.0 / 1024;  // of the load
 constexpr int kPatienceAtSaddle = 8;           // Newton iterations
-constexpr int kNewtonFollowing = 15;           // plain ones, which converge soon or not at all
+constexpr int kNewtonFollowing = 30;           // plain ones, which converge soon or not at all
+constexpr double kFarOff = 0.1;
 constexpr double kNearlyThere = 1e-7;  // residual at which another way there would end the same
 constexpr int kMostIterations = 2000;  // conjugate-gradient iterations a Newton iteration
 
@@ -90,6 +91,11 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   };
   goal.patience = kPatienceAtSaddle;
   bool is_done = attempt(1, 0, true);
+  if (!is_done && body.met_negative && total.residual > kFarOff) {
+    // Too much at once: the tangent of where that leads says nothing.
+    goal.patience = kNewtonRecovery;
+    is_done = climb(0.25);
+  }
   if (!is_done && body.met_negative) {
     // Several equilibria: the one on the way that the load grows is asked for.
     goal.follows = true;

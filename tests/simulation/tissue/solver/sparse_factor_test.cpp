@@ -92,6 +92,13 @@ TEST(SparseFactor, SolvesWhatItFactored) {
   }
 }
 
+// 18 thousand axes: room for the pattern is counted by its entries, no more.
+TEST(SparseFactor, PlansMeshesBeyondTheLargestOfTheTissues) {
+  const FactorPlan plan(Grid(45, 15, 9).pattern, {});
+  EXPECT_EQ(plan.size(), 3 * 45 * 15 * 9);
+  EXPECT_GT(plan.stored(), plan.size());
+}
+
 TEST(SparseFactor, LeavesFixedAxesOutOneByOne) {
   const BlockMatrix a = Grid(7, 5, 4);
   FixedAxes fixed(7 * 5 * 4, 0);
