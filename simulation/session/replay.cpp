@@ -61,6 +61,7 @@ void CountTissues(const WorldPicture& world, std::vector<TissueReport>& reports)
     if (body.report.is_asleep) continue;
     ++report.steps;
     report.resets += body.report.was_reset;
+    report.fallbacks += body.report.step.used_fallback;
     report.most_iterations = std::max(report.most_iterations, body.report.step.iterations);
     report.step_ms += body.step_ms;  // a sum until the end
     report.cut = body.cut;
@@ -198,6 +199,7 @@ std::string ReportText(const ReplayReport& report, const Scene& scene) {
     nlohmann::ordered_json& entry = json["tissues"][ContactName(1 + tissue.tissue, scene)];
     entry["steps_awake"] = tissue.steps;
     entry["resets"] = tissue.resets;
+    entry["recoveries"] = tissue.fallbacks;
     entry["most_iterations"] = tissue.most_iterations;
     entry["mean_step_ms"] = tissue.step_ms;
     entry["largest_displacement"] = tissue.deepest;

@@ -38,6 +38,7 @@ struct HandReport {
 struct TissueReport {
   int tissue = 0;              // in the scene
   long steps = 0, resets = 0;  // of the steps that it was awake
+  long fallbacks = 0;            // steps that recovered inverted elements
   int most_iterations = 0;     // of conjugate gradients, a step
   double step_ms = 0;          // mean of the steps it was awake, of this machine's processor
   double deepest = 0;          // m, the furthest that a vertex of its skin was from rest
