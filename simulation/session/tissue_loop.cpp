@@ -1,6 +1,7 @@
 #include "simulation/session/tissue_loop.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "simulation/core/background_worker.h"
@@ -16,8 +17,8 @@ constexpr double kLongestStep = 0.05;  // s
 // The worker's own thread does a step at a time; `is_busy` is the servo's way of asking without
 // waiting.
 struct TissueLoop::Thread {
-  BackgroundWorker worker{true};
   std::atomic<bool> is_busy{false};
+  BackgroundWorker worker{true};  // last: its work ends before is_busy does
 };
 
 TissueLoop::TissueLoop(TissueWorld world, TissuePace pace, double period)
