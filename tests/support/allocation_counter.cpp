@@ -6,15 +6,18 @@
 namespace {
 
 thread_local long allocations = 0;
+thread_local bool has_memory = true;
 
 void* Allocate(std::size_t size) {
   ++allocations;
+  if (!has_memory) throw std::bad_alloc();
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
 
 void* Allocate(std::size_t size, std::size_t alignment) {
   ++allocations;
+  if (!has_memory) throw std::bad_alloc();
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   if (void* memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment))
     return memory;
@@ -25,6 +28,8 @@ void* Allocate(std::size_t size, std::size_t alignment) {
 
 namespace arthro::test {
 long Allocations() noexcept { return allocations; }
+NoMemory::NoMemory() noexcept { has_memory = false; }
+NoMemory::~NoMemory() { has_memory = true; }
 }  // namespace arthro::test
 
 void* operator new(std::size_t size) { return Allocate(size); }

@@ -85,9 +85,9 @@ DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
   if (!spec.fixed.empty() &&
       std::none_of(shape->fixed.begin(), shape->fixed.end(), [](auto bits) { return bits != 0; }))
     throw Error(Code::kBadScene,
-                fmt::format("{}: none of the {} balls that should hold it contains a node of its "
+                fmt::format("none of the {} balls that should hold it contains a node of its "
                             "mesh; paint where it is held again",
-                            spec.name, spec.fixed.size()));
+                            spec.fixed.size()));
   state.x = spec.mesh.rest_positions;
   state.v.assign(state.x.size(), glm::dvec3(0.0));
   MakeRoom();
@@ -162,8 +162,20 @@ DeformableBody& DeformableBody::operator=(DeformableBody&&) noexcept = default;
 
 BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle,
                                 double dt, std::span<ToolCoupling> coupling) noexcept {
+  if (impl_->is_lost && !impl_->is_refreshing) {
+    try {
+      Reset();
+    } catch (const std::exception&) {  // still no memory: it stands still until there is some
+    }
+  }
   Impl& own = *impl_;
   BodyReport report;
+  const auto lost = [&] {
+    own.is_lost = report.was_reset = true;
+    for (ToolCoupling& of_tool : coupling) of_tool.is_faulty = true;
+    return report;
+  };
+  if (own.is_lost) return lost();
   own.TakeTools(tools);
   if (own.is_asleep && !own.IsTouchedSoon()) {
     report.is_asleep = true;
@@ -173,10 +185,8 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   if (own.spec.is_cuttable) {
     try {
       report.was_cut = own.CutWithTools(tools, dt);
-    } catch (const std::exception&) {  // out of memory: the tissue is whole again, and it is said
-      Reset();
-      report.was_reset = true;
-      return report;
+    } catch (const std::exception&) {  // out of memory: soon whole again, and it is said
+      return lost();
     }
   }
 
@@ -245,11 +255,15 @@ void DeformableBody::BeginRefresh() {
   impl_->wants_refresh = false;
   impl_->since_refresh = 0;
   impl_->solver.BeginRefresh();
+  impl_->is_refreshing = true;
 }
 
 void DeformableBody::RunRefresh() noexcept { impl_->solver.RunRefresh(); }
 
-void DeformableBody::TakeRefresh() noexcept { impl_->solver.TakeRefreshed(); }
+void DeformableBody::TakeRefresh() noexcept {
+  impl_->solver.TakeRefreshed();
+  impl_->is_refreshing = false;
+}
 
 void DeformableBody::WhenCut(std::function<void()> finish) {
   impl_->finish_refresh = std::move(finish);
@@ -263,6 +277,8 @@ void DeformableBody::Reset() {
   impl_->finish_refresh = std::move(finish);
   impl_->shape_version += version;
 }
+
+bool DeformableBody::IsLost() const noexcept { return impl_->is_lost; }
 
 const BodySpec& DeformableBody::spec() const { return impl_->spec; }
 const BodyState& DeformableBody::state() const { return impl_->state; }

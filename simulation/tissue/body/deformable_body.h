@@ -47,7 +47,7 @@ struct BodyReport {
   StepReport step;
   bool is_asleep = false;
   bool was_cut = false;    // in this step
-  bool was_reset = false;  // the solver failed: back at the last good state
+  bool was_reset = false;  // the solver failed: back at the last good state; or lost
   int contacts = 0;
   double max_speed = 0;  // m/s
   int factor_age = 0;    // steps
@@ -91,6 +91,9 @@ class DeformableBody {
   void WhenCut(std::function<void()> finish);
 
   void Reset();  // as it was before it was touched or cut
+  // There was no memory for a cut: what it is now is not to be shown, and it is whole again at the
+  // first step that has memory and no refresh under way.
+  bool IsLost() const noexcept;
 
   const BodySpec& spec() const;
   const BodyState& state() const;

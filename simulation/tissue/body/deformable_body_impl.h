@@ -96,6 +96,8 @@ struct DeformableBody::Impl {
   int quiet = 0, since_good = 0, since_refresh = 0, since_shave = 0;
   bool wants_refresh = false;
   std::function<void()> finish_refresh;  // ends one that runs elsewhere
+  bool is_refreshing = false;  // between Begin and Take another thread may work on the solver
+  bool is_lost = false;        // a cut ended midway: to be made whole when nobody works on it
 };
 
 }  // namespace arthro::simulation

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "simulation/core/background_worker.h"
+#include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 
 namespace arthro::simulation {
@@ -11,6 +12,16 @@ namespace {
 // Steps from the begin of a new factor to its use, done or waited for: always as many, so that a
 // session gives the same bits on a fast and on a slow machine.
 constexpr int kRefreshSteps = 2;
+
+// What is wrong with a tissue, with its name.
+DeformableBody Made(BodySpec spec, const BodyOptions& options) {
+  const std::string name = spec.name;
+  try {
+    return DeformableBody(std::move(spec), options);
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.sentence(), error.file());
+  }
+}
 
 }  // namespace
 
@@ -66,7 +77,7 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
     : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
-    impl_->bodies.push_back({DeformableBody(std::move(spec), options), {}, 0});
+    impl_->bodies.push_back({Made(std::move(spec), options), {}, 0});
     impl_->bodies.back().body.WhenCut([own = impl_.get()] { own->FinishRefresh(); });
   }
 }
@@ -102,6 +113,7 @@ void TissueWorld::Show(WorldPicture& picture) const {
     shown.report = held.report;
     shown.cut = held.body.cut_report();
     shown.step_ms = held.step_ms;
+    if (held.body.IsLost()) continue;
     if (shown.shape == held.body.shape_version() && shown.skin == held.body.skin()) continue;
     shown.shape = held.body.shape_version();
     shown.skin = held.body.skin();

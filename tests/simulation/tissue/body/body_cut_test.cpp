@@ -8,6 +8,7 @@
 
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/body/slab_body.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -63,6 +64,41 @@ TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
   body.Reset();
   EXPECT_EQ(body.cut_report().removed, 0.0);
   EXPECT_EQ(body.positions().size(), whole->surface.vertices.size());
+}
+
+// The other thread works on what the body was until it hands it back.
+TEST(BodyCut, WithoutMemoryForABiteTheTissueIsWholeAgainButNotUnderARefresh) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  const WorldTool open = PunchAt(spec, 2e-3, 1.0), closed = PunchAt(spec, 2e-3, 0.0);
+  const auto step = [&](const WorldTool& punch) {
+    coupling = {};
+    return body.Step({&punch, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  step(open);
+  body.BeginRefresh();
+  const glm::dvec3* const held = body.state().x.data();
+  {
+    const test::NoMemory here;
+    EXPECT_TRUE(step(closed).was_reset);
+  }
+  EXPECT_TRUE(coupling.is_faulty);
+  EXPECT_TRUE(body.IsLost());
+  EXPECT_TRUE(step(closed).was_reset);
+  EXPECT_EQ(body.state().x.data(), held);
+  body.RunRefresh();
+  body.TakeRefresh();
+  {
+    const test::NoMemory still;
+    EXPECT_TRUE(step(closed).was_reset);
+  }
+  EXPECT_FALSE(step(closed).was_reset);
+  EXPECT_FALSE(body.IsLost());
+  EXPECT_FALSE(coupling.is_faulty);
+  EXPECT_EQ(body.cut_report().cuts, 0);
+  EXPECT_TRUE(IsSound(body));
 }
 
 TEST(BodyCut, ShaverTakesNoFasterThanItsRate) {
