@@ -1,15 +1,49 @@
 #include "simulation/session/living_tissues.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
 
 namespace arthro::simulation {
 namespace {
+
+struct Bounds {
+  glm::dvec3 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
+};
+
+Bounds BoundsOf(std::span<const glm::dvec3> points) {
+  Bounds bounds;
+  for (const glm::dvec3& x : points) {
+    bounds.low = glm::min(bounds.low, x);
+    bounds.high = glm::max(bounds.high, x);
+  }
+  return bounds;
+}
+
+// Of the surface's diagonal. What a mesh within its budget leaves out of a surface is far less; a
+// mesh of another tissue, or in another unit, is further off.
+constexpr double kMostOff = 0.2;
+
+void CheckFills(const TetMesh& mesh, const SurfaceMesh& surface, const std::string& name,
+                const std::filesystem::path& file) {
+  const Bounds of_mesh = BoundsOf(mesh.rest_positions), of_surface = BoundsOf(surface.vertices);
+  const double size = glm::distance(of_surface.low, of_surface.high);
+  const double off = std::max(glm::distance(of_mesh.low, of_surface.low),
+                              glm::distance(of_mesh.high, of_surface.high));
+  if (off > kMostOff * size)
+    throw Error(Code::kBadMesh,
+                fmt::format("{}: its tetrahedra and its surface of {:.3g} mm lie up to {:.3g} mm "
+                            "apart; fill this surface again with `arthroscene tetrahedralize`",
+                            name, 1e3 * size, 1e3 * off),
+                file);
+}
 
 BodySpec BodyOf(const Tissue& tissue, int index, const SurfaceMesh& surface, TetMesh mesh,
                 const TissuePreset& preset) {
@@ -49,7 +83,9 @@ std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceM
                   fmt::format("{}: there is no tissue preset \"{}\"; choose another material",
                               tissue.name, tissue.material));
     TetReadReport report;
-    TetMesh mesh = ReadTetMesh(file_of(tissue.mesh), &report);
+    const std::filesystem::path file = file_of(tissue.mesh);
+    TetMesh mesh = ReadTetMesh(file, &report);
+    CheckFills(mesh, surfaces[i], tissue.name, file);
     if (messages != nullptr)
       for (const std::string& message : report.messages)
         messages->push_back(tissue.name + ": " + message);

@@ -19,7 +19,8 @@ namespace arthro::simulation {
 using FileOf = std::function<std::filesystem::path(const std::filesystem::path& name)>;
 
 // `surfaces` has one a tissue. What reading a mesh repaired goes to `messages`, a sentence each.
-// Throws Error for a mesh that cannot be read and a preset that is not there.
+// Throws Error for a mesh that cannot be read or does not fill its surface and a preset that is not
+// there.
 std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
                                     const FileOf& file_of, const std::vector<TissuePreset>& presets,
                                     std::vector<std::string>* messages = nullptr);
