@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -10,9 +11,10 @@
 #include "app/cli/jobs.h"
 #include "app/cli/living_tissues_of.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/output_check.h"
 #include "app/cli/replay_pictures.h"
 #include "simulation/core/atomic_file.h"
-#include "simulation/core/error.h"
+#include "simulation/scene/scene_io.h"
 #include "simulation/session/replay.h"
 
 namespace arthro::app {
@@ -28,19 +30,29 @@ struct ReplayJob {
   double rate = 30.0;  // a second
 };
 
-bool IsSameFile(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
+// What a replay reads of a scene.
+std::vector<fs::path> FilesOf(const LoadedScene& loaded) {
+  std::vector<fs::path> files{SceneFile(loaded.folder)};
+  const auto add = [&](const fs::path& name) {
+    if (!name.empty()) files.push_back(loaded.folder / name);
+  };
+  const Scene& scene = loaded.scene;
+  add(scene.backdrop.panorama);
+  add(scene.backdrop.depth);
+  add(scene.scope.lens);
+  for (const Tissue& tissue : scene.tissues) {
+    add(tissue.surface);
+    add(tissue.mesh);
+  }
+  return files;
 }
 
 void Run(const ReplayJob& job) {
   CheckOptions(job.options);
-  for (const fs::path& output : {job.forces, job.report})
-    if (IsSameFile(output, job.trace))
-      throw Error(Code::kBadArgument, "the trace itself cannot be the output; name another file",
-                  output);
+  CheckOutputs({job.forces, job.report}, {job.trace, job.scene});
   const std::vector<simulation::TraceRow> trace = simulation::ReadTrace(job.trace);
   const LoadedScene loaded = LoadScene(job.scene);
+  CheckOutputs({job.forces, job.report}, FilesOf(loaded));
   std::optional<ReplayPictures> pictures;
   simulation::ReplayWatch watch;
   if (!job.pictures.empty()) {

@@ -10,6 +10,7 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
@@ -30,20 +31,17 @@ void CheckOutput(const SolveArguments& arguments) {
       std::filesystem::path(arguments.vtu).extension() != ".vtu")
     throw Error(Code::kBadArgument, "a volume is written as VTK's XML format; name it .vtu",
                 arguments.vtu);
-  if (!arguments.vtu.empty() && arguments.vtu == arguments.output)
+  if (arguments.vtu == "-" && arguments.output == "-")
     throw Error(Code::kBadArgument,
-                "the deformed mesh would overwrite the result; give it another name",
-                arguments.vtu);
-  std::error_code unknown;
-  for (const std::string& file : {arguments.output, arguments.vtu})
-    if (std::filesystem::equivalent(file, arguments.tissue_case, unknown))
-      throw Error(Code::kBadArgument, "this would overwrite the case; give it another name", file);
+                "result and mesh cannot both go to standard output; give one of them a file");
+  CheckOutputs({arguments.output, arguments.vtu}, {arguments.tissue_case});
 }
 
 void RunSolveJob(const SolveArguments& arguments) {
   CheckOutput(arguments);
   const Progress progress = TerminalProgress();
   simulation::TissueCase tissue_case = simulation::ReadCase(arguments.tissue_case);
+  CheckOutputs({arguments.output, arguments.vtu}, {tissue_case.mesh_file});
   for (const std::string& message : tissue_case.messages) fmt::print(stderr, "note: {}\n", message);
   const simulation::CaseResult result = simulation::RunCase(tissue_case, progress);
   WriteAtomically(arguments.output, simulation::JsonFromResult(result));

@@ -41,6 +41,8 @@ class CaseReader {
     root.Text("mesh", mesh, JsonObjectReader::kRequired);
     double order = 0, steps = case_.steps;
     root.Number("order", order, {1, 2}, JsonObjectReader::kRequired);
+    if (order != std::floor(order))
+      root.Fault("order", fmt::format("is {}; it must be 1 or 2", order));
     std::string mode = "static";
     root.Text("mode", mode);
     if (mode != "static" && mode != "dynamic")
@@ -52,7 +54,7 @@ class CaseReader {
     if (steps != std::floor(steps))
       root.Fault("steps", fmt::format("is {}; it must be a whole number", steps));
     case_.steps = static_cast<int>(steps);
-    root.Number("tolerance", case_.tolerance, {1e-14, 0.5});
+    root.Number("tolerance", case_.tolerance, {1e-12, 0.5});
     root.Point("body_force", case_.body_force, kNewtonsPerVolume);
     ReadConditions(root);
     std::string schema;
@@ -118,9 +120,9 @@ class CaseReader {
   }
 
   void ReadMesh(const std::string& name, int order) {
-    const std::filesystem::path path = file_.parent_path() / name;
+    case_.mesh_file = file_.parent_path() / name;
     TetReadReport report;
-    case_.mesh = ReadTetMesh(path, &report);
+    case_.mesh = ReadTetMesh(case_.mesh_file, &report);
     case_.messages = report.messages;
     if (case_.mesh.order != order)
       throw Error(Code::kBadData,

@@ -31,6 +31,7 @@ struct CaseLoad {
 };
 
 struct TissueCase {
+  std::filesystem::path mesh_file;
   TetMesh mesh;
   std::vector<std::string> messages;  // what reading the mesh changed
   Material material;

@@ -106,6 +106,24 @@ TEST(BadInput, NotANumberInATrace) {
                 "line 3", folder / "f.csv");
 }
 
+TEST(BadInput, ReplayOverTheSceneThatItPlaysIn) {
+  TempFolder folder;
+  MakeScene(folder.path());
+  WriteAtomically(folder / "trace.csv",
+                  "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n0,scope,0,0,-0.17,1,0,0,0,0\n");
+  const auto in = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::string replay = "replay " + folder.path().string() + " " + in("trace.csv") + " -o ";
+  for (const char* name : {"scene.json", "panorama.png", "depth.tiff", "trace.csv"}) {
+    const std::string before = ReadWholeFile(in(name));
+    ExpectRefusal(replay + in(name) + " --report " + in("r.json"), "overwrite", in("r.json"));
+    ExpectRefusal(replay + in("f.csv") + " --report " + in(name), "overwrite", in("f.csv"));
+    EXPECT_EQ(ReadWholeFile(in(name)), before) << name;
+  }
+  ExpectRefusal(replay + in("f.csv") + " --report " + in("./f.csv"), "this one file", in("f.csv"));
+  ExpectRefusal(replay + in("f.csv") + " --report " + in("none/r.json"), "does not exist",
+                in("f.csv"));
+}
+
 // A box of `size` with or without its lid.
 void WriteBox(const fs::path& file, double size, bool closed) {
   std::ofstream off(file);

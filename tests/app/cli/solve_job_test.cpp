@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "simulation/core/atomic_file.h"
 #include "simulation/scene/mesh_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
@@ -126,6 +128,26 @@ TEST(SolveJob, RefusesABadCaseInOneSentenceAndWritesNothing) {
   EXPECT_NE(run.program.err.find("it has left, nobody, right"), std::string::npos)
       << run.program.err;
   EXPECT_TRUE(run.json.is_null());
+}
+
+TEST(SolveJob, OverwritesNothingThatItReadsAndNoResultWithAnother) {
+  TempFolder folder;
+  WriteTetMesh(folder / "bar.vtu", Bar());
+  std::ofstream(folder / "case.json") << BarCase().dump();
+  const std::string mesh = ReadWholeFile(folder / "bar.vtu"),
+                    tissue_case = ReadWholeFile(folder / "case.json");
+  const auto in = [&](const char* name) { return (folder.path() / name).string(); };
+  for (const std::string& outputs :
+       {in("bar.vtu"), in("./case.json"), in("r.json") + " --vtu " + in("./bar.vtu"),
+        in("r.vtu") + " --vtu " + in("./r.vtu"), in("r.json") + " --vtu " + in("none/r.vtu")}) {
+    const ProgramResult program = RunProgram("solve " + in("case.json") + " -o " + outputs);
+    EXPECT_EQ(program.exit_code, 1) << outputs;
+    EXPECT_EQ(std::count(program.err.begin(), program.err.end(), '\n'), 1) << program.err;
+    EXPECT_FALSE(std::filesystem::exists(in("r.json"))) << outputs;
+    EXPECT_FALSE(std::filesystem::exists(in("r.vtu"))) << outputs;
+  }
+  EXPECT_EQ(ReadWholeFile(folder / "bar.vtu"), mesh);
+  EXPECT_EQ(ReadWholeFile(folder / "case.json"), tissue_case);
 }
 
 TEST(SolveJob, AReferenceCaseAsAUserRunsIt) {

@@ -61,6 +61,7 @@ TEST(CaseIo, SaysWhatIsWrong) {
       {"/mesh", "other.vtu", "other.vtu"},
       {"/order", 2, "order is 2"},
       {"/order", "1", "order is"},
+      {"/order", 1.5, "order is 1.5; it must be 1 or 2"},
       {"/mode", "quick", "static or dynamic"},
       {"/mode", "dynamic", "dt is missing"},
       {"/mode", 3, "mode is 3"},

@@ -1,0 +1,14 @@
+// What a job writes, looked at before its long part, so that a slip of the pen costs nothing.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace arthro::app {
+
+// Throws Error(kBadArgument) where an output would overwrite one of `inputs` or another output, and
+// Error(kFile) where its folder is not there. Outputs that are empty or - are left out.
+void CheckOutputs(const std::vector<std::filesystem::path>& outputs,
+                  const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace arthro::app
