@@ -91,7 +91,7 @@ void Run(const DemoJob& job) {
   if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
   Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
   const auto rows =
-      simulation::Replay(loaded, trace, {}, progress, &report, LivingTissuesOf(loaded),
+      simulation::Replay(loaded, trace, {}, progress, &report, LivingTissuesOf(loaded), LayersOf(loaded),
                          [&](double t, const auto& snapshot, auto kind, const auto* world) {
                            moments.Watch(t, snapshot, kind, world);
                          });

@@ -10,5 +10,6 @@
 namespace arthro::app {
 
 std::vector<simulation::BodySpec> LivingTissuesOf(const LoadedScene& loaded);
+std::vector<simulation::LayerSpec> LayersOf(const LoadedScene& loaded);
 
 }  // namespace arthro::app

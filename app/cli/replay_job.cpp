@@ -63,7 +63,7 @@ void Run(const ReplayJob& job) {
   }
   simulation::ReplayReport report;
   const auto rows = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report,
-                                       LivingTissuesOf(loaded), watch);
+                                       LivingTissuesOf(loaded), LayersOf(loaded), watch);
   WriteAtomically(job.forces, simulation::ForcesText(rows, loaded.scene));
   if (!job.report.empty())
     WriteAtomically(job.report, simulation::ReportText(report, loaded.scene));

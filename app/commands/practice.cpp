@@ -36,7 +36,8 @@ simulation::Session SessionOf(const authoring::Document& document,
     const auto found = document.files.find(name.generic_string());
     return found != document.files.end() ? found->second.file : document.folder / name;
   };
-  session.Enliven(simulation::LivingTissues(document.scene, surfaces, file_of, presets), pace);
+  session.Enliven(simulation::LivingTissues(document.scene, surfaces, file_of, presets), pace,
+                  simulation::LayersOf(document.scene, surfaces, presets));
   return session;
 }
 

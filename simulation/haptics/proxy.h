@@ -11,6 +11,7 @@
 
 #include "simulation/haptics/depth_field.h"
 #include "simulation/haptics/planes.h"
+#include "simulation/haptics/softness.h"
 #include "simulation/haptics/surface_bvh.h"
 
 namespace arthro::simulation {
@@ -19,6 +20,7 @@ namespace arthro::simulation {
 struct Surroundings {
   const DepthField& field;
   std::span<const SurfaceBvh> meshes;
+  const Softness* softness = nullptr;  // null: all are rigid
 };
 
 // A ball's centre that stays at least `radius` from all surfaces.

@@ -94,4 +94,29 @@ std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceM
   return bodies;
 }
 
+std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh> surfaces,
+                                const std::vector<TissuePreset>& presets) {
+  std::vector<LayerSpec> layers;
+  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Tissue& tissue = scene.tissues[i];
+    if (!tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
+    const TissuePreset* found = FindTissuePreset(presets, tissue.material);
+    if (found == nullptr || !found->is_thin) continue;  // it is rigid
+    const TissuePreset preset = WithElasticity(*found, tissue.elasticity);
+    SurfaceMesh surface = surfaces[i];
+    for (glm::dvec3& x : surface.vertices) x *= tissue.pose.scale;
+    try {
+      layers.push_back({tissue.name,
+                        static_cast<int>(i),
+                        std::move(surface),
+                        {tissue.pose.quaternion, tissue.pose.position},
+                        ElasticLayer(preset.material, preset.layer_thickness)});
+    } catch (const Error& error) {
+      throw Error(Code::kBadScene, fmt::format("{}: {}", tissue.name, error.what()));
+    }
+  }
+  return layers;
+}
+
 }  // namespace arthro::simulation

@@ -11,6 +11,7 @@
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/body/layer_skin.h"
 #include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::simulation {
@@ -24,5 +25,10 @@ using FileOf = std::function<std::filesystem::path(const std::filesystem::path& 
 std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
                                     const FileOf& file_of, const std::vector<TissuePreset>& presets,
                                     std::vector<std::string>* messages = nullptr);
+
+// The tissues that give way as thin layers: those without tetrahedra whose preset is thin, with
+// what the scene says otherwise. Throws Error for values that are none of a layer.
+std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh> surfaces,
+                                const std::vector<TissuePreset>& presets);
 
 }  // namespace arthro::simulation

@@ -94,13 +94,13 @@ std::string CsvField(const std::string& name) {
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options, const Progress& progress,
                              ReplayReport* report, std::vector<BodySpec> bodies,
-                             const ReplayWatch& watch) {
+                             std::vector<LayerSpec> layers, const ReplayWatch& watch) {
   using Clock = std::chrono::steady_clock;
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
   Session session(loaded, options);
-  session.Enliven(std::move(bodies), TissuePace::kInline);
+  session.Enliven(std::move(bodies), TissuePace::kInline, std::move(layers));
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   ReplayReport counts;
   TickTimes times;

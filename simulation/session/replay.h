@@ -58,10 +58,12 @@ struct ReplayReport {
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
 
-// `bodies`: the tissues that live, of LivingTissues; with none all are rigid. They step inline.
+// `bodies` and `layers`: the tissues that live, of LivingTissues and LayersOf; with none all are
+// rigid. They step inline.
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options = {}, const Progress& progress = {},
                              ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
+                             std::vector<LayerSpec> layers = {},
                              const ReplayWatch& watch = {});
 
 // forces.csv of design §5: contact none|backdrop|tissue name, fault none|…; a tool over no pixel

@@ -32,6 +32,34 @@ DepthField FieldOf(const LoadedScene& loaded, const DepthFieldOptions& options) 
 // Jaws close and open in this time, so that what they bite is between them.
 constexpr double kJawTime = 0.15;  // s
 
+// The round end of the arthroscope's tube of 4 mm.
+constexpr double kScopeRadius = 2e-3;  // m
+
+// The layers under one tool, as contact asks of them. Haptics knows no tissue: only how deep it
+// sinks.
+class LayersUnderTool : public Softness {
+ public:
+  LayersUnderTool(std::span<const std::optional<ElasticLayer>> layers, double radius) noexcept
+      : layers_(layers), radius_(radius) {}
+  double Sink(int contact, double depth, double stiffness) const noexcept override {
+    const auto* layer = LayerOf(contact);
+    return layer != nullptr ? layer->BallDepthBySpring(radius_, stiffness, depth) : 0.0;
+  }
+  bool IsDeep(int contact, double sink) const noexcept {
+    const auto* layer = LayerOf(contact);
+    return layer != nullptr && layer->PressBall(radius_, sink).is_deep;
+  }
+
+ private:
+  const ElasticLayer* LayerOf(int contact) const noexcept {
+    const auto tissue = static_cast<std::size_t>(contact - 1);
+    if (contact < 1 || tissue >= layers_.size() || !layers_[tissue]) return nullptr;
+    return &*layers_[tissue];
+  }
+  std::span<const std::optional<ElasticLayer>> layers_;
+  double radius_;
+};
+
 // The backdrop as what tissue rests on.
 class BackdropObstacle : public RigidObstacle {
  public:
@@ -71,7 +99,15 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
   away_.resize(count);
   is_live_.assign(count, 0);
-  if (!scene.instruments.empty()) kind_ = ToolKindOf(scene.instruments.front().kind);
+  scope_.end_radius = kScopeRadius;
+  for (std::size_t kind = 0; kind < end_radius_.size(); ++kind)
+    end_radius_[kind] = EndRadius(ShapeOf(static_cast<ToolKind>(kind)));
+  SetInstrument(scene.instruments.empty() ? kind_ : ToolKindOf(scene.instruments.front().kind));
+}
+
+void Session::SetInstrument(ToolKind kind) noexcept {
+  kind_ = kind;
+  instrument_.end_radius = end_radius_[static_cast<std::size_t>(kind)];
 }
 
 void Session::SetIncisionSpacing(double spacing) noexcept {
@@ -89,7 +125,13 @@ void Session::SetLiveTissues(std::span<const std::uint8_t> is_live) {
   }
 }
 
-void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace) {
+void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace,
+                      std::vector<LayerSpec> layers) {
+  std::vector<std::optional<ElasticLayer>> under;
+  if (!layers.empty()) under.resize(meshes_.size());
+  for (const LayerSpec& layer : layers)
+    if (layer.tissue >= 0 && static_cast<std::size_t>(layer.tissue) < under.size())
+      under[static_cast<std::size_t>(layer.tissue)] = layer.layer;
   std::vector<std::uint8_t> is_live(meshes_.size(), 0);
   for (const BodySpec& body : bodies)
     if (body.tissue >= 0 && static_cast<std::size_t>(body.tissue) < is_live.size())
@@ -97,9 +139,11 @@ void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace) {
   BodyOptions options = options_.tissue;
   options.contact.stiffness = options_.contact.stiffness;
   auto obstacle = field_->empty() ? nullptr : std::make_shared<const BackdropObstacle>(field_);
-  TissueWorld world(std::move(bodies), options, std::move(obstacle), pace == TissuePace::kThread);
+  TissueWorld world(std::move(bodies), options, std::move(obstacle), pace == TissuePace::kThread,
+                    std::move(layers));
   tissues_ = world.IsEmpty() ? nullptr : std::make_unique<TissueLoop>(std::move(world), pace);
   SetLiveTissues(is_live);
+  layers_ = std::move(under);
 }
 
 void Session::ResetTissues() {
@@ -152,15 +196,19 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       // The tissue has the tool where the backdrop alone would let the hand put it, by the push of
       // the last tick.
       state.tissue_tip_in_portal =
-          tool.contact.contact >= 0 ? tip + (tool.contact.proxy.position - tool.contact.held) : tip;
+          tool.contact.contact >= 0
+              ? tip + (tool.contact.proxy.position + tool.contact.sink - tool.contact.held)
+              : tip;
       if (tool.tissue.to.step > 0) {
         const CoupledForce tissue =
             BlendedForce(tool.tissue, state.tissue_tip_in_portal, dt, kTissueFrame);
         pull = {tissue.force, tissue.tissue < 0 ? kNoContact : 1 + tissue.tissue};
         if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
       }
-      contact = TickContact({*field_, meshes_}, options_.contact, stiffness, portal, tip, dt,
-                            tool.contact, pull);
+      const LayersUnderTool layers(layers_, tool.end_radius);
+      contact = TickContact({*field_, meshes_, layers_.empty() ? nullptr : &layers},
+                            options_.contact, stiffness, portal, tip, dt, tool.contact, pull);
+      state.is_layer_deep = layers.IsDeep(tool.contact.contact, glm::length(tool.contact.sink));
       hand_force = HandForce(lever, contact.force);
     } else {
       fault = Fault::kNotFinite;
@@ -171,8 +219,9 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
     tool.contact = ContactState{};
   const LimitedForce limited =
       LimitForce(options_.limiter, hand_force, tool.hand_speed, fault, dt, tool.limiter);
-  state.proxy_in_portal =
-      tool.contact.has_started ? tool.contact.proxy.position : state.tip_in_portal;
+  if (!tool.contact.has_started) state.is_layer_deep = false;
+  state.proxy_in_portal = tool.contact.has_started ? tool.contact.proxy.position + tool.contact.sink
+                                                   : state.tip_in_portal;
   state.tip_force = contact.force;
   state.hand_force = limited.force;
   state.contact = contact.contact;
@@ -194,6 +243,10 @@ void Session::TickTissues(double dt) noexcept {
       PortalFromTool({spacing_, 0.0, 0.0}, state.tissue_tip_in_portal, state.pose.roll);
   hand.now.opening = state.opening;
   hand.now.is_running = state.is_running;
+  const ContactState& touch = instrument_.contact;
+  const auto pressed = static_cast<std::size_t>(touch.contact - 1);
+  if (touch.contact > 0 && pressed < layers_.size() && layers_[pressed])
+    hand.press = {touch.contact - 1, state.proxy_in_portal, glm::length(touch.sink)};
   tissues_->Tick(hand, dt);
   ToolCoupling coupling;
   if (tissues_->TakeCoupling(coupling)) SetCoupling(coupling);

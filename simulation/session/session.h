@@ -4,8 +4,10 @@
 // Both tools go the same way: rod pose, contact of the tip, lever, limiter. Portal frame, m, N, s.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,8 +48,10 @@ class Session {
   const SessionOptions& options() const noexcept { return options_; }
 
   // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
-  // TissuePace::kInline the same inputs give the same bits. Not on the servo path. Throws Error.
-  void Enliven(std::vector<BodySpec> bodies, TissuePace pace);
+  // TissuePace::kInline the same inputs give the same bits. `layers` stay among the rigid surfaces
+  // and give way to both tools by their closed form, in the servo; their picture is beside the
+  // bodies'. Not on the servo path. Throws Error.
+  void Enliven(std::vector<BodySpec> bodies, TissuePace pace, std::vector<LayerSpec> layers = {});
   // After each tick, by the same thread: the jaws and the tissue's own, slower clock. Inline it
   // steps here; on a thread this only hands the tool over.
   void TickTissues(double dt) noexcept;
@@ -56,7 +60,7 @@ class Session {
   bool HasNewTissues() const noexcept { return tissues_ && tissues_->HasNew(); }
   void ResetTissues();  // whole and at rest again; not on the servo path
   // The instrument in the hand, between ticks.
-  void SetInstrument(ToolKind kind) noexcept { kind_ = kind; }
+  void SetInstrument(ToolKind kind) noexcept;
   ToolKind instrument() const noexcept { return kind_; }
 
   // Which tissues are computed as living ones, a flag each (missing: not); those are left out of
@@ -73,6 +77,7 @@ class Session {
  private:
   struct Tool {
     DeviceRig rig;
+    double end_radius = 0;  // m, of what it presses a layer with
     ContactState contact;
     LimiterState limiter;
     bool has_sample = false;
@@ -90,11 +95,13 @@ class Session {
   std::vector<SurfaceBvh> meshes_;           // one a tissue; of living ones nothing
   std::vector<SurfaceBvh> away_;             // what living ones are when they do not live
   std::vector<std::uint8_t> is_live_;
+  std::vector<std::optional<ElasticLayer>> layers_;  // one a tissue, or none at all
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;
   Snapshot snapshot_;
   ToolKind kind_ = ToolKind::kProbe;
+  std::array<double, static_cast<std::size_t>(ToolKind::kGrasper) + 1> end_radius_{};  // by kind
   std::unique_ptr<TissueLoop> tissues_;
 };
 

@@ -212,4 +212,21 @@ double ElasticLayer::BallDepth(double radius, double force) const noexcept {
   return std::exp(0.5 * (low + high));
 }
 
+double ElasticLayer::BallDepthBySpring(double radius, double spring, double depth) const noexcept {
+  if (!IsPressed(radius, depth) || !(spring > 0.0) || !std::isfinite(spring)) return 0;
+  // Newton from the deep end, where the force is convex; a step out of the bracket halves it.
+  double low = 0, high = std::min(depth, thickness_);
+  if (PressBall(radius, high).force <= spring * (depth - high)) return high;
+  double at = high;
+  for (int i = 0; i < 60; ++i) {
+    const LayerTouch touch = PressBall(radius, at);
+    const double excess = touch.force - spring * (depth - at);
+    if (std::abs(excess) <= 1e-12 * spring * depth) break;
+    (excess > 0 ? high : low) = at;
+    const double next = at - excess / (touch.stiffness + spring);
+    at = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return at;
+}
+
 }  // namespace arthro::simulation

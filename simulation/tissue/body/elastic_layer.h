@@ -46,6 +46,10 @@ class ElasticLayer {
   // `force` to 1e-9 of it.
   double BallDepth(double radius, double force) const noexcept;
   double FlatDepth(double radius, double force) const noexcept;
+  // How deep a ball goes in that a spring (N/m) pulls to `depth` under the surface:
+  // PressBall(δ).force = spring (depth − δ) to 1e-12 of spring · depth. Never past the thickness,
+  // where the bone is. A spring that is not one: 0.
+  double BallDepthBySpring(double radius, double spring, double depth) const noexcept;
 
  private:
   // Contact radii over thickness from 0.01 to 10, evenly in the logarithm. Smaller is a half space

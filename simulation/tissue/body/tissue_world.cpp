@@ -1,5 +1,6 @@
 #include "simulation/tissue/body/tissue_world.h"
 
+#include <array>
 #include <utility>
 
 #include "simulation/core/background_worker.h"
@@ -62,7 +63,30 @@ struct TissueWorld::Impl {
     }
   }
 
+  struct HeldLayer {
+    LayerSkin skin;
+    double step_ms = 0;
+  };
+
+  // The tool as it is drawn: where the layer lets its tip be.
+  void StepLayers(const WorldTool& tool, const LayerPress& press) noexcept {
+    for (HeldLayer& held : layers) {
+      const double begin = ThreadCpuMs();
+      if (held.skin.spec().tissue != press.tissue || !(press.sink > 0.0)) {
+        held.skin.Release();
+      } else {
+        ToolInput drawn = tool.now;
+        drawn.portal_from_tool.translation = press.tip;
+        std::array<Capsule, kMaxCapsules> capsules;
+        const int count = PosedCapsules(tool.shape, drawn, capsules);
+        held.skin.Press({capsules.data(), static_cast<std::size_t>(count)}, press.tip, press.sink);
+      }
+      held.step_ms = ThreadCpuMs() - begin;
+    }
+  }
+
   std::vector<Held> bodies;
+  std::vector<HeldLayer> layers;
   std::array<WorldTool, static_cast<std::size_t>(ToolKind::kGrasper) + 1> tools;  // by kind
   std::shared_ptr<const RigidObstacle> obstacle;
   ToolCoupling coupling;
@@ -73,13 +97,15 @@ struct TissueWorld::Impl {
 };
 
 TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
-                         std::shared_ptr<const RigidObstacle> obstacle, bool second_thread)
+                         std::shared_ptr<const RigidObstacle> obstacle, bool second_thread,
+                         std::vector<LayerSpec> layers)
     : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
     impl_->bodies.push_back({Made(std::move(spec), options), {}, 0});
     impl_->bodies.back().body.WhenCut([own = impl_.get()] { own->FinishRefresh(); });
   }
+  for (LayerSpec& layer : layers) impl_->layers.push_back({LayerSkin(std::move(layer)), 0});
 }
 TissueWorld::~TissueWorld() = default;
 TissueWorld::TissueWorld(TissueWorld&&) noexcept = default;
@@ -99,14 +125,15 @@ void TissueWorld::Step(const Instrumentation& instrument, double dt) noexcept {
     held.step_ms = ThreadCpuMs() - begin;
   }
   own.coupling = coupling;
+  own.StepLayers(tool, instrument.press);
 }
 
 const ToolCoupling& TissueWorld::coupling() const noexcept { return impl_->coupling; }
 
 void TissueWorld::Show(WorldPicture& picture) const {
   picture.step = impl_->step;
-  picture.bodies.resize(impl_->bodies.size());
-  for (std::size_t i = 0; i < picture.bodies.size(); ++i) {
+  picture.bodies.resize(impl_->bodies.size() + impl_->layers.size());
+  for (std::size_t i = 0; i < impl_->bodies.size(); ++i) {
     const Impl::Held& held = impl_->bodies[i];
     BodyPicture& shown = picture.bodies[i];
     shown.tissue = held.body.spec().tissue;
@@ -120,13 +147,29 @@ void TissueWorld::Show(WorldPicture& picture) const {
     shown.positions.assign(held.body.positions().begin(), held.body.positions().end());
     shown.normals.assign(held.body.normals().begin(), held.body.normals().end());
   }
+  for (std::size_t i = 0; i < impl_->layers.size(); ++i) {
+    const auto& [layer, step_ms] = impl_->layers[i];
+    BodyPicture& shown = picture.bodies[impl_->bodies.size() + i];
+    shown.tissue = layer.spec().tissue;
+    shown.report.is_asleep = !layer.is_pressed();
+    shown.report.contacts = layer.is_pressed() ? 1 : 0;
+    shown.step_ms = step_ms;
+    if (shown.shape == layer.shape_version() && shown.skin == layer.skin()) continue;
+    shown.shape = layer.shape_version();
+    shown.skin = layer.skin();
+    shown.positions.assign(layer.positions().begin(), layer.positions().end());
+    shown.normals.assign(layer.normals().begin(), layer.normals().end());
+  }
 }
 
-bool TissueWorld::IsEmpty() const noexcept { return impl_->bodies.empty(); }
+bool TissueWorld::IsEmpty() const noexcept {
+  return impl_->bodies.empty() && impl_->layers.empty();
+}
 
 void TissueWorld::Reset() {
   impl_->FinishRefresh();
   for (Impl::Held& held : impl_->bodies) held.body.Reset();
+  for (Impl::HeldLayer& held : impl_->layers) held.skin.Release();
 }
 
 }  // namespace arthro::simulation

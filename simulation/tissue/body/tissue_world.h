@@ -10,13 +10,22 @@
 #include <vector>
 
 #include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/body/layer_skin.h"
 
 namespace arthro::simulation {
+
+// The thin layer that the instrument's tip presses, as the servo says.
+struct LayerPress {
+  int tissue = -1;      // in the scene; −1: none
+  glm::dvec3 tip{0.0};  // where the layer lets the tip be, portal frame
+  double sink = 0;      // m, how deep that is in the layer
+};
 
 // The instrument in the hand at a step: any of the kinds, changed in mid-session.
 struct Instrumentation {
   ToolKind kind = ToolKind::kProbe;
   ToolInput now;
+  LayerPress press;
 };
 
 // Of one tissue, for the picture and the panels.
@@ -38,9 +47,11 @@ struct WorldPicture {
 
 class TissueWorld {
  public:
-  // `obstacle`: what tissue rests on, or null. `second_thread`: factors are made there.
+  // `obstacle`: what tissue rests on, or null. `second_thread`: factors are made there. Layers are
+  // only shown here, after the bodies: the servo has their force itself.
   TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
-              std::shared_ptr<const RigidObstacle> obstacle, bool second_thread);
+              std::shared_ptr<const RigidObstacle> obstacle, bool second_thread,
+              std::vector<LayerSpec> layers = {});
   ~TissueWorld();
   TissueWorld(TissueWorld&&) noexcept;
   TissueWorld& operator=(TissueWorld&&) noexcept;

@@ -1,10 +1,12 @@
 // Claims about cartilage as a thin elastic layer.
 #include "simulation/tissue/body/elastic_layer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -151,6 +153,51 @@ TEST(ElasticLayer, RefusesWhatIsNoLayer) {
   material.young_modulus = -1;
   EXPECT_THROW(ElasticLayer(material, 1e-3), Error);
 }
+
+TEST(ElasticLayer, InSeriesWithASpringIsNeverStifferThanTheSpring) {
+  // From hip devices' 10 N/m to 20 kN/m, on the layer of a soft and of a stiff cartilage.
+  double worst = 0, stiffest = 0;
+  for (double young : {0.3e6, 1.5e6, 15e6}) {
+    Material material;
+    material.young_modulus = young;
+    material.poisson_ratio = 0.45;
+    const ElasticLayer layer(material, 2.5e-3);
+    for (double spring : {10.0, 500.0, 3000.0, 2e4})
+      for (double radius : {0.5e-3, 0.75e-3, 2.25e-3}) {
+        double last = 0, depth_before = 0;
+        for (double depth = 1e-8; depth < 5e-3; depth *= 1.05) {
+          const double sink = layer.BallDepthBySpring(radius, spring, depth);
+          const double force = spring * (depth - sink);
+          if (sink < layer.thickness())
+            worst =
+                std::max(worst, std::abs(layer.PressBall(radius, sink).force / (spring * depth) -
+                                         force / (spring * depth)));
+          else
+            EXPECT_GE(force, layer.PressBall(radius, sink).force) << "the bone bears the rest";
+          ASSERT_GT(sink, 0);
+          ASSERT_LE(sink, std::min(depth, layer.thickness()));
+          const double slope = (force - last) / (depth - depth_before) / spring;
+          ASSERT_GE(slope, 0);
+          stiffest = std::max(stiffest, slope);
+          last = force;
+          depth_before = depth;
+        }
+      }
+  }
+  std::printf("[ layer ] series residual %.2g of spring x depth, stiffest %.6f of the spring\n",
+              worst, stiffest);
+  EXPECT_LE(worst, 2e-12);
+  EXPECT_LE(stiffest, 1 + 1e-9);
+  const ElasticLayer layer = LayerOf(0.45);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (double bad : {nan, 0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(layer.BallDepthBySpring(bad, 500, 1e-3), 0);
+    EXPECT_EQ(layer.BallDepthBySpring(1e-3, bad, 1e-3), 0);
+    EXPECT_EQ(layer.BallDepthBySpring(1e-3, 500, bad), 0);
+  }
+}
+
+static_assert(noexcept(std::declval<const ElasticLayer&>().BallDepthBySpring(1e-3, 500, 1e-3)));
 
 }  // namespace
 }  // namespace arthro::simulation

@@ -1,0 +1,184 @@
+#include "simulation/tissue/body/layer_skin.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::simulation {
+namespace {
+
+// A tool's working end and the rim; further from the tip nothing moves.
+constexpr double kReach = 8e-3;  // m
+constexpr double kRim = 0.5;     // of the thickness, over which the rim comes down
+constexpr int kSweeps = 16;      // a frame; each begins with the last frame's answer
+
+// How far from x along `way` (unit) the ray leaves the capsule; 0: x is not in it. By halving:
+// what is inside of a capsule is convex.
+double ExitOf(const Capsule& capsule, const glm::dvec3& x, const glm::dvec3& way,
+              double most) noexcept {
+  const glm::dvec3 axis = capsule.b - capsule.a;
+  const double length2 = glm::dot(axis, axis);
+  const auto is_in = [&](const glm::dvec3& p) noexcept {
+    const double t =
+        length2 > 0.0 ? std::clamp(glm::dot(p - capsule.a, axis) / length2, 0.0, 1.0) : 0.0;
+    const glm::dvec3 off = p - (capsule.a + t * axis);
+    return glm::dot(off, off) < capsule.radius * capsule.radius;
+  };
+  if (!is_in(x)) return 0.0;
+  if (is_in(x + most * way)) return most;
+  double low = 0.0, high = most;
+  for (int i = 0; i < 16; ++i) {  // 40 nm of a 2.5 mm layer
+    const double middle = 0.5 * (low + high);
+    (is_in(x + middle * way) ? low : high) = middle;
+  }
+  return high;
+}
+
+glm::dvec3 UnitOr(const glm::dvec3& x, const glm::dvec3& otherwise) noexcept {
+  const double length = glm::length(x);
+  return length > 0.0 ? x / length : otherwise;
+}
+
+}  // namespace
+
+LayerSkin::LayerSkin(LayerSpec spec) : spec_(std::move(spec)) {
+  const SurfaceMesh& surface = spec_.surface;
+  const std::size_t count = surface.vertices.size();
+  positions_ = surface.vertices;
+  skin_ = std::make_shared<const BodySkin>(BodySkin{surface, {}});
+  dent_.assign(count, 0.0);
+  least_.assign(count, 0.0);
+  moved_.reserve(count);
+
+  // Triangles and neighbours of each vertex, one list after the other.
+  first_triangle_.assign(count + 1, 0);
+  for (const auto& triangle : surface.triangles)
+    for (int v : triangle) ++first_triangle_[static_cast<std::size_t>(v) + 1];
+  for (std::size_t v = 0; v < count; ++v) first_triangle_[v + 1] += first_triangle_[v];
+  triangle_.resize(static_cast<std::size_t>(first_triangle_[count]));
+  std::vector<int> next(first_triangle_.begin(), first_triangle_.end() - 1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (int v : surface.triangles[t])
+      triangle_[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] =
+          static_cast<int>(t);
+  first_neighbour_.push_back(0);
+  std::vector<int> around;
+  for (std::size_t v = 0; v < count; ++v) {
+    around.clear();
+    for (int i = first_triangle_[v]; i < first_triangle_[v + 1]; ++i)
+      for (int w :
+           surface.triangles[static_cast<std::size_t>(triangle_[static_cast<std::size_t>(i)])])
+        if (w != static_cast<int>(v)) around.push_back(w);
+    std::ranges::sort(around);
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    neighbour_.insert(neighbour_.end(), around.begin(), around.end());
+    first_neighbour_.push_back(static_cast<int>(neighbour_.size()));
+  }
+
+  normals_.assign(count, glm::dvec3(0, 0, 1));
+  for (std::size_t v = 0; v < count; ++v) moved_.push_back(static_cast<int>(v));
+  TakeShape();
+  rest_normals_ = normals_;
+  moved_.clear();
+}
+
+void LayerSkin::Press(std::span<const Capsule> capsules, const glm::dvec3& tip,
+                      double sink) noexcept {
+  const Rigid3 body_from_portal = Inverse(spec_.portal_from_body);
+  const glm::dvec3 at = body_from_portal * tip;
+  std::array<Capsule, kMaxCapsules> tool;
+  const std::size_t pieces = std::min(capsules.size(), tool.size());
+  for (std::size_t i = 0; i < pieces; ++i)
+    tool[i] = {body_from_portal * capsules[i].a, body_from_portal * capsules[i].b,
+               capsules[i].radius};
+  // As deep as the theory goes; where the tip itself is deeper, with it, to the bone.
+  const double thickness = spec_.layer.thickness();
+  const double most = std::clamp(sink, ElasticLayer::kDeepShare * thickness, thickness);
+
+  // What was near before goes back first, but remembers its dent to begin from.
+  const std::vector<glm::dvec3>& rest = skin_->surface.vertices;
+  for (int v : moved_) {
+    const auto i = static_cast<std::size_t>(v);
+    positions_[i] = rest[i];
+    normals_[i] = rest_normals_[i];
+    if (glm::distance(rest[i], at) >= kReach) dent_[i] = least_[i] = 0.0;
+  }
+  moved_.clear();
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const glm::dvec3 off = rest[i] - at;
+    if (glm::dot(off, off) >= kReach * kReach) continue;
+    moved_.push_back(static_cast<int>(i));
+    least_[i] = 0.0;
+    for (std::size_t piece = 0; piece < pieces; ++piece)
+      least_[i] = std::max(least_[i], ExitOf(tool[piece], rest[i], -rest_normals_[i], most));
+  }
+  Relax();
+  for (int v : moved_) {
+    const auto i = static_cast<std::size_t>(v);
+    positions_[i] = rest[i] - dent_[i] * rest_normals_[i];
+  }
+  TakeShape();
+  ++version_;
+}
+
+// Δu = u/rim² outside of the tool, u at least what the tool asks: by sweeps that alternate their
+// direction, in place.
+void LayerSkin::Relax() noexcept {
+  const std::vector<glm::dvec3>& rest = skin_->surface.vertices;
+  const double rim = kRim * spec_.layer.thickness();
+  const auto relax = [&](int vertex) noexcept {
+    const auto v = static_cast<std::size_t>(vertex);
+    double sum = 0.0, weights = 0.0;
+    for (int n = first_neighbour_[v]; n < first_neighbour_[v + 1]; ++n) {
+      const auto w = static_cast<std::size_t>(neighbour_[static_cast<std::size_t>(n)]);
+      const glm::dvec3 edge = rest[w] - rest[v];
+      const double weight = 1.0 / std::max(glm::dot(edge, edge), 1e-14);
+      sum += weight * dent_[w];
+      weights += weight;
+    }
+    // Of n neighbours at distance l in the plane: Δu ≈ 4/n Σ (u_w − u_v)/l².
+    const double valence = first_neighbour_[v + 1] - first_neighbour_[v];
+    dent_[v] = std::max(least_[v], sum / (weights + 0.25 * valence / (rim * rim)));
+  };
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    if (sweep % 2 == 0)
+      for (std::size_t i = 0; i < moved_.size(); ++i) relax(moved_[i]);
+    else
+      for (std::size_t i = moved_.size(); i-- > 0;) relax(moved_[i]);
+}
+
+// Normals of the vertices that moved, weighted by area. Those beside them, kReach from the tip,
+// hardly turn.
+void LayerSkin::TakeShape() noexcept {
+  const auto& triangles = skin_->surface.triangles;
+  for (int vertex : moved_) {
+    const auto v = static_cast<std::size_t>(vertex);
+    glm::dvec3 sum(0.0);
+    for (int i = first_triangle_[v]; i < first_triangle_[v + 1]; ++i) {
+      const auto& [a, b, c] =
+          triangles[static_cast<std::size_t>(triangle_[static_cast<std::size_t>(i)])];
+      const glm::dvec3& x = positions_[static_cast<std::size_t>(a)];
+      sum += glm::cross(positions_[static_cast<std::size_t>(b)] - x,
+                        positions_[static_cast<std::size_t>(c)] - x);
+    }
+    normals_[v] = UnitOr(sum, {0, 0, 1});
+  }
+}
+
+void LayerSkin::Release() noexcept {
+  if (moved_.empty()) return;
+  for (int v : moved_) {
+    const auto i = static_cast<std::size_t>(v);
+    positions_[i] = skin_->surface.vertices[i];
+    normals_[i] = rest_normals_[i];
+    dent_[i] = least_[i] = 0.0;
+  }
+  moved_.clear();
+  ++version_;
+}
+
+}  // namespace arthro::simulation

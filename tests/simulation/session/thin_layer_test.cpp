@@ -1,0 +1,268 @@
+// Claims about cartilage without a mesh: a thin layer that gives way in the servo and dents.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/core/error.h"
+#include "simulation/session/living_tissues.h"
+#include "simulation/session/scripted_device.h"
+#include "simulation/session/session.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/shapes.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kTick = 0.001, kSpring = 500.0, kTip = 0.75e-3;
+constexpr double kFace = 0.036;  // m, where the tissue begins on the way of the instrument
+// The proxy keeps 1 µm off a surface and bears within 2.
+constexpr double kSkin = 2e-6;
+
+// A bare sphere of 80 mm, far away, and one tissue on the instrument's axis.
+LoadedScene MakeScene(const SurfaceMesh& surface, double scale = 1.0) {
+  LoadedScene loaded;
+  loaded.scene.backdrop.radius = 0.08;
+  loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
+  loaded.scene.backdrop.projection.focal_px = 500;
+  loaded.scene.portals.incision_spacing = 0.0;
+  loaded.panorama = ColourImage(1024, 1024);
+  Tissue tissue;
+  tissue.name = "plateau";
+  tissue.material = "cartilage";
+  tissue.pose.position = {0, 0, kFace + 0.01};
+  tissue.pose.scale = scale;
+  loaded.scene.tissues.push_back(tissue);
+  loaded.surfaces.push_back(surface);
+  return loaded;
+}
+// The corner off the axis keeps the face's diagonal from under the tip.
+SurfaceMesh Block() { return test::Box({-0.013, -0.009, -0.01}, {0.011, 0.014, 0.01}); }
+
+std::vector<TissuePreset> Presets() {
+  return ReadTissuePresets(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues");
+}
+
+struct Hand {
+  explicit Hand(const LoadedScene& loaded, bool has_layers = true)
+      : session(loaded), scope(session.scope_rig()), instrument(session.instrument_rig()) {
+    if (has_layers) layers = LayersOf(loaded.scene, loaded.surfaces, Presets());
+    session.Enliven({}, TissuePace::kInline, layers);
+  }
+  const ToolState& Tick(int ticks = 1) {
+    for (int i = 0; i < ticks; ++i) {
+      t += kTick;
+      session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
+      session.TickTissues(kTick);
+    }
+    return session.snapshot().instrument;
+  }
+  // Along the axis to this far past the face, and held.
+  const ToolState& Press(double depth, int hold = 400) {
+    const double from = instrument.pose().depth;
+    for (int i = 1; i <= 400; ++i) {
+      instrument.Set({0, 0, 0, from + (kFace + depth - from) * i / 400});
+      Tick();
+    }
+    return Tick(hold);
+  }
+  Session session;
+  ScriptedDevice scope, instrument;
+  std::vector<LayerSpec> layers;
+  double t = 0;
+};
+
+TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
+  Hand hand(MakeScene(Block()));
+  ASSERT_EQ(hand.layers.size(), 1u);
+  const ElasticLayer& layer = hand.layers[0].layer;
+  double worst = 0;
+  for (double depth : {0.02e-3, 0.1e-3, 0.3e-3, 1e-3, 2e-3, 4e-3}) {
+    const ToolState& tool = hand.Press(depth);
+    // Independently of the servo's own solver: halving of the force.
+    double low = 0, high = kSpring * depth;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (layer.BallDepth(kTip, middle) + middle / kSpring < depth ? low : high) = middle;
+    }
+    const double sink = depth - low / kSpring;
+    worst = std::max(worst, std::abs(-tool.tip_force.z - low));
+    EXPECT_NEAR(-tool.tip_force.z, low, kSpring * kSkin) << depth;
+    EXPECT_NEAR(tool.penetration, depth, kSkin);
+    EXPECT_NEAR(tool.proxy_in_portal.z, kFace + sink, kSkin) << "the tool is drawn in the layer";
+    EXPECT_EQ(tool.contact, 1);
+    EXPECT_EQ(tool.fault, Fault::kNone);
+    EXPECT_EQ(tool.is_layer_deep, layer.PressBall(kTip, sink).is_deep) << depth;
+    std::printf("[ layer ] hand %.2f mm past the surface: %.4f N, tip %.3f mm in%s\n", 1e3 * depth,
+                low, 1e3 * sink, tool.is_layer_deep ? ", too deep for the theory" : "");
+  }
+  std::printf("[ layer ] largest difference from the closed form %.2g N\n", worst);
+  EXPECT_TRUE(hand.session.snapshot().instrument.is_layer_deep);
+  EXPECT_FALSE(hand.Press(-1e-3).is_layer_deep);
+  EXPECT_EQ(hand.session.snapshot().instrument.tip_force, glm::dvec3(0.0));
+}
+
+TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
+  Hand hand(MakeScene(Block()));
+  hand.Press(-0.05e-3);
+  constexpr double kStep = 1e-6;  // m a tick: 1 mm/s
+  double last = 0, largest = 0;
+  for (int i = 0; i < 600; ++i) {
+    hand.instrument.Advance({0, 0, 0, kStep});
+    const double force = -hand.Tick().tip_force.z;
+    EXPECT_GE(force, 0.0);
+    largest = std::max(largest, std::abs(force - last));
+    last = force;
+  }
+  // The spring's own step, and the viscosity that comes in over 0.1 mm: 1 mm/s · 1 Ns/m / 100.
+  EXPECT_LE(largest, kSpring * (kStep + kSkin) + 1e-5);
+  std::printf("[ layer ] largest step of force %.2g N in %.0f um steps, spring alone %.2g N\n",
+              largest, 1e6 * kStep, kSpring * kStep);
+  EXPECT_GT(last, 0.1);
+}
+
+TEST(ThinLayer, OfAnotherTissueChangesNothing) {
+  // Block 1 is a layer, block 2 beside it is not: pressing 2 feels the same to the last bit.
+  LoadedScene loaded = MakeScene(Block());
+  loaded.scene.tissues.push_back(loaded.scene.tissues[0]);
+  loaded.scene.tissues[0].pose.position.x += 0.05;
+  loaded.scene.tissues[1].material = "no preset has this name";
+  loaded.surfaces.push_back(Block());
+  Hand with(loaded), without(loaded, false);
+  ASSERT_EQ(with.layers.size(), 1u);
+  for (int i = 0; i < 1500; ++i) {
+    const double s = i * kTick;
+    const RodPose pose{0.03 * std::sin(5 * s), 0.03 * std::sin(7 * s), s, kFace - 5e-4 + 1e-3 * s};
+    with.instrument.Set(pose);
+    without.instrument.Set(pose);
+    const ToolState &a = with.Tick(), &b = without.Tick();
+    ASSERT_EQ(a.tip_force, b.tip_force) << i;
+    ASSERT_EQ(a.proxy_in_portal, b.proxy_in_portal);
+    ASSERT_EQ(a.tissue_tip_in_portal, b.tissue_tip_in_portal);
+  }
+  EXPECT_EQ(with.session.snapshot().instrument.contact, 2);
+}
+
+TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
+  // A condyle of 10 mm radius in facets of 0.5 mm, slid over at a depth of 1 mm.
+  Hand soft(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)));
+  Hand rigid(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
+  double jump[2] = {0, 0};
+  for (Hand* hand : {&soft, &rigid}) {
+    hand->Press(1e-3);
+    glm::dvec3 last = hand->Tick().tip_force;
+    for (int i = 0; i < 1000; ++i) {
+      hand->instrument.Advance({0, 1e-4, 0, 0});
+      const glm::dvec3 force = hand->Tick().tip_force;
+      double& most = jump[hand == &soft ? 0 : 1];
+      most = std::max(most, glm::length(force - last));
+      last = force;
+    }
+  }
+  std::printf("[ layer ] largest step of force over facets: %.3g N, rigid %.3g N\n", jump[0],
+              jump[1]);
+  EXPECT_LE(jump[0], jump[1]) << "softer, so no rougher";
+}
+
+TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
+  Hand hand(MakeScene(Block()));
+  hand.Press(0.5e-3);
+  const long before = test::Allocations();
+  for (int i = 0; i < 1000; ++i) {
+    hand.t += kTick;
+    hand.instrument.Advance({0, 0, 0, i % 2 == 0 ? 3e-4 : -3e-4});
+    hand.session.Tick(hand.scope.Sample(hand.t), hand.instrument.Sample(hand.t), kTick);
+  }
+  EXPECT_EQ(test::Allocations(), before);
+}
+
+TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
+  const LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
+  Hand hand(loaded);
+  const WorldPicture* world = hand.session.tissues();
+  ASSERT_NE(world, nullptr);
+  ASSERT_EQ(world->bodies.size(), 1u);
+  EXPECT_EQ(world->bodies[0].tissue, 0);
+  EXPECT_TRUE(world->bodies[0].report.is_asleep);
+  const auto rest = world->bodies[0].positions;
+  const auto rest_normals = world->bodies[0].normals;
+  const std::uint64_t shape = world->bodies[0].shape;
+  EXPECT_NEAR(glm::length(rest[0]), 0.01, 1e-12) << "the scale is applied";
+  hand.Press(-1e-3);
+  EXPECT_EQ(hand.session.tissues()->bodies[0].shape, shape) << "nothing touched, nothing computed";
+
+  const ToolState tool = hand.Press(1e-3);
+  const double sink = tool.proxy_in_portal.z - kFace;
+  const BodyPicture pressed = hand.session.tissues()->bodies[0];
+  EXPECT_FALSE(pressed.report.is_asleep);
+  ASSERT_GT(sink, 2e-4);
+  // The tool as it is drawn: none of the surface is left in it, and the rest is pressed no deeper.
+  std::array<Capsule, kMaxCapsules> capsules;
+  ToolInput drawn{true, PortalFromTool({0, 0, 0}, tool.proxy_in_portal, tool.pose.roll), 1, false};
+  const int count = PosedCapsules(ShapeOf(ToolKind::kProbe), drawn, capsules);
+  double deepest = 0, worst_inside = 0, steepest = 0;
+  const glm::dvec3 origin = loaded.scene.tissues[0].pose.position;
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    deepest = std::max(deepest, glm::distance(pressed.positions[v], rest[v]));
+    for (int i = 0; i < count; ++i) {
+      const Capsule& c = capsules[static_cast<std::size_t>(i)];
+      const glm::dvec3 axis = c.b - c.a, x = origin + pressed.positions[v];
+      const double s = std::clamp(glm::dot(x - c.a, axis) / glm::dot(axis, axis), 0.0, 1.0);
+      worst_inside = std::max(worst_inside, c.radius - glm::distance(x, c.a + s * axis));
+    }
+  }
+  EXPECT_LT(worst_inside, 1e-7) << "the exit is found to 40 nm";
+  EXPECT_GT(deepest, 0.9 * sink) << "a vertex each 0.3 mm";
+  EXPECT_LT(deepest, sink + 2e-6);
+  // The rim is smooth: no edge is turned by more than the ball's own flank is steep there.
+  for (const auto& triangle : loaded.surfaces[0].triangles)
+    for (int k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]);
+      const auto b = static_cast<std::size_t>(triangle[static_cast<std::size_t>((k + 1) % 3)]);
+      const double da = glm::distance(pressed.positions[a], rest[a]);
+      const double db = glm::distance(pressed.positions[b], rest[b]);
+      steepest = std::max(steepest, std::abs(da - db) / glm::distance(rest[a], rest[b]));
+    }
+  const double flank = std::sqrt(2 * kTip * sink - sink * sink) / (kTip - sink);
+  std::printf("[ layer ] sink %.3f mm, deepest vertex %.3f mm, steepest %.2f of a flank of %.2f\n",
+              1e3 * sink, 1e3 * deepest, steepest, flank);
+  EXPECT_LT(steepest, flank);
+
+  hand.Press(-1e-3);
+  const BodyPicture& free = hand.session.tissues()->bodies[0];
+  EXPECT_TRUE(free.report.is_asleep);
+  EXPECT_EQ(free.positions, rest);
+  EXPECT_EQ(free.normals, rest_normals);
+}
+
+TEST(ThinLayer, TakesWhatTheSceneSaysOtherwise) {
+  LoadedScene loaded = MakeScene(Block());
+  loaded.scene.tissues[0].elasticity.layer_thickness = 1e-3;
+  loaded.scene.tissues[0].elasticity.young_modulus = 3e6;
+  const auto thin = LayersOf(loaded.scene, loaded.surfaces, Presets());
+  ASSERT_EQ(thin.size(), 1u);
+  EXPECT_EQ(thin[0].layer.thickness(), 1e-3);
+  Material material = FindTissuePreset(Presets(), "cartilage")->material;
+  material.young_modulus = 3e6;
+  EXPECT_EQ(thin[0].layer.foundation(), ElasticLayer(material, 1e-3).foundation());
+
+  loaded.scene.tissues[0].mesh = "plateau.vtu";
+  EXPECT_TRUE(LayersOf(loaded.scene, loaded.surfaces, Presets()).empty()) << "it is a body";
+  loaded.scene.tissues[0].mesh.clear();
+  loaded.scene.tissues[0].material = "meniscus";
+  EXPECT_TRUE(LayersOf(loaded.scene, loaded.surfaces, Presets()).empty()) << "thick, and rigid";
+  loaded.scene.tissues[0].material = "cartilage";
+  loaded.scene.tissues[0].elasticity.layer_thickness = 0.0;
+  try {
+    LayersOf(loaded.scene, loaded.surfaces, Presets());
+    FAIL() << "a layer of no thickness";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("plateau"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace arthro::simulation
