@@ -49,8 +49,10 @@ class Mover {
     const auto count = static_cast<int>(around_.meshes.size());
     const auto sweep = [&](int mesh) {
       const int first = mesh == proxy_.last_mesh ? proxy_.last_triangle : -1;
-      if (around_.meshes[static_cast<std::size_t>(mesh)].Sweep(from, to, radius_ + kSkin, first,
-                                                               hit))
+      const auto i = static_cast<std::size_t>(mesh);
+      const SweptSurface* other = i < around_.instead.size() ? around_.instead[i] : nullptr;
+      if (other != nullptr ? other->Sweep(from, to, radius_ + kSkin, first, hit)
+                           : around_.meshes[i].Sweep(from, to, radius_ + kSkin, first, hit))
         met = mesh;
     };
     if (proxy_.last_mesh >= 0 && proxy_.last_mesh < count) sweep(proxy_.last_mesh);

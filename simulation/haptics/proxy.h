@@ -13,6 +13,7 @@
 #include "simulation/haptics/planes.h"
 #include "simulation/haptics/softness.h"
 #include "simulation/haptics/surface_bvh.h"
+#include "simulation/haptics/swept_surface.h"
 
 namespace arthro::simulation {
 
@@ -21,6 +22,8 @@ struct Surroundings {
   const DepthField& field;
   std::span<const SurfaceBvh> meshes;
   const Softness* softness = nullptr;  // null: all are rigid
+  // One a mesh, or fewer: what is touched in its place; null: the mesh.
+  std::span<const SweptSurface* const> instead = {};
 };
 
 // A ball's centre that stays at least `radius` from all surfaces.

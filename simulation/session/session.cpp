@@ -146,6 +146,15 @@ void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace,
   layers_ = std::move(under);
 }
 
+void Session::SetField(int tissue, std::shared_ptr<const ImplicitTissue> field) {
+  const auto i = static_cast<std::size_t>(tissue);
+  if (tissue < 0 || i >= meshes_.size()) return;
+  fields_.resize(meshes_.size());
+  instead_.resize(meshes_.size());
+  fields_[i] = field == nullptr ? nullptr : std::make_unique<FieldSurface>(std::move(field));
+  instead_[i] = fields_[i].get();
+}
+
 void Session::ResetTissues() {
   if (tissues_) tissues_->Reset();
 }
@@ -206,7 +215,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
         if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
       }
       const LayersUnderTool layers(layers_, tool.end_radius);
-      contact = TickContact({*field_, meshes_, layers_.empty() ? nullptr : &layers},
+      contact = TickContact({*field_, meshes_, layers_.empty() ? nullptr : &layers, instead_},
                             options_.contact, stiffness, portal, tip, dt, tool.contact, pull);
       state.is_layer_deep = layers.IsDeep(tool.contact.contact, glm::length(tool.contact.sink));
       hand_force = HandForce(lever, contact.force);

@@ -16,6 +16,7 @@
 #include "simulation/scene/scene.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/scene/surface_mesh.h"
+#include "simulation/session/field_surface.h"
 #include "simulation/session/session_options.h"
 #include "simulation/session/snapshot.h"
 #include "simulation/session/tissue_loop.h"
@@ -66,6 +67,9 @@ class Session {
   // Which tissues are computed as living ones, a flag each (missing: not); those are left out of
   // the rigid surfaces. Not on the servo path: it moves meshes.
   void SetLiveTissues(std::span<const std::uint8_t> is_live);
+  // From now on this tissue is touched as a function and not as its mesh; null: as its mesh again.
+  // Who bites of it edits a copy and gives that. Not on the servo path.
+  void SetField(int tissue, std::shared_ptr<const ImplicitTissue> field);
   // What living tissue does to the instrument from now on; call with each step of the tissue, every
   // frame also when it rests, or the force fades. The same step again changes nothing. A faulty one
   // gives Fault::kTissue and no force until a good one comes.
@@ -95,7 +99,9 @@ class Session {
   std::vector<SurfaceBvh> meshes_;           // one a tissue; of living ones nothing
   std::vector<SurfaceBvh> away_;             // what living ones are when they do not live
   std::vector<std::uint8_t> is_live_;
-  std::vector<std::optional<ElasticLayer>> layers_;  // one a tissue, or none at all
+  std::vector<std::unique_ptr<FieldSurface>> fields_;  // one a tissue, or none at all
+  std::vector<const SweptSurface*> instead_;           // the same, as contact takes them
+  std::vector<std::optional<ElasticLayer>> layers_;    // one a tissue, or none at all
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;

@@ -1,0 +1,151 @@
+// Claims about tissue that is a function [paper 3.4], touched by the servo's own proxy.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/session/scripted_device.h"
+#include "simulation/session/session.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/support/shapes.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kTick = 0.001, kSpring = 500.0;
+constexpr double kBall = 0.005, kSpacing = 0.35e-3;  // m
+const glm::dvec3 kCentre(0, 0, 0.04);
+// The proxy keeps 1 µm off a surface and bears within 2.
+constexpr double kSkin = 2e-6;
+
+// A loose body, a ball of 5 mm: once as a fine mesh, once as a function sampled on 0.35 mm.
+LoadedScene MakeScene() {
+  LoadedScene loaded;
+  loaded.scene.backdrop.radius = 0.08;
+  loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
+  loaded.scene.backdrop.projection.focal_px = 500;
+  loaded.scene.portals.incision_spacing = 0.0;
+  loaded.panorama = ColourImage(1024, 1024);
+  Tissue tissue;
+  tissue.name = "loose body";
+  tissue.pose.position = kCentre;
+  loaded.scene.tissues.push_back(tissue);
+  loaded.surfaces.push_back(test::Sphere({0, 0, 0}, kBall, 5));
+  return loaded;
+}
+
+std::shared_ptr<ImplicitTissue> MakeField(const LoadedScene& loaded) {
+  return std::make_shared<ImplicitTissue>(SolidField::FromSurface(loaded.surfaces[0], kSpacing),
+                                          loaded.scene.tissues[0].pose);
+}
+
+struct Hand {
+  explicit Hand(const LoadedScene& loaded)
+      : session(loaded), scope(session.scope_rig()), instrument(session.instrument_rig()) {}
+  const ToolState& Tick(int ticks = 1) {
+    for (int i = 0; i < ticks; ++i) {
+      t += kTick;
+      session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
+    }
+    return session.snapshot().instrument;
+  }
+  const ToolState& Lead(const glm::dvec3& tip, int ticks = 500) {
+    const RodPose from = instrument.pose();
+    const glm::dvec3 u = glm::normalize(tip);
+    for (int i = 1; i <= ticks; ++i) {
+      const double s = static_cast<double>(i) / ticks;
+      instrument.Set({from.latitude + s * (-std::asin(u.y) - from.latitude),
+                      from.longitude + s * (std::atan2(u.x, u.z) - from.longitude), 0,
+                      from.depth + s * (glm::length(tip) - from.depth)});
+      Tick();
+    }
+    return Tick(300);
+  }
+  Session session;
+  ScriptedDevice scope, instrument;
+  double t = 0;
+};
+
+TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
+  const LoadedScene loaded = MakeScene();
+  Hand hand(loaded);
+  hand.session.SetField(0, MakeField(loaded));
+  double worst = 0, worst_turn = 0;
+  for (double x : {0.0, 1e-3, 2e-3, -2.5e-3})
+    for (double depth : {0.2e-3, 1e-3}) {
+      hand.Lead({x, 0, 0.03});
+      const glm::dvec3 out = glm::normalize(glm::dvec3(x, 0.2 * x, -kBall));
+      const ToolState& tool = hand.Lead(kCentre + (kBall - depth) * out);
+      EXPECT_EQ(tool.contact, 1);
+      const double force = glm::length(tool.tip_force);
+      worst = std::max(worst, std::abs(force - kSpring * depth));
+      worst_turn =
+          std::max(worst_turn, std::acos(std::min(1.0, glm::dot(tool.tip_force / force, out))));
+    }
+  std::printf("[ field ] force %.2g N from k d at most, turned by %.2f degrees\n", worst,
+              worst_turn * 180 / 3.14159265);
+  // The field's surface is off the ball by its trilinear cells' sagitta, h²/8R = 3 µm a direction
+  // and two of them, and the mesh that it is sampled from by 1 µm more.
+  EXPECT_LT(worst, kSpring * (kSkin + 2 * kSpacing * kSpacing / (8 * kBall) + 1e-6));
+  // The proxy rests within friction's cone, 0.03 rad, of the foot.
+  EXPECT_LT(worst_turn, 0.03 + kSpacing / kBall / 4);
+}
+
+TEST(FieldTissue, AToolThatAppearsBeyondAThinOneIsHeldBeforeIt) {
+  // A flap of 1 mm. (A ball would be slid around: beyond its centre its near side is no minimum.)
+  LoadedScene loaded = MakeScene();
+  loaded.surfaces[0] = test::Box({-5e-3, -5e-3, -5e-4}, {5e-3, 5e-3, 5e-4});
+  Hand hand(loaded);
+  hand.session.SetField(0, MakeField(loaded));
+  hand.instrument.Set({0, 0, 0, 0.06});  // it enters through its portal, 60 mm in a tick
+  const ToolState& tool = hand.Tick();
+  EXPECT_EQ(tool.fault, Fault::kNone);
+  EXPECT_NEAR(tool.proxy_in_portal.z, kCentre.z - 5e-4, 1e-5);
+  EXPECT_EQ(tool.contact, 1);
+}
+
+TEST(FieldTissue, WhatIsBittenOffIsNotFeltAnyMore) {
+  const LoadedScene loaded = MakeScene();
+  Hand hand(loaded);
+  const auto whole = MakeField(loaded);
+  hand.session.SetField(0, whole);
+  const glm::dvec3 face = kCentre - glm::dvec3(0, 0, kBall);
+  EXPECT_NEAR(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).penetration, 1e-3, 1e-5);
+  hand.Lead({0, 0, 0.03});
+  auto bitten = std::make_shared<ImplicitTissue>(*whole);
+  constexpr double kBite = 2e-3;
+  const FieldEdit edit = bitten->Subtract(face, kBite + 2 * kSpacing, [&](const glm::dvec3& x) {
+    return glm::distance(x, face) - kBite;
+  });
+  EXPECT_GT(edit.removed, 0.0);
+  const SkinUpdate update = bitten->UpdateSkin();
+  EXPECT_LT(update.bricks_redone, update.bricks_with_skin) << "only where it changed";
+  hand.session.SetField(0, bitten);
+  EXPECT_EQ(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).contact, kNoContact);
+  const ToolState& tool = hand.Lead(face + glm::dvec3(0, 0, 2.5e-3));
+  // The bite's floor, to the resolution of cut faces: a tenth of the spacing of a sphere of 2 mm.
+  EXPECT_NEAR(tool.penetration, 0.5e-3, 0.1 * kSpacing);
+  hand.Lead({0, 0, 0.03});
+  hand.session.SetField(0, nullptr);
+  EXPECT_NEAR(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).penetration, 1e-3, 1e-5) << "its mesh again";
+}
+
+TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
+  const LoadedScene loaded = MakeScene();
+  Hand hand(loaded);
+  hand.session.SetField(0, MakeField(loaded));
+  hand.Lead({0, 0, 0.0355});
+  const long before = test::Allocations();
+  for (int i = 0; i < 1000; ++i) {
+    hand.instrument.Set({0.05 * std::sin(0.01 * i), 0.05 * std::cos(0.01 * i), 0, 0.0365});
+    hand.Tick();
+  }
+  EXPECT_EQ(test::Allocations(), before);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
