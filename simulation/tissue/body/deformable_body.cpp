@@ -126,9 +126,14 @@ void DeformableBody::Impl::TakeTools(std::span<const WorldTool> tools) noexcept 
     const Rigid3 body_from_tool = body_from_portal * tools[i].now.portal_from_tool;
     tool.bite = {body_from_tool * tools[i].shape.bite.a, body_from_tool * tools[i].shape.bite.b,
                  tools[i].shape.bite.radius};
-    const bool goes_on = tool.was_present && tool.count > 0;
+    // Another instrument is not held as the one before was, nor does it finish its bite.
+    const bool goes_on = tool.was_present && tool.count > 0 && tool.kind == tools[i].shape.kind;
     tool.motion = goes_on ? body_from_tool.translation - tool.tip : glm::dvec3(0.0);
-    if (!goes_on) tool.grip = ToolGrip{};
+    if (!goes_on) {
+      tool.grip = ToolGrip{};
+      tool.is_ready_to_bite = false;
+    }
+    tool.kind = tools[i].shape.kind;
     tool.tip = body_from_tool.translation;
     tool.was_present = tool.count > 0;
   }

@@ -93,7 +93,7 @@ bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double
     if (tools[i].shape.kind == ToolKind::kPunch) {
       const double opening = tools[i].now.opening;
       if (opening > kOpened) tool.is_ready_to_bite = true;
-      if (opening >= kClosed || !tool.is_ready_to_bite) continue;
+      if (!(opening < kClosed) || !tool.is_ready_to_bite) continue;
       tool.is_ready_to_bite = false;
       was_cut |= CutWith(tool.bite, false, dt);
     } else if (tools[i].shape.kind == ToolKind::kShaver && tools[i].now.is_running &&
@@ -110,7 +110,8 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
   const glm::dvec3 at = glm::round((rest - grid.origin) / grid.spacing);
   const std::size_t node =
       grid.Index(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
-  if (field.values()[node] > kSkinReach * grid.spacing) return false;  // well outside the tissue
+  // Well outside the tissue nothing is to be known.
+  if (field.values()[node] > std::min(kSkinReach * grid.spacing, 0.9 * field.band())) return false;
   int& element = cut->element_of_node[node];
   if (element < 0) element = finder.Find(rest).element;
   if (cut->is_near[static_cast<std::size_t>(element)] == 0) return false;

@@ -45,6 +45,7 @@ struct PlacedTool {
   std::array<Capsule, kMaxCapsules> capsules;
   int count = 0;
   bool was_present = false;
+  ToolKind kind = ToolKind::kNone;
   glm::dvec3 tip{0.0}, motion{0.0};
   ToolGrip grip;
   Capsule bite;                   // what it takes when it closes or runs

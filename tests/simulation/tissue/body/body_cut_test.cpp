@@ -120,6 +120,28 @@ TEST(BodyCut, ShaverTakesNoFasterThanItsRate) {
   EXPECT_TRUE(IsSound(body));
 }
 
+// Jaws that were opened elsewhere bite only when the hand closes them: not where another instrument
+// was in between, and not for an opening that is not a number.
+TEST(BodyCut, OnlyJawsThatCloseBite) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  ToolCoupling coupling;
+  const auto step = [&](const WorldTool& tool) {
+    coupling = {};
+    return body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  };
+  step(PunchAt(spec, 2e-3, 1.0));
+  step(PunchAt(spec, 2e-3, std::nan("")));
+  EXPECT_EQ(body.cut_report().cuts, 0) << "not a number is not closed";
+  step(test::ToolAbove(spec, ToolKind::kProbe, 1e-3));
+  step(PunchAt(spec, 2e-3, 0.0));
+  EXPECT_EQ(body.cut_report().cuts, 0) << "it came back closed";
+  step(PunchAt(spec, 2e-3, 1.0));
+  step(PunchAt(spec, 2e-3, 0.0));
+  EXPECT_EQ(body.cut_report().cuts, 1);
+}
+
 TEST(BodyCut, TissueThatMayNotBeCutIsLeftAlone) {
   const BodySpec spec = test::SlabBody();
   DeformableBody body(spec, {});
