@@ -1,0 +1,124 @@
+// A seeded hand that does to a meniscus crescent (meniscus_body.h) what a trainee may do in ten
+// minutes, and what a device may do when it fails: it wanders smoothly over, through and under the
+// tissue, changes instruments, bites, shaves, jumps, is away for a while, and now and then its pose
+// is not a number. Portal frame, m, s.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "simulation/core/random.h"
+#include "simulation/tissue/body/tissue_world.h"
+
+namespace arthro::test {
+
+class RandomHand {
+ public:
+  RandomHand(std::uint64_t seed, const Rigid3& portal_from_body)
+      : random_(seed), portal_from_body_(portal_from_body) {
+    for (Wave& wave : waves_) {
+      wave.phase = random_.Uniform(0, 2 * std::numbers::pi);
+      wave.rate = random_.Uniform(0.25, 1.1);  // rad/s
+    }
+  }
+
+  simulation::Instrumentation Next(double dt) {
+    t_ += dt;
+    Change();
+    const auto wave = [this](int i) {
+      const Wave& a = waves_[2 * i];
+      const Wave& b = waves_[2 * i + 1];
+      return 0.65 * std::sin(a.rate * t_ + a.phase) + 0.35 * std::sin(2.7 * b.rate * t_ + b.phase);
+    };
+    // Cylinder coordinates of the crescent: 120° to each side, 6 to 24 mm out, 6 mm below to 14 mm
+    // above its underside. The tip goes at some 30 mm/s, at most 100 mm/s.
+    const double angle = 2.1 * wave(0), radius = 0.015 + 0.009 * wave(1);
+    const double height = 0.004 + 0.010 * wave(2);
+    const glm::dquat tilt = glm::angleAxis(0.9 * wave(3), glm::dvec3(1, 0, 0)) *
+                            glm::angleAxis(0.9 * wave(4), glm::dvec3(0, 1, 0)) *
+                            glm::angleAxis(std::numbers::pi * wave(5), glm::dvec3(0, 0, 1));
+    // The rod comes from above: tool z is the tissue's −z, tilted.
+    const Rigid3 body_from_tool{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)) * tilt,
+                                {radius * std::cos(angle), radius * std::sin(angle), height}};
+
+    simulation::Instrumentation hand;
+    hand.kind = kind_;
+    hand.now.is_present = t_ >= away_until_;
+    hand.now.portal_from_tool = portal_from_body_ * body_from_tool;
+    hand.now.opening = 0.5 + 0.5 * std::sin(7.0 * t_);
+    hand.now.is_running = kind_ == simulation::ToolKind::kShaver && wave(6) > -0.3;
+    if (random_.Uniform(0, 1) < 0.004) Spoil(hand.now);
+    return hand;
+  }
+
+  int bad_poses() const { return bad_poses_; }
+  int jumps() const { return jumps_; }
+
+ private:
+  struct Wave {
+    double phase = 0, rate = 0;
+  };
+
+  // Every few seconds another instrument, or a jump, or nothing in the hand for a while.
+  void Change() {
+    if (t_ < change_at_) return;
+    change_at_ = t_ + random_.Uniform(0.8, 4.0);
+    const double what = random_.Uniform(0, 1);
+    using enum simulation::ToolKind;
+    if (what < 0.25)
+      kind_ = kProbe;
+    else if (what < 0.45)
+      kind_ = kPunch;
+    else if (what < 0.60)
+      kind_ = kShaver;
+    else if (what < 0.68)
+      kind_ = kGrasper;
+    else if (what < 0.71)
+      kind_ = kNone;
+    else if (what < 0.80)
+      away_until_ = t_ + random_.Uniform(0.02, 1.0);
+    else {
+      ++jumps_;
+      for (Wave& wave : waves_) wave.phase += random_.Uniform(-0.6, 0.6);
+    }
+  }
+
+  void Spoil(simulation::ToolInput& input) {
+    ++bad_poses_;
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    switch (random_.Below(6)) {
+      case 0:
+        input.portal_from_tool.translation.y = kNan;
+        break;
+      case 1:
+        input.portal_from_tool.translation = glm::dvec3(kInfinity, 0, -kInfinity);
+        break;
+      case 2:
+        input.portal_from_tool.rotation.w = kNan;
+        break;
+      case 3:
+        input.portal_from_tool.translation = glm::dvec3(1e300);
+        break;
+      case 4:
+        input.portal_from_tool.translation.x += 1e6;
+        break;
+      default:
+        input.opening = kNan;
+    }
+  }
+
+  Random random_;
+  Rigid3 portal_from_body_;
+  std::array<Wave, 14> waves_{};
+  simulation::ToolKind kind_ = simulation::ToolKind::kProbe;
+  double t_ = 0, change_at_ = 1.0, away_until_ = 0;
+  int bad_poses_ = 0, jumps_ = 0;
+};
+
+}  // namespace arthro::test
