@@ -1,6 +1,8 @@
 // Taking parts of a body away: the field in rest space, the elements after it, the skin, the
 // solver.
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -46,6 +48,79 @@ std::vector<int> PreviousNodes(const CutMesh& cut) {
     }
   }
   return previous;
+}
+
+// Smallest of the barycentric coordinates in the element's corners, straight edges between them.
+double Inside(const TetMesh& mesh, int element, const glm::dvec3& x) {
+  const int* node = &mesh.elements[static_cast<std::size_t>(element * mesh.NodesPerElement())];
+  const auto at = [&](int i) { return mesh.rest_positions[static_cast<std::size_t>(node[i])]; };
+  const glm::dvec3 a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0), p = x - at(0);
+  const double volume = glm::dot(glm::cross(a, b), c);
+  const double l1 = glm::dot(glm::cross(p, b), c) / volume,
+               l2 = glm::dot(glm::cross(a, p), c) / volume,
+               l3 = glm::dot(glm::cross(a, b), p) / volume;
+  return std::min({1.0 - l1 - l2 - l3, l1, l2, l3});
+}
+
+// The element that a node of the grid lies in, or, up to four nodes outside the mesh, the one of
+// its neighbour; −1 further out. A walk over the elements: asking for each node takes a hundred
+// times as long.
+std::vector<int> ElementsOfNodes(const TetMesh& mesh, const FieldGrid& grid) {
+  constexpr double kBulge = -0.2;  // of a curved side beyond the straight one, barycentric
+  constexpr int kOutside = 4;
+  std::vector<int> element(grid.NodeCount(), -1);
+  std::vector<float> inside(grid.NodeCount(), static_cast<float>(kBulge));
+  for (int e = 0; e < mesh.ElementCount(); ++e) {
+    Box3 box = kEmptyBox;
+    for (int i = 0; i < mesh.NodesPerElement(); ++i) {
+      const glm::dvec3& x = mesh.rest_positions[static_cast<std::size_t>(
+          mesh.elements[static_cast<std::size_t>(e * mesh.NodesPerElement() + i)])];
+      box = Union(box, {x, x});
+    }
+    const glm::dvec3 last(grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1);
+    const glm::ivec3 low(
+        glm::clamp(glm::floor((box.low - grid.origin) / grid.spacing), glm::dvec3(0.0), last));
+    const glm::ivec3 high(
+        glm::clamp(glm::ceil((box.high - grid.origin) / grid.spacing), glm::dvec3(0.0), last));
+    for (int k = low.z; k <= high.z; ++k)
+      for (int j = low.y; j <= high.y; ++j)
+        for (int i = low.x; i <= high.x; ++i) {
+          const std::size_t node = grid.Index(i, j, k);
+          const auto here = static_cast<float>(Inside(mesh, e, grid.Place(i, j, k)));
+          if (here > inside[node]) inside[node] = here, element[node] = e;
+        }
+  }
+  const std::array<std::size_t, 3> step{1, grid.Index(0, 1, 0), grid.Index(0, 0, 1)};
+  for (int pass = 0; pass < kOutside; ++pass) {
+    const std::vector<int> before = element;
+    for (std::size_t node = 0; node < element.size(); ++node)
+      for (std::size_t axis = 0; axis < 3 && element[node] < 0; ++axis) {
+        if (node >= step[axis]) element[node] = before[node - step[axis]];
+        if (element[node] < 0 && node + step[axis] < element.size())
+          element[node] = before[node + step[axis]];
+      }
+  }
+  return element;
+}
+
+// Of the elements at the eight nodes about a place, the one that holds it best; −1: none.
+int ElementAround(const glm::dvec3& x, const FieldGrid& grid, const std::vector<int>& of_node,
+                  const TetMesh& mesh) {
+  const glm::dvec3 last(grid.count[0] - 2, grid.count[1] - 2, grid.count[2] - 2);
+  const glm::ivec3 low(glm::clamp(glm::floor((x - grid.origin) / grid.spacing), glm::dvec3(0.0),
+                                  glm::max(last, glm::dvec3(0.0))));
+  int best = -1;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    const int element =
+        of_node[grid.Index(low.x + (corner & 1), low.y + (corner >> 1 & 1), low.z + (corner >> 2))];
+    if (element < 0 || element == best) continue;
+    if (const double inside = Inside(mesh, element, x); inside > most) {
+      most = inside;
+      best = element;
+    }
+  }
+  return best;
 }
 
 // Of each element of the whole mesh that is there once: which it is in the cut mesh; −1: none, or
@@ -112,9 +187,8 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
       grid.Index(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
   // Well outside the tissue nothing is to be known.
   if (field.values()[node] > std::min(kSkinReach * grid.spacing, 0.9 * field.band())) return false;
-  int& element = cut->element_of_node[node];
-  if (element < 0) element = finder.Find(rest).element;
-  if (cut->is_near[static_cast<std::size_t>(element)] == 0) return false;
+  const int element = cut->element_of_node[node];
+  if (element < 0 || cut->is_near[static_cast<std::size_t>(element)] == 0) return false;
   const ElementCopy copy = cut->cutter.FindCopy(element, rest);
   if (copy.element < 0) return false;
   const int nodes = shape->mesh.NodesPerElement();
@@ -131,7 +205,7 @@ void DeformableBody::Impl::BeginCutting() {
   cut = std::make_unique<CutState>(CutState{
       MeshCutter(spec.mesh, field.spacing()), FieldSkin(field), field, {}, {}, {}, {}, {}});
   cut->cutter.Rebuild(field);
-  cut->element_of_node.assign(field.grid().NodeCount(), -1);
+  cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
   cut->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
 }
 
@@ -193,7 +267,8 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
         continue;
       }
     } else {
-      element_of[v] = finder.Find(rest).element;
+      element_of[v] = ElementAround(rest, field.grid(), cut->element_of_node, spec.mesh);
+      if (element_of[v] < 0) element_of[v] = finder.Find(rest).element;
     }
     const ElementCopy copy = cut->cutter.FindCopy(element_of[v], rest);
     skin.point[v] = {std::max(copy.element, 0), copy.weight};

@@ -34,7 +34,7 @@ struct CutState {
   FieldSkin skin;
   SolidField original;
   std::vector<int> element_of_vertex;  // of the whole mesh, one a vertex of the field's skin
-  std::vector<int> element_of_node;  // of the whole mesh, one a node of the field; −1: not asked
+  std::vector<int> element_of_node;  // of the whole mesh, one a node of the field; −1: far from it
   std::vector<unsigned char> is_near;  // of the whole mesh: an element where the tool is now
   Shaver shaver;
   CutReport report;
