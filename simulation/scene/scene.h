@@ -81,6 +81,7 @@ struct Tissue {
   Elasticity elasticity;                // where it differs from the preset
   std::vector<Ball> fixed;              // where it is held
   bool is_cuttable = true;              // instruments may take of it
+  bool is_implicit = false;             // touched as a sampled function [paper 3.4]; no mesh then
   glm::dvec3 colour{0.93, 0.90, 0.84};  // linear RGB
   AssetRights rights;
 };

@@ -146,6 +146,9 @@ void ReadTissue(Reader& reader, Tissue& tissue) {
     inner.Number("radius", ball.radius, kLength, Reader::kRequired);
   });
   reader.Flag("cuttable", tissue.is_cuttable);
+  reader.Flag("implicit", tissue.is_implicit);
+  if (tissue.is_implicit && !tissue.mesh.empty())
+    reader.Fault("implicit", "is true of a tissue that has a mesh; leave out one of the two");
   reader.Point("colour", tissue.colour, kShare);
   ReadRights(reader, tissue.rights);
   // forces.csv tells contacts by these two words (design §5), one to a cell.
@@ -240,6 +243,7 @@ ordered_json JsonFromTissue(const Tissue& tissue) {
   for (const Ball& ball : tissue.fixed)
     json["fixed"].push_back({{"centre", JsonFromPoint(ball.centre)}, {"radius", ball.radius}});
   if (!tissue.is_cuttable) json["cuttable"] = false;
+  if (tissue.is_implicit) json["implicit"] = true;
   json["colour"] = JsonFromPoint(tissue.colour);
   PutRights(json, tissue.rights);
   return json;

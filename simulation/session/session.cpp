@@ -60,6 +60,9 @@ class LayersUnderTool : public Softness {
   double radius_;
 };
 
+// Grid of a tissue that is a function, as that of cuts.
+constexpr double kFieldSpacing = 3.5e-4;  // m, in the portal frame
+
 // The backdrop as what tissue rests on.
 class BackdropObstacle : public RigidObstacle {
  public:
@@ -99,6 +102,14 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
   away_.resize(count);
   is_live_.assign(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Tissue& tissue = scene.tissues[i];
+    if (!tissue.is_implicit || !tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
+    SetField(
+        static_cast<int>(i),
+        std::make_shared<const ImplicitTissue>(
+            SolidField::FromSurface(surfaces[i], kFieldSpacing / tissue.pose.scale), tissue.pose));
+  }
   scope_.end_radius = kScopeRadius;
   for (std::size_t kind = 0; kind < end_radius_.size(); ++kind)
     end_radius_[kind] = EndRadius(ShapeOf(static_cast<ToolKind>(kind)));

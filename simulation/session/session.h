@@ -27,7 +27,8 @@ namespace arthro::simulation {
 class Session {
  public:
   // With no depth map the bare sphere is felt where the panorama lies. A tissue with an empty
-  // surface is not felt. Copies what it needs; `loaded` may go.
+  // surface is not felt; one that the scene calls implicit is sampled and touched as a function,
+  // and must be closed: throws Error(kBadMesh). Copies what it needs; `loaded` may go.
   explicit Session(const LoadedScene& loaded, const SessionOptions& options = {});
 
   // From parts, for an author's poke: `surfaces` has one mesh a tissue, in the tissue's own frame.

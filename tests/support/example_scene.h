@@ -33,7 +33,7 @@ inline nlohmann::json FullSceneJson() {
                       "fibre_axis": "circumferential_z", "layer_thickness": 0.002},
        "fixed": [{"centre": [0.01, 0, 0.002], "radius": 0.003}, {"centre": [0, -0.01, 0], "radius": 0.002}],
        "rights": {"source": "scan", "licence": "CC-BY-4.0", "consent": "given in writing"}},
-      {"name": "plateau", "surface": "plateau.ply"}
+      {"name": "plateau", "surface": "plateau.ply", "implicit": true}
     ],
     "instruments": [{"name": "probe", "kind": "probe"}, {"name": "punch", "kind": "punch"}],
     "tasks": [{"id": "look", "title": "Look round", "text": "Find the posterior horn."}],
@@ -107,6 +107,7 @@ inline std::vector<SceneFault> SceneFaults() {
       {"/tissues/0/fixed/1/centre", {0, nullptr, 0}, "tissues[0].fixed[1].centre", "3 numbers"},
       {"/tissues/0/fixed/1", {0, 0, 0}, "tissues[0].fixed[1]", "object"},
       {"/tissues/0/cuttable", "no", "tissues[0].cuttable", "true or false"},
+      {"/tissues/1/implicit", 1, "tissues[1].implicit", "true or false"},
       {"/instruments/0/kind", "scalpel", "instruments[0].kind", "probe, punch, shaver, grasper"},
       {"/tissues/1/name", "", "tissues[1].name", "empty"},
       {"/tissues/1/name", "backdrop", "tissues[1].name", "choose another"},

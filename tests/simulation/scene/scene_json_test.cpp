@@ -68,6 +68,8 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_EQ(scene.tissues[1].elasticity, Elasticity{});
   EXPECT_TRUE(scene.tissues[1].fixed.empty());
   EXPECT_TRUE(scene.tissues[1].is_cuttable);
+  EXPECT_FALSE(meniscus.is_implicit);
+  EXPECT_TRUE(scene.tissues[1].is_implicit);
   ASSERT_EQ(scene.instruments.size(), 2u);
   EXPECT_EQ(scene.instruments[1].kind, "punch");
   ASSERT_EQ(scene.tasks.size(), 1u);
@@ -142,6 +144,16 @@ TEST(SceneJson, TellsAllFaultsNotOnlyTheFirst) {
   scene["scope"]["view_angle_deg"] = "thirty";
   scene["tissues"][1].erase("surface");
   EXPECT_EQ(FaultsOf(scene).size(), 4u);
+}
+
+TEST(SceneJson, ATissueIsAFunctionOrHasAMesh) {
+  json scene = test::FullSceneJson();
+  scene["tissues"][0]["implicit"] = true;
+  const std::vector<JsonFault> faults = FaultsOf(scene);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].sentence.find("tissues[0].implicit"), std::string::npos)
+      << faults[0].sentence;
+  EXPECT_NE(faults[0].sentence.find("mesh"), std::string::npos) << faults[0].sentence;
 }
 
 TEST(SceneJson, LongAndForeignLettersInAFaultStayReadable) {

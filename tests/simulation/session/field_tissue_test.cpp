@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/core/error.h"
 #include "simulation/session/scripted_device.h"
 #include "simulation/session/session.h"
 #include "tests/support/allocation_counter.h"
@@ -132,6 +134,24 @@ TEST(FieldTissue, WhatIsBittenOffIsNotFeltAnyMore) {
   hand.Lead({0, 0, 0.03});
   hand.session.SetField(0, nullptr);
   EXPECT_NEAR(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).penetration, 1e-3, 1e-5) << "its mesh again";
+}
+
+TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
+  LoadedScene loaded = MakeScene();
+  loaded.scene.tissues[0].pose.scale = 0.5;
+  Hand given(loaded);
+  auto field = SolidField::FromSurface(loaded.surfaces[0], kSpacing / 0.5);
+  given.session.SetField(
+      0, std::make_shared<ImplicitTissue>(std::move(field), loaded.scene.tissues[0].pose));
+  loaded.scene.tissues[0].is_implicit = true;
+  Hand said(loaded);
+  const glm::dvec3 deep = kCentre + glm::dvec3(3e-4, 2e-4, -0.5 * kBall + 5e-4);
+  EXPECT_EQ(said.Lead(deep).tip_force, given.Lead(deep).tip_force);
+  const double ball = 0.5 * kBall, depth = ball - glm::distance(deep, kCentre);
+  EXPECT_NEAR(glm::length(said.session.snapshot().instrument.tip_force), kSpring * depth,
+              kSpring * (kSkin + 2 * kSpacing * kSpacing / (8 * ball) + 1e-6));
+  loaded.surfaces[0].triangles.pop_back();
+  EXPECT_THROW(Hand{loaded}, Error) << "an open surface has no inside";
 }
 
 TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
