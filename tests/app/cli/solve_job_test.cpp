@@ -136,7 +136,7 @@ TEST(SolveJob, OverwritesNothingThatItReadsAndNoResultWithAnother) {
   std::ofstream(folder / "case.json") << BarCase().dump();
   const std::string mesh = ReadWholeFile(folder / "bar.vtu"),
                     tissue_case = ReadWholeFile(folder / "case.json");
-  const auto in = [&](const char* name) { return (folder.path() / name).string(); };
+  const auto in = [&](const char* name) { return (folder / name).string(); };
   for (const std::string& outputs :
        {in("bar.vtu"), in("./case.json"), in("r.json") + " --vtu " + in("./bar.vtu"),
         in("r.vtu") + " --vtu " + in("./r.vtu"), in("r.json") + " --vtu " + in("none/r.vtu")}) {
