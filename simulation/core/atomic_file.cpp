@@ -66,6 +66,8 @@ void WriteAtomically(const fs::path& target, const std::function<void(const fs::
                 target);
   if (fs::is_directory(target, ignored))
     throw Error(Code::kFile, "this is a folder; give the name of a file", target);
+  // Into a device or a pipe as it is: a file in its place would be another thing.
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return write(target);
   const fs::path beside = NameBeside(target);
   try {
     write(beside);

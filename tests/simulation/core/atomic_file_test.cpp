@@ -1,6 +1,9 @@
 #include "simulation/core/atomic_file.h"
 
+#include <fcntl.h>
 #include <fstream>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +54,20 @@ TEST(AtomicFile, SaysThatTheDiskIsFull) {
     EXPECT_EQ(error.code(), Code::kFile);
   }
   EXPECT_EQ(FilesIn(folder.path()), 0);
+}
+
+TEST(AtomicFile, WritesIntoAPipeAndDoesNotReplaceIt) {
+  const test::TempFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  WriteAtomically(pipe, "text");
+  char bytes[8] = {};
+  EXPECT_EQ(::read(reader, bytes, sizeof bytes), 4);
+  ::close(reader);
+  EXPECT_STREQ(bytes, "text");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(AtomicFile, NamesAMissingFolder) {
