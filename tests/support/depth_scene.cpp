@@ -12,7 +12,7 @@ DepthScene MakeDepthScene(const DepthSceneOptions& options) {
   using authoring::NormalOf;
   using authoring::PlaneNoise;
   const int n = options.size;
-  authoring::Random random(static_cast<std::uint64_t>(options.seed) * 6007 + 77);
+  Random random(static_cast<std::uint64_t>(options.seed) * 6007 + 77);
   DepthScene scene;
   scene.picture = ColourImage(n, n);
   scene.centre = (n - 1) / 2.0;

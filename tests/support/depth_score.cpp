@@ -132,7 +132,7 @@ DepthScore ScoreScene(const std::vector<double>& estimate, const DepthScene& sce
   DepthScore score = ScoreDepth(estimate, scene.distance, fit_origin);
   const std::vector<double> fitted = Fitted(estimate, scene.distance, fit_origin);
   const glm::dvec3 portal(0.6, 0.1, 0);  // beside the scope
-  authoring::Random random(71);
+  Random random(71);
   int met = 0;
   for (int i = 0; i < kApproaches; ++i) {
     const double x = random.Uniform(0.2, 0.8) * scene.picture.width,

@@ -238,6 +238,13 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
     own.AddCoupling(static_cast<int>(i), {own.contacts.data(), of_tools}, results.first(of_tools),
                     coupling[i]);
 
+  // The factor that a cut made at once knows nothing of what the tissue touches: now it can.
+  if (report.was_cut) {
+    own.solver.BeginRefresh();
+    own.solver.RunRefresh();
+    own.solver.TakeRefreshed();
+  }
+
   // A preconditioner that grows old is made anew; a body at rest sleeps.
   ++own.since_refresh;
   report.factor_age = own.solver.factor_age();
