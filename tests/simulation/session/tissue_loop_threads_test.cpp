@@ -21,7 +21,7 @@ constexpr double kTick = 1e-3;  // s
 Instrumentation ProbeAt(const BodySpec& spec, double t) {
   const double depth = 2e-3 * std::sin(2.0 * std::numbers::pi * t);
   const double x = 3e-3 * std::sin(0.7 * std::numbers::pi * t);
-  return {ToolKind::kProbe, test::ToolAbove(spec, ToolKind::kProbe, depth, x).now};
+  return {ToolKind::kProbe, test::ToolAbove(spec, ToolKind::kProbe, depth, x).now, {}};
 }
 
 TissueWorld SlabWorld(const BodySpec& spec, bool second_thread) {
