@@ -105,11 +105,11 @@ double ForceInElements(const simulation::Material& material, double radius, doub
   const std::vector<glm::dvec3> load(state.x.size(), glm::dvec3(0.0));
   std::vector<simulation::ContactResult> results(layer.contacts.size());
   double force = 0;
-  constexpr int kSteps = 2;
+  constexpr int kSteps = 5;
   for (int step = 1; step <= kSteps; ++step) {
     const glm::dvec3 centre(0, 0, kThickness + radius - depth * step / kSteps);
     // Each contact is the ball's tangent plane where its point now is: a few rounds settle it.
-    for (int round = 0; round < (step == kSteps ? 4 : 2); ++round) {
+    for (int round = 0; round < (step == kSteps ? 4 : 1); ++round) {
       for (ContactPoint& contact : layer.contacts) {
         glm::dvec3 place(0.0);
         for (std::size_t k = 0; k < 6; ++k)
