@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/scene/held_nodes.h"
 #include "simulation/tissue/body/deformable_body_impl.h"
 
 namespace arthro::simulation {
@@ -19,10 +20,8 @@ constexpr int kGoodEvery = 30;     // steps between two copies of a state to fal
 constexpr int kRefreshPause = 10;  // steps between two factors, so that none is wasted
 
 FixedAxes FixedBy(const std::vector<Ball>& balls, const TetMesh& mesh) {
-  FixedAxes fixed(mesh.rest_positions.size(), 0);
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-    for (const Ball& ball : balls)
-      if (glm::distance(mesh.rest_positions[i], ball.centre) <= ball.radius) fixed[i] = 7;
+  FixedAxes fixed = HeldNodes(mesh.rest_positions, balls);
+  for (std::uint8_t& axes : fixed) axes *= 7;  // all three of a held node
   return fixed;
 }
 
