@@ -138,7 +138,10 @@ bool FinishFootage(EditorState& state) {
   }
   if (state.frame_jobs.busy()) {
     Guarded(state, "Frame", [&] { state.frame_jobs.Finish(state); });
-    changed = changed || !state.frame_jobs.busy();
+    const bool has_ended = !state.frame_jobs.busy();
+    // It had the session for a moment, in which nobody else could ask it.
+    if (has_ended && state.footage && !FootageIsUnderWay(state)) NoteNextRun(*state.footage);
+    changed = changed || has_ended;
   }
   if (ShowsFootage(state)) ReadLarge(state);
   return changed;

@@ -61,7 +61,7 @@ authoring::PanoramaRequest RequestOf(const FootageBoard& board) {
 
 void NoteNextRun(FootageBoard& board) {
   if (!board.session) return;
-  // Not while a run has it: the end of that run asks again.
+  // Not while a run or a reader has it: their end asks again.
   const std::unique_lock lock(board.session->mutex, std::try_to_lock);
   if (lock) board.next_stage = board.session->session.NextStage(RequestOf(board));
 }

@@ -3,6 +3,7 @@
 // finds is tested with authoring/panorama.
 #include <chrono>
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -173,6 +174,22 @@ TEST_F(Footage, AFrameThatIsTakenInAgainIsNotYetDecided) {
   RunIt();
   SetFrameIncluded(state, 1, true);
   EXPECT_EQ(StatusOf(*state.footage, 1), FrameStatus::kNotYet);
+}
+
+// A double click selects a frame and leaves it out: its reader has the session just then.
+TEST_F(Footage, WhatIsLeftOutWhileAFrameIsReadIsKnownOnceItIsRead) {
+  OpenClip();
+  RunIt();
+  FootageBoard& board = *state.footage;
+  SelectFrame(state, 0);
+  board.next_stage.clear();
+  {
+    const std::lock_guard reader(board.session->mutex);
+    SetFrameIncluded(state, 0, false);
+  }
+  EXPECT_EQ(board.next_stage, "");
+  Settle();
+  EXPECT_EQ(board.next_stage, "read") << "the made-up run left no products to go on from";
 }
 
 TEST_F(Footage, TheResultBecomesTheBackdropInOneStepThatIsUndone) {
