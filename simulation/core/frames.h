@@ -10,6 +10,7 @@ namespace arthro {
 struct Rigid3 {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z; unit
   glm::dvec3 translation{0.0};              // m
+  friend bool operator==(const Rigid3&, const Rigid3&) = default;
 };
 
 inline glm::dvec3 operator*(const Rigid3& target_from_source, const glm::dvec3& x_in_source) {

@@ -172,6 +172,26 @@ void JsonObjectReader::Point(const char* name, glm::dvec3& field, const JsonLimi
   Numbers(name, 3, &field.x, limits, need);
 }
 
+void JsonObjectReader::Points(const char* name, std::vector<glm::dvec3>& field, int least, int most,
+                              const JsonLimits& limits) {
+  const nlohmann::json* entry = Find(name, kRequired, "a list [[x, y, z], …]");
+  if (!entry) return;
+  const auto is_point = [&](const nlohmann::json& point) {
+    return point.is_array() && point.size() == 3 &&
+           std::all_of(point.begin(), point.end(), [&](const nlohmann::json& value) {
+             return value.is_number() && IsWithin(value.get<double>(), limits);
+           });
+  };
+  const auto size = static_cast<int>(entry->is_array() ? entry->size() : 0);
+  if (!entry->is_array() || size < least || size > most ||
+      !std::all_of(entry->begin(), entry->end(), is_point))
+    return Fault(name, fmt::format("is {}; it must be {} to {} points [x, y, z], each number {}",
+                                   Shown(*entry), least, most, Wanted(limits)));
+  field.clear();
+  for (const nlohmann::json& point : *entry)
+    field.emplace_back(point[0].get<double>(), point[1].get<double>(), point[2].get<double>());
+}
+
 void JsonObjectReader::Quaternion(const char* name, glm::dquat& field) {
   constexpr double kShortest = 1e-6;   // below this a direction is noise
   constexpr double kRounding = 1e-12;  // a unit quaternion stays bit for bit what was saved

@@ -43,6 +43,9 @@ class JsonObjectReader {
   void Path(const char* name, std::filesystem::path& field, Need need = kOptional);
   void Point(const char* name, glm::dvec2& field, const JsonLimits& limits, Need need = kOptional);
   void Point(const char* name, glm::dvec3& field, const JsonLimits& limits, Need need = kOptional);
+  // A list of so many points; required.
+  void Points(const char* name, std::vector<glm::dvec3>& field, int least, int most,
+              const JsonLimits& limits);
   void Quaternion(const char* name, glm::dquat& field);  // [w, x, y, z]; made unit
   // A list of finite numbers, however many. False where it is absent or at fault.
   bool List(const char* name, std::vector<double>& numbers);

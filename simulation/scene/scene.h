@@ -15,6 +15,7 @@
 
 #include "simulation/core/frames.h"
 #include "simulation/scene/projection.h"
+#include "simulation/scene/tissue_parts.h"
 
 namespace arthro {
 
@@ -53,14 +54,6 @@ struct Rig {
   DeviceRig scope, instrument;
 };
 
-// Where a tissue is held: what of it lies inside does not move. A place and not a list of nodes, so
-// that it outlives a new mesh. In the tissue's own frame (before the scale of its pose), m.
-struct Ball {
-  glm::dvec3 centre{0.0};
-  double radius = 1e-3;
-  friend bool operator==(const Ball&, const Ball&) = default;
-};
-
 // What of a tissue's preset this scene says otherwise, under the names of CASE.json; SI.
 struct Elasticity {
   std::optional<double> young_modulus;    // Pa
@@ -79,7 +72,9 @@ struct Tissue {
   Pose pose;                            // portal_from_tissue
   std::string material = "meniscus";    // preset name
   Elasticity elasticity;                // where it differs from the preset
-  std::vector<Ball> fixed;              // where it is held
+  std::vector<Ball> fixed;              // where it is held: what lies inside does not move
+  std::vector<Cut> cuts;                // made before anybody touches it
+  std::vector<Region> regions;          // of the first that holds it, what is taken is told
   bool is_cuttable = true;              // instruments may take of it
   bool is_implicit = false;             // touched as a sampled function [paper 3.4]; no mesh then
   glm::dvec3 colour{0.93, 0.90, 0.84};  // linear RGB

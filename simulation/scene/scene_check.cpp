@@ -223,9 +223,9 @@ SceneFindings CheckScene(const LoadedScene& loaded) {
   return findings;
 }
 
-SceneFindings CheckScene(const std::filesystem::path& scene) {
+SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what) {
   std::vector<std::string> errors;
-  const LoadedScene loaded = LoadScene(scene, errors);
+  LoadedScene loaded = LoadScene(scene, errors);
   SceneFindings findings = CheckScene(loaded);
   for (const Tissue& tissue : loaded.scene.tissues) {
     std::error_code ignored;
@@ -245,6 +245,7 @@ SceneFindings CheckScene(const std::filesystem::path& scene) {
     }
   }
   findings.errors = std::move(errors);
+  if (what != nullptr) *what = std::move(loaded);
   return findings;
 }
 

@@ -17,8 +17,8 @@ struct SceneFindings {
   std::vector<std::string> hints;     // parts that it lacks and could have
 };
 
-// Loads everything that the scene names, tetrahedra included.
-SceneFindings CheckScene(const std::filesystem::path& scene);
+// Loads everything that the scene names, tetrahedra included. `loaded`, if given, gets the scene.
+SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* loaded = nullptr);
 
 // The same for a scene in memory, as an editor shows it while the author works.
 SceneFindings CheckScene(const LoadedScene& loaded);

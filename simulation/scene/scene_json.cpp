@@ -10,7 +10,9 @@
 #include <fmt/ranges.h>
 
 #include "simulation/core/units.h"
+#include "simulation/scene/scene_limits.h"
 #include "simulation/scene/scene_migration.h"
+#include "simulation/scene/tissue_parts_json.h"
 
 namespace arthro {
 namespace {
@@ -18,9 +20,6 @@ namespace {
 using nlohmann::ordered_json;
 using Reader = JsonObjectReader;
 
-// A joint is centimetres wide, so a length of metres means that millimetres were written.
-constexpr JsonLimits kLength{0, 2, "metres", true};
-constexpr JsonLimits kCoordinate{-2, 2, "metres"};
 constexpr JsonLimits kViewAngle{0, 120, "degrees"};
 constexpr JsonLimits kFieldOfView{0, 180, "degrees", true};
 constexpr JsonLimits kScale{0, 1e6, "", true};
@@ -145,6 +144,8 @@ void ReadTissue(Reader& reader, Tissue& tissue) {
     inner.Point("centre", ball.centre, kCoordinate, Reader::kRequired);
     inner.Number("radius", ball.radius, kLength, Reader::kRequired);
   });
+  ReadCuts(reader, tissue.cuts);
+  ReadRegions(reader, tissue.regions);
   reader.Flag("cuttable", tissue.is_cuttable);
   reader.Flag("implicit", tissue.is_implicit);
   if (tissue.is_implicit && !tissue.mesh.empty())
@@ -176,15 +177,6 @@ double FileDegrees(double radians) {
   }
   return degrees;
 }
-
-template <class V>
-ordered_json JsonFromPoint(const V& v) {
-  ordered_json json = ordered_json::array();
-  for (int i = 0; i < V::length(); ++i) json.push_back(v[i]);
-  return json;
-}
-
-ordered_json JsonFromQuaternion(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
 
 void PutText(ordered_json& json, const char* key, const std::string& text) {
   if (!text.empty()) json[key] = text;
@@ -242,6 +234,8 @@ ordered_json JsonFromTissue(const Tissue& tissue) {
     json["elasticity"] = elasticity;
   for (const Ball& ball : tissue.fixed)
     json["fixed"].push_back({{"centre", JsonFromPoint(ball.centre)}, {"radius", ball.radius}});
+  for (const Cut& cut : tissue.cuts) json["cuts"].push_back(JsonFromCut(cut));
+  for (const Region& region : tissue.regions) json["regions"].push_back(JsonFromRegion(region));
   if (!tissue.is_cuttable) json["cuttable"] = false;
   if (tissue.is_implicit) json["implicit"] = true;
   json["colour"] = JsonFromPoint(tissue.colour);

@@ -1,43 +1,21 @@
 // What takes tissue away, as signed distances (negative inside the tool): the basket punch's bite,
-// the shaver's window, a tear along a path. An author's cut is a plain value, in the tissue's own
-// frame at rest, so that undo is cutting the original again with one value less, and a session's
-// reset is the original. m, m³, s.
+// the shaver's window, a tear along a path. An author's cut is a plain value (tissue_parts.h), so
+// that undo is cutting the original again with one value less, and a session's reset is the
+// original with all of them. Field's own frame, m, m³, s.
 #pragma once
 
 #include <functional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include "simulation/core/frames.h"
 #include "simulation/core/options.h"
-#include "simulation/scene/scene.h"
+#include "simulation/scene/tissue_parts.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {
-
-// A bite of round jaws, or a pass of the shaver.
-struct CapsuleCut {
-  glm::dvec3 a{0.0}, b{0.0};
-  double radius = 1e-3;
-};
-// A bite of square jaws: what lies in a box.
-struct BoxCut {
-  Rigid3 rest_from_box;
-  glm::dvec3 half{1e-3};
-};
-// A slot along a path on the surface, as deep as said along `into`. It begins `lead` before the
-// path, so that it is open. Slots narrower than 1.5 spacings of a field would not separate and are
-// made that wide.
-struct TearCut {
-  std::vector<glm::dvec3> path;  // two points at least
-  glm::dvec3 into{0, 0, -1};
-  double depth = 2e-3, width = 5e-4, lead = 1e-3;
-};
-using Cut = std::variant<CapsuleCut, BoxCut, TearCut>;
 
 double DistanceToCapsule(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b,
                          double radius) noexcept;
@@ -80,11 +58,6 @@ FieldEdit Shave(SolidField& field, const Box3& rest_box, const Deformation& defo
                 const ToolDistance& distance, const ShaverOptions& options, double dt,
                 Shaver& shaver);
 
-// Part of a tissue by name: "posterior horn" is a ball.
-struct Region {
-  std::string name;
-  Ball ball;
-};
 struct RegionVolume {
   std::string name;
   double removed = 0;  // m³

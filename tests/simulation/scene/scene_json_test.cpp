@@ -63,6 +63,17 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_EQ(meniscus.elasticity.fibre_axis, "circumferential_z");
   EXPECT_EQ(meniscus.elasticity.layer_thickness, 0.002);
   EXPECT_EQ(meniscus.fixed, (std::vector<Ball>{{{0.01, 0, 0.002}, 0.003}, {{0, -0.01, 0}, 0.002}}));
+  EXPECT_EQ(
+      meniscus.cuts,
+      (std::vector<Cut>{TearCut{{{0, 0, 0.002}, {0.003, 0.001, 0.002}, {0.006, 0, 0.002}},
+                                {0, 0.1, -1},
+                                0.003,
+                                0.0006,
+                                0.0015},
+                        CapsuleCut{{0.01, 0, 0}, {0.01, 0.002, 0}, 0.0015},
+                        BoxCut{{glm::dquat(0, 0, 0, 1), {0, 0.01, 0}}, {0.002, 0.001, 0.001}}}));
+  EXPECT_EQ(meniscus.regions, (std::vector<Region>{{"anterior horn", {{0, 0.01, 0}, 0.005}},
+                                                   {"posterior horn", {{0, -0.01, 0}, 0.006}}}));
   EXPECT_FALSE(meniscus.is_cuttable);
   EXPECT_EQ(scene.tissues[1].pose.scale, 1.0);
   EXPECT_EQ(scene.tissues[1].elasticity, Elasticity{});
@@ -108,6 +119,8 @@ TEST(SceneJson, WritingAndReadingGivesTheSameScene) {
   // The text holds every field exactly, so equal texts are equal scenes.
   EXPECT_EQ(PrettyJson(JsonFromScene(back)), text);
   EXPECT_EQ(back.tissues[0].pose.quaternion, scene.tissues[0].pose.quaternion);
+  EXPECT_EQ(back.tissues[0].cuts, scene.tissues[0].cuts);
+  EXPECT_EQ(back.tissues[0].regions, scene.tissues[0].regions);
   EXPECT_EQ(back.scope.view_angle, scene.scope.view_angle);
   EXPECT_NE(text.find("\"view_angle_deg\": 70.0"), std::string::npos) << text;
   EXPECT_NE(text.find("\"centre_px\": [31.5, 15.5]"), std::string::npos) << text;
