@@ -9,6 +9,7 @@
 #include "app/cli/jobs.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/scene_check.h"
+#include "simulation/session/cut_check.h"
 
 namespace arthro::app {
 namespace {
@@ -18,7 +19,9 @@ void Print(std::FILE* stream, const char* word, const std::vector<std::string>& 
 }
 
 void Check(const std::string& scene) {
-  const SceneFindings findings = CheckScene(scene);
+  LoadedScene loaded;
+  SceneFindings findings = CheckScene(scene, &loaded);
+  if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
   if (const std::size_t count = findings.errors.size()) {
     // What was found of half a scene would only mislead.
     Print(stderr, "error: ", findings.errors);

@@ -51,23 +51,31 @@ BodySpec BodyOf(const Tissue& tissue, int index, const SurfaceMesh& surface, Tet
   body.name = tissue.name;
   body.tissue = index;
   body.mesh = std::move(mesh);
-  body.surface = surface;
+  BodyPlaces places = PlacesOf(tissue, surface);
+  body.surface = std::move(places.surface);
+  body.fixed = std::move(places.fixed);
+  body.cuts = std::move(places.cuts);
+  body.regions = std::move(places.regions);
   body.material = WithElasticity(preset, tissue.elasticity).material;
-  body.fixed = tissue.fixed;
   body.portal_from_body = {tissue.pose.quaternion, tissue.pose.position};
   body.is_cuttable = tissue.is_cuttable;
-
-  const double scale = tissue.pose.scale;
-  for (glm::dvec3& x : body.mesh.rest_positions) x *= scale;
-  for (glm::dvec3& x : body.surface.vertices) x *= scale;
-  for (Ball& ball : body.fixed) {
-    ball.centre *= scale;
-    ball.radius *= scale;
-  }
+  for (glm::dvec3& x : body.mesh.rest_positions) x *= tissue.pose.scale;
   return body;
 }
 
 }  // namespace
+
+BodyPlaces PlacesOf(const Tissue& tissue, const SurfaceMesh& surface) {
+  const double scale = tissue.pose.scale;
+  BodyPlaces places;
+  places.surface = surface;
+  for (glm::dvec3& x : places.surface.vertices) x *= scale;
+  for (const Ball& ball : tissue.fixed) places.fixed.push_back(Scaled(ball, scale));
+  for (const Cut& cut : tissue.cuts) places.cuts.push_back(Scaled(cut, scale));
+  for (const Region& region : tissue.regions)
+    places.regions.push_back({region.name, Scaled(region.ball, scale)});
+  return places;
+}
 
 std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
                                     const FileOf& file_of, const std::vector<TissuePreset>& presets,

@@ -16,6 +16,15 @@
 
 namespace arthro::simulation {
 
+// A tissue's surface and places in the frame of its body: the scale of its pose applied.
+struct BodyPlaces {
+  SurfaceMesh surface;
+  std::vector<Ball> fixed;
+  std::vector<Cut> cuts;
+  std::vector<Region> regions;
+};
+BodyPlaces PlacesOf(const Tissue& tissue, const SurfaceMesh& surface);
+
 // Where the bytes of an asset lie, by the name that the scene uses.
 using FileOf = std::function<std::filesystem::path(const std::filesystem::path& name)>;
 

@@ -58,13 +58,13 @@ void CountTissues(const WorldPicture& world, std::vector<TissueReport>& reports)
     const BodyPicture& body = world.bodies[i];
     TissueReport& report = reports[i];
     report.tissue = body.tissue;
+    report.cut = body.cut;
     if (body.report.is_asleep) continue;
     ++report.steps;
     report.resets += body.report.was_reset;
     report.fallbacks += body.report.step.used_fallback;
     report.most_iterations = std::max(report.most_iterations, body.report.step.iterations);
     report.step_ms += body.step_ms;  // a sum until the end
-    report.cut = body.cut;
     if (body.skin == nullptr) continue;
     for (std::size_t v = 0; v < body.positions.size(); ++v)
       report.deepest = std::max(report.deepest,
@@ -79,6 +79,12 @@ std::string ContactName(int contact, const Scene& scene) {
   if (tissue < scene.tissues.size() && !scene.tissues[tissue].name.empty())
     return scene.tissues[tissue].name;
   return fmt::format("tissue {}", contact);
+}
+
+// The entry after the last region's is what lies in none.
+std::string RegionName(const Scene& scene, int tissue, std::size_t index) {
+  const auto& regions = scene.tissues[static_cast<std::size_t>(tissue)].regions;
+  return index < regions.size() ? regions[index].name : kElsewhere;
 }
 
 // A name with a comma, a quote or a line break goes in quotes, its own quotes doubled (RFC 4180).
@@ -204,6 +210,9 @@ std::string ReportText(const ReplayReport& report, const Scene& scene) {
     entry["mean_step_ms"] = tissue.step_ms;
     entry["largest_displacement"] = tissue.deepest;
     entry["removed_mm3"] = tissue.cut.removed * 1e9;
+    for (std::size_t i = 0; i < tissue.cut.by_region.size(); ++i)
+      entry["removed_mm3_by_region"][RegionName(scene, tissue.tissue, i)] =
+          tissue.cut.by_region[i] * 1e9;
     entry["cuts"] = tissue.cut.cuts;
     entry["pieces"] = tissue.cut.pieces;
     entry["debris"] = tissue.cut.debris;

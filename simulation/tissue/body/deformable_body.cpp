@@ -44,14 +44,6 @@ bool IsFinite(std::span<const glm::dvec3> x) noexcept {
   return std::isfinite(sum);
 }
 
-// Vertices on faces that cuts have made.
-std::vector<std::uint8_t> FreshIn(const SurfaceMesh& skin, const SolidField& field) {
-  std::vector<std::uint8_t> fresh;
-  for (const glm::dvec3& x : skin.vertices)
-    fresh.push_back(field.CutDistance(x) > -0.3 * field.spacing() ? 1 : 0);
-  return fresh;
-}
-
 std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder& finder,
                                       const SolidField& field) {
   return std::make_unique<BodyShape>(spec.mesh, std::span<const double>{}, spec,
@@ -68,8 +60,9 @@ BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const Body
       skin(std::move(carried)),
       skin_contact(skin, mesh, field),
       rest_contact(mesh, fixed),
-      skin_at_rest(std::make_shared<const BodySkin>(BodySkin{
-          skin.rest, share.empty() ? std::vector<std::uint8_t>{} : FreshIn(skin.rest, field)})) {}
+      skin_at_rest(std::make_shared<const BodySkin>(
+          BodySkin{skin.rest, share.empty() ? std::vector<std::uint8_t>{}
+                                            : FreshVertices(skin.rest, field)})) {}
 
 DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
     : spec(std::move(given)),
@@ -90,6 +83,8 @@ DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
   state.x = spec.mesh.rest_positions;
   state.v.assign(state.x.size(), glm::dvec3(0.0));
   MakeRoom();
+  taken.by_region.assign(spec.regions.empty() ? 0 : spec.regions.size() + 1, 0.0);
+  if (!spec.cuts.empty()) MakeAuthorsCuts();
 }
 
 // For everything that has as many entries as the shape has nodes or the skin vertices.
@@ -300,9 +295,7 @@ const std::shared_ptr<const BodySkin>& DeformableBody::skin() const {
 }
 std::uint64_t DeformableBody::shape_version() const { return impl_->shape_version; }
 const TetMesh& DeformableBody::mesh() const { return impl_->shape->mesh; }
-CutReport DeformableBody::cut_report() const {
-  return impl_->cut != nullptr ? impl_->cut->report : CutReport{};
-}
+const CutReport& DeformableBody::cut_report() const { return impl_->taken; }
 int DeformableBody::held_nodes() const {
   return static_cast<int>(std::count_if(impl_->shape->fixed.begin(), impl_->shape->fixed.end(),
                                         [](auto bits) { return bits != 0; }));

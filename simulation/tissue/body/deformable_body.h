@@ -33,6 +33,8 @@ struct BodySpec {
   SurfaceMesh surface;  // its fine skin, same frame, closed
   Material material;
   std::vector<Ball> fixed;  // nodes in any of these are held
+  std::vector<Cut> cuts;    // of the author: it begins, and is reset to, with these made
+  std::vector<Region> regions;
   Rigid3 portal_from_body;
   bool is_cuttable = false;
 };
@@ -53,13 +55,16 @@ struct BodyReport {
   int factor_age = 0;    // steps
 };
 
-// What was taken of a body so far.
+// What was taken of a body so far, the author's cuts not counted.
 struct CutReport {
   double removed = 0;        // m³ by tools, debris included
   int pieces = 1;            // that it has fallen into, debris not counted
   int debris = 0;            // loose fragments that were washed away
   double debris_volume = 0;  // m³
   int cuts = 0;              // bites, and updates of shaving
+  // m³, one a region of the spec, then what lies in none; their sum is `removed`. Empty: no
+  // regions.
+  std::vector<double> by_region;
 };
 
 // The skin of a body at rest, whole or after a cut.
@@ -90,7 +95,7 @@ class DeformableBody {
   // elsewhere and take it.
   void WhenCut(std::function<void()> finish);
 
-  void Reset();  // as it was before it was touched or cut
+  void Reset();  // as it was before it was touched: the author's cuts stay
   // There was no memory for a cut: what it is now is not to be shown, and it is whole again at the
   // first step that has memory and no refresh under way.
   bool IsLost() const noexcept;
@@ -102,7 +107,7 @@ class DeformableBody {
   const std::shared_ptr<const BodySkin>& skin() const;  // at rest; another one after a cut
   std::uint64_t shape_version() const;                  // grows when positions change
   const TetMesh& mesh() const;                          // as state() has nodes; cut or whole
-  CutReport cut_report() const;
+  const CutReport& cut_report() const;
   int held_nodes() const;
 
  private:

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/tissue/body/deformable_body_impl.h"
-#include "simulation/tissue/field/pieces.h"
+#include "simulation/tissue/cut/authors_cuts.h"
 
 namespace arthro::simulation {
 namespace {
@@ -18,15 +18,6 @@ constexpr double kOpened = 0.5, kClosed = 0.15;  // shares of the jaws' opening:
 constexpr int kShaveEvery = 6;  // steps; what is shaved is taken ten times a second
 
 constexpr double kSkinReach = 2.5;  // spacings outside the tissue that a cut still has to know
-
-// A loose fragment of less is washed away; the largest that a 4.5 mm shaver's window lets through.
-constexpr double kDebrisVolume = 60e-9;  // m³
-
-Box3 Union(const Box3& a, const Box3& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
 
 bool Meet(const Box3& a, const Box3& b) {
   return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
@@ -202,11 +193,27 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
 
 // What a cut needs, made at the first one.
 void DeformableBody::Impl::BeginCutting() {
-  cut = std::make_unique<CutState>(CutState{
-      MeshCutter(spec.mesh, field.spacing()), FieldSkin(field), field, {}, {}, {}, {}, {}});
+  cut = std::make_unique<CutState>(
+      CutState{MeshCutter(spec.mesh, field.spacing()), FieldSkin(field), field, {}, {}, {}, {}});
   cut->cutter.Rebuild(field);
   cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
   cut->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
+}
+
+// What the author took is not the trainee's: the body begins without it.
+void DeformableBody::Impl::MakeAuthorsCuts() {
+  BeginCutting();
+  const MadeCuts made = MakeCuts(field, spec.cuts, spec.fixed);
+  if (made.changed.empty()) return cut.reset();
+  FollowField(made.changed);
+  cut->original = field;
+}
+
+void DeformableBody::Impl::CountRegions() {
+  if (spec.regions.empty()) return;
+  taken.by_region.clear();
+  for (const RegionVolume& volume : RemovedByRegion(cut->original, field, spec.regions))
+    taken.by_region.push_back(volume.removed);
 }
 
 bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double dt) {
@@ -224,21 +231,14 @@ bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double d
                        ? Shave(field, box, place_of, distance, options.shaver, dt, cut->shaver)
                        : SubtractDeformed(field, box, place_of, distance);
   if (edit.changed.empty()) return false;
-  cut->report.removed += edit.removed;
-  ++cut->report.cuts;
-
   // Fragments that nothing holds any more are washed away when they are small.
-  if (!spec.fixed.empty()) {
-    const FieldPieces pieces = PiecesOf(field);
-    std::vector<unsigned char> is_debris = HeldPieces(field, pieces, spec.fixed);
-    for (std::size_t i = 0; i < is_debris.size(); ++i)
-      is_debris[i] = is_debris[i] == 0 && pieces.volume[i] < kDebrisVolume;
-    const CrumbReport gone = RemovePieces(field, pieces, is_debris);
-    edit.changed = Union(edit.changed, gone.edit.changed);
-    cut->report.debris += gone.crumbs;
-    cut->report.debris_volume += gone.edit.removed;
-    cut->report.removed += gone.edit.removed;
-  }
+  const CrumbReport gone = WashAway(field, spec.fixed);
+  edit.changed = Union(edit.changed, gone.edit.changed);
+  taken.removed += edit.removed + gone.edit.removed;
+  taken.debris += gone.crumbs;
+  taken.debris_volume += gone.edit.removed;
+  ++taken.cuts;
+  CountRegions();
   FollowField(edit.changed);
   return true;
 }
@@ -246,7 +246,7 @@ bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double d
 void DeformableBody::Impl::FollowField(const Box3& box) {
   const std::vector<int> was_only_copy = OnlyCopies(cut->cutter.result(), spec.mesh.ElementCount());
   const CutMesh& after = cut->cutter.Update(field, box);
-  cut->report.pieces = after.piece_count();
+  taken.pieces = after.piece_count();
 
   // The skin of what is left, on the elements that are left.
   cut->skin.Update(field);

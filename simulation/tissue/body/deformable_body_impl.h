@@ -28,16 +28,15 @@ struct BodyShape {
   std::shared_ptr<const BodySkin> skin_at_rest;
 };
 
-// Kept from the first cut on.
+// Kept from the first cut on, the author's or a tool's.
 struct CutState {
   MeshCutter cutter;
   FieldSkin skin;
-  SolidField original;
+  SolidField original;                 // with the author's cuts, before the first tool's
   std::vector<int> element_of_vertex;  // of the whole mesh, one a vertex of the field's skin
   std::vector<int> element_of_node;  // of the whole mesh, one a node of the field; −1: far from it
   std::vector<unsigned char> is_near;  // of the whole mesh: an element where the tool is now
   Shaver shaver;
-  CutReport report;
 };
 
 // A tool in the body's own frame.
@@ -67,6 +66,8 @@ struct DeformableBody::Impl {
   bool CutWithTools(std::span<const WorldTool> tools, double dt);
   bool CutWith(const Capsule& tool, bool is_shaver, double dt);
   void BeginCutting();
+  void MakeAuthorsCuts();
+  void CountRegions();
   // The field changed within `box`: elements, state, solver and skin follow.
   void FollowField(const Box3& box);
   // For everything that has as many entries as the shape has nodes or the skin vertices.
@@ -83,6 +84,7 @@ struct DeformableBody::Impl {
   SolidField field;
   std::unique_ptr<BodyShape> shape;
   std::unique_ptr<CutState> cut;  // null: whole
+  CutReport taken;
   ImplicitSolver solver;
   ObstacleContactOptions on_obstacle;
   const RigidObstacle* lies_on = nullptr;  // that shape->rest_contact knows

@@ -302,4 +302,12 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
   return update;
 }
 
+std::vector<std::uint8_t> FreshVertices(const SurfaceMesh& skin, const SolidField& field) {
+  constexpr double kNear = -0.3;  // spacings from a cut
+  std::vector<std::uint8_t> fresh;
+  for (const glm::dvec3& x : skin.vertices)
+    fresh.push_back(field.CutDistance(x) > kNear * field.spacing() ? 1 : 0);
+  return fresh;
+}
+
 }  // namespace arthro::simulation

@@ -53,6 +53,9 @@ class FieldSkin {
   std::uint64_t version_ = 0;
 };
 
+// 1 a vertex of `skin` on a face that edits of the field made, 0 on one that was there before.
+std::vector<std::uint8_t> FreshVertices(const SurfaceMesh& skin, const SolidField& field);
+
 inline SurfaceMesh Polygonise(const SolidField& field) { return FieldSkin(field).surface(); }
 
 }  // namespace arthro::simulation

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/surface_mesh.h"
@@ -28,6 +29,11 @@ struct Box3 {
   bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
 };
 inline constexpr Box3 kEmptyBox{glm::dvec3(1.0), glm::dvec3(-1.0)};
+inline Box3 Union(const Box3& a, const Box3& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
 
 struct FieldEdit {
   double removed = 0;        // m³ that were solid and are not any more (sub-cell); negative: added

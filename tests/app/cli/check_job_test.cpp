@@ -92,6 +92,47 @@ TEST(CheckJob, WarnsOfWhatIsDoubtfulAndHintsAtWhatIsMissing) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
 }
 
+TEST(CheckJob, SaysWhatTheAuthorsCutsTakeAndWhichMiss) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  Tissue& tissue = scene.tissues[0];
+  const CapsuleCut bite{{0.003, 0.003, 0.02}, {0.003, 0.003, 0.02}, 0.001};
+  tissue.cuts = {bite, TearCut{{{0.02, 0, 0}, {0.025, 0, 0}}}};
+  tissue.regions = {{"corner", {{0, 0, 0.02}, 0.003}}, {"far", {{0.1, 0, 0}, 0.003}}};
+  WriteScene(folder / "scene.json", scene);
+  const auto result = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"tissue \"meniscus\": 2 cuts take 2.",  // half a ball of 1 mm: 2.09 mm³
+                           "warning: tissue \"meniscus\": cut 2 of \"cuts\" misses it",
+                           "warning: tissue \"meniscus\": region \"far\" holds nothing of it"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+  EXPECT_EQ(result.out.find("region \"corner\""), std::string::npos) << result.out;
+
+  // The top of it, cut loose.
+  tissue.regions.clear();
+  tissue.fixed = {{{0.0033, 0.0033, 0.02}, 0.005}};
+  tissue.cuts = {BoxCut{{{1, 0, 0, 0}, {0.003, 0.003, 0.0235}}, {0.008, 0.008, 0.0003}}};
+  WriteScene(folder / "scene.json", scene);
+  const auto loose = test::RunProgram("check " + folder.path().string());
+  EXPECT_NE(loose.out.find("1 cut takes"), std::string::npos) << loose.out;
+  const bool is_told = loose.out.find("small loose piece, washed away") != std::string::npos;
+  EXPECT_TRUE(is_told) << loose.out;
+
+  tissue.cuts = {CapsuleCut{{0, 0, 0.02}, {0, 0, 0.02}, 0.1}};
+  WriteScene(folder / "scene.json", scene);
+  const auto all = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(all.exit_code, 1);
+  EXPECT_NE(all.err.find("tissue \"meniscus\": its cuts leave nothing of it"), std::string::npos)
+      << all.err;
+
+  tissue.cuts = {bite};
+  tissue.mesh.clear();
+  WriteScene(folder / "scene.json", scene);
+  EXPECT_NE(test::RunProgram("check " + folder.path().string())
+                .out.find("it has no tetrahedra, so its \"cuts\" and \"regions\" do nothing"),
+            std::string::npos);
+}
+
 TEST(CheckJob, ListsEveryErrorAndExitsWithOne) {
   test::TempFolder folder;
   Scene scene = WriteGoodScene(folder.path());

@@ -121,6 +121,25 @@ TEST(Replay, ReportAddsUp) {
   EXPECT_GT(json.at("tick_us").at("median"), 0.0);
 }
 
+TEST(Replay, ReportTellsWhatWasTakenByRegion) {
+  LoadedScene loaded = MakeScene();
+  Tissue& tissue = loaded.scene.tissues.emplace_back();
+  tissue.name = "meniscus";
+  tissue.regions = {{"anterior horn", {}}, {"posterior horn", {}}};
+  loaded.scene.tissues.emplace_back().name = "labrum";
+  ReplayReport report;
+  report.tissues.resize(2);
+  report.tissues[0].cut = {6e-9, 1, 0, 0, 3, {1e-9, 2e-9, 3e-9}};
+  report.tissues[1].tissue = 1;
+  const auto json = nlohmann::json::parse(ReportText(report, loaded.scene)).at("tissues");
+  const auto& parts = json.at("meniscus").at("removed_mm3_by_region");
+  EXPECT_EQ(parts.size(), 3u);
+  EXPECT_NEAR(parts.at("anterior horn"), 1.0, 1e-12);
+  EXPECT_NEAR(parts.at("posterior horn"), 2.0, 1e-12);
+  EXPECT_NEAR(parts.at("elsewhere"), 3.0, 1e-12);
+  EXPECT_FALSE(json.at("labrum").contains("removed_mm3_by_region"));
+}
+
 // A tissue's name may hold anything.
 TEST(Replay, ContactNamesAreQuotedWhereNeeded) {
   LoadedScene loaded = MakeScene();

@@ -1,0 +1,39 @@
+#include "simulation/tissue/cut/authors_cuts.h"
+
+#include "simulation/core/error.h"
+#include "simulation/tissue/cut/cutters.h"
+
+namespace arthro::simulation {
+namespace {
+
+// A loose fragment of less is washed away; the largest that a 4.5 mm shaver's window lets through.
+constexpr double kDebrisVolume = 60e-9;  // m³
+
+}  // namespace
+
+CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed) {
+  if (fixed.empty()) return {};
+  const FieldPieces pieces = PiecesOf(field);
+  std::vector<unsigned char> is_debris = HeldPieces(field, pieces, fixed);
+  for (std::size_t i = 0; i < is_debris.size(); ++i)
+    is_debris[i] = is_debris[i] == 0 && pieces.volume[i] < kDebrisVolume;
+  return RemovePieces(field, pieces, is_debris);
+}
+
+MadeCuts MakeCuts(SolidField& field, std::span<const Cut> cuts, std::span<const Ball> fixed) {
+  MadeCuts made;
+  for (const Cut& cut : cuts) {
+    const FieldEdit edit = Apply(field, cut);
+    made.removed.push_back(edit.removed);
+    made.changed = Union(made.changed, edit.changed);
+  }
+  if (made.changed.empty()) return made;
+  made.washed = WashAway(field, fixed);
+  made.changed = Union(made.changed, made.washed.edit.changed);
+  if (!(field.Volume() > 0.0))
+    throw Error(Code::kBadScene,
+                "its cuts leave nothing of it; remove one of \"cuts\" or make it smaller");
+  return made;
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,48 @@
+#include "simulation/session/living_tissues.h"
+
+#include <gtest/gtest.h>
+
+#include "simulation/scene/mesh_io.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::simulation {
+namespace {
+
+// A tissue that is laid in at twice its size: what is written in its own frame grows with it.
+TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
+  test::TempFolder folder;
+  const SurfaceMesh surface = {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}},
+                               {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  TetMesh mesh;
+  mesh.rest_positions = surface.vertices;
+  mesh.elements = {0, 1, 2, 3};
+  WriteTetMesh(folder / "m.vtu", mesh);
+  Scene scene;
+  Tissue& tissue = scene.tissues.emplace_back();
+  tissue.name = "meniscus";
+  tissue.mesh = "m.vtu";
+  tissue.material = "soft";
+  tissue.pose.scale = 2;
+  tissue.fixed = {{{0.001, 0, 0}, 0.002}};
+  tissue.cuts = {TearCut{{{0.001, 0, 0}, {0, 0.001, 0}}, {0, 0, -1}, 1e-3, 5e-4, 2e-4},
+                 CapsuleCut{{0.001, 0, 0}, {0, 0.001, 0}, 3e-4},
+                 BoxCut{{{1, 0, 0, 0}, {0.001, 0, 0}}, {1e-3, 2e-3, 3e-3}}};
+  tissue.regions = {{"horn", {{0, 0.001, 0}, 0.004}}};
+  TissuePreset preset;
+  preset.name = "soft";
+  const std::vector<BodySpec> bodies = LivingTissues(
+      scene, std::vector{surface},
+      [&](const std::filesystem::path& name) { return folder / name.string(); }, {preset});
+  ASSERT_EQ(bodies.size(), 1u);
+  const BodySpec& body = bodies[0];
+  EXPECT_EQ(body.mesh.rest_positions[1], glm::dvec3(0.02, 0, 0));
+  EXPECT_EQ(body.fixed, (std::vector<Ball>{{{0.002, 0, 0}, 0.004}}));
+  EXPECT_EQ(body.cuts,
+            (std::vector<Cut>{TearCut{{{0.002, 0, 0}, {0, 0.002, 0}}, {0, 0, -1}, 2e-3, 1e-3, 4e-4},
+                              CapsuleCut{{0.002, 0, 0}, {0, 0.002, 0}, 6e-4},
+                              BoxCut{{{1, 0, 0, 0}, {0.002, 0, 0}}, {2e-3, 4e-3, 6e-3}}}));
+  EXPECT_EQ(body.regions, (std::vector<Region>{{"horn", {{0, 0.002, 0}, 0.008}}}));
+}
+
+}  // namespace
+}  // namespace arthro::simulation
