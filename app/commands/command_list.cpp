@@ -9,6 +9,7 @@
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
+#include "app/commands/tissue/tissue_cut.h"
 #include "app/commands/tissue/tissue_hold.h"
 #include "app/commands/tissue/tissue_poke.h"
 #include "app/commands/tissue_work.h"
@@ -263,6 +264,58 @@ constexpr Command kCommands[] = {
               !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].fixed.empty();
      },
      ReleaseAll},
+    {"cut-tear",
+     "Tear…",
+     "Click points along the tear on the tissue in the overview; press again to end it.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); }},
+    {"cut-bite",
+     "Bite…",
+     "Click on the tissue in the overview: a round bite is taken there.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kBite); }},
+    {"remove-cut",
+     "Remove this cut",
+     "Make the tissue whole where the chosen cut is.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && ChosenCut(state) != nullptr; },
+     RemoveChosenCut},
+    {"remove-all-cuts",
+     "Remove all cuts",
+     "Make the tissue whole.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) {
+       return HasTissue(state) &&
+              !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].cuts.empty();
+     },
+     RemoveAllCuts},
+    {"cut-region",
+     "Region…",
+     "Click on the tissue in the overview: what a trainee takes in a ball about it is told by "
+     "name.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kRegion); }},
+    {"remove-region",
+     "Remove this region",
+     "What is taken there is told under another name.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && ChosenRegion(state) != nullptr; },
+     RemoveChosenRegion},
     {"poke",
      "Poke it",
      "Let the instrument press on the tissue, here in your own view.",

@@ -19,6 +19,7 @@
 #include "app/commands/practice.h"
 #include "app/commands/recent_scenes.h"
 #include "app/commands/scratch_folder.h"
+#include "app/commands/tissue/cut_brush.h"
 #include "app/platform/file_browser_model.h"
 #include "authoring/project/history.h"
 #include "authoring/tissue/mesh_budget.h"
@@ -31,7 +32,7 @@ namespace arthro::app {
 enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice };
 
 // What of the chosen tissue is worked on.
-enum class TissuePage { kPlace, kMaterial, kMesh, kHold };
+enum class TissuePage { kPlace, kMaterial, kMesh, kHold, kCut };
 
 // ---- Dialogs; the last one of the stack is on top and takes all input. ----
 struct ErrorDialog {
@@ -81,11 +82,13 @@ struct EditorState {
 
   int document_number = 0;  // grows when another document is begun
   Step step = Step::kPanorama;
-  int tissue = -1;             // chosen one, -1 none
+  int tissue = -1;  // chosen one, -1 none
   TissuePage tissue_page = TissuePage::kPlace;
-  int ball = -1;               // chosen one of its `fixed`, -1 none
-  bool hold_brush = false;     // a click on tissue in the overview holds it there
-  double hold_radius = 2e-3;   // m, of the next ball
+  int ball = -1;              // chosen one of its `fixed`, -1 none
+  bool hold_brush = false;    // a click on tissue in the overview holds it there
+  double hold_radius = 2e-3;  // m, of the next ball
+  CutBrush cut_brush;
+  int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // of the material's values
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own

@@ -5,6 +5,7 @@
 
 #include "app/commands/edits.h"
 #include "app/commands/same.h"
+#include "app/commands/tissue/tissue_cut.h"
 #include "app/commands/tissue/tissue_hold.h"
 
 namespace arthro::app {
@@ -98,6 +99,7 @@ void Pictures::TakeTissues(const authoring::Document& document) {
       meshes.push_back(surface ? *surface : SurfaceMesh{});
     scope_.SetTissues(tissues, meshes);
     overview_.SetTissues(tissues, meshes);
+    shown_cuts_.assign(tissues.size(), nullptr);
     chosen_ = -1;
     surfaces_ = document.surfaces;
     changed_ = true;
@@ -110,6 +112,24 @@ void Pictures::TakeTissues(const authoring::Document& document) {
       }
   }
   tissues_ = tissues;
+  TakeCuts(document);
+}
+
+// Tissues as their author's cuts leave them.
+void Pictures::TakeCuts(const authoring::Document& document) {
+  cut_fault_.clear();
+  for (std::size_t i = 0; i < tissues_.size(); ++i) {
+    const auto skin = cut_skins_.SkinOf(document, static_cast<int>(i));
+    if (!cut_skins_.fault().empty()) cut_fault_ = cut_skins_.fault();
+    if (skin == shown_cuts_[i]) continue;
+    const SurfaceMesh whole = document.surfaces[i] ? *document.surfaces[i] : SurfaceMesh{};
+    const SurfaceMesh& surface = skin ? skin->surface : whole;
+    const std::vector<std::uint8_t> fresh = skin ? skin->is_fresh : std::vector<std::uint8_t>{};
+    scope_.SetTissueSurface(static_cast<int>(i), surface, fresh);
+    overview_.SetTissueSurface(static_cast<int>(i), surface, fresh);
+    shown_cuts_[i] = skin;
+    changed_ = true;
+  }
 }
 
 // Tissues that live are shown as they are; when the session ends, as the document has them.
@@ -170,17 +190,11 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
   }
   // The box is there while tissue is worked on.
-  const bool is_brush = state.step == Step::kTissue && state.hold_brush;
+  const bool is_brush = state.step == Step::kTissue &&
+                        (state.hold_brush || state.cut_brush.kind != CutBrush::Kind::kNone);
   const int chosen = state.step == Step::kTissue && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
-  const auto& tissues = state.document().scene.tissues;
-  const bool has_tissue = state.step == Step::kTissue && state.tissue_page == TissuePage::kHold &&
-                          state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size());
-  if (has_tissue)
-    overview_.ShowBalls(state.tissue, tissues[static_cast<std::size_t>(state.tissue)].fixed,
-                        state.ball);
-  else
-    overview_.ShowBalls(-1, {}, -1);
+  ShowPlaces(state);
   // What the user looks at comes first.
   const auto now = std::chrono::steady_clock::now();
   if (!steady_ && milliseconds_ > kSlow && !overview_held_ &&
@@ -188,6 +202,27 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     return true;
   if (overview_.Render(width, height)) overview_drawn_ = now;
   return false;
+}
+
+// The balls that the page at hand is about.
+void Pictures::ShowPlaces(const EditorState& state) {
+  const auto& tissues = state.document().scene.tissues;
+  const bool has_tissue = state.step == Step::kTissue && state.tissue >= 0 &&
+                          state.tissue < static_cast<int>(tissues.size());
+  if (has_tissue && state.tissue_page == TissuePage::kHold)
+    return overview_.ShowBalls(state.tissue, tissues[static_cast<std::size_t>(state.tissue)].fixed,
+                               state.ball);
+  if (!has_tissue || state.tissue_page != TissuePage::kCut) return overview_.ShowBalls(-1, {}, -1);
+  const Tissue& tissue = tissues[static_cast<std::size_t>(state.tissue)];
+  std::vector<Ball> balls;
+  for (const Region& region : tissue.regions) balls.push_back(region.ball);
+  int chosen = state.region;
+  if (const CutBrush& brush = state.cut_brush; brush.start && brush.start_tissue == state.tissue) {
+    constexpr double kMark = 6e-4;  // m, of the first point of a tear
+    chosen = static_cast<int>(balls.size());
+    balls.push_back({*brush.start, kMark / tissue.pose.scale});
+  }
+  overview_.ShowBalls(state.tissue, balls, chosen);
 }
 
 void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
@@ -216,9 +251,11 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
   for (int button = 0; button < 3; ++button) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
-      if (button == 0 && state.hold_brush && state.step == Step::kTissue)
+      const bool is_cutting = state.cut_brush.kind != CutBrush::Kind::kNone;
+      if (button == 0 && (state.hold_brush || is_cutting) && state.step == Step::kTissue)
         if (const auto place = overview_.PickTissue(event.x, event.y)) {
-          HoldAt(state, place->tissue, place->x_in_tissue);
+          is_cutting ? UseCutBrush(state, place->tissue, place->x_in_tissue)
+                     : HoldAt(state, place->tissue, place->x_in_tissue);
           continue;
         }
       event.kind = Kind::kPress;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands/editor_state.h"
+#include "app/commands/tissue/cut_skins.h"
 #include "app/panels/panels.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
@@ -36,12 +37,14 @@ class Pictures {
   void NoteFrame(double milliseconds);
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   const simulation::ScopeView& view() const { return picture_.view; }
-  const std::string& notice() const { return scope_.notice(); }
+  const std::string& notice() const { return cut_fault_.empty() ? scope_.notice() : cut_fault_; }
 
  private:
   void Take(const EditorState& state);
   void TakeBackdrop(const EditorState& state);
   void TakeTissues(const authoring::Document& document);
+  void TakeCuts(const authoring::Document& document);
+  void ShowPlaces(const EditorState& state);
   void TakeLiveTissues(const EditorState& state);
 
   ArthroscopicView scope_;
@@ -59,6 +62,10 @@ class Pictures {
   Backdrop backdrop_;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
+  CutSkins cut_skins_;
+  std::vector<std::shared_ptr<const simulation::BodySkin>>
+      shown_cuts_;  // one a tissue; null: whole
+  std::string cut_fault_;
   const Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1;

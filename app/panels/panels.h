@@ -38,6 +38,7 @@ void Dialogs(Ui& ui, EditorState& state);
 void PanoramaPanel(Ui& ui, EditorState& state);
 void DepthPanel(Ui& ui, EditorState& state);
 void TissuePanel(Ui& ui, EditorState& state);
+void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void PortalsPanel(Ui& ui, EditorState& state);
 void PracticeStepPanel(Ui& ui, EditorState& state);
 

@@ -84,6 +84,15 @@ void ForceBar(Ui& ui, double force, double peak) {
   RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force));
 }
 
+// Only the regions that something was taken of.
+void TakenByRegion(Ui& ui, const EditorState& state, const simulation::BodyPicture& body) {
+  const auto& tissue = state.document().scene.tissues[static_cast<std::size_t>(body.tissue)];
+  for (std::size_t i = 0; i < body.cut.by_region.size(); ++i)
+    if (const double mm3 = body.cut.by_region[i] * 1e9; mm3 >= 0.05)
+      QuietText(ui, fmt::format("{:.1f} mm³ of {}, {}", mm3, tissue.name,
+                                i < tissue.regions.size() ? tissue.regions[i].name : kElsewhere));
+}
+
 // Which one is in the hand, and what was taken with it.
 void Instruments(Ui& ui, EditorState& state) {
   QuietText(ui, "Instrument (C closes or runs it)");
@@ -112,6 +121,7 @@ void Instruments(Ui& ui, EditorState& state) {
   Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ taken away", removed * 1e9)
                        : fmt::format("{:.1f} mm³ taken away, {} loose piece{}", removed * 1e9,
                                      debris, debris == 1 ? "" : "s"));
+  for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
   if (removed > 0) CommandButton(ui, state, "reset-tissues", {-FLT_MIN, ui.Px(44)});
 }
 

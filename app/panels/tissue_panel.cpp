@@ -247,7 +247,7 @@ void TissuePanel(Ui& ui, EditorState& state) {
     const std::string& name = tissues[static_cast<std::size_t>(i)].name;
     ImGui::PushID(i);
     if (ImGui::Selectable(name.c_str(), state.tissue == i)) {
-      state.ball = state.tissue == i ? state.ball : -1;
+      if (state.tissue != i) state.ball = state.cut = state.region = -1;
       state.tissue = i;
     }
     RecordItem(ui, name, true, state.tissue == i ? "on" : "off");
@@ -262,13 +262,18 @@ void TissuePanel(Ui& ui, EditorState& state) {
   constexpr std::pair<TissuePage, const char*> kPages[] = {{TissuePage::kPlace, "Place"},
                                                            {TissuePage::kMaterial, "Material"},
                                                            {TissuePage::kMesh, "Mesh"},
-                                                           {TissuePage::kHold, "Hold"}};
-  const float page_width = (ImGui::GetContentRegionAvail().x - 3 * ui.Px(4)) / 4;
+                                                           {TissuePage::kHold, "Hold"},
+                                                           {TissuePage::kCut, "Cut"}};
+  // As wide as their words, and what is left evenly.
+  float free = ImGui::GetContentRegionAvail().x - 4 * ui.Px(4);
+  for (const auto& [page, words] : kPages) free -= ImGui::CalcTextSize(words).x;
   for (const auto& [page, words] : kPages) {
+    const float page_width = ImGui::CalcTextSize(words).x + free / 5;
     if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.tissue_page == page, true, {page_width, 0})) {
       state.tissue_page = page;
       state.hold_brush = false;
+      state.cut_brush.kind = CutBrush::Kind::kNone;
     }
   }
   Gap(ui);
@@ -285,6 +290,9 @@ void TissuePanel(Ui& ui, EditorState& state) {
       break;
     case TissuePage::kHold:
       HeldFields(ui, state, tissue);
+      break;
+    case TissuePage::kCut:
+      TissueCutFields(ui, state, tissue);
       break;
   }
 }

@@ -74,9 +74,10 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
   const std::map<std::string, ScriptVerb> alone = {{"close", ScriptVerb::kClose},
                                                    {"quit", ScriptVerb::kQuit}};
   if (const auto item = of_item.find(verb); item != of_item.end()) {
-    want(2, (verb + " NAME").c_str());
+    if (words.size() != 4) want(2, (verb + " NAME [DX DY]").c_str());
     line.verb = item->second;
     line.name = words[1];
+    if (words.size() == 4) line.x = number_at(2), line.y = number_at(3);
   } else if (const auto text = of_text.find(verb); text != of_text.end()) {
     want(2, (verb + " TEXT").c_str());
     line.verb = text->second;

@@ -1,6 +1,6 @@
 // A text script that drives the window as hands would, one action a line, items by the name that is
 // written on them. For GUI tests and for showing a fault again.
-//   click NAME · double-click NAME · right-click NAME · hover NAME
+//   click | double-click | right-click | hover NAME [DX DY] (its middle, or px at scale 1 from it)
 //   drag NAME DX DY [right] (pixels at scale 1) · wheel NAME NOTCHES
 //   type TEXT · key ctrl+shift+s · hold KEY FRAMES · set NAME VALUE (a slider, by typing)
 //   wait frames N · wait job · shot FILE.png
@@ -44,7 +44,7 @@ struct ScriptLine {
   int number = 0;  // in the file, from 1
   ScriptVerb verb = ScriptVerb::kQuit;
   std::string name, text;  // of an item; typed, expected or a file
-  double x = 0, y = 0;     // drag, wheel (y), frames (x)
+  double x = 0, y = 0;     // drag, click from the middle, wheel (y), frames (x)
   bool right_button = false;
 };
 

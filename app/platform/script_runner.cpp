@@ -117,6 +117,11 @@ void ScriptRunner::Run(const ScriptLine& line, const WidgetRegistry& widgets, bo
     case ScriptVerb::kDoubleClick:
     case ScriptVerb::kRightClick:
     case ScriptVerb::kHover:
+      target = Target(line, widgets);
+      if (target == nullptr) return;
+      input.Push(PointerMoved{(target->x0 + target->x1) / 2 + line.x * scale_,
+                              (target->y0 + target->y1) / 2 + line.y * scale_});
+      break;
     case ScriptVerb::kDrag:
     case ScriptVerb::kWheel:
     case ScriptVerb::kSet:

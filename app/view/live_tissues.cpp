@@ -31,7 +31,8 @@ bool LiveTissues::Show(const simulation::WorldPicture& world, std::span<const Ti
       const SurfaceMesh surface{Unscaled(body.skin->surface.vertices, scale),
                                 body.skin->surface.triangles};
       scope.SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
-      if (overview != nullptr) overview->SetTissueSurface(body.tissue, surface);
+      if (overview != nullptr)
+        overview->SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
     }
     shown = {body.skin, body.shape};
     const std::vector<glm::dvec3> positions = Unscaled(body.positions, scale);

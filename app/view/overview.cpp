@@ -41,8 +41,9 @@ namespace {
 
 const glm::dvec3 kScopeColour{0.25, 0.75, 0.80}, kInstrumentColour{0.95, 0.68, 0.25};
 const glm::dvec3 kAxisColours[3] = {{0.90, 0.35, 0.32}, {0.45, 0.80, 0.40}, {0.40, 0.58, 0.95}};
-constexpr double kRodBehindPortal = 0.035;  // of each rod, drawn outside the joint, m
-constexpr double kScopeRadius = 2.0e-3;     // of a 4 mm arthroscope
+const glm::dvec3 kFreshColour{0.97, 0.93, 0.84};  // of a cut face: the inside of a tissue is paler
+constexpr double kRodBehindPortal = 0.035;        // of each rod, drawn outside the joint, m
+constexpr double kScopeRadius = 2.0e-3;           // of a 4 mm arthroscope
 constexpr double kLineRadius = 0.22e-3;
 constexpr double kAxisLength = 0.01;  // also the scale: its label says so
 
@@ -343,10 +344,14 @@ bool Overview::SetTissueShape(int index, std::span<const glm::dvec3> positions,
   return true;
 }
 
-void Overview::SetTissueSurface(int index, const SurfaceMesh& surface) {
+void Overview::SetTissueSurface(int index, const SurfaceMesh& surface,
+                                std::span<const std::uint8_t> fresh) {
   auto& model = parts_->tissues.at(static_cast<std::size_t>(index));
   model.surface = surface;
   model.data = MakeSurfaceData(surface);
+  double own[3];
+  model.actor->GetProperty()->GetColor(own);
+  ColourVertices(*model.data, {own[0], own[1], own[2]}, kFreshColour, fresh);
   SetData(*model.actor, model.data);
   parts_->changed = true;
 }

@@ -45,7 +45,8 @@ class Overview {
   // As ArthroscopicView's.
   bool SetTissueShape(int index, std::span<const glm::dvec3> positions,
                       std::span<const glm::dvec3> normals = {});
-  void SetTissueSurface(int index, const SurfaceMesh& surface);
+  void SetTissueSurface(int index, const SurfaceMesh& surface,
+                        std::span<const std::uint8_t> fresh = {});
   void SetIncisionSpacing(double spacing);
   void SetTools(const OverviewTools& tools);
 

@@ -16,6 +16,7 @@
 #include <vtkProperty.h>
 #include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "app/view/vertex_normals.h"
 
@@ -109,6 +110,23 @@ void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
   data.GetPoints()->Modified();
   data.GetPointData()->GetNormals()->Modified();
   data.Modified();
+}
+
+void ColourVertices(vtkPolyData& data, const glm::dvec3& others, const glm::dvec3& flagged,
+                    std::span<const std::uint8_t> flags) {
+  if (flags.empty()) {
+    data.GetPointData()->SetScalars(nullptr);
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(static_cast<vtkIdType>(flags.size()));
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    const glm::dvec3 c = 255.0 * (flags[i] != 0 ? flagged : others);
+    colours->SetTuple3(static_cast<vtkIdType>(i), std::lround(c.x), std::lround(c.y),
+                       std::lround(c.z));
+  }
+  data.GetPointData()->SetScalars(colours);
 }
 
 SurfaceMesh MakeBalls(std::span<const Ball> balls) {
@@ -206,7 +224,9 @@ vtkSmartPointer<vtkActor> MakeActor(const glm::dvec3& colour, double ambient) {
 }
 
 void SetData(vtkActor& actor, vtkPolyData* data) {
-  static_cast<vtkPolyDataMapper*>(actor.GetMapper())->SetInputData(data);
+  auto& mapper = *static_cast<vtkPolyDataMapper*>(actor.GetMapper());
+  mapper.SetInputData(data);
+  mapper.SetScalarVisibility(data && data->GetPointData()->GetScalars() ? 1 : 0);
 }
 
 vtkSmartPointer<vtkBillboardTextActor3D> MakeLabel(const std::string& text,

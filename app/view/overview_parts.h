@@ -34,6 +34,10 @@ vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface);
 void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
                      std::span<const glm::dvec3> given_normals = {});
 
+// Vertices that are flagged in one colour, the others in another (sRGB); no flags: the actor's.
+void ColourVertices(vtkPolyData& data, const glm::dvec3& others, const glm::dvec3& flagged,
+                    std::span<const std::uint8_t> flags);
+
 // A sphere for each ball.
 SurfaceMesh MakeBalls(std::span<const Ball> balls);
 

@@ -1,10 +1,13 @@
 #include "app/view/still_picture.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/session/cut_skin.h"
 
 namespace arthro::app {
 namespace {
@@ -34,7 +37,13 @@ Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, doub
 
 StillPictures::StillPictures(const LoadedScene& loaded) : radius_(loaded.scene.backdrop.radius) {
   view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
-  view_.SetTissues(loaded.scene.tissues, loaded.surfaces);
+  const auto& tissues = loaded.scene.tissues;
+  view_.SetTissues(tissues, loaded.surfaces);
+  for (std::size_t i = 0; i < std::min(tissues.size(), loaded.surfaces.size()); ++i) {
+    if (!simulation::HasCutsMade(tissues[i]) || loaded.surfaces[i].triangles.empty()) continue;
+    const simulation::BodySkin skin = simulation::CutSkin(tissues[i], loaded.surfaces[i]);
+    view_.SetTissueSurface(static_cast<int>(i), skin.surface, skin.is_fresh);
+  }
 }
 
 ColourImage StillPictures::Draw(const Picture& picture, int size) {

@@ -20,7 +20,8 @@ class StillPictures {
  public:
   static constexpr int kMinSize = 16, kMaxSize = 4096;  // px
 
-  // Throws Error(kDisplay) where nothing can draw. `loaded` is copied to the renderer.
+  // Throws Error(kDisplay) where nothing can draw, and Error for cuts of the author that cannot be
+  // made. `loaded` is copied to the renderer.
   explicit StillPictures(const LoadedScene& loaded);
 
   // Four rays a pixel: drawn twice as large and averaged. Throws Error(kBadArgument) for a tip

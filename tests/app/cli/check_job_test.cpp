@@ -110,7 +110,7 @@ TEST(CheckJob, SaysWhatTheAuthorsCutsTakeAndWhichMiss) {
 
   // The top of it, cut loose.
   tissue.regions.clear();
-  tissue.fixed = {{{0.0033, 0.0033, 0.02}, 0.005}};
+  tissue.fixed = {{{0, 0, 0.02}, 0.002}};
   tissue.cuts = {BoxCut{{{1, 0, 0, 0}, {0.003, 0.003, 0.0235}}, {0.008, 0.008, 0.0003}}};
   WriteScene(folder / "scene.json", scene);
   const auto loose = test::RunProgram("check " + folder.path().string());

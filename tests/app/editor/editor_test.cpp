@@ -252,6 +252,75 @@ expect "Saved in"
               1e-6);
 }
 
+TEST_F(EditorWindow, ATearABiteAndARegionAreClickedInTheOverviewAndPractised) {
+  Drive(R"(
+click Tissue
+set "Position (right, down, in), down" 3
+set "Position (right, down, in), in" 22.5
+click Cut
+expect "make them on the Mesh page first"
+click Mesh
+click "Make tetrahedra"
+wait job
+click Hold
+set "Radius of the next ball" 6
+click "Hold it here…"
+click Overview
+expect "1 ball hold"
+click Cut
+expect "Whole. A trainee begins with what you cut here."
+wheel Overview 3
+click "Tear…"
+click Overview -8 0
+expect "Now click where the tear goes on."
+expect disabled Redo
+click Overview 0 2
+expect "Tear octahedron"
+expect value "Tear 1" on
+click Overview 8 0
+expect "Lengthen a tear of octahedron"
+click Undo
+expect value "Tear 1" on
+key ctrl+y
+set "Tear depth" 3
+expect value "Tear depth" "3.0 mm"
+click "Bite…"
+click Overview 0 8
+expect value "Bite 2" on
+set "Bite radius" 1.2
+click "Remove this cut"
+expect not "Bite 2"
+click Undo
+expect value "Bite 2" off
+click "Region…"
+click Overview -4 0
+click "Region name"
+key ctrl+a
+type horn
+key enter
+expect value horn on
+set "Region radius" 4
+click Save
+wait job
+expect "Saved in"
+click Practise
+wait job
+wait frames 10
+expect "0.0 mm³ taken away"
+)");
+  const Tissue saved = ReadScene(scene).tissues.at(0);
+  ASSERT_EQ(saved.cuts.size(), 2u);
+  const auto& tear = std::get<TearCut>(saved.cuts[0]);
+  EXPECT_EQ(tear.path.size(), 3u);
+  EXPECT_NEAR(tear.depth, 0.003, 1e-9);
+  for (const glm::dvec3& x : tear.path)  // on the octahedron of 6 mm
+    EXPECT_LT(std::abs(x.x) + std::abs(x.y) + std::abs(x.z), 0.006 + 1e-6);
+  EXPECT_NEAR(std::get<CapsuleCut>(saved.cuts[1]).radius, 0.0012, 1e-9);
+  ASSERT_EQ(saved.regions.size(), 1u);
+  EXPECT_EQ(saved.regions[0].name, "horn");
+  EXPECT_NEAR(saved.regions[0].ball.radius, 0.004, 1e-9);
+}
+
 TEST_F(EditorWindow, TheAuthorPokesInTheirOwnViewAndAnEditEndsIt) {
   Drive(R"(
 click Tissue
