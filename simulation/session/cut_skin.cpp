@@ -3,6 +3,7 @@
 #include "simulation/core/error.h"
 #include "simulation/session/living_tissues.h"
 #include "simulation/tissue/body/body_options.h"
+#include "simulation/tissue/contact/uncut_surface.h"
 #include "simulation/tissue/cut/authors_cuts.h"
 #include "simulation/tissue/field/polygonise.h"
 
@@ -24,6 +25,7 @@ BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface, const SolidFi
     SolidField field = whole;
     MakeCuts(field, places.cuts, places.fixed);
     BodySkin skin{Polygonise(field), {}};
+    LayOnto(UncutSurface(places.surface), field, {}, skin.surface);
     skin.is_fresh = FreshVertices(skin.surface, field);
     for (glm::dvec3& x : skin.surface.vertices) x /= tissue.pose.scale;
     return skin;

@@ -193,8 +193,14 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
 
 // What a cut needs, made at the first one.
 void DeformableBody::Impl::BeginCutting() {
-  cut = std::make_unique<CutState>(
-      CutState{MeshCutter(spec.mesh, field.spacing()), FieldSkin(field), field, {}, {}, {}, {}});
+  cut = std::make_unique<CutState>(CutState{MeshCutter(spec.mesh, field.spacing()),
+                                            FieldSkin(field),
+                                            UncutSurface(spec.surface),
+                                            field,
+                                            {},
+                                            {},
+                                            {},
+                                            {}});
   cut->cutter.Rebuild(field);
   cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
   cut->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
@@ -253,11 +259,21 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
   EmbeddedSkin skin{cut->skin.surface(), {}};
   const std::vector<int> only_copy = OnlyCopies(after, spec.mesh.ElementCount());
   const std::span<const int> previous = cut->skin.previous();
+  const auto before_of = [&](std::size_t v) {
+    return v < previous.size() && !cut->element_of_vertex.empty() ? previous[v] : -1;
+  };
+  std::vector<std::uint8_t> is_new(skin.rest.vertices.size(), 1);
+  for (std::size_t v = 0; v < is_new.size(); ++v)
+    if (const int before = before_of(v); before >= 0) {
+      is_new[v] = 0;
+      skin.rest.vertices[v] = shape->skin.rest.vertices[static_cast<std::size_t>(before)];
+    }
+  LayOnto(cut->uncut, field, is_new, skin.rest);
   std::vector<int> element_of(skin.rest.vertices.size());
   skin.point.resize(element_of.size());
   for (std::size_t v = 0; v < element_of.size(); ++v) {
     const glm::dvec3& rest = skin.rest.vertices[v];
-    const int before = v < previous.size() && !cut->element_of_vertex.empty() ? previous[v] : -1;
+    const int before = before_of(v);
     if (before >= 0) {
       element_of[v] = cut->element_of_vertex[static_cast<std::size_t>(before)];
       const int copy = only_copy[static_cast<std::size_t>(element_of[v])];

@@ -7,6 +7,7 @@
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/contact/obstacle_contact.h"
 #include "simulation/tissue/contact/tool_contact.h"
+#include "simulation/tissue/contact/uncut_surface.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "simulation/tissue/cut/cutters.h"
 #include "simulation/tissue/field/polygonise.h"
@@ -32,6 +33,7 @@ struct BodyShape {
 struct CutState {
   MeshCutter cutter;
   FieldSkin skin;
+  UncutSurface uncut;
   SolidField original;                 // with the author's cuts, before the first tool's
   std::vector<int> element_of_vertex;  // of the whole mesh, one a vertex of the field's skin
   std::vector<int> element_of_node;  // of the whole mesh, one a node of the field; −1: far from it

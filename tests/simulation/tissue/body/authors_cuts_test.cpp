@@ -12,6 +12,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/contact/uncut_surface.h"
 #include "simulation/tissue/field/polygonise.h"
 #include "tests/simulation/tissue/body/slab_body.h"
 
@@ -63,12 +64,13 @@ TEST(AuthorsCuts, TheBodyBeginsTornAndNothingCountsAsTaken) {
   EXPECT_EQ(report.pieces, 1);
   ASSERT_EQ(body.skin()->is_fresh.size(), body.positions().size());
   EXPECT_GT(std::ranges::count(body.skin()->is_fresh, 1), 100) << "its walls are to be seen";
-  // A slot 12 mm long, 4 deep, 0.8 wide with round ends and below that a round bottom. The field's
-  // own edges are round in both.
+  // A slot 12 mm long, 4 deep, 0.8 wide with round ends and below that a round bottom. Elsewhere
+  // the skin is what the grid makes of the whole slab.
   const double round = std::numbers::pi * 0.16e-6;
   const double slot = 12e-3 * (4e-3 * 0.8e-3 + 0.5 * round) + 4e-3 * round;
-  const SurfaceMesh whole =
-      Polygonise(SolidField::FromSurface(torn.surface, BodyOptions{}.cut_spacing));
+  const SolidField field = SolidField::FromSurface(torn.surface, BodyOptions{}.cut_spacing);
+  SurfaceMesh whole = Polygonise(field);
+  LayOnto(UncutSurface(torn.surface), field, {}, whole);
   EXPECT_NEAR(VolumeOf(whole) - VolumeOf(body.skin()->surface), slot, 0.06 * slot);
   // At rest it stays at rest.
   const WorldTool none;

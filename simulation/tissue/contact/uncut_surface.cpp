@@ -1,0 +1,73 @@
+#include "simulation/tissue/contact/uncut_surface.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::simulation {
+namespace {
+
+// Spacings of the field: how far its skin may be off, and how near a cut leaves it as it is.
+constexpr double kReach = 0.8, kNearCut = 1.0;
+constexpr int kRelaxations = 4;
+
+}  // namespace
+
+UncutSurface::UncutSurface(const SurfaceMesh& surface) {
+  std::vector<Box3> boxes;
+  for (const auto& t : surface.triangles) {
+    TriangleCorners corner;
+    Box3 box = kEmptyBox;
+    for (std::size_t i = 0; i < 3; ++i) {
+      corner[i] = surface.vertices[static_cast<std::size_t>(t[i])];
+      box = Union(box, {corner[i], corner[i]});
+    }
+    triangles_.push_back(corner);
+    boxes.push_back(box);
+  }
+  tree_ = BoxTree(boxes);
+}
+
+glm::dvec3 UncutSurface::Nearest(const glm::dvec3& x, double reach) const noexcept {
+  glm::dvec3 nearest = x;
+  double least2 = reach * reach;
+  tree_.ForNear(x, least2, [&](int triangle) {
+    const TriangleCorners& corner = triangles_[static_cast<std::size_t>(triangle)];
+    const glm::dvec3 at = ClosestOnTriangle(corner, x);
+    const glm::dvec3 place = at.x * corner[0] + at.y * corner[1] + at.z * corner[2];
+    const glm::dvec3 way = place - x;
+    if (const double distance2 = glm::dot(way, way); distance2 < least2)
+      least2 = distance2, nearest = place;
+  });
+  return nearest;
+}
+
+void LayOnto(const UncutSurface& uncut, const SolidField& field,
+             std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
+  const double reach = kReach * field.spacing(), near_cut = kNearCut * field.spacing();
+  std::vector<std::size_t> free;
+  for (std::size_t v = 0; v < skin.vertices.size(); ++v)
+    if ((is_new.empty() || is_new[v] != 0) && field.CutDistance(skin.vertices[v]) < -near_cut)
+      free.push_back(v);
+  for (const std::size_t v : free) skin.vertices[v] = uncut.Nearest(skin.vertices[v], reach);
+  if (free.empty()) return;
+
+  std::vector<glm::dvec3> sum(skin.vertices.size());
+  std::vector<int> count(skin.vertices.size());
+  for (int relaxation = 0; relaxation < kRelaxations; ++relaxation) {
+    std::fill(sum.begin(), sum.end(), glm::dvec3(0.0));
+    std::fill(count.begin(), count.end(), 0);
+    for (const auto& t : skin.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto v = static_cast<std::size_t>(t[i]), w = static_cast<std::size_t>(t[(i + 1) % 3]);
+        sum[v] += skin.vertices[w];
+        ++count[v];
+      }
+    for (const std::size_t v : free)
+      if (count[v] > 0)
+        skin.vertices[v] =
+            uncut.Nearest(0.5 * (skin.vertices[v] + sum[v] / static_cast<double>(count[v])), reach);
+  }
+}
+
+}  // namespace arthro::simulation
