@@ -9,6 +9,9 @@ namespace {
 
 // Spacings of the field: how far its skin may be off, and how near a cut leaves it as it is.
 constexpr double kReach = 0.8, kNearCut = 1.0;
+// Lips of a cut run from cell to cell: relaxed too, but no further than this from where the grid
+// has them.
+constexpr double kMostMoved = 0.4;
 constexpr int kRelaxations = 4;
 
 }  // namespace
@@ -44,13 +47,14 @@ glm::dvec3 UncutSurface::Nearest(const glm::dvec3& x, double reach) const noexce
 
 void LayOnto(const UncutSurface& uncut, const SolidField& field,
              std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
-  const double reach = kReach * field.spacing(), near_cut = kNearCut * field.spacing();
-  std::vector<std::size_t> free;
+  const double reach = kReach * field.spacing(), near_cut = kNearCut * field.spacing(),
+               most = kMostMoved * field.spacing();
+  std::vector<std::size_t> free, at_cut;
   for (std::size_t v = 0; v < skin.vertices.size(); ++v)
-    if ((is_new.empty() || is_new[v] != 0) && field.CutDistance(skin.vertices[v]) < -near_cut)
-      free.push_back(v);
+    if (is_new.empty() || is_new[v] != 0)
+      (field.CutDistance(skin.vertices[v]) < -near_cut ? free : at_cut).push_back(v);
+  const std::vector<glm::dvec3> of_grid = skin.vertices;
   for (const std::size_t v : free) skin.vertices[v] = uncut.Nearest(skin.vertices[v], reach);
-  if (free.empty()) return;
 
   std::vector<glm::dvec3> sum(skin.vertices.size());
   std::vector<int> count(skin.vertices.size());
@@ -63,10 +67,16 @@ void LayOnto(const UncutSurface& uncut, const SolidField& field,
         sum[v] += skin.vertices[w];
         ++count[v];
       }
-    for (const std::size_t v : free)
-      if (count[v] > 0)
-        skin.vertices[v] =
-            uncut.Nearest(0.5 * (skin.vertices[v] + sum[v] / static_cast<double>(count[v])), reach);
+    const auto relaxed = [&](std::size_t v) {
+      return count[v] > 0 ? 0.5 * (skin.vertices[v] + sum[v] / static_cast<double>(count[v]))
+                          : skin.vertices[v];
+    };
+    for (const std::size_t v : free) skin.vertices[v] = uncut.Nearest(relaxed(v), reach);
+    for (const std::size_t v : at_cut) {
+      const glm::dvec3 way = relaxed(v) - of_grid[v];
+      const double length = glm::length(way);
+      skin.vertices[v] = of_grid[v] + (length > most ? most / length : 1.0) * way;
+    }
   }
 }
 

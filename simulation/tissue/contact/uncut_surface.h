@@ -27,8 +27,8 @@ class UncutSurface {
   BoxTree tree_;
 };
 
-// Lays the vertices of a field's skin onto it that lie well away from what was cut; of these only
-// the ones that are flagged (empty: all).
+// Lays the vertices of a field's skin onto it that lie well away from what was cut, and evens out
+// the others by less than half a spacing; of both only the ones that are flagged (empty: all).
 void LayOnto(const UncutSurface& uncut, const SolidField& field,
              std::span<const std::uint8_t> is_new, SurfaceMesh& skin);
 
