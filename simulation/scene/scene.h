@@ -73,6 +73,7 @@ struct Tissue {
   std::string material = "meniscus";    // preset name
   Elasticity elasticity;                // where it differs from the preset
   std::vector<Ball> fixed;              // where it is held: what lies inside does not move
+  std::vector<Ball> probed;             // where it is touched most: meshes are finer there
   std::vector<Cut> cuts;                // made before anybody touches it
   std::vector<Region> regions;          // of the first that holds it, what is taken is told
   bool is_cuttable = true;              // instruments may take of it

@@ -180,6 +180,18 @@ void LookAtPins(const Tissue& tissue, const TetMesh& mesh, SceneFindings& findin
   }
 }
 
+// A mesh that was made for a probed place has nodes there.
+void LookAtProbed(const Tissue& tissue, const TetMesh& mesh, SceneFindings& findings) {
+  for (std::size_t i = 0; i < tissue.probed.size(); ++i) {
+    const std::vector<std::uint8_t> own = HeldNodes(mesh.rest_positions, {&tissue.probed[i], 1});
+    if (std::count(own.begin(), own.end(), 1) == 0)
+      findings.warnings.push_back(fmt::format(
+          "tissue \"{}\": ball {} of \"probed\" has no node of the mesh, which is no finer for it; "
+          "move the ball onto the tissue, or make the tetrahedra again",
+          tissue.name, i + 1));
+  }
+}
+
 void LookAtScope(const Scene& scene, SceneFindings& findings) {
   findings.found.push_back(
       fmt::format("scope: {:g} degrees oblique, field of view {:g} degrees, rod of {:g} mm",
@@ -240,6 +252,7 @@ SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what) 
       for (const std::string& message : report.messages)
         findings.warnings.push_back(fmt::format("{}: {}", file.string(), message));
       LookAtPins(tissue, mesh, findings);
+      LookAtProbed(tissue, mesh, findings);
     } catch (const Error& error) {
       errors.push_back(error.what());
     }

@@ -127,6 +127,14 @@ void ReadElasticity(Reader& reader, Elasticity& elasticity) {
   number("layer_thickness", elasticity.layer_thickness, kLength);
 }
 
+void ReadBalls(Reader& reader, const char* name, std::vector<Ball>& balls) {
+  reader.Array(name, [&](Reader& inner, int) {
+    Ball& ball = balls.emplace_back();
+    inner.Point("centre", ball.centre, kCoordinate, Reader::kRequired);
+    inner.Number("radius", ball.radius, kLength, Reader::kRequired);
+  });
+}
+
 void ReadTissue(Reader& reader, Tissue& tissue) {
   reader.Text("name", tissue.name, Reader::kRequired);
   reader.Path("surface", tissue.surface, Reader::kRequired);
@@ -139,11 +147,8 @@ void ReadTissue(Reader& reader, Tissue& tissue) {
   reader.Text("material", tissue.material);
   reader.Object("elasticity", Reader::kOptional,
                 [&](Reader& inner) { ReadElasticity(inner, tissue.elasticity); });
-  reader.Array("fixed", [&](Reader& inner, int) {
-    Ball& ball = tissue.fixed.emplace_back();
-    inner.Point("centre", ball.centre, kCoordinate, Reader::kRequired);
-    inner.Number("radius", ball.radius, kLength, Reader::kRequired);
-  });
+  ReadBalls(reader, "fixed", tissue.fixed);
+  ReadBalls(reader, "probed", tissue.probed);
   ReadCuts(reader, tissue.cuts);
   ReadRegions(reader, tissue.regions);
   reader.Flag("cuttable", tissue.is_cuttable);
@@ -232,8 +237,12 @@ ordered_json JsonFromTissue(const Tissue& tissue) {
   json["material"] = tissue.material;
   if (const ordered_json elasticity = JsonFromElasticity(tissue.elasticity); !elasticity.empty())
     json["elasticity"] = elasticity;
-  for (const Ball& ball : tissue.fixed)
-    json["fixed"].push_back({{"centre", JsonFromPoint(ball.centre)}, {"radius", ball.radius}});
+  const auto put_balls = [&](const char* key, const std::vector<Ball>& balls) {
+    for (const Ball& ball : balls)
+      json[key].push_back({{"centre", JsonFromPoint(ball.centre)}, {"radius", ball.radius}});
+  };
+  put_balls("fixed", tissue.fixed);
+  put_balls("probed", tissue.probed);
   for (const Cut& cut : tissue.cuts) json["cuts"].push_back(JsonFromCut(cut));
   for (const Region& region : tissue.regions) json["regions"].push_back(JsonFromRegion(region));
   if (!tissue.is_cuttable) json["cuttable"] = false;

@@ -22,7 +22,7 @@ TetMesh OneTet() {
   return mesh;
 }
 
-SceneFindings FindingsWith(const std::vector<Ball>& fixed) {
+SceneFindings FindingsWith(const std::vector<Ball>& fixed, const std::vector<Ball>& probed = {}) {
   test::TempFolder folder;
   Scene scene;
   scene.backdrop.panorama = "p.png";
@@ -32,6 +32,7 @@ SceneFindings FindingsWith(const std::vector<Ball>& fixed) {
   tissue.surface = "flap.ply";
   tissue.mesh = "flap.vtu";
   tissue.fixed = fixed;
+  tissue.probed = probed;
   WriteColourImage(folder / "p.png", ColourImage(16, 8));
   WriteSurface(folder / "flap.ply", {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}});
   WriteTetMesh(folder / "flap.vtu", OneTet());
@@ -70,6 +71,15 @@ TEST(SceneCheck, CountsWhatTheBallsHoldAndNamesAnIdleOne) {
   EXPECT_TRUE(Says(findings.found, "\"flap\": held at 4 of 10 nodes, 2 balls"));
   EXPECT_FALSE(Says(findings.warnings, "held"));
   EXPECT_TRUE(Says(findings.hints, "ball 2 of \"fixed\" holds no node"));
+}
+
+TEST(SceneCheck, NamesAProbedPlaceThatTheMeshWasNotMadeFor) {
+  const std::vector<Ball> held = {{{0, 0, 0}, 0.0051}};
+  const SceneFindings findings =
+      FindingsWith(held, {{{0.01, 0, 0}, 0.001}, {{0.5, 0, 0}, 0.001}, {{0.005, 0.005, 0}, 1e-6}});
+  EXPECT_FALSE(Says(findings.warnings, "ball 1 of \"probed\""));
+  EXPECT_TRUE(Says(findings.warnings, "ball 2 of \"probed\" has no node"));
+  EXPECT_FALSE(Says(findings.warnings, "ball 3 of \"probed\""));
 }
 
 }  // namespace

@@ -163,11 +163,12 @@ TEST(SceneIo, ASceneThatCouldNotBeReadBackLeavesTheOldFile) {
   const fs::path file = folder / "scene.json";
   WriteScene(file, SmallScene());
   const std::string before = ReadWholeFile(file);
-  Scene nan_ball = SmallScene(), too_stiff = SmallScene(), nan_cut = SmallScene(),
-        short_tear = SmallScene();
-  for (Scene* scene : {&nan_ball, &too_stiff, &nan_cut, &short_tear})
+  Scene nan_ball = SmallScene(), nan_probed = SmallScene(), too_stiff = SmallScene(),
+        nan_cut = SmallScene(), short_tear = SmallScene();
+  for (Scene* scene : {&nan_ball, &nan_probed, &too_stiff, &nan_cut, &short_tear})
     scene->tissues.emplace_back().name = "a", scene->tissues.back().surface = "a.ply";
   nan_ball.tissues[0].fixed = {{{0, std::numeric_limits<double>::quiet_NaN(), 0}, 0.001}};
+  nan_probed.tissues[0].probed = {{{0, 0, 0}, std::numeric_limits<double>::quiet_NaN()}};
   nan_cut.tissues[0].cuts = {CapsuleCut{{}, {}, std::numeric_limits<double>::quiet_NaN()}};
   short_tear.tissues[0].cuts = {TearCut{{{0, 0, 0}}}};
   too_stiff.tissues[0].elasticity.poisson_ratio = 0.5;
@@ -178,7 +179,7 @@ TEST(SceneIo, ASceneThatCouldNotBeReadBackLeavesTheOldFile) {
   for (Tissue& tissue : twins.tissues) tissue.name = "a", tissue.surface = "a.ply";
   not_text.title = "\xff\xfe";
   for (const Scene& scene :
-       {nan, nan_ball, too_stiff, nan_cut, short_tear, escape, twins, not_text}) {
+       {nan, nan_ball, nan_probed, too_stiff, nan_cut, short_tear, escape, twins, not_text}) {
     EXPECT_THROW(WriteScene(file, scene), Error);
     EXPECT_EQ(ReadWholeFile(file), before);
   }

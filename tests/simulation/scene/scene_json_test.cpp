@@ -77,7 +77,9 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_FALSE(meniscus.is_cuttable);
   EXPECT_EQ(scene.tissues[1].pose.scale, 1.0);
   EXPECT_EQ(scene.tissues[1].elasticity, Elasticity{});
+  EXPECT_EQ(meniscus.probed, (std::vector<Ball>{{{0, 0.01, 0.001}, 0.0015}}));
   EXPECT_TRUE(scene.tissues[1].fixed.empty());
+  EXPECT_TRUE(scene.tissues[1].probed.empty());
   EXPECT_TRUE(scene.tissues[1].is_cuttable);
   EXPECT_FALSE(meniscus.is_implicit);
   EXPECT_TRUE(scene.tissues[1].is_implicit);
