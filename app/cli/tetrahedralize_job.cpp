@@ -1,11 +1,13 @@
 // arthroscene tetrahedralize SURFACE --unit mm -o tissue.vtu: a closed surface becomes a volume
 // that can be deformed. The hidden job tetgen-worker is the other half: TetGen in a process of its
 // own.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
+#include "authoring/tissue/mesh_budget.h"
 #include "authoring/tissue/tetgen_worker.h"
 #include "authoring/tissue/tetrahedralize.h"
 #include "simulation/core/atomic_file.h"
@@ -24,9 +27,40 @@ namespace arthro::app {
 namespace {
 
 struct Arguments {
-  std::string surface, unit, output, report;
+  std::string surface, unit, output, report, budget;
+  int elements = 0;  // 0: no budget, as many as the options ask for
+  std::vector<Ball> held;
   authoring::TetrahedralizeOptions options;
 };
+
+// "X,Y,Z,R" in mm.
+Ball BallFromWords(const std::string& flag, const std::string& words) {
+  std::vector<double> mm;
+  bool is_good = true;
+  for (const std::string& word : CLI::detail::split(words, ',')) {
+    double value = 0;
+    is_good = is_good && CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+    mm.push_back(value);
+  }
+  if (!is_good || mm.size() != 4 || !(mm[3] > 0))
+    throw CLI::ValidationError(
+        flag, fmt::format("{} is not X,Y,Z,R: a centre and a radius of more than 0, in mm", words));
+  return {kMetrePerMillimetre * glm::dvec3(mm[0], mm[1], mm[2]), MetresFromMm(mm[3])};
+}
+
+CLI::Option* AddBalls(CLI::App& job, const std::string& flag, std::vector<Ball>& balls,
+                      const std::string& help) {
+  return job
+      .add_option_function<std::vector<std::string>>(
+          flag,
+          [flag, &balls](const std::vector<std::string>& all) {
+            for (const std::string& words : all) balls.push_back(BallFromWords(flag, words));
+          },
+          help)
+      ->type_name("X,Y,Z,R")
+      ->expected(1)
+      ->take_all();
+}
 
 // Before the long part, so that a slip of the pen costs nothing.
 void CheckOutput(const Arguments& arguments) {
@@ -42,6 +76,21 @@ void CheckOutput(const Arguments& arguments) {
                 output);
 }
 
+TetMesh Fill(const Arguments& arguments, const SurfaceMesh& surface,
+             const authoring::SurfaceSource& source, authoring::TetrahedralizeReport& report,
+             const Progress& progress) {
+  const authoring::TetrahedralizeOptions& options = arguments.options;
+  if (arguments.elements == 0)
+    return authoring::Tetrahedralize(surface, source, options, &report, progress);
+  authoring::MeshWish wish;
+  wish.elements = arguments.elements;
+  wish.fixed = arguments.held;
+  wish.probed = options.fine_at;
+  wish.time_limit = options.time_limit;
+  wish.memory_limit = options.memory_limit;
+  return authoring::TetrahedralizeToBudget(surface, source, wish, &report, progress);
+}
+
 void RunJob(const Arguments& arguments) {
   CheckOutput(arguments);
   const Progress progress = TerminalProgress();
@@ -50,8 +99,7 @@ void RunJob(const Arguments& arguments) {
   authoring::TetrahedralizeReport report;
   const SurfaceMesh surface =
       ReadSurface(arguments.surface, source.metres_per_unit, &report.reading);
-  const TetMesh mesh =
-      authoring::Tetrahedralize(surface, source, arguments.options, &report, progress);
+  const TetMesh mesh = Fill(arguments, surface, source, report, progress);
   WriteTetMesh(arguments.output, mesh);
   if (!arguments.report.empty())
     WriteAtomically(arguments.report,
@@ -72,6 +120,44 @@ void RunJob(const Arguments& arguments) {
              MmFromMetres(report.quality.longest_edge));
 }
 
+// Sizes by their count of elements: curved ones on a coarser surface. What that decides itself
+// cannot be asked for beside it.
+void AddBudget(CLI::App& job, Arguments& arguments) {
+  constexpr const char* kGroup = "Budget";
+  std::vector<std::string> names;
+  std::string help =
+      "About so many quadratic elements, for a tissue that is deformed at display "
+      "rate:";
+  for (const authoring::MeshBudget& budget : authoring::MeshBudgets()) {
+    names.push_back(budget.name);
+    help += fmt::format(" {}, {};", budget.name, budget.elements);
+  }
+  help.back() = '.';
+  CLI::Option* budget = job.add_option_function<std::string>(
+                               "--budget",
+                               [&arguments](const std::string& name) {
+                                 for (const authoring::MeshBudget& b : authoring::MeshBudgets())
+                                   if (b.name == name) arguments.elements = b.elements;
+                               },
+                               help)
+                            ->check(CLI::IsMember(names))
+                            ->group(kGroup);
+  CLI::Option* elements =
+      job.add_option("--elements", arguments.elements, "The same, by the number itself")
+          ->check(CLI::Range(authoring::kFewestElements, authoring::kMostBudgetElements))
+          ->group(kGroup);
+  elements->excludes(budget);
+  AddBalls(job, "--held-at", arguments.held,
+           "Where the tissue will be held, in the surface's own frame, mm; may be given again. A "
+           "mesh to a budget is coarser there")
+      ->group(kGroup);
+  for (CLI::Option* size : {budget, elements})
+    for (const char* other :
+         {"--order", "--max-edge-mm", "--fine-edge-mm", "--min-dihedral-deg", "--radius-edge",
+          "--keep-surface", "--thickness-mm", "--max-triangles", "--fill-holes", "--drop-below"})
+      size->excludes(job.get_option(other));
+}
+
 }  // namespace
 
 void AddTetrahedralizeJob(CLI::App& program) {
@@ -87,6 +173,11 @@ void AddTetrahedralizeJob(CLI::App& program) {
       ->required();
   job->add_option("--report", arguments->report, "Counts, quality, repairs and times, as JSON");
   AddOptions(*job, arguments->options);
+  AddBalls(*job, "--fine-at", arguments->options.fine_at,
+           "Where the mesh is finer, in the surface's own frame, mm; may be given again. How fine: "
+           "--fine-edge-mm, or what the budget allows")
+      ->group("Options");
+  AddBudget(*job, *arguments);
   job->callback([arguments] { RunJob(*arguments); });
 
   CLI::App* worker = program.add_subcommand("tetgen-worker", "Started by tetrahedralize.");

@@ -9,8 +9,8 @@
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
+#include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_cut.h"
-#include "app/commands/tissue/tissue_hold.h"
 #include "app/commands/tissue/tissue_poke.h"
 #include "app/commands/tissue_work.h"
 #include "simulation/core/units.h"
@@ -32,6 +32,18 @@ bool HasTissue(const State& state) {
          state.tissue < static_cast<int>(state.document().scene.tissues.size());
 }
 bool Practising(const State& state) { return state.practice.has_value(); }
+
+template <BallKind kind>
+void ToggleBrush(State& state) {
+  if (state.brush == kind)
+    state.brush.reset();
+  else
+    state.brush = kind;
+  state.message = !state.brush ? "The overview turns and moves again."
+                  : kind == BallKind::kHeld
+                      ? "Click on the tissue in the overview to hold it there."
+                      : "Click on the tissue in the overview where its mesh shall be finer.";
+}
 
 void StartPractice(State& state) {
   WhenDepthIsReady(state, [](State& ready) {
@@ -232,11 +244,7 @@ constexpr Command kCommands[] = {
      {},
      {},
      HasTissue,
-     [](State& state) {
-       state.hold_brush = !state.hold_brush;
-       state.message = state.hold_brush ? "Click on the tissue in the overview to hold it there."
-                                        : "The overview turns and moves again.";
-     }},
+     ToggleBrush<BallKind::kHeld>},
     {"hold-at-instrument",
      "Hold it at the instrument",
      "Hold the chosen tissue where the instrument's tip is.",
@@ -244,26 +252,62 @@ constexpr Command kCommands[] = {
      {},
      {},
      HasTissue,
-     HoldAtInstrument},
+     [](State& state) { AddBallAtInstrument(state, BallKind::kHeld); }},
     {"release-ball",
      "Release this one",
      "Take the chosen ball away.",
      "Edit",
      {},
      {},
-     [](const State& state) { return HasTissue(state) && HasChosenBall(state); },
-     ReleaseChosenBall},
+     [](const State& state) {
+       return HasTissue(state) && state.tissue_page == TissuePage::kHold &&
+              HasChosenBall(state, BallKind::kHeld);
+     },
+     [](State& state) { RemoveChosenBall(state, BallKind::kHeld); }},
     {"release-tissue",
      "Release all",
      "Take all balls away: nothing holds the tissue any more.",
      "Edit",
      {},
      {},
+     [](const State& state) { return HasTissue(state) && HasBalls(state, BallKind::kHeld); },
+     [](State& state) { RemoveAllBalls(state, BallKind::kHeld); }},
+    {"probe-brush",
+     "Finer here…",
+     "Click on the tissue in the overview: the next tetrahedra are finer there, in a ball of the "
+     "radius above.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     ToggleBrush<BallKind::kProbed>},
+    {"probe-at-instrument",
+     "Finer at the instrument",
+     "The next tetrahedra of the chosen tissue are finer where the instrument's tip is.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { AddBallAtInstrument(state, BallKind::kProbed); }},
+    {"remove-probed",
+     "Not this one",
+     "Take the chosen place away.",
+     "Edit",
+     {},
+     {},
      [](const State& state) {
-       return HasTissue(state) &&
-              !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].fixed.empty();
+       return HasTissue(state) && state.tissue_page == TissuePage::kMesh &&
+              HasChosenBall(state, BallKind::kProbed);
      },
-     ReleaseAll},
+     [](State& state) { RemoveChosenBall(state, BallKind::kProbed); }},
+    {"remove-all-probed",
+     "None of them",
+     "Take all places away: the next tetrahedra are finer where the tissue is free.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && HasBalls(state, BallKind::kProbed); },
+     [](State& state) { RemoveAllBalls(state, BallKind::kProbed); }},
     {"cut-tear",
      "Tear…",
      "Click points along the tear on the tissue in the overview; press again to end it.",

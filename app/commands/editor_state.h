@@ -33,6 +33,8 @@ enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice };
 
 // What of the chosen tissue is worked on.
 enum class TissuePage { kPlace, kMaterial, kMesh, kHold, kCut };
+// What a ball on it says: it is held there, or probed.
+enum class BallKind { kHeld, kProbed };
 
 // ---- Dialogs; the last one of the stack is on top and takes all input. ----
 struct ErrorDialog {
@@ -84,9 +86,9 @@ struct EditorState {
   Step step = Step::kPanorama;
   int tissue = -1;  // chosen one, -1 none
   TissuePage tissue_page = TissuePage::kPlace;
-  int ball = -1;              // chosen one of its `fixed`, -1 none
-  bool hold_brush = false;    // a click on tissue in the overview holds it there
-  double hold_radius = 2e-3;  // m, of the next ball
+  int ball = -1;                  // chosen one of those that the page is about, -1 none
+  std::optional<BallKind> brush;  // a click on tissue in the overview puts a ball there
+  double ball_radius = 2e-3;      // m, of the next one
   CutBrush cut_brush;
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // of the material's values

@@ -146,7 +146,7 @@ void SetTissue(EditorState& state, int tissue, const Tissue& changed, const std:
       changed.material == old.material && changed.colour == old.colour &&
       changed.mesh == old.mesh && changed.surface == old.surface &&
       changed.elasticity == old.elasticity && changed.fixed == old.fixed &&
-      changed.cuts == old.cuts && changed.regions == old.regions &&
+      changed.probed == old.probed && changed.cuts == old.cuts && changed.regions == old.regions &&
       changed.is_cuttable == old.is_cuttable && changed.is_implicit == old.is_implicit)
     return;
   Edit(state, what + " " + old.name, Key("tissue " + std::to_string(tissue), what),

@@ -64,7 +64,10 @@ void TetrahedraliseTissue(EditorState& state) {
   const Tissue tissue = document.scene.tissues.at(static_cast<std::size_t>(index));
   const auto surface = document.surfaces.at(static_cast<std::size_t>(index));
   if (!surface) return;
-  const authoring::MeshSize size = state.mesh_size;
+  authoring::MeshWish wish;
+  wish.elements = authoring::BudgetOf(state.mesh_size).elements;
+  wish.fixed = tissue.fixed;
+  wish.probed = tissue.probed;
   // Kept beside the window until the scene is saved; saving copies it into the scene's folder.
   const fs::path file = state.scratch.path() / (FileNameOf(tissue.name) + ".vtu");
   state.jobs.Start("Make tetrahedra of " + tissue.name, [=](const Progress& progress) {
@@ -74,7 +77,7 @@ void TetrahedraliseTissue(EditorState& state) {
     source.metres_per_unit = kMetrePerMillimetre;
     authoring::TetrahedralizeReport report;
     const TetMesh mesh =
-        authoring::TetrahedralizeToBudget(*surface, source, size, tissue.fixed, &report, progress);
+        authoring::TetrahedralizeToBudget(*surface, source, wish, &report, progress);
     WriteTetMesh(file, mesh);
     return [=](EditorState& now) {
       // The list may have changed meanwhile.

@@ -5,8 +5,8 @@
 
 #include "app/commands/edits.h"
 #include "app/commands/same.h"
+#include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_cut.h"
-#include "app/commands/tissue/tissue_hold.h"
 
 namespace arthro::app {
 namespace {
@@ -191,7 +191,7 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   }
   // The box is there while tissue is worked on.
   const bool is_brush = state.step == Step::kTissue &&
-                        (state.hold_brush || state.cut_brush.kind != CutBrush::Kind::kNone);
+                        (state.brush.has_value() || state.cut_brush.kind != CutBrush::Kind::kNone);
   const int chosen = state.step == Step::kTissue && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
@@ -209,9 +209,10 @@ void Pictures::ShowPlaces(const EditorState& state) {
   const auto& tissues = state.document().scene.tissues;
   const bool has_tissue = state.step == Step::kTissue && state.tissue >= 0 &&
                           state.tissue < static_cast<int>(tissues.size());
-  if (has_tissue && state.tissue_page == TissuePage::kHold)
-    return overview_.ShowBalls(state.tissue, tissues[static_cast<std::size_t>(state.tissue)].fixed,
-                               state.ball);
+  const auto kind = BallKindOf(state.tissue_page);
+  if (has_tissue && kind)
+    return overview_.ShowBalls(
+        state.tissue, BallsOf(tissues[static_cast<std::size_t>(state.tissue)], *kind), state.ball);
   if (!has_tissue || state.tissue_page != TissuePage::kCut) return overview_.ShowBalls(-1, {}, -1);
   const Tissue& tissue = tissues[static_cast<std::size_t>(state.tissue)];
   std::vector<Ball> balls;
@@ -252,10 +253,10 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
       const bool is_cutting = state.cut_brush.kind != CutBrush::Kind::kNone;
-      if (button == 0 && (state.hold_brush || is_cutting) && state.step == Step::kTissue)
+      if (button == 0 && (state.brush || is_cutting) && state.step == Step::kTissue)
         if (const auto place = overview_.PickTissue(event.x, event.y)) {
           is_cutting ? UseCutBrush(state, place->tissue, place->x_in_tissue)
-                     : HoldAt(state, place->tissue, place->x_in_tissue);
+                     : AddBall(state, *state.brush, place->tissue, place->x_in_tissue);
           continue;
         }
       event.kind = Kind::kPress;

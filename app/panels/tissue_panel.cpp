@@ -11,10 +11,11 @@
 
 #include "app/commands/command_list.h"
 #include "app/commands/edits.h"
-#include "app/commands/tissue/tissue_hold.h"
+#include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_material.h"
 #include "app/commands/tissue_pose.h"
 #include "app/panels/panels.h"
+#include "app/panels/tissue_ball_fields.h"
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
 
@@ -149,6 +150,11 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
   if (Combo(ui, "Mesh size", chosen, sizes, "Finer is truer and slower."))
     state.mesh_size = authoring::MeshBudgets()[static_cast<std::size_t>(chosen)].size;
   QuietText(ui, authoring::BudgetWords(authoring::BudgetOf(state.mesh_size)));
+  QuietText(ui, tissue.probed.empty()
+                    ? "Finer where it is free; or say where it will be probed:"
+                    : fmt::format("Finest in {} probed {}:", tissue.probed.size(),
+                                  tissue.probed.size() == 1 ? "place" : "places"));
+  BallFields(ui, state, tissue, BallKind::kProbed);
   CommandButton(ui, state, "tetrahedralise", {-FLT_MIN, 0});
 }
 
@@ -158,45 +164,7 @@ void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   else
     QuietText(ui, fmt::format("{} {} hold it.", tissue.fixed.size(),
                               tissue.fixed.size() == 1 ? "ball" : "balls"));
-  constexpr int kRows = 3;  // seen at once; the rest is scrolled to
-  const float row = ImGui::GetTextLineHeightWithSpacing();
-  if (!tissue.fixed.empty()) {
-    const float rows = static_cast<float>(std::min<std::size_t>(tissue.fixed.size(), kRows));
-    ImGui::BeginChild("held", {0, rows * row}, true);
-    for (int i = 0; i < static_cast<int>(tissue.fixed.size()); ++i) {
-      const Ball& ball = tissue.fixed[static_cast<std::size_t>(i)];
-      const glm::dvec3 mm = ball.centre / kMetrePerMillimetre;
-      const std::string name = fmt::format("Ball {}", i + 1);
-      const std::string words =
-          fmt::format("{}: {:.1f}, {:.1f}, {:.1f} mm", name, mm.x, mm.y, mm.z);
-      if (ImGui::Selectable(words.c_str(), state.ball == i)) state.ball = i;
-      RecordItem(ui, name, true, state.ball == i ? "on" : "off");
-    }
-    ImGui::EndChild();
-  }
-  if (HasChosenBall(state)) {
-    Ball ball = tissue.fixed[static_cast<std::size_t>(state.ball)];
-    double mm = MmFromMetres(ball.radius * tissue.pose.scale);
-    const Change change = Slider(ui, "Radius of this ball", mm, 0.2, 15.0, "%.1f mm");
-    if (change) {
-      ball.radius = MetresFromMm(mm) / tissue.pose.scale;
-      SetBall(state, state.tissue, state.ball, ball, "Change a ball of");
-    }
-    if (change.held) state.dragging = true;
-    if (change.released) EndDrag(state);
-    const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-    CommandButton(ui, state, "release-ball", {half, 0});
-    ImGui::SameLine(0, ui.Px(8));
-    CommandButton(ui, state, "release-tissue", {half, 0});
-  }
-  double mm = MmFromMetres(state.hold_radius);
-  if (Slider(ui, "Radius of the next ball", mm, 0.2, 15.0, "%.1f mm"))
-    state.hold_radius = MetresFromMm(mm);
-  const Command& brush = CommandOf("hold-brush");
-  if (ToggleButton(ui, brush.words, state.hold_brush, brush.enabled(state), {-FLT_MIN, 0},
-                   brush.help))
-    Run(state, brush);
-  CommandButton(ui, state, "hold-at-instrument", {-FLT_MIN, 0});
+  BallFields(ui, state, tissue, BallKind::kHeld);
 }
 
 // The author's instrument on the tissue, with the force that it gives.
@@ -271,8 +239,9 @@ void TissuePanel(Ui& ui, EditorState& state) {
     const float page_width = ImGui::CalcTextSize(words).x + free / 5;
     if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.tissue_page == page, true, {page_width, 0})) {
+      if (state.tissue_page != page) state.ball = -1;  // it counts the balls of its page
       state.tissue_page = page;
-      state.hold_brush = false;
+      state.brush.reset();
       state.cut_brush.kind = CutBrush::Kind::kNone;
     }
   }

@@ -19,7 +19,7 @@ struct MeshBudget {
   MeshSize size;
   const char* name;  // "coarse"
   int elements;      // quadratic; about so many are made
-  double error;      // share by which it gives way too little under a probe
+  double error;      // share by which it gives way too little under a probe, at worst
   double step_ms;    // an implicit step at 60 Hz, one thread, without contact
 };
 
@@ -28,12 +28,22 @@ const MeshBudget& BudgetOf(MeshSize size);
 // "About 300 elements: …"
 std::string BudgetWords(const MeshBudget& budget);
 
-// Quadratic elements, about as many as the size says: the surface is made coarse first, finer the
-// further from where the tissue is held, since what is free is what is touched; then the middles of
-// edges go onto the fine surface. Throws as Tetrahedralize does.
+struct MeshWish {
+  int elements = 300;         // quadratic; about so many are made
+  std::vector<Ball> fixed;    // where the tissue is held (scene.h)
+  std::vector<Ball> probed;   // where it is probed
+  double time_limit = 120.0;  // s, of the mesher, and memory_limit, MB
+  double memory_limit = 2048.0;
+};
+inline constexpr int kFewestElements = 20, kMostBudgetElements = 20000;
+
+// Quadratic elements, about as many as wished: the surface is made coarse first, finest in the
+// probed places and finer the further from where the tissue is held, since what is free is what is
+// touched; then the middles of edges go onto the fine surface. Throws as Tetrahedralize does, and
+// Error(kBadArgument) for a probed place that touches nothing.
 TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& source,
-                               MeshSize size, const std::vector<Ball>& fixed,
-                               TetrahedralizeReport* report, const Progress& progress = {},
+                               const MeshWish& wish, TetrahedralizeReport* report,
+                               const Progress& progress = {},
                                const std::filesystem::path& program = kThisProgram);
 
 }  // namespace arthro::authoring

@@ -1,6 +1,7 @@
 #include "authoring/tissue/tetgen_worker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #define TETLIBRARY
 #include <tetgen.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "simulation/core/atomic_file.h"
@@ -100,6 +102,7 @@ TetgenJob ReadJob(const fs::path& folder) {
   reader.Get(job.max_edge);
   reader.Get(job.memory_limit);
   reader.Get(job.time_limit);
+  reader.GetAll(job.fine);
   reader.GetAll(job.points);
   reader.GetAll(job.triangles);
   return job;
@@ -128,21 +131,26 @@ void LimitThisProcess(const TetgenJob& job) {
 #endif
 }
 
-// TetGen calls this for each tetrahedron with nothing but its corners, so the limit is here.
-double longest_edge_squared = 0;
+// TetGen calls this for each tetrahedron with nothing but its corners, so the limits are here.
+double longest_edge = 0;  // 0: none
+std::vector<FinePlace> fine_places;
 
 bool IsTooLong(double* a, double* b, double* c, double* d, double*, double) {
-  const double* corners[4] = {a, b, c, d};
-  for (int i = 0; i < 4; ++i)
-    for (int j = i + 1; j < 4; ++j) {
-      double squared = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double difference = corners[i][axis] - corners[j][axis];
-        squared += difference * difference;
-      }
-      if (squared > longest_edge_squared) return true;
-    }
-  return false;
+  std::array<glm::dvec3, 4> corners;
+  glm::dvec3 low(INFINITY), high(-INFINITY);
+  for (std::size_t i = 0; const double* x : {a, b, c, d}) {
+    corners[i] = {x[0], x[1], x[2]};
+    low = glm::min(low, corners[i]), high = glm::max(high, corners[i++]);
+  }
+  double longest = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j)
+      longest = std::max(longest, glm::distance(corners[i], corners[j]));
+  if (longest_edge > 0 && longest > longest_edge) return true;
+  return std::any_of(fine_places.begin(), fine_places.end(), [&](const FinePlace& place) {
+    return longest > place.max_edge &&
+           glm::distance(place.centre, glm::clamp(place.centre, low, high)) < place.radius;
+  });
 }
 
 // A facet of one triangle each; tetgenio frees what its lists hold.
@@ -170,8 +178,9 @@ int Work(const fs::path& folder) {
   LimitThisProcess(job);
   tetgenio in, out;
   Fill(in, job);
-  if (job.max_edge > 0) {
-    longest_edge_squared = job.max_edge * job.max_edge;
+  if (job.max_edge > 0 || !job.fine.empty()) {
+    longest_edge = job.max_edge;
+    fine_places = job.fine;
     in.tetunsuitable = IsTooLong;
   }
   tetgenbehavior behavior;
@@ -210,6 +219,7 @@ void WriteTetgenJob(const fs::path& folder, const TetgenJob& job) {
   writer.Put(job.max_edge);
   writer.Put(job.memory_limit);
   writer.Put(job.time_limit);
+  writer.PutAll(job.fine);
   writer.PutAll(job.points);
   writer.PutAll(job.triangles);
   WriteBytes(folder / kJobFile, writer.bytes());

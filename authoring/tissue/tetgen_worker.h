@@ -14,6 +14,12 @@
 
 namespace arthro::authoring {
 
+// Tetrahedra that reach into the ball have no longer edge than this.
+struct FinePlace {
+  glm::dvec3 centre{0.0};
+  double radius = 0, max_edge = 0;
+};
+
 struct TetgenJob {
   std::string switches;       // TetGen's own
   double flat_angle = 180;    // deg; facets that meet at more than this are one plane
@@ -21,6 +27,7 @@ struct TetgenJob {
   double max_edge = 0;        // tetrahedra with a longer edge are split; 0: none
   double memory_limit = 0;    // bytes on top of the program itself
   double time_limit = 0;      // s of processor time: the worker's own stop if its parent forgets it
+  std::vector<FinePlace> fine;
   std::vector<glm::dvec3> points;
   std::vector<std::array<int, 3>> triangles;
 };

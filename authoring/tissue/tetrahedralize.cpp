@@ -5,12 +5,14 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <numbers>
 #include <optional>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "authoring/tissue/child_process.h"
+#include "authoring/tissue/fine_places.h"
 #include "authoring/tissue/surface_thicken.h"
 #include "authoring/tissue/tetgen_worker.h"
 #include "simulation/core/error.h"
@@ -108,8 +110,10 @@ std::optional<TetMesh> RunTetgen(const Run& run, const std::string& switches, do
   TetgenJob job;
   job.switches = switches;
   job.flat_angle = kFlatAngle;
-  if (max_edge <= 0) job.max_dihedral = kMaxDihedral;
+  if (max_edge <= 0 && run.options.fine_at.empty()) job.max_dihedral = kMaxDihedral;
   job.max_edge = max_edge * scale;
+  for (const Ball& place : run.options.fine_at)
+    job.fine.push_back({place.centre * scale, place.radius * scale, run.options.fine_edge * scale});
   job.memory_limit = run.options.memory_limit * 1024 * 1024;
   job.time_limit = run.options.time_limit;
   for (const glm::dvec3& x : run.surface.vertices) job.points.push_back(x * scale);
@@ -164,16 +168,31 @@ TetMesh Fill(const Run& run, double max_edge) {
       run.source.file);
 }
 
-void RefuseTooMany(const SurfaceCheck& check, const SurfaceSource& source, double max_edge) {
+// `flag`: that which says the longest edge in so much volume.
+void RefuseTooMany(double volume, double max_edge, const char* flag, const SurfaceSource& source) {
   if (max_edge <= 0) return;
-  const double expected = kElementsPerCube * check.volume / (max_edge * max_edge * max_edge);
+  const double expected = kElementsPerCube * volume / (max_edge * max_edge * max_edge);
   if (expected <= kMostElements) return;
-  const double least = std::cbrt(kElementsPerCube * check.volume / kMostElements);
-  throw Error(Code::kBadMesh,
-              fmt::format("edges of at most {:g} mm would make about {:.2g} million elements; use "
-                          "--max-edge-mm {:.2g} or more",
-                          MmFromMetres(max_edge), expected * 1e-6, 1.05 * MmFromMetres(least)),
-              source.file);
+  const double least = std::cbrt(kElementsPerCube * volume / kMostElements);
+  throw Error(
+      Code::kBadMesh,
+      fmt::format("edges of at most {:g} mm would make about {:.2g} million elements; use "
+                  "{} {:.2g} or more",
+                  MmFromMetres(max_edge), expected * 1e-6, flag, 1.05 * MmFromMetres(least)),
+      source.file);
+}
+
+void RequireFinePlaces(const SurfaceMesh& surface, double volume, const SurfaceSource& source,
+                       const TetrahedralizeOptions& options) {
+  if (options.fine_at.empty() != (options.fine_edge <= 0))
+    throw Error(Code::kBadArgument,
+                "--fine-at says where the mesh is finer and --fine-edge-mm how fine; give both",
+                source.file);
+  RequireTouching(options.fine_at, surface, "a place of --fine-at", source);
+  double balls = 0;
+  for (const Ball& place : options.fine_at)
+    balls += 4.0 / 3.0 * std::numbers::pi * place.radius * place.radius * place.radius;
+  RefuseTooMany(std::min(volume, balls), options.fine_edge, "--fine-edge-mm", source);
 }
 
 void Simplify(SurfaceMesh& surface, const SurfaceSource& source,
@@ -214,6 +233,11 @@ void Warn(const Run& run) {
   if (run.options.max_edge > 0 && quality.longest_edge > run.options.max_edge)
     warn(fmt::format("the longest edge is {:.4g} mm, more than the {:g} mm asked for",
                      MmFromMetres(quality.longest_edge), MmFromMetres(run.options.max_edge)));
+  if (report.longest_fine_edge > run.options.fine_edge)
+    warn(
+        fmt::format("the longest edge in a place of --fine-at is {:.4g} mm, more than the {:g} mm "
+                    "asked for",
+                    MmFromMetres(report.longest_fine_edge), MmFromMetres(run.options.fine_edge)));
 }
 
 }  // namespace
@@ -238,7 +262,8 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   RequireTissueSize(result.surface, repaired_source);
   RequireMeshable(result.surface, repaired_source);
   if (options.max_triangles > 0) Simplify(repaired.surface, source, options, result);
-  RefuseTooMany(result.surface, source, options.max_edge);
+  RefuseTooMany(result.surface.volume, options.max_edge, "--max-edge-mm", source);
+  RequireFinePlaces(repaired.surface, result.surface.volume, source, options);
   result.check_ms = MsSince(check_start);
 
   // TetGen's last smoothing can stretch an edge a little past the limit; then once more, tighter.
@@ -264,6 +289,8 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   result.elements = mesh.ElementCount();
   result.surface_nodes = static_cast<int>(
       std::count(mesh.sets["surface"].begin(), mesh.sets["surface"].end(), std::uint8_t{1}));
+  for (const Ball& place : options.fine_at)
+    result.longest_fine_edge = std::max(result.longest_fine_edge, LongestEdgeIn(place, mesh));
   result.volume_error =
       std::abs(result.quality.volume - result.surface.volume) / result.surface.volume;
   result.measure_ms = MsSince(measure_start);
@@ -286,6 +313,10 @@ nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSourc
   nlohmann::json attempts = nlohmann::json::array();
   for (const TetgenAttempt& attempt : report.attempts)
     attempts.push_back({{"switches", attempt.switches}, {"result", attempt.result}});
+  nlohmann::json fine_at = nlohmann::json::array();
+  for (const Ball& place : options.fine_at)
+    fine_at.push_back(
+        {{"centre", {place.centre.x, place.centre.y, place.centre.z}}, {"radius", place.radius}});
   const glm::dvec3 size = surface.high - surface.low;
   return {
       {"schema", "arthroscene.tetrahedralize/1"},
@@ -303,6 +334,8 @@ nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSourc
       {"worst_jacobian", quality.worst_jacobian},
       {"longest_edge", quality.longest_edge},
       {"median_edge", quality.median_edge},
+      {"fine_at", fine_at},
+      {"longest_fine_edge", report.longest_fine_edge},
       {"surface",
        {{"vertices", surface.vertices},
         {"triangles", surface.triangles},

@@ -16,6 +16,7 @@
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
 #include "simulation/scene/mesh_io.h"
+#include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scene/tet_mesh.h"
 
@@ -24,6 +25,8 @@ namespace arthro::authoring {
 struct TetrahedralizeOptions {
   int order = 1;
   double max_edge = 0.0;
+  std::vector<Ball> fine_at;  // where fine_edge holds, in the surface's own frame
+  double fine_edge = 0.0;
   double min_dihedral = 10.0 * std::numbers::pi / 180.0;
   double radius_edge = 1.4;
   bool keep_surface = false;
@@ -41,6 +44,8 @@ struct TetrahedralizeOptions {
       "truly for the same number of nodes.");
     v("max_edge", max_edge, Range{0.0, 1.0}, "m",
       "No edge is longer than this; 0: as coarse as the surface allows.");
+    v("fine_edge", fine_edge, Range{0.0, 1.0}, "m",
+      "No edge is longer than this in elements that reach into a place of --fine-at.");
     v("min_dihedral", min_dihedral, Range{0.0, std::numbers::pi / 10}, "rad",
       "Elements with a flatter dihedral angle are refined where the surface lets them.");
     v("radius_edge", radius_edge, Range{1.1, 10.0}, "",
@@ -78,7 +83,8 @@ struct TetrahedralizeReport {
   SurfaceCheck surface;  // that was filled, after repairs
   TetQuality quality;
   int nodes = 0, elements = 0, surface_nodes = 0;
-  double volume_error = 0;  // elements against surface, relative
+  double volume_error = 0;       // elements against surface, relative
+  double longest_fine_edge = 0;  // m, in the places of fine_at
   std::vector<TetgenAttempt> attempts;
   std::vector<std::string> warnings;
   double check_ms = 0, mesh_ms = 0, measure_ms = 0;

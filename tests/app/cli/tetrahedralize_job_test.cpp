@@ -1,3 +1,4 @@
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +51,74 @@ TEST(TetrahedralizeJob, WritesMeshAndReport) {
   EXPECT_EQ(report["elements"], mesh.ElementCount());
   EXPECT_NEAR(report["volume"].get<double>(), 1e-6, 1e-15);
   EXPECT_LE(report["longest_edge"].get<double>(), 4e-3);
+}
+
+// Nodes within 2 mm of a corner of the cube, and within as much of the opposite one.
+std::pair<int, int> NodesAtCorners(const TetMesh& mesh) {
+  std::pair<int, int> nodes;
+  for (const glm::dvec3& x : mesh.rest_positions) {
+    nodes.first += glm::distance(x, glm::dvec3(0.0)) < 2e-3 ? 1 : 0;
+    nodes.second += glm::distance(x, glm::dvec3(0.01)) < 2e-3 ? 1 : 0;
+  }
+  return nodes;
+}
+
+TEST(TetrahedralizeJob, AFinePlaceIsFinerThanTheRest) {
+  const Surfaces surfaces;
+  const auto result = surfaces.Fill("cube.obj",
+                                    "--unit mm --order 2 --max-edge-mm 6 --fine-at 0,0,0,2 "
+                                    "--fine-edge-mm 0.8 --report " +
+                                        surfaces.Path("r.json"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto [fine, coarse] = NodesAtCorners(ReadTetMesh(surfaces.Path("out.vtu")));
+  EXPECT_GT(fine, 20 * coarse);
+  const auto report = nlohmann::json::parse(ReadWholeFile(surfaces.Path("r.json")));
+  EXPECT_LE(report["longest_fine_edge"].get<double>(), 0.8e-3);
+  EXPECT_GT(report["longest_fine_edge"].get<double>(), 0.2e-3);
+  EXPECT_EQ(report["fine_at"][0]["radius"], 0.002);
+}
+
+TEST(TetrahedralizeJob, ABudgetIsKeptAndSpentWhereItIsProbed) {
+  Surfaces surfaces;
+  surfaces.Write("ball.ply", test::Sphere({0, 0, 0}, 10, 4));
+  for (const auto& [flags, wanted] :
+       {std::pair{"--budget coarse", 150}, {"--elements 400 --fine-at 10,0,0,2", 400}}) {
+    const auto result = surfaces.Fill("ball.ply", std::string("--unit mm ") + flags);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const TetMesh mesh = ReadTetMesh(surfaces.Path("out.vtu"));
+    EXPECT_EQ(mesh.order, 2);
+    EXPECT_NEAR(mesh.ElementCount(), wanted, 0.2 * wanted) << flags;
+  }
+  const TetMesh mesh = ReadTetMesh(surfaces.Path("out.vtu"));
+  int probed = 0, opposite = 0;
+  for (const glm::dvec3& x : mesh.rest_positions) {
+    probed += glm::distance(x, glm::dvec3(0.01, 0, 0)) < 3e-3 ? 1 : 0;
+    opposite += glm::distance(x, glm::dvec3(-0.01, 0, 0)) < 3e-3 ? 1 : 0;
+  }
+  EXPECT_GT(probed, 3 * opposite);
+}
+
+TEST(TetrahedralizeJob, PlacesThatCannotBeAreRefusedInOneSentence) {
+  const Surfaces surfaces;
+  const auto refused = [&](const std::string& more, int code) {
+    const auto result = surfaces.Fill("cube.obj", "--unit mm " + more);
+    EXPECT_EQ(result.exit_code, code) << more << "\n" << result.err;
+    return result.err;
+  };
+  EXPECT_SAYS(refused("--fine-at 50,0,0,2 --fine-edge-mm 1", 1), "does not touch the surface");
+  EXPECT_SAYS(refused("--fine-at 0,0,0,2", 1), "give both");
+  EXPECT_SAYS(refused("--fine-edge-mm 1", 1), "give both");
+  EXPECT_SAYS(refused("--fine-at 0,0,0,20 --fine-edge-mm 0.01", 1), "--fine-edge-mm 0.27");
+  EXPECT_SAYS(refused("--elements 100 --fine-at 50,0,0,2", 1), "does not touch the surface");
+  for (const char* ball : {"0,0,0,-1", "0,0,0,0", "0,0,0", "0,0,0,1,2", "0,nan,0,1", "a,b,c,d",
+                           "0,0,0,inf", "1e999,0,0,1", "\"\""})
+    EXPECT_SAYS(refused(std::string("--fine-edge-mm 1 --fine-at ") + ball, 2), "--fine-at");
+  EXPECT_SAYS(refused("--budget huge", 2), "--budget");
+  EXPECT_SAYS(refused("--elements 3", 2), "--elements");
+  EXPECT_SAYS(refused("--elements 100 --budget fine", 2), "--budget");
+  EXPECT_SAYS(refused("--budget fine --max-edge-mm 1", 2), "--max-edge-mm");
+  EXPECT_SAYS(refused("--budget fine --fine-at 0,0,0,2 --fine-edge-mm 1", 2), "--fine-edge-mm");
 }
 
 TEST(TetrahedralizeJob, SameSurfaceGivesTheSameBytes) {
@@ -113,7 +182,8 @@ TEST(TetrahedralizeJob, OutputThatCannotBeIsRefusedBeforeTheWork) {
 TEST(TetrahedralizeJob, HelpNamesTheFlagsAndHidesTheWorker) {
   const auto help = RunProgram("tetrahedralize --help");
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* flag : {"--unit", "--order", "--max-edge-mm", "--report", "--time-limit"})
+  for (const char* flag : {"--unit", "--order", "--max-edge-mm", "--report", "--time-limit",
+                           "--budget", "--elements", "--fine-at", "--fine-edge-mm", "--held-at"})
     EXPECT_SAYS(help.out, flag);
   const std::string all = RunProgram("--help").out;
   EXPECT_SAYS(all, "tetrahedralize");

@@ -12,7 +12,7 @@
 #include "app/commands/edits.h"
 #include "app/commands/hand_motion.h"
 #include "app/commands/scene_files.h"
-#include "app/commands/tissue/tissue_hold.h"
+#include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_material.h"
 #include "app/commands/tissue_work.h"
 #include "simulation/core/units.h"
@@ -312,16 +312,16 @@ TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
 TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   Open();
   state.tissue = 0;
-  state.hold_radius = 0.003;
-  HoldAt(state, 0, {0.006, 0, 0});
-  HoldAt(state, 0, {0, 0.006, 0});
+  state.ball_radius = 0.003;
+  AddBall(state, BallKind::kHeld, 0, {0.006, 0, 0});
+  AddBall(state, BallKind::kHeld, 0, {0, 0.006, 0});
   const auto& fixed = [&]() -> const std::vector<Ball>& {
     return state.document().scene.tissues[0].fixed;
   };
   ASSERT_EQ(fixed().size(), 2u);
   EXPECT_EQ(state.ball, 1);
   EXPECT_EQ(fixed()[0], (Ball{{0.006, 0, 0}, 0.003}));
-  SetBall(state, 0, 1, {{0, 0.006, 0}, 0.001}, "Change a ball of");
+  SetBall(state, BallKind::kHeld, 0, 1, {{0, 0.006, 0}, 0.001}, "Change a ball of");
   EXPECT_EQ(fixed()[1].radius, 0.001);
   EndDrag(state);
   app::Run(state, "undo");
@@ -330,6 +330,7 @@ TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   EXPECT_EQ(fixed().size(), 1u) << "each ball is a step of its own";
   app::Run(state, "redo");
   state.ball = 0;
+  state.tissue_page = TissuePage::kHold;
   app::Run(state, "release-ball");
   ASSERT_EQ(fixed().size(), 1u);
   EXPECT_EQ(fixed()[0].centre, glm::dvec3(0, 0.006, 0));
@@ -338,6 +339,34 @@ TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   EXPECT_FALSE(CommandOf("release-tissue").enabled(state));
   app::Run(state, "undo");
   EXPECT_EQ(fixed().size(), 1u);
+}
+
+TEST_F(Commands, ProbedPlacesAreBallsOfTheirOwn) {
+  Open();
+  state.tissue = 0;
+  state.tissue_page = TissuePage::kMesh;
+  state.ball_radius = 0.0015;
+  AddBall(state, BallKind::kHeld, 0, {0.006, 0, 0});
+  AddBall(state, BallKind::kProbed, 0, {0, 0.006, 0});
+  const auto& tissue = [&]() -> const Tissue& { return state.document().scene.tissues[0]; };
+  EXPECT_EQ(tissue().fixed, (std::vector<Ball>{{{0.006, 0, 0}, 0.0015}}));
+  EXPECT_EQ(tissue().probed, (std::vector<Ball>{{{0, 0.006, 0}, 0.0015}}));
+  EXPECT_EQ(state.ball, 0);
+  EXPECT_FALSE(CommandOf("release-ball").enabled(state)) << "the page is about the probed ones";
+  app::Run(state, "remove-probed");
+  EXPECT_TRUE(tissue().probed.empty());
+  EXPECT_EQ(tissue().fixed.size(), 1u);
+  EXPECT_EQ(state.history.UndoName(), "Take a probed place from " + tissue().name);
+  app::Run(state, "undo");
+  app::Run(state, "remove-all-probed");
+  EXPECT_TRUE(tissue().probed.empty());
+  EXPECT_FALSE(CommandOf("remove-all-probed").enabled(state));
+  app::Run(state, "probe-brush");
+  EXPECT_EQ(state.brush, BallKind::kProbed);
+  app::Run(state, "hold-brush");
+  EXPECT_EQ(state.brush, BallKind::kHeld) << "one brush at a time";
+  app::Run(state, "hold-brush");
+  EXPECT_FALSE(state.brush);
 }
 
 TEST_F(Commands, ABallAtTheInstrumentLiesAtItsTipInTheTissuesOwnFrame) {
@@ -352,7 +381,7 @@ TEST_F(Commands, ABallAtTheInstrumentLiesAtItsTipInTheTissuesOwnFrame) {
   ASSERT_EQ(tissue.fixed.size(), 1u);
   const glm::dvec3 tip = glm::dvec3(0.03, 0, 0) + simulation::TipInOwnPortal(state.instrument);
   EXPECT_LT(glm::distance(tissue.pose * tissue.fixed[0].centre, tip), 1e-12);
-  EXPECT_NEAR(tissue.fixed[0].radius * 2, state.hold_radius, 1e-15);
+  EXPECT_NEAR(tissue.fixed[0].radius * 2, state.ball_radius, 1e-15);
 }
 
 TEST_F(Commands, MaterialsArePresetsAndWhatTheSceneSaysOtherwise) {

@@ -221,6 +221,36 @@ expect "Saved in"
   EXPECT_FALSE(saved.tissues.at(0).is_cuttable);
 }
 
+TEST_F(EditorWindow, AClickInTheOverviewSaysWhereTheTissueIsProbed) {
+  Drive(R"(
+click Tissue
+set "Position (right, down, in), down" 3
+set "Position (right, down, in), in" 22.5
+click Mesh
+expect "Finer where it is free"
+set "Radius of the next ball" 1.5
+click "Finer here…"
+wait frames 3
+click Overview
+wait frames 3
+expect "Finest in 1 probed place:"
+expect value "Ball 1" on
+click Hold
+expect "Nothing holds it"
+click Mesh
+click "Make tetrahedra"
+wait job
+expect "curved tetrahedra"
+click Save
+wait job
+expect "Saved in"
+)");
+  const Scene saved = ReadScene(scene);
+  EXPECT_TRUE(saved.tissues.at(0).fixed.empty());
+  ASSERT_EQ(saved.tissues.at(0).probed.size(), 1u);
+  EXPECT_NEAR(saved.tissues[0].probed[0].radius, 0.0015, 1e-9);
+}
+
 TEST_F(EditorWindow, AClickInTheOverviewHoldsTheTissueThereAndIsUndone) {
   Drive(R"(
 click Tissue

@@ -18,7 +18,10 @@ using test::Torus;
 
 TetMesh Fill(const SurfaceMesh& surface, MeshSize size, const std::vector<Ball>& fixed,
              TetrahedralizeReport* report = nullptr) {
-  return TetrahedralizeToBudget(surface, {}, size, fixed, report, {}, ARTHRO_PROGRAM);
+  MeshWish wish;
+  wish.elements = BudgetOf(size).elements;
+  wish.fixed = fixed;
+  return TetrahedralizeToBudget(surface, {}, wish, report, {}, ARTHRO_PROGRAM);
 }
 
 TEST(MeshBudget, MakesAboutAsManyQuadraticElementsAsItSays) {
