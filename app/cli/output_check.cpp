@@ -42,4 +42,14 @@ void CheckOutputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
   }
 }
 
+void CheckOutputFolder(const fs::path& folder, const std::vector<fs::path>& files) {
+  std::error_code ignored;
+  if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
+    throw Error(Code::kFile, "this is a file; give the name of a folder", folder);
+  for (const fs::path& file : files)
+    if (!file.empty() && file != "-" && IsSameFile(file, folder))
+      throw Error(Code::kBadArgument,
+                  "this is named both as a file and as a folder; give one another name", folder);
+}
+
 }  // namespace arthro::app

@@ -11,4 +11,8 @@ namespace arthro::app {
 void CheckOutputs(const std::vector<std::filesystem::path>& outputs,
                   const std::vector<std::filesystem::path>& inputs);
 
+// The same for a folder that a job makes and fills; it may be there already.
+void CheckOutputFolder(const std::filesystem::path& folder,
+                       const std::vector<std::filesystem::path>& files);
+
 }  // namespace arthro::app

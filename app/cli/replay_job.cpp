@@ -50,6 +50,7 @@ std::vector<fs::path> FilesOf(const LoadedScene& loaded) {
 void Run(const ReplayJob& job) {
   CheckOptions(job.options);
   CheckOutputs({job.forces, job.report}, {job.trace, job.scene});
+  if (!job.pictures.empty()) CheckOutputFolder(job.pictures, {job.forces, job.report});
   const std::vector<simulation::TraceRow> trace = simulation::ReadTrace(job.trace);
   const LoadedScene loaded = LoadScene(job.scene);
   CheckOutputs({job.forces, job.report}, FilesOf(loaded));

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
@@ -140,6 +142,79 @@ class CaseReader {
       faults_.push_back({"fixed",
                          "fixed is empty: nothing holds the body, so that it has no equilibrium; "
                          "name a set to hold"});
+    if (!faults_.empty()) return;
+    RefuseTwoWills();
+    if (!case_.is_dynamic) RequireHeld();
+  }
+
+  // A node that is held cannot be led elsewhere, nor led to two places.
+  void RefuseTwoWills() {
+    const auto shared = [&](const std::string& a, const std::string& b) {
+      int count = 0;
+      for (std::size_t i = 0; i < case_.mesh.rest_positions.size(); ++i)
+        count += case_.mesh.sets[a][i] && case_.mesh.sets[b][i] ? 1 : 0;
+      return count;
+    };
+    const auto refuse = [&](std::size_t i, const std::string& other, const std::string& will) {
+      const int nodes = shared(case_.displaced[i].set, other);
+      if (nodes == 0) return;
+      const std::string key = fmt::format("displaced[{}].set", i);
+      faults_.push_back({key, fmt::format("{} \"{}\" has {} nodes that {}; take them out of one of "
+                                          "the two",
+                                          key, case_.displaced[i].set, nodes, will)});
+    };
+    for (std::size_t i = 0; i < case_.displaced.size(); ++i) {
+      for (std::size_t j = 0; j < case_.fixed.size(); ++j)
+        refuse(i, case_.fixed[j].set,
+               fmt::format("fixed[{}] \"{}\" holds where they are", j, case_.fixed[j].set));
+      for (std::size_t j = 0; j < i; ++j)
+        if (case_.displaced[j].displacement != case_.displaced[i].displacement)
+          refuse(i, case_.displaced[j].set,
+                 fmt::format("displaced[{}] \"{}\" leads elsewhere", j, case_.displaced[j].set));
+    }
+  }
+
+  // Held axes must stop all six rigid motions, or no load has an equilibrium.
+  void RequireHeld() {
+    const std::vector<glm::dvec3>& rest = case_.mesh.rest_positions;
+    std::vector<std::uint8_t> axes(rest.size(), 0);
+    for (const CaseFixed& one : case_.fixed)
+      for (std::size_t i = 0; i < rest.size(); ++i)
+        if (case_.mesh.sets[one.set][i]) axes[i] |= one.axes;
+    for (const CaseDisplaced& one : case_.displaced)
+      for (std::size_t i = 0; i < rest.size(); ++i)
+        if (case_.mesh.sets[one.set][i]) axes[i] = 7;
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& x : rest) middle += x / static_cast<double>(rest.size());
+    double size = 0;
+    for (const glm::dvec3& x : rest) size = std::max(size, glm::distance(x, middle));
+
+    // What the held axes see of three shifts and three turns about the middle.
+    Eigen::Matrix<double, 6, 6> seen = Eigen::Matrix<double, 6, 6>::Zero();
+    std::string open = "xyz";
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      for (int a = 0; a < 3; ++a) {
+        if ((axes[i] >> a & 1) == 0) continue;
+        std::erase(open, static_cast<char>('x' + a));
+        glm::dvec3 along(0.0);
+        along[a] = 1.0;
+        const glm::dvec3 turn = glm::cross((rest[i] - middle) / size, along);
+        Eigen::Matrix<double, 6, 1> row;
+        row << along.x, along.y, along.z, turn.x, turn.y, turn.z;
+        seen += row * row.transpose();
+      }
+    if (!open.empty())
+      return faults_.push_back(
+          {"fixed", fmt::format("fixed holds the body nowhere along {}, so that it has no "
+                                "equilibrium; hold a set along {} too",
+                                fmt::join(open, " and "), open.size() > 1 ? "these" : "it")});
+    constexpr double kLeast = 1e-9;  // of the best seen: rounding leaves 1e-15
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> motions(
+        seen, Eigen::EigenvaluesOnly);
+    if (motions.eigenvalues()[0] < kLeast * motions.eigenvalues()[5])
+      faults_.push_back({"fixed",
+                         "fixed lets the body turn, so that it has no equilibrium; hold it at "
+                         "three points that are not on one line, or along more axes"});
   }
 
   // A mid-edge node belongs to a set when both ends do, and where the file itself says so:

@@ -15,16 +15,21 @@
 namespace arthro::simulation {
 namespace {
 
+using namespace nlohmann::literals;
+
 nlohmann::json GoodCase() {
   return nlohmann::json::parse(
       R"({"mesh": "beam.vtu", "order": 1, "mode": "static", "tolerance": 1e-8,
     "material": {"model": "stable_neo_hookean", "young_modulus": 1e6, "poisson_ratio": 0.3, "density": 1100},
-    "fixed": [{"set": "clamp", "axes": "xz"}], "loads": [{"set": "end", "total_force": [0.5, 0, 0]}]})");
+    "fixed": [{"set": "clamp", "axes": "xz"}, {"set": "tip", "axes": "y"}], "loads": [{"set": "end", "total_force": [0.5, 0, 0]}]})");
 }
 
 TissueCase Read(const nlohmann::json& json, TetMesh mesh = app::BeamMesh(1, {2, 1, 1})) {
   const test::TempFolder folder;
   mesh.sets["nobody"].assign(mesh.rest_positions.size(), 0);
+  // An edge of the clamped side: three axes of it are a hinge.
+  for (const glm::dvec3& x : mesh.rest_positions)
+    mesh.sets["hinge"].push_back(x.x == 0 && x.y == 0 ? 1 : 0);
   WriteTetMesh(folder / "beam.vtu", mesh);
   std::ofstream(folder / "case.json") << json.dump();
   return ReadCase(folder / "case.json");
@@ -55,6 +60,22 @@ struct BadCase {
   const char* says;
 };
 
+TEST(CaseIo, ASetThatIsLedTwoWaysIsRefused) {
+  auto json = GoodCase();
+  json["fixed"] = R"([{"set": "clamp"}])"_json;
+  json["displaced"] = R"([{"set": "end", "displacement": [0.001, 0, 0]},
+                          {"set": "tip", "displacement": [0.001, 0, 0]}])"_json;
+  EXPECT_EQ(Read(json).displaced.size(), 2u) << "both lead the same way";
+  json["displaced"][1]["displacement"][0] = 0.002;
+  try {
+    Read(json);
+    FAIL() << "the last one won";
+  } catch (const Error& error) {
+    EXPECT_NE(error.sentence().find("displaced[0] \"end\" leads elsewhere"), std::string::npos)
+        << error.sentence();
+  }
+}
+
 TEST(CaseIo, SaysWhatIsWrong) {
   const std::vector<BadCase> bad = {
       {"/mesh", nullptr, "mesh is missing"},
@@ -73,11 +94,18 @@ TEST(CaseIo, SaysWhatIsWrong) {
       {"/material/model", "rubber", "stable_neo_hookean"},
       {"/material/fibre_stiffness", 1e6, "fibre_axis"},
       {"/material/colour", 1, "colour"},
-      {"/fixed/0/set", "clmap", "it has clamp, end, nobody, tip"},
+      {"/fixed/0/set", "clmap", "it has clamp, end, hinge, nobody, tip"},
       {"/fixed/0/set", "nobody", "without a node"},
       {"/fixed/0/axes", "xq", "letters x, y and z"},
       {"/fixed/0/axes", "", "letters x, y and z"},
       {"/fixed", nlohmann::json::array(), "nothing holds the body"},
+      {"/fixed", R"([{"set": "clamp", "axes": "xz"}])"_json, "nowhere along y"},
+      {"/fixed", R"([{"set": "clamp", "axes": "x"}])"_json, "nowhere along y and z"},
+      {"/fixed", R"([{"set": "hinge"}])"_json, "lets the body turn"},
+      {"/displaced", R"([{"set": "clamp", "displacement": [0.001, 0, 0]}])"_json,
+       "displaced[0].set \"clamp\" has 4 nodes that fixed[0] \"clamp\" holds"},
+      {"/displaced", R"([{"set": "end", "displacement": [0.001, 0, 0]}])"_json,
+       "has 4 nodes that fixed[1] \"tip\" holds"},
       {"/loads/0/set", "nobody", "without a node"},
       {"/loads/0/total_force", {1, 2}, "3 numbers"},
       {"/loads/0/total_force", {1, 2, "x"}, "3 numbers"},
