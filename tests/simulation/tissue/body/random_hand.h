@@ -1,7 +1,8 @@
 // A seeded hand that does to a meniscus crescent (meniscus_body.h) what a trainee may do in ten
 // minutes, and what a device may do when it fails: it wanders smoothly over, through and under the
 // tissue, changes instruments, bites, shaves, jumps, is away for a while, and now and then its pose
-// is not a number. Portal frame, m, s.
+// is not a number. Most of the time a punch and a shaver are led to the free edge, since a hand
+// that only wanders cuts hardly anything. Portal frame, m, s.
 #pragma once
 
 #include <array>
@@ -43,14 +44,19 @@ class RandomHand {
                             glm::angleAxis(0.9 * wave(4), glm::dvec3(0, 1, 0)) *
                             glm::angleAxis(std::numbers::pi * wave(5), glm::dvec3(0, 0, 1));
     // The rod comes from above: tool z is the tissue's −z, tilted.
-    const Rigid3 body_from_tool{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)) * tilt,
-                                {radius * std::cos(angle), radius * std::sin(angle), height}};
+    Rigid3 body_from_tool{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)) * tilt,
+                          {radius * std::cos(angle), radius * std::sin(angle), height}};
+    const double jaw = std::fmod(kJawRate * t_, 2 * std::numbers::pi);
+    if (is_aimed_ && kind_ == simulation::ToolKind::kPunch)
+      body_from_tool = AtEdge(angle, jaw);
+    else if (is_aimed_ && kind_ == simulation::ToolKind::kShaver)
+      body_from_tool = AlongEdge(angle, wave(2));
 
     simulation::Instrumentation hand;
     hand.kind = kind_;
     hand.now.is_present = t_ >= away_until_;
     hand.now.portal_from_tool = portal_from_body_ * body_from_tool;
-    hand.now.opening = 0.5 + 0.5 * std::sin(7.0 * t_);
+    hand.now.opening = 0.5 + 0.5 * std::sin(jaw);
     hand.now.is_running = kind_ == simulation::ToolKind::kShaver && wave(6) > -0.3;
     if (random_.Uniform(0, 1) < 0.004) Spoil(hand.now);
     return hand;
@@ -60,14 +66,32 @@ class RandomHand {
   int jumps() const { return jumps_; }
 
  private:
+  static constexpr double kJawRate = 7.0;  // rad/s
   struct Wave {
     double phase = 0, rate = 0;
   };
+
+  // Jaws about the free edge, 1.5 mm high at 10 mm from the axis: the rod points outwards, one jaw
+  // above and one below. They are furthest in, 4 mm past the edge, as they close.
+  static Rigid3 AtEdge(double angle, double jaw) {
+    const glm::dvec3 out(std::cos(angle), std::sin(angle), 0), up(0, 0, 1);
+    const double reach = 0.010 + 0.001 + 0.003 * std::cos(jaw - 1.2 * std::numbers::pi);
+    return {glm::quat_cast(glm::dmat3(glm::cross(up, out), up, out)),
+            reach * out + glm::dvec3(0, 0, 0.0006)};
+  }
+  // Window on the free edge: the rod points down inside of it, the window outwards; now and then it
+  // leaves it.
+  static Rigid3 AlongEdge(double angle, double wave) {
+    const glm::dvec3 out(std::cos(angle), std::sin(angle), 0), down(0, 0, -1);
+    return {glm::quat_cast(glm::dmat3(glm::cross(out, down), out, down)),
+            (0.0085 + 0.002 * wave) * out + glm::dvec3(0, 0, -0.003)};
+  }
 
   // Every few seconds another instrument, or a jump, or nothing in the hand for a while.
   void Change() {
     if (t_ < change_at_) return;
     change_at_ = t_ + random_.Uniform(0.8, 4.0);
+    is_aimed_ = random_.Uniform(0, 1) < 0.7;
     const double what = random_.Uniform(0, 1);
     using enum simulation::ToolKind;
     if (what < 0.25)
@@ -118,6 +142,7 @@ class RandomHand {
   std::array<Wave, 14> waves_{};
   simulation::ToolKind kind_ = simulation::ToolKind::kProbe;
   double t_ = 0, change_at_ = 1.0, away_until_ = 0;
+  bool is_aimed_ = false;
   int bad_poses_ = 0, jumps_ = 0;
 };
 
