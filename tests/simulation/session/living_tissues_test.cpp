@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
 #include "tests/support/temp_folder.h"
 
@@ -42,6 +43,46 @@ TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
                               CapsuleCut{{0.002, 0, 0}, {0, 0.002, 0}, 6e-4},
                               BoxCut{{{1, 0, 0, 0}, {0.002, 0, 0}}, {2e-3, 4e-3, 6e-3}}}));
   EXPECT_EQ(body.regions, (std::vector<Region>{{"horn", {{0, 0.002, 0}, 0.008}}}));
+}
+
+// What is said of a tetrahedron as surface, 17.3 mm across, that is filled with itself, scaled and
+// shifted.
+std::string SaidOf(double scale, const glm::dvec3& shift) {
+  test::TempFolder folder;
+  const SurfaceMesh surface = {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}},
+                               {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  TetMesh mesh;
+  for (const glm::dvec3& x : surface.vertices) mesh.rest_positions.push_back(scale * x + shift);
+  mesh.elements = {0, 1, 2, 3};
+  WriteTetMesh(folder / "m.vtu", mesh);
+  Scene scene;
+  Tissue& tissue = scene.tissues.emplace_back();
+  tissue.name = "meniscus";
+  tissue.mesh = "m.vtu";
+  tissue.material = "soft";
+  TissuePreset preset;
+  preset.name = "soft";
+  try {
+    LivingTissues(scene, std::vector{surface},
+                  [&](const std::filesystem::path& name) { return folder / name.string(); },
+                  {preset});
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::kBadMesh);
+    return error.sentence();
+  }
+  return "nothing";
+}
+
+// By less than a fifth of the surface's diagonal, 3.46 mm, a coarse mesh may be off it.
+TEST(LivingTissues, AMeshThatDoesNotFillItsSurfaceIsRefused) {
+  EXPECT_EQ(SaidOf(1.0, {}), "nothing");
+  EXPECT_EQ(SaidOf(1.0, {0.0034, 0, 0}), "nothing");
+  EXPECT_EQ(SaidOf(0.81, {}), "nothing");
+  EXPECT_NE(SaidOf(1.0, {0.0035, 0, 0}).find("lie up to 3.5 mm apart"), std::string::npos);
+  EXPECT_NE(SaidOf(0.79, {}).find("fill this surface again"), std::string::npos);
+  EXPECT_NE(SaidOf(1e3, {}).find("meniscus: its tetrahedra and its surface of 17.3 mm"),
+            std::string::npos)
+      << "millimetres for metres";
 }
 
 }  // namespace
