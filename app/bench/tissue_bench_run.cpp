@@ -143,7 +143,7 @@ std::vector<TissueBenchMesh> TissueBenchMeshes(TissueBody body, int max_elements
         meshes.push_back({fmt::format("T10 bent {}x{}x1", 2 * beyond + 1, across),
                           MeniscusMesh(2, BentMeniscusTicks(beyond, across))});
       add(2, {24, 4, 1});
-      meshes.push_back({"T10 pressed 9x7x2", MeniscusMesh(2, PressedMeniscusTicks())});
+      meshes.push_back({"T10 pressed 9x9x2", MeniscusMesh(2, PressedMeniscusTicks())});
       add(2, {24, 4, 2});
       break;
   }
