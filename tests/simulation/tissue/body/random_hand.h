@@ -140,9 +140,10 @@ class RandomHand {
   Random random_;
   Rigid3 portal_from_body_;
   std::array<Wave, 14> waves_{};
-  simulation::ToolKind kind_ = simulation::ToolKind::kProbe;
-  double t_ = 0, change_at_ = 1.0, away_until_ = 0;
-  bool is_aimed_ = false;
+  // A short session cuts, too: it begins with bites.
+  simulation::ToolKind kind_ = simulation::ToolKind::kPunch;
+  bool is_aimed_ = true;
+  double t_ = 0, change_at_ = 2.0, away_until_ = 0;
   int bad_poses_ = 0, jumps_ = 0;
 };
 

@@ -1,0 +1,125 @@
+// A probe's hook under the free edge of a meniscus: it lifts the edge with the force of a surgeon's
+// hand, the edge stays on the hook or slips off it, and never goes through it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/simulation/tissue/body/meniscus_body.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;  // s
+
+// The rod stands inside of the free edge, in the middle of the crescent (its own +x), and points
+// down; the hook points outwards, under the edge. The tip's height is that of the hook's lower
+// side.
+WorldTool HookAt(const BodySpec& spec, double radius, double height) {
+  const glm::dvec3 hook(1, 0, 0), rod(0, 0, -1);
+  WorldTool tool;
+  tool.shape = ShapeOf(ToolKind::kProbe);
+  tool.now.is_present = true;
+  tool.now.portal_from_tool =
+      spec.portal_from_body *
+      Rigid3{glm::quat_cast(glm::dmat3(glm::cross(hook, rod), hook, rod)), {radius, 0, height}};
+  return tool;
+}
+
+class Lift : public testing::Test {
+ protected:
+  Lift() : spec(test::MeniscusBody()), body(spec, {}) {
+    const auto& skin = spec.surface.vertices;
+    for (std::size_t i = 0; i < skin.size(); ++i)
+      if (std::abs(glm::length(glm::dvec2(skin[i])) - 0.010) < 1e-6 && skin[i].z < 1e-9 &&
+          skin[i].x > 0.0098)
+        edge.push_back(i);
+  }
+  void Step(const WorldTool& tool) {
+    coupling = {};
+    coupling.tip = tool.now.portal_from_tool.translation;
+    const BodyReport report = body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
+    EXPECT_FALSE(report.was_reset);
+    const glm::dvec3 on_tool = ForceOf(coupling, coupling.tip).force;
+    force = glm::conjugate(spec.portal_from_body.rotation) * on_tool;
+    peak = std::max(peak, glm::length(force));
+    deepest = std::max(deepest, DepthIn(tool, on_tool));
+  }
+  // From one place to another in so many steps.
+  template <class At>
+  void Move(int steps, At&& at) {
+    for (int i = 1; i <= steps; ++i) Step(at(static_cast<double>(i) / steps));
+  }
+  double Raised() const {  // m, mean of the edge's middle
+    double sum = 0;
+    for (const std::size_t i : edge) sum += body.positions()[i].z - spec.surface.vertices[i].z;
+    return sum / static_cast<double>(edge.size());
+  }
+  // How deep a vertex of the skin is in the tool as the tissue holds it: the hand's, moved by F/k.
+  double DepthIn(const WorldTool& tool, const glm::dvec3& on_tool) const {
+    std::array<Capsule, kMaxCapsules> capsules;
+    const int count = PosedCapsules(tool.shape, tool.now, capsules);
+    const Rigid3 body_from_portal = Inverse(spec.portal_from_body);
+    double most = 0;
+    for (int c = 0; c < count; ++c) {
+      const Capsule& capsule = capsules[static_cast<std::size_t>(c)];
+      const glm::dvec3 offset = on_tool / ToolContactOptions{}.stiffness;
+      const glm::dvec3 a = body_from_portal * (capsule.a + offset),
+                       b = body_from_portal * (capsule.b + offset), way = b - a;
+      for (const glm::dvec3& x : body.positions()) {
+        const double t = std::clamp(glm::dot(x - a, way) / glm::dot(way, way), 0.0, 1.0);
+        most = std::max(most, capsule.radius - glm::distance(x, a + t * way));
+      }
+    }
+    return most;
+  }
+
+  BodySpec spec;
+  DeformableBody body;
+  std::vector<std::size_t> edge;
+  ToolCoupling coupling;
+  glm::dvec3 force{0.0};         // N on the tool, body frame
+  double peak = 0, deepest = 0;  // N, m
+};
+
+TEST_F(Lift, AHookPulledUpUnderTheFreeEdgeRaisesItAndHoldsIt) {
+  ASSERT_GT(edge.size(), 2u);
+  Move(30, [&](double s) { return HookAt(spec, 0.0085, -0.004 + 0.0022 * s); });
+  EXPECT_LT(std::abs(Raised()), 1e-4) << "not touched yet";
+  Move(120, [&](double s) { return HookAt(spec, 0.0085, -0.0018 + 0.005 * s); });
+  Move(30, [&](double) { return HookAt(spec, 0.0085, 0.0032); });
+  std::printf("hand 5 mm up: edge %.2f mm up, %.2f N on the hook (peak %.2f), skin %.3f mm in it\n",
+              1e3 * Raised(), glm::length(force), peak, 1e3 * deepest);
+  EXPECT_GT(Raised(), 1e-3);
+  EXPECT_LT(force.z, -0.05) << "it pulls the hook down";
+  EXPECT_LT(peak, 4.0) << "surgeons pull with 3.9 ± 2.0 N (PMC3023859)";
+  EXPECT_LT(deepest, 2e-4) << "and does not go through it";
+  // Held still it stays where it is.
+  const double held = Raised();
+  Move(120, [&](double) { return HookAt(spec, 0.0085, 0.0032); });
+  EXPECT_NEAR(Raised(), held, 1e-4);
+  // Let down again.
+  Move(60, [&](double s) { return HookAt(spec, 0.0085, 0.0032 - 0.0072 * s); });
+  Move(60, [&](double) { return HookAt(spec, 0.0085, -0.004); });
+  EXPECT_LT(std::abs(Raised()), 1e-4);
+}
+
+TEST_F(Lift, AHookPulledInwardsSlipsOffTheEdgeWhichFallsBack) {
+  Move(30, [&](double s) { return HookAt(spec, 0.0085, -0.004 + 0.0022 * s); });
+  Move(90, [&](double s) { return HookAt(spec, 0.0085, -0.0018 + 0.004 * s); });
+  EXPECT_GT(Raised(), 1e-3);
+  Move(120, [&](double s) { return HookAt(spec, 0.0085 - 0.006 * s, 0.0022); });
+  Move(60, [&](double) { return HookAt(spec, 0.0025, 0.0022); });
+  std::printf("pulled inwards by 6 mm: edge %.3f mm up, %.3f N, skin was %.3f mm in the hook\n",
+              1e3 * Raised(), glm::length(force), 1e3 * deepest);
+  EXPECT_LT(std::abs(Raised()), 1e-4);
+  EXPECT_LT(glm::length(force), 1e-3);
+  EXPECT_LT(deepest, 2e-4);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
