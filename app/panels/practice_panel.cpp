@@ -93,6 +93,13 @@ void TakenByRegion(Ui& ui, const EditorState& state, const simulation::BodyPictu
                                 i < tissue.regions.size() ? tissue.regions[i].name : kElsewhere));
 }
 
+double Taken(const EditorState& state) {
+  double removed = 0;
+  if (const auto* world = state.practice->tissues())
+    for (const auto& body : world->bodies) removed += body.cut.removed;
+  return removed;
+}
+
 // Which one is in the hand, and what was taken with it.
 void Instruments(Ui& ui, EditorState& state) {
   QuietText(ui, "Instrument (C closes or runs it)");
@@ -112,17 +119,13 @@ void Instruments(Ui& ui, EditorState& state) {
   }
   const auto* world = state.practice->tissues();
   if (world == nullptr) return;
-  double removed = 0;
+  const double removed = Taken(state);
   int debris = 0;
-  for (const auto& body : world->bodies) {
-    removed += body.cut.removed;
-    debris += body.cut.debris;
-  }
+  for (const auto& body : world->bodies) debris += body.cut.debris;
   Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ taken away", removed * 1e9)
                        : fmt::format("{:.1f} mm³ taken away, {} loose piece{}", removed * 1e9,
                                      debris, debris == 1 ? "" : "s"));
   for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
-  if (removed > 0) CommandButton(ui, state, "reset-tissues", {-FLT_MIN, ui.Px(44)});
 }
 
 }  // namespace
@@ -179,6 +182,11 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui);
   Instruments(ui, state);
   Gap(ui);
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  if (Taken(state) > 0) {
+    CommandButton(ui, state, "reset-tissues", {half, ui.Px(48)});
+    ImGui::SameLine(0, ui.Px(8));
+  }
   CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(48)});
   Gap(ui);
   QuietText(
@@ -188,7 +196,6 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   const float foot = 2 * ui.Px(48) + ui.Px(22);
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
-  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   CommandButton(ui, state, "full-screen", {half, ui.Px(48)});
   ImGui::SameLine(0, ui.Px(8));
   CommandButton(ui, state, "help", {half, ui.Px(48)});
