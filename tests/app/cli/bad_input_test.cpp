@@ -122,6 +122,12 @@ TEST(BadInput, ReplayOverTheSceneThatItPlaysIn) {
   ExpectRefusal(replay + in("f.csv") + " --report " + in("./f.csv"), "this one file", in("f.csv"));
   ExpectRefusal(replay + in("f.csv") + " --report " + in("none/r.json"), "does not exist",
                 in("f.csv"));
+  // Pictures go into a folder: no file's name, and it is not made for nothing.
+  ExpectRefusal(replay + in("f.csv") + " --pictures " + in("f.csv"), "this is a file", in("f.csv"));
+  const ProgramResult both = RunProgram(replay + in("new") + " --pictures " + in("new"));
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_NE(both.err.find("both as a file and as a folder"), std::string::npos) << both.err;
+  EXPECT_FALSE(fs::exists(in("new")));
 }
 
 // A box of `size` with or without its lid.
