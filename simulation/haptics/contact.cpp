@@ -118,7 +118,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
   // Move the proxy, unless friction holds it.
   glm::dvec3 goal;
   const bool sticks = Grip(options, state, held, goal);
-  if (!sticks || !IsOutOfBackdrop(surroundings, radius, state.proxy)) {
+  if (!sticks || !IsFree(surroundings, radius, state.proxy)) {
     const double travel = glm::length(held - state.held) + 2.0 * surroundings.field.pixel_size();
     MoveProxy(surroundings, radius, goal, travel, state.contact < 0, state.proxy);
   }

@@ -203,10 +203,13 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
   }
 }
 
-bool IsOutOfBackdrop(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept {
+bool IsFree(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept {
   Proxy copy = proxy;
   const FieldQuery query = Mover(surroundings, radius, copy).Query(proxy.position);
-  return query.weight <= 0.0 || query.clearance >= radius - kTouching;
+  if (query.weight > 0.0 && query.clearance < radius - kTouching) return false;
+  for (const SweptSurface* surface : surroundings.instead)
+    if (surface != nullptr && !surface->IsFree(proxy.position, radius - kTouching)) return false;
+  return true;
 }
 
 PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,

@@ -38,8 +38,9 @@ struct Proxy {
 void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
                double max_travel, bool is_free, Proxy& proxy) noexcept;
 
-// False where the backdrop has come to lie over the proxy, as after a change of its depth map.
-bool IsOutOfBackdrop(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept;
+// False where a surface has come to lie over the proxy, as after a change of the depth map or of a
+// tissue that is a function.
+bool IsFree(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept;
 
 // The planes that hold the proxy where it is when it is drawn to `goal`.
 PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,

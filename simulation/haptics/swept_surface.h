@@ -17,6 +17,8 @@ class SweptSurface {
   // meeting, −1 if there is none; it may be ignored.
   virtual bool Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius, int first,
                      SweepHit& hit) const noexcept = 0;
+  // False where a change of the surface has come to lie over a ball there.
+  virtual bool IsFree(const glm::dvec3& x, double radius) const noexcept = 0;
 };
 
 }  // namespace arthro::simulation

@@ -11,20 +11,28 @@ namespace arthro::simulation {
 
 class FieldSurface : public SweptSurface {
  public:
-  // Shared with who draws and edits it; nobody changes it while it is touched.
+  // Nobody changes it while it is touched, and it outlives that.
+  explicit FieldSurface(const PosedField& solid) : now_(&solid) {}
+  // The same, shared with who draws it.
   explicit FieldSurface(std::shared_ptr<const ImplicitTissue> tissue)
-      : tissue_(std::move(tissue)) {}
+      : kept_(std::move(tissue)), now_(&kept_->solid()) {}
+  // From now on this one, between ticks.
+  void Become(const PosedField& solid) noexcept { now_ = &solid; }
   bool Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius, int /*first*/,
              SweepHit& hit) const noexcept override {
     FieldHit met;
     met.fraction = hit.fraction;
-    if (!tissue_->Sweep(from, to, radius, met)) return false;
+    if (!now_->Sweep(from, to, radius, met)) return false;
     hit = {met.fraction, met.normal, met.gap, -1};
     return true;
   }
+  bool IsFree(const glm::dvec3& x, double radius) const noexcept override {
+    return now_->Distance(x) >= radius;
+  }
 
  private:
-  std::shared_ptr<const ImplicitTissue> tissue_;
+  std::shared_ptr<const ImplicitTissue> kept_;
+  const PosedField* now_;
 };
 
 }  // namespace arthro::simulation

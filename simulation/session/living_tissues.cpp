@@ -108,16 +108,14 @@ std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh>
   const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Tissue& tissue = scene.tissues[i];
-    if (!tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
+    if (!tissue.mesh.empty() || tissue.is_implicit || surfaces[i].triangles.empty()) continue;
     const TissuePreset* found = FindTissuePreset(presets, tissue.material);
     if (found == nullptr || !found->is_thin) continue;  // it is rigid
     const TissuePreset preset = WithElasticity(*found, tissue.elasticity);
-    SurfaceMesh surface = surfaces[i];
-    for (glm::dvec3& x : surface.vertices) x *= tissue.pose.scale;
     try {
       layers.push_back({tissue.name,
                         static_cast<int>(i),
-                        std::move(surface),
+                        PlacesOf(tissue, surfaces[i]).surface,
                         {tissue.pose.quaternion, tissue.pose.position},
                         ElasticLayer(preset.material, preset.layer_thickness)});
     } catch (const Error& error) {
@@ -125,6 +123,27 @@ std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh>
     }
   }
   return layers;
+}
+
+std::vector<ImplicitSpec> ImplicitOf(const Scene& scene, std::span<const SurfaceMesh> surfaces) {
+  std::vector<ImplicitSpec> implicit;
+  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Tissue& tissue = scene.tissues[i];
+    if (!tissue.is_implicit || !tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
+    ImplicitSpec body;
+    body.name = tissue.name;
+    body.tissue = static_cast<int>(i);
+    BodyPlaces places = PlacesOf(tissue, surfaces[i]);
+    body.surface = std::move(places.surface);
+    body.fixed = std::move(places.fixed);
+    body.cuts = std::move(places.cuts);
+    body.regions = std::move(places.regions);
+    body.portal_from_body = {tissue.pose.quaternion, tissue.pose.position};
+    body.is_cuttable = tissue.is_cuttable;
+    implicit.push_back(std::move(body));
+  }
+  return implicit;
 }
 
 }  // namespace arthro::simulation

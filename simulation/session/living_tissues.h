@@ -11,6 +11,7 @@
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/body/implicit_body.h"
 #include "simulation/tissue/body/layer_skin.h"
 #include "simulation/tissue/body/tissue_preset.h"
 
@@ -39,5 +40,8 @@ std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceM
 // what the scene says otherwise. Throws Error for values that are none of a layer.
 std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh> surfaces,
                                 const std::vector<TissuePreset>& presets);
+
+// The tissues that the scene calls implicit and that have no tetrahedra.
+std::vector<ImplicitSpec> ImplicitOf(const Scene& scene, std::span<const SurfaceMesh> surfaces);
 
 }  // namespace arthro::simulation

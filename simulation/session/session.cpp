@@ -1,5 +1,3 @@
-#include "simulation/session/session.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/scope/arthroscope.h"
+#include "simulation/session/living_tissues.h"
+#include "simulation/session/session.h"
 
 namespace arthro::simulation {
 namespace {
@@ -60,9 +60,6 @@ class LayersUnderTool : public Softness {
   double radius_;
 };
 
-// Grid of a tissue that is a function, as that of cuts.
-constexpr double kFieldSpacing = 3.5e-4;  // m, in the portal frame
-
 // The backdrop as what tissue rests on.
 class BackdropObstacle : public RigidObstacle {
  public:
@@ -102,13 +99,12 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
   away_.resize(count);
   is_live_.assign(count, 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Tissue& tissue = scene.tissues[i];
-    if (!tissue.is_implicit || !tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
-    SetField(
-        static_cast<int>(i),
-        std::make_shared<const ImplicitTissue>(
-            SolidField::FromSurface(surfaces[i], kFieldSpacing / tissue.pose.scale), tissue.pose));
+  std::vector<ImplicitSpec> implicit = ImplicitOf(scene, surfaces);
+  implicit_.reserve(implicit.size());
+  for (ImplicitSpec& spec : implicit) {
+    const auto i = static_cast<std::size_t>(spec.tissue);
+    implicit_.emplace_back(std::move(spec), options.tissue);
+    PlaceField(i, std::make_unique<FieldSurface>(implicit_.back().solid()));
   }
   scope_.end_radius = kScopeRadius;
   for (std::size_t kind = 0; kind < end_radius_.size(); ++kind)
@@ -151,19 +147,33 @@ void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace,
   options.contact.stiffness = options_.contact.stiffness;
   auto obstacle = field_->empty() ? nullptr : std::make_shared<const BackdropObstacle>(field_);
   TissueWorld world(std::move(bodies), options, std::move(obstacle), pace == TissuePace::kThread,
-                    std::move(layers));
+                    std::move(layers), implicit_);
   tissues_ = world.IsEmpty() ? nullptr : std::make_unique<TissueLoop>(std::move(world), pace);
   SetLiveTissues(is_live);
   layers_ = std::move(under);
+  FeelSolids();
 }
 
 void Session::SetField(int tissue, std::shared_ptr<const ImplicitTissue> field) {
   const auto i = static_cast<std::size_t>(tissue);
   if (tissue < 0 || i >= meshes_.size()) return;
+  PlaceField(i, field == nullptr ? nullptr : std::make_unique<FieldSurface>(std::move(field)));
+}
+
+void Session::PlaceField(std::size_t tissue, std::unique_ptr<FieldSurface> field) {
   fields_.resize(meshes_.size());
   instead_.resize(meshes_.size());
-  fields_[i] = field == nullptr ? nullptr : std::make_unique<FieldSurface>(std::move(field));
-  instead_[i] = fields_[i].get();
+  fields_[tissue] = std::move(field);
+  instead_[tissue] = fields_[tissue].get();
+}
+
+// A cut is felt from the tick after its step on. The proxy goes after it, or out of it after a
+// reset, by two pixels a tick (haptics/proxy.h), so the force does not jump.
+void Session::FeelSolids() noexcept {
+  if (!tissues_) return;
+  for (std::size_t i = 0; i < tissues_->solid_count(); ++i)
+    if (FieldSurface* felt = fields_[static_cast<std::size_t>(tissues_->TissueOfSolid(i))].get())
+      felt->Become(tissues_->ReadSolid(i));
 }
 
 void Session::ResetTissues() {
@@ -270,6 +280,7 @@ void Session::TickTissues(double dt) noexcept {
   tissues_->Tick(hand, dt);
   ToolCoupling coupling;
   if (tissues_->TakeCoupling(coupling)) SetCoupling(coupling);
+  FeelSolids();
 }
 
 void Session::Tick(const DeviceSample& scope, const DeviceSample& instrument, double dt) noexcept {

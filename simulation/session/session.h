@@ -52,7 +52,8 @@ class Session {
   // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
   // TissuePace::kInline the same inputs give the same bits. `layers` stay among the rigid surfaces
   // and give way to both tools by their closed form, in the servo; their picture is beside the
-  // bodies'. Not on the servo path. Throws Error.
+  // bodies'. What is a function of space is cut by the instrument, and felt by the servo as it is
+  // then. Not on the servo path. Throws Error.
   void Enliven(std::vector<BodySpec> bodies, TissuePace pace, std::vector<LayerSpec> layers = {});
   // After each tick, by the same thread: the jaws and the tissue's own, slower clock. Inline it
   // steps here; on a thread this only hands the tool over.
@@ -69,7 +70,8 @@ class Session {
   // the rigid surfaces. Not on the servo path: it moves meshes.
   void SetLiveTissues(std::span<const std::uint8_t> is_live);
   // From now on this tissue is touched as a function and not as its mesh; null: as its mesh again.
-  // Who bites of it edits a copy and gives that. Not on the servo path.
+  // Who bites of it edits a copy and gives that; after Enliven only for tissues that the scene does
+  // not call implicit. Not on the servo path.
   void SetField(int tissue, std::shared_ptr<const ImplicitTissue> field);
   // What living tissue does to the instrument from now on; call with each step of the tissue, every
   // frame also when it rests, or the force fades. The same step again changes nothing. A faulty one
@@ -92,6 +94,8 @@ class Session {
     CouplingBlend tissue;
   };
   Fault Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept;
+  void PlaceField(std::size_t tissue, std::unique_ptr<FieldSurface> field);
+  void FeelSolids() noexcept;
   void TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                 ToolState& state) noexcept;
 
@@ -100,6 +104,7 @@ class Session {
   std::vector<SurfaceBvh> meshes_;           // one a tissue; of living ones nothing
   std::vector<SurfaceBvh> away_;             // what living ones are when they do not live
   std::vector<std::uint8_t> is_live_;
+  std::vector<ImplicitBody> implicit_;                 // whole; what is cut is the tissue loop's
   std::vector<std::unique_ptr<FieldSurface>> fields_;  // one a tissue, or none at all
   std::vector<const SweptSurface*> instead_;           // the same, as contact takes them
   std::vector<std::optional<ElasticLayer>> layers_;    // one a tissue, or none at all

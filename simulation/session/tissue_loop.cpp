@@ -25,6 +25,8 @@ TissueLoop::TissueLoop(TissueWorld world, TissuePace pace, double period)
     : world_(std::move(world)), period_(period) {
   world_.Show(shown_);
   pictures_.Write(shown_);
+  for (const ImplicitBody& body : world_.implicit())
+    solids_.push_back(std::make_unique<Solid>(body));
   if (pace == TissuePace::kThread && !world_.IsEmpty()) thread_ = std::make_unique<Thread>();
 }
 
@@ -33,7 +35,17 @@ TissueLoop::~TissueLoop() = default;
 void TissueLoop::Step(const Request& request) noexcept {
   world_.Step(request.tool, request.dt);
   couplings_.Write(world_.coupling());
+  PublishSolids();
   Publish();
+}
+
+void TissueLoop::PublishSolids() noexcept {
+  const std::span<const ImplicitBody> bodies = world_.implicit();
+  for (std::size_t i = 0; i < solids_.size(); ++i) {
+    if (bodies[i].IsLost() || bodies[i].shape_version() == solids_[i]->version) continue;
+    solids_[i]->version = bodies[i].shape_version();
+    solids_[i]->newest.Write(bodies[i].solid());
+  }
 }
 
 // A scene that sleeps is not copied again and again.
@@ -47,6 +59,7 @@ void TissueLoop::Publish() noexcept {
 void TissueLoop::Reset() {
   if (thread_) thread_->worker.Wait();
   world_.Reset();
+  PublishSolids();
   world_.Show(shown_);
   pictures_.Write(shown_);
 }

@@ -5,7 +5,9 @@
 // Portal frame, m, s.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "simulation/core/latest_value.h"
 #include "simulation/tissue/body/tissue_world.h"
@@ -26,6 +28,12 @@ class TissueLoop {
   void Tick(const Instrumentation& tool, double dt) noexcept;
   // True when a step has ended since the last call; `coupling` is its.
   bool TakeCoupling(ToolCoupling& coupling) noexcept;
+
+  // Servo's side: what of implicit() of the world is there now; valid until the next call with this
+  // index. A copy is made by whoever cut it.
+  std::size_t solid_count() const noexcept { return solids_.size(); }
+  int TissueOfSolid(std::size_t index) const noexcept { return solids_[index]->tissue; }
+  const PosedField& ReadSolid(std::size_t index) noexcept { return solids_[index]->newest.Read(); }
 
   // Picture's side: the newest; valid until the next call.
   const WorldPicture& Read() noexcept { return pictures_.Read(); }
@@ -50,6 +58,15 @@ class TissueLoop {
   WorldPicture shown_;  // of the tissue's side
   LatestValue<ToolCoupling> couplings_;
   LatestValue<WorldPicture> pictures_;
+  struct Solid {
+    explicit Solid(const ImplicitBody& body)
+        : tissue(body.spec().tissue), version(body.shape_version()), newest(body.solid()) {}
+    int tissue = -1;            // in the scene
+    std::uint64_t version = 0;  // that was written last
+    LatestValue<PosedField> newest;
+  };
+  void PublishSolids() noexcept;
+  std::vector<std::unique_ptr<Solid>> solids_;
   struct Thread;
   std::unique_ptr<Thread> thread_;  // last: it uses the rest
 };

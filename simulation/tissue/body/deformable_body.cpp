@@ -11,6 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/held_nodes.h"
 #include "simulation/tissue/body/deformable_body_impl.h"
+#include "simulation/tissue/body/tool_cut.h"
 
 namespace arthro::simulation {
 namespace {
@@ -125,7 +126,7 @@ void DeformableBody::Impl::TakeTools(std::span<const WorldTool> tools) noexcept 
     tool.motion = goes_on ? body_from_tool.translation - tool.tip : glm::dvec3(0.0);
     if (!goes_on) {
       tool.grip = ToolGrip{};
-      tool.is_ready_to_bite = false;
+      tool.trigger = CutTrigger{};
     }
     tool.kind = tools[i].shape.kind;
     tool.tip = body_from_tool.translation;

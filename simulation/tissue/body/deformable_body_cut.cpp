@@ -9,13 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/tissue/body/deformable_body_impl.h"
+#include "simulation/tissue/body/tool_cut.h"
 #include "simulation/tissue/cut/authors_cuts.h"
 
 namespace arthro::simulation {
 namespace {
-
-constexpr double kOpened = 0.5, kClosed = 0.15;  // shares of the jaws' opening: ready, bitten
-constexpr int kShaveEvery = 6;  // steps; what is shaved is taken ten times a second
 
 constexpr double kSkinReach = 2.5;  // spacings outside the tissue that a cut still has to know
 
@@ -156,17 +154,9 @@ bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double
   for (std::size_t i = 0; i < tool_count; ++i) {
     PlacedTool& tool = placed[i];
     if (tool.count == 0) continue;
-    if (tools[i].shape.kind == ToolKind::kPunch) {
-      const double opening = tools[i].now.opening;
-      if (opening > kOpened) tool.is_ready_to_bite = true;
-      if (!(opening < kClosed) || !tool.is_ready_to_bite) continue;
-      tool.is_ready_to_bite = false;
-      was_cut |= CutWith(tool.bite, false, dt);
-    } else if (tools[i].shape.kind == ToolKind::kShaver && tools[i].now.is_running &&
-               ++since_shave >= kShaveEvery) {
-      was_cut |= CutWith(tool.bite, true, dt * since_shave);
-      since_shave = 0;
-    }
+    double time = 0;
+    const ToolCut cut_now = CutOf(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
+    if (cut_now != ToolCut::kNone) was_cut |= CutWith(tool.bite, cut_now == ToolCut::kShave, time);
   }
   return was_cut;
 }

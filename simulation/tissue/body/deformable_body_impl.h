@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/body/tool_cut.h"
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/contact/obstacle_contact.h"
 #include "simulation/tissue/contact/tool_contact.h"
@@ -49,8 +50,8 @@ struct PlacedTool {
   ToolKind kind = ToolKind::kNone;
   glm::dvec3 tip{0.0}, motion{0.0};
   ToolGrip grip;
-  Capsule bite;                   // what it takes when it closes or runs
-  bool is_ready_to_bite = false;  // was opened since the last bite
+  Capsule bite;  // what it takes when it closes or runs
+  CutTrigger trigger;
   std::span<const Capsule> Capsules() const {
     return {capsules.data(), static_cast<std::size_t>(count)};
   }
@@ -98,7 +99,7 @@ struct DeformableBody::Impl {
   std::size_t tool_count = 0;
   std::uint64_t shape_version = 0;
   bool is_asleep = true;  // at rest until it is touched
-  int quiet = 0, since_good = 0, since_refresh = 0, since_shave = 0;
+  int quiet = 0, since_good = 0, since_refresh = 0;
   bool wants_refresh = false;
   std::function<void()> finish_refresh;  // ends one that runs elsewhere
   bool is_refreshing = false;  // between Begin and Take another thread may work on the solver

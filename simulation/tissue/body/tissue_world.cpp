@@ -14,6 +14,16 @@ namespace {
 // session gives the same bits on a fast and on a slow machine.
 constexpr int kRefreshSteps = 2;
 
+// What changed of one tissue since `shown` was last filled.
+template <class Body>
+void TakeShape(const Body& body, BodyPicture& shown) {
+  if (shown.shape == body.shape_version() && shown.skin == body.skin()) return;
+  shown.shape = body.shape_version();
+  shown.skin = body.skin();
+  shown.positions.assign(body.positions().begin(), body.positions().end());
+  shown.normals.assign(body.normals().begin(), body.normals().end());
+}
+
 // What is wrong with a tissue, with its name.
 DeformableBody Made(BodySpec spec, const BodyOptions& options) {
   const std::string name = spec.name;
@@ -85,8 +95,24 @@ struct TissueWorld::Impl {
     }
   }
 
+  // Reports and times are beside the bodies, which lie side by side for who reads them all.
+  void StepImplicit(const WorldTool& tool, double dt) noexcept {
+    for (std::size_t i = 0; i < implicit.size(); ++i) {
+      const double begin = ThreadCpuMs();
+      of_implicit[i].report = implicit[i].Step(tool, dt);
+      of_implicit[i].step_ms = ThreadCpuMs() - begin;
+    }
+  }
+
+  struct OfStep {
+    BodyReport report;
+    double step_ms = 0;
+  };
+
   std::vector<Held> bodies;
   std::vector<HeldLayer> layers;
+  std::vector<ImplicitBody> implicit;
+  std::vector<OfStep> of_implicit;
   std::array<WorldTool, static_cast<std::size_t>(ToolKind::kGrasper) + 1> tools;  // by kind
   std::shared_ptr<const RigidObstacle> obstacle;
   ToolCoupling coupling;
@@ -98,7 +124,7 @@ struct TissueWorld::Impl {
 
 TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
                          std::shared_ptr<const RigidObstacle> obstacle, bool second_thread,
-                         std::vector<LayerSpec> layers)
+                         std::vector<LayerSpec> layers, std::vector<ImplicitBody> implicit)
     : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
@@ -106,6 +132,9 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
     impl_->bodies.back().body.WhenCut([own = impl_.get()] { own->FinishRefresh(); });
   }
   for (LayerSpec& layer : layers) impl_->layers.push_back({LayerSkin(std::move(layer)), 0});
+  impl_->implicit = std::move(implicit);
+  impl_->of_implicit.resize(impl_->implicit.size());
+  for (Impl::OfStep& of : impl_->of_implicit) of.report.is_asleep = true;
 }
 TissueWorld::~TissueWorld() = default;
 TissueWorld::TissueWorld(TissueWorld&&) noexcept = default;
@@ -126,13 +155,15 @@ void TissueWorld::Step(const Instrumentation& instrument, double dt) noexcept {
   }
   own.coupling = coupling;
   own.StepLayers(tool, instrument.press);
+  own.StepImplicit(tool, dt);
 }
 
 const ToolCoupling& TissueWorld::coupling() const noexcept { return impl_->coupling; }
 
 void TissueWorld::Show(WorldPicture& picture) const {
   picture.step = impl_->step;
-  picture.bodies.resize(impl_->bodies.size() + impl_->layers.size());
+  const std::size_t before_implicit = impl_->bodies.size() + impl_->layers.size();
+  picture.bodies.resize(before_implicit + impl_->implicit.size());
   for (std::size_t i = 0; i < impl_->bodies.size(); ++i) {
     const Impl::Held& held = impl_->bodies[i];
     BodyPicture& shown = picture.bodies[i];
@@ -140,12 +171,7 @@ void TissueWorld::Show(WorldPicture& picture) const {
     shown.report = held.report;
     shown.cut = held.body.cut_report();
     shown.step_ms = held.step_ms;
-    if (held.body.IsLost()) continue;
-    if (shown.shape == held.body.shape_version() && shown.skin == held.body.skin()) continue;
-    shown.shape = held.body.shape_version();
-    shown.skin = held.body.skin();
-    shown.positions.assign(held.body.positions().begin(), held.body.positions().end());
-    shown.normals.assign(held.body.normals().begin(), held.body.normals().end());
+    if (!held.body.IsLost()) TakeShape(held.body, shown);
   }
   for (std::size_t i = 0; i < impl_->layers.size(); ++i) {
     const auto& [layer, step_ms] = impl_->layers[i];
@@ -154,22 +180,30 @@ void TissueWorld::Show(WorldPicture& picture) const {
     shown.report.is_asleep = !layer.is_pressed();
     shown.report.contacts = layer.is_pressed() ? 1 : 0;
     shown.step_ms = step_ms;
-    if (shown.shape == layer.shape_version() && shown.skin == layer.skin()) continue;
-    shown.shape = layer.shape_version();
-    shown.skin = layer.skin();
-    shown.positions.assign(layer.positions().begin(), layer.positions().end());
-    shown.normals.assign(layer.normals().begin(), layer.normals().end());
+    TakeShape(layer, shown);
+  }
+  for (std::size_t i = 0; i < impl_->implicit.size(); ++i) {
+    const ImplicitBody& body = impl_->implicit[i];
+    BodyPicture& shown = picture.bodies[before_implicit + i];
+    shown.tissue = body.spec().tissue;
+    shown.report = impl_->of_implicit[i].report;
+    shown.cut = body.cut_report();
+    shown.step_ms = impl_->of_implicit[i].step_ms;
+    if (!body.IsLost()) TakeShape(body, shown);
   }
 }
 
+std::span<const ImplicitBody> TissueWorld::implicit() const noexcept { return impl_->implicit; }
+
 bool TissueWorld::IsEmpty() const noexcept {
-  return impl_->bodies.empty() && impl_->layers.empty();
+  return impl_->bodies.empty() && impl_->layers.empty() && impl_->implicit.empty();
 }
 
 void TissueWorld::Reset() {
   impl_->FinishRefresh();
   for (Impl::Held& held : impl_->bodies) held.body.Reset();
   for (Impl::HeldLayer& held : impl_->layers) held.skin.Release();
+  for (ImplicitBody& body : impl_->implicit) body.Reset();
 }
 
 }  // namespace arthro::simulation

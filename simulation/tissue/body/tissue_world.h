@@ -6,10 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "simulation/tissue/body/deformable_body.h"
+#include "simulation/tissue/body/implicit_body.h"
 #include "simulation/tissue/body/layer_skin.h"
 
 namespace arthro::simulation {
@@ -47,11 +49,12 @@ struct WorldPicture {
 
 class TissueWorld {
  public:
-  // `obstacle`: what tissue rests on, or null. `second_thread`: factors are made there. Layers are
-  // only shown here, after the bodies: the servo has their force itself.
+  // `obstacle`: what tissue rests on, or null. `second_thread`: factors are made there. Layers and
+  // what is a function of space are shown after the bodies, in this order: the servo has their
+  // force itself.
   TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
               std::shared_ptr<const RigidObstacle> obstacle, bool second_thread,
-              std::vector<LayerSpec> layers = {});
+              std::vector<LayerSpec> layers = {}, std::vector<ImplicitBody> implicit = {});
   ~TissueWorld();
   TissueWorld(TissueWorld&&) noexcept;
   TissueWorld& operator=(TissueWorld&&) noexcept;
@@ -63,6 +66,9 @@ class TissueWorld {
   const ToolCoupling& coupling() const noexcept;
   // Copies what changed since `picture` was last filled.
   void Show(WorldPicture& picture) const;
+
+  // What the servo's proxy meets of these.
+  std::span<const ImplicitBody> implicit() const noexcept;
 
   bool IsEmpty() const noexcept;
   void Reset();

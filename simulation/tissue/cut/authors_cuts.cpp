@@ -4,12 +4,6 @@
 #include "simulation/tissue/cut/cutters.h"
 
 namespace arthro::simulation {
-namespace {
-
-// A loose fragment of less is washed away; the largest that a 4.5 mm shaver's window lets through.
-constexpr double kDebrisVolume = 60e-9;  // m³
-
-}  // namespace
 
 CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed) {
   if (fixed.empty()) return {};

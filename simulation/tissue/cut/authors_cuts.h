@@ -11,6 +11,9 @@
 
 namespace arthro::simulation {
 
+// A loose fragment of less is washed away; the largest that a 4.5 mm shaver's window lets through.
+inline constexpr double kDebrisVolume = 60e-9;  // m³
+
 // Takes away loose fragments that are small; none where nothing holds the tissue (`fixed` empty).
 CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed);
 

@@ -1,103 +1,34 @@
 #include "simulation/tissue/field/implicit_tissue.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
 
 namespace arthro::simulation {
-namespace {
-
-// Values of neighbouring nodes differ by no more than their distance, so the interpolation is no
-// steeper than 1 along each axis.
-const double kSteepest = std::sqrt(3.0);
-// Nearer than this part of a spacing is touching: 0.35 nm at 0.35 mm.
-constexpr double kTouch = 1e-6;
-// A ball that touches without approaching goes on by this part of a spacing.
-constexpr double kCreep = 0.05;
-// A motion closer to parallel than this does not approach (as SurfaceBvh).
-constexpr double kParallel = 1e-9;
-constexpr int kMaxSteps = 1000;
-
-}  // namespace
 
 ImplicitTissue::ImplicitTissue(SolidField field, const Pose& portal_from_field)
-    : field_(std::move(field)), pose_(portal_from_field) {
-  if (!(pose_.scale > 0.0) || !std::isfinite(pose_.scale))
+    : solid_{std::move(field), portal_from_field} {
+  if (!(portal_from_field.scale > 0.0) || !std::isfinite(portal_from_field.scale))
     throw Error(Code::kBadArgument, "an implicit tissue's scale must be positive");
-  skin_.Update(field_);
-}
-
-glm::dvec3 ImplicitTissue::ToField(const glm::dvec3& x) const noexcept {
-  return glm::conjugate(pose_.quaternion) * (x - pose_.position) / pose_.scale;
-}
-
-double ImplicitTissue::Distance(const glm::dvec3& x) const noexcept {
-  return pose_.scale * field_.Distance(ToField(x));
-}
-
-glm::dvec3 ImplicitTissue::Normal(const glm::dvec3& x) const noexcept {
-  const glm::dvec3 at = ToField(x);
-  const double step = 0.5 * field_.spacing();
-  glm::dvec3 slope;
-  for (int a = 0; a < 3; ++a) {
-    glm::dvec3 low = at, high = at;
-    low[a] -= step;
-    high[a] += step;
-    slope[a] = field_.Distance(high) - field_.Distance(low);
-  }
-  const double steepness = glm::length(slope);
-  if (!(steepness > 0.0) || !std::isfinite(steepness)) return {0, 0, 1};
-  return pose_.quaternion * (slope / steepness);
-}
-
-bool ImplicitTissue::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius,
-                           FieldHit& hit) const noexcept {
-  const glm::dvec3 motion = to - from;
-  const double length = glm::length(motion);
-  if (!(length > 0.0) || !std::isfinite(length) || field_.values().empty()) return false;
-  const double spacing = pose_.scale * field_.spacing(), end = hit.fraction * length;
-  const double band = pose_.scale * field_.band();
-  double way = 0.0;
-  for (int step = 0; step < kMaxSteps && way < end; ++step) {
-    const glm::dvec3 x = from + way / length * motion;
-    const double distance = Distance(x), gap = distance - radius;
-    if (gap > kTouch * spacing) {
-      // A distance cut off at the band is still a bound.
-      way += std::max(gap / kSteepest, 0.5 * kTouch * spacing);
-      continue;
-    }
-    const glm::dvec3 normal = Normal(x);
-    if (glm::dot(normal, motion) < -kParallel * length) {
-      hit.fraction = way / length;
-      hit.normal = normal;
-      hit.gap = way > 0.0 ? 0.0 : std::max(-band, std::min(0.0, gap));
-      return true;
-    }
-    way += std::max(kCreep * spacing, -0.5 * gap);
-  }
-  if (way >= end) return false;
-  hit.fraction = way / length;
-  hit.normal = Normal(from + way / length * motion);
-  hit.gap = 0.0;
-  return true;
+  skin_.Update(solid_.field);
 }
 
 FieldEdit ImplicitTissue::Subtract(const glm::dvec3& centre, double radius,
                                    const std::function<double(const glm::dvec3&)>& distance) {
-  const glm::dvec3 at = ToField(centre), around(radius / pose_.scale);
-  return field_.Subtract({at - around, at + around},
-                         [&](const glm::dvec3& x) { return distance(pose_ * x) / pose_.scale; });
+  const Pose& pose = solid_.portal_from_field;
+  const glm::dvec3 at = solid_.ToField(centre), around(radius / pose.scale);
+  return solid_.field.Subtract({at - around, at + around}, [&](const glm::dvec3& x) {
+    return distance(pose * x) / pose.scale;
+  });
 }
 
 FieldEdit ImplicitTissue::Add(const glm::dvec3& centre, double radius,
                               const std::function<double(const glm::dvec3&)>& distance) {
-  const glm::dvec3 at = ToField(centre), around(radius / pose_.scale);
-  return field_.Add({at - around, at + around},
-                    [&](const glm::dvec3& x) { return distance(pose_ * x) / pose_.scale; });
+  const Pose& pose = solid_.portal_from_field;
+  const glm::dvec3 at = solid_.ToField(centre), around(radius / pose.scale);
+  return solid_.field.Add({at - around, at + around},
+                          [&](const glm::dvec3& x) { return distance(pose * x) / pose.scale; });
 }
 
 }  // namespace arthro::simulation

@@ -123,11 +123,14 @@ class FieldSkin::Cells {
         for (int i = brick[0] * kBrick; i < end[0]; ++i) visit(Cell{i, j, k});
   }
 
-  void MakeVertices(const Cell& at, Brick& brick) const {
+  // How many cells it looked at.
+  long MakeVertices(const Cell& at, Brick& brick) const {
+    long looked = 0;
     brick.vertices.clear();
     brick.first_vertex.clear();
     brick.touching_faces = 0;
     ForEach(at, [&](const Cell& c) {
+      ++looked;
       const int configuration = Configuration(c);
       if (configuration == 0 || configuration == 255) return;
       if (brick.first_vertex.empty()) brick.first_vertex.assign(kBrick * kBrick * kBrick, -1);
@@ -146,6 +149,7 @@ class FieldSkin::Cells {
             c[static_cast<std::size_t>(face / 2)] % kBrick == ((face & 1) != 0 ? kBrick - 1 : 0))
           brick.touching_faces |= 1 << face;
     });
+    return looked;
   }
 
   // Edges belong to the brick of the cell whose lowest node is their lower end.
@@ -247,7 +251,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
     Brick& brick = bricks_[index(redo[r])];
     std::swap(old[r].vertices, brick.vertices);
     std::swap(old[r].first_vertex, brick.first_vertex);
-    cells.MakeVertices(redo[r], brick);
+    update.cells_redone += cells.MakeVertices(redo[r], brick);
   }
   for (const Cell& b : relink) cells.MakeQuads(bricks_, b, bricks_[index(b)]);
 

@@ -16,6 +16,7 @@ namespace arthro::simulation {
 
 struct SkinUpdate {
   int bricks_redone = 0;     // vertices computed anew
+  long cells_redone = 0;     // of those bricks
   int bricks_relinked = 0;   // triangles alone anew: they lie beside one of those
   int bricks_with_skin = 0;  // in all
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -52,6 +53,7 @@ struct Hand {
     for (int i = 0; i < ticks; ++i) {
       t += kTick;
       session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
+      session.TickTissues(kTick);
     }
     return session.snapshot().instrument;
   }
@@ -165,6 +167,118 @@ TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
     hand.Tick();
   }
   EXPECT_EQ(test::Allocations(), before);
+}
+
+// The same ball as the scene's own implicit tissue, living.
+LoadedScene MakeImplicit() {
+  LoadedScene loaded = MakeScene();
+  loaded.scene.tissues[0].is_implicit = true;
+  return loaded;
+}
+
+// Beside the ball with 5.6 mm from its centre to the rod: its side with the shaver's window faces
+// the ball, 0.6 mm of which is between a punch's jaws.
+const glm::dvec3 kBeside = 0.043 * glm::dvec3(0, std::sin(0.1405), std::cos(0.1405));
+
+double Shave(Hand& hand, int ticks) {
+  hand.session.SetInstrument(ToolKind::kShaver);
+  hand.Lead(kBeside);
+  hand.instrument.SetButtons(1);
+  hand.Tick(ticks);
+  hand.instrument.SetButtons(0);
+  hand.Tick(20);
+  return hand.session.tissues()->bodies[0].cut.removed;
+}
+
+TEST(FieldTissue, AShaverAndABiteInASessionTakeOfItAndWhatIsGoneIsNotFelt) {
+  Hand hand(MakeImplicit());
+  hand.session.Enliven({}, TissuePace::kInline);
+  ASSERT_NE(hand.session.tissues(), nullptr);
+  ASSERT_EQ(hand.session.tissues()->bodies.size(), 1u);
+  EXPECT_EQ(hand.session.tissues()->bodies[0].tissue, 0);
+  const double shaved = Shave(hand, 1000);
+  EXPECT_GT(shaved, 1e-9);
+  EXPECT_LT(shaved, 1.1 * BodyOptions{}.shaver.rate);
+  hand.Lead({0, 0, 0.02});
+  hand.session.SetInstrument(ToolKind::kPunch);
+  hand.Tick(200);
+  hand.Lead(glm::dvec3(kBeside.y, 0, kBeside.z));
+  hand.instrument.SetButtons(1);
+  hand.Tick(300);
+  hand.instrument.SetButtons(0);
+  hand.Tick(300);
+  const CutReport cut = hand.session.tissues()->bodies[0].cut;
+  EXPECT_GT(cut.removed, shaved + 0.2e-9);
+  std::printf("[ field ] shaved %.2f mm3, bitten %.2f mm3\n", 1e9 * shaved,
+              1e9 * (cut.removed - shaved));
+  // The bite's groove, 0.6 mm deep, is not felt at the depth at which the ball was.
+  hand.Lead({0, 0, 0.02});
+  hand.session.SetInstrument(ToolKind::kProbe);
+  const glm::dvec3 in_groove = kCentre + glm::dvec3(4.7e-3, 0, -0.5e-3);
+  EXPECT_EQ(hand.Lead(in_groove).contact, kNoContact);
+  hand.Lead({0, 0, 0.02});
+  hand.session.ResetTissues();
+  EXPECT_EQ(hand.Lead(in_groove).contact, 1) << "whole again";
+  EXPECT_EQ(hand.session.tissues()->bodies[0].cut.removed, 0.0);
+}
+
+// The proxy goes by two pixels a tick beside what its tip goes (haptics/proxy.h), and the foot of
+// its planes may be a fifth of one off it (haptics/contact.cpp).
+constexpr double kPixel = 0.08 / 500;
+constexpr double kStep = kSpring * 2.2 * kPixel;
+
+TEST(FieldTissue, WhatIsTakenFromUnderATipOrComesBackOverItIsFeltWithoutAJump) {
+  const LoadedScene loaded = MakeImplicit();
+  Hand hand(loaded);
+  const glm::dvec3 face = kCentre - glm::dvec3(0, 0, kBall);
+  glm::dvec3 last = hand.Lead(face + glm::dvec3(0, 0, 1e-3)).tip_force;
+  ASSERT_NEAR(glm::length(last), kSpring * 1e-3, kSpring * 1e-5);
+  double largest = 0;
+  const auto watch = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      const glm::dvec3 force = hand.Tick().tip_force;
+      largest = std::max(largest, glm::distance(force, last));
+      last = force;
+    }
+  };
+  auto bitten = MakeField(loaded);
+  bitten->Subtract(face, 3e-3, [&](const glm::dvec3& x) { return glm::distance(x, face) - 2e-3; });
+  hand.session.SetField(0, bitten);
+  watch(200);
+  EXPECT_EQ(last, glm::dvec3(0.0)) << "there is nothing left under the tip";
+  hand.session.SetField(0, MakeField(loaded));
+  // A tip that rests in what came back is let be; one that goes on is brought out of it.
+  for (int i = 0; i < 100; ++i) {
+    hand.instrument.Advance({0, 0, 0, 1e-6});
+    watch(1);
+  }
+  EXPECT_NEAR(glm::length(last), kSpring * 1.1e-3, kSpring * 1e-5);
+  std::printf("[ field ] largest step of force at an edit %.3f N, 2.2 pixels are %.3f N\n", largest,
+              kStep);
+  EXPECT_LE(largest, kStep + (kSpring + 1e3) * 1e-6) << "the hand's own step, and its viscosity";
+}
+
+TEST(FieldTissue, ItsCutsAreTheSameBytesEveryTimeAndATickOnThemAllocatesNothing) {
+  std::array<std::vector<glm::dvec3>, 2> forces;
+  std::array<std::vector<glm::dvec3>, 2> shapes;
+  for (std::size_t run = 0; run < 2; ++run) {
+    Hand hand(MakeImplicit());
+    hand.session.Enliven({}, TissuePace::kInline);
+    EXPECT_GT(Shave(hand, 500), 0.0);
+    shapes[run] = hand.session.tissues()->bodies[0].positions;
+    const glm::dvec3 face = kCentre - glm::dvec3(0, -0.8 * kBall, 0.6 * kBall);
+    hand.Lead(0.99 * face);
+    const long before = test::Allocations();
+    for (int i = 0; i < 300; ++i) {
+      hand.t += kTick;
+      hand.instrument.Advance({1e-5 * i, 0, 0, 1e-6});
+      hand.session.Tick(hand.scope.Sample(hand.t), hand.instrument.Sample(hand.t), kTick);
+    }
+    EXPECT_EQ(test::Allocations(), before);
+    for (int i = 0; i < 300; ++i) forces[run].push_back(hand.Tick().tip_force);
+  }
+  EXPECT_EQ(forces[0], forces[1]);
+  EXPECT_EQ(shapes[0], shapes[1]);
 }
 
 }  // namespace

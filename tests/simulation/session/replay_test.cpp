@@ -55,6 +55,35 @@ std::vector<std::vector<std::string>> Table(const std::string& text) {
   return table;
 }
 
+// A shaver runs beside a loose body that is a function, its window to it.
+TEST(Replay, OfAShaverOnALooseBodySaysWhatItTookAndGivesTheSameBytesTwice) {
+  LoadedScene loaded = MakeScene();
+  loaded.depth = {};
+  Tissue tissue;
+  tissue.name = "loose body";
+  tissue.is_implicit = true;
+  tissue.pose.position = {0.03, 0, 0.03};
+  loaded.scene.tissues.push_back(tissue);
+  loaded.surfaces.push_back(test::Sphere({0, 0, 0}, 0.004, 4));
+  loaded.scene.instruments = {{"shaver", "shaver"}};
+  std::vector<TraceRow> trace;
+  ScriptedDevice instrument({});
+  const double latitude = -std::asin(4.6 / 30);  // the rod passes 4.6 mm from its centre
+  for (int i = 0; i < 300; ++i) {
+    instrument.Set({latitude, 0, 0, std::min(0.033, 0.001 * i)});
+    instrument.SetButtons(i > 50 ? 1 : 0);
+    trace.push_back({DeviceRole::kInstrument, instrument.Sample(0.004 * i)});
+  }
+  ReplayReport first, second;
+  const std::string forces = ForcesText(Replay(loaded, trace, {}, {}, &first), loaded.scene);
+  EXPECT_EQ(ForcesText(Replay(loaded, trace, {}, {}, &second), loaded.scene), forces);
+  ASSERT_EQ(first.tissues.size(), 1u);
+  EXPECT_GT(first.tissues[0].cut.removed, 1e-9);
+  EXPECT_EQ(first.tissues[0].cut.removed, second.tissues[0].cut.removed);
+  const auto report = nlohmann::json::parse(ReportText(first, loaded.scene))["tissues"];
+  EXPECT_EQ(report["loose body"]["removed_mm3"], first.tissues[0].cut.removed * 1e9);
+}
+
 TEST(Replay, GivesOneRowForARowOfTheTrace) {
   const LoadedScene loaded = MakeScene();
   const auto trace = MakeTrace(0.5, 250);
