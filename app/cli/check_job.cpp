@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/jobs.h"
+#include "app/cli/living_tissues_of.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/scene_check.h"
 #include "simulation/session/cut_check.h"
@@ -19,8 +20,11 @@ void Print(std::FILE* stream, const char* word, const std::vector<std::string>& 
 }
 
 void Check(const std::string& scene) {
+  const auto presets = ShippedTissuePresets();
   LoadedScene loaded;
-  SceneFindings findings = CheckScene(scene, &loaded);
+  SceneFindings findings = CheckScene(scene, &loaded, [&](const Tissue& tissue) {
+    return simulation::IsThinLayer(tissue, presets);
+  });
   if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
   if (const std::size_t count = findings.errors.size()) {
     // What was found of half a scene would only mislead.

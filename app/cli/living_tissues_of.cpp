@@ -5,26 +5,23 @@
 #include "app/resource_folder.h"
 
 namespace arthro::app {
-namespace {
 
-std::vector<simulation::TissuePreset> Presets() {
+std::vector<simulation::TissuePreset> ShippedTissuePresets() {
   return simulation::ReadTissuePresets(ResourceFolder() / "presets" / "tissues");
 }
-
-}  // namespace
 
 std::vector<simulation::BodySpec> LivingTissuesOf(const LoadedScene& loaded) {
   std::vector<std::string> messages;
   auto bodies = simulation::LivingTissues(
       loaded.scene, loaded.surfaces,
-      [&loaded](const std::filesystem::path& name) { return loaded.folder / name; }, Presets(),
-      &messages);
+      [&loaded](const std::filesystem::path& name) { return loaded.folder / name; },
+      ShippedTissuePresets(), &messages);
   for (const std::string& message : messages) fmt::print(stderr, "note: {}\n", message);
   return bodies;
 }
 
 std::vector<simulation::LayerSpec> LayersOf(const LoadedScene& loaded) {
-  return simulation::LayersOf(loaded.scene, loaded.surfaces, Presets());
+  return simulation::LayersOf(loaded.scene, loaded.surfaces, ShippedTissuePresets());
 }
 
 }  // namespace arthro::app

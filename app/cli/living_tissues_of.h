@@ -9,6 +9,8 @@
 
 namespace arthro::app {
 
+// Those that the program ships.
+std::vector<simulation::TissuePreset> ShippedTissuePresets();
 std::vector<simulation::BodySpec> LivingTissuesOf(const LoadedScene& loaded);
 std::vector<simulation::LayerSpec> LayersOf(const LoadedScene& loaded);
 

@@ -90,6 +90,7 @@ void TetrahedraliseTissue(EditorState& state) {
       Edit(now, "Make tetrahedra of " + tissue.name, "", [&](authoring::Document& next) {
         const std::string name = "tissues/" + file.filename().string();
         next.scene.tissues[at].mesh = name;
+        next.scene.tissues[at].is_implicit = false;  // it gives way now
         next.files[name].file = file;
       });
       now.message = fmt::format("{}: {} curved tetrahedra, volume off by {:.1f} %", tissue.name,

@@ -139,8 +139,15 @@ void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 }
 
 void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceMesh* surface) {
-  QuietText(ui, fmt::format("{} triangles, {}", surface ? surface->triangles.size() : 0,
-                            tissue.mesh.empty() ? "no tetrahedra yet" : "filled with tetrahedra"));
+  const char* filled = tissue.is_implicit    ? "a solid"
+                       : tissue.mesh.empty() ? "no tetrahedra yet"
+                                             : "filled with tetrahedra";
+  QuietText(ui, fmt::format("{} triangles, {}", surface ? surface->triangles.size() : 0, filled));
+  bool is_solid = tissue.is_implicit;
+  if (Checkbox(ui, "A solid that does not give way", is_solid,
+               "For a loose body or a synovial tuft: bitten and shaved, never deformed. Its "
+               "surface must be closed; it has no tetrahedra."))
+    SetSolid(state, state.tissue, is_solid);
   std::vector<std::string> sizes;
   int chosen = 0;
   for (const authoring::MeshBudget& budget : authoring::MeshBudgets()) {

@@ -110,14 +110,29 @@ int OpenEdges(const SurfaceMesh& surface) {
       std::count_if(balance.begin(), balance.end(), [](const auto& edge) { return edge.second; }));
 }
 
-void LookAtTissue(const LoadedScene& loaded, std::size_t index, SceneFindings& findings) {
-  const Tissue& tissue = loaded.scene.tissues[index];
-  const std::string what = fmt::format("tissue \"{}\"", tissue.name);
-  LookAtRights(what, tissue.rights, findings);
-  if (tissue.mesh.empty())
+// What it is for a tool, and what is missing for that.
+void LookAtKind(const Tissue& tissue, const std::string& what, const IsThinLayer& is_layer,
+                SceneFindings& findings) {
+  if (tissue.is_implicit && !tissue.mesh.empty())
+    findings.errors.push_back(what +
+                              " is a solid that does not give way (\"implicit\") and has "
+                              "tetrahedra; leave out one of the two");
+  else if (tissue.is_implicit)
+    findings.found.push_back(what + ": a solid that does not give way");
+  else if (tissue.mesh.empty() && is_layer && is_layer(tissue))
+    findings.found.push_back(what + ": gives way as a thin layer");
+  else if (tissue.mesh.empty())
     findings.hints.push_back(
         what +
         " has no tetrahedra, so it does not deform; `arthroscene tetrahedralize` makes them");
+}
+
+void LookAtTissue(const LoadedScene& loaded, std::size_t index, const IsThinLayer& is_layer,
+                  SceneFindings& findings) {
+  const Tissue& tissue = loaded.scene.tissues[index];
+  const std::string what = fmt::format("tissue \"{}\"", tissue.name);
+  LookAtRights(what, tissue.rights, findings);
+  LookAtKind(tissue, what, is_layer, findings);
   if (index >= loaded.surfaces.size() || loaded.surfaces[index].triangles.empty()) return;
   const SurfaceMesh& surface = loaded.surfaces[index];
   glm::dvec3 least(INFINITY), most(-INFINITY);
@@ -132,7 +147,13 @@ void LookAtTissue(const LoadedScene& loaded, std::size_t index, SceneFindings& f
   findings.found.push_back(fmt::format("{}: {} triangles, {:.3g} x {:.3g} x {:.3g} mm, {}", what,
                                        surface.triangles.size(), Mm(size.x), Mm(size.y), Mm(size.z),
                                        tissue.material));
-  if (const int open = OpenEdges(surface); open > 0)
+  const int open = OpenEdges(surface);
+  if (open > 0 && tissue.is_implicit)
+    findings.errors.push_back(
+        fmt::format("{} is a solid that does not give way, but its surface is not closed: {} edges "
+                    "do not join two triangles; close it",
+                    what, open));
+  else if (open > 0)
     findings.warnings.push_back(
         fmt::format("{} is not closed: {} edges do not join two triangles; close it before "
                     "tetrahedralizing",
@@ -215,7 +236,7 @@ void LookAtScope(const Scene& scene, SceneFindings& findings) {
 
 }  // namespace
 
-SceneFindings CheckScene(const LoadedScene& loaded) {
+SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer) {
   SceneFindings findings;
   const Scene& scene = loaded.scene;
   findings.found.push_back(fmt::format("title: {}", scene.title.empty() ? "none" : scene.title));
@@ -225,7 +246,8 @@ SceneFindings CheckScene(const LoadedScene& loaded) {
   LookAtDepth(loaded, findings);
   LookAtRights("panorama", scene.backdrop.rights, findings);
   LookAtScope(scene, findings);
-  for (std::size_t i = 0; i < scene.tissues.size(); ++i) LookAtTissue(loaded, i, findings);
+  for (std::size_t i = 0; i < scene.tissues.size(); ++i)
+    LookAtTissue(loaded, i, is_layer, findings);
   if (scene.tissues.empty())
     findings.hints.push_back("no tissues, so there is nothing that deforms");
   findings.found.push_back(
@@ -235,10 +257,11 @@ SceneFindings CheckScene(const LoadedScene& loaded) {
   return findings;
 }
 
-SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what) {
+SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what,
+                         const IsThinLayer& is_layer) {
   std::vector<std::string> errors;
   LoadedScene loaded = LoadScene(scene, errors);
-  SceneFindings findings = CheckScene(loaded);
+  SceneFindings findings = CheckScene(loaded, is_layer);
   for (const Tissue& tissue : loaded.scene.tissues) {
     std::error_code ignored;
     const std::filesystem::path file = loaded.folder / tissue.mesh;
@@ -257,7 +280,7 @@ SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what) 
       errors.push_back(error.what());
     }
   }
-  findings.errors = std::move(errors);
+  findings.errors.insert(findings.errors.begin(), errors.begin(), errors.end());
   if (what != nullptr) *what = std::move(loaded);
   return findings;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,15 @@ struct SceneFindings {
   std::vector<std::string> hints;     // parts that it lacks and could have
 };
 
+// Does a tissue without tetrahedra give way as a thin layer? That is for its preset to say.
+using IsThinLayer = std::function<bool(const Tissue& tissue)>;
+
 // Loads everything that the scene names, tetrahedra included. `loaded`, if given, gets the scene.
-SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* loaded = nullptr);
+// With no `is_layer` no tissue is one.
+SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* loaded = nullptr,
+                         const IsThinLayer& is_layer = {});
 
 // The same for a scene in memory, as an editor shows it while the author works.
-SceneFindings CheckScene(const LoadedScene& loaded);
+SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer = {});
 
 }  // namespace arthro

@@ -108,10 +108,9 @@ std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh>
   const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Tissue& tissue = scene.tissues[i];
-    if (!tissue.mesh.empty() || tissue.is_implicit || surfaces[i].triangles.empty()) continue;
-    const TissuePreset* found = FindTissuePreset(presets, tissue.material);
-    if (found == nullptr || !found->is_thin) continue;  // it is rigid
-    const TissuePreset preset = WithElasticity(*found, tissue.elasticity);
+    if (surfaces[i].triangles.empty() || !IsThinLayer(tissue, presets)) continue;
+    const TissuePreset preset =
+        WithElasticity(*FindTissuePreset(presets, tissue.material), tissue.elasticity);
     try {
       layers.push_back({tissue.name,
                         static_cast<int>(i),

@@ -45,4 +45,12 @@ void SetElasticity(EditorState& state, int tissue, Elasticity elasticity, const 
   SetTissue(state, tissue, changed, what);
 }
 
+void SetSolid(EditorState& state, int tissue, bool is_solid) {
+  Tissue changed = state.document().scene.tissues.at(static_cast<std::size_t>(tissue));
+  changed.is_implicit = is_solid;
+  if (is_solid) changed.mesh.clear();
+  SetTissue(state, tissue, changed, is_solid ? "Make a solid of" : "Let give way");
+  EndDrag(state);
+}
+
 }  // namespace arthro::app

@@ -19,4 +19,8 @@ void ChoosePreset(EditorState& state, int tissue, const std::string& name);
 // The same preset, other values. One that is the preset's own is not kept as said otherwise.
 void SetElasticity(EditorState& state, int tissue, Elasticity elasticity, const std::string& what);
 
+// A solid that does not give way is touched as a function; it has no tetrahedra, so those that it
+// has are left out with the same step.
+void SetSolid(EditorState& state, int tissue, bool is_solid);
+
 }  // namespace arthro::app

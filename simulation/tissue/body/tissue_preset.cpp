@@ -105,6 +105,12 @@ TissuePreset FindTissuePreset(const std::filesystem::path& folder, const std::st
               fmt::format("there is no tissue preset \"{}\"; there are: {}", word, names), folder);
 }
 
+bool IsThinLayer(const Tissue& tissue, const std::vector<TissuePreset>& presets) {
+  if (!tissue.mesh.empty() || tissue.is_implicit) return false;
+  const TissuePreset* found = FindTissuePreset(presets, tissue.material);
+  return found != nullptr && found->is_thin;
+}
+
 TissuePreset WithElasticity(TissuePreset preset, const Elasticity& elasticity) {
   Material& material = preset.material;
   material.young_modulus = elasticity.young_modulus.value_or(material.young_modulus);

@@ -39,6 +39,9 @@ const TissuePreset* FindTissuePreset(const std::vector<TissuePreset>& presets,
 // The same of a folder. Throws Error(kBadData) that lists the names that there are.
 TissuePreset FindTissuePreset(const std::filesystem::path& folder, const std::string& word);
 
+// Does this tissue give way as a thin layer: no tetrahedra, not implicit, of a thin preset?
+bool IsThinLayer(const Tissue& tissue, const std::vector<TissuePreset>& presets);
+
 // The preset with what the scene says otherwise.
 TissuePreset WithElasticity(TissuePreset preset, const Elasticity& elasticity);
 

@@ -251,6 +251,25 @@ expect "Saved in"
   EXPECT_NEAR(saved.tissues[0].probed[0].radius, 0.0015, 1e-9);
 }
 
+TEST_F(EditorWindow, ATissueIsMadeASolidThatDoesNotGiveWayAndThatIsUndone) {
+  Drive(R"(
+click Tissue
+click Mesh
+expect "no tetrahedra yet"
+click "A solid that does not give way"
+expect "a solid"
+expect not "no tetrahedra yet"
+click Undo
+expect "no tetrahedra yet"
+click Redo
+expect "a solid"
+click Save
+wait job
+expect "Saved in"
+)");
+  EXPECT_TRUE(ReadScene(scene).tissues.at(0).is_implicit);
+}
+
 TEST_F(EditorWindow, AClickInTheOverviewHoldsTheTissueThereAndIsUndone) {
   Drive(R"(
 click Tissue

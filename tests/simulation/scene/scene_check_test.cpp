@@ -5,6 +5,7 @@
 #include "simulation/scene/held_nodes.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh_io.h"
+#include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro {
@@ -80,6 +81,34 @@ TEST(SceneCheck, NamesAProbedPlaceThatTheMeshWasNotMadeFor) {
   EXPECT_FALSE(Says(findings.warnings, "ball 1 of \"probed\""));
   EXPECT_TRUE(Says(findings.warnings, "ball 2 of \"probed\" has no node"));
   EXPECT_FALSE(Says(findings.warnings, "ball 3 of \"probed\""));
+}
+
+LoadedScene WithOne(const SurfaceMesh& surface) {
+  LoadedScene loaded;
+  loaded.scene.tissues.emplace_back().name = "flap";
+  loaded.surfaces.push_back(surface);
+  return loaded;
+}
+
+TEST(SceneCheck, ATissueWithoutTetrahedraThatIsAThinLayerDeforms) {
+  const LoadedScene loaded = WithOne(test::Box({0, 0, 0.02}, {0.01, 0.01, 0.03}));
+  EXPECT_TRUE(Says(CheckScene(loaded).hints, "does not deform"));
+  const SceneFindings layer = CheckScene(loaded, [](const Tissue&) { return true; });
+  EXPECT_FALSE(Says(layer.hints, "does not deform"));
+  EXPECT_TRUE(Says(layer.found, "\"flap\": gives way as a thin layer"));
+}
+
+TEST(SceneCheck, ASolidThatDoesNotGiveWayNeedsAClosedSurfaceAndNoTetrahedra) {
+  LoadedScene loaded = WithOne(test::Box({0, 0, 0.02}, {0.01, 0.01, 0.03}));
+  loaded.scene.tissues[0].is_implicit = true;
+  const SceneFindings good = CheckScene(loaded);
+  EXPECT_TRUE(good.errors.empty());
+  EXPECT_FALSE(Says(good.hints, "does not deform"));
+  EXPECT_TRUE(Says(good.found, "\"flap\": a solid that does not give way"));
+  loaded.surfaces[0].triangles.pop_back();
+  EXPECT_TRUE(Says(CheckScene(loaded).errors, "is not closed: 3 edges"));
+  loaded.scene.tissues[0].mesh = "flap.vtu";
+  EXPECT_TRUE(Says(CheckScene(loaded).errors, "has tetrahedra; leave out one of the two"));
 }
 
 }  // namespace
