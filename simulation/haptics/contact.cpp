@@ -37,35 +37,13 @@ bool Grip(const ContactOptions& options, const ContactState& state, const glm::d
   return false;
 }
 
-// F(δ)/(k d), of each surface by its part of the push; with no push of a plane, of `contact`.
-double HardShare(const Softness& softness, const PlaneSet& planes, const NearestFree& free,
-                 double depth, double stiffness, int contact) noexcept {
-  if (!(depth > 0.0) || !(stiffness > 0.0)) return 1.0;
-  const auto share_of = [&](int surface) noexcept {
-    return 1.0 - std::clamp(softness.Sink(surface, depth, stiffness) / depth, 0.0, 1.0);
-  };
-  double sum = 0.0, left = 0.0, share = 1.0;
-  int asked = -1;
-  for (int i = 0; i < planes.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (!(free.push[k] > 0.0)) continue;
-    if (planes.plane[k].contact != asked) share = share_of(asked = planes.plane[k].contact);
-    sum += free.push[k];
-    left += free.push[k] * share;
-  }
-  return sum > 0.0 ? left / sum : share_of(contact);
-}
-
 // How far the surfaces push the goal out, to the foot of their planes; `state` takes which of them
 // pushes most and what the fade leaves of all pushes. The interpolated normals of a relief turn
 // smoothly while its height has a faint kink at every pixel, in which the proxy rests: the foot
 // leaves that out. A foot further off means a crease that the planes do not know, or a proxy that
 // is still on its way; then the proxy itself counts.
-// `hard` is the part of the rigid force that soft surfaces among them leave: by the depth below
-// them together, since planes side by side may be of one curved surface.
-glm::dvec3 PushOf(const Surroundings& surroundings, const PlaneSet& planes, const glm::dvec3& goal,
-                  double kink, double dt, double stiffness, ContactState& state,
-                  double& hard) noexcept {
+glm::dvec3 PushOf(const PlaneSet& planes, const glm::dvec3& goal, double kink, double dt,
+                  ContactState& state) noexcept {
   const bool is_new = state.contact < 0;
   const glm::dvec3& proxy = state.proxy.position;
   const NearestFree free = NearestPoint(planes, goal, proxy);
@@ -85,11 +63,17 @@ glm::dvec3 PushOf(const Surroundings& surroundings, const PlaneSet& planes, cons
   }
   const glm::dvec3 rest = proxy - free.nearest;
   const double length = glm::length(rest);
-  const glm::dvec3 push = free.nearest - goal + (length > kink ? 1.0 - kink / length : 0.0) * rest;
-  hard = surroundings.softness == nullptr ? 1.0
-                                          : HardShare(*surroundings.softness, planes, free,
-                                                      glm::length(push), stiffness, state.contact);
-  return push;
+  return free.nearest - goal + (length > kink ? 1.0 - kink / length : 0.0) * rest;
+}
+
+// Against the approach, coming in over the onset.
+glm::dvec3 Viscosity(const ContactOptions& options, double stiffness, const glm::dvec3& velocity,
+                     const glm::dvec3& normal, double share, double depth) noexcept {
+  const double approach = glm::dot(velocity, normal);
+  if (!(approach < 0.0) || !(options.stiffness > 0.0)) return glm::dvec3(0.0);
+  const double b = options.damping * stiffness / options.stiffness * share *
+                   std::min(1.0, depth / options.damping_onset);
+  return -b * approach * normal;
 }
 
 }  // namespace
@@ -130,26 +114,22 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
   if (is_pulled) {
     result.contact = tissue.contact;
     result.penetration = glm::length(shift);
-    result.force = stiffness * shift;
+    result.force = stiffness * shift +
+                   Viscosity(options, stiffness, state.velocity, tissue.normal, 1.0, tissue.depth);
   }
   // What holds the proxy away from there, and how hard. Friction drew it aside from the goal.
   const auto leave = [&state]() noexcept {
     state.normal = glm::dvec3(0.0);
     state.share = 0.0;
     state.contact = -1;
-    state.sink = glm::dvec3(0.0);
   };
   if (!(glm::length(state.proxy.position - goal) > kAtTip)) return leave(), result;
   const PlaneSet planes = PlanesAt(surroundings, radius, goal, state.proxy);
-  double hard = 1.0;
-  const glm::dvec3 push =
-      PushOf(surroundings, planes, goal, kKink * surroundings.field.pixel_size(), dt, stiffness,
-             state, hard);
+  const glm::dvec3 push = PushOf(planes, goal, kKink * surroundings.field.pixel_size(), dt, state);
   const double depth = glm::length(push);
   if (!(depth > 0.0)) return leave(), result;
   state.normal = planes.count > 0 ? push / depth : glm::dvec3(0.0);
-  const glm::dvec3 of_surfaces = stiffness * state.share * hard * (push + (goal - held));
-  state.sink = (hard - 1.0) * push;
+  const glm::dvec3 of_surfaces = stiffness * state.share * (push + (goal - held));
   if (!is_pulled) {
     result.contact = state.contact;
     result.penetration = depth;
@@ -160,12 +140,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
     result.force += of_surfaces;
   }
 
-  const double approach = glm::dot(state.velocity, state.normal);
-  if (approach < 0.0 && options.stiffness > 0.0) {
-    const double b = options.damping * stiffness / options.stiffness * state.share *
-                     std::min(1.0, depth / options.damping_onset);
-    result.force -= b * approach * state.normal;
-  }
+  result.force += Viscosity(options, stiffness, state.velocity, state.normal, state.share, depth);
   return result;
 }
 

@@ -6,11 +6,6 @@
 // not the tip but the place where that force meets the spring, tip + F/k. The backdrop holds the
 // proxy out of itself, and k (proxy − tip) is the force of both: nothing is counted twice. The
 // proxy moves by no more than the tip and two pixels a tick, so k times that bounds each step.
-//
-// A surface that is not rigid (softness.h) is in series with the spring: the tip sinks in by δ
-// where F(δ) = k (d − δ), d the tip's depth, and all of the spring's force, friction too, is that
-// share of the rigid one. Neither is ever stiffer than k. The viscosity stays whole: less spring
-// needs no less of it.
 // Portal frame, m, N, s; noexcept, allocates nothing [notes on haptics, 4.2].
 #pragma once
 
@@ -56,13 +51,15 @@ struct ContactState {
   glm::dvec3 normal{0.0};
   double share = 0;
   int contact = -1;
-  glm::dvec3 sink{0.0};  // from the proxy to where a soft surface lets the tool in
 };
 
 // What tissue that is not among the surroundings does.
 struct TissuePull {
   glm::dvec3 force{0.0};  // on the tip, of a spring of options.stiffness between tip and proxy
   int contact = -1;       // 1 + i of the tissue that gives most of it
+  // What is viscous while the tip approaches it, as a surface; zero: nothing is.
+  glm::dvec3 normal{0.0};  // unit
+  double depth = 0;        // m
 };
 
 struct ContactForce {

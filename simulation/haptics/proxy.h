@@ -11,7 +11,6 @@
 
 #include "simulation/haptics/depth_field.h"
 #include "simulation/haptics/planes.h"
-#include "simulation/haptics/softness.h"
 #include "simulation/haptics/surface_bvh.h"
 #include "simulation/haptics/swept_surface.h"
 
@@ -21,7 +20,6 @@ namespace arthro::simulation {
 struct Surroundings {
   const DepthField& field;
   std::span<const SurfaceBvh> meshes;
-  const Softness* softness = nullptr;  // null: all are rigid
   // One a mesh, or fewer: what is touched in its place; null: the mesh.
   std::span<const SweptSurface* const> instead = {};
 };

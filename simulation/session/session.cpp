@@ -1,3 +1,5 @@
+#include "simulation/session/session.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,9 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/error.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/session/living_tissues.h"
-#include "simulation/session/session.h"
 
 namespace arthro::simulation {
 namespace {
@@ -35,30 +37,13 @@ constexpr double kJawTime = 0.15;  // s
 // The round end of the arthroscope's tube of 4 mm.
 constexpr double kScopeRadius = 2e-3;  // m
 
-// The layers under one tool, as contact asks of them. Haptics knows no tissue: only how deep it
-// sinks.
-class LayersUnderTool : public Softness {
- public:
-  LayersUnderTool(std::span<const std::optional<ElasticLayer>> layers, double radius) noexcept
-      : layers_(layers), radius_(radius) {}
-  double Sink(int contact, double depth, double stiffness) const noexcept override {
-    const auto* layer = LayerOf(contact);
-    return layer != nullptr ? layer->BallDepthBySpring(radius_, stiffness, depth) : 0.0;
-  }
-  bool IsDeep(int contact, double sink) const noexcept {
-    const auto* layer = LayerOf(contact);
-    return layer != nullptr && layer->PressBall(radius_, sink).is_deep;
-  }
-
- private:
-  const ElasticLayer* LayerOf(int contact) const noexcept {
-    const auto tissue = static_cast<std::size_t>(contact - 1);
-    if (contact < 1 || tissue >= layers_.size() || !layers_[tissue]) return nullptr;
-    return &*layers_[tissue];
-  }
-  std::span<const std::optional<ElasticLayer>> layers_;
-  double radius_;
-};
+// As the arthroscope's tube: one rod to its tip.
+ToolShape ScopeShape() {
+  constexpr double kLength = 0.12;  // m, more than goes into a joint
+  ToolShape shape;
+  shape.capsules = {{{0, 0, -kLength}, {0, 0, -kScopeRadius}, kScopeRadius}};
+  return shape;
+}
 
 // The backdrop as what tissue rests on.
 class BackdropObstacle : public RigidObstacle {
@@ -106,16 +91,13 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
     implicit_.emplace_back(std::move(spec), options.tissue);
     PlaceField(i, std::make_unique<FieldSurface>(implicit_.back().solid()));
   }
-  scope_.end_radius = kScopeRadius;
-  for (std::size_t kind = 0; kind < end_radius_.size(); ++kind)
-    end_radius_[kind] = EndRadius(ShapeOf(static_cast<ToolKind>(kind)));
+  scope_shape_ = ScopeShape();
+  for (std::size_t kind = 0; kind < shapes_.size(); ++kind)
+    shapes_[kind] = ShapeOf(static_cast<ToolKind>(kind));
   SetInstrument(scene.instruments.empty() ? kind_ : ToolKindOf(scene.instruments.front().kind));
 }
 
-void Session::SetInstrument(ToolKind kind) noexcept {
-  kind_ = kind;
-  instrument_.end_radius = end_radius_[static_cast<std::size_t>(kind)];
-}
+void Session::SetInstrument(ToolKind kind) noexcept { kind_ = kind; }
 
 void Session::SetIncisionSpacing(double spacing) noexcept {
   if (spacing == spacing_) return;
@@ -134,15 +116,22 @@ void Session::SetLiveTissues(std::span<const std::uint8_t> is_live) {
 
 void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace,
                       std::vector<LayerSpec> layers) {
-  std::vector<std::optional<ElasticLayer>> under;
-  if (!layers.empty()) under.resize(meshes_.size());
-  for (const LayerSpec& layer : layers)
-    if (layer.tissue >= 0 && static_cast<std::size_t>(layer.tissue) < under.size())
-      under[static_cast<std::size_t>(layer.tissue)] = layer.layer;
+  std::vector<LayerUnder> under;
   std::vector<std::uint8_t> is_live(meshes_.size(), 0);
-  for (const BodySpec& body : bodies)
-    if (body.tissue >= 0 && static_cast<std::size_t>(body.tissue) < is_live.size())
-      is_live[static_cast<std::size_t>(body.tissue)] = 1;
+  const auto take = [&is_live](int tissue) {
+    if (tissue >= 0 && static_cast<std::size_t>(tissue) < is_live.size())
+      is_live[static_cast<std::size_t>(tissue)] = 1;
+  };
+  for (const LayerSpec& layer : layers) {
+    // The inside of one that is not closed is not known: it stays as rigid as its triangles.
+    try {
+      under.emplace_back(layer.surface, layer.portal_from_body, layer.layer, layer.tissue);
+    } catch (const Error&) {
+      continue;
+    }
+    take(layer.tissue);
+  }
+  for (const BodySpec& body : bodies) take(body.tissue);
   BodyOptions options = options_.tissue;
   options.contact.stiffness = options_.contact.stiffness;
   auto obstacle = field_->empty() ? nullptr : std::make_shared<const BackdropObstacle>(field_);
@@ -206,6 +195,30 @@ Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexce
   return Fault::kNone;
 }
 
+// Where the layers let the tool be whose tip a spring pulls to `held`.
+LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::dvec3& held,
+                              double stiffness, const ToolState& state) const noexcept {
+  LayerHold hold;
+  hold.tip = held;
+  if (layers_.empty()) return hold;
+  // As it is drawn: turned by where its tip was let be, and moved along from there.
+  const glm::dvec3 before = tool.let_be.value_or(portal);
+  ToolInput as_drawn;
+  as_drawn.is_present = true;
+  as_drawn.opening = state.opening;
+  as_drawn.portal_from_tool = PortalFromTool(portal, tool.let_be ? before : held, state.pose.roll);
+  as_drawn.portal_from_tool.translation = glm::dvec3(0.0);
+  std::array<Capsule, kMaxCapsules> capsules;
+  const ToolShape& shape =
+      &tool == &scope_ ? scope_shape_ : shapes_[static_cast<std::size_t>(kind_)];
+  const int count = PosedCapsules(shape, as_drawn, capsules);
+  hold = HoldOnLayers(layers_, {capsules.data(), static_cast<std::size_t>(count)}, held, before,
+                      stiffness, options_.contact.sliding_friction);
+  tool.let_be = hold.tip;
+  tool.layer_push = hold.tip - held;
+  return hold;
+}
+
 void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                        ToolState& state) noexcept {
   Fault fault = Receive(tool, sample, dt);
@@ -222,36 +235,53 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
           LeverAt(tool.rig.portal_from_device * (sample.hip_in_device - tool.rig.pivot),
                   tool.rig.rod_length, options_.lever);
       const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
+      // Tissue has the tool where everything else would let the hand put it, by the pushes of the
+      // last tick; so have the layers.
+      const glm::dvec3 beside = tool.contact.contact >= 0
+                                    ? tool.contact.proxy.position - tool.contact.held
+                                    : glm::dvec3(0.0);
+      state.tissue_tip_in_portal = tip + beside + tool.layer_push;
       TissuePull pull;
-      // The tissue has the tool where the backdrop alone would let the hand put it, by the push of
-      // the last tick.
-      state.tissue_tip_in_portal =
-          tool.contact.contact >= 0
-              ? tip + (tool.contact.proxy.position + tool.contact.sink - tool.contact.held)
-              : tip;
       if (tool.tissue.to.step > 0) {
         const CoupledForce tissue =
             BlendedForce(tool.tissue, state.tissue_tip_in_portal, dt, kTissueFrame);
         pull = {tissue.force, tissue.tissue < 0 ? kNoContact : 1 + tissue.tissue};
         if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
       }
-      const LayersUnderTool layers(layers_, tool.end_radius);
-      contact = TickContact({*field_, meshes_, layers_.empty() ? nullptr : &layers, instead_},
-                            options_.contact, stiffness, portal, tip, dt, tool.contact, pull);
-      state.is_layer_deep = layers.IsDeep(tool.contact.contact, glm::length(tool.contact.sink));
+      const LayerHold layers =
+          FeelLayers(tool, portal, tip + beside + pull.force / options_.contact.stiffness,
+                     options_.contact.stiffness, state);
+      if (layers.tissue >= 0) {
+        if (glm::length(layers.force) > glm::length(pull.force)) pull.contact = 1 + layers.tissue;
+        pull.force += layers.force;
+        pull.normal = glm::normalize(layers.force);
+        pull.depth = glm::length(tool.layer_push) + layers.depth;
+      }
+      contact = TickContact({*field_, meshes_, instead_}, options_.contact, stiffness, portal, tip,
+                            dt, tool.contact, pull);
+      if (layers.tissue >= 0) contact.penetration += layers.depth;
+      state.is_layer_deep = layers.is_deep;
+      state.layer = layers.tissue;
+      state.layer_depth = layers.depth;
       hand_force = HandForce(lever, contact.force);
     } else {
       fault = Fault::kNotFinite;
     }
   }
   // A tool that is gone, or not a number, enters anew when it comes back.
-  if (fault != Fault::kNone && fault != Fault::kStale && fault != Fault::kTissue)
+  if (fault != Fault::kNone && fault != Fault::kStale && fault != Fault::kTissue) {
     tool.contact = ContactState{};
+    tool.let_be.reset();
+    tool.layer_push = glm::dvec3(0.0);
+  }
   const LimitedForce limited =
       LimitForce(options_.limiter, hand_force, tool.hand_speed, fault, dt, tool.limiter);
-  if (!tool.contact.has_started) state.is_layer_deep = false;
-  state.proxy_in_portal = tool.contact.has_started ? tool.contact.proxy.position + tool.contact.sink
-                                                   : state.tip_in_portal;
+  if (!tool.contact.has_started) {
+    state.is_layer_deep = false;
+    state.layer = -1;
+  }
+  state.proxy_in_portal =
+      tool.contact.has_started ? tool.contact.proxy.position : state.tip_in_portal;
   state.tip_force = contact.force;
   state.hand_force = limited.force;
   state.contact = contact.contact;
@@ -273,10 +303,10 @@ void Session::TickTissues(double dt) noexcept {
       PortalFromTool({spacing_, 0.0, 0.0}, state.tissue_tip_in_portal, state.pose.roll);
   hand.now.opening = state.opening;
   hand.now.is_running = state.is_running;
-  const ContactState& touch = instrument_.contact;
-  const auto pressed = static_cast<std::size_t>(touch.contact - 1);
-  if (touch.contact > 0 && pressed < layers_.size() && layers_[pressed])
-    hand.press = {touch.contact - 1, state.proxy_in_portal, glm::length(touch.sink)};
+  if (state.layer >= 0)
+    hand.press = {state.layer,
+                  PortalFromTool({spacing_, 0.0, 0.0}, state.proxy_in_portal, state.pose.roll),
+                  state.layer_depth};
   tissues_->Tick(hand, dt);
   ToolCoupling coupling;
   if (tissues_->TakeCoupling(coupling)) SetCoupling(coupling);

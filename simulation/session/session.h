@@ -20,6 +20,7 @@
 #include "simulation/session/session_options.h"
 #include "simulation/session/snapshot.h"
 #include "simulation/session/tissue_loop.h"
+#include "simulation/tissue/body/tool_on_layers.h"
 #include "simulation/tissue/contact/coupling.h"
 
 namespace arthro::simulation {
@@ -50,10 +51,10 @@ class Session {
   const SessionOptions& options() const noexcept { return options_; }
 
   // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
-  // TissuePace::kInline the same inputs give the same bits. `layers` stay among the rigid surfaces
-  // and give way to both tools by their closed form, in the servo; their picture is beside the
-  // bodies'. What is a function of space is cut by the instrument, and felt by the servo as it is
-  // then. Not on the servo path. Throws Error.
+  // TissuePace::kInline the same inputs give the same bits. `layers` give way to both tools, all
+  // along them, by their closed form, in the servo; their picture is beside the bodies'. One whose
+  // surface is not closed stays rigid. What is a function of space is cut by the instrument, and
+  // felt by the servo as it is then. Not on the servo path. Throws Error.
   void Enliven(std::vector<BodySpec> bodies, TissuePace pace, std::vector<LayerSpec> layers = {});
   // After each tick, by the same thread: the jaws and the tissue's own, slower clock. Inline it
   // steps here; on a thread this only hands the tool over.
@@ -84,7 +85,8 @@ class Session {
  private:
   struct Tool {
     DeviceRig rig;
-    double end_radius = 0;  // m, of what it presses a layer with
+    glm::dvec3 layer_push{0.0};        // m, how far layers held it off its hand in the last tick
+    std::optional<glm::dvec3> let_be;  // where they let its tip be then; none: it was away
     ContactState contact;
     LimiterState limiter;
     bool has_sample = false;
@@ -96,6 +98,8 @@ class Session {
   Fault Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept;
   void PlaceField(std::size_t tissue, std::unique_ptr<FieldSurface> field);
   void FeelSolids() noexcept;
+  LayerHold FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::dvec3& held,
+                       double stiffness, const ToolState& state) const noexcept;
   void TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                 ToolState& state) noexcept;
 
@@ -107,13 +111,14 @@ class Session {
   std::vector<ImplicitBody> implicit_;                 // whole; what is cut is the tissue loop's
   std::vector<std::unique_ptr<FieldSurface>> fields_;  // one a tissue, or none at all
   std::vector<const SweptSurface*> instead_;           // the same, as contact takes them
-  std::vector<std::optional<ElasticLayer>> layers_;    // one a tissue, or none at all
+  std::vector<LayerUnder> layers_;                     // that give way to both tools
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;
   Snapshot snapshot_;
   ToolKind kind_ = ToolKind::kProbe;
-  std::array<double, static_cast<std::size_t>(ToolKind::kGrasper) + 1> end_radius_{};  // by kind
+  std::array<ToolShape, static_cast<std::size_t>(ToolKind::kGrasper) + 1> shapes_;  // by kind
+  ToolShape scope_shape_;
   std::unique_ptr<TissueLoop> tissues_;
 };
 

@@ -22,6 +22,8 @@ struct ToolState {
   glm::dvec3 hand_force{0.0};  // what the device is told, after the lever and the limits
   int contact = kNoContact;    // of the surface that carries most of the force
   double penetration = 0;      // depth of the tip below the surfaces, m
+  int layer = -1;              // thin layer that holds it: tissue of the scene; −1: none
+  double layer_depth = 0;      // m, how deep its deepest point is there
   bool is_layer_deep = false;  // deeper in a thin layer than its theory holds (elastic_layer.h)
   glm::dvec2 pixel{0.0};       // scope: centre of its view; instrument: under its tip; NaN: none
   Fault fault = Fault::kNoSample;  // why hand_force is zero

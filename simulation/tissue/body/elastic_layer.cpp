@@ -79,6 +79,68 @@ Contact Solve(const LayerKernel& kernel, double x) {
   return {flat / x, depth, depth * flat - weight.dot(phi.col(1))};
 }
 
+// What the depth under a line load is beside −ln|y| of a half plane: ½ ln(1 + y²) + ∫₀^∞ (M(k) − 1
+// + exp(−k))/k cos(k y) dk, lengths over the thickness; sampled, and cubic in between.
+class LineKernel {
+ public:
+  explicit LineKernel(double nu) {
+    std::vector<double> share;
+    for (int i = 0; i <= kPoints; ++i) {
+      const double weight = i == 0 || i == kPoints ? 1 : i % 2 == 1 ? 4 : 2;
+      const double k = std::max(i * kStep, 1e-3);  // at 0 it has a limit, and cancels
+      share.push_back(weight * kStep / 3 * (LayerFactor(k, nu) - 1 + std::exp(-k)) / k);
+    }
+    for (int j = 0; j <= kSpan * kPerUnit + 1; ++j) {
+      const double y = static_cast<double>(j) / kPerUnit;
+      double sum = 0.5 * std::log1p(y * y);
+      for (int i = 0; i <= kPoints; ++i)
+        sum += share[static_cast<std::size_t>(i)] * std::cos(i * kStep * y);
+      at_.push_back(sum);
+    }
+  }
+  double At(double y) const {
+    const double place = std::abs(y) * kPerUnit;
+    const auto j = std::min(static_cast<std::size_t>(place), at_.size() - 2);
+    const double t = place - static_cast<double>(j);
+    // Even in y: the sample before the first is the second.
+    const double before = at_[j == 0 ? 1 : j - 1], a = at_[j], b = at_[j + 1];
+    const double after = j + 2 < at_.size() ? at_[j + 2] : 2 * b - a;
+    return a + 0.5 * t *
+                   (b - before +
+                    t * (2 * before - 5 * a + 4 * b - after + t * (3 * (a - b) + after - before)));
+  }
+
+ private:
+  static constexpr int kPoints = 1200, kSpan = 20, kPerUnit = 20;
+  static constexpr double kStep = 30.0 / kPoints;
+  std::vector<double> at_;
+};
+
+// Of half width x: a flat strip's force a depth, and depth and force of a parabola that touches
+// just so far. Pressure Σ cₙ T₂ₙ(t)/√(1−t²), t over the half width: −ln|t − s| takes T₂ₙ to π/2n
+// T₂ₙ, and the rest of the kernel is smooth, for Gauss and Chebyshev's rule.
+Contact SolveLine(const LineKernel& kernel, double x) {
+  constexpr int kTerms = 16, kNodes = 48;
+  const auto chebyshev = [](int n, double angle) { return std::cos(2 * n * angle); };
+  Eigen::MatrixXd a(kTerms, kTerms), g(kTerms, 2);
+  for (int i = 0; i < kTerms; ++i) {
+    const double angle = (2 * i + 1) * kPi / (4 * kTerms), s = std::cos(angle);
+    for (int n = 0; n < kTerms; ++n)
+      a(i, n) = x * kPi * (n == 0 ? std::log(2.0) - std::log(x) : chebyshev(n, angle) / (2 * n));
+    for (int j = 0; j < kNodes; ++j) {
+      const double at = (2 * j + 1) * kPi / (2 * kNodes);
+      const double smooth = x * kPi / kNodes * kernel.At(x * (s - std::cos(at)));
+      for (int n = 0; n < kTerms; ++n) a(i, n) += smooth * chebyshev(n, at);
+    }
+    g(i, 0) = 1;
+    g(i, 1) = 0.5 * x * x * s * s;
+  }
+  const Eigen::MatrixXd c = a.partialPivLu().solve(g);
+  // No pressure at the edge: Σ cₙ = 0.
+  const double depth = c.col(1).sum() / c.col(0).sum(), flat = x * kPi * c(0, 0);
+  return {flat, depth, depth * flat - x * kPi * c(0, 1)};
+}
+
 struct Value {
   double y, slope;
 };
@@ -169,6 +231,15 @@ ElasticLayer::ElasticLayer(const Material& material, double thickness) : thickne
     // A little deeper, a ball moves what it touches as a flat end of that size would.
     force_slope_[i] = x * contact.kappa * contact.depth / contact.force;
   }
+  line_unit_ = kPi * mu / (1 - nu);
+  const LineKernel line_kernel(nu);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const Contact line = SolveLine(line_kernel, std::exp(log_radius_[i]));
+    log_line_depth_[i] = std::log(line.depth);
+    log_line_force_[i] = std::log(line.force);
+    line_force_slope_[i] = line.kappa * line.depth / line.force;
+  }
+  line_radius_slope_ = SlopesOf(log_line_depth_, log_radius_);
   kappa_slope_ = SlopesOf(log_radius_, log_kappa_);
   radius_slope_ = SlopesOf(log_depth_, log_radius_);
 }
@@ -200,6 +271,18 @@ LayerTouch ElasticLayer::PressBall(double radius, double depth) const noexcept {
           depth > kDeepShare * thickness_ || depth > kDeepBallShare * radius};
 }
 
+LayerTouch ElasticLayer::PressLine(double radius, double depth) const noexcept {
+  if (!IsPressed(radius, depth)) return {};
+  const double log_depth = std::log(depth / thickness_ * (radius / thickness_));
+  const Value force =
+      At(log_line_depth_, log_line_force_, line_force_slope_, line_force_slope_.front(), log_depth);
+  const Value touch =
+      At(log_line_depth_, log_radius_, line_radius_slope_, line_radius_slope_.front(), log_depth);
+  const double per_length = line_unit_ * thickness_ * (thickness_ / radius) * std::exp(force.y);
+  return {per_length, per_length * force.slope / depth, thickness_ * std::exp(touch.y),
+          depth > kDeepShare * thickness_ || depth > kDeepBallShare * radius};
+}
+
 double ElasticLayer::BallDepth(double radius, double force) const noexcept {
   if (!IsPressed(radius, force)) return 0;
   // The force rises everywhere, so halving finds the depth; 70 halvings of a span of 80 (in the
@@ -210,23 +293,6 @@ double ElasticLayer::BallDepth(double radius, double force) const noexcept {
     (PressBall(radius, std::exp(middle)).force < force ? low : high) = middle;
   }
   return std::exp(0.5 * (low + high));
-}
-
-double ElasticLayer::BallDepthBySpring(double radius, double spring, double depth) const noexcept {
-  if (!IsPressed(radius, depth) || !(spring > 0.0) || !std::isfinite(spring)) return 0;
-  // Newton from the deep end, where the force is convex; a step out of the bracket halves it.
-  double low = 0, high = std::min(depth, thickness_);
-  if (PressBall(radius, high).force <= spring * (depth - high)) return high;
-  double at = high;
-  for (int i = 0; i < 60; ++i) {
-    const LayerTouch touch = PressBall(radius, at);
-    const double excess = touch.force - spring * (depth - at);
-    if (std::abs(excess) <= 1e-12 * spring * depth) break;
-    (excess > 0 ? high : low) = at;
-    const double next = at - excess / (touch.stiffness + spring);
-    at = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  return at;
 }
 
 }  // namespace arthro::simulation

@@ -42,14 +42,14 @@ class ElasticLayer {
   LayerTouch PressBall(double radius, double depth) const noexcept;
   // The flat end of a round rod of this radius, square on the surface.
   LayerTouch PressFlat(double radius, double depth) const noexcept;
+  // A long round rod that lies on it: force and stiffness a metre of it (N/m, N/m²), contact_radius
+  // half the width. Plane strain; of its cross-section the curvature counts, the rest of the
+  // circle does not.
+  LayerTouch PressLine(double radius, double depth) const noexcept;
   // The other way round: how deep it is when it is pushed with `force`. PressX(depth).force is
   // `force` to 1e-9 of it.
   double BallDepth(double radius, double force) const noexcept;
   double FlatDepth(double radius, double force) const noexcept;
-  // How deep a ball goes in that a spring (N/m) pulls to `depth` under the surface:
-  // PressBall(δ).force = spring (depth − δ) to 1e-12 of spring · depth. Never past the thickness,
-  // where the bone is. A spring that is not one: 0.
-  double BallDepthBySpring(double radius, double spring, double depth) const noexcept;
 
  private:
   // Contact radii over thickness from 0.01 to 10, evenly in the logarithm. Smaller is a half space
@@ -64,6 +64,9 @@ class ElasticLayer {
   Curve log_kappa_{}, kappa_slope_{};                // over log_radius_
   Curve log_depth_{}, log_force_{}, force_slope_{};  // ball: ln(δ R/h²), ln(F R/(flat_unit h²))
   Curve radius_slope_{};                             // of log_radius_ over log_depth_
+  double line_unit_ = 0;                             // Pa: πμ/(1 − ν)
+  // Line: half the width is exp(log_radius_) h; ln(δ R/h²), ln(F' R/(line_unit h²)).
+  Curve log_line_depth_{}, log_line_force_{}, line_force_slope_{}, line_radius_slope_{};
 };
 
 }  // namespace arthro::simulation

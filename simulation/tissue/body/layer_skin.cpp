@@ -8,13 +8,15 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/tissue/cut/cutters.h"
+
 namespace arthro::simulation {
 namespace {
 
-// A tool's working end and the rim; further from the tip nothing moves.
-constexpr double kReach = 8e-3;  // m
-constexpr double kRim = 0.5;     // of the thickness, over which the rim comes down
-constexpr int kSweeps = 16;      // a frame; each begins with the last frame's answer
+// Further than this outside of the tool nothing moves: the rim has come down to a thousandth.
+constexpr double kReach = 4.0;  // thicknesses of the layer
+constexpr double kRim = 0.5;    // of the thickness, over which the rim comes down
+constexpr int kSweeps = 16;     // a frame; each begins with the last frame's answer
 
 // How far from x along `way` (unit) the ray leaves the capsule; 0: x is not in it. By halving:
 // what is inside of a capsule is convex.
@@ -86,18 +88,22 @@ LayerSkin::LayerSkin(LayerSpec spec) : spec_(std::move(spec)) {
   moved_.clear();
 }
 
-void LayerSkin::Press(std::span<const Capsule> capsules, const glm::dvec3& tip,
-                      double sink) noexcept {
+void LayerSkin::Press(std::span<const Capsule> capsules, double depth) noexcept {
   const Rigid3 body_from_portal = Inverse(spec_.portal_from_body);
-  const glm::dvec3 at = body_from_portal * tip;
   std::array<Capsule, kMaxCapsules> tool;
   const std::size_t pieces = std::min(capsules.size(), tool.size());
   for (std::size_t i = 0; i < pieces; ++i)
     tool[i] = {body_from_portal * capsules[i].a, body_from_portal * capsules[i].b,
                capsules[i].radius};
-  // As deep as the theory goes; where the tip itself is deeper, with it, to the bone.
+  // As deep as the theory goes; where the tool is deeper, with it, to the bone.
   const double thickness = spec_.layer.thickness();
-  const double most = std::clamp(sink, ElasticLayer::kDeepShare * thickness, thickness);
+  const double most = std::clamp(depth, ElasticLayer::kDeepShare * thickness, thickness);
+  const auto is_near = [&](const glm::dvec3& x) noexcept {
+    return std::any_of(tool.begin(), tool.begin() + static_cast<std::ptrdiff_t>(pieces),
+                       [&](const Capsule& c) {
+                         return DistanceToCapsule(x, c.a, c.b, c.radius) < kReach * thickness;
+                       });
+  };
 
   // What was near before goes back first, but remembers its dent to begin from.
   const std::vector<glm::dvec3>& rest = skin_->surface.vertices;
@@ -105,12 +111,11 @@ void LayerSkin::Press(std::span<const Capsule> capsules, const glm::dvec3& tip,
     const auto i = static_cast<std::size_t>(v);
     positions_[i] = rest[i];
     normals_[i] = rest_normals_[i];
-    if (glm::distance(rest[i], at) >= kReach) dent_[i] = least_[i] = 0.0;
+    if (!is_near(rest[i])) dent_[i] = least_[i] = 0.0;
   }
   moved_.clear();
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    const glm::dvec3 off = rest[i] - at;
-    if (glm::dot(off, off) >= kReach * kReach) continue;
+    if (!is_near(rest[i])) continue;
     moved_.push_back(static_cast<int>(i));
     least_[i] = 0.0;
     for (std::size_t piece = 0; piece < pieces; ++piece)
@@ -151,8 +156,7 @@ void LayerSkin::Relax() noexcept {
       for (std::size_t i = moved_.size(); i-- > 0;) relax(moved_[i]);
 }
 
-// Normals of the vertices that moved, weighted by area. Those beside them, kReach from the tip,
-// hardly turn.
+// Normals of the vertices that moved, weighted by area. Those beside them hardly turn.
 void LayerSkin::TakeShape() noexcept {
   const auto& triangles = skin_->surface.triangles;
   for (int vertex : moved_) {

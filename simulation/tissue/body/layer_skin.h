@@ -34,9 +34,8 @@ class LayerSkin {
  public:
   explicit LayerSkin(LayerSpec spec);
 
-  // The tool where it is drawn, portal frame; its tip is at `tip`, `sink` deep in the layer.
-  // Allocates nothing.
-  void Press(std::span<const Capsule> capsules, const glm::dvec3& tip, double sink) noexcept;
+  // The tool where it is drawn, portal frame, `depth` deep in the layer. Allocates nothing.
+  void Press(std::span<const Capsule> capsules, double depth) noexcept;
   void Release() noexcept;
 
   bool is_pressed() const { return !moved_.empty(); }

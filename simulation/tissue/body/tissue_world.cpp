@@ -78,18 +78,18 @@ struct TissueWorld::Impl {
     double step_ms = 0;
   };
 
-  // The tool as it is drawn: where the layer lets its tip be.
+  // The tool as it is drawn: where the layer lets it be.
   void StepLayers(const WorldTool& tool, const LayerPress& press) noexcept {
     for (HeldLayer& held : layers) {
       const double begin = ThreadCpuMs();
-      if (held.skin.spec().tissue != press.tissue || !(press.sink > 0.0)) {
+      if (held.skin.spec().tissue != press.tissue || !(press.depth > 0.0)) {
         held.skin.Release();
       } else {
         ToolInput drawn = tool.now;
-        drawn.portal_from_tool.translation = press.tip;
+        drawn.portal_from_tool = press.portal_from_tool;
         std::array<Capsule, kMaxCapsules> capsules;
         const int count = PosedCapsules(tool.shape, drawn, capsules);
-        held.skin.Press({capsules.data(), static_cast<std::size_t>(count)}, press.tip, press.sink);
+        held.skin.Press({capsules.data(), static_cast<std::size_t>(count)}, press.depth);
       }
       held.step_ms = ThreadCpuMs() - begin;
     }

@@ -16,11 +16,11 @@
 
 namespace arthro::simulation {
 
-// The thin layer that the instrument's tip presses, as the servo says.
+// The thin layer that the instrument presses, as the servo says.
 struct LayerPress {
-  int tissue = -1;      // in the scene; −1: none
-  glm::dvec3 tip{0.0};  // where the layer lets the tip be, portal frame
-  double sink = 0;      // m, how deep that is in the layer
+  int tissue = -1;          // in the scene; −1: none
+  Rigid3 portal_from_tool;  // where the layer lets it be
+  double depth = 0;         // m, of the tool's deepest point in the layer
 };
 
 // The instrument in the hand at a step: any of the kinds, changed in mid-session.

@@ -92,18 +92,6 @@ ToolShape ShapeOf(ToolKind kind) {
   return {};
 }
 
-double EndRadius(const ToolShape& shape) noexcept {
-  double radius = 0.0, furthest = 0.0;
-  for (const Capsule& capsule : shape.capsules) {
-    const double end = std::max(capsule.a.z, capsule.b.z) + capsule.radius;
-    // Pieces that end together, to rounding, share the first one's.
-    if (radius > 0.0 && !(end > furthest + 1e-9)) continue;
-    furthest = end;
-    radius = capsule.radius;
-  }
-  return radius;
-}
-
 ToolKind ToolKindOf(const std::string& word) {
   if (word == "punch") return ToolKind::kPunch;
   if (word == "shaver") return ToolKind::kShaver;

@@ -33,8 +33,6 @@ struct ToolShape {
 // Real dimensions: probe hook 4 mm long of 1.5 mm rod (as app/view/probe_mesh draws it), punch 3.4
 // mm wide, shaver 4.5 mm.
 ToolShape ShapeOf(ToolKind kind);
-// Radius of the capsule that reaches furthest along the rod: what its tip presses with; 0: none.
-double EndRadius(const ToolShape& shape) noexcept;
 // "probe", "punch", "shaver", "grasper" of Instrument::kind; another word: kProbe.
 ToolKind ToolKindOf(const std::string& word);
 

@@ -62,7 +62,7 @@ void SolidField::Prepare(const Box3& box, double spacing, std::int64_t max_cells
 }
 
 SolidField SolidField::FromSurface(const SurfaceMesh& surface, double spacing,
-                                   std::int64_t max_cells) {
+                                   std::int64_t max_cells, double around) {
   SolidField field;
   Box3 box{glm::dvec3(1e300), glm::dvec3(-1e300)};
   for (const auto& triangle : surface.triangles)
@@ -74,7 +74,7 @@ SolidField SolidField::FromSurface(const SurfaceMesh& surface, double spacing,
       }
   if (surface.triangles.empty() || box.empty() || !std::isfinite(glm::length(box.high - box.low)))
     throw Error(Code::kBadMesh, "the surface is empty or not finite; a solid needs a closed one");
-  field.Prepare(box, spacing, max_cells);
+  field.Prepare({box.low - around, box.high + around}, spacing, max_cells);
   field.value_ = SignedDistances(surface, field.grid_, field.band());
   field.SumBricks();
   return field;

@@ -71,8 +71,9 @@ class SolidField {
   SolidField() = default;  // nothing solid anywhere
   // Distance to a closed surface. `spacing`: of the grid, m. Throws Error(kBadMesh) for a surface
   // that is empty, open or not finite and Error(kBadArgument) for a grid of more than `max_cells`.
+  // `around`: how far outside of the surface distances are still known, and not only a bound, m.
   static SolidField FromSurface(const SurfaceMesh& surface, double spacing,
-                                std::int64_t max_cells = 20'000'000);
+                                std::int64_t max_cells = 20'000'000, double around = 0);
   // From a function, over a box, at whose sides the solid ends.
   static SolidField FromFunction(const Box3& box, double spacing,
                                  const std::function<double(const glm::dvec3&)>& distance,

@@ -11,14 +11,16 @@
 #include "simulation/session/living_tissues.h"
 #include "simulation/session/scripted_device.h"
 #include "simulation/session/session.h"
+#include "simulation/tissue/cut/cutters.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 0.001, kSpring = 500.0, kTip = 0.75e-3;
-constexpr double kFace = 0.036;  // m, where the tissue begins on the way of the instrument
+constexpr double kTick = 0.001, kSpring = 500.0;
+constexpr double kTip = 2.25e-3;  // m, the shaver's round end: what touches where it stands
+constexpr double kFace = 0.036;   // m, where the tissue begins on the way of the instrument
 // The proxy keeps 1 µm off a surface and bears within 2.
 constexpr double kSkin = 2e-6;
 
@@ -78,31 +80,59 @@ struct Hand {
 TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
   Hand hand(MakeScene(Block()));
   ASSERT_EQ(hand.layers.size(), 1u);
+  hand.session.SetInstrument(ToolKind::kShaver);
   const ElasticLayer& layer = hand.layers[0].layer;
   double worst = 0;
-  for (double depth : {0.02e-3, 0.1e-3, 0.3e-3, 1e-3, 2e-3, 4e-3}) {
+  for (double depth : {0.02e-3, 0.1e-3, 0.3e-3, 1e-3, 2e-3, 4e-3, 12e-3}) {
     const ToolState& tool = hand.Press(depth);
-    // Independently of the servo's own solver: halving of the force.
-    double low = 0, high = kSpring * depth;
+    // Independently of the servo's own solver: halving of how deep it is. Towards the bone the
+    // force rises without bound (tool_on_layers.h).
+    const auto force_at = [&](double sink) {
+      const double way = sink / layer.thickness();
+      return layer.PressBall(kTip, sink).force / (1 - way * way * way * way);
+    };
+    double low = 0, high = std::min(depth, 0.999 * layer.thickness());
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
-      (layer.BallDepth(kTip, middle) + middle / kSpring < depth ? low : high) = middle;
+      (force_at(middle) < kSpring * (depth - middle) ? low : high) = middle;
     }
-    const double sink = depth - low / kSpring;
-    worst = std::max(worst, std::abs(-tool.tip_force.z - low));
-    EXPECT_NEAR(-tool.tip_force.z, low, kSpring * kSkin) << depth;
-    EXPECT_NEAR(tool.penetration, depth, kSkin);
-    EXPECT_NEAR(tool.proxy_in_portal.z, kFace + sink, kSkin) << "the tool is drawn in the layer";
+    const double force = kSpring * (depth - low);
+    worst = std::max(worst, std::abs(-tool.tip_force.z - force));
+    EXPECT_NEAR(-tool.tip_force.z, force, 1e-5) << depth;
+    EXPECT_NEAR(tool.penetration, depth, 1e-8);
+    EXPECT_NEAR(tool.proxy_in_portal.z, kFace + low, 1e-8) << "the tool is drawn in the layer";
     EXPECT_EQ(tool.contact, 1);
+    EXPECT_EQ(tool.layer, 0);
     EXPECT_EQ(tool.fault, Fault::kNone);
-    EXPECT_EQ(tool.is_layer_deep, layer.PressBall(kTip, sink).is_deep) << depth;
+    EXPECT_EQ(tool.is_layer_deep, layer.PressBall(kTip, low).is_deep) << depth;
     std::printf("[ layer ] hand %.2f mm past the surface: %.4f N, tip %.3f mm in%s\n", 1e3 * depth,
-                low, 1e3 * sink, tool.is_layer_deep ? ", too deep for the theory" : "");
+                force, 1e3 * low, tool.is_layer_deep ? ", too deep for the theory" : "");
   }
   std::printf("[ layer ] largest difference from the closed form %.2g N\n", worst);
   EXPECT_TRUE(hand.session.snapshot().instrument.is_layer_deep);
   EXPECT_FALSE(hand.Press(-1e-3).is_layer_deep);
   EXPECT_EQ(hand.session.snapshot().instrument.tip_force, glm::dvec3(0.0));
+}
+
+TEST(ThinLayer, WithAWallBehindItAllOfTheForceIsTheSpringsOnce) {
+  // The slab's far corner stands 1 mm before the backdrop's sphere; the tip goes past its edge and
+  // onto the wall while the rod lies on the slab.
+  LoadedScene loaded = MakeScene(test::Box({-0.02, 0.001, -0.02}, {0.02, 0.02, 0.0}));
+  loaded.scene.backdrop.radius = 0.05;
+  Hand hand(loaded);
+  hand.session.SetInstrument(ToolKind::kShaver);
+  hand.instrument.Set({0.05, 0, 0, 0.04});
+  hand.Tick(500);
+  for (int i = 1; i <= 2000; ++i) {
+    hand.instrument.Set({0.05 - 0.09 * i / 2000, 0, 0, 0.04 + 0.0125 * i / 2000});
+    hand.Tick();
+  }
+  const ToolState& tool = hand.Tick(1000);
+  EXPECT_EQ(tool.layer, 0);
+  EXPECT_GT(glm::length(tool.tip_force), 0.1);
+  EXPECT_LT(glm::distance(tool.tip_force, kSpring * (tool.proxy_in_portal - tool.tip_in_portal)),
+            1e-4);
+  EXPECT_LT(glm::length(tool.proxy_in_portal), 0.05 + 1e-6) << "not in the wall";
 }
 
 TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
@@ -182,6 +212,7 @@ TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
 TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   const LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
   Hand hand(loaded);
+  hand.session.SetInstrument(ToolKind::kShaver);
   const WorldPicture* world = hand.session.tissues();
   ASSERT_NE(world, nullptr);
   ASSERT_EQ(world->bodies.size(), 1u);
@@ -194,7 +225,7 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   hand.Press(-1e-3);
   EXPECT_EQ(hand.session.tissues()->bodies[0].shape, shape) << "nothing touched, nothing computed";
 
-  const ToolState tool = hand.Press(1e-3);
+  const ToolState tool = hand.Press(2e-3);
   const double sink = tool.proxy_in_portal.z - kFace;
   const BodyPicture pressed = hand.session.tissues()->bodies[0];
   EXPECT_FALSE(pressed.report.is_asleep);
@@ -202,7 +233,7 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   // The tool as it is drawn: none of the surface is left in it, and the rest is pressed no deeper.
   std::array<Capsule, kMaxCapsules> capsules;
   ToolInput drawn{true, PortalFromTool({0, 0, 0}, tool.proxy_in_portal, tool.pose.roll), 1, false};
-  const int count = PosedCapsules(ShapeOf(ToolKind::kProbe), drawn, capsules);
+  const int count = PosedCapsules(ShapeOf(ToolKind::kShaver), drawn, capsules);
   double deepest = 0, worst_inside = 0, steepest = 0;
   const glm::dvec3 origin = loaded.scene.tissues[0].pose.position;
   for (std::size_t v = 0; v < rest.size(); ++v) {
@@ -236,6 +267,49 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   EXPECT_TRUE(free.report.is_asleep);
   EXPECT_EQ(free.positions, rest);
   EXPECT_EQ(free.normals, rest_normals);
+}
+
+TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
+  // A condyle of 10 mm beside the rod: shaft, frame or hook press it, far behind the tip.
+  for (const ToolKind kind : {ToolKind::kPunch, ToolKind::kProbe, ToolKind::kShaver}) {
+    LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.01, 5));
+    loaded.scene.tissues[0].pose.position = {0, 0.0105, 0.032};
+    Hand hand(loaded);
+    hand.session.SetInstrument(kind);
+    const glm::dvec3 origin = loaded.scene.tissues[0].pose.position;
+    const auto rest = hand.session.tissues()->bodies[0].positions;
+    double worst_inside = 0, deepest = 0, least_force = 1e9;
+    for (int i = 0; i <= 200; ++i) {
+      hand.instrument.Set({-0.0015 * std::min(i, 100), 0, 0.05 * i, 0.038});
+      const ToolState tool = hand.Tick(50);
+      if (i < 100) continue;
+      least_force = std::min(least_force, glm::length(tool.tip_force));
+      const BodyPicture& shown = hand.session.tissues()->bodies[0];
+      std::array<Capsule, kMaxCapsules> capsules;
+      const ToolInput drawn{true, PortalFromTool({0, 0, 0}, tool.proxy_in_portal, tool.pose.roll),
+                            tool.opening, false};
+      const int count = PosedCapsules(ShapeOf(kind), drawn, capsules);
+      for (std::size_t v = 0; v < rest.size(); ++v) {
+        deepest = std::max(deepest, glm::distance(shown.positions[v], rest[v]));
+        for (int c = 0; c < count; ++c) {
+          const Capsule& part = capsules[static_cast<std::size_t>(c)];
+          worst_inside = std::max(worst_inside, -DistanceToCapsule(origin + shown.positions[v],
+                                                                   part.a, part.b, part.radius));
+        }
+      }
+    }
+    std::printf(
+        "[ layer ] %s: dent of %.3f mm at most, a vertex of it %.4f mm in the tool, force "
+        "%.2f N at least\n",
+        kind == ToolKind::kPunch   ? "punch"
+        : kind == ToolKind::kProbe ? "probe"
+                                   : "shaver",
+        1e3 * deepest, 1e3 * worst_inside, least_force);
+    EXPECT_GT(least_force, 0.1);
+    // The picture's frame is up to a sixtieth of a second behind: at a hand at rest it is not.
+    EXPECT_LT(worst_inside, 2e-6);
+    EXPECT_LT(deepest, 2.5e-3);
+  }
 }
 
 TEST(ThinLayer, TakesWhatTheSceneSaysOtherwise) {

@@ -154,50 +154,33 @@ TEST(ElasticLayer, RefusesWhatIsNoLayer) {
   EXPECT_THROW(ElasticLayer(material, 1e-3), Error);
 }
 
-TEST(ElasticLayer, InSeriesWithASpringIsNeverStifferThanTheSpring) {
-  // From hip devices' 10 N/m to 20 kN/m, on the layer of a soft and of a stiff cartilage.
-  double worst = 0, stiffest = 0;
-  for (double young : {0.3e6, 1.5e6, 15e6}) {
-    Material material;
-    material.young_modulus = young;
-    material.poisson_ratio = 0.45;
-    const ElasticLayer layer(material, 2.5e-3);
-    for (double spring : {10.0, 500.0, 3000.0, 2e4})
-      for (double radius : {0.5e-3, 0.75e-3, 2.25e-3}) {
-        double last = 0, depth_before = 0;
-        for (double depth = 1e-8; depth < 5e-3; depth *= 1.05) {
-          const double sink = layer.BallDepthBySpring(radius, spring, depth);
-          const double force = spring * (depth - sink);
-          if (sink < layer.thickness())
-            worst =
-                std::max(worst, std::abs(layer.PressBall(radius, sink).force / (spring * depth) -
-                                         force / (spring * depth)));
-          else
-            EXPECT_GE(force, layer.PressBall(radius, sink).force) << "the bone bears the rest";
-          ASSERT_GT(sink, 0);
-          ASSERT_LE(sink, std::min(depth, layer.thickness()));
-          const double slope = (force - last) / (depth - depth_before) / spring;
-          ASSERT_GE(slope, 0);
-          stiffest = std::max(stiffest, slope);
-          last = force;
-          depth_before = depth;
-        }
-      }
-  }
-  std::printf("[ layer ] series residual %.2g of spring x depth, stiffest %.6f of the spring\n",
-              worst, stiffest);
-  EXPECT_LE(worst, 2e-12);
-  EXPECT_LE(stiffest, 1 + 1e-9);
-  const ElasticLayer layer = LayerOf(0.45);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (double bad : {nan, 0.0, -1.0, std::numeric_limits<double>::infinity()}) {
-    EXPECT_EQ(layer.BallDepthBySpring(bad, 500, 1e-3), 0);
-    EXPECT_EQ(layer.BallDepthBySpring(1e-3, bad, 1e-3), 0);
-    EXPECT_EQ(layer.BallDepthBySpring(1e-3, 500, bad), 0);
+// Half plane: F' = π E* a²/4R [Johnson 1985, 4.45]. A line that is wide beside the thickness feels
+// the foundation, ∫ (δ − x²/2R) = 4/3 δ √(2Rδ) wide.
+TEST(ElasticLayer, ALyingRodIsHertzsLineWhenItIsThinAndTheFoundationWhenItIsThick) {
+  for (double nu : {0.0, 0.3, 0.45}) {
+    const ElasticLayer layer = LayerOf(nu);
+    const LayerTouch thin = layer.PressLine(1e-4, 1e-5);
+    const double a = thin.contact_radius;
+    EXPECT_NEAR(thin.force / (std::numbers::pi * kE / (1 - nu * nu) * a * a / (4 * 1e-4)), 1, 1e-3);
+    const LayerTouch thick = layer.PressLine(2.0, 1e-4);
+    const double wide = layer.foundation() * 4.0 / 3 * 1e-4 * std::sqrt(2 * 2.0 * 1e-4);
+    std::printf("[ layer ] nu %.2f: line %.1f thicknesses wide is %.3f of the foundation\n", nu,
+                thick.contact_radius / kThickness, thick.force / wide);
+    EXPECT_NEAR(thick.force / wide, 1, 0.1);
+    for (double depth = 1e-7; depth < 2e-3; depth *= 1.3) {
+      const LayerTouch touch = layer.PressLine(0.75e-3, depth);
+      const double step = 1e-4 * depth;
+      const double slope = (layer.PressLine(0.75e-3, depth + step).force -
+                            layer.PressLine(0.75e-3, depth - step).force) /
+                           (2 * step);
+      EXPECT_NEAR(touch.stiffness / slope, 1, 1e-3) << depth;
+    }
+    EXPECT_EQ(layer.PressLine(0.75e-3, -1e-3).force, 0);
+    EXPECT_EQ(layer.PressLine(std::nan(""), 1e-3).force, 0);
   }
 }
 
-static_assert(noexcept(std::declval<const ElasticLayer&>().BallDepthBySpring(1e-3, 500, 1e-3)));
+static_assert(noexcept(std::declval<const ElasticLayer&>().PressLine(1e-3, 1e-3)));
 
 }  // namespace
 }  // namespace arthro::simulation

@@ -84,13 +84,5 @@ TEST(ToolShape, AnAbsentToolHasNoCapsules) {
   EXPECT_EQ(PosedCapsules(ShapeOf(ToolKind::kProbe), {}, capsules), 0);
 }
 
-TEST(ToolShape, TheEndIsWhatReachesFurthestAlongTheRod) {
-  EXPECT_EQ(EndRadius(ShapeOf(ToolKind::kProbe)), 0.75e-3);
-  EXPECT_EQ(EndRadius(ShapeOf(ToolKind::kPunch)), 0.5e-3);
-  EXPECT_EQ(EndRadius(ShapeOf(ToolKind::kShaver)), 2.25e-3);
-  EXPECT_EQ(EndRadius(ShapeOf(ToolKind::kGrasper)), 0.8e-3);
-  EXPECT_EQ(EndRadius(ShapeOf(ToolKind::kNone)), 0.0);
-}
-
 }  // namespace
 }  // namespace arthro::simulation
