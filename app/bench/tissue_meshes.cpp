@@ -210,7 +210,7 @@ GridTicks BentMeniscusTicks(int beyond, int across) {
 
 GridTicks PressedMeniscusTicks() {
   return MeniscusTicks({6.5, kPatchDegrees, 10.8, 21, kSweepDegrees / 2},
-                       {10, 11.55, 12.35, 12.5, 12.8, 14.55, 15, 15.5, 16.5, 20}, {0, 0.8, 1});
+                       {10, 11.5, 12.2, 12.5, 12.8, 14.5, 15, 15.5, 16.5, 20}, {0, 0.8, 1});
 }
 
 }  // namespace arthro::app
