@@ -60,7 +60,7 @@ BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const Body
       fixed(FixedBy(spec.fixed, mesh)),
       skin(std::move(carried)),
       skin_contact(skin, mesh, field),
-      rest_contact(mesh, fixed),
+      rest_contact(mesh, fixed, model->NodeShares()),
       skin_at_rest(std::make_shared<const BodySkin>(
           BodySkin{skin.rest, share.empty() ? std::vector<std::uint8_t>{}
                                             : FreshVertices(skin.rest, field)})) {}
@@ -232,13 +232,6 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   for (std::size_t i = 0; i < own.tool_count && i < coupling.size(); ++i)
     own.AddCoupling(static_cast<int>(i), {own.contacts.data(), of_tools}, results.first(of_tools),
                     coupling[i]);
-
-  // The factor that a cut made at once knows nothing of what the tissue touches: now it can.
-  if (report.was_cut) {
-    own.solver.BeginRefresh();
-    own.solver.RunRefresh();
-    own.solver.TakeRefreshed();
-  }
 
   // A preconditioner that grows old is made anew; a body at rest sleeps.
   ++own.since_refresh;

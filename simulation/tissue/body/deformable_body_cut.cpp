@@ -283,13 +283,8 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
 
   const std::vector<int> from = PreviousNodes(after);
   shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin), field);
-  // What a cut softens a hundredfold the old factor does not know: it took up to 200 iterations a
-  // step, dearer than a new factor (20 ms for 600 elements) at once.
   if (finish_refresh) finish_refresh();
   solver.Replace(shape->model, shape->fixed, from);
-  solver.BeginRefresh();
-  solver.RunRefresh();
-  solver.TakeRefreshed();
   wants_refresh = false;
   since_refresh = 0;
   BodyState moved;

@@ -53,11 +53,14 @@ std::vector<int> SurfaceNodes(const TetMesh& mesh) {
   return nodes;
 }
 
-ObstacleContact::ObstacleContact(const TetMesh& mesh, std::span<const std::uint8_t> fixed) {
+ObstacleContact::ObstacleContact(const TetMesh& mesh, std::span<const std::uint8_t> fixed,
+                                 std::span<const double> share) {
   for (const int node : SurfaceNodes(mesh)) {
     const auto i = static_cast<std::size_t>(node);
     if (i < fixed.size() && (fixed[i] & kHeld) == kHeld) continue;
-    nodes_.push_back({node, mesh.rest_positions[i], -1.0});
+    nodes_.push_back({.index = node,
+                      .seen = mesh.rest_positions[i],
+                      .share = i < share.size() ? share[i] : 1.0});
   }
 }
 
@@ -96,7 +99,7 @@ void ObstacleContact::Find(const RigidObstacle& obstacle, const Rigid3& portal_f
     contact.weight[0] = 1.0;
     contact.normal = body_from_portal * normal;
     contact.foot = place - gap * contact.normal;
-    contact.stiffness = options.stiffness;
+    contact.stiffness = options.stiffness * node.share;
     contact.friction = options.friction;
     contact.start = place;
     contacts.push_back(contact);

@@ -22,8 +22,12 @@ struct ObstacleContactOptions {
 
 class ObstacleContact {
  public:
-  // `fixed`: a byte a node, 7 for one that cannot move (solver's FixedAxes); or empty.
-  ObstacleContact(const TetMesh& mesh, std::span<const std::uint8_t> fixed);
+  // `fixed`: a byte a node, 7 for one that cannot move (solver's FixedAxes); or empty. `share`:
+  // what is left of the tissue about a node (FemModel::NodeShares), or empty: all of it. A node is
+  // held out by that part of the stiffness: what stands for nothing but cut away tissue rests on
+  // nothing.
+  ObstacleContact(const TetMesh& mesh, std::span<const std::uint8_t> fixed,
+                  std::span<const double> share = {});
 
   // A node that lies below the obstacle when nothing is deformed rests there, since models are laid
   // by hand: from now on only what it goes deeper counts. `rest`: the mesh's rest positions.
@@ -45,6 +49,7 @@ class ObstacleContact {
     glm::dvec3 seen{0.0};  // where it was when it was last looked at
     double clear = -1;     // how far it may go from there unseen; negative: not seen yet
     double rest_gap = 0;   // m, 0 or below: where it lay before
+    double share = 1;      // of the stiffness
   };
   std::vector<Node> nodes_;
 };

@@ -166,7 +166,8 @@ int MeshCutter::PartNear(int e, const glm::dvec4& barycentric) const {
 ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest) const {
   ElementCopy found;
   if (element < 0 || element >= static_cast<int>(elements_.size())) return found;
-  int best = element, part = PartNear(element, PointIn(whole_, element, rest).barycentric);
+  const ElementPoint own = PointIn(whole_, element, rest);
+  int best = element, part = PartNear(element, own.barycentric);
   if (part < 0) {
     // Around it, ring by ring: the element with the nearest solid point.
     double nearest2 = std::numeric_limits<double>::max();
@@ -195,7 +196,7 @@ ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest) const {
   }
   if (part < 0) return found;
   found.element = elements_[At(best)].parts[At(part)].copy;
-  found.weight = PointIn(whole_, best, rest).weight;
+  found.weight = best == element ? own.weight : PointIn(whole_, best, rest).weight;
   return found;
 }
 

@@ -44,7 +44,9 @@ ElementPoint PointIn(const TetMesh& mesh, int element, const glm::dvec3& rest) {
     if (i + 1 == kSteps || glm::dot(step, step) < 1e-30) break;
     const glm::dvec4 next =
         point.barycentric + glm::dvec4(-step.x - step.y - step.z, step.x, step.y, step.z);
-    point.barycentric = Clamped(next);
+    const glm::dvec4 held = Clamped(next), moved = held - point.barycentric;
+    if (glm::dot(moved, moved) < 1e-30) break;  // outside, as near as it comes
+    point.barycentric = held;
   }
   for (std::size_t a = 0; a < n; ++a)
     point.weight[a] = shape.value[a] + glm::dot(shape.slope[a], step);

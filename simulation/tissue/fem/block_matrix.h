@@ -18,6 +18,7 @@ struct BlockPattern {
   int node_count() const { return static_cast<int>(diagonal.size()); }
   // Where block (row, column) is; −1: not there.
   int Find(int row, int column) const;
+  bool operator==(const BlockPattern&) const = default;
 };
 
 // Every two nodes of one element meet.

@@ -249,6 +249,19 @@ void FemModel::NodeRotations(std::span<const glm::dvec3> x, std::span<glm::dmat3
   kernel->rotations(rotation);
 }
 
+std::vector<double> FemModel::NodeShares() const {
+  std::vector<double> left(mass_.size(), 0.0), whole(mass_.size(), 0.0);
+  const std::size_t points = points_per_element(), nodes = mesh_.NodesPerElement();
+  for (std::size_t at = 0; at < whole_volume_.size(); ++at)
+    for (std::size_t a = 0; a < nodes; ++a) {
+      const int node = mesh_.elements[at / points * nodes + a];
+      left[node] += whole_volume_[at] * share_[at];
+      whole[node] += whole_volume_[at];
+    }
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = whole[i] > 0 ? left[i] / whole[i] : 0.0;
+  return left;
+}
+
 void FemModel::AddBodyForce(const glm::dvec3& per_volume, std::span<glm::dvec3> force) const {
   const int n = mesh_.NodesPerElement(), points = points_per_element();
   const auto& quadrature = QuadratureOf(mesh_.order);

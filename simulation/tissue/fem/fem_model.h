@@ -47,6 +47,7 @@ class FemModel {
   std::span<const double> mass() const { return mass_; }  // kg a node, lumped (HRZ), positive
   double volume() const { return volume_; }               // m³, with the shares
   std::span<const double> shares() const { return share_; }
+  std::vector<double> NodeShares() const;  // a node: what part of its elements is still there
 
   // New shares on the same elements; masses follow.
   void SetShares(std::span<const double> share);

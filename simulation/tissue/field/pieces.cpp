@@ -34,18 +34,27 @@ FieldPieces PiecesOf(const SolidField& field) {
       }
     }
   }
+  std::array<std::size_t, 8> offset;
+  for (int c = 0; c < 8; ++c)
+    offset[static_cast<std::size_t>(c)] = grid.Index(c & 1, c >> 1 & 1, c >> 2);
   for (int k = 0; k + 1 < grid.count[2]; ++k)
     for (int j = 0; j + 1 < grid.count[1]; ++j)
       for (int i = 0; i + 1 < grid.count[0]; ++i) {
         std::array<std::int32_t, 8> corner;
         int solid = 0;
-        for (int c = 0; c < 8; ++c) {
-          corner[static_cast<std::size_t>(c)] =
-              pieces.piece[grid.Index(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
-          solid += corner[static_cast<std::size_t>(c)] >= 0;
+        bool is_one = true;
+        const std::size_t first = grid.Index(i, j, k);
+        for (std::size_t c = 0; c < 8; ++c) {
+          corner[c] = pieces.piece[first + offset[c]];
+          solid += corner[c] >= 0;
+          is_one = is_one && corner[c] == corner[0];
         }
         if (solid == 0) continue;
         const double volume = field.CellVolume(i, j, k);
+        if (is_one) {
+          pieces.volume[static_cast<std::size_t>(corner[0])] += volume;
+          continue;
+        }
         for (std::size_t c = 0; c < 8; ++c) {
           if (corner[c] < 0) continue;
           // All corners of this piece at once.

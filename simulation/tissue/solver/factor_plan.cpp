@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cholmod.h>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "simulation/core/error.h"
@@ -8,6 +10,8 @@
 
 namespace arthro::simulation {
 namespace {
+
+constexpr double kWornOut = 1.5;  // work a free axis, over what it was when an order was sought
 
 // CHOLMOD's own state, its objects given back whatever happens.
 struct Session {
@@ -32,7 +36,14 @@ struct Matrix {
 struct Symbolic {
   Session& session;
   cholmod_factor* value;
+  Symbolic(Session& of, cholmod_factor* made) : session(of), value(made) {}
   ~Symbolic() { cholmod_free_factor(&value, &session.common); }
+  Symbolic(Symbolic&& other) noexcept
+      : session(other.session), value(std::exchange(other.value, nullptr)) {}
+  Symbolic& operator=(Symbolic&& other) noexcept {
+    std::swap(value, other.value);  // of one session
+    return *this;
+  }
 };
 
 [[noreturn]] void GiveUp() {
@@ -63,6 +74,19 @@ Matrix NodeGraph(Session& session, const BlockPattern& pattern, const FixedAxes&
 
 FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fixed)
     : pattern_(std::move(pattern)), fixed_(std::move(fixed)) {
+  Analyse({});
+}
+
+FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fixed,
+                       const FactorPlan& before, std::span<const int> parent)
+    : pattern_(std::move(pattern)), fixed_(std::move(fixed)), sought_flops_(before.sought_flops_) {
+  std::vector<int> order(parent.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int node) { return before.rank_[parent[node]]; });
+  Analyse(std::move(order));
+}
+
+void FactorPlan::Analyse(std::vector<int> order) {
   const int nodes = pattern_->node_count();
   if (fixed_.empty()) fixed_.assign(nodes, 0);
   // Free axes in the mesh's order.
@@ -74,10 +98,10 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
         axis.push_back(3 * i + a);
       }
   size_ = static_cast<int>(axis.size());
+  rank_.assign(nodes, 0);
   if (size_ == 0) return;
 
   Session session;
-  const Matrix graph = NodeGraph(session, *pattern_, fixed_);
   // The scalar pattern, lower triangle.
   std::size_t entries = 0;
   for (int j : axis) entries += 3 * (pattern_->row_begin[j / 3 + 1] - pattern_->row_begin[j / 3]);
@@ -103,33 +127,42 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
   }
   begin[n] = count;
 
-  // Nodes are ordered, not axes: a third of the work, and a node's axes stay together. Nested
-  // dissection gives the smaller factor on volumes, minimum degree on thin sheets: both are tried.
-  double best = 0;
-  std::vector<int> best_order;
-  for (const bool dissects : {true, false}) {
-    std::vector<int> order(nodes);
-    const int done =
-        dissects ? cholmod_metis(graph.value, nullptr, 0, true, order.data(), &session.common)
-                 : cholmod_amd(graph.value, nullptr, 0, order.data(), &session.common);
-    if (!done) continue;
+  // Nodes are ordered, not axes: a third of the work, and a node's axes stay together.
+  const auto analysis_of = [&](const std::vector<int>& of_nodes) {
     std::vector<int> scalars;
-    for (int node : order)
+    for (int node : of_nodes)
       for (int a = 0; a < 3; ++a)
         if (const int i = index[3 * node + a]; i >= 0) scalars.push_back(i);
-    const Symbolic symbolic{
-        session, cholmod_analyze_p(scalar.value, scalars.data(), nullptr, 0, &session.common)};
-    if (!symbolic.value) continue;
-    if (best_order.empty() || session.common.fl < best) {
-      best = session.common.fl;
-      best_order = scalars;
-    }
+    return Symbolic{session,
+                    cholmod_analyze_p(scalar.value, scalars.data(), nullptr, 0, &session.common)};
+  };
+  Symbolic symbolic{session, nullptr};
+  if (!order.empty()) {
+    symbolic = analysis_of(order);
+    flops_ = session.common.fl;
+    // Much dearer than it was: another order is due.
+    if (flops_ > kWornOut * sought_flops_ * size_) order.clear();
   }
-  if (best_order.empty()) GiveUp();
-  const Symbolic symbolic{
-      session, cholmod_analyze_p(scalar.value, best_order.data(), nullptr, 0, &session.common)};
+  if (order.empty()) {
+    // Nested dissection gives the smaller factor on volumes, minimum degree on thin sheets: both
+    // are tried.
+    const Matrix graph = NodeGraph(session, *pattern_, fixed_);
+    for (const bool dissects : {true, false}) {
+      std::vector<int> sought(nodes);
+      const int done =
+          dissects ? cholmod_metis(graph.value, nullptr, 0, true, sought.data(), &session.common)
+                   : cholmod_amd(graph.value, nullptr, 0, sought.data(), &session.common);
+      if (!done) continue;
+      Symbolic analysis = analysis_of(sought);
+      if (!analysis.value || (!order.empty() && session.common.fl >= flops_)) continue;
+      flops_ = session.common.fl;
+      symbolic = std::move(analysis);
+      order = std::move(sought);
+    }
+    sought_flops_ = flops_ / size_;
+  }
   if (!symbolic.value || !symbolic.value->is_super) GiveUp();
-  flops_ = best;
+  for (int i = 0; i < nodes; ++i) rank_[order[i]] = i;
 
   // Supernodes, with rows padded to strips.
   const cholmod_factor& l = *symbolic.value;
@@ -168,6 +201,15 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
       entry_.push_back(
           {s.value + static_cast<std::int64_t>(column - s.first) * s.stride + place, from[k]});
     }
+}
+
+std::shared_ptr<const FactorPlan> PlanAfter(const std::shared_ptr<const FactorPlan>& before,
+                                            std::span<const int> parent,
+                                            const std::shared_ptr<const BlockPattern>& pattern,
+                                            const FixedAxes& fixed) {
+  if (before->Fits(*pattern, fixed)) return before;
+  return parent.empty() ? std::make_shared<const FactorPlan>(pattern, fixed)
+                        : std::make_shared<const FactorPlan>(pattern, fixed, *before, parent);
 }
 
 }  // namespace arthro::simulation

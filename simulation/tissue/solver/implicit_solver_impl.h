@@ -36,6 +36,9 @@ struct NewtonGoal {
   int patience = 1 << 30;  // iterations after which a tangent that was not positive ends it
 };
 
+// Newton iterations with the projected tangent after the true one was found not to be positive.
+inline constexpr int kProjectedIterations = 3;
+
 struct ImplicitSolver::Impl {
   Impl(std::shared_ptr<const FemModel> model_in, FixedAxes fixed_in,
        const SolverOptions& options_in);
@@ -64,7 +67,7 @@ struct ImplicitSolver::Impl {
   std::vector<ContactSpring> SpringsWithout(std::span<const ContactPoint> points) const;
 
   // factor_refresh.cpp
-  void FactorNow(std::span<const glm::dvec3> x);
+  void FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept;
   void AddSprings(BlockMatrix& to) const;
 
   void FinishReactions(const Problem& problem);
@@ -106,6 +109,8 @@ struct ImplicitSolver::Impl {
   int recovery_rounds = 0, rounds_once_clean = 0;
   bool has_given_up = false;  // recovering ended with elements inverted: they are meant to be
   bool wants_factor = false;  // the last system asked for many iterations
+  bool was_shifted = false;   // the last factor that was made failed for that
+  bool needs_factor = false;  // the body was cut: the next system wants its own
   bool met_negative = false;  // since Newton began, the true tangent was not positive
   int projected_left = 0;     // Newton iterations that go on with the projected tangent
 
@@ -121,7 +126,10 @@ struct ImplicitSolver::Impl {
   enum class Job { kNone, kBegun, kDone, kFailed };
   std::atomic<Job> job{Job::kNone};
   std::unique_ptr<RotatedFactor> spare;
+  std::shared_ptr<const FactorPlan> job_plan;  // of the factor then, and its parent()
+  std::vector<int> job_plan_parent;
   FixedAxes job_fixed;
+  bool job_is_shifted = false;  // the tangent was far from positive
   BlockMatrix job_stiffness;
   std::vector<double> job_added;
   std::vector<glm::dmat3> job_rotation;

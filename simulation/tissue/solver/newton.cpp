@@ -11,10 +11,12 @@ namespace {
 
 // Beyond this residual, inverted elements are a state to be left; below, an answer under load.
 constexpr double kFarFromRest = 0.2;
-constexpr int kProjectedIterations = 3;  // after the true tangent was found not to be positive
 constexpr int kFollowingIterations = 300;
 constexpr double kAsleep = 1e-4;    // of the tolerance: a step that begins there has nothing to do
 constexpr int kManyIterations = 8;  // that call for a new factor where one may be made
+// As many take as long as a new factor: a system that is not solved by then gets one and begins
+// again.
+constexpr int kIterationsOfAFactor = 40;
 
 }  // namespace
 
@@ -105,9 +107,12 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     linear.relative = 1e-5;
     linear.residual = 1e-5 * residual * scale;
   }
+  const int most = linear.max_iterations;
   model->NodeRotations(x, rotation);
-  if (goal.refactors && wants_factor) FactorNow(x);
-  wants_factor = false;
+  const bool begins_anew = needs_factor || (goal.refactors && wants_factor);
+  if (begins_anew) FactorNow(x, goal.follows);
+  wants_factor = needs_factor = false;
+  bool may_factor = !begins_anew;
   for (int attempt = 0; attempt < 3; ++attempt) {
     const LinearSystem system = System();
     for (std::size_t i = 0; i < x.size(); ++i) right[i] = -gradient[i];
@@ -117,6 +122,8 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     }
     factor->TurnTo(rotation);
     factor->SetDiagonal(stiffness, system.added);
+    linear.max_iterations =
+        may_factor && !goal.refactors ? std::min(most, kIterationsOfAFactor) : most;
     const CgResult result = SolveByGradients(system, *factor, right, linear, vectors, direction);
     report.iterations += result.iterations;
     wants_factor = wants_factor || result.iterations > kManyIterations;
@@ -126,10 +133,11 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
       projected_left = kProjectedIterations;
       if (at_tangent == Tangent::kProjected) break;
       Evaluate(x, at_law, Tangent::kProjected);
-    } else if (result.converged || !goal.refactors || attempt > 0) {
+    } else if (result.converged || !may_factor) {
       break;
     } else {
-      FactorNow(x);
+      FactorNow(x, goal.follows);
+      may_factor = false;
     }
   }
   if (leads)

@@ -22,6 +22,8 @@ class RotatedFactor {
   RotatedFactor(std::unique_ptr<SparseFactor> factor, std::span<const glm::dmat3> rotation);
 
   SparseFactor& factor() { return *factor_; }
+  // A node of the body: which one it is in the factor; empty: the same.
+  std::span<const int> parent() const { return parent_; }
   // After factoring anew into the same memory: a factor of its own plan's body again.
   void SetRotations(std::span<const glm::dmat3> rotation);
 

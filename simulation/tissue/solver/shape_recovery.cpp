@@ -7,10 +7,10 @@
 #include "simulation/tissue/solver/node_vectors.h"
 
 // From any start to one without inverted elements. Where more than a fifth of them is inverted,
-// nothing of the shape can be trusted: the body begins again from its rest shape, laid on what holds
-// it. (Descending from there by the law below ended in knots, twisted by whole turns with no element
-// inverted: one of ten random starts on T4, five of ten on T10.) Else by the corotated law with
-// nu = 0,
+// nothing of the shape can be trusted: the body begins again from its rest shape, laid on what
+// holds it. (Descending from there by the law below ended in knots, twisted by whole turns with no
+// element inverted: one of ten random starts on T4, five of ten on T10.) Else by the corotated law
+// with nu = 0,
 //   Ψ = μ ‖F − R‖²,
 // whose tangent is nowhere larger than 2μ ∫ ∇N·∇N, the same for every shape: with that fixed matrix
 // each iteration lowers the energy without a line search [Bouaziz et al. 2014: local and global
@@ -47,11 +47,8 @@ void ImplicitSolver::Impl::MakeRecovery() {
   const auto mass = model->mass();
   std::vector<double> with(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (kUsualStep * kUsualStep);
-  const FactorPlan& made = factor->factor().plan();
-  const bool fits = made.pattern() == model->pattern() && made.fixed() == fixed;
   recovery_factor = std::make_unique<SparseFactor>(
-      fits ? factor->factor().shared_plan()
-           : std::make_shared<const FactorPlan>(model->pattern(), fixed));
+      PlanAfter(factor->factor().shared_plan(), factor->parent(), model->pattern(), fixed));
   recovery_factor->Factor(bound, with);
 }
 

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "simulation/tissue/body/deformable_body.h"
+#include "tests/simulation/tissue/body/meniscus_body.h"
+#include "tests/simulation/tissue/body/plateau.h"
 #include "tests/simulation/tissue/body/slab_body.h"
 #include "tests/support/allocation_counter.h"
 
@@ -180,6 +182,39 @@ TEST(HardCase22, CutsWhileTouchedStaySound) {
   }
   printf("%d cuts, at most %d iterations\n", cuts, most);
   EXPECT_GT(cuts, 12);
+  EXPECT_LE(most, 60);
+}
+
+// Hard case 22 where the tissue rests on something: what is nearly shaved away lies on it too.
+TEST(HardCase22, AShaverOnTissueThatLiesOnBoneAsksForFewIterations) {
+  const BodySpec spec = test::MeniscusBody();
+  DeformableBody body(spec, {});
+  const test::Plateau plateau(spec.portal_from_body);
+  WorldTool shaver;
+  shaver.shape = ShapeOf(ToolKind::kShaver);
+  shaver.now.is_present = shaver.now.is_running = true;
+  ToolCoupling coupling;
+  int most = 0, cuts = 0;
+  for (int i = 0; i < 240; ++i) {
+    // To and fro along the thin edge, down through it onto the bone.
+    const double angle = 0.3 * std::sin(0.04 * i), height = 1.5e-3 - std::min(i * 2e-5, 2.5e-3);
+    const Rigid3 body_from_tool{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)),
+                                {0.0115 * std::cos(angle), 0.0115 * std::sin(angle), height}};
+    shaver.now.portal_from_tool = spec.portal_from_body * body_from_tool;
+    coupling = {};
+    const BodyReport report = body.Step({&shaver, 1}, &plateau, test::kFrame, {&coupling, 1});
+    ASSERT_FALSE(report.was_reset) << i;
+    most = std::max(most, report.step.iterations / std::max(1, report.step.newton));
+    cuts += report.was_cut;
+    if (body.WantsRefresh()) {
+      body.BeginRefresh();
+      body.RunRefresh();
+      body.TakeRefresh();
+    }
+  }
+  printf("%d cuts, %.1f mm3, at most %d iterations\n", cuts, 1e9 * body.cut_report().removed, most);
+  EXPECT_GT(cuts, 30);
+  EXPECT_GT(body.cut_report().removed, 5e-9);
   EXPECT_LE(most, 60);
 }
 

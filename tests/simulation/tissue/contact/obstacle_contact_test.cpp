@@ -102,6 +102,26 @@ TEST(ObstacleContact, NodesThatCannotMoveAreNotAsked) {
   EXPECT_EQ(bone.asked, 0);
 }
 
+// What a cut has left of a node's tissue rests by as much: a node that stands for nothing any more
+// would be held out by springs a hundred times stiffer than its elements.
+TEST(ObstacleContact, NodesAreHeldOutByWhatIsLeftOfTheirTissue) {
+  const TetMesh mesh = test::SlabMesh(2, {4, 4, 4});
+  std::vector<double> share(mesh.rest_positions.size(), 1.0);
+  for (std::size_t i = 0; i < share.size(); ++i)
+    if (mesh.rest_positions[i].x > 0) share[i] = 0.01;
+  const Bone bone = BoneAt(0.0);
+  std::vector<glm::dvec3> pressed = mesh.rest_positions;
+  for (glm::dvec3& x : pressed) x.z -= 1e-4;
+  ObstacleContact contact(mesh, {}, share);
+  contact.LayAtRest(bone, kPose, mesh.rest_positions);
+  std::vector<ContactPoint> found;
+  const ObstacleContactOptions options;
+  contact.Find(bone, kPose, pressed, options, found);
+  ASSERT_GT(found.size(), 1u);
+  for (const ContactPoint& c : found)
+    EXPECT_EQ(c.stiffness, options.stiffness * share[static_cast<std::size_t>(c.node[0])]);
+}
+
 TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
   const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
   ObstacleContact lazy(mesh, {});

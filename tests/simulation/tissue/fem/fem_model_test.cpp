@@ -114,6 +114,20 @@ TEST_P(EachOrder, SharesScaleWhatIsThere) {
 
 // Elements of no share are as if they were not there: the rest answers as the mesh of the rest,
 // their own nodes keep a mass above nothing, and inside out they do not count.
+TEST(FemModel, ANodeKnowsWhatIsLeftOfItsElements) {
+  TetMesh mesh;
+  mesh.order = 1;
+  mesh.rest_positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -3}};
+  mesh.elements = {0, 1, 2, 3, 0, 2, 1, 4};
+  FemModel model(mesh, Material{});
+  for (const double share : model.NodeShares()) EXPECT_EQ(share, 1.0);
+  model.SetShares(std::vector<double>{0.2, 1.0});
+  const std::vector<double> share = model.NodeShares();
+  EXPECT_NEAR(share[3], 0.2, 1e-15);
+  EXPECT_NEAR(share[4], 1.0, 1e-15);
+  EXPECT_NEAR(share[0], (0.2 * 1 + 3) / 4, 1e-15) << "by volume";
+}
+
 TEST_P(EachOrder, WhatHasNoShareIsGone) {
   const TetMesh mesh = Block(GetParam());
   const int n = mesh.NodesPerElement(), points = n == 10 ? 4 : 1, kept = mesh.ElementCount() - 13;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "simulation/core/random.h"
@@ -137,6 +138,72 @@ TEST(SparseFactor, AnIndefiniteMatrixIsShiftedUntilItIsNot) {
       product += b[i].x * x[i].x + b[i].y * x[i].y + b[i].z * x[i].z;
     EXPECT_GT(product, 0.0);
   }
+}
+
+// Cells of 8 nodes in a row of 20 × 6 × 6; from `cut` on they have nodes of their own.
+struct Row {
+  std::vector<int> cells, parent;  // parent: which node of the whole row
+  std::shared_ptr<const BlockPattern> Pattern() const {
+    return std::make_shared<BlockPattern>(PatternOf(cells, 8, static_cast<int>(parent.size())));
+  }
+};
+Row RowCutAt(int cut) {
+  constexpr int kAcross = 7, kAlong = 21;
+  Row row;
+  for (int i = 0; i < kAlong * kAcross * kAcross; ++i) row.parent.push_back(i);
+  const auto copy_of = [&](int node) {
+    for (std::size_t i = kAlong * kAcross * kAcross; i < row.parent.size(); ++i)
+      if (row.parent[i] == node) return static_cast<int>(i);
+    row.parent.push_back(node);
+    return static_cast<int>(row.parent.size()) - 1;
+  };
+  for (int x = 0; x + 1 < kAlong; ++x)
+    for (int y = 0; y + 1 < kAcross; ++y)
+      for (int z = 0; z + 1 < kAcross; ++z)
+        for (int c = 0; c < 8; ++c) {
+          const int at = x + (c & 1);
+          const int node = (at * kAcross + y + (c >> 1 & 1)) * kAcross + z + (c >> 2);
+          row.cells.push_back(x >= cut && at == cut ? copy_of(node) : node);
+        }
+  return row;
+}
+
+TEST(FactorPlan, OfACutBodyKeepsTheOrderItHad) {
+  const Row whole = RowCutAt(100), cut = RowCutAt(7);
+  const auto before = std::make_shared<const FactorPlan>(whole.Pattern(), FixedAxes{});
+  const auto after = PlanAfter(before, cut.parent, cut.Pattern(), FixedAxes(cut.parent.size(), 0));
+  const FactorPlan sought(cut.Pattern(), FixedAxes{});
+  EXPECT_EQ(after->size(), 3 * static_cast<int>(cut.parent.size()));
+  EXPECT_LE(after->flops(), 1.1 * before->flops()) << "a cut row is no more work than a whole one";
+  printf("work of the cut row: %.3g, with an order of its own %.3g, of the whole row %.3g\n",
+         after->flops(), sought.flops(), before->flops());
+
+  // A matrix of that pattern: −1 to each neighbour, and what outweighs them.
+  BlockMatrix a{cut.Pattern(), {}};
+  for (int i = 0; i < a.pattern->node_count(); ++i)
+    for (int k = a.pattern->row_begin[i]; k < a.pattern->row_begin[i + 1]; ++k) {
+      const double value = k == a.pattern->diagonal[i] ? 27.5 : -1.0;
+      a.block.push_back({value, 0, 0, 0, value, 0, 0, 0, value});
+    }
+  SparseFactor factor(after);
+  ASSERT_EQ(factor.Factor(a, {}), 0.0);
+  std::vector<glm::dvec3> x(cut.parent.size()), b(x.size()), y(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = {std::sin(1.0 * i), std::cos(2.0 * i), 1.0};
+  Multiply(a, x, b);
+  factor.Solve(b, y);
+  double off = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) off = std::max(off, glm::length(y[i] - x[i]));
+  EXPECT_LT(off, 1e-5) << "kept in float";
+}
+
+TEST(FactorPlan, IsTheSameWhereNothingBecameOfTheCut) {
+  const Row whole = RowCutAt(100);
+  const auto before = std::make_shared<const FactorPlan>(whole.Pattern(), FixedAxes{});
+  const FixedAxes free(whole.parent.size(), 0);
+  EXPECT_EQ(PlanAfter(before, whole.parent, whole.Pattern(), free), before);
+  FixedAxes held = free;
+  held[3] = 7;
+  EXPECT_EQ(PlanAfter(before, {}, whole.Pattern(), held)->size(), before->size() - 3);
 }
 
 TEST(SparseFactor, NotFiniteIsSaid) {
