@@ -177,6 +177,7 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   };
   if (own.is_lost) return lost();
   own.TakeTools(tools);
+  if (own.spec.is_cuttable) own.PrepareToBeCut();
   if (own.is_asleep && !own.IsTouchedSoon()) {
     report.is_asleep = true;
     return report;

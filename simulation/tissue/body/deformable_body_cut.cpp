@@ -15,6 +15,9 @@
 namespace arthro::simulation {
 namespace {
 
+// A tool that cuts and comes so near finds the tissue prepared for it (50 ms) when it bites.
+constexpr double kPrepareReach = 5e-3;  // m
+
 constexpr double kSkinReach = 2.5;  // spacings outside the tissue that a cut still has to know
 
 bool Meet(const Box3& a, const Box3& b) {
@@ -149,6 +152,20 @@ Box3 DeformableBody::Impl::RestBoxOf(const Capsule& tool) {
   return {rest.low - 2.0 * field.spacing(), rest.high + 2.0 * field.spacing()};
 }
 
+void DeformableBody::Impl::PrepareToBeCut() noexcept {
+  for (std::size_t i = 0; i < tool_count && cut == nullptr; ++i) {
+    const PlacedTool& tool = placed[i];
+    const bool can_cut = tool.kind == ToolKind::kPunch || tool.kind == ToolKind::kShaver;
+    if (tool.count == 0 || !can_cut || !shape->skin_contact.IsNear({&tool.bite, 1}, kPrepareReach))
+      continue;
+    try {
+      BeginCutting();
+    } catch (const std::exception&) {  // no memory: at the cut it is tried again, and said
+      cut.reset();
+    }
+  }
+}
+
 bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double dt) {
   bool was_cut = false;
   for (std::size_t i = 0; i < tool_count; ++i) {
@@ -170,7 +187,13 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
   if (field.values()[node] > std::min(kSkinReach * grid.spacing, 0.9 * field.band())) return false;
   const int element = cut->element_of_node[node];
   if (element < 0 || cut->is_near[static_cast<std::size_t>(element)] == 0) return false;
-  const ElementCopy copy = cut->cutter.FindCopy(element, rest);
+  int& point = cut->point_of_node[node];
+  if (point < 0) {
+    point = static_cast<int>(cut->points.size());
+    cut->points.push_back(PointIn(spec.mesh, element, rest));
+  }
+  const ElementCopy copy =
+      cut->cutter.FindCopy(element, rest, cut->points[static_cast<std::size_t>(point)]);
   if (copy.element < 0) return false;
   const int nodes = shape->mesh.NodesPerElement();
   place = glm::dvec3(0.0);
@@ -183,16 +206,13 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
 
 // What a cut needs, made at the first one.
 void DeformableBody::Impl::BeginCutting() {
-  cut = std::make_unique<CutState>(CutState{MeshCutter(spec.mesh, field.spacing()),
-                                            FieldSkin(field),
-                                            UncutSurface(spec.surface),
-                                            field,
-                                            {},
-                                            {},
-                                            {},
-                                            {}});
+  cut = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
+                                            .skin = FieldSkin(field),
+                                            .uncut = UncutSurface(spec.surface),
+                                            .original = field});
   cut->cutter.Rebuild(field);
   cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
+  cut->point_of_node.assign(cut->element_of_node.size(), -1);
   cut->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
 }
 
@@ -214,7 +234,7 @@ void DeformableBody::Impl::CountRegions() {
 
 bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double dt) {
   if (!shape->skin_contact.IsNear({&tool, 1}, field.spacing())) return false;
-  if (cut == nullptr) BeginCutting();
+  if (cut == nullptr) BeginCutting();  // it came from far off in one step
   const Box3 box = RestBoxOf(tool);
   if (box.empty()) return false;
   const Deformation place_of = [this](const glm::dvec3& rest, glm::dvec3& place) {

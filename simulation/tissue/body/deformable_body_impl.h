@@ -30,16 +30,20 @@ struct BodyShape {
   std::shared_ptr<const BodySkin> skin_at_rest;
 };
 
-// Kept from the first cut on, the author's or a tool's.
+// Kept from the author's first cut on, or from when a tool that cuts first comes near.
 struct CutState {
   MeshCutter cutter;
   FieldSkin skin;
   UncutSurface uncut;
-  SolidField original;                 // with the author's cuts, before the first tool's
-  std::vector<int> element_of_vertex;  // of the whole mesh, one a vertex of the field's skin
-  std::vector<int> element_of_node;  // of the whole mesh, one a node of the field; −1: far from it
-  std::vector<unsigned char> is_near;  // of the whole mesh: an element where the tool is now
-  Shaver shaver;
+  SolidField original;                   // with the author's cuts, before the first tool's
+  std::vector<int> element_of_vertex{};  // of the whole mesh, one a vertex of the field's skin
+  std::vector<int>
+      element_of_node{};  // of the whole mesh, one a node of the field; −1: far from it
+  // Where in its element a node of the field is: kept, since a shaver asks ten times a second.
+  std::vector<int> point_of_node{};  // index in `points`; −1: not asked yet
+  std::vector<ElementPoint> points{};
+  std::vector<unsigned char> is_near{};  // of the whole mesh: an element where the tool is now
+  Shaver shaver{};
 };
 
 // A tool in the body's own frame.
@@ -65,6 +69,8 @@ struct DeformableBody::Impl {
   bool IsTouchedSoon() const noexcept;
   void AddCoupling(int tool, std::span<const ContactPoint> of_tools,
                    std::span<const ContactResult> results, ToolCoupling& coupling) noexcept;
+  // Begins cutting, where a tool that cuts comes near: 50 ms that the first bite does not take.
+  void PrepareToBeCut() noexcept;
   // Bites and shavings of this step; true when something was taken.
   bool CutWithTools(std::span<const WorldTool> tools, double dt);
   bool CutWith(const Capsule& tool, bool is_shaver, double dt);

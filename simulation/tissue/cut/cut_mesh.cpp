@@ -164,9 +164,13 @@ int MeshCutter::PartNear(int e, const glm::dvec4& barycentric) const {
 }
 
 ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest) const {
+  if (element < 0 || element >= static_cast<int>(elements_.size())) return {};
+  return FindCopy(element, rest, PointIn(whole_, element, rest));
+}
+
+ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest,
+                                 const ElementPoint& own) const {
   ElementCopy found;
-  if (element < 0 || element >= static_cast<int>(elements_.size())) return found;
-  const ElementPoint own = PointIn(whole_, element, rest);
   int best = element, part = PartNear(element, own.barycentric);
   if (part < 0) {
     // Around it, ring by ring: the element with the nearest solid point.

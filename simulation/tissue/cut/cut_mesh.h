@@ -19,6 +19,7 @@
 
 #include "simulation/core/options.h"
 #include "simulation/scene/tet_mesh.h"
+#include "simulation/tissue/cut/element_point.h"
 #include "simulation/tissue/cut/tet_lattice.h"
 #include "simulation/tissue/field/solid_field.h"
 
@@ -75,6 +76,8 @@ class MeshCutter {
   // Which copy carries a point at `rest` that lies in, or nearest to, `element` of the whole mesh:
   // the one whose solid is nearest. Where that element is gone, the nearest one around it.
   ElementCopy FindCopy(int element, const glm::dvec3& rest) const;
+  // The same for a point that is asked for again and again; `own` is PointIn of it in `element`.
+  ElementCopy FindCopy(int element, const glm::dvec3& rest, const ElementPoint& own) const;
 
  private:
   struct Part {                         // solid of an element that hangs together
