@@ -81,7 +81,9 @@ class ImplicitSolver {
   // factors (on any other thread; touches nothing that Step reads), Take swaps (on this thread).
   void BeginRefresh();
   void RunRefresh() noexcept;
-  bool TakeRefreshed() noexcept;  // false: none was ready
+  // False: none was ready, a step has made a younger one, or the tangent was too far from positive
+  // to be factored; then the next one is of the projected tangent.
+  bool TakeRefreshed() noexcept;
   int factor_age() const;         // steps since the factor in use was begun
 
   // Condensed compliance of the last step's system without the contacts of `points` themselves:

@@ -225,7 +225,7 @@ TEST(ToolOnLayers, ForcesGoOverFromPartToPartWithoutAStep) {
 
 TEST(ToolOnLayers, SpringAndLayersBalanceAndNoPartIsDeeperThanItIsSaid) {
   const LayerUnder condyle = Condyle();
-  for (const double deep : {0.2, 1.0, 3.0, 10.0})
+  for (const double deep : {0.2, 1.0, 3.0, 6.0, 10.0})
     for (const double tilt : {-0.4, 0.0, 0.3, 1.2}) {
       const std::vector<Capsule> tool = PunchAt(Lying(tilt, 0.2), 0.0);
       const glm::dvec3 start(2 * kMm, 0, 12 * kMm), hand(2 * kMm, 0, -deep * kMm);
@@ -235,7 +235,10 @@ TEST(ToolOnLayers, SpringAndLayersBalanceAndNoPartIsDeeperThanItIsSaid) {
         hold = HoldOnLayers({&condyle, 1}, tool, hand, hold.tip, kSpring, 0.0);
       ASSERT_EQ(hold.tissue, 0) << deep << " " << tilt;
       const LayerForce force = ForceOfLayers({&condyle, 1}, tool, hold.tip);
-      EXPECT_LT(glm::distance(hold.force, force.force), 1e-5) << deep << " " << tilt;
+      // Pushed with more than a device has (3.3 N at 6.6 mm) it may rest where two cells of the
+      // distance field meet, whose normals differ: there is no exact balance.
+      const double off = deep < 6.6 ? 1e-5 : 5e-3 * glm::length(hold.force);
+      EXPECT_LT(glm::distance(hold.force, force.force), off) << deep << " " << tilt;
       EXPECT_NEAR(glm::length(hold.force - kSpring * (hold.tip - hand)), 0.0, 1e-12);
       EXPECT_LT(hold.depth, kThick) << "the bone is there";
       for (const Capsule& c : tool)

