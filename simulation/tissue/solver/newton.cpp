@@ -12,7 +12,9 @@ namespace {
 // Beyond this residual, inverted elements are a state to be left; below, an answer under load.
 constexpr double kFarFromRest = 0.2;
 constexpr int kFollowingIterations = 300;
-constexpr double kAsleep = 1e-4;    // of the tolerance: a step that begins there has nothing to do
+constexpr double kAsleep = 1e-4;  // of the tolerance: a step that begins there has nothing to do
+// A direction far from balance need not be exact: a tenth of what is left [Eisenstat & Walker].
+constexpr double kForcing = 0.1;
 constexpr int kManyIterations = 8;  // that call for a new factor where one may be made
 // As many take as long as a new factor: a system that is not solved by then gets one and begins
 // again.
@@ -97,7 +99,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
   const bool is_static = problem.dt == 0;
   CgGoal linear;
   linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : goal.tolerance;
-  linear.residual = is_static ? 0.0 : 0.5 * goal.tolerance * scale;
+  linear.residual = is_static ? 0.0 : std::max(0.5 * goal.tolerance, kForcing * residual) * scale;
   linear.max_iterations = goal.max_iterations;
   if (goal.follows) {
     // The energy of an indefinite system's error says nothing, and plain Newton needs its whole
