@@ -18,7 +18,7 @@ constexpr double kForcing = 0.1;
 constexpr int kManyIterations = 8;  // that call for a new factor where one may be made
 // As many take as long as a new factor: a system that is not solved by then gets one and begins
 // again.
-constexpr int kIterationsOfAFactor = 40;
+constexpr int kIterationsOfAFactor = 36;
 
 }  // namespace
 
