@@ -1,0 +1,222 @@
+// The steps of the editor, practice, the window.
+#include <string>
+
+#include <GLFW/glfw3.h>
+
+#include "app/commands/depth_work.h"
+#include "app/commands/edits.h"
+#include "app/commands/list/command_groups.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+bool Practising(const State& state) { return state.practice.has_value(); }
+
+void StartPractice(State& state) {
+  WhenDepthIsReady(state, [](State& ready) {
+    ready.jobs.Start("Practise", [document = ready.document(), presets = ready.tissue_presets,
+                                  pace = ready.pace](const Progress&) {
+      const auto practice = std::make_shared<Practice>(document, presets, pace);
+      return [practice](State& now) {  // shared only because a std::function is copied
+        now.practice.emplace(std::move(*practice));
+        now.message = "Practice. Esc leaves it.";
+      };
+    });
+  });
+}
+
+void LeavePractice(State& state) {
+  const double seconds = state.practice->snapshot().t;
+  state.practice.reset();
+  state.full_screen = false;
+  state.message = "Practice left.";
+  if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{seconds});
+}
+
+void ResetHands(State& state) {
+  if (state.practice) {
+    state.practice->scope().Set(StartOfScope(state.document().scene));
+    state.practice->instrument().Set(StartOfInstrument(state.document().scene));
+  }
+  state.scope = StartOfScope(state.document().scene);
+  state.instrument = StartOfInstrument(state.document().scene);
+  state.message = "Both hands are back where they began.";
+}
+
+template <int degrees>
+void LookAt(State& state) {
+  SetViewAngle(state, RadiansFromDegrees(degrees));
+  state.message = "View angle " + std::to_string(degrees) + "°";
+}
+
+template <simulation::ToolKind kind>
+void TakeInstrument(State& state) {
+  state.practice->SetInstrument(kind);
+}
+
+template <Step step>
+void Open(State& state) {
+  state.step = step;
+}
+
+constexpr Command kCommands[] = {
+    {"step-panorama",
+     "Panorama",
+     "The picture that is the backdrop.",
+     "Steps",
+     {GLFW_KEY_F6},
+     {},
+     InEditor,
+     Open<Step::kPanorama>},
+    {"step-depth",
+     "Depth",
+     "How brightness becomes relief.",
+     "Steps",
+     {GLFW_KEY_F7},
+     {},
+     InEditor,
+     Open<Step::kDepth>},
+    {"step-tissue",
+     "Tissue",
+     "Deformable models in the scene.",
+     "Steps",
+     {GLFW_KEY_F8},
+     {},
+     InEditor,
+     Open<Step::kTissue>},
+    {"step-portals",
+     "Portals",
+     "Incisions and the scope.",
+     "Steps",
+     {GLFW_KEY_F9},
+     {},
+     InEditor,
+     Open<Step::kPortals>},
+    {"step-practice",
+     "Practice",
+     "Try the scene as a trainee will.",
+     "Steps",
+     {GLFW_KEY_F10},
+     {},
+     InEditor,
+     Open<Step::kPractice>},
+    {"practise",
+     "Practise",
+     "Practise in this scene at once.",
+     "Practice",
+     {GLFW_KEY_F5},
+     {GLFW_KEY_P},
+     [](const State& state) {
+       return !state.practice && !state.jobs.busy() && state.document().panorama;
+     },
+     StartPractice},
+    {"leave-practice",
+     "Leave practice",
+     "Back to the editor, exactly where it was.",
+     "Practice",
+     {GLFW_KEY_ESCAPE},
+     {},
+     Practising,
+     LeavePractice},
+    {"reset-hands",
+     "Reset the view",
+     "Put both hands back where they began.",
+     "Practice",
+     {GLFW_KEY_HOME},
+     {},
+     [](const State& state) { return state.document().panorama != nullptr && ShowsScope(state); },
+     ResetHands},
+    {"instrument-probe",
+     "Probe",
+     "Feel and lift with the hook.",
+     "Practice",
+     {GLFW_KEY_5},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kProbe>},
+    {"instrument-punch",
+     "Punch",
+     "Bite with the basket forceps: C closes the jaws.",
+     "Practice",
+     {GLFW_KEY_6},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kPunch>},
+    {"instrument-shaver",
+     "Shaver",
+     "Take tissue away while C is held.",
+     "Practice",
+     {GLFW_KEY_7},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kShaver>},
+    {"instrument-grasper",
+     "Grasper",
+     "Blunt jaws: C closes them.",
+     "Practice",
+     {GLFW_KEY_8},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kGrasper>},
+    {"reset-tissues",
+     "Tissue as it was",
+     "Every tissue as the session began with it, its author's cuts made.",
+     "Practice",
+     {},
+     {},
+     [](const State& state) { return Practising(state) && state.practice->tissues() != nullptr; },
+     [](State& state) {
+       state.practice->ResetTissues();
+       state.message = "The tissue is whole again.";
+     }},
+    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
+    {"view-30",
+     "30°",
+     "Look 30° away from the scope.",
+     "Practice",
+     {GLFW_KEY_2},
+     {},
+     ShowsScope,
+     LookAt<30>},
+    {"view-70",
+     "70°",
+     "Look 70° away from the scope.",
+     "Practice",
+     {GLFW_KEY_3},
+     {},
+     ShowsScope,
+     LookAt<70>},
+    {"view-90",
+     "90°",
+     "Look straight to the side.",
+     "Practice",
+     {GLFW_KEY_4},
+     {},
+     ShowsScope,
+     LookAt<90>},
+    {"full-screen",
+     "Full screen",
+     "Fill the screen, or stop.",
+     "Window",
+     {GLFW_KEY_F11},
+     {},
+     Always,
+     [](State& state) { state.full_screen = !state.full_screen; }},
+    {"help",
+     "?",
+     "All keys and mouse actions.",
+     "Window",
+     {GLFW_KEY_F1},
+     {},
+     Always,
+     [](State& state) { state.dialogs.push_back(HelpDialog{}); }},
+};
+
+}  // namespace
+
+std::span<const Command> PracticeCommands() { return kCommands; }
+
+}  // namespace arthro::app
