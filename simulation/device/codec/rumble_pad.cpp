@@ -1,0 +1,67 @@
+#include "simulation/device/codec/rumble_pad.h"
+
+#include <algorithm>
+#include <cmath>
+#include <zlib.h>
+
+namespace arthro::simulation {
+namespace {
+
+constexpr std::uint8_t kBluetoothSeed = 0xa2;  // header byte that the checksum counts but USB lacks
+
+std::uint8_t Byte(double amplitude) noexcept {
+  if (!(amplitude > 0)) return 0;  // nor what is not a number
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::min(amplitude, 1.0)));
+}
+
+template <std::size_t kSize>
+void Close(std::array<std::uint8_t, kSize>& report) noexcept {
+  uLong sum = crc32(0, &kBluetoothSeed, 1);
+  sum = crc32(sum, report.data(), kSize - 4);
+  for (std::size_t i = 0; i < 4; ++i)
+    report[kSize - 4 + i] = static_cast<std::uint8_t>(sum >> (8 * i) & 0xff);
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 48> DualSenseUsb(const Rumble& rumble) noexcept {
+  std::array<std::uint8_t, 48> report{};
+  report[0] = 0x02;
+  report[1] = 0x03;  // drive both motors
+  report[3] = Byte(rumble.weak);
+  report[4] = Byte(rumble.strong);
+  return report;
+}
+
+std::array<std::uint8_t, 78> DualSenseBluetooth(const Rumble& rumble) noexcept {
+  std::array<std::uint8_t, 78> report{};
+  report[0] = 0x31;
+  report[1] = 0x02;
+  report[2] = 0x03;
+  report[4] = Byte(rumble.weak);
+  report[5] = Byte(rumble.strong);
+  Close(report);
+  return report;
+}
+
+std::array<std::uint8_t, 32> DualShock4Usb(const Rumble& rumble) noexcept {
+  std::array<std::uint8_t, 32> report{};
+  report[0] = 0x05;
+  report[1] = 0x01;  // the motors, neither light nor flash
+  report[4] = Byte(rumble.weak);
+  report[5] = Byte(rumble.strong);
+  return report;
+}
+
+std::array<std::uint8_t, 78> DualShock4Bluetooth(const Rumble& rumble) noexcept {
+  std::array<std::uint8_t, 78> report{};
+  report[0] = 0x11;
+  report[1] = 0xc0;  // HID, with checksum
+  report[3] = 0x01;
+  report[6] = Byte(rumble.weak);
+  report[7] = Byte(rumble.strong);
+  Close(report);
+  return report;
+}
+
+}  // namespace arthro::simulation
