@@ -1,0 +1,39 @@
+#include "simulation/haptics/passivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::simulation {
+
+glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& force,
+                          const glm::dvec3& hand, double stiffness, double dt,
+                          PassivityState& state) noexcept {
+  const glm::dvec3 way = hand - state.hand;
+  const double way2 = glm::dot(way, way), force2 = glm::dot(force, force);
+  const bool is_new = !state.has_last;
+  state.hand = hand;
+  state.has_last = true;
+  if (!std::isfinite(way2) || !std::isfinite(force2) || !(dt > 0)) {
+    state = PassivityState{};
+    return force;
+  }
+  if (is_new) {
+    state.energy = 0;
+    return force;
+  }
+  state.energy -= glm::dot(state.force, way);
+  // What the spring holds now, and nothing of what was rubbed away.
+  const double held = stiffness > 0 ? 0.5 * force2 / stiffness : 0.0;
+  state.energy = std::min(state.energy, held);
+  const double over = -options.allowance - state.energy;
+  if (!(over > 0) || !(way2 > 0)) return force;
+  // A damper that would take it out within this tick, at the speed of the last one.
+  const double damping = std::min(over * dt / way2, options.max_damping);
+  return force - damping / dt * way;
+}
+
+void NoteSent(const glm::dvec3& force, PassivityState& state) noexcept { state.force = force; }
+
+}  // namespace arthro::simulation

@@ -1,0 +1,40 @@
+// A guard that lets the rendered surface give back no more energy than it took: time-domain
+// passivity [Hannaford & Ryu 2002; notes on haptics, 4.5]. A sampled spring gives a hand some
+// energy at every touch, since it answers a tick late; what it has given too much is taken out by a
+// damper that works only then. At the hand, device frame; m, N, N/m, J, s. noexcept, allocates
+// nothing.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "simulation/core/options.h"
+
+namespace arthro::simulation {
+
+struct PassivityOptions {
+  double max_damping = 30.0;
+  double allowance = 2e-4;
+  template <class V>
+  void Visit(V&& v) {
+    v("guard_damping", max_damping, Range{0, 200}, "N s/m",
+      "Strongest damper of the passivity guard; 0: no guard.");
+    v("guard_allowance", allowance, Range{0, 0.01}, "J",
+      "Energy that a surface may give back beyond what it took.");
+  }
+};
+
+struct PassivityState {
+  bool has_last = false;
+  glm::dvec3 hand{0.0}, force{0.0};  // of the last tick; force on the hand, as it was sent
+  double energy = 0;                 // J, taken from the hand and not given back
+};
+
+// `force` on the hand at `hand`, of a surface of `stiffness`; what it is with the guard's damper.
+// Energy that rubbing took is no licence to swing: no more is kept than the surface's spring holds.
+glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& force,
+                          const glm::dvec3& hand, double stiffness, double dt,
+                          PassivityState& state) noexcept;
+// What was sent in the end, after the limiter: that is what did the work.
+void NoteSent(const glm::dvec3& force, PassivityState& state) noexcept;
+
+}  // namespace arthro::simulation

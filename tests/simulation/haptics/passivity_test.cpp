@@ -1,0 +1,110 @@
+// The guard on a wall that a simulated device with and without a hand touches, one tick late.
+#include "simulation/haptics/passivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/device/hand_plant.h"
+#include "tests/support/allocation_counter.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kTick = 1e-3;  // s
+
+struct Touch {
+  double swing = 0;      // m, of the last half second
+  double work = 0;       // J, that the wall did on the hand in all
+  double rms_error = 0;  // N, of the force beside the bare spring's
+};
+
+// Two seconds against a one-sided wall at x = 0, one tick of delay, no friction, clamped to 3.3 N.
+Touch TouchWall(double stiffness, const HandModel& hand, bool is_guarded) {
+  HandPlant plant({0.045, 0.2, 0, 5.5e-5, 3.3, 1}, hand, {1e-3, 0, 0});
+  plant.SetIntent({-5e-3, 0, 0});
+  PassivityState guard;
+  Touch touch;
+  double low = 1, high = -1, error2 = 0;
+  const int ticks = 2000;
+  for (int i = 0; i < ticks; ++i) {
+    const glm::dvec3 at = plant.Sample().hip_in_device;
+    const glm::dvec3 spring(std::min(3.3, stiffness * std::max(0.0, -at.x)), 0, 0);
+    glm::dvec3 force = spring;
+    if (is_guarded) force = GuardPassivity({}, spring, at, stiffness, kTick, guard);
+    if (const double length = glm::length(force); length > 3.3) force *= 3.3 / length;
+    NoteSent(force, guard);
+    error2 += glm::dot(force - spring, force - spring);
+    plant.Tick(force, kTick);
+    if (i >= ticks - 500) {
+      low = std::min(low, plant.position().x);
+      high = std::max(high, plant.position().x);
+    }
+  }
+  touch.swing = high - low;
+  touch.work = plant.work();
+  touch.rms_error = std::sqrt(error2 / ticks);
+  return touch;
+}
+
+TEST(Passivity, AWallThatIsTooStiffSwingsLessAndGivesLess) {
+  const Touch bare = TouchWall(4000, kHand, false), guarded = TouchWall(4000, kHand, true);
+  std::printf("4000 N/m: swing %.2f -> %.2f mm\n", 1e3 * bare.swing, 1e3 * guarded.swing);
+  EXPECT_GT(bare.swing, 0.3e-3) << "else there is nothing to guard against";
+  EXPECT_LT(guarded.swing, 0.5 * bare.swing);
+  EXPECT_LT(guarded.swing, 0.5e-3);
+}
+
+TEST(Passivity, AWallThatIsSoftEnoughIsLeftAsItIs) {
+  const Touch bare = TouchWall(500, kHand, false), guarded = TouchWall(500, kHand, true);
+  std::printf("500 N/m: swing %.3f -> %.3f mm, force off by %.3f N rms\n", 1e3 * bare.swing,
+              1e3 * guarded.swing, guarded.rms_error);
+  EXPECT_LT(bare.swing, 0.1e-3);
+  EXPECT_LT(guarded.rms_error, 0.02);
+}
+
+TEST(Passivity, WhatIsTakenIsGivenBackWithoutADamper) {
+  // In and out of a spring, exactly: it takes and gives the same.
+  PassivityState guard;
+  double most = 0;
+  for (int i = 0; i <= 200; ++i) {
+    const double depth = 1e-3 * std::sin(3.14159265358979 * i / 200);
+    const glm::dvec3 spring(500 * depth, 0, 0);
+    const glm::dvec3 force = GuardPassivity({}, spring, {-depth, 0, 0}, 500, kTick, guard);
+    NoteSent(force, guard);
+    most = std::max(most, glm::length(force - spring));
+  }
+  EXPECT_EQ(most, 0.0);
+}
+
+TEST(Passivity, WhatWasRubbedAwayIsNoLicenceToSwing) {
+  PassivityState guard;
+  // Half a joule of rubbing.
+  for (int i = 0; i < 1000; ++i) {
+    GuardPassivity({}, {0, 0, 1}, {1e-3 * i, 0, 0}, 500, kTick, guard);
+    NoteSent({-0.5, 0, 1}, guard);
+  }
+  EXPECT_LE(guard.energy, 0.5 * 1.0 / 500 + 1e-15);
+}
+
+TEST(Passivity, TakesAnythingAndAllocatesNothing) {
+  PassivityState guard;
+  const long before = test::Allocations();
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300})
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 hand(0.0);
+      hand[axis] = bad;
+      GuardPassivity({}, {1, 0, 0}, hand, 500, kTick, guard);
+      const glm::dvec3 after = GuardPassivity({}, {1, 0, 0}, glm::dvec3(0.0), 500, kTick, guard);
+      EXPECT_TRUE(std::isfinite(after.x + after.y + after.z)) << bad;
+      GuardPassivity({}, {1, 0, 0}, glm::dvec3(0.0), 500, 0.0, guard);
+    }
+  EXPECT_EQ(test::Allocations(), before);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
