@@ -22,6 +22,18 @@ void Close(std::array<std::uint8_t, kSize>& report) noexcept {
     report[kSize - 4 + i] = static_cast<std::uint8_t>(sum >> (8 * i) & 0xff);
 }
 
+// Three bytes: square, cross, circle, triangle above four bits of the cross of arrows; L1 to R3; PS
+// and the touchpad.
+std::uint32_t ButtonsAt(ReportBytes report, std::size_t at) noexcept {
+  const std::uint32_t face = report[at] >> 4;
+  const std::uint32_t square = face & 1, others = face >> 1;  // cross, circle, triangle
+  return (others & 3) | square << 2 | (others >> 2) << 3 |
+         static_cast<std::uint32_t>(report[at + 1]) << 4 | (report[at + 2] & 3u) << 12;
+}
+
+constexpr std::size_t kUsbReport = 64, kShortReport = 10, kLongReport = 78;
+constexpr std::size_t kShortButtons = 5;  // also where a DualShock 4 has them over USB
+
 }  // namespace
 
 std::array<std::uint8_t, 48> DualSenseUsb(const Rumble& rumble) noexcept {
@@ -62,6 +74,20 @@ std::array<std::uint8_t, 78> DualShock4Bluetooth(const Rumble& rumble) noexcept 
   report[7] = Byte(rumble.strong);
   Close(report);
   return report;
+}
+
+std::optional<std::uint32_t> ParseDualSense(ReportBytes report) noexcept {
+  if (report.size() == kUsbReport && report[0] == 0x01) return ButtonsAt(report, 8);
+  if (report.size() == kLongReport && report[0] == 0x31) return ButtonsAt(report, 9);
+  if (report.size() == kShortReport && report[0] == 0x01) return ButtonsAt(report, kShortButtons);
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> ParseDualShock4(ReportBytes report) noexcept {
+  const bool is_short = report.size() == kUsbReport || report.size() == kShortReport;
+  if (is_short && report[0] == 0x01) return ButtonsAt(report, kShortButtons);
+  if (report.size() == kLongReport && report[0] == 0x11) return ButtonsAt(report, 7);
+  return std::nullopt;
 }
 
 }  // namespace arthro::simulation

@@ -83,8 +83,10 @@ glm::dmat3 WoodenJacobian(const WoodenArm& arm, const glm::dvec3& angles) noexce
 
 glm::dquat WoodenHandle(const WoodenArm& arm, const glm::dvec3& angles,
                         const std::array<std::int64_t, 6>& counts) noexcept {
+  if (!(arm.gimbal_counts_per_turn > 0)) return {1, 0, 0, 0};
   const auto turn = [&](std::size_t i) {
-    return 2 * std::numbers::pi * static_cast<double>(counts[i]) / arm.gimbal_counts_per_turn;
+    return arm.gimbal_sign[static_cast<int>(i) - 3] * 2 * std::numbers::pi *
+           static_cast<double>(counts[i]) / arm.gimbal_counts_per_turn;
   };
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   return glm::angleAxis(angles.x, z) * glm::angleAxis(0.5 * std::numbers::pi - angles.z, y) *

@@ -44,7 +44,8 @@ struct WoodenArm {
   double column = 0.080, upper = 0.205, lower = 0.245;  // m: base to axis, both links
   glm::dvec3 origin{0.0};                // m: what is called zero, in the base's frame
   double torque_constant = 0.0259;       // N m/A
-  double gimbal_counts_per_turn = 1024;  // of the three last encoders
+  double gimbal_counts_per_turn = 1024;  // of the three last encoders; 0: it has no gimbal
+  glm::dvec3 gimbal_sign{1, 1, 1};       // −1: that encoder counts the other way
   double largest_current = 3.0;          // A a motor
 };
 
@@ -53,7 +54,7 @@ glm::dvec3 WoodenAngles(const WoodenArm& arm, const std::array<std::int64_t, 6>&
 glm::dvec3 WoodenPosition(const WoodenArm& arm, const glm::dvec3& angles) noexcept;
 // ∂position/∂angles, m/rad; columns are angles.
 glm::dmat3 WoodenJacobian(const WoodenArm& arm, const glm::dvec3& angles) noexcept;
-// R = Rz(A) Ry(π/2 − C) Rx(D) Ry(E) Rx(F).
+// R = Rz(A) Ry(π/2 − C) Rx(D) Ry(E) Rx(F); without a gimbal no rotation.
 glm::dquat WoodenHandle(const WoodenArm& arm, const glm::dvec3& angles,
                         const std::array<std::int64_t, 6>& counts) noexcept;
 // Currents that push the hand with `force` (Jᵀ F through the transmission). Where a motor would
