@@ -11,68 +11,29 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
-#include "simulation/session/scripted_device.h"
 #include "simulation/session/session.h"
+#include "tests/simulation/session/hand.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 0.001, kSpring = 500.0;
 constexpr double kBall = 0.005, kSpacing = 0.35e-3;  // m
 const glm::dvec3 kCentre(0, 0, 0.04);
-// The proxy keeps 1 µm off a surface and bears within 2.
-constexpr double kSkin = 2e-6;
 
 // A loose body, a ball of 5 mm: once as a fine mesh, once as a function sampled on 0.35 mm.
 LoadedScene MakeScene() {
-  LoadedScene loaded;
-  loaded.scene.backdrop.radius = 0.08;
-  loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
-  loaded.scene.backdrop.projection.focal_px = 500;
-  loaded.scene.portals.incision_spacing = 0.0;
-  loaded.panorama = ColourImage(1024, 1024);
   Tissue tissue;
   tissue.name = "loose body";
   tissue.pose.position = kCentre;
-  loaded.scene.tissues.push_back(tissue);
-  loaded.surfaces.push_back(test::Sphere({0, 0, 0}, kBall, 5));
-  return loaded;
+  return SceneOf(test::Sphere({0, 0, 0}, kBall, 5), tissue);
 }
 
 std::shared_ptr<ImplicitTissue> MakeField(const LoadedScene& loaded) {
   return std::make_shared<ImplicitTissue>(SolidField::FromSurface(loaded.surfaces[0], kSpacing),
                                           loaded.scene.tissues[0].pose);
 }
-
-struct Hand {
-  explicit Hand(const LoadedScene& loaded)
-      : session(loaded), scope(session.scope_rig()), instrument(session.instrument_rig()) {}
-  const ToolState& Tick(int ticks = 1) {
-    for (int i = 0; i < ticks; ++i) {
-      t += kTick;
-      session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
-      session.TickTissues(kTick);
-    }
-    return session.snapshot().instrument;
-  }
-  const ToolState& Lead(const glm::dvec3& tip, int ticks = 500) {
-    const RodPose from = instrument.pose();
-    const glm::dvec3 u = glm::normalize(tip);
-    for (int i = 1; i <= ticks; ++i) {
-      const double s = static_cast<double>(i) / ticks;
-      instrument.Set({from.latitude + s * (-std::asin(u.y) - from.latitude),
-                      from.longitude + s * (std::atan2(u.x, u.z) - from.longitude), 0,
-                      from.depth + s * (glm::length(tip) - from.depth)});
-      Tick();
-    }
-    return Tick(300);
-  }
-  Session session;
-  ScriptedDevice scope, instrument;
-  double t = 0;
-};
 
 TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
   const LoadedScene loaded = MakeScene();

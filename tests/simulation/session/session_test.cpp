@@ -11,14 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "simulation/scope/arthroscope.h"
-#include "simulation/session/scripted_device.h"
+#include "tests/simulation/session/hand.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
-
-constexpr double kTick = 0.001;
 
 // A flat relief of 4 mm on a sphere of 50 mm, and a box of tissue in front of it.
 LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
@@ -39,36 +37,17 @@ LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
   return loaded;
 }
 
-// Both hands on a session, one tick at a time.
-struct Hands {
-  explicit Hands(const LoadedScene& loaded, const SessionOptions& options = {})
-      : session(loaded, options),
-        scope(session.scope_rig()),
-        instrument(session.instrument_rig()) {}
+// What both tools are after it.
+struct Hands : Hand {
+  using Hand::Hand;
   const Snapshot& Tick(int ticks = 1) {
-    for (int i = 0; i < ticks; ++i) {
-      t += kTick;
-      session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
-    }
+    Hand::Tick(ticks);
     return session.snapshot();
   }
-  // Leads the instrument's tip evenly to a point of the portal frame.
   const Snapshot& Lead(const glm::dvec3& tip, int ticks) {
-    const RodPose from = instrument.pose();
-    const glm::dvec3 own = tip - glm::dvec3(session.incision_spacing(), 0, 0);
-    const glm::dvec3 u = glm::normalize(own);
-    for (int i = 1; i <= ticks; ++i) {
-      const double s = static_cast<double>(i) / ticks;
-      instrument.Set({from.latitude + s * (-std::asin(u.y) - from.latitude),
-                      from.longitude + s * (std::atan2(u.x, u.z) - from.longitude), 0,
-                      from.depth + s * (glm::length(own) - from.depth)});
-      Tick();
-    }
+    Hand::Lead(tip, ticks, 0);
     return session.snapshot();
   }
-  Session session;
-  ScriptedDevice scope, instrument;
-  double t = 0;
 };
 
 TEST(Session, ToolTipsAreInThePortalFrame) {

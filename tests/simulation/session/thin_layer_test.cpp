@@ -9,37 +9,26 @@
 
 #include "simulation/core/error.h"
 #include "simulation/session/living_tissues.h"
-#include "simulation/session/scripted_device.h"
 #include "simulation/session/session.h"
 #include "simulation/tissue/cut/cutters.h"
+#include "tests/simulation/session/hand.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 0.001, kSpring = 500.0;
 constexpr double kTip = 2.25e-3;  // m, the shaver's round end: what touches where it stands
 constexpr double kFace = 0.036;   // m, where the tissue begins on the way of the instrument
-// The proxy keeps 1 µm off a surface and bears within 2.
-constexpr double kSkin = 2e-6;
 
-// A bare sphere of 80 mm, far away, and one tissue on the instrument's axis.
+// One tissue on the instrument's axis.
 LoadedScene MakeScene(const SurfaceMesh& surface, double scale = 1.0) {
-  LoadedScene loaded;
-  loaded.scene.backdrop.radius = 0.08;
-  loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
-  loaded.scene.backdrop.projection.focal_px = 500;
-  loaded.scene.portals.incision_spacing = 0.0;
-  loaded.panorama = ColourImage(1024, 1024);
   Tissue tissue;
   tissue.name = "plateau";
   tissue.material = "cartilage";
   tissue.pose.position = {0, 0, kFace + 0.01};
   tissue.pose.scale = scale;
-  loaded.scene.tissues.push_back(tissue);
-  loaded.surfaces.push_back(surface);
-  return loaded;
+  return SceneOf(surface, tissue);
 }
 // The corner off the axis keeps the face's diagonal from under the tip.
 SurfaceMesh Block() { return test::Box({-0.013, -0.009, -0.01}, {0.011, 0.014, 0.01}); }
@@ -48,37 +37,20 @@ std::vector<TissuePreset> Presets() {
   return ReadTissuePresets(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues");
 }
 
-struct Hand {
-  explicit Hand(const LoadedScene& loaded, bool has_layers = true)
-      : session(loaded), scope(session.scope_rig()), instrument(session.instrument_rig()) {
+struct LayerHand : Hand {
+  explicit LayerHand(const LoadedScene& loaded, bool has_layers = true) : Hand(loaded) {
     if (has_layers) layers = LayersOf(loaded.scene, loaded.surfaces, Presets());
     session.Enliven({}, TissuePace::kInline, layers);
   }
-  const ToolState& Tick(int ticks = 1) {
-    for (int i = 0; i < ticks; ++i) {
-      t += kTick;
-      session.Tick(scope.Sample(t), instrument.Sample(t), kTick);
-      session.TickTissues(kTick);
-    }
-    return session.snapshot().instrument;
-  }
   // Along the axis to this far past the face, and held.
   const ToolState& Press(double depth, int hold = 400) {
-    const double from = instrument.pose().depth;
-    for (int i = 1; i <= 400; ++i) {
-      instrument.Set({0, 0, 0, from + (kFace + depth - from) * i / 400});
-      Tick();
-    }
-    return Tick(hold);
+    return Lead({0, 0, kFace + depth}, 400, hold);
   }
-  Session session;
-  ScriptedDevice scope, instrument;
   std::vector<LayerSpec> layers;
-  double t = 0;
 };
 
 TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
-  Hand hand(MakeScene(Block()));
+  LayerHand hand(MakeScene(Block()));
   ASSERT_EQ(hand.layers.size(), 1u);
   hand.session.SetInstrument(ToolKind::kShaver);
   const ElasticLayer& layer = hand.layers[0].layer;
@@ -119,7 +91,7 @@ TEST(ThinLayer, WithAWallBehindItAllOfTheForceIsTheSpringsOnce) {
   // onto the wall while the rod lies on the slab.
   LoadedScene loaded = MakeScene(test::Box({-0.02, 0.001, -0.02}, {0.02, 0.02, 0.0}));
   loaded.scene.backdrop.radius = 0.05;
-  Hand hand(loaded);
+  LayerHand hand(loaded);
   hand.session.SetInstrument(ToolKind::kShaver);
   hand.instrument.Set({0.05, 0, 0, 0.04});
   hand.Tick(500);
@@ -136,7 +108,7 @@ TEST(ThinLayer, WithAWallBehindItAllOfTheForceIsTheSpringsOnce) {
 }
 
 TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
-  Hand hand(MakeScene(Block()));
+  LayerHand hand(MakeScene(Block()));
   hand.Press(-0.05e-3);
   constexpr double kStep = 1e-6;  // m a tick: 1 mm/s
   double last = 0, largest = 0;
@@ -161,7 +133,7 @@ TEST(ThinLayer, OfAnotherTissueChangesNothing) {
   loaded.scene.tissues[0].pose.position.x += 0.05;
   loaded.scene.tissues[1].material = "no preset has this name";
   loaded.surfaces.push_back(Block());
-  Hand with(loaded), without(loaded, false);
+  LayerHand with(loaded), without(loaded, false);
   ASSERT_EQ(with.layers.size(), 1u);
   for (int i = 0; i < 1500; ++i) {
     const double s = i * kTick;
@@ -178,10 +150,10 @@ TEST(ThinLayer, OfAnotherTissueChangesNothing) {
 
 TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
   // A condyle of 10 mm radius in facets of 0.5 mm, slid over at a depth of 1 mm.
-  Hand soft(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)));
-  Hand rigid(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
+  LayerHand soft(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)));
+  LayerHand rigid(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
   double jump[2] = {0, 0};
-  for (Hand* hand : {&soft, &rigid}) {
+  for (LayerHand* hand : {&soft, &rigid}) {
     hand->Press(1e-3);
     glm::dvec3 last = hand->Tick().tip_force;
     for (int i = 0; i < 1000; ++i) {
@@ -198,7 +170,7 @@ TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
 }
 
 TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
-  Hand hand(MakeScene(Block()));
+  LayerHand hand(MakeScene(Block()));
   hand.Press(0.5e-3);
   const long before = test::Allocations();
   for (int i = 0; i < 1000; ++i) {
@@ -211,7 +183,7 @@ TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
 
 TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   const LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
-  Hand hand(loaded);
+  LayerHand hand(loaded);
   hand.session.SetInstrument(ToolKind::kShaver);
   const WorldPicture* world = hand.session.tissues();
   ASSERT_NE(world, nullptr);
@@ -274,7 +246,7 @@ TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
   for (const ToolKind kind : {ToolKind::kPunch, ToolKind::kProbe, ToolKind::kShaver}) {
     LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.01, 5));
     loaded.scene.tissues[0].pose.position = {0, 0.0105, 0.032};
-    Hand hand(loaded);
+    LayerHand hand(loaded);
     hand.session.SetInstrument(kind);
     const glm::dvec3 origin = loaded.scene.tissues[0].pose.position;
     const auto rest = hand.session.tissues()->bodies[0].positions;

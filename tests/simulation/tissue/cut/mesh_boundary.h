@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scene/tet_mesh.h"
@@ -38,6 +39,19 @@ inline SurfaceMesh BoundaryOf(const TetMesh& mesh) {
             std::array{f[5], f[4], f[2]}, std::array{f[3], f[4], f[5]}})
         surface.triangles.push_back(t);
   }
+  // Only the vertices on it, in the mesh's order: a skin is moved vertex by vertex.
+  std::vector<int> number(surface.vertices.size(), -1);
+  for (const auto& triangle : surface.triangles)
+    for (const int v : triangle) number[static_cast<std::size_t>(v)] = 0;
+  int count = 0;
+  for (std::size_t v = 0; v < number.size(); ++v)
+    if (number[v] == 0) {
+      surface.vertices[static_cast<std::size_t>(count)] = surface.vertices[v];
+      number[v] = count++;
+    }
+  surface.vertices.resize(static_cast<std::size_t>(count));
+  for (auto& triangle : surface.triangles)
+    for (int& v : triangle) v = number[static_cast<std::size_t>(v)];
   return surface;
 }
 
