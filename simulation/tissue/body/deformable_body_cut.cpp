@@ -11,6 +11,7 @@
 #include "simulation/tissue/body/deformable_body_impl.h"
 #include "simulation/tissue/body/tool_cut.h"
 #include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {
 namespace {
@@ -46,12 +47,8 @@ std::vector<int> PreviousNodes(const CutMesh& cut) {
 double Inside(const TetMesh& mesh, int element, const glm::dvec3& x) {
   const int* node = &mesh.elements[static_cast<std::size_t>(element * mesh.NodesPerElement())];
   const auto at = [&](int i) { return mesh.rest_positions[static_cast<std::size_t>(node[i])]; };
-  const glm::dvec3 a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0), p = x - at(0);
-  const double volume = glm::dot(glm::cross(a, b), c);
-  const double l1 = glm::dot(glm::cross(p, b), c) / volume,
-               l2 = glm::dot(glm::cross(a, p), c) / volume,
-               l3 = glm::dot(glm::cross(a, b), p) / volume;
-  return std::min({1.0 - l1 - l2 - l3, l1, l2, l3});
+  const glm::dvec4 l = BarycentricIn({at(0), at(1), at(2), at(3)}, x);
+  return std::min({l.x, l.y, l.z, l.w});
 }
 
 // The element that a node of the grid lies in, or, up to four nodes outside the mesh, the one of

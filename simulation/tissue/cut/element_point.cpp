@@ -29,9 +29,11 @@ ElementPoint PointIn(const TetMesh& mesh, int element, const glm::dvec3& rest) {
         mesh.elements[static_cast<std::size_t>(element) * n + i])];
   };
   ElementPoint point;
+  point.barycentric = Clamped(BarycentricIn({node(0), node(1), node(2), node(3)}, rest));
   TetShape shape;
   glm::dvec3 step(0.0);
-  constexpr int kSteps = 8;  // quadratic convergence: 0.1, 1e-2, 1e-4, 1e-8, 1e-16 and to spare
+  constexpr int kSteps = 8;  // quadratic convergence: 0.1, 1e-2, 1e-4, 1e-8, 1e-16 and to spare;
+                             // a straight element is met at once
   for (int i = 0; i < kSteps; ++i) {
     shape = ShapeAt(mesh.order, point.barycentric);
     glm::dvec3 x(0.0);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 namespace arthro::simulation {
 namespace {
 
@@ -47,6 +49,16 @@ TetShape ShapeAt(int order, const glm::dvec4& l) {
     shape.slope[4 + e] = 4 * l[i] * SlopeOf(j) + 4 * l[j] * SlopeOf(i);
   }
   return shape;
+}
+
+glm::dvec4 BarycentricIn(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& x) noexcept {
+  const glm::dvec3 a = corner[1] - corner[0], b = corner[2] - corner[0], c = corner[3] - corner[0],
+                   p = x - corner[0];
+  const double det = glm::dot(glm::cross(a, b), c);
+  if (det == 0.0) return glm::dvec4(-1.0);
+  const glm::dvec3 l(glm::dot(glm::cross(p, b), c) / det, glm::dot(glm::cross(a, p), c) / det,
+                     glm::dot(glm::cross(a, b), p) / det);
+  return {1.0 - l.x - l.y - l.z, l};
 }
 
 const std::vector<TetShape>& QuadratureOf(int order) {

@@ -19,6 +19,10 @@ struct TetShape {
 
 TetShape ShapeAt(int order, const glm::dvec4& barycentric);
 
+// Coordinates of x in the straight tetrahedron of these corners, of either handedness: 1 in sum,
+// negative beyond a face. All −1 in a flat one, which has no inside.
+glm::dvec4 BarycentricIn(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& x) noexcept;
+
 // The quadrature points of an element of that order.
 const std::vector<TetShape>& QuadratureOf(int order);
 
