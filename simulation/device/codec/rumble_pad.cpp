@@ -14,13 +14,32 @@ std::uint8_t Byte(double amplitude) noexcept {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::min(amplitude, 1.0)));
 }
 
+// Where a pad's report of one kind has what: `head` bytes as they are, then zeros but for the two
+// motors, the weak one first.
+template <std::size_t kSize, std::size_t kHead>
+std::array<std::uint8_t, kSize> Report(const std::array<std::uint8_t, kHead>& head,
+                                       std::size_t motors, const Rumble& rumble) noexcept {
+  std::array<std::uint8_t, kSize> report{};
+  std::copy(head.begin(), head.end(), report.begin());
+  report[motors] = Byte(rumble.weak);
+  report[motors + 1] = Byte(rumble.strong);
+  return report;
+}
+
 template <std::size_t kSize>
-void Close(std::array<std::uint8_t, kSize>& report) noexcept {
+std::array<std::uint8_t, kSize> Closed(std::array<std::uint8_t, kSize> report) noexcept {
   uLong sum = crc32(0, &kBluetoothSeed, 1);
   sum = crc32(sum, report.data(), kSize - 4);
   for (std::size_t i = 0; i < 4; ++i)
     report[kSize - 4 + i] = static_cast<std::uint8_t>(sum >> (8 * i) & 0xff);
+  return report;
 }
+
+// After the report's number: what it is to change.
+constexpr std::uint8_t kSenseMotors = 0x03;  // both
+constexpr std::uint8_t kShockMotors = 0x01;  // neither light nor flash
+constexpr std::uint8_t kShockHid = 0xc0;     // HID, with checksum
+constexpr std::uint8_t kSenseHid = 0x02;
 
 // Three bytes: square, cross, circle, triangle above four bits of the cross of arrows; L1 to R3; PS
 // and the touchpad.
@@ -37,43 +56,20 @@ constexpr std::size_t kShortButtons = 5;  // also where a DualShock 4 has them o
 }  // namespace
 
 std::array<std::uint8_t, 48> DualSenseUsb(const Rumble& rumble) noexcept {
-  std::array<std::uint8_t, 48> report{};
-  report[0] = 0x02;
-  report[1] = 0x03;  // drive both motors
-  report[3] = Byte(rumble.weak);
-  report[4] = Byte(rumble.strong);
-  return report;
+  return Report<48>(std::array<std::uint8_t, 2>{0x02, kSenseMotors}, 3, rumble);
 }
 
 std::array<std::uint8_t, 78> DualSenseBluetooth(const Rumble& rumble) noexcept {
-  std::array<std::uint8_t, 78> report{};
-  report[0] = 0x31;
-  report[1] = 0x02;
-  report[2] = 0x03;
-  report[4] = Byte(rumble.weak);
-  report[5] = Byte(rumble.strong);
-  Close(report);
-  return report;
+  return Closed(Report<78>(std::array<std::uint8_t, 3>{0x31, kSenseHid, kSenseMotors}, 4, rumble));
 }
 
 std::array<std::uint8_t, 32> DualShock4Usb(const Rumble& rumble) noexcept {
-  std::array<std::uint8_t, 32> report{};
-  report[0] = 0x05;
-  report[1] = 0x01;  // the motors, neither light nor flash
-  report[4] = Byte(rumble.weak);
-  report[5] = Byte(rumble.strong);
-  return report;
+  return Report<32>(std::array<std::uint8_t, 2>{0x05, kShockMotors}, 4, rumble);
 }
 
 std::array<std::uint8_t, 78> DualShock4Bluetooth(const Rumble& rumble) noexcept {
-  std::array<std::uint8_t, 78> report{};
-  report[0] = 0x11;
-  report[1] = 0xc0;  // HID, with checksum
-  report[3] = 0x01;
-  report[6] = Byte(rumble.weak);
-  report[7] = Byte(rumble.strong);
-  Close(report);
-  return report;
+  return Closed(
+      Report<78>(std::array<std::uint8_t, 4>{0x11, kShockHid, 0x00, kShockMotors}, 6, rumble));
 }
 
 std::optional<std::uint32_t> ParseDualSense(ReportBytes report) noexcept {

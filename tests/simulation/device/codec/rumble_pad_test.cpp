@@ -50,6 +50,10 @@ TEST(RumblePad, BluetoothReportsCloseWithTheirChecksum) {
   const auto shock = DualShock4Bluetooth({1.0, 0.5});
   EXPECT_EQ(sense[0], 0x31);
   EXPECT_EQ(shock[0], 0x11);
+  EXPECT_EQ((std::array{sense[1], sense[2], sense[3], sense[4], sense[5]}),
+            (std::array<std::uint8_t, 5>{2, 3, 0, 128, 255}));
+  EXPECT_EQ((std::array{shock[1], shock[2], shock[3], shock[6], shock[7]}),
+            (std::array<std::uint8_t, 5>{0xc0, 0, 1, 128, 255}));
   EXPECT_EQ(Written(sense), SlowSum(sense));
   EXPECT_EQ(Written(shock), SlowSum(shock));
 }
