@@ -59,7 +59,7 @@ class FakeUsb {
   struct Port {
     FakeHid device;
     std::deque<Bytes> ring;
-    bool is_plugged = true, is_refused = false;
+    bool is_plugged = false, is_refused = false;
     int read_result = 1, write_result = 0, write_ms = 0, stall_ms = 0, failing_features = 0;
     int opened = 0, reads = 0;
     std::vector<Bytes> written, features;

@@ -1,0 +1,311 @@
+#include "simulation/device/live/live_link.h"
+
+#include <cmath>
+#include <ctime>
+#include <pthread.h>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "simulation/device/live/arrival.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kReadTimeout = 20;        // ms
+constexpr int kRing = 63;               // reports that wait at most
+constexpr int kLongestBurst = 1024;     // reports; what comes faster than it is read ends nothing
+constexpr double kServoSilent = 0.010;  // s; then it is written zero, which also wakes a board
+constexpr double kIdle = 0.050;         // s, between looks of a writer that has nothing to write
+constexpr int kZeroReports = 5;         // at the end
+constexpr int kStartTries = 50;         // of a feature report, as the Hydra needs
+constexpr double kStartPause = 0.05;    // s
+constexpr int kPriority = 79;           // of SCHED_FIFO, under the servo's
+
+// Beside a servo of that kind a device's threads must not wait for other programs. Where it is not
+// allowed they do their best.
+void AskForRealTime() noexcept {
+  sched_param parameters{};
+  parameters.sched_priority = kPriority;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+}
+
+// False: nobody posted within that time.
+bool WaitFor(sem_t& semaphore, double seconds) noexcept {
+  timespec until{};
+  clock_gettime(CLOCK_MONOTONIC, &until);
+  const double whole = std::floor(seconds);
+  until.tv_sec += static_cast<time_t>(whole);
+  until.tv_nsec += static_cast<long>((seconds - whole) * 1e9);
+  if (until.tv_nsec >= 1000000000L) {
+    until.tv_nsec -= 1000000000L;
+    ++until.tv_sec;
+  }
+  for (;;) {
+    if (sem_clockwait(&semaphore, CLOCK_MONOTONIC, &until) == 0) return true;
+    if (errno != EINTR) return false;
+  }
+}
+
+}  // namespace
+
+double SteadySeconds() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+LiveLink::LiveLink(HidBus& bus, const DeviceWish& wish, const LiveOptions& options)
+    : bus_(bus), wish_(wish), options_(options), serial_(wish.serial) {
+  if (options_.lock_folder.empty()) options_.lock_folder = DeviceLockFolder();
+  KnownDevice device;
+  device.family = wish.family;
+  if (const auto driver = MakeDriver(device, wish.model, refusal_)) {
+    caps_ = driver->caps();
+    hands_ = driver->hands();
+  }
+  sem_init(&wake_, 0, 0);
+  sem_init(&stopped_, 0, 0);
+  writer_ = std::thread([this] { WriteLoop(); });
+  reader_ = std::thread([this] { ReadLoop(); });
+}
+
+LiveLink::~LiveLink() {
+  stop_ = true;
+  sem_post(&wake_);
+  sem_post(&stopped_);
+  // The writer says zero while the link is still open; who reads does not close it meanwhile.
+  writer_.join();
+  reader_.join();
+  driver_.reset();
+  link_.reset();
+  sem_destroy(&wake_);
+  sem_destroy(&stopped_);
+}
+
+void LiveLink::Send(const glm::dvec3& force, const glm::dvec3& joints) noexcept {
+  sent_ = {force, joints, sent_.number + 1};
+  commands_.Write(sent_);
+  sem_post(&wake_);
+}
+
+void LiveLink::Release() noexcept {
+  is_released_.store(true);
+  sem_post(&wake_);
+}
+
+LinkCounts LiveLink::counts() const noexcept {
+  return {taken_, rejected_, full_rings_, written_, opened_};
+}
+
+std::string LiveLink::detail() const {
+  const std::scoped_lock lock(detail_mutex_);
+  return detail_;
+}
+
+void LiveLink::SetDetail(const std::string& text) {
+  const std::scoped_lock lock(detail_mutex_);
+  detail_ = text;
+}
+
+bool LiveLink::Pause(double seconds) noexcept {
+  if (!stop_) WaitFor(stopped_, seconds);
+  return !stop_;
+}
+
+void LiveLink::ReadLoop() noexcept {
+  if (HasForce(caps_)) AskForRealTime();
+  while (!stop_) {
+    bool is_open = false;
+    try {
+      is_open = Open();
+    } catch (const std::exception& fault) {  // no memory, no hidapi: it is away, for now
+      is_present_ = false;
+      try {
+        SetDetail(fault.what());
+      } catch (const std::bad_alloc&) {
+      }
+    }
+    if (is_open) {
+      Serve();
+      if (stop_) return;  // the writer is still to say zero
+      Close();
+    }
+    Pause(options_.list_every);
+  }
+}
+
+bool LiveLink::Open() {
+  const auto known = KnownAmong(bus_.List());
+  bool is_there = false;
+  DeviceTrouble trouble = DeviceTrouble::kNone;
+  std::string detail;
+  for (const KnownDevice& device : known) {
+    const bool is_it =
+        device.family == wish_.family && (serial_.empty() || device.node.serial == serial_);
+    if (!is_it) continue;
+    is_there = true;
+    auto driver = MakeDriver(device, wish_.model, detail);
+    if (!driver) {
+      trouble = DeviceTrouble::kUnsupported;
+      break;
+    }
+    const std::string id = device.node.serial.empty()
+                               ? std::filesystem::path(device.node.path).filename().string()
+                               : device.node.serial;
+    auto lock = std::make_unique<DeviceLock>(options_.lock_folder,
+                                             std::string(Word(device.family)) + "-" + id);
+    if (lock->is_held_elsewhere()) {
+      trouble = DeviceTrouble::kHeldElsewhere;
+      detail = fmt::format("{} {} is used by process {}", Name(device.family), id, lock->holder());
+      continue;  // where any will do, the next may be free
+    }
+    OpenFault fault = OpenFault::kNone;
+    auto link = bus_.Open(device.node, fault);
+    if (!link) {
+      detail = device.node.path;
+      trouble = fault == OpenFault::kNoPermission ? DeviceTrouble::kNoPermission
+                                                  : DeviceTrouble::kReadError;
+      if (fault == OpenFault::kGone) is_there = false;
+      continue;
+    }
+    driver->Forget();
+    if (!Start(*link, *driver)) {
+      detail = fmt::format("{} does not begin to send", Name(device.family));
+      trouble = DeviceTrouble::kWriteError;
+      continue;
+    }
+    SetDetail("");
+    serial_ = device.node.serial;
+    lock_ = std::move(lock);
+    const std::scoped_lock guard(link_mutex_);
+    link_ = std::move(link);
+    driver_ = std::move(driver);
+    is_dead_ = wants_home_ = is_zero_written_ = false;
+    trouble_ = DeviceTrouble::kNone;
+    is_present_ = true;
+    opening_ = ++openings_;
+    ++opened_;
+    return true;
+  }
+  SetDetail(detail);
+  trouble_ = trouble;
+  is_present_ = is_there;
+  return false;
+}
+
+bool LiveLink::Start(HidLink& link, const DeviceDriver& driver) {
+  const OutputReport start = driver.StartFeature();
+  if (start.size == 0) return true;
+  for (int i = 0; i < kStartTries; ++i) {
+    if (link.SendFeature(start.span()) == static_cast<int>(start.size)) return true;
+    if (!Pause(kStartPause)) return false;
+  }
+  return false;
+}
+
+void LiveLink::Serve() noexcept {
+  double empty_at = options_.clock();
+  while (!stop_ && !is_dead_) {
+    if (asks_home_.exchange(false)) driver_->AskHome();
+    if (!Drain(empty_at)) return;
+  }
+}
+
+// Waits for a report, takes all that have come and hands over what they say together.
+bool LiveLink::Drain(double& empty_at) noexcept {
+  std::array<std::uint8_t, kReportRoom> report;
+  int count = 0, good = 0, bad = 0;
+  for (; count < kLongestBurst; ++count) {
+    const int size = link_->Read(report, count == 0 ? kReadTimeout : 0);
+    if (size < 0 || size > static_cast<int>(report.size())) {
+      trouble_ = DeviceTrouble::kReadError;
+      return false;
+    }
+    if (size == 0) break;
+    const ReportNews news = driver_->Take({report.data(), static_cast<std::size_t>(size)});
+    good += news == ReportNews::kTaken;
+    bad += news == ReportNews::kRejected;
+  }
+  const double now = options_.clock();
+  wants_home_ = driver_->WantsHome();
+  if (good > 0) {
+    const double t = ArrivalOf(empty_at, now, count, caps_.rate > 0 ? 1 / caps_.rate : 0);
+    for (int hand = 0; hand < hands_; ++hand) {
+      HandNews news{driver_->Hand(hand), openings_};
+      news.reading.sample.t = t;
+      news_[static_cast<std::size_t>(hand)].Write(news);
+    }
+  }
+  empty_at = now;
+  // Who sees these has the news, too.
+  if (count >= kRing) ++full_rings_;
+  rejected_ += bad;
+  taken_ += good;
+  return true;
+}
+
+void LiveLink::Close() noexcept {
+  if (trouble_ == DeviceTrouble::kNone) trouble_ = DeviceTrouble::kReadError;
+  opening_ = 0;
+  {
+    const std::scoped_lock guard(link_mutex_);
+    link_.reset();
+    driver_.reset();
+  }
+  lock_.reset();
+  is_present_ = false;
+  trouble_ = DeviceTrouble::kNone;
+}
+
+void LiveLink::WriteLoop() noexcept {
+  if (HasForce(caps_)) AskForRealTime();
+  const bool has_feedback = caps_.feedback != Feedback::kNone;
+  while (!stop_) {
+    const bool is_silent = !WaitFor(wake_, has_feedback ? kServoSilent : kIdle);
+    while (sem_trywait(&wake_) == 0) {
+    }
+    if (stop_) break;
+    const std::scoped_lock guard(link_mutex_);
+    if (link_ && !is_dead_) WriteOne(commands_.Read(), is_silent);
+  }
+  const std::scoped_lock guard(link_mutex_);
+  if (!link_ || is_dead_) return;
+  is_released_ = true;
+  for (int i = 0; i < kZeroReports && !is_dead_; ++i) {
+    is_zero_written_ = wants_home_ = false;
+    WriteOne({}, true);
+  }
+  if (const OutputReport stop = driver_->StopFeature(); stop.size > 0 && !is_dead_)
+    link_->SendFeature(stop.span());
+}
+
+// `is_silent`: the servo said nothing for long.
+void LiveLink::WriteOne(const ForceCommand& command, bool is_silent) noexcept {
+  const bool is_new = command.number != written_number_;
+  // Woken by a command that was written already: that one stands.
+  if (!is_new && !is_silent && (!is_released_ || is_zero_written_)) return;
+  const glm::dvec3 force = is_new && !is_released_ ? command.force : glm::dvec3(0.0);
+  const bool is_zero = force == glm::dvec3(0.0);
+  const double now = options_.clock();
+  if (const double interval = driver_->command_interval(); interval > 0) {
+    if (is_zero ? is_zero_written_ : written_at_ >= 0 && now - written_at_ < interval) return;
+  }
+  const OutputReport report =
+      wants_home_ ? driver_->HomeReport() : driver_->ForceReport(force, command.joints);
+  if (report.size == 0) return;
+  written_number_ = command.number;
+  write_began_ = now;
+  const int size = link_->Write(report.span());
+  write_began_ = 0;
+  if (size != static_cast<int>(report.size)) {
+    trouble_ = DeviceTrouble::kWriteError;
+    is_dead_ = true;  // who reads closes it
+    return;
+  }
+  written_at_ = now;
+  is_zero_written_ = is_zero;
+  ++written_;
+}
+
+}  // namespace arthro::simulation

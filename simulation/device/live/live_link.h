@@ -1,0 +1,137 @@
+// A plugged-in device at work: found by family and serial number, opened, read, written, and found
+// again when it comes back. Two threads of its own. One opens, reads all that waits and hands over
+// the newest; it also looks for the device every half second while it is away. One writes the
+// newest force, so that a slow endpoint holds up neither the servo nor the other device; where the
+// servo is silent for 10 ms it writes zero by itself. On every way out it writes zero five times,
+// then closes. Device frame, m, N, s.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <semaphore.h>
+#include <string>
+#include <thread>
+
+#include "simulation/core/latest_value.h"
+#include "simulation/device/device_state.h"
+#include "simulation/device/driver/drivers.h"
+#include "simulation/device/hid/hid_link.h"
+#include "simulation/device/live/device_lock.h"
+
+namespace arthro::simulation {
+
+// The clock of live devices: s, rises evenly.
+double SteadySeconds() noexcept;
+
+struct DeviceWish {
+  DeviceFamily family = DeviceFamily::kSpaceMouse;
+  std::string serial;  // empty: any; kept once one was opened
+  std::string model;   // of a WoodenHaptics
+};
+
+struct LiveOptions {
+  double (*clock)() noexcept = SteadySeconds;
+  double list_every = 0.5;            // s
+  std::filesystem::path lock_folder;  // empty: DeviceLockFolder()
+};
+
+// What passed since it was made.
+struct LinkCounts {
+  long taken = 0, rejected = 0;  // reports
+  long full_rings = 0;           // bursts in which reports must have been lost
+  long written = 0, opened = 0;
+};
+
+// One hand's newest reading, of the opening with this number.
+struct HandNews {
+  HandReading reading;
+  int opening = 0;
+};
+
+class LiveLink {
+ public:
+  static constexpr int kMostHands = 2;
+
+  // `bus` must outlive it. Opens later, by itself.
+  LiveLink(HidBus& bus, const DeviceWish& wish, const LiveOptions& options = {});
+  ~LiveLink();
+  LiveLink(const LiveLink&) = delete;
+  LiveLink& operator=(const LiveLink&) = delete;
+
+  const DeviceCaps& caps() const noexcept { return caps_; }
+  const DeviceWish& wish() const noexcept { return wish_; }
+  int hands() const noexcept { return hands_; }
+
+  // The servo; none of these waits. Each hand is read by one thread.
+  const HandNews& Newest(int hand) noexcept { return news_[static_cast<std::size_t>(hand)].Read(); }
+  bool is_present() const noexcept { return is_present_.load(std::memory_order_acquire); }
+  // Number of the opening that lasts; 0: it is closed.
+  int opening() const noexcept { return opening_.load(std::memory_order_acquire); }
+  DeviceTrouble trouble() const noexcept { return trouble_.load(std::memory_order_acquire); }
+  // When the write under way began; 0: none is.
+  double write_began() const noexcept { return write_began_.load(std::memory_order_acquire); }
+  void Send(const glm::dvec3& force, const glm::dvec3& joints) noexcept;
+
+  // The handle is in its rest: counts from here. Any thread.
+  void AskHome() noexcept { asks_home_.store(true); }
+  // No force any more, for good: the application is about to end. Also from a signal handler.
+  void Release() noexcept;
+
+  // Any thread; these may wait.
+  LinkCounts counts() const noexcept;
+  std::string detail() const;  // more than a state says: who holds it, why it is not driven
+
+ private:
+  struct ForceCommand {
+    glm::dvec3 force{0.0}, joints{0.0};
+    long number = 0;
+  };
+  void ReadLoop() noexcept;
+  void WriteLoop() noexcept;
+  bool Open();
+  bool Start(HidLink& link, const DeviceDriver& driver);
+  void Serve() noexcept;
+  void Close() noexcept;
+  bool Drain(double& empty_at) noexcept;
+  void WriteOne(const ForceCommand& command, bool is_silent) noexcept;
+  bool Pause(double seconds) noexcept;  // false: it shall stop
+  void SetDetail(const std::string& text);
+
+  HidBus& bus_;
+  DeviceWish wish_;
+  LiveOptions options_;
+  DeviceCaps caps_;
+  int hands_ = 1;
+  std::string refusal_;  // why it is never driven
+
+  // The reading thread's own.
+  std::string serial_;  // of the one that was opened first
+  int openings_ = 0;
+  std::unique_ptr<DeviceLock> lock_;
+
+  std::mutex link_mutex_;  // the writer while it writes; the reader while it exchanges both
+  std::unique_ptr<HidLink> link_;
+  std::unique_ptr<DeviceDriver> driver_;
+
+  std::array<LatestValue<HandNews>, kMostHands> news_;
+  LatestValue<ForceCommand> commands_;
+  ForceCommand sent_;        // the servo's
+  long written_number_ = 0;  // the writer's
+  double written_at_ = -1;   // the writer's
+  bool is_zero_written_ = false;
+  std::atomic<bool> is_present_{false}, is_dead_{false}, wants_home_{false}, asks_home_{false},
+      is_released_{false}, stop_{false};
+  std::atomic<int> opening_{0};
+  std::atomic<DeviceTrouble> trouble_{DeviceTrouble::kNone};
+  std::atomic<double> write_began_{0};
+  std::atomic<long> taken_{0}, rejected_{0}, full_rings_{0}, written_{0}, opened_{0};
+  mutable std::mutex detail_mutex_;
+  std::string detail_;
+  sem_t wake_, stopped_;  // commands; the end, for who pauses
+  std::thread reader_, writer_;
+};
+
+}  // namespace arthro::simulation

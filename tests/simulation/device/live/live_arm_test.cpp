@@ -1,0 +1,436 @@
+// A force device at work: what the hand is given when all is well, and when it is not.
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/simulation/device/live/arm_bench.h"
+#include "tests/support/allocation_counter.h"
+
+namespace arthro::simulation {
+namespace {
+
+using test::ArmBench;
+using test::Board;
+using test::Bytes;
+using test::CurrentsAt;
+using test::WaitUntil;
+
+const std::string kPath = "/dev/fake0", kOther = "/dev/fake1";
+const glm::dvec3 kNone(0.0), kPush(0, 0, 3);
+constexpr std::array<int, 3> kNoCurrents{};
+
+struct Plugged : ArmBench {
+  Plugged() : board(usb, kPath) { usb.Plug(test::WoodenArm(L"A", kPath)); }
+  ~Plugged() {
+    // The link's threads call the board.
+    device.reset();
+    link.reset();
+    EXPECT_EQ(usb.misuses(), 0);
+    EXPECT_EQ(usb.opened(kPath), 0);
+  }
+  Board board;
+};
+
+bool AreZeros(const std::vector<Bytes>& reports) {
+  for (const Bytes& report : reports)
+    if (report != Bytes(15)) return false;
+  return true;
+}
+
+TEST(LiveArm, IsHomedArmedAndPushes) {
+  Plugged bench;
+  EXPECT_TRUE(WaitUntil([&] {
+    bench.TickNow(kPush, false);
+    return bench.device->state() == DeviceState::kHoming;
+  }));
+  EXPECT_FALSE(bench.Tick(kPush, true).valid) << "nobody knows yet where it is";
+  bench.Arm();
+  ASSERT_EQ(bench.device->state(), DeviceState::kArmed);
+  EXPECT_TRUE(AreZeros({bench.usb.Written(kPath).back()}));
+  DeviceSample sample;
+  for (int i = 0; i < 3; ++i) sample = bench.Tick(kPush, true);
+  EXPECT_TRUE(sample.valid);
+  EXPECT_LT(glm::distance(sample.hip_in_device, glm::dvec3(0.025, 0, 0.205)), 1e-12);
+  EXPECT_EQ(bench.device->force(), kPush);
+  // 3 N up: the lower link's motor alone, 3 N x 0.245 m / 12 / 0.0259 N m/A.
+  EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == std::array{0, 0, 2365}; }));
+  bench.Tick(kPush, false);
+  EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
+  bench.Tick(kPush, false);
+  EXPECT_EQ(bench.device->state(), DeviceState::kReady);
+  EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
+}
+
+TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 5; ++i) bench.Tick(kPush, true);
+  const DeviceSample before = bench.Tick(kPush, true);
+  ASSERT_EQ(bench.device->force(), kPush);
+  // The reader hangs for 300 ms; the board goes on by itself and its ring of 63 fills with an even
+  // motion of 0.03 m/s.
+  bench.usb.SetReadStall(kPath, 300);
+  bench.TickNow(kPush, true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  bench.usb.OnWrite(kPath, nullptr);
+  for (int i = 1; i <= 300; ++i) {
+    Bytes report(14);
+    PutSigned(report, 4, static_cast<std::int16_t>(6000 + i / 2));
+    bench.usb.Send(kPath, report);
+  }
+  test::AdvanceBench(0.3);
+  ASSERT_TRUE(WaitUntil([&] { return bench.link->counts().full_rings > 0; }));
+  DeviceSample after = bench.TickNow(kPush, true);
+  EXPECT_EQ(bench.device->force(), kNone) << "what was read now is of then";
+  EXPECT_EQ(bench.device->state(), DeviceState::kLost);
+  const double age = test::BenchSeconds() - after.t;
+  EXPECT_GT(age, 0.2) << "s";
+  // Of the samples' own times the speed is what the motion was.
+  const double speed =
+      glm::distance(after.hip_in_device, before.hip_in_device) / (after.t - before.t);
+  EXPECT_LT(speed, 0.05) << "m/s";
+  // Fresh again: still no force until the dead-man was let go and held anew.
+  Board again(bench.usb, kPath);
+  again.SetCounters({0, 0, 6150, 0, 0, 0});
+  for (int i = 0; i < 20; ++i) {
+    bench.Tick(kPush, true);
+    ASSERT_EQ(bench.device->force(), kNone);
+  }
+  bench.Tick(kPush, false);
+  bench.Tick(kPush, true);
+  bench.Tick(kPush, true);
+  EXPECT_EQ(bench.device->force(), kPush);
+  bench.device.reset();
+  bench.link.reset();
+}
+
+TEST(LiveArm, HardCase02UnpluggedInContactItIsLostAndComesBackBySerial) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
+  ASSERT_EQ(bench.device->force(), kPush);
+  bench.board.SetMute(true);
+  bench.usb.Unplug(kPath);
+  int without_force = 0, lost = 0;
+  for (int i = 1; i <= 30; ++i) {
+    bench.TickNow(kPush, true);
+    if (!without_force && bench.device->force() == kNone) without_force = i;
+    if (!lost && bench.device->state() != DeviceState::kArmed) lost = i;
+  }
+  EXPECT_LE(without_force, 6) << "ms";
+  EXPECT_LE(lost, 25) << "ms";
+  EXPECT_GT(without_force, 0);
+  EXPECT_GT(lost, 0);
+  // Another arm, with another number, is not it.
+  ASSERT_TRUE(WaitUntil([&] { return !bench.link->is_present(); }));
+  bench.usb.Plug(test::WoodenArm(L"B", kOther));
+  const int listed = bench.usb.listed();
+  ASSERT_TRUE(WaitUntil([&] { return bench.usb.listed() > listed + 3; }));
+  bench.TickNow(kPush, false);
+  EXPECT_EQ(bench.device->state(), DeviceState::kAbsent);
+  EXPECT_EQ(bench.usb.opened(kOther), 0);
+  // In another port, and so under another path, it is.
+  Board moved(bench.usb, "/dev/fake2");
+  bench.usb.Plug(test::WoodenArm(L"A", "/dev/fake2"));
+  ASSERT_TRUE(WaitUntil([&] { return bench.link->opening() == 2; }));
+  for (int i = 0; i < 5; ++i) bench.TickNow(kPush, false);
+  EXPECT_EQ(bench.device->state(), DeviceState::kHoming) << "its counters are forgotten";
+  bench.Arm();
+  EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
+  bench.device.reset();
+  bench.link.reset();
+}
+
+TEST(LiveArm, HardCase02ComesBackWithinASecondAndAHalf) {
+  ArmBench bench("A", LiveOptions().list_every);
+  bench.usb.Plug(test::WoodenArm(L"A", kPath));
+  ASSERT_TRUE(WaitUntil([&] { return bench.link->opening() == 1; }));
+  bench.usb.Unplug(kPath);
+  ASSERT_TRUE(WaitUntil([&] { return !bench.link->is_present(); }));
+  const int listed = bench.usb.listed();
+  bench.usb.Plug(test::WoodenArm(L"A", kOther));
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(WaitUntil([&] { return bench.link->opening() == 2; }));
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf("reopened after %.3f s\n", seconds);
+  // Of the machine's time nothing is asked; at the first listing, one in half a second, it is
+  // there.
+  EXPECT_LE(bench.usb.listed() - listed, 1);
+  EXPECT_LE(LiveOptions().list_every, 0.5);
+}
+
+TEST(LiveArm, HardCase03RolesFollowSerialNumbersNotPorts) {
+  ArmBench scope("SCOPE");
+  LiveOptions options;
+  options.clock = test::BenchSeconds;
+  options.list_every = 0.02;
+  options.lock_folder = scope.folder.path();
+  const DeviceWish wish{DeviceFamily::kWoodenHaptics, "TOOL", "woodenhaptics_2015"};
+  LiveLink tool(*scope.bus, wish, options);
+  for (const bool is_swapped : {false, true}) {
+    scope.usb.Unplug(kPath);
+    scope.usb.Unplug(kOther);
+    ASSERT_TRUE(WaitUntil([&] { return scope.link->opening() == 0 && tool.opening() == 0; }));
+    scope.usb.Plug(test::WoodenArm(L"SCOPE", is_swapped ? kOther : kPath));
+    scope.usb.Plug(test::WoodenArm(L"TOOL", is_swapped ? kPath : kOther));
+    ASSERT_TRUE(WaitUntil([&] { return scope.link->opening() != 0 && tool.opening() != 0; }));
+    // Only the scope's arm speaks.
+    Bytes report(14);
+    const long scope_taken = scope.link->counts().taken, tool_taken = tool.counts().taken;
+    scope.usb.Send(is_swapped ? kOther : kPath, report);
+    ASSERT_TRUE(WaitUntil([&] { return scope.link->counts().taken > scope_taken; }));
+    EXPECT_EQ(tool.counts().taken, tool_taken);
+  }
+}
+
+TEST(LiveArm, HardCase04ReportsOfAnotherLengthAreCountedAndChangeNothing) {
+  Plugged bench;
+  bench.Arm();
+  bench.Tick(kPush, true);
+  const DeviceSample before = bench.Tick(kPush, true);
+  const long rejected = bench.link->counts().rejected;
+  int sent = 0;
+  for (const std::size_t size : {1, 13, 15, 63, 65, 127, 128, 300}) {
+    bench.usb.Send(kPath, Bytes(size, 0x55));
+    ++sent;
+    ASSERT_TRUE(WaitUntil([&] { return bench.link->counts().rejected == rejected + sent; }))
+        << size;
+  }
+  const DeviceSample after = bench.Tick(kPush, true);
+  EXPECT_EQ(after.hip_in_device, before.hip_in_device);
+  EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
+  EXPECT_EQ(bench.device->force(), kPush);
+  // One of no bytes is no report, and ends nothing.
+  bench.usb.Send(kPath, {});
+  for (int i = 0; i < 5; ++i) bench.Tick(kPush, true);
+  EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
+}
+
+TEST(LiveArm, HardCase05AFlippedBitGivesNoForcePulse) {
+  Plugged bench;
+  bench.Arm();
+  bench.Tick(kNone, true);
+  glm::dvec3 last = bench.Tick(kNone, true).hip_in_device;
+  for (int bit = 7; bit < 16; ++bit) {
+    const long rejected = bench.link->counts().rejected;
+    Bytes report(14);
+    PutSigned(report, 4, static_cast<std::int16_t>(6000 ^ (1 << bit)));
+    bench.usb.Send(kPath, report);
+    ASSERT_TRUE(WaitUntil([&] { return bench.link->counts().rejected > rejected; })) << bit;
+    const DeviceSample sample = bench.Tick(kNone, true);
+    EXPECT_LT(glm::distance(sample.hip_in_device, last), 1e-12) << "m, bit " << bit;
+    EXPECT_TRUE(sample.valid);
+  }
+  // And a wrap: the base goes on past 32767, in steps of 1 mm.
+  double largest = 0;
+  for (int count = 20; count < 34000; count += 20) {
+    bench.board.SetCounters({count > 32767 ? count - 65536 : count, 0, 6000, 0, 0, 0});
+    bench.TickNow(kNone, true);
+    glm::dvec3 hip;
+    ASSERT_TRUE(WaitUntil([&] {
+      hip = bench.device->Read(test::BenchSeconds()).hip_in_device;
+      return hip != last;
+    })) << count;
+    largest = std::max(largest, glm::distance(hip, last));
+    last = hip;
+  }
+  EXPECT_LT(largest, 0.002) << "m";
+  EXPECT_GT(largest, 0.0005);
+}
+
+TEST(LiveArm, HardCase06WhatIsNoNumberIsZeroAndOneFault) {
+  Plugged bench;
+  bench.Arm();
+  int faults = 0;
+  DeviceState was = bench.device->state();
+  const auto count = [&] {
+    faults += bench.device->state() == DeviceState::kFault && was != DeviceState::kFault;
+    was = bench.device->state();
+  };
+  for (int i = 0; i < 10; ++i) {
+    bench.Tick({0, 0, std::nan("")}, true);
+    EXPECT_EQ(bench.device->force(), kNone);
+    count();
+  }
+  for (int i = 0; i < 10; ++i) bench.Tick(kPush, true), count();
+  EXPECT_EQ(faults, 1);
+  EXPECT_EQ(bench.device->status().reason, DeviceTrouble::kNotFinite);
+  EXPECT_TRUE(AreZeros({bench.usb.Written(kPath).back()}));
+}
+
+TEST(LiveArm, HardCase25ASecondProgramIsRefusedByName) {
+  Plugged bench;
+  bench.Arm();
+  LiveOptions options;
+  options.clock = test::BenchSeconds;
+  options.list_every = 0.02;
+  options.lock_folder = bench.folder.path();
+  const auto second = std::make_shared<LiveLink>(*bench.bus, bench.link->wish(), options);
+  LiveDevice device(second, 0);
+  ASSERT_TRUE(WaitUntil([&] { return second->trouble() == DeviceTrouble::kHeldElsewhere; }));
+  for (int i = 0; i < 3; ++i) device.Read(test::BenchSeconds());
+  EXPECT_EQ(device.state(), DeviceState::kFault);
+  EXPECT_NE(std::string(Sentence(device.status())).find("another program"), std::string::npos);
+  EXPECT_EQ(second->detail(),
+            "WoodenHaptics or Polhem A is used by process " + std::to_string(getpid()));
+  EXPECT_EQ(bench.usb.opened(kPath), 1) << "it was not even opened";
+  // When the first lets go it is had.
+  bench.device.reset();
+  bench.link.reset();
+  EXPECT_TRUE(WaitUntil([&] { return second->opening() != 0; }));
+}
+
+TEST(LiveArm, HardCase26AWriteThatBlocksIsOneFaultAndZero) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 5; ++i) bench.Tick(kPush, true);
+  bench.usb.SetWriteTime(kPath, 50);
+  bench.TickNow(kPush, true);
+  ASSERT_TRUE(WaitUntil([&] { return bench.link->write_began() > 0; }));
+  bench.usb.SetWriteTime(kPath, 0);
+  int faults = 0;
+  DeviceState was = DeviceState::kArmed;
+  const long taken = bench.link->counts().taken;
+  for (int i = 0; i < 30; ++i) {  // that many ms of the servo's, within the one write
+    bench.board.SendNow();
+    bench.TickNow(kPush, true);
+    faults += bench.device->state() == DeviceState::kFault && was != DeviceState::kFault;
+    was = bench.device->state();
+    if (i > 12) {
+      EXPECT_EQ(bench.device->force(), kNone);
+    }
+  }
+  EXPECT_TRUE(WaitUntil([&] { return bench.link->counts().taken >= taken + 30; }))
+      << "the reader goes on";
+  const std::size_t written = bench.usb.Written(kPath).size();
+  ASSERT_TRUE(WaitUntil([&] { return bench.usb.Written(kPath).size() > written + 1; }));
+  const auto reports = bench.usb.Written(kPath);
+  EXPECT_TRUE(AreZeros({reports.begin() + static_cast<std::ptrdiff_t>(written) + 1, reports.end()}))
+      << "after the one that hung";
+  for (int i = 0; i < 20; ++i) {
+    bench.Tick(kPush, true);
+    faults += bench.device->state() == DeviceState::kFault && was != DeviceState::kFault;
+    was = bench.device->state();
+  }
+  EXPECT_EQ(faults, 1);
+  EXPECT_EQ(bench.device->status().reason, DeviceTrouble::kSlowWrite);
+  EXPECT_EQ(bench.link->opening(), 1) << "it stays open";
+}
+
+TEST(LiveArm, AWriteThatFailsIsALossAndItIsOpenedAgain) {
+  Plugged bench;
+  bench.Arm();
+  for (const int result : {-1, 7}) {  // an error; fewer bytes than it was given
+    const int opening = bench.link->opening();
+    bench.usb.SetWriteResult(kPath, result);
+    ASSERT_TRUE(WaitUntil([&] {
+      bench.TickNow(kPush, true);
+      return bench.device->state() == DeviceState::kLost ||
+             bench.device->state() == DeviceState::kAbsent;
+    }));
+    EXPECT_EQ(bench.device->force(), kNone);
+    bench.usb.SetWriteResult(kPath, 0);
+    EXPECT_TRUE(WaitUntil([&] { return bench.link->opening() > opening; }));
+    bench.Arm();
+  }
+}
+
+TEST(LiveArm, AReadThatFailsIsALossAndItIsOpenedAgain) {
+  Plugged bench;
+  bench.Arm();
+  bench.usb.SetReadResult(kPath, -1);
+  ASSERT_TRUE(WaitUntil([&] {
+    bench.TickNow(kPush, true);
+    return bench.device->state() == DeviceState::kLost ||
+           bench.device->state() == DeviceState::kAbsent;
+  }));
+  EXPECT_EQ(bench.device->force(), kNone);
+  bench.usb.SetReadResult(kPath, 1);
+  bench.Arm();
+  EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
+}
+
+TEST(LiveArm, AServoThatFallsSilentIsWrittenAsZero) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
+  ASSERT_EQ(bench.device->force(), kPush);
+  // Nobody ticks any more.
+  EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
+}
+
+TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
+  for (const bool throws : {false, true}) {
+    std::vector<Bytes> written;
+    test::TempFolder folder;
+    try {
+      Plugged bench;
+      bench.Arm();
+      for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
+      ASSERT_NE(CurrentsAt(bench.usb, kPath), kNoCurrents);
+      const std::size_t before = bench.usb.Written(kPath).size();
+      struct Look {  // destroyed after the link is, before the bus
+        test::FakeUsb& usb;
+        std::vector<Bytes>& written;
+        std::size_t before;
+        std::shared_ptr<LiveLink> link;
+        std::unique_ptr<LiveDevice> device;
+        ~Look() {
+          device.reset();
+          link.reset();
+          const auto all = usb.Written(kPath);
+          written.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
+        }
+      } look{bench.usb, written, before, std::move(bench.link), std::move(bench.device)};
+      if (throws) throw std::runtime_error("anything");
+    } catch (const std::runtime_error&) {
+    }
+    ASSERT_GE(written.size(), 5u);
+    EXPECT_TRUE(AreZeros({written.end() - 5, written.end()}));
+  }
+}
+
+TEST(LiveArm, ReleasedItIsNeverPushedAgain) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
+  bench.link->Release();
+  EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
+  for (int i = 0; i < 50; ++i) {
+    bench.Tick(kPush, true);
+    ASSERT_EQ(CurrentsAt(bench.usb, kPath), kNoCurrents);
+  }
+}
+
+TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {
+  ArmBench bench;
+  bench.usb.Plug(test::WoodenArm(L"A", kPath));
+  LiveOptions options;
+  options.list_every = 0.02;
+  options.lock_folder = bench.folder.path();
+  const auto link = std::make_shared<LiveLink>(
+      *bench.bus, DeviceWish{DeviceFamily::kWoodenHaptics, "A", "polhem_v3"}, options);
+  LiveDevice device(link, 0);
+  ASSERT_TRUE(WaitUntil([&] { return link->trouble() == DeviceTrouble::kUnsupported; }));
+  for (int i = 0; i < 3; ++i) device.Read(SteadySeconds());
+  EXPECT_EQ(device.state(), DeviceState::kFault);
+  EXPECT_NE(link->detail().find("not published"), std::string::npos) << link->detail();
+  EXPECT_FALSE(HasForce(device.caps()));
+}
+
+TEST(LiveArm, ATickAllocatesNothing) {
+  Plugged bench;
+  bench.Arm();
+  const long before = test::Allocations();
+  for (int i = 0; i < 200; ++i) bench.TickNow(i % 50 ? kPush : glm::dvec3(std::nan("")), i % 7);
+  EXPECT_EQ(test::Allocations(), before);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
