@@ -63,7 +63,11 @@ struct Phantom {
   PhantomPicture without_tissues, with_tissues;
   PhantomTissue meniscus, cartilage;
   std::vector<Landmark> landmarks;  // of the bones and of both tissues
-  double incision_spacing = 0.03;   // m
+  // m. The instrument comes from the scope's medial side, as through an anteromedial portal beside
+  // the patellar tendon: so near that its shaft passes behind the anterior horn, over the plateau's
+  // dish. From 25 mm and further it would come to lie on the anterior rim before a hook is under
+  // the free edge.
+  double incision_spacing = 0.018;
   std::vector<TraceRow> trace;
 };
 

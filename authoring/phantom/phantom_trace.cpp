@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "authoring/phantom/crescent.h"
 #include "simulation/core/units.h"
 #include "simulation/scope/rod_pose.h"
 
@@ -68,6 +69,50 @@ RodPose AimAt(const glm::dvec3& target, double depth, double view_angle, const g
   return pose;
 }
 
+// How the instrument is held: its tip in the portal frame and the turn of its hook.
+struct HandPose {
+  glm::dvec3 tip{0.0};
+  double roll = 0;
+};
+
+// Down beside the edge with the hook dipped below it, outwards under it, turned level, up, held,
+// and drawn in until the edge slips off.
+std::vector<Key<HandPose>> HookKeys(const EdgeLift& lift, const Cavity& cavity,
+                                    const glm::dvec3& instrument_portal) {
+  constexpr double kReach = 3.4 * kMm;                   // of a probe's hook, from its rod
+  constexpr double kDip = 35.0 * kRadianPerDegree;       // the hook's end goes 2 mm down
+  constexpr double kRaise = 10.0 * kRadianPerDegree;     // over level
+  constexpr double kUnder = 3.2 * kMm, kUp = 2.0 * kMm;  // of the hook's end, of the hand
+  // The hook stands square to the rod: as far outwards as that lets it.
+  const RodPose rod = PoseOfTip(lift.x_in_portal - instrument_portal, 0.0);
+  const simulation::RodBasis basis = BasisOf(rod);
+  const glm::dvec3 level =
+      glm::normalize(lift.outwards - glm::dot(lift.outwards, basis.axis) * basis.axis);
+  const glm::dvec3 across = glm::cross(basis.axis, level);
+  const glm::dvec3 raised = glm::dot(across, lift.up) > 0.0 ? across : -across;
+  const auto roll_at = [&](double angle) {
+    const glm::dvec3 hook = std::cos(angle) * level + std::sin(angle) * raised;
+    return std::atan2(glm::dot(hook, basis.east), glm::dot(hook, basis.north));
+  };
+  // The tip, with the hook's end this far past the edge and this high over the plateau.
+  const glm::dvec3 reach = kReach * (level - glm::dot(level, lift.up) * lift.up);
+  const Rigid3 plateau_from_portal = Inverse(cavity.plateau.portal_from_plateau);
+  const auto tip_at = [&](double past, double height) {
+    const glm::dvec3 p = plateau_from_portal * (lift.x_in_portal + past * lift.outwards - reach);
+    return cavity.plateau.portal_from_plateau *
+           glm::dvec3(p.x, p.y, PlateauHeight(cavity.plateau, p.x, p.y, false) + height);
+  };
+  constexpr double kBefore = -3.5 * kMm, kOver = 4.0 * kMm;
+  const double dipped = roll_at(-kDip), lifting = roll_at(kRaise);
+  return {{lift.from_t, {tip_at(kBefore, kOver), dipped}},
+          {lift.from_t + 0.4, {tip_at(kBefore, 0.0), dipped}},
+          {lift.from_t + 1.1, {tip_at(kUnder, 0.0), dipped}},
+          {lift.from_t + 1.45, {tip_at(kUnder, 0.0), lifting}},
+          {lift.from_t + 1.9, {tip_at(kUnder, kUp), lifting}},
+          {lift.from_t + 2.3, {tip_at(kUnder, kUp), lifting}},
+          {lift.to_t, {tip_at(kBefore - 1.0 * kMm, kUp), lifting}}};
+}
+
 }  // namespace
 
 std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissue& meniscus) {
@@ -77,13 +122,13 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
   const glm::dvec3 body = glm::normalize(glm::dvec3(0.45, 0.62, -0.65));
   const glm::dvec3 on_condyle = condyle.centre + condyle.portal_from_body * (body * condyle.radii);
   contacts.push_back({on_condyle, NormalAt(cavity, Surface::kCondyle, on_condyle), 1.5 * kMm,
-                      5.0 * kMm, 5.2, 6.2});
+                      5.0 * kMm, 4.0, 4.8});
   // The plateau in front of the cartilage layer.
   const double x = -1.0 * kMm, y = -16.0 * kMm;
   const glm::dvec3 on_plateau =
       cavity.plateau.portal_from_plateau * glm::dvec3(x, y, PlateauHeight(cavity.plateau, x, y));
   contacts.push_back({on_plateau, NormalAt(cavity, Surface::kPlateau, on_plateau), 2.0 * kMm,
-                      5.0 * kMm, 7.0, 8.0});
+                      5.0 * kMm, 5.4, 6.2});
   // The body of the meniscus, nearer to its free edge.
   const auto named = [&](const char* name) {
     return std::find_if(meniscus.landmarks.begin(), meniscus.landmarks.end(),
@@ -104,41 +149,63 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
       normal +=
           glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
   contacts.push_back(
-      {mesh.vertices[nearest], glm::normalize(normal), 1.5 * kMm, 2.5 * kMm, 8.9, 10.0});
+      {mesh.vertices[nearest], glm::normalize(normal), 1.5 * kMm, 2.5 * kMm, 6.8, 7.6});
   return contacts;
+}
+
+EdgeLift LiftOfEdge(const Cavity& cavity) {
+  // Between body and posterior horn, where most tears are and a hook that comes from the front
+  // stands nearly across the edge.
+  constexpr double kAngle = 55.0 * kRadianPerDegree;
+  const Crescent crescent = MakeCrescent(cavity);
+  const double edge = OuterRadius(crescent, kAngle) - WedgeAt(crescent, kAngle).width;
+  const glm::dquat& turn = cavity.plateau.portal_from_plateau.rotation;
+  EdgeLift lift;
+  lift.x_in_portal =
+      cavity.plateau.portal_from_plateau * OnPlateau(cavity, crescent, kAngle, edge, 0.0);
+  lift.outwards = turn * glm::dvec3(std::cos(kAngle), std::sin(kAngle), 0.0);
+  lift.up = turn * glm::dvec3(0.0, 0.0, 1.0);
+  return lift;
 }
 
 std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& meniscus,
                                 double incision_spacing) {
   const glm::dvec3 instrument_portal(incision_spacing, 0.0, 0.0);
+  const std::vector<ProbeContact> touches = ProbeContacts(cavity, meniscus);
+  const EdgeLift lift = LiftOfEdge(cavity);
   // In, a look at the whole joint with a full roll, then after the probe from touch to touch.
   std::vector<Key<RodPose>> scope{{0.0, Pose4(8, -4, 0, 2)},
-                                  {0.8, Pose4(6, -2, 0, 9)},
-                                  {1.8, Pose4(4, 6, 60, 11)},
-                                  {3.2, Pose4(2, -6, 250, 11)},
-                                  {4.2, Pose4(0, 4, 400, 11)}};
-  for (const ProbeContact& touch : ProbeContacts(cavity, meniscus)) {
-    const RodPose aim = AimAt(touch.x_in_portal, 11.0 * kMm, kViewAngle,
-                              glm::dvec3(-1.0, -0.4, 0.0), scope.back().value.roll);
-    scope.push_back({touch.from_t, aim});
-    scope.push_back({touch.to_t, aim});
-  }
+                                  {0.7, Pose4(6, -2, 20, 9)},
+                                  {1.5, Pose4(4, 6, 110, 11)},
+                                  {2.6, Pose4(2, -6, 260, 11)},
+                                  {3.5, Pose4(0, 4, 370, 11)}};
+  const auto look_at = [&scope](const glm::dvec3& x, double from_t, double to_t) {
+    const RodPose aim =
+        AimAt(x, 11.0 * kMm, kViewAngle, glm::dvec3(-1.0, -0.4, 0.0), scope.back().value.roll);
+    scope.push_back({from_t, aim});
+    scope.push_back({to_t, aim});
+  };
+  for (const ProbeContact& touch : touches) look_at(touch.x_in_portal, touch.from_t, touch.to_t);
+  look_at(lift.x_in_portal, lift.from_t, lift.to_t);
   scope.push_back({12.0, Pose4(4, 0, 450, 4)});
+
+  const HandPose outside{instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm, 0.0};
+  const HandPose inside{glm::dvec3(16.0, 0.5, 13.0) * kMm, 0.2};
+  std::vector<Key<HandPose>> hand{{0.0, outside}, {2.6, outside}, {3.4, inside}};
   // Each touch: over the point, in, a short slide, out along the normal.
-  std::vector<Key<glm::dvec3>> tip{{0.0, instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm},
-                                   {3.4, instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm},
-                                   {4.3, glm::dvec3(24.0, 1.0, 13.0) * kMm}};
-  for (const ProbeContact& touch : ProbeContacts(cavity, meniscus)) {
+  for (const ProbeContact& touch : touches) {
     const glm::dvec3 side =
         glm::normalize(glm::cross(touch.normal, glm::dvec3(0, 0, 1)) + glm::dvec3(1e-6, 0, 0));
-    const glm::dvec3 in = touch.x_in_portal - touch.press * touch.normal;
-    tip.push_back({touch.from_t, touch.x_in_portal + touch.lift * touch.normal});
-    tip.push_back({touch.from_t + 0.4, in});
-    tip.push_back({touch.to_t - 0.35, in + 1.0 * kMm * side});
-    tip.push_back({touch.to_t, touch.x_in_portal + touch.lift * touch.normal + 1.0 * kMm * side});
+    const glm::dvec3 over = touch.x_in_portal + touch.lift * touch.normal,
+                     in = touch.x_in_portal - touch.press * touch.normal;
+    hand.push_back({touch.from_t, {over, 0.2}});
+    hand.push_back({touch.from_t + 0.35, {in, 0.1}});
+    hand.push_back({touch.to_t - 0.25, {in + 1.0 * kMm * side, -0.1}});
+    hand.push_back({touch.to_t, {over + 1.0 * kMm * side, -0.2}});
   }
-  tip.push_back({10.9, glm::dvec3(24.0, 1.0, 13.0) * kMm});
-  tip.push_back({12.0, instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm});
+  const std::vector<Key<HandPose>> hook = HookKeys(lift, cavity, instrument_portal);
+  hand.insert(hand.end(), hook.begin(), hook.end());
+  hand.push_back({12.0, outside});
 
   const DeviceRig rig;  // the rig of a scene that names none
   std::vector<TraceRow> rows;
@@ -149,9 +216,10 @@ std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& menis
                      a.longitude + s * (b.longitude - a.longitude), a.roll + s * (b.roll - a.roll),
                      a.depth + s * (b.depth - a.depth)};
     });
-    const glm::dvec3 x = At(
-        tip, t, [](const glm::dvec3& a, const glm::dvec3& b, double s) { return a + s * (b - a); });
-    const RodPose probe_pose = PoseOfTip(x - instrument_portal, 0.3 * std::sin(1.1 * t));
+    const HandPose held = At(hand, t, [](const HandPose& a, const HandPose& b, double s) {
+      return HandPose{a.tip + s * (b.tip - a.tip), a.roll + s * (b.roll - a.roll)};
+    });
+    const RodPose probe_pose = PoseOfTip(held.tip - instrument_portal, held.roll);
     rows.push_back(
         {t, true, HipFromRodPose(scope_pose, rig), HandleFromRodPose(scope_pose, rig), 0});
     rows.push_back(

@@ -1,7 +1,7 @@
 // The hand motions of a short session in the phantom: the scope goes in, looks round and rolls; the
-// instrument comes in, probes condyle, plateau and meniscus, and leaves. As both devices would
-// report it (TRACE.csv of design §5), for rigs with the pivot at the device's origin, portal axes
-// and rods of 0.2 m.
+// instrument comes in, probes condyle, plateau and meniscus, lifts the meniscus' free edge on its
+// hook, lets it go, and leaves. As both devices would report it (TRACE.csv of design §5), for rigs
+// with the pivot at the device's origin, portal axes and rods of 0.2 m.
 #pragma once
 
 #include <vector>
@@ -34,5 +34,13 @@ struct ProbeContact {
   double from_t = 0, to_t = 0;  // s, between which the tip may be inside
 };
 std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissue& meniscus);
+
+// Where the probe's hook goes under the free edge of the meniscus: the place on the plateau below
+// the edge, the way outwards under it, and up.
+struct EdgeLift {
+  glm::dvec3 x_in_portal{0.0}, outwards{0.0}, up{0.0};
+  double from_t = 8.1, to_t = 11.1;  // s, between which the tip is on the plateau or near it
+};
+EdgeLift LiftOfEdge(const Cavity& cavity);
 
 }  // namespace arthro::authoring
