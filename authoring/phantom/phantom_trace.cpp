@@ -122,13 +122,13 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
   const glm::dvec3 body = glm::normalize(glm::dvec3(0.45, 0.62, -0.65));
   const glm::dvec3 on_condyle = condyle.centre + condyle.portal_from_body * (body * condyle.radii);
   contacts.push_back({on_condyle, NormalAt(cavity, Surface::kCondyle, on_condyle), 1.5 * kMm,
-                      5.0 * kMm, 4.0, 4.8});
+                      5.0 * kMm, 3.75, 4.5});
   // The plateau in front of the cartilage layer.
   const double x = -1.0 * kMm, y = -16.0 * kMm;
   const glm::dvec3 on_plateau =
       cavity.plateau.portal_from_plateau * glm::dvec3(x, y, PlateauHeight(cavity.plateau, x, y));
   contacts.push_back({on_plateau, NormalAt(cavity, Surface::kPlateau, on_plateau), 2.0 * kMm,
-                      5.0 * kMm, 5.4, 6.2});
+                      5.0 * kMm, 5.1, 5.9});
   // The body of the meniscus, nearer to its free edge.
   const auto named = [&](const char* name) {
     return std::find_if(meniscus.landmarks.begin(), meniscus.landmarks.end(),
@@ -149,7 +149,7 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
       normal +=
           glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
   contacts.push_back(
-      {mesh.vertices[nearest], glm::normalize(normal), 1.5 * kMm, 2.5 * kMm, 6.8, 7.6});
+      {mesh.vertices[nearest], glm::normalize(normal), 1.5 * kMm, 2.5 * kMm, 6.6, 7.4});
   return contacts;
 }
 
@@ -176,9 +176,9 @@ std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& menis
   // In, a look at the whole joint with a full roll, then after the probe from touch to touch.
   std::vector<Key<RodPose>> scope{{0.0, Pose4(8, -4, 0, 2)},
                                   {0.7, Pose4(6, -2, 20, 9)},
-                                  {1.5, Pose4(4, 6, 110, 11)},
-                                  {2.6, Pose4(2, -6, 260, 11)},
-                                  {3.5, Pose4(0, 4, 370, 11)}};
+                                  {1.4, Pose4(4, 6, 110, 11)},
+                                  {2.4, Pose4(2, -6, 260, 11)},
+                                  {3.2, Pose4(0, 4, 370, 11)}};
   const auto look_at = [&scope](const glm::dvec3& x, double from_t, double to_t) {
     const RodPose aim =
         AimAt(x, 11.0 * kMm, kViewAngle, glm::dvec3(-1.0, -0.4, 0.0), scope.back().value.roll);
@@ -191,7 +191,7 @@ std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& menis
 
   const HandPose outside{instrument_portal + glm::dvec3(-1.0, 0.5, 3.0) * kMm, 0.0};
   const HandPose inside{glm::dvec3(16.0, 0.5, 13.0) * kMm, 0.2};
-  std::vector<Key<HandPose>> hand{{0.0, outside}, {2.6, outside}, {3.4, inside}};
+  std::vector<Key<HandPose>> hand{{0.0, outside}, {2.4, outside}, {3.2, inside}};
   // Each touch: over the point, in, a short slide, out along the normal.
   for (const ProbeContact& touch : touches) {
     const glm::dvec3 side =
