@@ -7,10 +7,11 @@ namespace arthro::simulation {
 
 CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed) {
   if (fixed.empty()) return {};
-  const FieldPieces pieces = PiecesOf(field);
+  const FieldPieces pieces = PiecesWithoutVolumes(field);
   std::vector<unsigned char> is_debris = HeldPieces(field, pieces, fixed);
   for (std::size_t i = 0; i < is_debris.size(); ++i)
-    is_debris[i] = is_debris[i] == 0 && pieces.volume[i] < kDebrisVolume;
+    is_debris[i] =
+        is_debris[i] == 0 && VolumeOfPiece(field, pieces, static_cast<int>(i)) < kDebrisVolume;
   return RemovePieces(field, pieces, is_debris);
 }
 

@@ -87,6 +87,46 @@ TEST(Pieces, CrumbsAreRemovedByVolumeAndCounted) {
   EXPECT_EQ(RemoveCrumbs(bar, 20 * kMm3).crumbs, 0);
 }
 
+// Against a flood from node to node, on a foam of drops that meet along edges, corners and not at
+// all.
+TEST(Pieces, HangTogetherAlongGridEdgesAndAreMeasuredOneByOneAsAllAtOnce) {
+  const SolidField foam = SolidField::FromFunction(
+      {glm::dvec3(0), glm::dvec3(5 * kMm)}, 0.2 * kMm, [](const glm::dvec3& x) {
+        const glm::dvec3 at = x / kMm;
+        return kMm * (std::sin(7.1 * at.x + 2 * at.y) * std::sin(5.3 * at.y) *
+                          std::sin(6.1 * at.z + at.x) +
+                      0.25);
+      });
+  const FieldPieces pieces = PiecesOf(foam);
+  ASSERT_GT(pieces.count(), 20);
+  const FieldGrid& grid = foam.grid();
+  std::vector<int> flooded(grid.NodeCount(), -1);
+  int count = 0;
+  for (std::size_t start = 0; start < flooded.size(); ++start) {
+    if (!(foam.values()[start] < 0) || flooded[start] >= 0) continue;
+    std::vector<std::size_t> front{start};
+    flooded[start] = count;
+    while (!front.empty()) {
+      const std::size_t node = front.back();
+      front.pop_back();
+      for (const std::size_t step : {grid.Index(1, 0, 0), grid.Index(0, 1, 0), grid.Index(0, 0, 1)})
+        for (const std::size_t other : {node - step, node + step})
+          if (foam.values()[other] < 0 && flooded[other] < 0) {
+            flooded[other] = count;
+            front.push_back(other);
+          }
+    }
+    ++count;
+  }
+  EXPECT_EQ(pieces.count(), count);
+  EXPECT_EQ(pieces.piece, flooded);
+  EXPECT_NEAR(Sum(pieces.volume), foam.Volume(), 1e-12 * foam.Volume());
+  const FieldPieces unmeasured = PiecesWithoutVolumes(foam);
+  EXPECT_EQ(unmeasured.piece, pieces.piece);
+  for (int i = 0; i < count; ++i)
+    EXPECT_EQ(VolumeOfPiece(foam, unmeasured, i), pieces.volume[static_cast<std::size_t>(i)]);
+}
+
 TEST(Pieces, AnEmptyFieldHasNone) {
   SolidField none;
   EXPECT_EQ(PiecesOf(none).count(), 0);
