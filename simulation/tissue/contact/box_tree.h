@@ -85,13 +85,15 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t kDeepest = 64;  // halving 2^31 items is 31 deep, two entries each
+  // A path splits by 30 bits of a place and then halves what is at one place, 2^31 items at most;
+  // it leaves an entry a level.
+  static constexpr std::size_t kDeepest = 64;
   // Children of an inner node are node + 1 and `next`; a leaf has count > 0 items from `next`.
   struct Node {
     Box3 box;
     std::int32_t next = 0, count = 0;
   };
-  void Build(std::span<const Box3> boxes, int first, int count);
+  void Build(std::span<const std::uint32_t> code, int first, int count);
 
   std::vector<Node> nodes_;
   std::vector<int> items_;

@@ -1,6 +1,7 @@
 #include "simulation/tissue/contact/uncut_surface.h"
 
 #include <algorithm>
+#include <array>
 
 #include <glm/geometric.hpp>
 
@@ -56,12 +57,20 @@ void LayOnto(const UncutSurface& uncut, const SolidField& field,
   const std::vector<glm::dvec3> of_grid = skin.vertices;
   for (const std::size_t v : free) skin.vertices[v] = uncut.Nearest(skin.vertices[v], reach);
 
+  // Triangles that have a vertex to be moved.
+  std::vector<unsigned char> is_moved(skin.vertices.size(), 0);
+  for (const auto* list : {&free, &at_cut})
+    for (const std::size_t v : *list) is_moved[v] = 1;
+  std::vector<std::array<int, 3>> triangles;
+  for (const auto& t : skin.triangles)
+    if (std::ranges::any_of(t, [&](int v) { return is_moved[static_cast<std::size_t>(v)] != 0; }))
+      triangles.push_back(t);
   std::vector<glm::dvec3> sum(skin.vertices.size());
   std::vector<int> count(skin.vertices.size());
   for (int relaxation = 0; relaxation < kRelaxations; ++relaxation) {
     std::fill(sum.begin(), sum.end(), glm::dvec3(0.0));
     std::fill(count.begin(), count.end(), 0);
-    for (const auto& t : skin.triangles)
+    for (const auto& t : triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const auto v = static_cast<std::size_t>(t[i]), w = static_cast<std::size_t>(t[(i + 1) % 3]);
         sum[v] += skin.vertices[w];
