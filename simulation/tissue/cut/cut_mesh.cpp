@@ -146,9 +146,18 @@ const CutMesh& MeshCutter::Rebuild(const SolidField& field) {
 int MeshCutter::PartNear(int e, const glm::dvec4& barycentric) const {
   const Element& element = elements_[At(e)];
   if (element.label.empty()) return element.parts.empty() || element.parts[0].copy < 0 ? -1 : 0;
+  // One part that is left is the nearest from anywhere, and a place in one that is left is its own.
+  int left = -1, count = 0;
+  for (std::size_t p = 0; p < element.parts.size(); ++p)
+    if (element.parts[p].copy >= 0) left = static_cast<int>(p), ++count;
+  if (count <= 1) return left;
   const TetLattice& lattice = LatticeOf(e);
+  const int nearest = lattice.Nearest(barycentric);
+  if (const std::uint8_t label = element.label[At(nearest)];
+      label != kNoPart && element.parts[label].copy >= 0)
+    return label;
   std::vector<unsigned char> is_seen(lattice.point.size(), 0);
-  std::vector<int> front{lattice.Nearest(barycentric)};
+  std::vector<int> front{nearest};
   is_seen[At(front[0])] = 1;
   for (std::size_t next = 0; next < front.size(); ++next) {
     const auto p = At(front[next]);
