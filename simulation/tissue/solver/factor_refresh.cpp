@@ -44,6 +44,7 @@ void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true
     for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (dt * dt);
     auto made = std::make_unique<SparseFactor>(
         PlanAfter(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
+    made->TakeMemory(factor->factor());
     const auto shift_needed = [&] {
       BlockMatrix matrix = stiffness;
       AddSprings(matrix);

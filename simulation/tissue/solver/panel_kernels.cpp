@@ -49,29 +49,37 @@ ARTHRO_INLINE void Tile(int k, const double* a, int lda, const double* b, int ld
 }
 
 ARTHRO_INLINE void MultiplyBody(int m, int n, int k, const double* a, int lda, const double* b,
-                                int ldb, double* c, int ldc, double sign, bool adds) {
+                                int ldb, double* c, int ldc, double sign, bool adds,
+                                LeftOut left_out) {
   for (int j = 0; j < n; j += 6) {
-    const double* bj = b + j;
+    const int begin = left_out == LeftOut::kBelowInB ? j : 0;
+    const int end = left_out == LeftOut::kAboveInB ? std::min(k, j + 6) : k;
+    const double* bj = b + j + static_cast<long>(begin) * ldb;
+    const double* aj = a + static_cast<long>(begin) * lda;
     double* cj = c + static_cast<long>(j) * ldc;
-    for (int i = 0; i < m; i += kStrip) switch (n - j) {
+    const int top = left_out == LeftOut::kAboveInC ? j / kStrip * kStrip : 0;
+    for (int i = top; i < m; i += kStrip) {
+      const int steps = (left_out == LeftOut::kAboveInA ? std::min(end, i + kStrip) : end) - begin;
+      switch (n - j) {
         case 1:
-          Tile<1>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          Tile<1>(steps, aj + i, lda, bj, ldb, cj + i, ldc, sign, adds);
           break;
         case 2:
-          Tile<2>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          Tile<2>(steps, aj + i, lda, bj, ldb, cj + i, ldc, sign, adds);
           break;
         case 3:
-          Tile<3>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          Tile<3>(steps, aj + i, lda, bj, ldb, cj + i, ldc, sign, adds);
           break;
         case 4:
-          Tile<4>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          Tile<4>(steps, aj + i, lda, bj, ldb, cj + i, ldc, sign, adds);
           break;
         case 5:
-          Tile<5>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          Tile<5>(steps, aj + i, lda, bj, ldb, cj + i, ldc, sign, adds);
           break;
         default:
-          Tile<6>(k, a + i, lda, bj, ldb, cj + i, ldc, sign, adds);
+          Tile<6>(steps, aj + i, lda, bj, ldb, cj + i, ldc, sign, adds);
       }
+    }
   }
 }
 
@@ -149,7 +157,7 @@ ARTHRO_INLINE void PanelTransposedBody(const Panel& panel, const float* t, int t
 
 struct Kernels {
   void (*multiply)(int, int, int, const double*, int, const double*, int, double*, int, double,
-                   bool) noexcept;
+                   bool, LeftOut) noexcept;
   void (*panel)(const Panel&, int, const float*, int, float*, int) noexcept;
   void (*panel_transposed)(const Panel&, int, const float*, int, float*, int) noexcept;
 };
@@ -157,8 +165,9 @@ struct Kernels {
 #define ARTHRO_KERNELS(NAME, ATTRIBUTE)                                                            \
   struct NAME {                                                                                    \
     ATTRIBUTE static void Multiply(int m, int n, int k, const double* a, int lda, const double* b, \
-                                   int ldb, double* c, int ldc, double sign, bool adds) noexcept { \
-      MultiplyBody(m, n, k, a, lda, b, ldb, c, ldc, sign, adds);                                   \
+                                   int ldb, double* c, int ldc, double sign, bool adds,            \
+                                   LeftOut left_out) noexcept {                                    \
+      MultiplyBody(m, n, k, a, lda, b, ldb, c, ldc, sign, adds, left_out);                         \
     }                                                                                              \
     ATTRIBUTE static void Forward(const Panel& p, int right, const float* x, int xs, float* t,     \
                                   int ts) noexcept {                                               \
@@ -219,8 +228,8 @@ bool FactorSmall(int n, double* a, int lda, double* inverse, int ldi, double lea
 }  // namespace
 
 void MultiplyTransposed(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
-                        double* c, int ldc, double sign, bool adds) noexcept {
-  kKernels.multiply(m, n, k, a, lda, b, ldb, c, ldc, sign, adds);
+                        double* c, int ldc, double sign, bool adds, LeftOut left_out) noexcept {
+  kKernels.multiply(m, n, k, a, lda, b, ldb, c, ldc, sign, adds, left_out);
 }
 
 void MultiplyPanel(const Panel& p, int right, const float* x, int x_stride, float* t,
@@ -242,18 +251,17 @@ bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double
   if (!FactorAndInvert(n1, a, lda, inverse, ldi, work, least)) return false;
   double* a21 = a + n1;
   double* a22 = a + static_cast<long>(n1) * lda + n1;
-  const auto copy = [&](double* to, int ld, int columns, bool adds) {
-    for (int j = 0; j < columns; ++j)
-      for (int i = 0; i < n2; ++i) {
-        double& x = to[static_cast<long>(j) * ld + i];
-        const double y = work[static_cast<long>(j) * stride + i];
-        x = adds ? x + y : y;
-      }
+  const auto copy = [&](double* to, int ld) {
+    for (int j = 0; j < n1; ++j)
+      std::copy_n(work + static_cast<long>(j) * stride, n2, to + static_cast<long>(j) * ld);
   };
-  MultiplyTransposed(n2, n1, n1, a21, lda, inverse, ldi, work, stride, 1.0, false);
-  copy(a21, lda, n1, false);
-  MultiplyTransposed(n2, n2, n1, a21, lda, a21, lda, work, stride, -1.0, false);
-  copy(a22, lda, n2, true);
+  MultiplyTransposed(n2, n1, n1, a21, lda, inverse, ldi, work, stride, 1.0, false,
+                     LeftOut::kAboveInB);
+  copy(a21, lda);
+  MultiplyTransposed(n2, n2, n1, a21, lda, a21, lda, work, stride, -1.0, false, LeftOut::kAboveInC);
+  for (int j = 0; j < n2; ++j)
+    for (int i = j; i < n2; ++i)
+      a22[static_cast<long>(j) * lda + i] += work[static_cast<long>(j) * stride + i];
   double* inverse22 = inverse + static_cast<long>(n1) * ldi + n1;
   if (!FactorAndInvert(n2, a22, lda, inverse22, ldi, work, least)) return false;
   // First L₂₁ L₁₁⁻¹, with the transpose of L₁₁⁻¹ beyond the product.
@@ -262,15 +270,16 @@ bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double
   for (int j = 0; j < n1; ++j)
     for (int i = 0; i < n1; ++i)
       transposed[static_cast<long>(j) * stride1 + i] = inverse[static_cast<long>(i) * ldi + j];
-  MultiplyTransposed(n2, n1, n1, a21, lda, transposed, stride1, work, stride, 1.0, false);
+  MultiplyTransposed(n2, n1, n1, a21, lda, transposed, stride1, work, stride, 1.0, false,
+                     LeftOut::kBelowInB);
   // Its transpose, to be what the kernel takes on the right.
   double* right = transposed;
   for (int j = 0; j < n2; ++j)
     for (int i = 0; i < n1; ++i)
       right[static_cast<long>(j) * stride1 + i] = work[static_cast<long>(i) * stride + j];
-  MultiplyTransposed(n2, n1, n2, inverse22, ldi, right, stride1, work, stride, -1.0, false);
-  double* inverse21 = inverse + n1;
-  copy(inverse21, ldi, n1, false);
+  MultiplyTransposed(n2, n1, n2, inverse22, ldi, right, stride1, work, stride, -1.0, false,
+                     LeftOut::kAboveInA);
+  copy(inverse + n1, ldi);
   for (int j = 0; j < n2; ++j)
     for (int i = 0; i < n1; ++i) inverse[static_cast<long>(n1 + j) * ldi + i] = 0.0;
   return true;

@@ -9,9 +9,14 @@ namespace arthro::simulation {
 inline constexpr int kStrip = 16;  // rows; one cache line of floats
 constexpr int StripsOf(int rows) { return (rows + kStrip - 1) / kStrip * kStrip; }
 
+// Where a product has nothing but zeros above or below a diagonal, or is not asked for: such parts
+// are left out, to whole tiles. The bits of the others are the same.
+enum class LeftOut { kNothing, kAboveInA, kAboveInB, kBelowInB, kAboveInC };
+
 // c (m×n, stride ldc) = sign · a (m×k, stride lda) · bᵀ (b n×k, stride ldb), or += where `adds`.
 void MultiplyTransposed(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
-                        double* c, int ldc, double sign, bool adds) noexcept;
+                        double* c, int ldc, double sign, bool adds,
+                        LeftOut left_out = LeftOut::kNothing) noexcept;
 
 // a (n×n, lower triangle, stride lda) becomes its Cholesky factor L, `inverse` (n×n, stride ldi,
 // whole) L⁻¹ with zeros above. `work`: 2 n·StripsOf(n). False: a pivot was not above `least`.

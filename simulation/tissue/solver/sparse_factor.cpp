@@ -23,6 +23,12 @@ SparseFactor::SparseFactor(std::shared_ptr<const FactorPlan> plan) : plan_(std::
   short_.resize(static_cast<std::size_t>(kMostRight) * p.widest_);
 }
 
+void SparseFactor::TakeMemory(SparseFactor& other) noexcept {
+  for (auto buffer : {&SparseFactor::work_, &SparseFactor::inverse_, &SparseFactor::product_,
+                      &SparseFactor::right_})
+    std::swap(this->*buffer, other.*buffer);
+}
+
 double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added) {
   const FactorPlan& p = *plan_;
   const std::int64_t widest = p.widest_, tallest = StripsOf(p.tallest_);
@@ -78,11 +84,18 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       const int m = from.rows - begin, n = end - begin, stride = StripsOf(m);
       const double* source = work_.data() + from.value + begin;
       MultiplyTransposed(m, n, from.columns, source, from.stride, source, from.stride,
-                         product_.data(), stride, 1.0, false);
-      for (int c = 0; c < n; ++c) {
-        double* to = panel + static_cast<std::int64_t>(from_rows[begin + c] - s.first) * s.stride;
-        const double* column = product_.data() + static_cast<std::int64_t>(c) * stride;
-        for (int r = c; r < m; ++r) to[map_[from_rows[begin + r]]] -= column[r];
+                         product_.data(), stride, 1.0, false, LeftOut::kAboveInC);
+      // Rows that follow one another there do so here, mostly: stretch by stretch.
+      for (int r = 0; r < m;) {
+        const int first = map_[from_rows[begin + r]], r0 = r++;
+        while (r < m && map_[from_rows[begin + r]] == first + r - r0) ++r;
+        for (int c = 0; c < std::min(n, r); ++c) {
+          const int top = std::max(r0, c);
+          double* to = panel + first + top - r0 +
+                       static_cast<std::int64_t>(from_rows[begin + c] - s.first) * s.stride;
+          const double* column = product_.data() + static_cast<std::int64_t>(c) * stride + top;
+          for (int row = 0; row < r - top; ++row) to[row] -= column[row];
+        }
       }
       if (end < from.rows) {
         position_[d] = end;
@@ -104,7 +117,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
     if (m > 0) {
       const int stride = StripsOf(m);
       MultiplyTransposed(m, n, n, panel + n, s.stride, inverse_.data(), ldi, product_.data(),
-                         stride, 1.0, false);
+                         stride, 1.0, false, LeftOut::kAboveInB);
       for (int j = 0; j < n; ++j)
         std::copy_n(product_.data() + static_cast<std::int64_t>(j) * stride, m,
                     panel + static_cast<std::int64_t>(j) * s.stride + n);
@@ -112,7 +125,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       for (int j = 0; j < n; ++j)
         for (int r = 0; r < n; ++r) right_[r * ldi + j] = inverse_[j * ldi + r];
       MultiplyTransposed(m, n, n, panel + n, s.stride, right_.data(), ldi, product_.data(), stride,
-                         1.0, false);
+                         1.0, false, LeftOut::kBelowInB);
       for (int j = 0; j < n; ++j)
         for (int r = 0; r < m; ++r)
           kept[static_cast<std::int64_t>(j) * s.stride + n + r] =

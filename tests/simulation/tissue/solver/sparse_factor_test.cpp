@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/random.h"
+#include "simulation/tissue/solver/panel_kernels.h"
 
 namespace arthro::simulation {
 namespace {
@@ -204,6 +205,40 @@ TEST(FactorPlan, IsTheSameWhereNothingBecameOfTheCut) {
   FixedAxes held = free;
   held[3] = 7;
   EXPECT_EQ(PlanAfter(before, {}, whole.Pattern(), held)->size(), before->size() - 3);
+}
+
+TEST(PanelKernels, WhatIsLeftOutOfAProductChangesNoBitOfTheRest) {
+  Random random(3);
+  for (const int n : {1, 5, 16, 23, 47}) {
+    const int stride = StripsOf(n);
+    const auto made = [&](auto&& is_there) {
+      std::vector<double> m(static_cast<std::size_t>(stride * stride + kStrip), 0.0);
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          if (is_there(i, j)) m[static_cast<std::size_t>(j * stride + i)] = random.Uniform(-1, 1);
+      return m;
+    };
+    const auto full = made([](int, int) { return true; });
+    const auto lower = made([](int i, int j) { return i >= j; });
+    const auto upper = made([](int i, int j) { return i <= j; });
+    const auto expect_same = [&](const std::vector<double>& a, const std::vector<double>& b,
+                                 LeftOut left_out) {
+      std::vector<double> whole(full.size()), part(full.size());
+      MultiplyTransposed(n, n, n, a.data(), stride, b.data(), stride, whole.data(), stride, -1.0,
+                         false);
+      MultiplyTransposed(n, n, n, a.data(), stride, b.data(), stride, part.data(), stride, -1.0,
+                         false, left_out);
+      for (int j = 0; j < n; ++j)
+        for (int i = left_out == LeftOut::kAboveInC ? j : 0; i < n; ++i) {
+          const auto at = static_cast<std::size_t>(j * stride + i);
+          ASSERT_EQ(whole[at], part[at]) << n << ": " << i << ", " << j;
+        }
+    };
+    expect_same(lower, full, LeftOut::kAboveInA);
+    expect_same(full, lower, LeftOut::kAboveInB);
+    expect_same(full, upper, LeftOut::kBelowInB);
+    expect_same(full, full, LeftOut::kAboveInC);
+  }
 }
 
 TEST(SparseFactor, NotFiniteIsSaid) {
