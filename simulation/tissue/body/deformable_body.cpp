@@ -48,15 +48,25 @@ bool IsFinite(std::span<const glm::dvec3> x) noexcept {
 std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder& finder,
                                       const SolidField& field) {
   return std::make_unique<BodyShape>(spec.mesh, std::span<const double>{}, spec,
-                                     EmbedSkin(spec.surface, spec.mesh, finder), field);
+                                     EmbedSkin(spec.surface, spec.mesh, finder), field, nullptr);
+}
+
+std::shared_ptr<const FemModel> ModelOf(const TetMesh& mesh, std::span<const double> share,
+                                        const Material& material, const FemModel* before) {
+  if (before == nullptr || before->mesh().elements != mesh.elements ||
+      before->mesh().rest_positions != mesh.rest_positions)
+    return std::make_shared<const FemModel>(mesh, material, share);
+  auto model = std::make_shared<FemModel>(*before);
+  model->SetShares(share);
+  return model;
 }
 
 }  // namespace
 
 BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
-                     EmbeddedSkin carried, const SolidField& field)
+                     EmbeddedSkin carried, const SolidField& field, const FemModel* before)
     : mesh(std::move(elements)),
-      model(std::make_shared<const FemModel>(mesh, spec.material, share)),
+      model(ModelOf(mesh, share, spec.material, before)),
       fixed(FixedBy(spec.fixed, mesh)),
       skin(std::move(carried)),
       skin_contact(skin, mesh, field),

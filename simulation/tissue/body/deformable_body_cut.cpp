@@ -299,7 +299,8 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
   cut->element_of_vertex = std::move(element_of);
 
   const std::vector<int> from = PreviousNodes(after);
-  shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin), field);
+  shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin), field,
+                                      shape->model.get());
   if (finish_refresh) finish_refresh();
   solver.Replace(shape->model, shape->fixed, from);
   wants_refresh = false;

@@ -18,8 +18,9 @@ namespace arthro::simulation {
 
 // All that a cut makes anew: elements, what is held, the skin and what finds contacts on it.
 struct BodyShape {
+  // `before`: of the shape before, or null; where it has the same elements only shares are new.
   BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
-            EmbeddedSkin carried, const SolidField& field);
+            EmbeddedSkin carried, const SolidField& field, const FemModel* before);
 
   TetMesh mesh;
   std::shared_ptr<const FemModel> model;

@@ -24,14 +24,17 @@ BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int
 
   BlockPattern pattern;
   pattern.row_begin.push_back(0);
-  std::vector<int> row;
+  std::vector<int> row, seen_in(node_count, -1);
   for (int i = 0; i < node_count; ++i) {
     row.assign(1, i);  // also where no element is, so that a mass has its place
+    seen_in[i] = i;
     for (int k = begin[i]; k < begin[i + 1]; ++k)
-      row.insert(row.end(), elements.begin() + element[k] * n,
-                 elements.begin() + (element[k] + 1) * n);
+      for (const int node : elements.subspan(static_cast<std::size_t>(element[k]) * n, n))
+        if (seen_in[node] != i) {
+          seen_in[node] = i;
+          row.push_back(node);
+        }
     std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
     const auto self = std::lower_bound(row.begin(), row.end(), i) - row.begin();
     pattern.diagonal.push_back(static_cast<int>(pattern.column.size() + self));
     pattern.column.insert(pattern.column.end(), row.begin(), row.end());

@@ -112,6 +112,21 @@ TEST_P(EachOrder, SharesScaleWhatIsThere) {
   }
 }
 
+TEST_P(EachOrder, ACopyWithOtherSharesIsAModelMadeWithThemToTheBit) {
+  const TetMesh mesh = Block(GetParam());
+  FemModel whole(mesh, Rubber());
+  std::vector<double> share(whole.shares().size());
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = 1.0 / static_cast<double>(1 + i % 7);
+  const FemModel made(mesh, Rubber(), share);
+  FemModel copy = whole;
+  copy.SetShares(share);
+  const auto x = Moved(mesh, [](const glm::dvec3& at) { return at + 0.1 * at.y * at; });
+  const auto a = AssembleAt(made, x), b = AssembleAt(copy, x);
+  EXPECT_EQ(a.sum.energy, b.sum.energy);
+  EXPECT_EQ(a.force, b.force);
+  EXPECT_TRUE(std::ranges::equal(made.mass(), copy.mass()));
+}
+
 // Elements of no share are as if they were not there: the rest answers as the mesh of the rest,
 // their own nodes keep a mass above nothing, and inside out they do not count.
 TEST(FemModel, ANodeKnowsWhatIsLeftOfItsElements) {
