@@ -33,6 +33,7 @@ int RunCommandLine(int argc, char** argv) {
   AddCheckJob(program);
   AddDemoJob(program);
   AddDepthJob(program);
+  AddDevicesJob(program);
   AddEditJob(program);
   AddLensJob(program);
   AddPanoramaJob(program);

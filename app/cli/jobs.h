@@ -13,6 +13,7 @@ void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddDemoJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
+void AddDevicesJob(CLI::App& program);
 void AddEditJob(CLI::App& program);
 void AddLensJob(CLI::App& program);
 void AddPanoramaJob(CLI::App& program);

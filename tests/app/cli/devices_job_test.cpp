@@ -1,0 +1,48 @@
+// On any machine: whether it has devices or not is not the test's affair.
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "simulation/device/hid/hid_node.h"
+#include "tests/support/run_program.h"
+
+namespace arthro::test {
+namespace {
+
+TEST(DevicesJob, ListsAsJsonWhatItLookedForAndFound) {
+  const ProgramResult run = RunProgram("devices --json -");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["schema"], "arthroscene.devices/1");
+  std::set<std::string> families;
+  std::size_t numbers = 0;
+  for (const auto& entry : json["looked_for"]) {
+    families.insert(entry["family"]);
+    numbers += entry["numbers"].size();
+  }
+  EXPECT_EQ(families.size(), simulation::AllFamilies().size());
+  EXPECT_EQ(numbers, simulation::KnownNumbers().size());
+  EXPECT_GE(json["hid_devices"].get<std::size_t>(), json["devices"].size());
+}
+
+TEST(DevicesJob, WhereThereIsNoneSaysWhatItLookedForAndWhatToTry) {
+  const auto json = nlohmann::json::parse(RunProgram("devices --json -").out);
+  if (!json["devices"].empty()) GTEST_SKIP() << "SKIPPED: a haptic device is plugged in here";
+  const ProgramResult run = RunProgram("devices");
+  EXPECT_EQ(run.exit_code, 0);
+  for (const char* part : {"No haptic device", "WoodenHaptics", "256f:c635", "--watch", "mouse"})
+    EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;
+  const ProgramResult test = RunProgram("devices --self-test");
+  EXPECT_EQ(test.exit_code, 1);
+  EXPECT_NE(test.err.find("no device to test"), std::string::npos) << test.err;
+  EXPECT_EQ(RunProgram("devices --watch --seconds 0.1").exit_code, 0);
+}
+
+TEST(DevicesJob, RefusesFlagsThatContradict) {
+  EXPECT_EQ(RunProgram("devices --watch --self-test").exit_code, 2);
+  EXPECT_EQ(RunProgram("devices --seconds -1").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace arthro::test
