@@ -1,5 +1,6 @@
 #include "simulation/device/live/live_link.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <pthread.h>
@@ -216,7 +217,9 @@ void LiveLink::Serve() noexcept {
 bool LiveLink::Drain(double& empty_at) noexcept {
   std::array<std::uint8_t, kReportRoom> report;
   int count = 0, good = 0, bad = 0;
+  double asked_at = 0;
   for (; count < kLongestBurst; ++count) {
+    asked_at = options_.clock();
     const int size = link_->Read(report, count == 0 ? kReadTimeout : 0);
     if (size < 0 || size > static_cast<int>(report.size())) {
       trouble_ = DeviceTrouble::kReadError;
@@ -237,7 +240,8 @@ bool LiveLink::Drain(double& empty_at) noexcept {
       news_[static_cast<std::size_t>(hand)].Write(news);
     }
   }
-  empty_at = now;
+  // Held up after the read that found nothing, we do not know what came meanwhile.
+  empty_at = count > 0 ? asked_at : std::min(now, asked_at + 1e-3 * kReadTimeout);
   // Who sees these has the news, too.
   if (count >= kRing) ++full_rings_;
   rejected_ += bad;

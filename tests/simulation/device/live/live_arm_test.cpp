@@ -1,6 +1,8 @@
 // A force device at work: what the hand is given when all is well, and when it is not.
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -107,6 +109,41 @@ TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
   EXPECT_EQ(bench.device->force(), kPush);
   bench.device.reset();
   bench.link.reset();
+}
+
+// A clock that holds up who looks at it when so many looks are left.
+std::function<void()> hold_up;
+std::atomic<int> looks_left{0};
+double HoldingSeconds() noexcept {
+  if (looks_left.fetch_sub(1) == 1) hold_up();
+  return test::BenchSeconds();
+}
+
+TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
+  for (int look = 1; look <= 10; ++look) {
+    Plugged bench;
+    LiveOptions options;
+    options.clock = HoldingSeconds;
+    options.list_every = 0.02;
+    options.lock_folder = bench.folder.path();
+    bench.device.reset();
+    bench.link = std::make_shared<LiveLink>(*bench.bus, bench.link->wish(), options);
+    bench.device = std::make_unique<LiveDevice>(bench.link, 0);
+    bench.Arm();
+    ASSERT_EQ(bench.device->state(), DeviceState::kArmed);
+    bench.usb.OnWrite(kPath, nullptr);
+    hold_up = [&] {
+      for (int report = 0; report < 63; ++report) bench.board.SendNow();
+      test::AdvanceBench(0.3);
+    };
+    looks_left = look;
+    ASSERT_TRUE(WaitUntil([&] { return bench.link->counts().full_rings > 0; }));
+    const DeviceSample sample = bench.TickNow(kPush, true);
+    EXPECT_EQ(bench.device->force(), kNone) << "look " << look;
+    EXPECT_GT(test::BenchSeconds() - sample.t, 0.2) << "s, look " << look;
+    bench.device.reset();
+    bench.link.reset();
+  }
 }
 
 TEST(LiveArm, HardCase02UnpluggedInContactItIsLostAndComesBackBySerial) {
