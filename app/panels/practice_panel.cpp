@@ -48,6 +48,8 @@ const char* FaultWords(simulation::Fault fault) {
       return "No force: the device sent something unreadable.";
     case simulation::Fault::kTooFast:
       return "No force: the hand is too fast; slow down.";
+    case simulation::Fault::kNotArmed:
+      return "No force: hold the dead-man of the device.";
     case simulation::Fault::kTissue:
       return "No force: the tissue was reset.";
   }

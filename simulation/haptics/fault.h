@@ -11,6 +11,7 @@ enum class Fault {
   kLost,       // the same sample for longer than lost_after
   kNotFinite,  // a position or a force that is not a number
   kTooFast,    // the hand is faster than max_hand_speed
+  kNotArmed,   // nobody holds the dead-man of the device
   kTissue,     // a tissue could not be computed and was reset
 };
 
@@ -29,6 +30,8 @@ constexpr const char* Word(Fault fault) noexcept {
       return "not_finite";
     case Fault::kTooFast:
       return "too_fast";
+    case Fault::kNotArmed:
+      return "not_armed";
     case Fault::kTissue:
       return "tissue";
   }

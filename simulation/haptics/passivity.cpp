@@ -6,6 +6,11 @@
 #include <glm/geometric.hpp>
 
 namespace arthro::simulation {
+namespace {
+
+constexpr double kForgiving = 0.1;  // s, three swings of a hand that is thrown
+
+}  // namespace
 
 glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& force,
                           const glm::dvec3& hand, double stiffness, double dt,
@@ -27,6 +32,12 @@ glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& for
   // What the spring holds now, and nothing of what was rubbed away.
   const double held = stiffness > 0 ? 0.5 * force2 / stiffness : 0.0;
   state.energy = std::min(state.energy, held);
+  // In the air there is nothing to damp. What was owed is forgiven in time, not at once: a hand
+  // that a surface throws comes back soon.
+  if (!(force2 > 0)) {
+    state.energy *= kForgiving / (kForgiving + dt);
+    return force;
+  }
   const double over = -options.allowance - state.energy;
   if (!(over > 0) || !(way2 > 0)) return force;
   // A damper that would take it out within this tick, at the speed of the last one.

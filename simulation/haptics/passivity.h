@@ -1,8 +1,8 @@
 // A guard that lets the rendered surface give back no more energy than it took: time-domain
 // passivity [Hannaford & Ryu 2002; notes on haptics, 4.5]. A sampled spring gives a hand some
 // energy at every touch, since it answers a tick late; what it has given too much is taken out by a
-// damper that works only then. At the hand, device frame; m, N, N/m, J, s. noexcept, allocates
-// nothing.
+// damper that works only then, while something is touched. At the hand, device frame; m, N, N/m, J,
+// s. noexcept, allocates nothing.
 #pragma once
 
 #include <glm/vec3.hpp>

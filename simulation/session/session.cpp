@@ -31,6 +31,14 @@ DepthField FieldOf(const LoadedScene& loaded, const DepthFieldOptions& options) 
   return {loaded.scene.backdrop, loaded.panorama.width, loaded.panorama.height, options};
 }
 
+// m/N, how far a tip goes into living tissue for a force on it; 0: nothing is known.
+double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept {
+  double stiffness = 0;
+  for (int i = 0; i < std::min(coupling.count, kMaxToolContacts); ++i)
+    stiffness += glm::dot(force, coupling.contact[static_cast<std::size_t>(i)].stiffness * force);
+  return stiffness > 0 ? glm::dot(force, force) / stiffness : 0.0;
+}
+
 // Jaws close and open in this time, so that what they bite is between them.
 constexpr double kJawTime = 0.15;  // s
 
@@ -223,7 +231,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
                        ToolState& state) noexcept {
   Fault fault = Receive(tool, sample, dt);
   ContactForce contact;
-  glm::dvec3 hand_force(0.0);
+  TipForce to_hand;
   if (fault == Fault::kNone || fault == Fault::kStale) {
     const RodPose pose =
         RodPoseFromHip(sample.hip_in_device, sample.handle_in_device, tool.rig, state.pose);
@@ -231,10 +239,10 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
     if (IsFinite(tip)) {
       state.pose = pose;
       state.tip_in_portal = tip;
-      const Lever lever =
-          LeverAt(tool.rig.portal_from_device * (sample.hip_in_device - tool.rig.pivot),
-                  tool.rig.rod_length, options_.lever);
+      to_hand.hand = tool.rig.portal_from_device * (sample.hip_in_device - tool.rig.pivot);
+      const Lever lever = LeverAt(to_hand.hand, tool.rig.rod_length, options_.lever);
       const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
+      double give = 1.0 / options_.contact.stiffness;  // m/N, of all that yields
       // Tissue has the tool where everything else would let the hand put it, by the pushes of the
       // last tick; so have the layers.
       const glm::dvec3 beside = tool.contact.contact >= 0
@@ -246,6 +254,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
         const CoupledForce tissue =
             BlendedForce(tool.tissue, state.tissue_tip_in_portal, dt, kTissueFrame);
         pull = {tissue.force, tissue.tissue < 0 ? kNoContact : 1 + tissue.tissue};
+        give = std::max(give, GiveAlong(tool.tissue.to, tissue.force));
         if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
       }
       const LayerHold layers =
@@ -256,6 +265,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
         pull.force += layers.force;
         pull.normal = glm::normalize(layers.force);
         pull.depth = glm::length(tool.layer_push) + layers.depth;
+        give = std::max(give, pull.depth / glm::length(layers.force));
       }
       contact = TickContact({*field_, meshes_, instead_}, options_.contact, stiffness, portal, tip,
                             dt, tool.contact, pull);
@@ -263,7 +273,9 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       state.is_layer_deep = layers.is_deep;
       state.layer = layers.tissue;
       state.layer_depth = layers.depth;
-      hand_force = HandForce(lever, contact.force);
+      to_hand.force = contact.force;
+      to_hand.stiffness = stiffness / (options_.contact.stiffness * give);
+      to_hand.lever = lever;
     } else {
       fault = Fault::kNotFinite;
     }
@@ -274,8 +286,11 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
     tool.let_be.reset();
     tool.layer_push = glm::dvec3(0.0);
   }
-  const LimitedForce limited =
-      LimitForce(options_.limiter, hand_force, tool.hand_speed, fault, dt, tool.limiter);
+  to_hand.hand_speed = tool.hand_speed;
+  to_hand.fault = fault;
+  to_hand.push = tool.push;
+  const LimitedForce limited = ForceToHand({options_.passivity, options_.thermal, options_.limiter},
+                                           to_hand, dt, tool.output);
   if (!tool.contact.has_started) {
     state.is_layer_deep = false;
     state.layer = -1;

@@ -1,7 +1,7 @@
 // A practice session: two hands in, poses, contacts and forces out, one servo tick at a time
 // [paper 3.2, 3.4; design §1, §2]. It draws nothing and has no threads: a servo thread calls Tick
 // at 1 kHz where there is a force device, the window calls it in 1 ms steps where there is none.
-// Both tools go the same way: rod pose, contact of the tip, lever, limiter. Portal frame, m, N, s.
+// Both tools go the same way: rod pose, contact of the tip, output chain. Portal frame, m, N, s.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulation/device/device_sample.h"
+#include "simulation/haptics/output_chain.h"
 #include "simulation/haptics/surface_bvh.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scene/scene_io.h"
@@ -49,6 +50,11 @@ class Session {
   // Contact, lever and limiter at once; the depth map's own options need a new session.
   void SetOptions(const SessionOptions& options) noexcept { options_ = options; }
   const SessionOptions& options() const noexcept { return options_; }
+
+  // May the hand be pushed in the ticks to come? Without a device nobody is, and it may.
+  void SetPush(DeviceRole role, HandPush push) noexcept {
+    (role == DeviceRole::kScope ? scope_ : instrument_).push = push;
+  }
 
   // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
   // TissuePace::kInline the same inputs give the same bits. `layers` give way to both tools, all
@@ -88,7 +94,8 @@ class Session {
     glm::dvec3 layer_push{0.0};        // m, how far layers held it off its hand in the last tick
     std::optional<glm::dvec3> let_be;  // where they let its tip be then; none: it was away
     ContactState contact;
-    LimiterState limiter;
+    OutputState output;
+    HandPush push = HandPush::kYes;
     bool has_sample = false;
     DeviceSample last;      // the newest one
     double age = 0;         // s since it came

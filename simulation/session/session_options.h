@@ -6,6 +6,8 @@
 #include "simulation/haptics/depth_field.h"
 #include "simulation/haptics/force_limiter.h"
 #include "simulation/haptics/lever.h"
+#include "simulation/haptics/passivity.h"
+#include "simulation/haptics/thermal.h"
 #include "simulation/tissue/body/body_options.h"
 
 namespace arthro::simulation {
@@ -14,6 +16,8 @@ struct SessionOptions {
   DepthFieldOptions depth;
   ContactOptions contact;
   LeverOptions lever;
+  PassivityOptions passivity;
+  ThermalOptions thermal;
   LimiterOptions limiter;
   BodyOptions tissue;  // its tool spring is contact.stiffness, whatever it says itself
   template <class V>
@@ -21,6 +25,8 @@ struct SessionOptions {
     depth.Visit(v);
     contact.Visit(v);
     lever.Visit(v);
+    passivity.Visit(v);
+    thermal.Visit(v);
     limiter.Visit(v);
     tissue.Visit(v);
   }

@@ -1,0 +1,42 @@
+#include "simulation/haptics/output_chain.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace arthro::simulation {
+
+LimitedForce ForceToHand(const OutputOptions& options, const TipForce& tip, double dt,
+                         OutputState& state) noexcept {
+  Fault fault = tip.fault;
+  const glm::dvec3 bare = HandForce(tip.lever, tip.force);
+  if (fault == Fault::kNone && !(std::isfinite(bare.x) && std::isfinite(bare.y) &&
+                                 std::isfinite(bare.z) && std::isfinite(tip.hand_speed)))
+    fault = Fault::kNotFinite;
+  if (fault == Fault::kNone && tip.push == HandPush::kNo) fault = Fault::kNotArmed;
+
+  glm::dvec3 force = bare;
+  if (fault != Fault::kNone) {
+    state.guard = PassivityState{};
+  } else {
+    // The lever changes forces by its gain and stiffnesses by its square, energies not at all: the
+    // spring at the hand is the one that holds as much.
+    const double at_tip = glm::dot(tip.force, tip.force), at_hand = glm::dot(bare, bare);
+    const double stiffness = at_tip > 0 ? tip.stiffness * (at_hand / at_tip) : tip.stiffness;
+    force = GuardPassivity(options.passivity, bare, tip.hand, stiffness, dt, state.guard);
+  }
+
+  LimitedForce sent;
+  if (fault == Fault::kNone && tip.push == HandPush::kPause) {
+    state.limiter.held = glm::dvec3(0.0);
+  } else {
+    LimiterOptions limiter = options.limiter;
+    limiter.max_force = ThermalClamp(options.thermal, limiter.max_force, state.thermal);
+    sent = LimitForce(limiter, force, tip.hand_speed, fault, dt, state.limiter);
+  }
+  NoteSent(sent.force, state.guard);
+  NoteHeat(options.thermal, glm::length(sent.force), dt, state.thermal);
+  return sent;
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,21 @@
+// What a device can bear and show, as the options of a session that feels through it [notes on
+// haptics, 3 and 4.5]. It only ever lowers, so that several devices may be asked one after the
+// other. N, N/m, s.
+#pragma once
+
+#include "simulation/device/device_caps.h"
+#include "simulation/session/session_options.h"
+
+namespace arthro::simulation {
+
+// Largest stiffness at the hand that a sampled spring with viscosity may have and not swing when
+// nobody holds the device: K (T/2 + t_d) < b + B [Gil et al. 2004; Hulin et al. 2006]. b: of the
+// device; the coupling's own viscosity B goes down with its stiffness (contact.h), so that one
+// that is lowered to s K must keep s K (T/2 + t_d) < b + s B.
+double StableStiffness(double device_damping, const ContactOptions& contact, double period,
+                       double delay) noexcept;
+
+// `period` of the servo. A device without force changes nothing.
+SessionOptions OptionsFor(const DeviceCaps& caps, double period, SessionOptions options) noexcept;
+
+}  // namespace arthro::simulation
