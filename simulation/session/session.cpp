@@ -17,6 +17,9 @@ namespace {
 // A step of the tissue is felt evenly over the frame until the next one.
 constexpr double kTissueFrame = 1.0 / 60.0;  // s
 
+// Of a change of the surfaces' push, in a tick.
+constexpr double kPushedAtOnce = 0.5;
+
 bool IsFinite(const glm::dvec3& x) noexcept {
   return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
 }
@@ -244,10 +247,13 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
       double give = 1.0 / options_.contact.stiffness;  // m/N, of all that yields
       // Tissue has the tool where everything else would let the hand put it, by the pushes of the
-      // last tick; so have the layers.
-      const glm::dvec3 beside = tool.contact.contact >= 0
-                                    ? tool.contact.proxy.position - tool.contact.held
-                                    : glm::dvec3(0.0);
+      // last ticks; so have the layers. Pushed by one half at a time: tissue that gives way less
+      // than the spring to the hand would send the tool to and fro between itself and the backdrop.
+      const bool is_pushed = tool.contact.contact >= 0;
+      const glm::dvec3 push =
+          is_pushed ? tool.contact.proxy.position - tool.contact.held : glm::dvec3(0.0);
+      tool.beside += kPushedAtOnce * (push - tool.beside);
+      const glm::dvec3 beside = tool.beside;
       state.tissue_tip_in_portal = tip + beside + tool.layer_push;
       TissuePull pull;
       if (tool.tissue.to.step > 0) {
@@ -284,7 +290,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
   if (fault != Fault::kNone && fault != Fault::kStale && fault != Fault::kTissue) {
     tool.contact = ContactState{};
     tool.let_be.reset();
-    tool.layer_push = glm::dvec3(0.0);
+    tool.layer_push = tool.beside = glm::dvec3(0.0);
   }
   to_hand.hand_speed = tool.hand_speed;
   to_hand.fault = fault;

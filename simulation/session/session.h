@@ -91,6 +91,7 @@ class Session {
  private:
   struct Tool {
     DeviceRig rig;
+    glm::dvec3 beside{0.0};            // m, how far surfaces hold it off where tissue has it
     glm::dvec3 layer_push{0.0};        // m, how far layers held it off its hand in the last tick
     std::optional<glm::dvec3> let_be;  // where they let its tip be then; none: it was away
     ContactState contact;

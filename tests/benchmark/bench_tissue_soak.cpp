@@ -144,8 +144,10 @@ Soak Run(const Plan& plan) {
     hash.Add(coupling.count);
     for (int i = 0; i < coupling.count; ++i) {
       const TissueContact& contact = coupling.contact[static_cast<std::size_t>(i)];
-      hash.Add(contact.force), hash.Add(contact.normal);
-      for (int column = 0; column < 3; ++column) hash.Add(contact.stiffness[column]);
+      hash.Add(contact.rub), hash.Add(contact.normal);
+      for (const double number : {contact.stiffness, contact.depth, contact.power})
+        hash.Add(number);
+      for (int column = 0; column < 3; ++column) hash.Add(contact.curvature[column]);
     }
     hash.Add(body.cut.removed);
 

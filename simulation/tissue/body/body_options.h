@@ -9,7 +9,9 @@
 namespace arthro::simulation {
 
 struct BodyOptions {
-  SolverOptions solver;
+  // Two Newton iterations settle a body; the third is for a tool that slid onto other skin in the
+  // same step. Most steps need fewer.
+  SolverOptions solver{.max_newton = 8};
   ToolContactOptions contact;
   ShaverOptions shaver;
   double sleep_speed = 2e-4;

@@ -69,7 +69,7 @@ BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const Body
       model(ModelOf(mesh, share, spec.material, before)),
       fixed(FixedBy(spec.fixed, mesh)),
       skin(std::move(carried)),
-      skin_contact(skin, mesh, field),
+      skin_contact(skin, mesh, field, spec.material.young_modulus),
       rest_contact(mesh, fixed, model->NodeShares()),
       skin_at_rest(std::make_shared<const BodySkin>(
           BodySkin{skin.rest, share.empty() ? std::vector<std::uint8_t>{}
@@ -103,6 +103,7 @@ void DeformableBody::Impl::MakeRoom() {
   load.assign(state.x.size(), glm::dvec3(0.0));
   contacts.reserve(state.x.size() + placed.size() * kMaxToolContacts);
   results.resize(contacts.capacity());
+  solver.Reserve(contacts.capacity());
   good = state;
   since_good = 0;
   positions.resize(shape->skin.rest.vertices.size());
@@ -159,8 +160,16 @@ void DeformableBody::Impl::AddCoupling(int tool, std::span<const ContactPoint> o
   const bool is_touching = std::any_of(of_tools.begin(), of_tools.end(),
                                        [tool](const ContactPoint& c) { return c.owner == tool; });
   if (!is_touching) return;
-  const glm::dmat3 stiffness = solver.ToolStiffness(contacts, tool, options.coupling_tolerance);
-  AddContacts(of_tools, of_results, tool, stiffness, options.contact.stiffness,
+  const SkinContact& on_skin = shape->skin_contact;
+  glm::dvec3 push(0.0);
+  for (std::size_t i = 0; i < of_tools.size(); ++i)
+    if (of_tools[i].owner == tool) push -= of_results[i].push;
+  const double size = glm::length(push);
+  const std::span<const Capsule> capsules = placed[static_cast<std::size_t>(tool)].Capsules();
+  const TouchedSkin touched{solver.ToolStiffness(tool, options.coupling_tolerance),
+                            on_skin.Curvature(of_tools, of_results, tool),
+                            size > 0.0 ? on_skin.DepthAtRest(capsules, push / size) : 0.0};
+  AddContacts(of_tools, of_results, tool, touched, options.contact.stiffness,
               spec.portal_from_body.rotation, spec.tissue, coupling);
 }
 

@@ -312,7 +312,6 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
     moved.v.push_back(state.v[k]);
   }
   state = std::move(moved);
-  for (PlacedTool& tool : placed) tool.grip = ToolGrip{};
   MakeRoom();
 }
 

@@ -3,67 +3,54 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 namespace arthro::simulation {
 namespace {
 
-using Eigen::Matrix3d;
+// Of a flat end the force grows with the depth, of a round one faster [Hertz: 1.5], of tissue that
+// is thin under it faster still. Beyond these the depth was not that of the skin before it was
+// pressed: another tool holds it, or it hangs loose.
+constexpr double kLeastPower = 1.0, kMostPower = 2.0;
 
-// Of a contact that is still open nothing is known but the tool's spring. Tissue as it is probed,
-// 2.8 N for 1 mm [notes on deformables, 6], leaves 0.85 of 500 N/m, the softest presets half.
-constexpr double kOpenStiffness = 0.7;
+constexpr double kLongestHold = 0.02;  // m
 
-// How much less a contact takes of the stiffness across its normal than of that along it.
-constexpr double kAcross = 1e-2;
+// The skin's bend is known so far around the touch; a tool that is further off in a frame has left.
+constexpr double kBendReach = 2.5e-3;  // m
 
 constexpr double kSilence = 0.1, kFade = 0.05;  // s [notes on haptics, 3: watchdogs]
 
 bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 
-Matrix3d ToEigen(const glm::dmat3& m) noexcept {
-  Matrix3d result;
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) result(row, column) = m[column][row];
-  return result;
-}
-
-glm::dmat3 ToGlm(const Matrix3d& m) noexcept {
-  glm::dmat3 result;
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) result[column][row] = m(row, column);
-  return result;
-}
-
-// f(m) of a symmetric matrix through its eigenvalues.
-template <class Function>
-Matrix3d OfEigenvalues(const Matrix3d& m, Function&& f) noexcept {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(m);
-  const Eigen::Vector3d values = solver.eigenvalues().unaryExpr(f);
-  return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
-}
-
-Matrix3d Shape(const ContactPoint& contact) noexcept {
-  const Eigen::Vector3d n(contact.normal.x, contact.normal.y, contact.normal.z);
-  return contact.stiffness * ((1.0 - kAcross) * n * n.transpose() + kAcross * Matrix3d::Identity());
-}
-
-bool IsClosed(const ContactPoint& contact, const ContactResult& result) noexcept {
-  return glm::dot(result.force, contact.normal) > 0.0;
+// |P|, at the depth x.
+double PushAt(const TissueContact& c, double x) noexcept {
+  if (!(x > 0.0)) return 0.0;
+  if (c.power == 1.0 || !(c.depth > 0.0)) return c.stiffness * x;
+  const auto push = [&c](double deep) noexcept {
+    return c.stiffness * c.depth / c.power * std::pow(deep / c.depth, c.power);
+  };
+  // Where it grows as fast as the hand's spring.
+  const double most = c.depth * std::pow(c.spring / c.stiffness, 1.0 / (c.power - 1.0));
+  return x < most ? push(x) : push(most) + c.spring * (x - most);
 }
 
 void Keep(ToolCoupling& coupling, const TissueContact& contact) noexcept {
-  if (coupling.count < kMaxToolContacts) {
+  if (coupling.count < kMaxTouched) {
     coupling.contact[static_cast<std::size_t>(coupling.count++)] = contact;
     return;
   }
-  const auto push = [](const TissueContact& c) noexcept { return glm::dot(c.force, c.normal); };
+  const auto push = [](const TissueContact& c) noexcept { return PushAt(c, c.depth); };
   auto least = std::min_element(
       coupling.contact.begin(), coupling.contact.end(),
       [&](const TissueContact& a, const TissueContact& b) noexcept { return push(a) < push(b); });
   if (push(contact) > push(*least)) *least = contact;
+}
+
+// `across` shortened to `most`.
+glm::dvec3 AtMost(const glm::dvec3& across, double most) noexcept {
+  const double length = glm::length(across);
+  return length > most ? most / length * across : across;
 }
 
 // Where `from` and what was left of it go over into `to`.
@@ -79,54 +66,57 @@ CoupledForce Mixed(const CouplingBlend& blend, const glm::dvec3& tip) noexcept {
 }  // namespace
 
 bool IsFinite(const ToolCoupling& coupling) noexcept {
-  if (!IsFinite(coupling.tip) || coupling.count < 0 || coupling.count > kMaxToolContacts)
-    return false;
+  if (!IsFinite(coupling.tip) || coupling.count < 0 || coupling.count > kMaxTouched) return false;
   for (int i = 0; i < coupling.count; ++i) {
     const TissueContact& c = coupling.contact[static_cast<std::size_t>(i)];
-    if (!IsFinite(c.force) || !IsFinite(c.normal) || !std::isfinite(c.friction) ||
-        !IsFinite(c.stiffness[0] + c.stiffness[1] + c.stiffness[2]))
+    if (!IsFinite(c.normal) || !IsFinite(c.rub) ||
+        !IsFinite(c.curvature[0] + c.curvature[1] + c.curvature[2]) ||
+        !std::isfinite(c.stiffness + c.depth + c.power + c.spring + c.friction))
       return false;
   }
   return true;
 }
 
-// Each contact takes Kᵢ = T kᵢ (nᵢ nᵢᵀ + a little across) Tᵀ, with T such that the sum is K.
 void AddContacts(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
-                 int owner, const glm::dmat3& stiffness, double spring,
+                 int owner, const TouchedSkin& skin, double spring,
                  const glm::dquat& portal_from_body, int tissue, ToolCoupling& coupling) noexcept {
   const std::size_t count = std::min(contacts.size(), results.size());
-  Matrix3d sum = Matrix3d::Zero();
-  for (std::size_t i = 0; i < count; ++i)
-    if (contacts[i].owner == owner && IsClosed(contacts[i], results[i])) sum += Shape(contacts[i]);
-  const Matrix3d whole = 0.5 * (ToEigen(stiffness) + ToEigen(stiffness).transpose());
-  if (!whole.allFinite() || !sum.allFinite()) {
-    coupling.is_faulty = true;
-    return;
-  }
-  const Matrix3d root =
-      OfEigenvalues(whole, [spring](double v) { return std::sqrt(std::clamp(v, 0.0, spring)); });
-  const Matrix3d spread =
-      root * OfEigenvalues(sum, [](double v) { return v > 0.0 ? 1.0 / std::sqrt(v) : 0.0; });
-  const Matrix3d turn = ToEigen(glm::mat3_cast(portal_from_body));
-
+  TissueContact contact;
+  glm::dvec3 push(0.0), rub(0.0);
+  std::size_t nearest = count;
   for (std::size_t i = 0; i < count; ++i) {
-    const ContactPoint& at = contacts[i];
-    if (at.owner != owner) continue;
-    TissueContact contact;
-    contact.normal = portal_from_body * -at.normal;
-    contact.friction = at.friction;
-    contact.tissue = tissue;
-    if (IsClosed(at, results[i])) {
-      const Matrix3d part = turn * spread * Shape(at) * spread.transpose() * turn.transpose();
-      contact.stiffness = ToGlm(0.5 * (part + part.transpose()));
-      contact.force = portal_from_body * -results[i].force;
-    } else {
-      const double k = kOpenStiffness * at.stiffness;
-      contact.stiffness = k * glm::outerProduct(contact.normal, contact.normal);
-      contact.force = -k * std::max(0.0, results[i].gap) * contact.normal;
-    }
-    Keep(coupling, contact);
+    if (contacts[i].owner != owner) continue;
+    if (nearest == count || results[i].gap < results[nearest].gap) nearest = i;
+    push -= results[i].push;
+    rub -= results[i].force - results[i].push;
+    contact.friction = contacts[i].friction;
   }
+  if (nearest == count) return;
+  const double size = glm::length(push);
+  const glm::dvec3 normal = size > 0.0 ? push / size : -contacts[nearest].normal;
+  const double stiffness = glm::dot(normal, skin.stiffness * normal);
+  // A tool that tissue holds is held for some way, also where a step found it about to slip off.
+  contact.stiffness = std::clamp(stiffness, std::min(size / kLongestHold, spring), spring);
+  contact.spring = spring;
+  contact.tissue = tissue;
+  if (size > 0.0 && contact.stiffness > 0.0) {
+    contact.power = std::clamp(contact.stiffness * skin.depth / size, kLeastPower, kMostPower);
+    contact.depth = contact.power * size / contact.stiffness;
+  } else {
+    contact.depth = -std::max(0.0, results[nearest].gap);
+  }
+  const glm::dmat3 turn = glm::mat3_cast(portal_from_body);
+  contact.normal = turn * normal;
+  contact.rub = turn * rub;
+  const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(contact.normal, contact.normal);
+  contact.curvature = across * turn * skin.curvature * glm::transpose(turn) * across;
+  // The push turns as the tool goes across, by |P| C: no more than the spring to the hand bears.
+  const double sharpest = glm::length(contact.curvature[0]) + glm::length(contact.curvature[1]) +
+                          glm::length(contact.curvature[2]);
+  if (size * sharpest > spring) contact.curvature *= spring / (size * sharpest);
+  if (!std::isfinite(stiffness) || !std::isfinite(size) || !std::isfinite(skin.depth))
+    coupling.is_faulty = true;
+  Keep(coupling, contact);
   if (!IsFinite(coupling)) coupling.is_faulty = true;
 }
 
@@ -134,16 +124,20 @@ CoupledForce ForceOf(const ToolCoupling& coupling, const glm::dvec3& tip) noexce
   CoupledForce result;
   if (coupling.is_faulty) return result;
   double largest = 0.0;
-  for (int i = 0; i < std::clamp(coupling.count, 0, kMaxToolContacts); ++i) {
+  const glm::dvec3 way = tip - coupling.tip;
+  for (int i = 0; i < std::clamp(coupling.count, 0, kMaxTouched); ++i) {
     const TissueContact& c = coupling.contact[static_cast<std::size_t>(i)];
-    const glm::dvec3 force = c.force + c.stiffness * (coupling.tip - tip);
-    const double push = glm::dot(c.normal, force);
-    if (!(push > 0.0)) continue;
-    const glm::dvec3 across = force - push * c.normal;
-    const double drag = glm::length(across), most = c.friction * push;
-    result.force += push * c.normal + (drag > most ? most / drag : 1.0) * across;
-    if (push > largest) {
-      largest = push;
+    const double deeper = -glm::dot(c.normal, way);
+    const glm::dvec3 aside = AtMost(way + deeper * c.normal, kBendReach);
+    const glm::dvec3 bend = c.curvature * aside;
+    const double size = PushAt(c, c.depth + deeper + 0.5 * glm::dot(aside, bend));
+    if (!(size > 0.0)) continue;
+    const glm::dvec3 normal = glm::normalize(c.normal - bend);
+    const glm::dvec3 pull = c.rub - c.spring * way;
+    result.force +=
+        size * normal + AtMost(pull - glm::dot(pull, normal) * normal, c.friction * size);
+    if (size > largest) {
+      largest = size;
       result.tissue = c.tissue;
     }
   }

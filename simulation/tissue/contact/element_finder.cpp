@@ -163,6 +163,23 @@ EmbeddedPoint ElementFinder::FindBeside(const glm::dvec3& rest,
   return PointAt(element, nearest, rest);
 }
 
+EmbeddedPoint ElementFinder::FindAmong(const glm::dvec3& rest,
+                                       std::span<const int> elements) const noexcept {
+  double least2 = std::numeric_limits<double>::max();
+  int element = -1;
+  Local nearest;
+  for (const int i : elements) {
+    if (i == element) continue;
+    const Local local = Nearest(i, rest_, rest);
+    if (!(local.distance2 < least2)) continue;
+    element = i;
+    nearest = local;
+    least2 = local.distance2;
+    if (least2 <= inside2_) break;
+  }
+  return element < 0 ? EmbeddedPoint{} : PointAt(element, nearest, rest);
+}
+
 void ElementFinder::Refit(std::span<const glm::dvec3> x) noexcept {
   std::copy_n(x.begin(), std::min(x.size(), x_.size()), x_.begin());
   tree_.Refit([this](int i) noexcept { return BoxOf(i, x_); });

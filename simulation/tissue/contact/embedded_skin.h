@@ -32,6 +32,8 @@ class ElementFinder {
   // Where elements lie on one another at rest, as the copies that a cut makes: of those that hold
   // the point, the one with most nodes in common with the elements `beside`.
   EmbeddedPoint FindBeside(const glm::dvec3& rest, std::span<const int> beside) const noexcept;
+  // In that of these elements which holds it, or is nearest; the first of equals.
+  EmbeddedPoint FindAmong(const glm::dvec3& rest, std::span<const int> elements) const noexcept;
   // In the deformed mesh `x`: which tissue is at this place now, and its rest position. False:
   // outside all elements. Refit first when x has changed.
   void Refit(std::span<const glm::dvec3> x) noexcept;

@@ -14,12 +14,6 @@
 namespace arthro::simulation {
 namespace {
 
-// How much further off than the nearest triangle others still count.
-constexpr double kSoftness = 5e-4;  // m
-
-// Of the sum of areas; less is left where skins on both sides of a piece face it.
-constexpr double kOpposed = 0.05;
-
 // Nearer than this to the skin the way to it has no direction.
 constexpr double kOnSkin = 1e-9;  // m
 
@@ -87,62 +81,6 @@ bool SkinContact::IsInside(const glm::dvec3& x) const noexcept {
   return finder_.FindDeformed(x, point, rest) && field_->Distance(rest) < 0.0;
 }
 
-// Tissue that gives way lies about a tool like a cup, in which the one nearest point runs to and
-// fro at the least motion. A piece therefore touches where the skin near it lies on the whole:
-// point and normal are means over the triangles that face it, weighted by area and by how near they
-// are.
-bool SkinContact::TouchOf(const Piece& piece, double margin, const Facing* before, double turn,
-                          Touch& touch) const noexcept {
-  touch.radius = piece.radius;
-  double along = 0.5;
-  const double limit = piece.radius + margin;
-  const double nearest = NearestAlong(piece, limit, along);
-  if (!(nearest < limit)) return TouchFromInside(piece, touch);
-  // An axis that goes through the skin is deepest elsewhere.
-  if (nearest <= kOnSkin && TouchFromInside(piece, touch)) return true;
-
-  const Box3 box{glm::min(piece.a, piece.b), glm::max(piece.a, piece.b)};
-  const double reach = nearest + kSoftness;
-  double limit2 = reach * reach, whole = 0.0, sum_along = 0.0;
-  glm::dvec3 sum_normal(0.0);
-  tree_.ForNear(box, limit2, [&](int i) noexcept {
-    if (Distance2(BoxOf(i), box) > limit2) return;
-    const TriangleCorners corner = Corners(i);
-    const SegmentTriangle on = ClosestSegmentTriangle(piece.a, piece.b, corner);
-    const double near = reach - std::sqrt(on.distance2);
-    const glm::dvec3 across = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const glm::dvec3 axis = piece.a + on.along * (piece.b - piece.a);
-    if (!(near > 0.0) || !(glm::dot(axis - At(corner, on.triangle), across) > 0.0)) return;
-    const double weight = near * glm::length(across);
-    whole += weight;
-    sum_along += weight * on.along;
-    sum_normal += near * across;
-  });
-  const double length = glm::length(sum_normal);
-  // Nothing faces it: it is behind the skin.
-  if (!(whole > 0.0) || !(length > kOpposed * whole)) return TouchFromInside(piece, touch);
-  touch.normal = sum_normal / length;
-  touch.along = sum_along / whole;
-  if (before != nullptr) {
-    touch.along = before->along + turn * (touch.along - before->along);
-    touch.normal = glm::normalize(before->normal + turn * (touch.normal - before->normal));
-  }
-  touch.axis = piece.a + touch.along * (piece.b - piece.a);
-  // The tissue's point is sought from within the tool: from its axis every point of a cup would be
-  // as near, from its surface that of an edge which it dents would not be seen.
-  const OnSkin on = NearestTo(touch.axis - kCore * piece.radius * touch.normal,
-                              limit + glm::length(piece.b - piece.a));
-  if (on.triangle < 0) return false;
-  touch.skin = Blend(on, positions_);
-  touch.gap = glm::dot(touch.normal, touch.axis - touch.skin) - piece.radius;
-  const auto& triangle = skin_->rest.triangles[static_cast<std::size_t>(on.triangle)];
-  const std::array<int, 3> beside{skin_->point[static_cast<std::size_t>(triangle[0])].element,
-                                  skin_->point[static_cast<std::size_t>(triangle[1])].element,
-                                  skin_->point[static_cast<std::size_t>(triangle[2])].element};
-  touch.point = finder_.FindBeside(Blend(on, skin_->rest.vertices), beside);
-  return touch.gap < margin && touch.point.element >= 0;
-}
-
 // The shortest way out at rest, carried into the deformed body: the skin's normal goes with the
 // cofactor of F (Nanson), n ∝ det(F) F⁻ᵀ ∇φ.
 bool SkinContact::TouchFromInside(const Piece& piece, Touch& touch) const noexcept {
@@ -189,11 +127,8 @@ bool SkinContact::TouchFromInside(const Piece& piece, Touch& touch) const noexce
     if (on.element < 0 || !(distance < deepest)) continue;
     deepest = distance;
     is_found = true;
-    touch.is_inside = true;
     touch.axis = x;
-    touch.along = along;
     touch.normal = normal;
-    touch.skin = skin;
     touch.point = on;
     touch.gap = distance - piece.radius;
   }

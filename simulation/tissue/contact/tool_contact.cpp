@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
 namespace arthro::simulation {
@@ -12,47 +11,38 @@ namespace {
 
 constexpr double kPieceLength = 1.5e-3;  // m, the diameter of a probe's rod
 
-// How far from the nearest touch a piece still bears a part of the force: the resolution of the
-// tool's shape as the tissue feels it.
-constexpr double kLayer = 2e-4;  // m
+// A contact is as stiff as a layer of the tissue so thick: pressed by the tissue's whole modulus it
+// gives way that much.
+constexpr double kLayer = 6e-5;  // m
 
-// A share goes this part of the way to its new value in a step: at full speed the shares of
-// neighbours, which answer to what the tissue did under the last ones, would swing.
-constexpr double kShareGain = 0.2;
-constexpr double kLeastShare = 1e-3;
+// Samples of the skin are so close together, beside the tool's radius: a round end that rests on
+// two of them sinks between them by a sixteenth of that.
+constexpr double kSampling = 0.5;
+constexpr int kMostParts = 16;  // of a triangle's edge
 
-// So do the places and normals of pieces, and the offset across them. A tool that goes on takes
-// them sooner: what it touches is another place.
-constexpr double kTurnGain = 0.2;
-constexpr double kTurnsWithin = 2e-3;  // m
+// Skin further off than this from the tool as held will not come to it within a step; skin that it
+// dented comes along with a tool that goes.
+constexpr double kWatched = 3e-4;  // m
 
 constexpr int kMaxAdvances = 16;       // of the sweep; each goes as far as nothing can be met
 constexpr double kArrived = 1e-5;      // m
 constexpr double kLongestGrip = 0.02;  // m, 10 N; a tool further from its hand has slipped off
+constexpr double kSameWay = 0.9;       // cosine; normals that hold a tool less apart are one
 
 bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 
-// The stiffness that unit springs along `normal`, times `weight`, have in their stiffest direction.
-double Stiffest(std::span<const glm::dvec3> normal, std::span<const double> weight) noexcept {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < normal.size(); ++i) {
-    const Eigen::Vector3d n(normal[i].x, normal[i].y, normal[i].z);
-    sum += weight[i] * n * n.transpose();
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(sum, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[2];
-}
-
 }  // namespace
 
-SkinContact::SkinContact(const EmbeddedSkin& skin, const TetMesh& mesh, const SolidField& field)
+SkinContact::SkinContact(const EmbeddedSkin& skin, const TetMesh& mesh, const SolidField& field,
+                         double modulus)
     : skin_(&skin),
       field_(&field),
+      hardness_(modulus / kLayer),
       finder_(mesh),
       positions_(skin.rest.vertices),
       normals_(skin.rest.vertices.size()) {
   DeformSkin(skin, mesh, mesh.rest_positions, positions_, normals_);
+  rest_normals_ = normals_;
   std::vector<Box3> boxes(skin.rest.triangles.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = BoxOf(static_cast<int>(i));
   tree_ = BoxTree(boxes);
@@ -96,20 +86,111 @@ glm::dvec3 SkinContact::Follow(std::span<const Piece> pieces, const glm::dvec3& 
   double gone = 0.0;
   for (int i = 0; i < kMaxAdvances && gone < length; ++i) {
     const double clear = Clearance(pieces, start + gone / length * way, length - gone);
-    if (i == 0 && clear <= 0.0) return start + way;
+    if (i == 0 && clear <= 0.0) {
+      gone = length;
+      break;
+    }
     if (clear < kArrived) break;
     gone = std::min(length, gone + clear);
   }
-  return start + gone / length * way;
+  // Into the wall of its own dent it is not led: the solve finds its way from where it was.
+  glm::dvec3 end = start + gone / length * way;
+  for (int halving = 0; halving < 2; ++halving) {
+    bool is_in = false;
+    for (const Piece& piece : pieces)
+      for (const glm::dvec3& x : {piece.a, 0.5 * (piece.a + piece.b), piece.b})
+        is_in = is_in || IsInside(x + end);
+    if (!is_in) return end;
+    end = 0.5 * (start + end);
+  }
+  return start;
+}
+
+void SkinContact::AddSamples(const Piece& piece, std::span<const Capsule> capsules, double margin,
+                             std::span<Sample> samples, std::size_t& count) const noexcept {
+  const Box3 box{glm::min(piece.a, piece.b), glm::max(piece.a, piece.b)};
+  const double reach = piece.radius + margin;
+  double limit2 = reach * reach;
+  tree_.ForNear(box, limit2, [&](int t) noexcept {
+    if (Distance2(BoxOf(t), box) > limit2) return;
+    const TriangleCorners corner = Corners(t);
+    const auto& [i, j, k] = skin_->rest.triangles[static_cast<std::size_t>(t)];
+    const glm::dvec3 &a = skin_->rest.vertices[static_cast<std::size_t>(i)],
+                     &b = skin_->rest.vertices[static_cast<std::size_t>(j)],
+                     &c = skin_->rest.vertices[static_cast<std::size_t>(k)];
+    const double longest =
+        std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const int parts = static_cast<int>(
+        std::clamp(std::ceil(longest / (kSampling * piece.radius)), 1.0, double{kMostParts}));
+    const double area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (parts * parts);
+    // The middles of parts² equal triangles; a second one where the grid's cell has two.
+    for (int u = 0; u < parts; ++u)
+      for (int v = 0; u + v < parts; ++v)
+        for (int second = 0; second < (u + v + 1 < parts ? 2 : 1); ++second) {
+          const double third = (1.0 + second) / 3.0;
+          Sample sample{t, -1, {0, (u + third) / parts, (v + third) / parts}, margin, area};
+          sample.at.x = 1.0 - sample.at.y - sample.at.z;
+          const glm::dvec3 x =
+              sample.at.x * corner[0] + sample.at.y * corner[1] + sample.at.z * corner[2];
+          double where = 0;
+          glm::dvec3 away(0.0);
+          for (std::size_t n = 0; n < capsules.size(); ++n) {
+            const Capsule& capsule = capsules[n];
+            const glm::dvec3 way = capsule.b - capsule.a;
+            const double length2 = glm::dot(way, way);
+            const double along =
+                length2 > 0 ? std::clamp(glm::dot(x - capsule.a, way) / length2, 0.0, 1.0) : 0.0;
+            const glm::dvec3 from = x - capsule.a - along * way;
+            const double gap = glm::length(from) - capsule.radius;
+            if (!(gap < sample.gap)) continue;
+            sample.gap = gap;
+            sample.capsule = static_cast<int>(n);
+            where = along;
+            away = from;
+          }
+          const bool is_mine = sample.capsule == piece.capsule && where >= piece.from &&
+                               (where < piece.to || piece.to == 1.0);
+          // The far skin of a thin tissue looks the other way.
+          if (!is_mine || !(glm::dot(away, Blend({t, sample.at, 0}, normals_)) < 0.0)) continue;
+          if (count < samples.size()) samples[count++] = sample;
+        }
+  });
+}
+
+ContactPoint SkinContact::ContactAt(const Sample& sample) const noexcept {
+  const auto& triangle = skin_->rest.triangles[static_cast<std::size_t>(sample.triangle)];
+  const std::array<int, 3> beside{skin_->point[static_cast<std::size_t>(triangle[0])].element,
+                                  skin_->point[static_cast<std::size_t>(triangle[1])].element,
+                                  skin_->point[static_cast<std::size_t>(triangle[2])].element};
+  const OnSkin on{sample.triangle, sample.at, 0};
+  EmbeddedPoint point;
+  if (beside[0] == beside[1] && beside[0] == beside[2]) {
+    point.element = beside[0];
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (std::size_t k = 0; k < point.weight.size(); ++k)
+        point.weight[k] += sample.at[static_cast<int>(corner)] *
+                           skin_->point[static_cast<std::size_t>(triangle[corner])].weight[k];
+  } else {
+    point = finder_.FindAmong(Blend(on, skin_->rest.vertices), beside);
+  }
+  ContactPoint contact;
+  if (point.element < 0) return contact;
+  const std::span<const int> nodes = finder_.NodesOf(point.element);
+  contact.count = static_cast<int>(nodes.size());
+  std::copy(nodes.begin(), nodes.end(), contact.node.begin());
+  contact.weight = point.weight;
+  contact.normal = -glm::normalize(Blend(on, normals_));
+  contact.is_round = true;
+  contact.stiffness = hardness_ * sample.area;
+  contact.start = finder_.PlaceNow(point);
+  return contact;
 }
 
 void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& motion, int owner,
                        const ToolContactOptions& options, std::vector<ContactPoint>& contacts,
                        ToolGrip* grip) const noexcept {
-  // The pieces that could touch, as the hand has them. A piece keeps its number whether or not it
-  // could.
+  // The pieces that could touch, as the hand has them.
   std::array<Piece, kMaxPieces> pieces;
-  std::array<int, kMaxPieces> number{};
   std::size_t count = 0;
   int next = 0;
   const double held = grip == nullptr ? 0.0 : glm::length(grip->offset) + glm::length(motion);
@@ -117,120 +198,121 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
     if (grip != nullptr) *grip = {};
     return;
   }
-  for (const Capsule& capsule : capsules) {
+  for (std::size_t n = 0; n < capsules.size(); ++n) {
+    const Capsule& capsule = capsules[n];
     if (!IsFinite(capsule.a) || !IsFinite(capsule.b) || !(capsule.radius > 0.0)) continue;
     const glm::dvec3 way = capsule.b - capsule.a;
     const double parts = std::ceil(glm::length(way) / kPieceLength - 1e-6);
     const int split = static_cast<int>(std::clamp(parts, 1.0, double{kMaxPieces}));
     for (int i = 0; i < split && next < kMaxPieces; ++i, ++next) {
-      const Piece piece{capsule.a + static_cast<double>(i) / split * way,
-                        capsule.a + static_cast<double>(i + 1) / split * way, capsule.radius};
+      const double from = static_cast<double>(i) / split, to = static_cast<double>(i + 1) / split;
+      const Piece piece{capsule.a + from * way,
+                        capsule.a + to * way,
+                        capsule.radius,
+                        static_cast<int>(n),
+                        from,
+                        to};
       const Box3 box{glm::min(piece.a, piece.b), glm::max(piece.a, piece.b)};
       const double reach = piece.radius + options.margin + held;
-      if (Distance2(tree_.box(), box) > reach * reach) continue;
-      pieces[count] = piece;
-      number[count++] = next;
+      if (Distance2(tree_.box(), box) <= reach * reach) pieces[count++] = piece;
     }
   }
   const std::span<const Piece> near(pieces.data(), count);
+  const glm::dvec3 before = grip == nullptr ? glm::dvec3(0.0) : grip->offset;
   const glm::dvec3 offset = grip == nullptr ? glm::dvec3(0.0) : Follow(near, motion, *grip);
+  if (grip != nullptr) *grip = {offset, 0, {}};
 
-  const double turn = std::min(1.0, kTurnGain + glm::length(motion) / kTurnsWithin);
+  std::array<Capsule, kMaxCapsules> moved;
+  const std::span<Capsule> placed(moved.data(), std::min(capsules.size(), moved.size()));
+  for (std::size_t n = 0; n < placed.size(); ++n)
+    placed[n] = {capsules[n].a + offset, capsules[n].b + offset, capsules[n].radius};
+  const auto add = [&](ContactPoint contact) noexcept {
+    if (contact.count == 0) return;
+    contact.friction = options.friction;
+    contact.start += motion - before;
+    contact.owner = owner;
+    contact.hold = options.stiffness;
+    contact.offset = offset;
+    contacts.push_back(contact);
+  };
 
-  // What each touches where the tissue holds it.
-  std::array<Touch, kMaxPieces> touches;
-  std::size_t touching = 0;
-  double least_gap = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Piece moved{pieces[i].a + offset, pieces[i].b + offset, pieces[i].radius};
+  const double gone = grip == nullptr ? 0.0 : glm::length(motion + offset - before);
+  const double watched =
+      kWatched +
+      std::min(std::max(gone, std::min(glm::length(motion), options.margin)), kLongestGrip);
+  // A piece that is in the tissue is led out; others keep the skin out of the capsules.
+  std::array<Sample, kMaxSamples> samples;
+  std::size_t found = 0;
+  for (Piece piece : near) {
+    piece.a += offset, piece.b += offset;
     Touch touch;
-    touch.piece = number[i];
-    const auto p = static_cast<std::size_t>(number[i]);
-    const bool is_known = grip != nullptr && grip->share[p] > 0.0;
-    if (!TouchOf(moved, options.margin, is_known ? &grip->facing[p] : nullptr, turn, touch))
-      continue;
-    touch.weight = glm::length(moved.b - moved.a) + moved.radius;
-    least_gap = std::min(least_gap, touch.gap);
-    touches[touching++] = touch;
-  }
-
-  // Shares: the deeper, the more; none further off than a layer.
-  std::array<double, kMaxPieces> share{};
-  const double ground = std::max(least_gap, 0.0);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < touching; ++i) {
-    const auto piece = static_cast<std::size_t>(touches[i].piece);
-    double& now = share[piece];
-    now = touches[i].weight * std::max(0.0, kLayer - (touches[i].gap - ground)) / kLayer;
-    if (grip != nullptr && grip->count > 0)
-      now = grip->share[piece] + kShareGain * (now - grip->share[piece]);
-    if (!(now > kLeastShare * touches[i].weight)) {
-      now = 0.0;
+    if (!TouchFromInside(piece, touch)) {
+      AddSamples(piece, placed, watched, samples, found);
       continue;
     }
-    touches[kept] = touches[i];
-    touches[kept++].weight = now;
-  }
-
-  // Neighbours are put together until they are few enough; the one that bears most speaks for them.
-  const std::size_t groups = std::min(kept, static_cast<std::size_t>(kMaxToolContacts));
-  std::array<glm::dvec3, kMaxToolContacts> normal{};
-  std::array<double, kMaxToolContacts> weight{};
-  std::array<const Touch*, kMaxToolContacts> speaker{};
-  for (std::size_t g = 0; g < groups; ++g)
-    for (std::size_t i = g * kept / groups; i < (g + 1) * kept / groups; ++i) {
-      weight[g] += touches[i].weight;
-      if (speaker[g] == nullptr || touches[i].weight > speaker[g]->weight) speaker[g] = &touches[i];
-      normal[g] = speaker[g]->normal;
-    }
-  const double stiffest =
-      groups > 0 ? Stiffest({normal.data(), groups}, {weight.data(), groups}) : 0.0;
-  for (std::size_t g = 0; g < groups && stiffest > 0.0; ++g) {
-    const Touch& touch = *speaker[g];
     ContactPoint contact;
     const std::span<const int> nodes = finder_.NodesOf(touch.point.element);
     contact.count = static_cast<int>(nodes.size());
     std::copy(nodes.begin(), nodes.end(), contact.node.begin());
     contact.weight = touch.point.weight;
     contact.normal = -touch.normal;
-    contact.foot = touch.axis - offset - touch.radius * touch.normal;
-    contact.stiffness = options.stiffness * weight[g] / stiffest;
-    contact.friction = options.friction;
-    contact.start = finder_.PlaceNow(touch.point) + motion;
-    contact.owner = owner;
-    contacts.push_back(contact);
+    contact.foot = touch.axis - offset - piece.radius * touch.normal;
+    contact.stiffness =
+        hardness_ * 2.0 * piece.radius * (glm::distance(piece.a, piece.b) + piece.radius);
+    contact.start = finder_.PlaceNow(touch.point);
+    add(contact);
   }
-  if (grip == nullptr) return;
-  *grip = {};
-  grip->offset = offset;
-  // A tool that is still being led out has nothing to hold on to: the next step looks anew.
-  const auto is_led_out = [](const Touch& touch) noexcept { return touch.is_inside; };
-  if (std::any_of(touches.begin(), touches.begin() + static_cast<std::ptrdiff_t>(kept), is_led_out))
-    return;
-  grip->share = share;
-  for (std::size_t i = 0; i < kept; ++i)
-    grip->facing[static_cast<std::size_t>(touches[i].piece)] = {touches[i].along,
-                                                                touches[i].normal};
-  grip->count = static_cast<int>(groups);
-  grip->normal = normal;
+  // Of too many the nearest; in the order of the skin, whatever the tree's.
+  const auto by_gap = [](const Sample& a, const Sample& b) noexcept {
+    return a.gap != b.gap ? a.gap < b.gap : a.triangle < b.triangle;
+  };
+  if (found > kMaxToolContacts) {
+    std::nth_element(samples.begin(), samples.begin() + kMaxToolContacts,
+                     samples.begin() + static_cast<std::ptrdiff_t>(found), by_gap);
+    found = kMaxToolContacts;
+  }
+  for (std::size_t i = 0; i < found; ++i) {
+    const Sample& sample = samples[i];
+    const Capsule& capsule = capsules[static_cast<std::size_t>(sample.capsule)];
+    ContactPoint contact = ContactAt(sample);
+    contact.a = capsule.a;
+    contact.b = capsule.b;
+    contact.radius = capsule.radius;
+    add(contact);
+  }
 }
 
 void UpdateGrip(std::span<const ContactPoint> contacts, std::span<const ContactResult> results,
                 int owner, const ToolContactOptions& options, ToolGrip& grip) noexcept {
-  glm::dvec3 force(0.0), along(0.0);
-  for (std::size_t i = 0; i < std::min(contacts.size(), results.size()); ++i) {
+  const std::size_t count = std::min(contacts.size(), results.size());
+  glm::dvec3 force(0.0);
+  bool is_led_out = false;
+  for (std::size_t i = 0; i < count; ++i) {
     if (contacts[i].owner != owner) continue;
     force -= results[i].force;
-    along -= contacts[i].stiffness * contacts[i].normal;
+    is_led_out = is_led_out || (!contacts[i].is_round && results[i].gap < 0.0);
   }
-  const double length = glm::length(along);
-  if (!IsFinite(force) || !(length > 0.0)) {
-    grip.offset = glm::dvec3(0.0);
-    return;
+  grip = {};
+  if (!IsFinite(force)) return;
+  grip.offset = force / options.stiffness;
+  // A tool that is still being led out has nothing to hold on to: the next step looks anew.
+  while (!is_led_out && grip.count < static_cast<int>(grip.normal.size())) {
+    double most = 0.0;
+    glm::dvec3 normal(0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double push = glm::length(results[i].push);
+      if (contacts[i].owner != owner || !(push > most)) continue;
+      const glm::dvec3 way = -results[i].push / push;
+      bool is_new = true;
+      for (int n = 0; n < grip.count; ++n)
+        is_new = is_new && glm::dot(way, grip.normal[static_cast<std::size_t>(n)]) < kSameWay;
+      if (!is_new) continue;
+      most = push;
+      normal = way;
+    }
+    if (!(most > 0.0)) break;
+    grip.normal[static_cast<std::size_t>(grip.count++)] = normal;
   }
-  const glm::dvec3 change = force / options.stiffness - grip.offset;
-  const glm::dvec3 up = glm::dot(change, along / length) * along / length;
-  grip.offset += up + kTurnGain * (change - up);
 }
 
 }  // namespace arthro::simulation

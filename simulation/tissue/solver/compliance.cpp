@@ -63,27 +63,63 @@ void ImplicitSolver::Compliance(std::span<const ContactPoint> points, double tol
       w[i * columns + j] = w[j * columns + i] = 0.5 * (w[i * columns + j] + w[j * columns + i]);
 }
 
-glm::dmat3 ImplicitSolver::ToolStiffness(std::span<const ContactPoint> contacts, int owner,
-                                         double tolerance) noexcept {
+glm::dmat3 ImplicitSolver::ToolStiffness(int owner, double tolerance) noexcept {
   Impl& body = *impl_;
   glm::dmat3 stiffness(0.0);
   for (auto& column : body.tool_right) std::fill(column.begin(), column.end(), glm::dvec3(0.0));
+  ContactSpring* nearest = nullptr;
   bool bears = false;
-  for (const ContactPoint& contact : contacts) {
-    if (contact.owner != owner || !IsUsable(contact, body.model->node_count())) continue;
-    const ContactSpring spring = SpringAt(contact, body.at, NormalForce(contact, body.at));
-    if (!(spring.gap < 0)) continue;
-    bears = true;
-    stiffness += spring.stiffness;
+  // The tool's own contacts without friction.
+  body.tool_springs.assign(body.springs.begin(), body.springs.end());
+  for (ContactSpring& spring : body.tool_springs) {
+    const ContactPoint& contact = *spring.contact;
+    if (contact.owner != owner || !(contact.hold > 0)) continue;
+    const glm::dvec3 p = spring.hold >= 0 ? body.holds[spring.hold].offset : glm::dvec3(0.0);
+    spring = SpringAt(contact, spring.point, p, glm::dvec3(0.0));
+    bears = bears || spring.bears;
+    if (nearest == nullptr || spring.gap < nearest->gap) nearest = &spring;
+  }
+  if (nearest == nullptr || !body.is_evaluated) return stiffness;
+  if (!bears) {
+    const glm::dvec3& n = nearest->contact->normal;
+    nearest->stiffness = nearest->contact->stiffness * glm::outerProduct(n, n);
+    nearest->bears = true;
+  }
+  const double hold = nearest->contact->hold;
+  glm::dmat3 sum(hold), turn(0.0), give(0.0);
+  for (const ContactSpring& spring : body.tool_springs) {
+    if (spring.contact->owner != owner || !spring.bears) continue;
+    sum += spring.stiffness;
+    turn += spring.turn;
+  }
+  const bool turns = InvertPositive(sum + turn, give);
+  if (!turns && !InvertPositive(sum, give)) return stiffness;
+  const int at =
+      static_cast<int>(std::find_if(body.holds.begin(), body.holds.end(),
+                                    [owner](const ToolHold& tool) { return tool.owner == owner; }) -
+                       body.holds.begin());
+  if (at == static_cast<int>(body.holds.size())) return stiffness;
+  body.tool_holds.assign(body.holds.begin(), body.holds.end());
+  body.tool_holds[at].give = give;
+  for (ContactSpring& spring : body.tool_springs) {
+    const ContactPoint& contact = *spring.contact;
+    if (contact.owner != owner || !(contact.hold > 0)) continue;
+    spring.hold = at;
+    if (!turns) spring.turn = glm::dmat3(0.0);
+    if (!spring.bears) continue;
+    const glm::dmat3 led = hold * (spring.stiffness + spring.turn) * give;
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < contact.count; ++i) {
         const int node = contact.node[i];
-        body.tool_right[c][node] += contact.weight[i] * spring.stiffness[c] * body.is_free[node];
+        body.tool_right[c][node] += contact.weight[i] * led[c] * body.is_free[node];
       }
   }
-  if (!bears || !body.is_evaluated) return glm::dmat3(0.0);
-  SolveThree(body.System(), *body.factor, body.tool_right, {tolerance, 0, kMostIterations},
+  LinearSystem system = body.System();
+  system.springs = body.tool_springs;
+  system.holds = body.tool_holds;
+  SolveThree(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations},
              body.tool_vectors, body.tool_left);
+  stiffness = hold * glm::dmat3(1.0) - hold * hold * give;
   for (int a = 0; a < 3; ++a)
     for (int c = 0; c < 3; ++c) stiffness[c][a] -= Dot(body.tool_right[a], body.tool_left[c]);
   return 0.5 * (stiffness + glm::transpose(stiffness));

@@ -12,7 +12,7 @@ void LinearSystem::Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y)
   Multiply(*stiffness, p, y);
   if (!added.empty())
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += added[i] * p[i];
-  AddStiffness(springs, p, y);
+  AddStiffness(springs, holds, p, y);
   for (std::size_t i = 0; i < y.size(); ++i) y[i] *= is_free[i];
 }
 

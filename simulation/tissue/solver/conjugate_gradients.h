@@ -18,6 +18,7 @@ struct LinearSystem {
   const BlockMatrix* stiffness = nullptr;
   std::span<const double> added;  // M/dt², N/m a node
   std::span<const ContactSpring> springs;
+  std::span<const ToolHold> holds;
   std::span<const glm::dvec3> is_free;  // 1 or 0 an axis
 
   // y = A p, 0 at fixed axes; p may have values there.

@@ -17,10 +17,12 @@ constexpr double kMostShift = 1e-3;
 
 }  // namespace
 
-// Contact stiffness into its blocks, for a factor that knows of it.
+// Contact stiffness into its blocks, for a factor that knows of it. A tool gives way, and soon is
+// elsewhere: what it does to the tissue is left to the iterations.
 void ImplicitSolver::Impl::AddSprings(BlockMatrix& to) const {
   for (const ContactSpring& spring : springs) {
     const ContactPoint& contact = *spring.contact;
+    if (spring.hold >= 0) continue;
     for (int i = 0; i < contact.count; ++i)
       for (int j = 0; j < contact.count; ++j) {
         const int place = stiffness.pattern->Find(contact.node[i], contact.node[j]);
@@ -160,6 +162,7 @@ void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fi
   body.good_v = std::move(v);
   body.springs.clear();  // they name nodes of before
   body.contacts.clear();
+  body.holds.clear();
   body.is_recovering = body.has_given_up = false;
   // What a cut softens a hundredfold the old factor does not know: it took up to 200 iterations a
   // step, dearer than a new one at once.

@@ -103,7 +103,7 @@ void ImplicitSolver::Impl::FinishReactions(const Problem& problem) {
 void ImplicitSolver::Impl::FillResults(std::span<const glm::dvec3> x,
                                        std::span<ContactResult> results) {
   for (std::size_t i = 0; i < std::min(results.size(), springs.size()); ++i)
-    results[i] = {PointOf(contacts[i], x), springs[i].force, springs[i].gap};
+    results[i] = {PointOf(contacts[i], x), springs[i].force, springs[i].gap, springs[i].push};
 }
 
 bool ImplicitSolver::Impl::Take(const Problem& problem) {
@@ -114,8 +114,11 @@ bool ImplicitSolver::Impl::Take(const Problem& problem) {
   for (const ContactPoint& contact : problem.contacts)
     if (!IsUsable(contact, model->node_count())) return false;
   contacts.assign(problem.contacts.begin(), problem.contacts.end());
-  pressing.assign(contacts.size(), 0.0);
-  springs.reserve(contacts.size());
+  pressing.assign(contacts.size(), glm::dvec3(0.0));
+  springs.resize(contacts.size());
+  tool_springs.reserve(contacts.size());
+  FindHolds(contacts, holds);
+  tool_holds.reserve(holds.size());
   last_dt = problem.dt;
   const auto mass = model->mass();
   for (std::size_t i = 0; i < nodes; ++i)
@@ -129,6 +132,15 @@ ImplicitSolver::ImplicitSolver(std::shared_ptr<const FemModel> model, FixedAxes 
 ImplicitSolver::~ImplicitSolver() = default;
 ImplicitSolver::ImplicitSolver(ImplicitSolver&&) noexcept = default;
 ImplicitSolver& ImplicitSolver::operator=(ImplicitSolver&&) noexcept = default;
+
+void ImplicitSolver::Reserve(std::size_t contacts) {
+  impl_->contacts.reserve(contacts);
+  impl_->pressing.reserve(contacts);
+  impl_->springs.reserve(contacts);
+  impl_->tool_springs.reserve(contacts);
+  impl_->holds.reserve(kMostTools);
+  impl_->tool_holds.reserve(kMostTools);
+}
 
 StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> load,
                                 std::span<const ContactPoint> contacts,

@@ -62,6 +62,9 @@ class ImplicitSolver {
   ImplicitSolver(ImplicitSolver&&) noexcept;
   ImplicitSolver& operator=(ImplicitSolver&&) noexcept;
 
+  // Room for so many contacts, so that a step with them allocates nothing.
+  void Reserve(std::size_t contacts);
+
   // Advances by dt under `load` (N a node) and `contacts`; `results` gets one a contact. `target`
   // (empty, or a position a node) leads the fixed axes. noexcept: what goes wrong is in the report.
   StepReport Step(BodyState& state, std::span<const glm::dvec3> load,
@@ -91,13 +94,13 @@ class ImplicitSolver {
   // conjugate gradients.
   void Compliance(std::span<const ContactPoint> points, double tolerance, std::span<double> w);
 
-  // How the force on a tool grows when it is moved, all contacts of `owner` together, the tissue
-  // following: K = Σ kᵢ Pᵢ − Bᵀ A⁻¹ B, B = Σ Jᵢᵀ kᵢ Pᵢ, with A the last step's system, springs and
-  // friction included, and kᵢ Pᵢ the stiffness of a contact that bears (along its normal, and
-  // sideways while friction sticks). N/m, symmetric, positive semidefinite. Three right-hand sides
-  // of the same conjugate gradients at once; allocates nothing.
-  glm::dmat3 ToolStiffness(std::span<const ContactPoint> contacts, int owner,
-                           double tolerance) noexcept;
+  // How what pushes a tool grows when its hand is moved, tool and tissue following and the tool's
+  // own friction apart: K = h − h H⁻¹ h − Bᵀ A⁻¹ B, B = h Σ Jᵢᵀ Kᵢ H⁻¹, H = h + Σ Kᵢ, over the
+  // contacts of `owner` that bear in the last step, or the nearest as if it did; h the spring to
+  // the hand, A that step's system. The turn of a round tool's normals is in it, so it is exact,
+  // and need not be positive. N/m, symmetric. Three right-hand sides of the same conjugate
+  // gradients at once; allocates nothing.
+  glm::dmat3 ToolStiffness(int owner, double tolerance) noexcept;
 
   // The same body after a cut or new shares: node i of the new model was node parent[i] of the old
   // one. The old factor goes on as preconditioner through that map until a refreshed one is taken.

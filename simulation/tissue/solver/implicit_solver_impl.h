@@ -92,8 +92,9 @@ struct ImplicitSolver::Impl {
   BlockMatrix stiffness;
 
   // The step's.
-  std::vector<ContactSpring> springs;
-  std::vector<double> pressing;        // normal force a contact, of the iteration before
+  std::vector<ContactSpring> springs, tool_springs;
+  std::vector<ToolHold> holds, tool_holds;
+  std::vector<glm::dvec3> pressing;    // push a contact, of the iteration before
   std::vector<ContactPoint> contacts;  // copied, so that Compliance can leave some out
   std::vector<double> added;           // M/dt²
   double last_dt = 0;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -36,17 +37,14 @@ void ImplicitSolver::Impl::Evaluate(std::span<const glm::dvec3> x, Law law, Tang
 }
 
 void ImplicitSolver::Impl::SetSprings(std::span<const glm::dvec3> x, bool renews_friction) {
-  springs.clear();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (renews_friction) pressing[i] = NormalForce(contacts[i], x);
-    springs.push_back(SpringAt(contacts[i], x, pressing[i]));
-  }
+  simulation::SetSprings(contacts, x, renews_friction, at_tangent == Tangent::kTrue, pressing,
+                         holds, springs);
 }
 
 // The value at the last evaluation; `magnitude` is the sum of its parts' sizes, for its rounding.
 double ImplicitSolver::Impl::Potential(std::span<const glm::dvec3> x, const Problem& problem,
                                        double& magnitude) {
-  double work = 0, inertia = 0, contact = 0;
+  double work = 0, inertia = 0;
   for (std::size_t i = 0; i < x.size(); ++i) work += glm::dot(problem.load[i], x[i] - begin_x[i]);
   work *= problem.load_share;
   if (problem.dt > 0)
@@ -54,7 +52,7 @@ double ImplicitSolver::Impl::Potential(std::span<const glm::dvec3> x, const Prob
       const glm::dvec3 off = (x[i] - goal_x[i]) * is_free[i];
       inertia += 0.5 * added[i] * glm::dot(off, off);
     }
-  for (const ContactSpring& spring : springs) contact += spring.energy;
+  const double contact = EnergyOf(springs, holds);
   magnitude = std::abs(assembly.energy) + std::abs(work) + inertia + contact;
   return assembly.energy - work + inertia + contact;
 }
@@ -89,7 +87,7 @@ double ImplicitSolver::Impl::Gradient(std::span<const glm::dvec3> x, const Probl
 
 LinearSystem ImplicitSolver::Impl::System() const {
   return {&stiffness, last_dt > 0 ? std::span<const double>(added) : std::span<const double>(),
-          springs, is_free};
+          springs, holds, is_free};
 }
 
 // Into `direction`: the Newton step, with the fixed axes' own way (`lead`) in it.
@@ -157,9 +155,17 @@ bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& p
   const double slope = Dot(gradient, direction);
   const double noise = energy_noise + 1e-13 * magnitude;
   if (!(slope < 0)) return false;
+  // Each try begins with the tools where they are: one that went too far may have left its tool on
+  // the other side of the tissue.
+  std::array<glm::dvec3, kMostTools> offset;
+  for (std::size_t h = 0; h < holds.size(); ++h) offset[h] = holds[h].offset;
+  const auto put_back = [&] {
+    for (std::size_t h = 0; h < holds.size(); ++h) holds[h].offset = offset[h];
+  };
   double step = 1;
   for (int halving = 0; halving < kMostHalvings; ++halving) {
     for (std::size_t i = 0; i < x.size(); ++i) trial[i] = x[i] + step * direction[i];
+    put_back();
     Evaluate(trial, law, halving == 0 ? tangent : Tangent::kNone);
     SetSprings(trial, false);
     const double after = Potential(trial, problem, magnitude);
@@ -172,6 +178,7 @@ bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& p
     const double lowest = std::isfinite(rise) && rise > 0 ? -0.5 * slope * step * step / rise : 0;
     step = std::clamp(lowest, 0.1 * step, 0.5 * step);
   }
+  put_back();
   return false;
 }
 

@@ -215,8 +215,9 @@ ToolCoupling TissueSpring(const glm::dvec3& tip, std::uint64_t step, double k = 
   coupling.tip = tip;
   coupling.count = 1;
   coupling.contact[0].normal = {0, 0, -1};
-  coupling.contact[0].force = {0, 0, -k * (tip.z - level)};
-  coupling.contact[0].stiffness[2][2] = k;
+  coupling.contact[0].depth = tip.z - level;
+  coupling.contact[0].stiffness = k;
+  coupling.contact[0].spring = 500.0;
   coupling.contact[0].tissue = 0;
   return coupling;
 }
@@ -297,8 +298,8 @@ TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int kind = 0; kind < 3; ++kind) {
     ToolCoupling bad = TissueSpring({0.03, 0, 0.032}, ++step);
-    if (kind == 0) bad.contact[0].force.x = nan;
-    if (kind == 1) bad.contact[0].stiffness[1][1] = std::numeric_limits<double>::infinity();
+    if (kind == 0) bad.contact[0].rub.x = nan;
+    if (kind == 1) bad.contact[0].stiffness = std::numeric_limits<double>::infinity();
     if (kind == 2) bad.is_faulty = true;
     hands.session.SetCoupling(bad);
     const ToolState& tool = hands.Tick(3).instrument;

@@ -83,25 +83,36 @@ TEST(Pinch, HardCase10ToAFifthOfTheThicknessForFiveSecondsLeavesNothing) {
   };
   int inverted = 0, iterations = 0;
   const int closing = 30, holding = 300;  // half a second, five seconds
-  const double closed = 0.19 * kThick;    // a little past the fifth: the jaws give 1 % of it
+  const double closed = 0.13 * kThick;    // past the fifth: the tissue gives way to jaws a little
   std::vector<double> thick;              // while held
+  std::vector<double> tremble;            // from a second after closing: way of a point in a step
+  std::vector<glm::dvec3> last;
   for (int i = 1; i <= closing + holding; ++i) {
     const double share = std::min(1.0, static_cast<double>(i) / closing);
     const BodyReport report = step(kThick + share * (closed - kThick));
     inverted = std::max(inverted, report.step.inverted);
     iterations = std::max(iterations, report.step.iterations);
     if (i > closing) thick.push_back(ThicknessBetween(body));
+    if (i > closing + 60) {
+      double moved = 0;
+      for (std::size_t n = 0; n < last.size(); ++n)
+        moved = std::max(moved, glm::distance(last[n], body.positions()[n]));
+      tremble.push_back(moved);
+    }
+    last.assign(body.positions().begin(), body.positions().end());
     if (i % 60 == 0)
       std::printf("%.1f s: thickness %.2f of %.0f mm, inverted %d, iterations %d, residual %.1e\n",
                   i * test::kFrame, 1e3 * ThicknessBetween(body), 1e3 * kThick,
                   report.step.inverted, report.step.iterations, report.step.residual);
   }
-  // Between ends that are a hundred times as stiff as it is, the tissue trembles: two iterations a
-  // step do not settle it (residual 0.1 to 0.9). Printed; where it is half of the time is asked.
   std::sort(thick.begin(), thick.end());
   std::printf("thickness while held: %.2f, median %.2f, %.2f mm\n", 1e3 * thick.front(),
               1e3 * thick[thick.size() / 2], 1e3 * thick.back());
-  EXPECT_LT(thick[thick.size() / 2], 0.2 * kThick);
+  std::sort(tremble.begin(), tremble.end());
+  std::printf("a step moves no point by more than %.2e of the thickness, half of them %.2e\n",
+              tremble.back() / kThick, tremble[tremble.size() / 2] / kThick);
+  EXPECT_LT(tremble.back(), 0.01 * kThick);
+  EXPECT_LT(thick.back(), 0.2 * kThick);
   double off = 0;
   int left = 0;
   for (int i = 0; i < 60; ++i) left = step(closed, false).step.inverted;

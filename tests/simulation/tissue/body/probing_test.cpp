@@ -1,5 +1,5 @@
 // Tools pressed into tissue that is solved: hard cases of the notes on deformables, section 7, by
-// number, and how far the servo's force is from the whole solve while the hand moves.
+// number.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,11 +9,9 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "simulation/tissue/contact/coupling.h"
 #include "simulation/tissue/contact/tool_contact.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 #include "tests/simulation/tissue/contact/slab.h"
@@ -35,17 +33,12 @@ struct Slab {
         field(SolidField::FromFunction(
             {low - 2e-3, test::kSlabHigh + 2e-3}, 2.5e-4,
             [this](const glm::dvec3& p) { return test::BoxDistance(p, low, test::kSlabHigh); })),
-        contact(skin, mesh, field),
+        contact(skin, mesh, field, 5e5),
         model(std::make_shared<FemModel>(mesh, Material{})),
         positions(skin.point.size()),
         normals(skin.point.size()) {
     for (const glm::dvec3& x : mesh.rest_positions) fixed.push_back(is_held(x) ? 7 : 0);
     solver = std::make_unique<ImplicitSolver>(model, fixed);
-    SolverOptions tight;
-    tight.tolerance = 1e-6;
-    tight.max_newton = 50;
-    tight.max_iterations = 2000;
-    exact = std::make_unique<ImplicitSolver>(model, fixed, tight);
     state.x = mesh.rest_positions;
     state.v.assign(state.x.size(), glm::dvec3(0.0));
     load.assign(state.x.size(), glm::dvec3(0.0));
@@ -94,7 +87,12 @@ struct Slab {
     for (const ContactPoint& c : found) {
       glm::dvec3 x(0.0);
       for (int k = 0; k < c.count; ++k) x += c.weight[k] * state.x[c.node[k]];
-      deepest = std::max(deepest, -glm::dot(c.normal, x - c.foot));
+      const glm::dvec3 way = c.b - c.a;
+      const double length2 = glm::dot(way, way);
+      const double along =
+          length2 > 0 ? std::clamp(glm::dot(x - c.a, way) / length2, 0.0, 1.0) : 0.0;
+      deepest = std::max(deepest, c.is_round ? c.radius - glm::distance(x, c.a + along * way)
+                                             : -glm::dot(c.normal, x - c.foot));
     }
     return deepest;
   }
@@ -106,7 +104,7 @@ struct Slab {
   SolidField field;
   SkinContact contact;
   std::shared_ptr<FemModel> model;
-  std::unique_ptr<ImplicitSolver> solver, exact;
+  std::unique_ptr<ImplicitSolver> solver;
   FixedAxes fixed;
   BodyState state;
   ToolContactOptions options;
@@ -192,109 +190,6 @@ TEST(Probing, HardCase16APoseThatIsNotANumberLeavesTheTissueAsItIs) {
   }
   for (int i = 0; i < 30; ++i) slab.Step(tool);
   EXPECT_NEAR(glm::length(slab.ForceOn(0)), before, 0.05 * before);
-}
-
-// The tool's condensed stiffness by a sparse factor of the step's own matrix with the springs of
-// closed contacts in it: K = Σ kᵢ nᵢ nᵢᵀ − Bᵀ A⁻¹ B, B = Σ Jᵢᵀ kᵢ nᵢ nᵢᵀ. Without friction.
-glm::dmat3 StiffnessOf(const Slab& slab) {
-  const FixedAxes& fixed = slab.fixed;
-  const FemModel& model = *slab.model;
-  BlockMatrix tangent{model.pattern(), {}};
-  tangent.block.resize(model.pattern()->column.size());
-  std::vector<glm::dvec3> force(slab.state.x.size());
-  model.Assemble(slab.state.x, model.material().law, Tangent::kTrue, force, &tangent);
-  const auto size = static_cast<Eigen::Index>(3 * slab.state.x.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int row = 0; row < model.node_count(); ++row) {
-    const bool is_fixed = fixed[row] != 0;
-    for (int e = model.pattern()->row_begin[row]; e < model.pattern()->row_begin[row + 1]; ++e) {
-      const int column = model.pattern()->column[e];
-      if (is_fixed || fixed[column] != 0) continue;
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-          entries.emplace_back(3 * row + a, 3 * column + b, tangent.block[e][3 * a + b]);
-    }
-    for (int a = 0; a < 3; ++a)
-      entries.emplace_back(3 * row + a, 3 * row + a,
-                           is_fixed ? 1.0 : model.mass()[row] / (kFrame * kFrame));
-  }
-  Eigen::Matrix3d springs = Eigen::Matrix3d::Zero();
-  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(size, 3);
-  for (std::size_t i = 0; i < slab.contacts.size(); ++i) {
-    const ContactPoint& c = slab.contacts[i];
-    if (!(glm::dot(slab.results[i].force, c.normal) > 0)) continue;
-    const Eigen::Vector3d n(c.normal.x, c.normal.y, c.normal.z);
-    springs += c.stiffness * n * n.transpose();
-    for (int p = 0; p < c.count; ++p) {
-      moved.middleRows<3>(3 * c.node[p]) += c.stiffness * c.weight[p] * n * n.transpose();
-      for (int q = 0; q < c.count; ++q)
-        for (int a = 0; a < 3; ++a)
-          for (int b = 0; b < 3; ++b)
-            entries.emplace_back(3 * c.node[p] + a, 3 * c.node[q] + b,
-                                 c.stiffness * c.weight[p] * c.weight[q] * n[a] * n[b]);
-    }
-  }
-  Eigen::SparseMatrix<double> system(size, size);
-  system.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(system);
-  const Eigen::Matrix3d k = springs - moved.transpose() * Eigen::MatrixXd(factor.solve(moved));
-  glm::dmat3 result;
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) result[column][row] = k(row, column);
-  return result;
-}
-
-// Target 6 of the notes: within 2 % of the full solve at the same pose. A frame's motion is 3 mm at
-// 0.2 m/s, 1 mm at 60 mm/s; careful probing goes at 5 to 20 mm/s. Held to it in and out of the
-// tissue; aslant, the patch turns under the tool, which K does not know: that error is printed.
-TEST(Probing, TheServosForceIsThatOfTheWholeSolveWhileTheHandMoves) {
-  Slab slab(0.006, {8, 8, 4}, OnTheGround);
-  slab.options.friction = 0.0;
-  std::vector<Slab::Tool> tool{ProbeAt(0.0)};
-  for (int i = 0; i < 60; ++i) {
-    MoveTo(tool[0], ProbeAt(-0.002 * std::min(1.0, i / 20.0)));
-    slab.Step(tool);
-  }
-  tool[0].motion = glm::dvec3(0.0);
-  slab.Step(tool, *slab.exact, slab.state);
-  slab.Refit();
-  ToolCoupling coupling;
-  coupling.step = 1;
-  AddContacts(slab.contacts, slab.results, 0, StiffnessOf(slab), slab.options.stiffness,
-              {1, 0, 0, 0}, 0, coupling);
-  const glm::dvec3 before = slab.ForceOn(0);
-  EXPECT_LT(glm::length(ForceOf(coupling, coupling.tip).force - before), 1e-9);
-  std::printf("pressed 2 mm: %.3f N, stiffness %.0f N/m\n", before.z, [&] {
-    double k = 0;
-    for (int i = 0; i < coupling.count; ++i) k += coupling.contact[i].stiffness[2][2];
-    return k;
-  }());
-  const std::array<double, 4> ways{1e-4, 5e-4, 1e-3, 3e-3};
-  const std::array<std::pair<const char*, glm::dvec3>, 3> directions{
-      {{"inwards", {0, 0, -1}},
-       {"aslant", glm::normalize(glm::dvec3(1, 0, -1))},
-       {"out", {0, 0, 1}}}};
-  for (const auto& [name, direction] : directions) {
-    std::array<double, 4> error{};
-    for (std::size_t w = 0; w < ways.size(); ++w) {
-      const glm::dvec3 way = ways[w] * direction;
-      std::vector<Slab::Tool> moved = tool;
-      for (Capsule& capsule : moved[0].capsules) capsule.a += way, capsule.b += way;
-      moved[0].motion = way;
-      BodyState there = slab.state;
-      const StepReport report = slab.Step(moved, *slab.exact, there);
-      EXPECT_LT(report.residual, 1e-5);
-      const glm::dvec3 full = slab.ForceOn(0);
-      error[w] = glm::length(ForceOf(coupling, way).force - full) /
-                 std::max(glm::length(full), 0.5 * glm::length(before));
-    }
-    std::printf("%-8s error at 0.1 / 0.5 / 1 / 3 mm: %.2f %.2f %.2f %.2f %%\n", name,
-                100 * error[0], 100 * error[1], 100 * error[2], 100 * error[3]);
-    if (direction.x != 0.0) continue;  // said above: how the patch turns is not in K
-    EXPECT_LT(error[0], 0.02) << name;
-    EXPECT_LT(error[1], 0.02) << name;
-    EXPECT_LT(error[2], 0.02) << name;
-  }
 }
 
 }  // namespace

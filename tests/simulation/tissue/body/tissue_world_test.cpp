@@ -26,8 +26,10 @@ BodyOptions Restless() {
 bool AreSame(const ToolCoupling& a, const ToolCoupling& b) {
   if (a.step != b.step || a.count != b.count || a.is_faulty != b.is_faulty) return false;
   for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i)
-    if (a.contact[i].force != b.contact[i].force || a.contact[i].normal != b.contact[i].normal ||
-        a.contact[i].stiffness != b.contact[i].stiffness)
+    if (a.contact[i].rub != b.contact[i].rub || a.contact[i].normal != b.contact[i].normal ||
+        a.contact[i].stiffness != b.contact[i].stiffness ||
+        a.contact[i].depth != b.contact[i].depth || a.contact[i].power != b.contact[i].power ||
+        a.contact[i].curvature != b.contact[i].curvature)
       return false;
   return true;
 }

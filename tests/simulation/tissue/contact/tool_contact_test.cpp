@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/process_cost.h"
+#include "simulation/tissue/solver/contact_springs.h"
 #include "tests/simulation/tissue/contact/slab.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
@@ -26,7 +27,7 @@ struct Body {
         finder(mesh),
         skin(EmbedSkin(std::move(surface), mesh, finder)),
         field(std::move(shape)),
-        contact(skin, mesh, field),
+        contact(skin, mesh, field, 5e5),
         positions(skin.point.size()),
         normals(skin.point.size()) {}
   Body(const Body&) = delete;
@@ -46,10 +47,35 @@ struct Body {
       place += contact_point.weight[i] * x[contact_point.node[i]];
     return place;
   }
+  // Of the tool where the hand has it.
   double Gap(const ContactPoint& c, const std::vector<glm::dvec3>& x) const {
-    return glm::dot(c.normal, PlaceOf(c, x) - c.foot);
+    if (!c.is_round) return glm::dot(c.normal, PlaceOf(c, x) - c.foot);
+    const glm::dvec3 way = c.b - c.a, from = PlaceOf(c, x) - c.a;
+    const double length2 = glm::dot(way, way);
+    const double along = length2 > 0 ? std::clamp(glm::dot(from, way) / length2, 0.0, 1.0) : 0.0;
+    return glm::length(from - along * way) - c.radius;
   }
   double Gap(const ContactPoint& c) const { return Gap(c, mesh.rest_positions); }
+  double LeastGap(const std::vector<ContactPoint>& contacts) const {
+    double least = 1;
+    for (const ContactPoint& c : contacts) least = std::min(least, Gap(c));
+    return least;
+  }
+  // The force on a tool that hangs on its hand's spring, of this tissue if it were rigid.
+  glm::dvec3 HeldBy(const std::vector<ContactPoint>& contacts,
+                    std::vector<ContactResult>& results) const {
+    std::vector<glm::dvec3> pressing(contacts.size(), glm::dvec3(0.0));
+    std::vector<ContactSpring> springs(contacts.size());
+    std::vector<ToolHold> holds;
+    FindHolds(contacts, holds);
+    SetSprings(contacts, mesh.rest_positions, true, true, pressing, holds, springs);
+    results.resize(contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      results[i] = {springs[i].point, springs[i].force, springs[i].gap, springs[i].push};
+    glm::dvec3 force(0.0);
+    for (const ContactSpring& spring : springs) force -= spring.force;
+    return force;
+  }
 
   TetMesh mesh;
   ElementFinder finder;
@@ -84,41 +110,28 @@ struct Ball : Body {
   }
 };
 
-double SumOfStiffness(const std::vector<ContactPoint>& contacts) {
-  double sum = 0;
-  for (const ContactPoint& c : contacts) sum += c.stiffness;
-  return sum;
-}
-
-// Largest stiffness that a motion in any of many directions meets.
-double StiffestMotion(const std::vector<ContactPoint>& contacts) {
-  double largest = 0;
-  for (int i = 0; i < 500; ++i) {
-    const double u = 2.399963 * i, z = 1 - 2 * (i + 0.5) / 500;
-    const glm::dvec3 d(std::sqrt(1 - z * z) * std::cos(u), std::sqrt(1 - z * z) * std::sin(u), z);
-    double sum = 0;
-    for (const ContactPoint& c : contacts)
-      sum += c.stiffness * glm::dot(c.normal, d) * glm::dot(c.normal, d);
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
+// How deep a round end sinks between samples that are half its radius apart, at most.
+constexpr double kBetween = kRadius / 16;
 
 TEST(SkinContact, AShaftOnAFlatTopPenetratesAsItLies) {
   const Slab slab;
-  for (double depth : {-5e-4, 0.0, 1e-4, 5e-4}) {
+  for (double depth : {-2e-4, 0.0, 1e-4, 5e-4}) {
     const Capsule shaft{
         {-0.004, 0.0003, kRadius - depth}, {0.004, 0.0003, kRadius - depth}, kRadius};
     const auto contacts = slab.Find(std::span(&shaft, 1));
-    ASSERT_EQ(contacts.size(), 6u) << "8 mm in pieces of 1.5 mm or less";
-    EXPECT_NEAR(SumOfStiffness(contacts), 500.0, 1e-9);
+    ASSERT_GT(contacts.size(), 20u);
+    EXPECT_NEAR(slab.LeastGap(contacts), -depth, kBetween);
+    EXPECT_GE(slab.LeastGap(contacts), -depth - 1e-12);
+    double low = 1, high = -1;
     for (const ContactPoint& c : contacts) {
-      EXPECT_NEAR(slab.Gap(c), -depth, 1e-12);
       EXPECT_LT(glm::length(c.normal - glm::dvec3(0, 0, -1)), 1e-12);
-      EXPECT_NEAR(c.stiffness, 500.0 / 6, 1e-6) << "even on an even patch";
       EXPECT_EQ(c.owner, 0);
       EXPECT_EQ(c.count, 10);
+      EXPECT_EQ(c.hold, 500.0);
+      low = std::min(low, slab.PlaceOf(c, slab.mesh.rest_positions).x);
+      high = std::max(high, slab.PlaceOf(c, slab.mesh.rest_positions).x);
     }
+    EXPECT_GT(high - low, 0.0075) << "all along it";
   }
 }
 
@@ -134,15 +147,17 @@ TEST(SkinContact, ATipTouchesWithItsEndOnly) {
   const Slab slab;
   const Capsule rod{{0.001, 0.002, kRadius - 2e-4}, {0.001, 0.002, 0.02}, kRadius};
   const auto contacts = slab.Find(std::span(&rod, 1));
-  ASSERT_EQ(contacts.size(), 1u);
-  EXPECT_NEAR(contacts[0].stiffness, 500.0, 1e-9);
-  EXPECT_NEAR(slab.Gap(contacts[0]), -2e-4, 1e-12);
-  EXPECT_LT(glm::length(slab.PlaceOf(contacts[0], slab.mesh.rest_positions) -
-                        glm::dvec3(0.001, 0.002, 0)),
-            1e-12);
+  EXPECT_NEAR(slab.LeastGap(contacts), -2e-4, kBetween);
+  for (const ContactPoint& c : contacts)
+    if (slab.Gap(c) < 0) {
+      EXPECT_LT(
+          glm::distance(slab.PlaceOf(c, slab.mesh.rest_positions), glm::dvec3(0.001, 0.002, 0)),
+          6e-4)
+          << "√(2 r d)";
+    }
 }
 
-TEST(SkinContact, OnABallDepthAndNormalAreRightToTheSkinsFacets) {
+TEST(SkinContact, OnABallDepthAndNormalAreRightToTheSkinsSamples) {
   const Ball ball;
   double gap_error = 0, angle = 0;
   for (int i = 0; i < 200; ++i) {
@@ -152,19 +167,20 @@ TEST(SkinContact, OnABallDepthAndNormalAreRightToTheSkinsFacets) {
     const glm::dvec3 end = (Ball::kBall + kRadius - depth) * out;
     const Capsule rod{end, end + 0.02 * out, kRadius};
     const auto contacts = ball.Find(std::span(&rod, 1));
-    ASSERT_EQ(contacts.size(), 1u) << i;
-    gap_error = std::max(gap_error, std::abs(ball.Gap(contacts[0]) + depth));
-    angle = std::max(angle, glm::length(glm::cross(-contacts[0].normal, out)));
+    ASSERT_FALSE(contacts.empty()) << i;
+    gap_error = std::max(gap_error, std::abs(ball.LeastGap(contacts) + depth));
+    std::vector<ContactResult> results;
+    const glm::dvec3 force = ball.HeldBy(contacts, results);
+    angle = std::max(angle, std::asin(glm::length(glm::cross(glm::normalize(force), out))));
   }
-  // Facets of 8192 triangles on 8 mm: edges of 0.4 mm or so, 3 µm sagitta, 2.5° from facet to
-  // facet.
-  std::printf("rod on a ball: gap off by at most %.2e m, normal by %.2f°\n", gap_error,
+  std::printf("rod on a ball: gap off by at most %.2e m, force by %.2f°\n", gap_error,
               angle * 57.2958);
-  EXPECT_LT(gap_error, 1e-5);
-  EXPECT_LT(angle * 57.2958, 2.5);
+  EXPECT_LT(gap_error, kBetween);
+  // Half a sample's distance to the side of a ball of both radii.
+  EXPECT_LT(angle, 0.25 * kRadius / (Ball::kBall + kRadius) * 2.0);
 }
 
-TEST(SkinContact, AnEdgeBetweenTwoPiecesIsNotMissed) {
+TEST(SkinContact, AnEdgeIsNotMissed) {
   // The long edge of the slab across a shaft, where the nearest point is on the edge itself.
   const Slab slab;
   double off = 0;
@@ -175,15 +191,12 @@ TEST(SkinContact, AnEdgeBetweenTwoPiecesIsNotMissed) {
                      out = glm::normalize(glm::dvec3(1, 0, 1));
     const glm::dvec3 middle = glm::dvec3(0.01, 0, 0) + std::sqrt(2.0) * lift * out + at * across;
     const Capsule rod{middle - 0.004 * across, middle + 0.004 * across, kRadius};
-    const auto contacts = slab.Find(std::span(&rod, 1));
-    ASSERT_GE(contacts.size(), 1u);
-    double least = 1;
-    for (const ContactPoint& c : contacts) least = std::min(least, slab.Gap(c));
+    const double least = slab.LeastGap(slab.Find(std::span(&rod, 1)));
     off = std::max(off, std::abs(least + kRadius - std::sqrt(2.0) * lift));
-    EXPECT_LE(StiffestMotion(contacts), 500.0 * (1 + 1e-9));
   }
   std::printf("shaft over an edge: depth of 71 um off by at most %.2e m\n", off);
-  EXPECT_LT(off, 2e-6) << "a mean over half a millimetre leans off the bisector, by its cosine";
+  // The nearest samples lie a third of a triangle's height off the edge.
+  EXPECT_LT(off, 0.25 * kRadius / 3 + kBetween);
 }
 
 // Hard case 9, its geometry: a tool that appears 5 mm deep is pushed out the shortest way.
@@ -195,10 +208,9 @@ TEST(SkinContact, HardCase9ATeleportedToolFindsTheShortestWayOut) {
   double deepest = 0;
   for (const ContactPoint& c : contacts) {
     deepest = std::min(deepest, slab.Gap(c));
-    EXPECT_LT(glm::length(c.normal - glm::dvec3(0, 0, -1)), 1e-6);
+    EXPECT_TRUE(slab.Gap(c) > 0 || glm::length(c.normal - glm::dvec3(0, 0, -1)) < 1e-6);
   }
   EXPECT_NEAR(deepest, -0.005 - kRadius, 1e-5) << "a twenty-fifth of the grid's spacing";
-  EXPECT_LE(StiffestMotion(contacts), 500.0 * (1 + 1e-9));
 }
 
 TEST(SkinContact, InsideABentBodyTheWayOutFollowsTheDeformation) {
@@ -233,19 +245,16 @@ TEST(SkinContact, AHeldToolStaysOnItsSideOfThinTissue) {
   for (int step = 0; step < 6; ++step) {
     const Capsule rod{{0.001, 0.0003, z}, {0.001, 0.0003, z + 0.02}, kRadius};
     const auto contacts = slab.Find(std::span(&rod, 1), motion, &grip);
-    if (step > 0) {
-      ASSERT_EQ(contacts.size(), 1u) << step;
-      EXPECT_LT(glm::length(contacts[0].normal - glm::dvec3(0, 0, -1)), 1e-9) << step;
-      EXPECT_NEAR(slab.Gap(contacts[0]), z - kRadius, 1e-9) << "how deep the hand is";
-      EXPECT_NEAR(contacts[0].stiffness, 500.0, 1e-9);
+    std::vector<ContactResult> results;
+    const glm::dvec3 force = slab.HeldBy(contacts, results);
+    if (step > 1) {
+      // Of a tissue that does not dent the contacts' own layer gives all there is, under a round
+      // end.
+      EXPECT_NEAR(force.z, 500.0 * (kRadius - z), 500.0 * 0.5 * kRadius) << step;
+      EXPECT_LT(std::hypot(force.x, force.y), 0.02 * force.z) << step;
     }
     motion = {0, 0, -0.003};
     z -= 0.003;
-    // A tissue that does not give: the force is the spring's.
-    std::vector<ContactResult> results(contacts.size());
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-      results[i].force =
-          -contacts[i].stiffness * std::min(0.0, slab.Gap(contacts[i])) * contacts[i].normal;
     UpdateGrip(contacts, results, 0, slab.options, grip);
   }
   EXPECT_LT(z, -0.012) << "the hand is far on the other side";
@@ -255,29 +264,36 @@ TEST(SkinContact, AHeldToolSlidesAlongTheSkin) {
   const Slab slab;
   ToolGrip grip;
   const glm::dvec3 step(0.001, 0, 0);
+  double low = 1e9, high = 0;
   for (int i = 0; i < 6; ++i) {
     const double x = -0.003 + 0.001 * i;
     const Capsule rod{{x, 0.0003, -0.003}, {x, 0.0003, 0.02}, kRadius};
     if (i == 0) grip.offset = {0, 0, 0.003 + kRadius}, grip.count = 1, grip.normal[0] = {0, 0, 1};
+    const glm::dvec3 before = grip.offset;
     const auto contacts = slab.Find(std::span(&rod, 1), i == 0 ? glm::dvec3(0.0) : step, &grip);
-    ASSERT_EQ(contacts.size(), 1u);
-    EXPECT_LT(
-        glm::length(slab.PlaceOf(contacts[0], slab.mesh.rest_positions) - glm::dvec3(x, 0.0003, 0)),
-        1e-9);
-    if (i > 0) {
-      EXPECT_LT(glm::length(contacts[0].start -
-                            (slab.PlaceOf(contacts[0], slab.mesh.rest_positions) + step)),
-                1e-12)
-          << "friction drags the skin along";
+    ASSERT_FALSE(contacts.empty());
+    for (const ContactPoint& c : contacts) {
+      EXPECT_NEAR(slab.PlaceOf(c, slab.mesh.rest_positions).x, x, kRadius + 3e-4 + 0.001 + 1e-9)
+          << "round it, and as far again as it went";
+      if (i > 0) {
+        EXPECT_LT(
+            glm::length(c.start - (slab.PlaceOf(c, slab.mesh.rest_positions) + step - before)),
+            1e-12)
+            << "friction drags the skin along";
+      }
     }
-    std::vector<ContactResult> results(1);
-    results[0].force = -500.0 * slab.Gap(contacts[0]) * contacts[0].normal;
+    std::vector<ContactResult> results;
+    const double push = slab.HeldBy(contacts, results).z;
     UpdateGrip(contacts, results, 0, slab.options, grip);
+    low = std::min(low, push);
+    high = std::max(high, push);
   }
+  EXPECT_LT(high - low, 500.0 * kBetween);
+  EXPECT_NEAR(high, 500.0 * (0.003 + kRadius), 500.0 * 0.5 * kRadius);
 }
 
-// Forces must not flicker: a hook drawn over a ball in steps of 10 µm, pressed to 0.2 mm.
-TEST(SkinContact, ForcesGoOverEvenlyFromPieceToPiece) {
+// Forces must not flicker: a hook drawn over a rigid ball in steps of 10 µm, pressed to 0.2 mm.
+TEST(SkinContact, ForcesGoOverEvenlyFromSampleToSample) {
   const Ball ball;
   std::array<Capsule, kMaxCapsules> capsules;
   ToolInput input;
@@ -294,51 +310,46 @@ TEST(SkinContact, ForcesGoOverEvenlyFromPieceToPiece) {
     const int count = PosedCapsules(probe, input, capsules);
     const auto contacts = ball.Find(std::span(capsules.data(), static_cast<std::size_t>(count)),
                                     i == 0 ? glm::dvec3(0.0) : glm::dvec3(1e-5, 0, 0), &grip);
-    glm::dvec3 force(0.0);
-    std::vector<ContactResult> results(contacts.size());
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      results[c].force =
-          -contacts[c].stiffness * std::min(0.0, ball.Gap(contacts[c])) * contacts[c].normal;
-      force += results[c].force;
-    }
+    std::vector<ContactResult> results;
+    const glm::dvec3 force = ball.HeldBy(contacts, results);
     UpdateGrip(contacts, results, 0, ball.options, grip);
     if (i > 20) largest = std::max(largest, glm::length(force - last));
     force_level = std::max(force_level, glm::length(force));
     last = force;
   }
   std::printf("hook over a ball: %.3f N, largest change in 10 um %.4f N\n", force_level, largest);
-  // k times the way is 5 mN; a facet's edge turns the normal by 2.5°, 4 % of the force.
+  // k times the way is 5 mN.
   EXPECT_LT(largest, 500.0 * 1e-5 + 0.04 * force_level);
 }
 
-TEST(SkinContact, AtMostEightContactsStandForALongShaft) {
+TEST(SkinContact, ALongShaftHasNoMoreContactsThanThereIsRoomForTheNearestOfAll) {
   const Slab slab;
   const Capsule shaft{{-0.009, 0.0003, kRadius - 1e-4}, {0.05, 0.0003, kRadius - 1e-4}, kRadius};
   const auto contacts = slab.Find(std::span(&shaft, 1));
   EXPECT_EQ(contacts.size(), static_cast<std::size_t>(kMaxToolContacts));
-  EXPECT_NEAR(SumOfStiffness(contacts), 500.0, 1.0) << "the piece over the border leans a little";
   double low = 1, high = -1;
   for (const ContactPoint& c : contacts) {
     low = std::min(low, slab.PlaceOf(c, slab.mesh.rest_positions).x);
     high = std::max(high, slab.PlaceOf(c, slab.mesh.rest_positions).x);
   }
-  EXPECT_GT(high - low, 0.014) << "spread over the 19 mm that touch";
+  EXPECT_GT(high - low, 0.018) << "spread over the 19 mm that touch";
 }
 
-TEST(SkinContact, PressedFromTwoSidesNoMotionFeelsMoreThanTheSpring) {
+TEST(SkinContact, PressedFromTwoSidesBothHold) {
   // A closed pair of jaws whose gap is the slab's edge: normals up and down.
   const Slab slab(0.0015);
   const std::array<Capsule, 2> jaws{
       Capsule{{0.004, 0, kRadius - 1e-4}, {0.012, 0, kRadius - 1e-4}, kRadius},
       Capsule{{0.004, 0, -0.0015 - kRadius + 1e-4}, {0.012, 0, -0.0015 - kRadius + 1e-4}, kRadius}};
   const auto contacts = slab.Find(jaws);
+  std::vector<ContactResult> results;
+  const glm::dvec3 force = slab.HeldBy(contacts, results);
   double up = 0, down = 0;
-  for (const ContactPoint& c : contacts) {
-    EXPECT_GT(std::abs(c.normal.z), 0.5);
-    (c.normal.z < 0 ? up : down) += c.stiffness * c.normal.z * c.normal.z;
-  }
-  EXPECT_NEAR(up + down, 500.0, 1.0);
-  EXPECT_NEAR(up, down, 50.0) << "both jaws hold";
+  for (const ContactResult& result : results)
+    (result.push.z < 0 ? up : down) += std::abs(result.push.z);
+  EXPECT_GT(up, 0.01);
+  EXPECT_GT(down, 0.01);
+  EXPECT_LT(std::abs(force.z), 0.05 * up) << "they hold one another";
 }
 
 // Hard case 16: a pose that is not a number touches nothing.
@@ -366,8 +377,8 @@ TEST(SkinContact, FindsTheSameTwiceAndAllocatesNothing) {
   const std::span<const Capsule> posed(capsules.data(), static_cast<std::size_t>(count));
   slab.Move(slab.mesh.rest_positions);
   std::vector<ContactPoint> first, second;
-  first.reserve(64);
-  second.reserve(64);
+  first.reserve(kMaxToolContacts);
+  second.reserve(kMaxToolContacts);
   ToolGrip grip, again;
   const long before = test::Allocations();
   double find = 1e9, refit = 1e9;
@@ -386,7 +397,7 @@ TEST(SkinContact, FindsTheSameTwiceAndAllocatesNothing) {
   ASSERT_EQ(first.size(), second.size());
   EXPECT_FALSE(first.empty());
   for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_EQ(first[i].foot, second[i].foot);
+    EXPECT_EQ(first[i].start, second[i].start);
     EXPECT_EQ(first[i].stiffness, second[i].stiffness);
   }
   std::printf("probe on %zu triangles: find %.3f ms, refit %.3f ms\n",
