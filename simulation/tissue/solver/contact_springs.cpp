@@ -44,6 +44,7 @@ Gap GapAt(const ContactPoint& contact, const glm::dvec3& at) noexcept {
     Gap gap{t - contact.radius + (is_even ? side + 0.5 * c : -0.5 * side * side / c),
             (is_even ? 1.0 : -side / c) * contact.normal, glm::dmat3(0.0)};
     if (t > 0) gap.normal += beside / t;
+    if (is_beside) gap.normal -= glm::dot(way, gap.normal) / length2 * way;
     return gap;
   }
   Gap gap{distance - contact.radius, d / distance, glm::dmat3(1.0)};

@@ -220,12 +220,12 @@ TEST_F(DemoReach, AForcepsBitesTheFreeEdge) {
   hand.Start(under_edge - 6.0 * kMm * way + 5.0 * kMm * up, 0.0);
   hand.Go(under_edge - 3.0 * kMm * way + 1.0 * kMm * up, 0.0, 0.8);
   EXPECT_EQ(hand.most_on_meniscus, 0.0);
-  hand.Go(under_edge + 3.5 * kMm * way, 0.0, 1.0);
+  hand.Go(under_edge + 3.5 * kMm * way + 0.7 * kMm * up, 0.0, 1.0);
   double peak = hand.peak;
   EXPECT_GT(hand.most_on_meniscus, 0.1);
   EXPECT_EQ(hand.Removed(), 0.0);
   hand.Press(true);
-  hand.Go(under_edge + 3.5 * kMm * way, 0.0, 0.4);
+  hand.Go(under_edge + 3.5 * kMm * way + 0.7 * kMm * up, 0.0, 0.4);
   peak = std::max(peak, hand.peak);
   hand.Press(false);
   hand.Go(under_edge - 6.0 * kMm * way + 4.0 * kMm * up, 0.0, 0.8);
