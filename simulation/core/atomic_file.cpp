@@ -17,15 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Why(int error) {
-  if (error == ENOSPC) return "the disk is full; free some space and save again";
-  if (error == EFBIG || error == EDQUOT)
-    return "no more may be written here; free some space or choose another folder";
-  if (error == EACCES || error == EPERM || error == EROFS)
-    return "this place may not be written; choose another folder";
-  return std::strerror(error);
-}
-
 // A name beside the target that no other process is using.
 fs::path NameBeside(const fs::path& target) {
   fs::path beside = target;
@@ -37,25 +28,36 @@ fs::path NameBeside(const fs::path& target) {
 // Flushes a file or a folder's entry to disk.
 void Sync(const fs::path& path, int flags, const fs::path& target) {
   const int descriptor = ::open(path.c_str(), flags);
-  if (descriptor < 0) throw Error(Code::kFile, "could not be written: " + Why(errno), target);
+  if (descriptor < 0)
+    throw Error(Code::kFile, "could not be written: " + WhyNotWritten(errno), target);
   const int result = ::fsync(descriptor);
   const int error = errno;
   ::close(descriptor);
   if (result != 0 && error != EINVAL)  // some file systems cannot sync a folder
-    throw Error(Code::kFile, "could not be written: " + Why(error), target);
+    throw Error(Code::kFile, "could not be written: " + WhyNotWritten(error), target);
 }
 
 void WriteBytes(const fs::path& file, std::string_view bytes, const fs::path& target) {
   std::FILE* stream = std::fopen(file.c_str(), "wb");
-  if (!stream) throw Error(Code::kFile, "could not be written: " + Why(errno), target);
+  if (!stream) throw Error(Code::kFile, "could not be written: " + WhyNotWritten(errno), target);
   const bool wrote = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
   int error = errno;
   const bool closed = std::fclose(stream) == 0;
   if (wrote && !closed) error = errno;
-  if (!wrote || !closed) throw Error(Code::kFile, "could not be written: " + Why(error), target);
+  if (!wrote || !closed)
+    throw Error(Code::kFile, "could not be written: " + WhyNotWritten(error), target);
 }
 
 }  // namespace
+
+std::string WhyNotWritten(int error) {
+  if (error == ENOSPC) return "the disk is full; free some space and save again";
+  if (error == EFBIG || error == EDQUOT)
+    return "no more may be written here; free some space or choose another folder";
+  if (error == EACCES || error == EPERM || error == EROFS)
+    return "this place may not be written; choose another folder";
+  return std::strerror(error);
+}
 
 void WriteAtomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -73,7 +75,7 @@ void WriteAtomically(const fs::path& target, const std::function<void(const fs::
     write(beside);
     Sync(beside, O_RDONLY, target);
     if (::rename(beside.c_str(), target.c_str()) != 0)
-      throw Error(Code::kFile, "could not be put in place: " + Why(errno), target);
+      throw Error(Code::kFile, "could not be put in place: " + WhyNotWritten(errno), target);
   } catch (...) {
     fs::remove(beside, ignored);
     throw;
@@ -85,7 +87,7 @@ void WriteAtomically(const fs::path& target, std::string_view bytes) {
   if (target == "-") {
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
         std::fflush(stdout) != 0)
-      throw Error(Code::kFile, "standard output could not be written: " + Why(errno));
+      throw Error(Code::kFile, "standard output could not be written: " + WhyNotWritten(errno));
     return;
   }
   WriteAtomically(target, [&](const fs::path& beside) { WriteBytes(beside, bytes, target); });

@@ -18,6 +18,9 @@ void WriteAtomically(const std::filesystem::path& target,
 // The same for bytes already in memory. "-" writes to standard output.
 void WriteAtomically(const std::filesystem::path& target, std::string_view bytes);
 
+// What an errno of a failed write means, and what to do.
+std::string WhyNotWritten(int error);
+
 // The whole file. Throws Error(kFile).
 std::string ReadWholeFile(const std::filesystem::path& file);
 

@@ -18,7 +18,6 @@ constexpr std::array kNames = {"t",  "device", "hip_x", "hip_y", "hip_z",
                                "qw", "qx",     "qy",    "qz",    "buttons"};
 constexpr std::size_t kColumns = kNames.size();
 constexpr double kUnitTolerance = 1e-3;  // four decimals in a file that a person wrote
-constexpr double kLongestGap = 60.0;     // s; more is a slip of the unit or two recordings in one
 
 class Parser {
  public:

@@ -14,6 +14,9 @@
 
 namespace arthro::simulation {
 
+// Of a recording; more is a slip of the unit or two recordings in one.
+inline constexpr double kLongestGap = 60.0;  // s
+
 struct TraceRow {
   DeviceRole device = DeviceRole::kScope;
   DeviceSample sample;  // valid

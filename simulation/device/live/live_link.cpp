@@ -171,6 +171,7 @@ bool LiveLink::Open() {
       continue;
     }
     driver->Forget();
+    if (options_.tap) options_.tap->Opened(options_.clock(), device.node);
     if (!Start(*link, *driver)) {
       detail = fmt::format("{} does not begin to send", Name(device.family));
       trouble = DeviceTrouble::kWriteError;
@@ -208,7 +209,10 @@ bool LiveLink::Start(HidLink& link, const DeviceDriver& driver) {
 void LiveLink::Serve() noexcept {
   double empty_at = options_.clock();
   while (!stop_ && !is_dead_) {
-    if (asks_home_.exchange(false)) driver_->AskHome();
+    if (asks_home_.exchange(false)) {
+      driver_->AskHome();
+      if (options_.tap) options_.tap->HomeAsked(options_.clock());
+    }
     if (!Drain(empty_at)) return;
   }
 }
@@ -226,7 +230,9 @@ bool LiveLink::Drain(double& empty_at) noexcept {
       return false;
     }
     if (size == 0) break;
-    const ReportNews news = driver_->Take({report.data(), static_cast<std::size_t>(size)});
+    const ReportBytes bytes{report.data(), static_cast<std::size_t>(size)};
+    const ReportNews news = driver_->Take(bytes);
+    if (options_.tap) options_.tap->Took(options_.clock(), bytes, news, *driver_);
     good += news == ReportNews::kTaken;
     bad += news == ReportNews::kRejected;
   }

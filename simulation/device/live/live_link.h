@@ -20,6 +20,7 @@
 #include "simulation/device/driver/drivers.h"
 #include "simulation/device/hid/hid_link.h"
 #include "simulation/device/live/device_lock.h"
+#include "simulation/device/live/report_tap.h"
 
 namespace arthro::simulation {
 
@@ -36,6 +37,7 @@ struct LiveOptions {
   double (*clock)() noexcept = SteadySeconds;
   double list_every = 0.5;            // s
   std::filesystem::path lock_folder;  // empty: DeviceLockFolder()
+  ReportTap* tap = nullptr;           // must outlive the link
 };
 
 // What passed since it was made.

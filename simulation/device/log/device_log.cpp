@@ -1,0 +1,122 @@
+#include "simulation/device/log/device_log.h"
+
+#include <cerrno>
+#include <chrono>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/device/log/log_format.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr std::size_t kBlock = 1 << 16;  // bytes; a fuller one is written at once
+static_assert(kBlock + kLargestRecord < kLargestBlock);
+
+}  // namespace
+
+void LogChannel::Push(const LogRecord& record) noexcept {
+  const std::uint64_t end = end_.load(std::memory_order_relaxed);
+  const std::uint64_t number = number_++;
+  if (end - begin_.load(std::memory_order_acquire) == records_.size()) {
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  LogRecord& slot = records_[end % records_.size()];
+  slot = record;
+  slot.number = number;
+  end_.store(end + 1, std::memory_order_release);
+}
+
+const LogRecord* LogChannel::Front() const noexcept {
+  const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
+  if (begin == end_.load(std::memory_order_acquire)) return nullptr;
+  return &records_[begin % records_.size()];
+}
+
+DeviceLog::DeviceLog(const std::filesystem::path& file, std::vector<LogSource> sources,
+                     const DeviceLogOptions& options)
+    : file_(file), options_(options) {
+  payload_.reserve(kBlock + kLargestRecord);
+  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  error_ = descriptor_ < 0 ? errno : 0;
+  if (error_ == 0) Write(LogHead(sources));
+  if (error_ != 0) {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw Error(Code::kFile, "could not be written: " + WhyNotWritten(error_), file_);
+  }
+  thread_ = std::thread([this] { Run(); });
+}
+
+DeviceLog::~DeviceLog() {
+  try {
+    Close();
+  } catch (const Error&) {  // who wants to know calls Close
+  }
+}
+
+LogChannel& DeviceLog::AddChannel() {
+  const std::scoped_lock lock(mutex_);
+  return *channels_.emplace_back(std::make_unique<LogChannel>(options_.ring));
+}
+
+void DeviceLog::Close() {
+  if (!thread_.joinable()) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_one();
+  thread_.join();
+  if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+  if (error_ != 0)
+    throw Error(Code::kFile, "could not be written to its end: " + WhyNotWritten(error_), file_);
+}
+
+long DeviceLog::dropped() const {
+  const std::scoped_lock lock(mutex_);
+  long dropped = 0;
+  for (const auto& channel : channels_) dropped += channel->dropped();
+  return dropped;
+}
+
+void DeviceLog::Run() {
+  const auto pause = std::chrono::duration<double>(options_.write_every);
+  std::unique_lock lock(mutex_);
+  do {
+    ended_.wait_for(lock, pause, [this] { return has_ended_; });
+    WriteOut();
+  } while (!has_ended_);
+}
+
+void DeviceLog::WriteOut() {
+  for (const auto& channel : channels_)
+    while (const LogRecord* record = channel->Front()) {
+      Append(*record, payload_);
+      channel->Pop();
+      ++count_;
+      if (payload_.size() >= kBlock) WriteBlock();
+    }
+  WriteBlock();
+}
+
+void DeviceLog::WriteBlock() {
+  if (count_ > 0) Write(LogBlock(payload_, count_));
+  payload_.clear();
+  count_ = 0;
+}
+
+// After a fault nothing more is written: the file stays readable up to there.
+void DeviceLog::Write(const std::string& bytes) {
+  for (std::size_t done = 0; done < bytes.size() && error_ == 0;) {
+    const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
+    if (count > 0)
+      done += static_cast<std::size_t>(count);
+    else if (errno != EINTR)
+      error_ = errno;
+  }
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,344 @@
+#include "simulation/device/log/log_format.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <type_traits>
+#include <zlib.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/device/trace_io.h"
+
+namespace arthro::simulation {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::string_view kMagic = "ARTHRLOG";
+constexpr std::size_t kBlockHead = 16, kRecordHead = 20;  // bytes
+
+std::uint32_t Checksum(std::string_view bytes) noexcept {
+  return static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
+}
+
+template <class T>
+void Put(std::string& bytes, const T& value) {
+  static_assert(std::is_arithmetic_v<T>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+void Put(std::string& bytes, const glm::dvec3& v) {
+  for (int i = 0; i < 3; ++i) Put(bytes, v[i]);
+}
+void Put(std::string& bytes, const DeviceSample& sample) {
+  Put(bytes, sample.t);
+  Put(bytes, sample.hip_in_device);
+  const glm::dquat& q = sample.handle_in_device;
+  for (const double part : {q.w, q.x, q.y, q.z}) Put(bytes, part);
+  Put(bytes, sample.buttons);
+  Put(bytes, static_cast<std::uint8_t>(sample.valid));
+}
+
+// Takes values off the front of bytes; where there are too few it is broken from then on.
+class Taker {
+ public:
+  explicit Taker(std::string_view bytes) : bytes_(bytes) {}
+  bool is_good() const { return is_good_; }
+  std::size_t left() const { return bytes_.size(); }
+
+  std::string_view Bytes(std::size_t count) {
+    is_good_ = is_good_ && count <= bytes_.size();
+    if (!is_good_) return {};
+    const std::string_view taken = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return taken;
+  }
+  template <class T>
+  T Take() {
+    T value{};
+    if (const std::string_view taken = Bytes(sizeof value); is_good_)
+      std::memcpy(&value, taken.data(), sizeof value);
+    return value;
+  }
+  bool Flag() {
+    const auto flag = Take<std::uint8_t>();
+    is_good_ = is_good_ && flag <= 1;
+    return flag == 1;
+  }
+  template <class Enum>
+  Enum Word(Enum last) {
+    const auto value = Take<std::uint8_t>();
+    is_good_ = is_good_ && value <= static_cast<std::uint8_t>(last);
+    return static_cast<Enum>(value);
+  }
+  glm::dvec3 Vector() {
+    glm::dvec3 v;
+    for (int i = 0; i < 3; ++i) v[i] = Take<double>();
+    return v;
+  }
+  DeviceSample Sample() {
+    DeviceSample sample;
+    sample.t = Take<double>();
+    sample.hip_in_device = Vector();
+    glm::dquat& q = sample.handle_in_device;
+    for (double* part : {&q.w, &q.x, &q.y, &q.z}) *part = Take<double>();
+    sample.buttons = Take<std::uint32_t>();
+    sample.valid = Flag();
+    return sample;
+  }
+
+ private:
+  std::string_view bytes_;
+  bool is_good_ = true;
+};
+
+// False: what these bytes say cannot be.
+bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
+  record.kind = static_cast<LogKind>(taker.Take<std::uint8_t>());
+  record.source = taker.Take<std::uint8_t>();
+  const auto size = taker.Take<std::uint16_t>();
+  record.t_ns = taker.Take<std::int64_t>();
+  record.number = taker.Take<std::uint64_t>();
+  Taker body(taker.Bytes(size));
+  if (!taker.is_good() || record.source >= sources) return false;
+  switch (record.kind) {
+    case LogKind::kOpened:
+      record.vendor = body.Take<std::uint16_t>();
+      record.is_bluetooth = body.Flag();
+      break;
+    case LogKind::kHomeAsked:
+      break;
+    case LogKind::kReport: {
+      record.news = body.Word(ReportNews::kTaken);
+      record.size = body.Take<std::uint8_t>();
+      record.hands = body.Take<std::uint8_t>();
+      if (record.size > record.bytes.size() || record.hands > record.hand.size()) return false;
+      const std::string_view bytes = body.Bytes(record.size);
+      std::copy(bytes.begin(), bytes.end(), record.bytes.begin());
+      for (std::size_t i = 0; i < record.hands; ++i) {
+        record.hand[i].sample = body.Sample();
+        record.hand[i].is_homed = body.Flag();
+        record.hand[i].rest = body.Take<std::uint32_t>();
+      }
+      break;
+    }
+    case LogKind::kTick:
+      record.tick_hand = body.Take<std::uint8_t>();
+      record.sample = body.Sample();
+      record.command = body.Vector();
+      record.status.state = body.Word(DeviceState::kLost);
+      record.status.reason = body.Word(DeviceTrouble::kSilent);
+      record.status.must_release = body.Flag();
+      record.is_dead_man_held = body.Flag();
+      if (record.tick_hand >= record.hand.size()) return false;
+      break;
+    default:
+      return false;
+  }
+  return body.is_good() && body.left() == 0;
+}
+
+std::vector<LogSource> SourcesIn(std::string_view text) {
+  std::vector<LogSource> sources;
+  const auto json = nlohmann::json::parse(text);
+  for (const auto& each : json.at("sources")) {
+    LogSource& source = sources.emplace_back();
+    each.at("family").get_to(source.family);
+    each.at("model").get_to(source.model);
+    each.at("serial").get_to(source.serial);
+    const auto& roles = each.at("roles");
+    for (std::size_t i = 0; i < source.roles.size(); ++i)
+      for (const DeviceRole role : {DeviceRole::kScope, DeviceRole::kInstrument})
+        if (roles.at(i) == Word(role)) source.roles[i] = role;
+  }
+  return sources;
+}
+
+// Records that were dropped: of each channel the numbers go up by one.
+long CountMissing(std::span<const LogRecord> records) {
+  struct Channel {
+    std::uint64_t end = 0, count = 0;
+  };
+  std::map<int, Channel> channels;
+  for (const LogRecord& record : records) {
+    const int hand = record.kind == LogKind::kTick ? 1 + record.tick_hand : 0;
+    Channel& channel = channels[record.source * 4 + hand];
+    channel.end = std::max(channel.end, record.number + 1);
+    ++channel.count;
+  }
+  long missing = 0;
+  for (const auto& [key, channel] : channels)
+    missing += static_cast<long>(channel.end - channel.count);
+  return missing;
+}
+
+}  // namespace
+
+LoggedHand LoggedHandOf(const HandReading& reading) noexcept {
+  LoggedHand hand{reading.sample, reading.is_homed, 0};
+  hand.sample.t = 0;
+  std::array<double, 9> rest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int axis = static_cast<int>(i);
+    rest[i] = reading.push[axis], rest[3 + i] = reading.turn[axis];
+    rest[6 + i] = reading.joints[axis];
+  }
+  hand.rest = Checksum({reinterpret_cast<const char*>(rest.data()), sizeof rest});
+  return hand;
+}
+
+bool IsSame(const LoggedHand& a, const LoggedHand& b) noexcept {
+  const auto bits = [](const LoggedHand& hand) {
+    const glm::dvec3& hip = hand.sample.hip_in_device;
+    const glm::dquat& q = hand.sample.handle_in_device;
+    return std::bit_cast<std::array<std::uint64_t, 7>>(
+        std::array{hip.x, hip.y, hip.z, q.w, q.x, q.y, q.z});
+  };
+  return bits(a) == bits(b) && a.sample.buttons == b.sample.buttons &&
+         a.sample.valid == b.sample.valid && a.is_homed == b.is_homed && a.rest == b.rest;
+}
+
+void Append(const LogRecord& record, std::string& payload) {
+  const std::size_t begin = payload.size();
+  Put(payload, static_cast<std::uint8_t>(record.kind));
+  Put(payload, record.source);
+  Put(payload, std::uint16_t{0});
+  Put(payload, record.t_ns);
+  Put(payload, record.number);
+  switch (record.kind) {
+    case LogKind::kOpened:
+      Put(payload, record.vendor);
+      Put(payload, static_cast<std::uint8_t>(record.is_bluetooth));
+      break;
+    case LogKind::kHomeAsked:
+      break;
+    case LogKind::kReport:
+      Put(payload, static_cast<std::uint8_t>(record.news));
+      Put(payload, record.size);
+      Put(payload, record.hands);
+      payload.append(reinterpret_cast<const char*>(record.bytes.data()), record.size);
+      for (std::size_t i = 0; i < record.hands; ++i) {
+        Put(payload, record.hand[i].sample);
+        Put(payload, static_cast<std::uint8_t>(record.hand[i].is_homed));
+        Put(payload, record.hand[i].rest);
+      }
+      break;
+    case LogKind::kTick:
+      Put(payload, record.tick_hand);
+      Put(payload, record.sample);
+      Put(payload, record.command);
+      Put(payload, static_cast<std::uint8_t>(record.status.state));
+      Put(payload, static_cast<std::uint8_t>(record.status.reason));
+      Put(payload, static_cast<std::uint8_t>(record.status.must_release));
+      Put(payload, static_cast<std::uint8_t>(record.is_dead_man_held));
+      break;
+  }
+  const auto size = static_cast<std::uint16_t>(payload.size() - begin - kRecordHead);
+  std::memcpy(payload.data() + begin + 2, &size, sizeof size);
+}
+
+std::string LogBlock(std::string_view payload, std::uint32_t records) {
+  std::string block;
+  block.reserve(kBlockHead + payload.size());
+  Put(block, static_cast<std::uint32_t>(payload.size()));
+  Put(block, records);
+  Put(block, Checksum(payload));
+  Put(block, Checksum(block));
+  return block.append(payload);
+}
+
+std::string LogHead(std::span<const LogSource> sources) {
+  nlohmann::ordered_json json;
+  json["sources"] = nlohmann::ordered_json::array();
+  for (const LogSource& source : sources) {
+    nlohmann::ordered_json roles;
+    for (const auto& role : source.roles)
+      roles.push_back(role ? nlohmann::ordered_json(Word(*role)) : nlohmann::ordered_json());
+    json["sources"].push_back({{"family", source.family},
+                               {"model", source.model},
+                               {"serial", source.serial},
+                               {"roles", roles}});
+  }
+  std::string head(kMagic);
+  Put(head, kLogVersion);
+  // A serial number may hold what is no UTF-8.
+  const std::string text =
+      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return head + LogBlock(text, static_cast<std::uint32_t>(sources.size()));
+}
+
+bool IsDeviceLog(std::string_view bytes) noexcept { return bytes.starts_with(kMagic); }
+
+DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& what) { throw Error(Code::kBadData, what, file); };
+  if (bytes.empty()) refuse("this is empty; a device log was to be here, so record it again");
+  if (!IsDeviceLog(bytes)) refuse("this is no device log; give a file that was recorded as one");
+  Taker taker(bytes.substr(kMagic.size()));
+  const auto version = taker.Take<std::uint32_t>();
+  if (taker.is_good() && version != kLogVersion)
+    refuse(
+        fmt::format("this device log has version {}, and {} is read here; use the program that "
+                    "recorded it",
+                    version, kLogVersion));
+  DeviceLogContent log;
+  bool has_sources = false;
+  while (taker.left() > 0 || !has_sources) {
+    const std::size_t at = bytes.size() - taker.left();
+    const std::string where = fmt::format("the block at byte {}", at);
+    const std::string_view head = taker.Bytes(kBlockHead);
+    std::string_view payload;
+    std::uint32_t records = 0;
+    bool is_whole = taker.is_good();
+    if (is_whole && bytes.find_first_not_of('\0', at) == std::string_view::npos) is_whole = false;
+    if (is_whole) {
+      Taker fields(head);
+      const auto size = fields.Take<std::uint32_t>();
+      records = fields.Take<std::uint32_t>();
+      const auto checksum = fields.Take<std::uint32_t>();
+      if (fields.Take<std::uint32_t>() != Checksum(head.substr(0, 12)) || size > kLargestBlock)
+        refuse(where + " is damaged; take another copy of the file, or record it again");
+      payload = taker.Bytes(size);
+      is_whole = taker.is_good() && Checksum(payload) == checksum;
+      if (!is_whole && taker.is_good() && taker.left() > 0)
+        refuse(where + " is damaged; take another copy of the file, or record it again");
+    }
+    if (!is_whole) {
+      if (!has_sources) refuse("this device log ends in its head; record it again");
+      log.torn =
+          fmt::format("the recording was cut short: {} of {} bytes are whole", at, bytes.size());
+      break;
+    }
+    if (!has_sources) {
+      try {
+        log.sources = SourcesIn(payload);
+      } catch (const nlohmann::json::exception&) {
+        refuse("the head of this device log cannot be; record it again");
+      }
+      has_sources = true;
+      continue;
+    }
+    Taker inside(payload);
+    for (std::uint32_t i = 0; i < records; ++i)
+      if (!TakeRecord(inside, log.sources.size(), log.records.emplace_back()))
+        refuse(
+            fmt::format("{} holds a record that cannot be, number {}; use the program that "
+                        "recorded it",
+                        where, i));
+    if (inside.left() > 0) refuse(where + " is longer than its records; record it again");
+  }
+  std::stable_sort(log.records.begin(), log.records.end(),
+                   [](const LogRecord& a, const LogRecord& b) { return a.t_ns < b.t_ns; });
+  log.missing = CountMissing(log.records);
+  return log;
+}
+
+DeviceLogContent ReadDeviceLog(const std::filesystem::path& file) {
+  return ParseDeviceLog(ReadWholeFile(file), file);
+}
+
+}  // namespace arthro::simulation

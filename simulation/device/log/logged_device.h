@@ -1,0 +1,47 @@
+// A device, and all that passes through it in a log.
+#pragma once
+
+#include <memory>
+
+#include "simulation/device/device.h"
+#include "simulation/device/live/report_tap.h"
+#include "simulation/device/log/device_log.h"
+
+namespace arthro::simulation {
+
+// Usable wherever the device is. Writes a record at each Command, which ends a tick.
+class LoggedDevice final : public Device {
+ public:
+  // `source`: of the log's; `hand`: of that source. The log must outlive it.
+  LoggedDevice(std::unique_ptr<Device> device, DeviceLog& log, int source, int hand = 0);
+
+  const DeviceCaps& caps() const noexcept override { return device_->caps(); }
+  const std::string& name() const noexcept override { return device_->name(); }
+  const std::string& serial() const noexcept override { return device_->serial(); }
+  DeviceSample Read(double now) noexcept override;
+  void HoldDeadMan(bool is_held) noexcept override;
+  void Command(const glm::dvec3& force_in_device) noexcept override;
+  DeviceStatus status() const noexcept override { return device_->status(); }
+
+ private:
+  std::unique_ptr<Device> device_;
+  LogChannel& channel_;
+  LogRecord tick_;
+};
+
+// Each report of a link, with what its driver made of it. Give it to LiveOptions; the log and this
+// must outlive the link.
+class LoggedReports final : public ReportTap {
+ public:
+  LoggedReports(DeviceLog& log, int source);
+  void Opened(double t, const HidNode& node) noexcept override;
+  void HomeAsked(double t) noexcept override;
+  void Took(double t, ReportBytes report, ReportNews news,
+            const DeviceDriver& driver) noexcept override;
+
+ private:
+  LogChannel& channel_;
+  LogRecord record_;
+};
+
+}  // namespace arthro::simulation

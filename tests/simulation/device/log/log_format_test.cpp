@@ -1,0 +1,207 @@
+#include "simulation/device/log/log_format.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/error.h"
+
+namespace arthro::simulation {
+namespace {
+
+const std::vector<LogSource> kSources = {
+    {"wooden_haptics", "polhem_v1", "WH-A", {DeviceRole::kScope, std::nullopt}},
+    {"razer_hydra", "", "é\"7", {DeviceRole::kInstrument, DeviceRole::kScope}},
+    {"", "", "1", {}}};
+
+LogRecord Tick(std::int64_t t_ns, std::uint64_t number) {
+  LogRecord record;
+  record.kind = LogKind::kTick;
+  record.t_ns = t_ns;
+  record.number = number;
+  record.sample = {1e-9 * static_cast<double>(t_ns),
+                   {0.1, -0.0, std::numeric_limits<double>::denorm_min()},
+                   {0.5, -0.5, 0.5, 0.5},
+                   0x80000001u,
+                   true};
+  record.command = {1.0 / 3, -3, std::nan("")};
+  record.status = {DeviceState::kFault, DeviceTrouble::kSlowWrite, false};
+  record.is_dead_man_held = true;
+  return record;
+}
+
+LogRecord Report(std::int64_t t_ns, std::uint64_t number, std::uint8_t size) {
+  LogRecord record;
+  record.kind = LogKind::kReport;
+  record.source = 1;
+  record.t_ns = t_ns;
+  record.number = number;
+  record.news = ReportNews::kTaken;
+  record.size = size;
+  for (std::size_t i = 0; i < size; ++i) record.bytes[i] = static_cast<std::uint8_t>(7 * i + 1);
+  record.hands = 2;
+  record.hand[0].sample.hip_in_device = {0.25, 1e-300, -7};
+  record.hand[1].is_homed = true;
+  record.hand[1].rest = 0xdeadbeef;
+  return record;
+}
+
+std::string BlockOf(std::initializer_list<LogRecord> records) {
+  std::string payload;
+  for (const LogRecord& record : records) Append(record, payload);
+  return LogBlock(payload, static_cast<std::uint32_t>(records.size()));
+}
+
+std::string Sample() {
+  LogRecord opened;
+  opened.kind = LogKind::kOpened;
+  opened.vendor = 0x16c0;
+  opened.is_bluetooth = true;
+  LogRecord asked;
+  asked.kind = LogKind::kHomeAsked;
+  asked.number = 1;
+  asked.t_ns = 5;
+  return LogHead(kSources) + BlockOf({opened, asked, Report(10, 0, 14)}) +
+         BlockOf({Tick(20, 0), Report(30, 1, kReportRoom), Tick(40, 1)});
+}
+
+// The sentence with which it is refused; empty: it is not.
+std::string Refusal(const std::string& bytes) {
+  try {
+    ParseDeviceLog(bytes);
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::kBadData);
+    return error.what();
+  }
+}
+
+TEST(LogFormat, ReadsBackToTheBit) {
+  const DeviceLogContent log = ParseDeviceLog(Sample());
+  EXPECT_EQ(log.sources, kSources);
+  EXPECT_TRUE(log.torn.empty());
+  EXPECT_EQ(log.missing, 0);
+  ASSERT_EQ(log.records.size(), 6u);
+  EXPECT_EQ(log.records[0].vendor, 0x16c0);
+  EXPECT_TRUE(log.records[0].is_bluetooth);
+  std::string again;
+  for (const LogRecord& record : log.records) Append(record, again);
+  std::string first;
+  Append(log.records[0], first);
+  Append(log.records[1], first);
+  for (const LogRecord& record :
+       {Report(10, 0, 14), Tick(20, 0), Report(30, 1, kReportRoom), Tick(40, 1)})
+    Append(record, first);
+  EXPECT_EQ(again, first);
+  EXPECT_TRUE(std::isnan(log.records[3].command.z));
+  EXPECT_TRUE(std::signbit(log.records[3].sample.hip_in_device.y));
+  EXPECT_EQ(log.records[3].status.reason, DeviceTrouble::kSlowWrite);
+}
+
+TEST(LogFormat, TheLargestRecordFitsItsRoom) {
+  LogRecord largest = Report(0, 0, kReportRoom);
+  std::string payload;
+  Append(largest, payload);
+  EXPECT_LE(payload.size(), kLargestRecord);
+}
+
+TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
+  const std::string head = LogHead(kSources), first = BlockOf({Tick(20, 0), Tick(30, 1)}),
+                    last = BlockOf({Tick(40, 2), Report(50, 0, 64)}), whole = head + first + last;
+  for (std::size_t size = (head + first).size(); size < whole.size(); ++size) {
+    const DeviceLogContent log = ParseDeviceLog(whole.substr(0, size));
+    ASSERT_EQ(log.records.size(), 2u) << size;
+    if (size == (head + first).size())
+      EXPECT_TRUE(log.torn.empty()) << "nobody can know";
+    else
+      ASSERT_NE(log.torn.find("was cut short"), std::string::npos) << size;
+  }
+  // A file system may have made room that was never filled.
+  for (const std::size_t zeros : {1, 16, 4096}) {
+    const DeviceLogContent log = ParseDeviceLog(head + first + std::string(zeros, '\0'));
+    EXPECT_EQ(log.records.size(), 2u);
+    EXPECT_FALSE(log.torn.empty());
+  }
+  std::string half = whole;
+  std::fill(half.end() - 40, half.end(), '\0');
+  EXPECT_EQ(ParseDeviceLog(half).records.size(), 2u);
+  EXPECT_FALSE(ParseDeviceLog(half).torn.empty());
+}
+
+TEST(LogFormat, AHeadThatIsNotWholeIsRefused) {
+  const std::string head = LogHead(kSources);
+  for (std::size_t size = 1; size < head.size(); ++size)
+    ASSERT_NE(Refusal(head.substr(0, size)), "") << size;
+  EXPECT_EQ(Refusal(head), "");
+}
+
+TEST(LogFormat, NoFlippedBitGoesUnseen) {
+  const std::string whole = Sample();
+  for (std::size_t byte = 0; byte < whole.size(); ++byte)
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string flipped = whole;
+      flipped[byte] = static_cast<char>(flipped[byte] ^ 1 << bit);
+      if (!Refusal(flipped).empty()) continue;
+      // Only in the last block may what is before be given, and it is said.
+      const DeviceLogContent log = ParseDeviceLog(flipped);
+      ASSERT_EQ(log.records.size(), 3u) << byte;
+      ASSERT_FALSE(log.torn.empty()) << byte;
+    }
+}
+
+TEST(LogFormat, SaysInOneSentenceWhatItIsNot) {
+  EXPECT_NE(Refusal("").find("empty"), std::string::npos);
+  EXPECT_NE(Refusal("t,device,hip_x").find("no device log"), std::string::npos);
+  std::string other = Sample();
+  other[8] = 2;
+  EXPECT_NE(Refusal(other).find("has version 2, and 1 is read here"), std::string::npos);
+}
+
+TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
+  const auto put = [](std::string& bytes, std::size_t at, std::uint32_t value) {
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+  };
+  const std::string head = LogHead(kSources);
+  // A block that claims too much, its own checksum right.
+  std::string empty = LogBlock("", 0);
+  for (const std::uint32_t size : {std::uint32_t{kLargestBlock} + 1, 0x7fffffffu, 0xffffffffu}) {
+    std::string claims = LogBlock(std::string(16, 'x'), 1);
+    put(claims, 0, size);
+    EXPECT_NE(Refusal(head + claims + empty).find("damaged"), std::string::npos);
+  }
+  // More records than there are, none of them whole; a record that is longer than its block.
+  EXPECT_NE(Refusal(head + LogBlock("", 0xffffffffu) + empty).find("cannot be"), std::string::npos);
+  std::string payload;
+  Append(Tick(1, 0), payload);
+  payload[2] = payload[3] = '\xff';
+  EXPECT_NE(Refusal(head + LogBlock(payload, 1) + empty).find("cannot be"), std::string::npos);
+  // A report of more bytes than a report has room for; a hand, a state, a source, a kind that there
+  // is not.
+  const auto broken = [&](const LogRecord& record, std::size_t at) {
+    std::string bytes;
+    Append(record, bytes);
+    bytes[at] = '\xff';
+    return Refusal(head + LogBlock(bytes, 1) + empty);
+  };
+  for (const std::size_t at : {0, 1, 20, 21, 22}) {
+    EXPECT_NE(broken(Report(1, 0, 14), at).find("cannot be"), std::string::npos) << at;
+  }
+  for (const std::size_t at : {0, 1, 2, 20}) {
+    EXPECT_NE(broken(Tick(1, 0), at).find("cannot be"), std::string::npos) << at;
+  }
+  // Bytes that no record claims.
+  EXPECT_NE(Refusal(head + LogBlock("xyz", 0) + empty).find("longer"), std::string::npos);
+}
+
+TEST(LogFormat, CountsWhatWasDropped) {
+  const DeviceLogContent log =
+      ParseDeviceLog(LogHead(kSources) + BlockOf({Tick(1, 2), Tick(2, 3), Report(3, 1, 14)}));
+  EXPECT_EQ(log.missing, 3) << "ticks 0 and 1, report 0";
+}
+
+}  // namespace
+}  // namespace arthro::simulation
