@@ -10,6 +10,13 @@ namespace {
 
 constexpr double kForgiving = 0.1;  // s, three swings of a hand that is thrown
 
+// What the motors did since the last tick.
+const glm::dvec3& Acting(const PassivityOptions& options, const PassivityState& state) noexcept {
+  const std::size_t size = state.sent.size();
+  const auto delay = static_cast<std::uint64_t>(std::clamp(options.delay, 0, 7));
+  return state.sent[(state.count + size - 1 - delay) % size];
+}
+
 }  // namespace
 
 glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& force,
@@ -28,7 +35,7 @@ glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& for
     state.energy = 0;
     return force;
   }
-  state.energy -= glm::dot(state.force, way);
+  state.energy -= glm::dot(Acting(options, state), way);
   // What the spring holds now, and nothing of what was rubbed away.
   const double held = stiffness > 0 ? 0.5 * force2 / stiffness : 0.0;
   state.energy = std::min(state.energy, held);
@@ -45,6 +52,8 @@ glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& for
   return force - damping / dt * way;
 }
 
-void NoteSent(const glm::dvec3& force, PassivityState& state) noexcept { state.force = force; }
+void NoteSent(const glm::dvec3& force, PassivityState& state) noexcept {
+  state.sent[state.count++ % state.sent.size()] = force;
+}
 
 }  // namespace arthro::simulation

@@ -1,6 +1,7 @@
 #include "simulation/session/device_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace arthro::simulation {
 
@@ -19,6 +20,8 @@ SessionOptions OptionsFor(const DeviceCaps& caps, double period, SessionOptions 
   stiffness = std::min(stiffness, StableStiffness(caps.damping, options.contact, period, delay));
   if (caps.max_stiffness > 0) stiffness = std::min(stiffness, caps.max_stiffness);
   options.limiter.max_force = std::min(options.limiter.max_force, caps.peak_force);
+  const int late = static_cast<int>(std::lround(delay / period));
+  options.passivity.delay = std::clamp(late, options.passivity.delay, 7);
   double& bears = options.thermal.continuous_force;
   if (caps.continuous_force > 0)
     bears = bears > 0 ? std::min(bears, caps.continuous_force) : caps.continuous_force;

@@ -66,7 +66,7 @@ Felt Lead(const Surroundings& around, const ContactOptions& options, int ticks, 
 // Hard case 9. The floor is at 49 mm; from x = 12.8 mm on it stands 5 mm nearer, in one pixel.
 class Cliff : public testing::TestWithParam<int> {};
 
-TEST_P(Cliff, NoPopThroughBelowTwoHundredMillimetresASecond) {
+TEST_P(Cliff, HardCase9NoPopThroughBelowTwoHundredMillimetresASecond) {
   const AnalyticRelief relief = AnalyticRelief::Make(
       ProjectionType::kGnomonic, [](glm::dvec2 p) { return p.x < 767.5 ? 0.001 : 0.006; });
   DepthFieldOptions smoothing;
@@ -94,7 +94,7 @@ TEST_P(Cliff, NoPopThroughBelowTwoHundredMillimetresASecond) {
   }
 }
 
-TEST_P(Cliff, DownTheCliffTheForceFallsWithoutAKick) {
+TEST_P(Cliff, HardCase9DownTheCliffTheForceFallsWithoutAKick) {
   const AnalyticRelief relief = AnalyticRelief::Make(
       ProjectionType::kGnomonic, [](glm::dvec2 p) { return p.x < 767.5 ? 0.006 : 0.001; });
   DepthFieldOptions smoothing;
@@ -112,7 +112,7 @@ TEST_P(Cliff, DownTheCliffTheForceFallsWithoutAKick) {
 
 INSTANTIATE_TEST_SUITE_P(Smoothing, Cliff, testing::Values(0, 4, 24));
 
-TEST(Contact, HolesAndBordersFadeTheForce) {
+TEST(Contact, HardCase9HolesAndBordersFadeTheForce) {
   const AnalyticRelief relief = Flat();
   DepthMap map = relief.Float();
   for (int y = 0; y < map.height; ++y)
@@ -201,7 +201,7 @@ TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
 }
 
 // Hard case 8: another depth map while in contact, 3 mm nearer.
-TEST(Contact, SwappedDepthMapDoesNotThrowTheProxy) {
+TEST(Contact, HardCase8SwappedDepthMapDoesNotThrowTheProxy) {
   const AnalyticRelief low = Flat(0.004), high = Flat(0.007);
   const DepthField before(low.backdrop, low.Float()), after(high.backdrop, high.Float());
   ContactState state;
@@ -217,7 +217,7 @@ TEST(Contact, SwappedDepthMapDoesNotThrowTheProxy) {
 }
 
 // Hard case 23: a held tip that trembles within the friction cone.
-TEST(Contact, FrictionHoldsWithoutDrift) {
+TEST(Contact, HardCase23FrictionHoldsWithoutDrift) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   const DepthField field(relief.backdrop, relief.Float());
   ContactOptions options;
@@ -240,7 +240,7 @@ TEST(Contact, FrictionHoldsWithoutDrift) {
 }
 
 // Hard case 23, the other half: 0.1 mm/s for 60 s.
-TEST(Contact, SlowStrokeStaysWithinTheFrictionCone) {
+TEST(Contact, HardCase23SlowStrokeStaysWithinTheFrictionCone) {
   const AnalyticRelief relief = Flat(0.004);
   const DepthField field(relief.backdrop, relief.Float());
   ContactOptions options;
@@ -288,7 +288,7 @@ TEST(Contact, ViscosityResistsApproachOnlyAndNeverPulls) {
 }
 
 // Hard case 10: an 8-bit staircase stroked at 20 mm/s.
-TEST(Contact, EightBitStaircaseDoesNotBuzz) {
+TEST(Contact, HardCase10EightBitStaircaseDoesNotBuzz) {
   const AnalyticRelief ramp = AnalyticRelief::Make(
       ProjectionType::kGnomonic, [](glm::dvec2 p) { return 0.003 + 2e-6 * (p.x - 511.5); });
   const DepthField field(ramp.backdrop, ramp.EightBit());
