@@ -10,35 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/device/recorded_device.h"
+#include "simulation/session/time_histogram.h"
 
 namespace arthro::simulation {
 namespace {
 
 constexpr double kTick = 0.001;  // s, the servo's
-
-// How long ticks took, in bins of 0.1 µs up to 1 ms.
-class TickTimes {
- public:
-  void Add(double seconds) {
-    const double bin = std::clamp(seconds / kBin, 0.0, static_cast<double>(bins_.size() - 1));
-    ++bins_[static_cast<std::size_t>(bin)];
-    ++count_;
-  }
-  double Quantile(double share) const {
-    long seen = 0;
-    for (std::size_t i = 0; i < bins_.size(); ++i) {
-      seen += bins_[i];
-      if (static_cast<double>(seen) >= share * static_cast<double>(count_))
-        return static_cast<double>(i + 1) * kBin;
-    }
-    return 0.0;
-  }
-
- private:
-  static constexpr double kBin = 1e-7;
-  std::vector<long> bins_ = std::vector<long>(10000, 0);
-  long count_ = 0;
-};
 
 void Count(const ToolState& state, double dt, HandReport& hand) {
   if (state.fault != Fault::kNone) ++hand.faults[state.fault];
@@ -109,7 +86,7 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
   session.Enliven(std::move(bodies), TissuePace::kInline, std::move(layers));
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   ReplayReport counts;
-  TickTimes times;
+  TimeHistogram times;
   const WorldPicture* world = session.tissues();
   const auto tick = [&](double t, double dt) {
     const DeviceSample scope_sample = scope.At(t), instrument_sample = instrument.At(t);

@@ -38,7 +38,7 @@ struct HandReport {
 struct TissueReport {
   int tissue = 0;              // in the scene
   long steps = 0, resets = 0;  // of the steps that it was awake
-  long fallbacks = 0;            // steps that recovered inverted elements
+  long fallbacks = 0;          // steps that recovered inverted elements
   int most_iterations = 0;     // of conjugate gradients, a step
   double step_ms = 0;          // mean of the steps it was awake, of this machine's processor
   double deepest = 0;          // m, the furthest that a vertex of its skin was from rest
@@ -49,7 +49,7 @@ struct ReplayReport {
   double duration = 0;  // s of the trace
   long ticks = 0;
   std::array<HandReport, 2> hand;        // by DeviceRole
-  double tick_median = 0, tick_p99 = 0;  // s of this machine, to 0.1 µs, without tissue
+  double tick_median = 0, tick_p99 = 0;  // s of this machine, to a 32nd, without tissue
   std::vector<TissueReport> tissues;     // those that live
 };
 
@@ -63,8 +63,7 @@ using ReplayWatch =
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options = {}, const Progress& progress = {},
                              ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
-                             std::vector<LayerSpec> layers = {},
-                             const ReplayWatch& watch = {});
+                             std::vector<LayerSpec> layers = {}, const ReplayWatch& watch = {});
 
 // forces.csv of design §5: contact none|backdrop|tissue name, fault none|…; a tool over no pixel
 // has u_px and v_px nan.

@@ -333,7 +333,30 @@ TEST(LiveTissue, ATissueThatAppearsIsNotAKick) {
   EXPECT_LT(largest, 1.8 * 60 * kTick * 1.01) << "over a frame";
 }
 
-TEST(LiveTissue, ThatFallsSilentFades) {
+// From 60 steps a second to five: what is known is felt for 0.1 s and fades, and what comes then is
+// blended in over a frame.
+TEST(LiveTissue, HardCase13FiveStepsASecondNeitherJumpNorPushForLong) {
+  Hands hands(MakeScene(false, false));
+  hands.Lead({0.03, 0, 0.032}, 1000);
+  double largest = 0, strongest = 0, last = 0, faded = 1;
+  for (int step = 1; step <= 10; ++step) {
+    hands.session.SetCoupling(
+        TissueSpring(hands.session.snapshot().instrument.tip_in_portal, step));
+    for (int i = 0; i < 200; ++i) {
+      const double force = glm::length(hands.Tick().instrument.tip_force);
+      if (step > 1 || i > 0) largest = std::max(largest, std::abs(force - last));
+      strongest = std::max(strongest, force);
+      if (i == 155) faded = std::min(faded, force);
+      last = force;
+    }
+    EXPECT_EQ(last, 0.0) << step;
+  }
+  EXPECT_NEAR(strongest, 0.6, 1e-6);
+  EXPECT_EQ(faded, 0.0);
+  EXPECT_LE(largest, 0.6 * 60 * kTick * 1.01) << "over a frame";
+}
+
+TEST(LiveTissue, HardCase13ThatFallsSilentFades) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   hands.session.SetCoupling(TissueSpring({0.03, 0, 0.032}, 1));
