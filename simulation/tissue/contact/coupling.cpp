@@ -53,6 +53,11 @@ glm::dvec3 AtMost(const glm::dvec3& across, double most) noexcept {
   return length > most ? most / length * across : across;
 }
 
+// What silence leaves of the force.
+double FadeOf(const CouplingBlend& blend) noexcept {
+  return std::clamp(1.0 - (blend.passed - kSilence) / kFade, 0.0, 1.0);
+}
+
 // Where `from` and what was left of it go over into `to`.
 CoupledForce Mixed(const CouplingBlend& blend, const glm::dvec3& tip) noexcept {
   CoupledForce now = ForceOf(blend.to, tip);
@@ -151,7 +156,8 @@ void TakeCoupling(CouplingBlend& blend, const ToolCoupling& coupling) noexcept {
     blend.to.is_faulty = true;
     blend.left = glm::dvec3(0.0);
   } else {
-    blend.left = Mixed(blend, blend.tip).force - ForceOf(blend.to, blend.tip).force;
+    // From what is felt: after a silence that is little, or nothing.
+    blend.left = FadeOf(blend) * Mixed(blend, blend.tip).force - ForceOf(blend.to, blend.tip).force;
     blend.from = blend.to;
     blend.to = coupling;
   }
@@ -165,7 +171,7 @@ CoupledForce BlendedForce(CouplingBlend& blend, const glm::dvec3& tip, double dt
   blend.share = time > 0.0 ? std::min(1.0, blend.passed / time) : 1.0;
   blend.tip = tip;
   CoupledForce force = Mixed(blend, tip);
-  const double fade = std::clamp(1.0 - (blend.passed - kSilence) / kFade, 0.0, 1.0);
+  const double fade = FadeOf(blend);
   if (fade < 1.0) force.force *= fade;
   if (fade <= 0.0) force.tissue = -1;
   return force;
