@@ -18,7 +18,7 @@ struct BodyOptions {
   ShaverOptions shaver;
   double sleep_speed = 2e-4;
   int refresh_iterations = 12;
-  double coupling_tolerance = 0.03;
+  double coupling_tolerance = 0.05;
   double cut_spacing = 3.5e-4;
   template <class V>
   void Visit(V&& v) {
@@ -30,7 +30,8 @@ struct BodyOptions {
     v("refresh_iterations", refresh_iterations, Range{1, 1000}, "",
       "A step that needed more has the preconditioner made anew, beside the next steps.");
     v("coupling_tolerance", coupling_tolerance, Range{1e-8, 0.5}, "",
-      "Relative residual to which the stiffness that the servo gets is solved.");
+      "Energy error, of the whole, to which the stiffness that the servo gets is solved; the "
+      "stiffness is off by its square.");
     v("cut_spacing", cut_spacing, Range{5e-5, 2e-3}, "m",
       "Grid on which cuts are kept: the resolution of cut faces.");
   }

@@ -35,5 +35,9 @@ struct ElementKernel;
 // on all of them.
 void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
               const ElementKernel* kernel = nullptr) noexcept;
+// Three products, the matrix read once for all; each is what Multiply gives.
+void MultiplyThree(const BlockMatrix& a, const std::array<std::span<const glm::dvec3>, 3>& x,
+                   const std::array<std::span<glm::dvec3>, 3>& y,
+                   const ElementKernel* kernel = nullptr) noexcept;
 
 }  // namespace arthro::simulation

@@ -50,10 +50,10 @@ void ImplicitSolver::Compliance(std::span<const ContactPoint> points, double tol
       }
     }
     SolveThree(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations},
-               body.tool_vectors, body.tool_left);
+               body.tool_vectors, body.tool_left[0]);
     for (std::size_t j = 0; j < points.size(); ++j)
       for (int c = 0; c < 3; ++c) {
-        const glm::dvec3 moved = PointOf(points[j], body.tool_left[c]);
+        const glm::dvec3 moved = PointOf(points[j], body.tool_left[0][c]);
         for (int a = 0; a < 3; ++a) w[(3 * j + a) * columns + 3 * k + c] = moved[a];
       }
   }
@@ -117,11 +117,14 @@ glm::dmat3 ImplicitSolver::ToolStiffness(int owner, double tolerance) noexcept {
   LinearSystem system = body.System();
   system.springs = body.tool_springs;
   system.holds = body.tool_holds;
-  SolveThree(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations},
-             body.tool_vectors, body.tool_left);
+  auto& left = body.tool_left[static_cast<std::size_t>(owner) % body.tool_left.size()];
+  SolveThree(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations, true},
+             body.tool_vectors, left);
+  // Rᵀ A⁻¹ R = Rᵀ D + Dᵀ (R − A D) but for the square of D's own error.
   stiffness = hold * glm::dmat3(1.0) - hold * hold * give;
   for (int a = 0; a < 3; ++a)
-    for (int c = 0; c < 3; ++c) stiffness[c][a] -= Dot(body.tool_right[a], body.tool_left[c]);
+    for (int c = 0; c < 3; ++c)
+      stiffness[c][a] -= Dot(body.tool_right[a], left[c]) + Dot(left[a], body.tool_vectors[c].r);
   return 0.5 * (stiffness + glm::transpose(stiffness));
 }
 

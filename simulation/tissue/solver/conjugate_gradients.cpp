@@ -10,11 +10,44 @@ namespace arthro::simulation {
 
 void LinearSystem::Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept {
   Multiply(*stiffness, p, y);
+  Finish(p, y);
+}
+
+void LinearSystem::ApplyThree(const std::array<std::span<const glm::dvec3>, 3>& p,
+                              const std::array<std::span<glm::dvec3>, 3>& y) const noexcept {
+  MultiplyThree(*stiffness, p, y);
+  for (std::size_t c = 0; c < p.size(); ++c) Finish(p[c], y[c]);
+}
+
+// What is not elastic.
+void LinearSystem::Finish(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept {
   if (!added.empty())
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += added[i] * p[i];
   AddStiffness(springs, holds, p, y);
   for (std::size_t i = 0; i < y.size(); ++i) y[i] *= is_free[i];
 }
+
+namespace {
+
+// r = b − A d, and what ‖r‖² by the preconditioner must come under: of zᵀr at d = 0, or of the
+// energy of the solution, 2 bᵀd − dᵀA d from below.
+double Begin(const LinearSystem& system, std::span<const glm::dvec3> b, const CgGoal& goal,
+             CgVectors& vectors, std::span<glm::dvec3> d) noexcept {
+  auto& [r, z, p, q] = vectors;
+  std::copy(b.begin(), b.end(), r.begin());
+  const double relative2 = goal.relative * goal.relative;
+  if (goal.starts_at_d) {
+    system.Apply(d, q);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
+    const double energy = Dot(b, d) + Dot(r, d);
+    if (energy > 0 && std::isfinite(energy)) return relative2 * energy;
+    std::copy(b.begin(), b.end(), r.begin());
+  }
+  std::fill(d.begin(), d.end(), glm::dvec3(0.0));
+  return -relative2;
+}
+
+}  // namespace
 
 void CgVectors::Resize(int nodes) {
   for (auto* v : {&r, &z, &p, &q}) v->resize(static_cast<std::size_t>(nodes));
@@ -25,13 +58,13 @@ CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditio
                           std::span<glm::dvec3> d) noexcept {
   auto& [r, z, p, q] = vectors;
   CgResult result;
-  std::copy(b.begin(), b.end(), r.begin());
-  std::fill(d.begin(), d.end(), glm::dvec3(0.0));
+  double enough = Begin(system, b, goal, vectors, d);
   preconditioner.Solve(r, z);
   double rz = Dot(r, z);
-  const double enough = goal.relative * goal.relative * rz;
-  if (!(rz > 0)) {
-    result.converged = rz == 0;
+  if (enough < 0) enough *= -rz;
+  if (!(rz > 0) ||
+      (goal.starts_at_d && rz <= enough && (goal.residual == 0 || Norm(r) <= goal.residual))) {
+    result.converged = rz >= 0;
     return result;
   }
   std::copy(z.begin(), z.end(), p.begin());
@@ -67,29 +100,27 @@ CgResult SolveThree(const LinearSystem& system, RotatedFactor& preconditioner,
                     std::span<CgVectors, 3> vectors,
                     std::span<std::vector<glm::dvec3>, 3> d) noexcept {
   CgResult result;
-  std::array<std::span<const glm::dvec3>, 3> r;
-  std::array<std::span<glm::dvec3>, 3> z;
+  std::array<std::span<const glm::dvec3>, 3> r, p;
+  std::array<std::span<glm::dvec3>, 3> z, q;
   std::array<double, 3> rz{}, enough{};
   std::array<bool, 3> is_done{};
   for (int c = 0; c < 3; ++c) {
-    std::copy(b[c].begin(), b[c].end(), vectors[c].r.begin());
-    std::fill(d[c].begin(), d[c].end(), glm::dvec3(0.0));
-    r[c] = vectors[c].r;
-    z[c] = vectors[c].z;
+    enough[c] = Begin(system, b[c], goal, vectors[c], d[c]);
+    r[c] = vectors[c].r, z[c] = vectors[c].z, p[c] = vectors[c].p, q[c] = vectors[c].q;
   }
   preconditioner.Solve(r, z);
   for (int c = 0; c < 3; ++c) {
     rz[c] = Dot(r[c], z[c]);
-    enough[c] = goal.relative * goal.relative * rz[c];
-    is_done[c] = !(rz[c] > 0);
+    if (enough[c] < 0) enough[c] *= -rz[c];
+    is_done[c] = !(rz[c] > 0) || rz[c] <= enough[c];
     std::copy(z[c].begin(), z[c].end(), vectors[c].p.begin());
   }
   while (!(is_done[0] && is_done[1] && is_done[2]) && result.iterations < goal.max_iterations) {
     ++result.iterations;
+    system.ApplyThree(p, q);
     for (int c = 0; c < 3; ++c) {
       if (is_done[c]) continue;
       auto& v = vectors[c];
-      system.Apply(v.p, v.q);
       const double curvature = Dot(v.p, v.q);
       if (!(curvature > 0)) {
         result.is_positive = false;

@@ -2,6 +2,7 @@
 // free axes. Sums are in a fixed order; nothing is allocated.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,12 +24,19 @@ struct LinearSystem {
 
   // y = A p, 0 at fixed axes; p may have values there.
   void Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept;
+  void ApplyThree(const std::array<std::span<const glm::dvec3>, 3>& p,
+                  const std::array<std::span<glm::dvec3>, 3>& y) const noexcept;
+
+ private:
+  void Finish(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept;
 };
 
 struct CgGoal {
   double relative = 1e-2;  // of the error's energy norm, as the preconditioner sees it
   double residual = 0;     // and, unless 0, ‖b − A d‖ is to be under this, N
   int max_iterations = 200;
+  bool starts_at_d =
+      false;  // instead of at 0; `relative` is then of the solution's own energy norm
   // Goes on where the stiffness is negative: to a saddle, if the system is one's.
   bool takes_saddles = false;
 };
@@ -44,7 +52,7 @@ struct CgVectors {
   void Resize(int nodes);
 };
 
-// b must be 0 at fixed axes; d is overwritten.
+// b, and d where it is begun with, must be 0 at fixed axes. vectors.r is left b − A d.
 CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditioner,
                           std::span<const glm::dvec3> b, const CgGoal& goal, CgVectors& vectors,
                           std::span<glm::dvec3> d) noexcept;

@@ -156,6 +156,18 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
   const auto offset_of = [&](int hold) noexcept {
     return hold < 0 ? glm::dvec3(0.0) : holds[static_cast<std::size_t>(hold)].offset;
   };
+  // Points that a tool has not reached bear nothing: a gap shrinks by less than twice the tool's
+  // way.
+  std::array<glm::dvec3, kMostTools> began{};
+  for (std::size_t h = 0; h < holds.size(); ++h) began[h] = holds[h].offset;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    springs[i].point = PointOf(contacts[i], x);
+    springs[i].gap = GapAt(contacts[i], springs[i].point - offset_of(hold_of(contacts[i]))).gap;
+  }
+  const auto is_clear = [&](std::size_t i, const glm::dvec3& p, int hold) noexcept {
+    return springs[i].gap > 2.0 * glm::distance(p, began[static_cast<std::size_t>(hold)]) &&
+           pressing[i] == glm::dvec3(0.0);
+  };
   const auto balance = [&](int hold) noexcept {
     ToolHold& tool = holds[static_cast<std::size_t>(hold)];
     const auto at = [&](const glm::dvec3& p) noexcept {
@@ -165,6 +177,7 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
       sum.stiffness = glm::dmat3(tool.stiffness);
       for (std::size_t i = 0; i < contacts.size(); ++i) {
         if (contacts[i].owner != tool.owner || !(contacts[i].hold > 0)) continue;
+        if (is_clear(i, p, hold)) continue;
         const ContactSpring spring = SpringAt(contacts[i], springs[i].point, p, pressing[i]);
         sum.energy += spring.energy;
         sum.force += spring.force;
@@ -202,7 +215,6 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
         !InvertPositive(now.stiffness, tool.give))
       tool.give = glm::dmat3(0.0);
   };
-  for (std::size_t i = 0; i < contacts.size(); ++i) springs[i].point = PointOf(contacts[i], x);
   for (int pass = renews ? 0 : 1; pass < 2; ++pass) {
     for (std::size_t h = 0; h < holds.size(); ++h) balance(static_cast<int>(h));
     if (pass > 0) break;

@@ -104,7 +104,9 @@ struct ImplicitSolver::Impl {
   std::vector<glm::dmat3> rotation;
   CgVectors vectors;
   std::array<CgVectors, 3> tool_vectors;  // of ToolStiffness
-  std::array<std::vector<glm::dvec3>, 3> tool_right, tool_left;
+  std::array<std::vector<glm::dvec3>, 3> tool_right;
+  // How the tissue follows each tool, from step to step: a good start for the next.
+  std::array<std::array<std::vector<glm::dvec3>, 3>, 2> tool_left;
   bool is_recovering = false;  // from inverted elements
   bool was_laid = false;       // this step put the rest shape where the body was
   int recovery_rounds = 0, rounds_once_clean = 0;

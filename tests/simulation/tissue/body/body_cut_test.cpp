@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -66,6 +67,42 @@ TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
   body.Reset();
   EXPECT_EQ(body.cut_report().removed, 0.0);
   EXPECT_EQ(body.positions().size(), whole->surface.vertices.size());
+}
+
+// A tool that is pressed on tissue lies on its skin, millimetres above its hand. A bite takes some
+// of what held it; one that forgot the rest would find itself deep inside and be thrown out.
+TEST(BodyCut, ABiteUnderAPressedToolPushesNoHarder) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  WorldTool tool = test::ToolAbove(spec, ToolKind::kPunch, 0.0);
+  const auto force_of_step = [&] {
+    ToolCoupling coupling;
+    coupling.tip = tool.now.portal_from_tool.translation;
+    const BodyReport report = body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+    EXPECT_TRUE(report.step.is_finite);
+    double push = 0.0;  // P₀
+    for (int i = 0; i < coupling.count; ++i) {
+      const TissueContact& contact = coupling.contact[static_cast<std::size_t>(i)];
+      push += contact.stiffness * std::max(contact.depth, 0.0) / contact.power;
+    }
+    return push;
+  };
+  double pressed = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const double depth = std::min(i * 1e-4, 3e-3);
+    tool = test::ToolAbove(spec, ToolKind::kPunch, depth);
+    tool.now.opening = 1.0;
+    pressed = force_of_step();
+  }
+  ASSERT_GT(pressed, 0.3) << "N";
+  tool.now.opening = 0.0;
+  double most = 0.0;
+  for (int i = 0; i < 10; ++i) most = std::max(most, force_of_step());
+  ASSERT_EQ(body.cut_report().cuts, 1);
+  fmt::print("pressed with {:.3f} N, after the bite {:.3f} N at most\n", pressed, most);
+  // The jaws' own closing moves some skin: a tenth for it.
+  EXPECT_LT(most, 1.1 * pressed);
 }
 
 // The other thread works on what the body was until it hands it back.

@@ -1,11 +1,13 @@
 #include "simulation/tissue/fem/block_matrix.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "simulation/tissue/fem/kernel/element_kernel.h"
 #include "tests/simulation/tissue/fem/tissue_bodies.h"
 
 namespace arthro::simulation {
@@ -32,6 +34,28 @@ TEST(BlockMatrix, MultipliesAsTheSumOfItsBlocks) {
       worst = std::max(worst, static_cast<double>(std::abs(y[row][i] - sum) / size));
     }
   EXPECT_LT(worst, 1e-14);
+}
+
+TEST(BlockMatrix, ThreeProductsAtOnceAreWhatEachIsAloneBitForBit) {
+  const TetMesh mesh = Crescent(2);
+  const FemModel model(mesh, Rubber());
+  const Assembled a = AssembleAt(model, Shaken(mesh, 1e-4));
+  for (const InstructionSet set : {InstructionSet::kScalar, InstructionSet::kSse2,
+                                   InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    const ElementKernel* kernel = KernelOf(set);
+    if (kernel == nullptr) continue;
+    std::array<std::vector<glm::dvec3>, 3> x, y;
+    for (std::size_t c = 0; c < 3; ++c) {
+      x[c] = Shaken(mesh, 1e-3, static_cast<int>(5 + c));
+      y[c].resize(x[c].size());
+    }
+    MultiplyThree(a.matrix, {x[0], x[1], x[2]}, {y[0], y[1], y[2]}, kernel);
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::vector<glm::dvec3> alone(x[c].size());
+      Multiply(a.matrix, x[c], alone, kernel);
+      EXPECT_EQ(y[c], alone) << "product " << c;
+    }
+  }
 }
 
 TEST(BlockMatrix, PatternHasNodesOfNoElementAndNothingTwice) {

@@ -116,5 +116,44 @@ TEST(ContactSpring, AToolEndsWhereItsForcesBalance) {
   }
 }
 
+// Between skin below, which it is in, and skin above, which it is not yet at: driven out of the one
+// it ends against both, where what it had not touched at first bears too.
+TEST(ContactSpring, AToolFeelsWhatItIsDrivenInto) {
+  Random random(13);
+  int met = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<ContactPoint> contacts;
+    std::vector<glm::dvec3> x;
+    for (int i = 0; i < 40; ++i) {
+      ContactPoint contact = BarOver(random);
+      const double side = i % 2 == 0 ? -1.0 : 1.0;
+      contact.normal = {0, 0, side};
+      contact.node[0] = i;
+      contact.hold = 500.0;
+      contacts.push_back(contact);
+      const double low = side < 0 ? 1e-4 : kRadius + 1e-5, high = side < 0 ? 3e-4 : kRadius + 2e-4;
+      x.push_back({random.Uniform(-1e-3, 1e-3), random.Uniform(-1e-4, 1e-4),
+                   side * random.Uniform(low, high)});
+    }
+    std::vector<ToolHold> holds;
+    FindHolds(contacts, holds);
+    std::vector<glm::dvec3> pressing(contacts.size(), glm::dvec3(0.0));
+    std::vector<ContactSpring> springs(contacts.size());
+    SetSprings(contacts, x, false, true, pressing, holds, springs);
+    glm::dvec3 left = holds[0].stiffness * holds[0].offset;
+    double size = 0.0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const ContactSpring alone = SpringAt(contacts[i], x[i], holds[0].offset, glm::dvec3(0.0));
+      EXPECT_EQ(springs[i].force, alone.force);
+      left += alone.force;
+      size += glm::length(alone.force);
+      met += i % 2 == 1 && alone.gap < 0;
+    }
+    // As above.
+    EXPECT_LT(glm::length(left), 1e-3 + 1e-6 * size) << "round " << round;
+  }
+  EXPECT_GT(met, 200);
+}
+
 }  // namespace
 }  // namespace arthro::simulation

@@ -241,6 +241,17 @@ TEST_P(ToolStiffness, IsHowItsForceGrows) {
   }
   EXPECT_LE(off / size, 2e-2);  // the servo's force is to be within 2 % [notes, 8, target 6]
   EXPECT_EQ(solver.ToolStiffness(1, kTolerance), glm::dmat3(0.0));  // nobody's
+
+  // A step on, what was found here is only where the search begins.
+  for (ContactPoint& contact : contacts) {
+    const glm::dvec3 on(3e-4, 0, -1e-4);
+    contact.foot += on, contact.a += on, contact.b += on;
+  }
+  ASSERT_TRUE(solver.SolveStatic(state, {}, contacts, {}, 1e-9, results).converged);
+  const glm::dmat3 later = solver.ToolStiffness(0, kTolerance);
+  const glm::dmat3 exact = solver.ToolStiffness(0, 1e-7);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_LE(glm::length(later[c] - exact[c]), kTolerance * kTolerance * 500) << "column " << c;
 }
 
 INSTANTIATE_TEST_SUITE_P(FlatAndRound, ToolStiffness, testing::Values(false, true));
