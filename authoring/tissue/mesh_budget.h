@@ -17,10 +17,11 @@ enum class MeshSize { kCoarse, kDefault, kFine };
 
 struct MeshBudget {
   MeshSize size;
-  const char* name;  // "coarse"
-  int elements;      // quadratic; about so many are made
-  double error;      // share by which it gives way too little under a probe, at worst
-  double step_ms;    // an implicit step at 60 Hz, one thread, without contact
+  const char* name;     // "coarse"
+  int elements;         // quadratic; about so many are made
+  double error;         // share by which it gives way too little under a probe, at worst
+  double probed_error;  // the same, told of the places
+  double step_ms;       // an implicit step at 60 Hz, one thread, without contact
 };
 
 std::span<const MeshBudget> MeshBudgets();

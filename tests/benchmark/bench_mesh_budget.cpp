@@ -3,7 +3,9 @@
 // three places of the free edge, held as the scene says with nothing under it. The reference is the
 // same surface in some ten times as many elements as the finest. Load and displacement are of the
 // same fine surface for all, so that only the elements differ. With `probed`, the places were told
-// to the mesher.
+// to the mesher. Errors are of five meshes within a tenth of the size: the mean of each place, and
+// the median and the range of the worst one.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -14,8 +16,10 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/core/process_cost.h"
 #include "simulation/scene/held_nodes.h"
 #include "simulation/scene/scene_io.h"
+#include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/body/tissue_preset.h"
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/solver/implicit_solver.h"
@@ -28,6 +32,8 @@ namespace fs = std::filesystem;
 
 constexpr double kForce = 0.2, kSpread = 1e-3;  // N, m
 constexpr int kReferenceElements = 6500;
+// Of each budget, so that the luck of one mesh does not say what a size is worth.
+constexpr std::array<double, 5> kSizes = {0.9, 0.95, 1.0, 1.05, 1.1};
 
 struct Place {
   const char* name;
@@ -90,18 +96,34 @@ struct Body {
     return sum / static_cast<double>(patch.vertex.size());
   }
 
+  // In the thread's own time: what else runs on the machine is not the tissue's. A factor that grew
+  // old is made anew beside it, untimed, as a living tissue has it made on another thread.
   test::Timing Step(const Patch& patch, bool quick) const {
-    simulation::ImplicitSolver solver(model, fixed);
+    constexpr int kWarmUp = 12, kPause = 10;
+    const simulation::BodyOptions options;
+    simulation::ImplicitSolver solver(model, fixed, options.solver);
     simulation::BodyState state = Rest();
     const std::vector<glm::dvec3> full = LoadOf(patch);
     std::vector<glm::dvec3> load(full.size());
-    int frame = 0;
-    return test::TimeCalls(2, quick ? 3 : 120, 1, [&] {
+    std::vector<double> seconds;
+    int since_refresh = 0;
+    for (int frame = 0; frame < kWarmUp + (quick ? 3 : 240); ++frame) {
       // Always on the move, 1.5 times a second: a body at rest would cost nothing.
-      const double share = 0.75 + 0.25 * std::cos(2 * std::numbers::pi * 1.5 * frame++ / 60);
+      const double share = 0.75 + 0.25 * std::cos(2 * std::numbers::pi * 1.5 * frame / 60);
       for (std::size_t i = 0; i < load.size(); ++i) load[i] = share * full[i];
-      solver.Step(state, load, {}, {}, 1.0 / 60, {});
-    });
+      const double start = ThreadCpuMs();
+      const simulation::StepReport report = solver.Step(state, load, {}, {}, 1.0 / 60, {});
+      if (frame >= kWarmUp) seconds.push_back(1e-3 * (ThreadCpuMs() - start));
+      if (++since_refresh < kPause ||
+          report.iterations <= options.refresh_iterations * std::max(1, report.newton))
+        continue;
+      solver.BeginRefresh();
+      solver.RunRefresh();
+      solver.TakeRefreshed();
+      since_refresh = 0;
+    }
+    std::sort(seconds.begin(), seconds.end());
+    return {seconds[seconds.size() / 2], seconds[(seconds.size() * 99 + 99) / 100 - 1]};
   }
 
   simulation::BodyState Rest() const {
@@ -150,18 +172,31 @@ void Run(test::BenchReport& bench) {
               1e3 * truth[0], 1e3 * truth[1], 1e3 * truth[2]);
   for (const authoring::MeshBudget& budget : authoring::MeshBudgets())
     for (const bool is_probed : {false, true}) {
-      const Body body(surface, fill(budget.elements, is_probed), tissue, material);
-      std::string error;
-      double worst = 0;
-      for (std::size_t i = 0; i < patches.size(); ++i) {
-        const double off = body.Gives(patches[i]) / truth[i] - 1;
-        error += fmt::format("{} {:+.0f} % ", kPlaces[i].name, 100 * off);
-        if (std::abs(off) > std::abs(worst)) worst = off;
+      std::array<double, kPlaces.size()> mean{};
+      std::vector<double> worst;
+      test::Timing step;
+      for (const double size : kSizes) {
+        const Body body(surface,
+                        fill(static_cast<int>(std::lround(size * budget.elements)), is_probed),
+                        tissue, material);
+        worst.push_back(0);
+        for (std::size_t i = 0; i < patches.size(); ++i) {
+          const double off = body.Gives(patches[i]) / truth[i] - 1;
+          mean[i] += off / kSizes.size();
+          if (std::abs(off) > std::abs(worst.back())) worst.back() = off;
+        }
+        if (size == 1.0) step = body.Step(patches[0], bench.quick());
       }
+      std::ranges::sort(worst);
+      std::string error;
+      for (std::size_t i = 0; i < patches.size(); ++i)
+        error += fmt::format("{} {:+.0f} % ", kPlaces[i].name, 100 * mean[i]);
       bench.Row(fmt::format("{}{}, {} elements", budget.name, is_probed ? ", probed" : "",
-                            body.mesh.ElementCount()),
-                body.Step(patches[0], bench.quick()),
-                error + fmt::format("(worst {:+.0f} %)", 100 * worst));
+                            budget.elements),
+                step,
+                error + fmt::format("(worst {:+.0f} %, {:+.0f} to {:+.0f})",
+                                    100 * worst[worst.size() / 2], 100 * worst.back(),
+                                    100 * worst.front()));
     }
 }
 
