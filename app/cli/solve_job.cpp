@@ -14,8 +14,8 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
-#include "simulation/tissue/solver/case_io.h"
-#include "simulation/tissue/solver/case_run.h"
+#include "simulation/tissue/cases/case_io.h"
+#include "simulation/tissue/cases/case_run.h"
 
 namespace arthro::app {
 namespace {

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/tissue/fem/tet_shape.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -93,17 +95,8 @@ glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x)
 
 glm::dvec4 ClosestInTetrahedron(const std::array<glm::dvec3, 4>& corner,
                                 const glm::dvec3& x) noexcept {
-  const glm::dvec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0],
-                   e3 = corner[3] - corner[0], r = x - corner[0];
-  const double det = glm::dot(e1, glm::cross(e2, e3));
-  glm::dvec4 l(-1.0);
-  if (det != 0.0) {
-    l.y = glm::dot(r, glm::cross(e2, e3)) / det;
-    l.z = glm::dot(e1, glm::cross(r, e3)) / det;
-    l.w = glm::dot(e1, glm::cross(e2, r)) / det;
-    l.x = 1.0 - l.y - l.z - l.w;
-    if (l.x >= 0.0 && l.y >= 0.0 && l.z >= 0.0 && l.w >= 0.0) return l;
-  }
+  const glm::dvec4 l = BarycentricIn(corner, x);
+  if (l.x >= 0.0 && l.y >= 0.0 && l.z >= 0.0 && l.w >= 0.0) return l;
   // Outside, the nearest point lies on a face that x sees.
   constexpr std::array<std::array<int, 3>, 4> kFaceWithout{
       {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};

@@ -8,10 +8,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "simulation/tissue/factor/fixed_axes.h"
+#include "simulation/tissue/factor/rotated_factor.h"
 #include "simulation/tissue/fem/block_matrix.h"
 #include "simulation/tissue/solver/contact_springs.h"
-#include "simulation/tissue/solver/fixed_axes.h"
-#include "simulation/tissue/solver/rotated_factor.h"
 
 namespace arthro::simulation {
 

@@ -18,8 +18,8 @@
 
 #include "simulation/core/options.h"
 #include "simulation/tissue/contact/contact_point.h"
+#include "simulation/tissue/factor/fixed_axes.h"
 #include "simulation/tissue/fem/fem_model.h"
-#include "simulation/tissue/solver/fixed_axes.h"
 
 namespace arthro::simulation {
 
@@ -87,7 +87,7 @@ class ImplicitSolver {
   // False: none was ready, a step has made a younger one, or the tangent was too far from positive
   // to be factored; then the next one is of the projected tangent.
   bool TakeRefreshed() noexcept;
-  int factor_age() const;         // steps since the factor in use was begun
+  int factor_age() const;  // steps since the factor in use was begun
 
   // Condensed compliance of the last step's system without the contacts of `points` themselves:
   // W = J A⁻¹ Jᵀ, 3m × 3m row-major, m/N, J the points' weights. Solved to `tolerance` by the same

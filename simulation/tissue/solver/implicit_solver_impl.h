@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "simulation/tissue/factor/rotated_factor.h"
 #include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/contact_springs.h"
 #include "simulation/tissue/solver/implicit_solver.h"
-#include "simulation/tissue/solver/rotated_factor.h"
 
 namespace arthro::simulation {
 

@@ -134,7 +134,9 @@ TEST(AuthorsCuts, ABiteCountsByRegionAndResetLeavesTheTear) {
   body.Reset();
   const double reset = ThreadCpuMs() - begin;
   std::printf("reset of a torn slab of %d elements: %.0f ms\n", spec.mesh.ElementCount(), reset);
-  EXPECT_LT(reset, 1000.0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_LT(reset, 1000.0);  // instrumented code takes several times as long
+#endif
   EXPECT_EQ(body.cut_report().removed, 0.0);
   EXPECT_EQ(body.cut_report().by_region, (std::vector<double>{0, 0, 0}));
   EXPECT_EQ(body.skin()->surface.vertices, torn.vertices);

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "simulation/tissue/solver/case_run.h"
+#include "simulation/tissue/cases/case_run.h"
 #include "tests/support/shared_data.h"
 
 namespace arthro::simulation {

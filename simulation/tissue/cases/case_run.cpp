@@ -1,4 +1,4 @@
-#include "simulation/tissue/solver/case_run.h"
+#include "simulation/tissue/cases/case_run.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "simulation/tissue/solver/case_io.h"
+#include "simulation/tissue/cases/case_io.h"
 
 #include <algorithm>
 #include <cmath>

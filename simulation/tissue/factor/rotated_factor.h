@@ -12,7 +12,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/tissue/solver/sparse_factor.h"
+#include "simulation/tissue/factor/sparse_factor.h"
 
 namespace arthro::simulation {
 

@@ -1,4 +1,4 @@
-#include "simulation/tissue/solver/panel_kernels.h"
+#include "simulation/tissue/factor/panel_kernels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "simulation/tissue/solver/sparse_factor.h"
+#include "simulation/tissue/factor/sparse_factor.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "simulation/tissue/solver/panel_kernels.h"
+#include "simulation/tissue/factor/panel_kernels.h"
 
 namespace arthro::simulation {
 namespace {

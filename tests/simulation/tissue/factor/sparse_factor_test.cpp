@@ -1,4 +1,4 @@
-#include "simulation/tissue/solver/sparse_factor.h"
+#include "simulation/tissue/factor/sparse_factor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/random.h"
-#include "simulation/tissue/solver/panel_kernels.h"
+#include "simulation/tissue/factor/panel_kernels.h"
 
 namespace arthro::simulation {
 namespace {

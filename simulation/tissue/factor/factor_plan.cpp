@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "simulation/core/error.h"
-#include "simulation/tissue/solver/panel_kernels.h"
-#include "simulation/tissue/solver/sparse_factor.h"
+#include "simulation/tissue/factor/panel_kernels.h"
+#include "simulation/tissue/factor/sparse_factor.h"
 
 namespace arthro::simulation {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "simulation/core/progress.h"
-#include "simulation/tissue/solver/case_io.h"
+#include "simulation/tissue/cases/case_io.h"
 
 namespace arthro::simulation {
 

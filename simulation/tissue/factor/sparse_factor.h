@@ -16,8 +16,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "simulation/tissue/factor/fixed_axes.h"
 #include "simulation/tissue/fem/block_matrix.h"
-#include "simulation/tissue/solver/fixed_axes.h"
 
 namespace arthro::simulation {
 

@@ -1,4 +1,4 @@
-#include "simulation/tissue/solver/rotated_factor.h"
+#include "simulation/tissue/factor/rotated_factor.h"
 
 #include <algorithm>
 #include <cmath>
