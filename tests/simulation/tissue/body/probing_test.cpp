@@ -172,6 +172,30 @@ TEST_P(Teleport, HardCase9FiveMillimetresIntoTheTissueAreResolvedInFiveFrames) {
 
 INSTANTIATE_TEST_SUITE_P(SeenBeforeAndFromNowhere, Teleport, testing::Values(true, false));
 
+// Hard case 9, all over the mesh: on nodes, between them, along and across its lines.
+TEST(Probing, HardCase9AProbeFromNowhereIsOutInFiveFramesWhereverItAppears) {
+  constexpr double kSettled = 1.9;  // N, of all of them after a second, to 2 % [measured above]
+  Slab slab(0.012, {8, 8, 6}, [](const glm::dvec3& x) { return x.z < -0.0119; });
+  const BodyState rest = slab.state;
+  double deepest = 0, hardest = 0;
+  for (int place = 0; place < 15; ++place) {
+    slab.state = rest;
+    slab.solver = std::make_unique<ImplicitSolver>(slab.model, slab.fixed);
+    slab.Refit();
+    std::vector<Slab::Tool> tool{ProbeAt(-0.005, -0.0035 + 0.0005 * place)};
+    for (int frame = 0; frame < 5; ++frame) {
+      EXPECT_TRUE(slab.Step(tool).is_finite);
+      hardest = std::max(hardest, glm::length(slab.ForceOn(0)));
+    }
+    const double depth = slab.Penetration(tool[0]);
+    EXPECT_LT(depth, 2e-4) << "place " << place;
+    deepest = std::max(deepest, depth);
+  }
+  std::printf("of 15 places the deepest %.3f mm after five frames, %.2f N at most\n", 1e3 * deepest,
+              hardest);
+  EXPECT_LE(hardest, 2.0 * kSettled);
+}
+
 // Hard case 16: no frame is lost, the tissue stays, the next good pose is felt.
 TEST(Probing, HardCase16APoseThatIsNotANumberLeavesTheTissueAsItIs) {
   Slab slab(0.006, {8, 8, 4}, OnTheGround);
