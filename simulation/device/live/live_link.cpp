@@ -85,7 +85,7 @@ LiveLink::~LiveLink() {
 }
 
 void LiveLink::Send(const glm::dvec3& force, const glm::dvec3& joints) noexcept {
-  sent_ = {force, joints, sent_.number + 1};
+  sent_ = {force, joints, sent_.number + 1, options_.clock()};
   commands_.Write(sent_);
   sem_post(&wake_);
 }
@@ -295,9 +295,11 @@ void LiveLink::WriteOne(const ForceCommand& command, bool is_silent) noexcept {
   const bool is_new = command.number != written_number_;
   // Woken by a command that was written already: that one stands.
   if (!is_new && !is_silent && (!is_released_ || is_zero_written_)) return;
-  const glm::dvec3 force = is_new && !is_released_ ? command.force : glm::dvec3(0.0);
-  const bool is_zero = force == glm::dvec3(0.0);
   const double now = options_.clock();
+  // A program that was stopped in between goes on with a force of then.
+  const bool is_of_now = is_new && now - command.at <= kServoSilent;
+  const glm::dvec3 force = is_of_now && !is_released_ ? command.force : glm::dvec3(0.0);
+  const bool is_zero = force == glm::dvec3(0.0);
   if (const double interval = driver_->command_interval(); interval > 0) {
     if (is_zero ? is_zero_written_ : written_at_ >= 0 && now - written_at_ < interval) return;
   }

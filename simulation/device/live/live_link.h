@@ -90,6 +90,7 @@ class LiveLink {
   struct ForceCommand {
     glm::dvec3 force{0.0}, joints{0.0};
     long number = 0;
+    double at = 0;  // s, when the servo said it
   };
   void ReadLoop() noexcept;
   void WriteLoop() noexcept;

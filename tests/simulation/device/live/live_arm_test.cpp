@@ -402,6 +402,26 @@ TEST(LiveArm, AServoThatFallsSilentIsWrittenAsZero) {
   EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
 }
 
+// The program is stopped (a debugger, a machine that slept) between the servo's word and its
+// writing.
+TEST(LiveArm, AForceThatWaitedTooLongIsWrittenAsZero) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
+  bench.usb.SetWriteTime(kPath, 50);
+  bench.TickNow(kPush, true);
+  ASSERT_TRUE(WaitUntil([&] { return bench.link->write_began() > 0; }));
+  bench.usb.SetWriteTime(kPath, 0);
+  bench.TickNow(kPush, true);
+  ASSERT_EQ(bench.device->force(), kPush) << "or there is nothing to hold back";
+  const std::size_t written = bench.usb.Written(kPath).size();
+  test::AdvanceBench(0.02);
+  ASSERT_TRUE(WaitUntil([&] { return bench.usb.Written(kPath).size() > written + 1; }));
+  const auto reports = bench.usb.Written(kPath);
+  EXPECT_TRUE(AreZeros({reports.begin() + static_cast<std::ptrdiff_t>(written) + 1, reports.end()}))
+      << "after the one that was being written";
+}
+
 TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
   for (const bool throws : {false, true}) {
     std::vector<Bytes> written;
