@@ -49,11 +49,12 @@ double RuleStiffness(double period, double damping, int delay) {
 
 double LargestStableStiffness(double period, double damping, int delay) {
   double low = 0, high = 2 * RuleStiffness(period, damping, delay);
-  while (high - low > 2e-3 * high) {
+  const double least = 1e-3 * high;  // where even that swings, nothing is stable
+  while (high - low > 2e-3 * high && high > least) {
     const double middle = 0.5 * (low + high);
     (ComesToRest(middle, period, damping, delay) ? low : high) = middle;
   }
-  return 0.5 * (low + high);
+  return low > 0 ? 0.5 * (low + high) : 0;
 }
 
 TouchedWall::TouchedWall(const WallServo& servo, const PlantOptions& device, const HandModel& hand,

@@ -1,4 +1,5 @@
-// arthroscene bench panorama, tissue: speed and error side by side, on inputs whose truth is known.
+// arthroscene bench panorama, tissue, haptics: speed and error side by side, on inputs whose truth
+// is known.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/haptics_bench.h"
 #include "app/bench/registration_bench.h"
 #include "app/bench/stitcher_peer.h"
 #include "app/bench/tissue_bench.h"
@@ -81,6 +83,11 @@ void AddBenchJob(CLI::App& program) {
       *bench, "tissue",
       "Deformable tissue: element, mesh, tolerance and law against continuum values.",
       RunTissueBench);
+  AddBench<HapticsBenchOptions>(
+      *bench, "haptics",
+      "Touch: a servo tick's time by stages; force against closed forms, beside the paper's; where "
+      "a wall begins to swing.",
+      RunHapticsBench);
   AddWorker(program);
 }
 

@@ -76,6 +76,31 @@ TEST(BenchJob, HoldsTissueAgainstTheContinuum) {
   EXPECT_NE(refused.err.find("meniscus_load"), std::string::npos) << refused.err;
 }
 
+TEST(BenchJob, HoldsTouchAgainstClosedFormsAndTheRule) {
+  test::TempFolder folder;
+  const std::string json = (folder / "h.json").string(), plot = (folder / "h.svg").string();
+  const auto result = test::RunProgram("bench haptics --ticks 200 --rounds 1 --hands 5 --json " +
+                                       json + " --plot " + plot);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* words : {"paper 3x3", "(b + B)/(T/2 + t_d)", "random hands", "operator new"})
+    EXPECT_NE(result.out.find(words), std::string::npos) << words;
+  const auto bench = nlohmann::json::parse(ReadWholeFile(json));
+  EXPECT_EQ(bench.at("schema"), "arthroscene.bench.haptics/1");
+  EXPECT_FALSE(bench.at("machine").get<std::string>().empty());
+  for (const auto& row : bench.at("times"))
+    for (const char* time : {"us_p50", "us_p99", "us_p999", "us_calm_p50", "us_calm_p99"})
+      EXPECT_GT(row.at(time), 0.0) << row;
+  for (const auto& row : bench.at("forces"))
+    for (const char* error : {"rms", "angle_p99_deg", "angle_max_deg", "excess_step", "us"})
+      EXPECT_TRUE(row.at(error).is_number()) << row;
+  for (const auto& row : bench.at("stability")) EXPECT_GT(row.at("rule"), 0.0) << row;
+  EXPECT_EQ(bench.at("hands").at("tried"), 5);
+  EXPECT_EQ(bench.at("allocations").at("calls"), 0);
+  const std::string svg = ReadWholeFile(plot);
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
 TEST(BenchJob, TwoThingsToStandardOutputAreRefused) {
   const auto result = test::RunProgram("bench panorama --json - --plot -");
   EXPECT_EQ(result.exit_code, 1);

@@ -10,13 +10,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "app/bench/analytic_relief.h"
 #include "simulation/haptics/paper_kernel.h"
-#include "tests/support/analytic_relief.h"
 
 namespace arthro::simulation {
 namespace {
 
-using test::AnalyticRelief;
+using app::AnalyticRelief;
 
 class DepthFieldIn : public testing::TestWithParam<ProjectionType> {};
 

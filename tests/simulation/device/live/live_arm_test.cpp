@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "app/bench/allocation_counter.h"
 #include "tests/simulation/device/live/arm_bench.h"
-#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -484,9 +484,9 @@ TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {
 TEST(LiveArm, ATickAllocatesNothing) {
   Plugged bench;
   bench.Arm();
-  const long before = test::Allocations();
+  const long before = app::Allocations();
   for (int i = 0; i < 200; ++i) bench.TickNow(i % 50 ? kPush : glm::dvec3(std::nan("")), i % 7);
-  EXPECT_EQ(test::Allocations(), before);
+  EXPECT_EQ(app::Allocations(), before);
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
-// Counts what a thread takes from the heap: link allocation_counter.cpp, which replaces operator
-// new.
+// Counts what a thread takes from the heap. Who links it has its operator new, which counts.
 #pragma once
 
-namespace arthro::test {
+namespace arthro::app {
 
 // Calls of operator new by this thread since it began.
 long Allocations() noexcept;
@@ -15,4 +14,4 @@ struct NoMemory {
   NoMemory& operator=(const NoMemory&) = delete;
 };
 
-}  // namespace arthro::test
+}  // namespace arthro::app

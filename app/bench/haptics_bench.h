@@ -1,0 +1,71 @@
+// Speed against error of touch: what the servo's tick costs, stage by stage; how far its force is
+// from closed forms, beside the paper's kernel; where a sampled wall begins to swing, beside the
+// rule K = (b + B)/(T/2 + t_d); and whether simulated hands come to rest on it. All but the times
+// is the same in every run. [notes on haptics, 4, 9]
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/bench/force_cases.h"
+#include "app/bench/servo_times.h"
+#include "simulation/core/options.h"
+#include "simulation/core/progress.h"
+
+namespace arthro::app {
+
+struct HapticsBenchOptions {
+  int ticks = 20000;
+  int rounds = 5;
+  int hands = 10000;
+  template <class V>
+  void Visit(V&& v) {
+    v("ticks", ticks, Range{10, 60000}, "", "Servo ticks of 1 ms that are timed a round.");
+    v("rounds", rounds, Range{1, 1000}, "", "How often the same ticks are timed.");
+    v("hands", hands, Range{0, 10000000}, "", "Simulated hands that press against a wall.");
+  }
+};
+
+struct ForceRow {
+  std::string surface, source, method;  // "waves", "8 bit", "proxy" or "paper 3x3"
+  ForceErrors errors;
+  double seconds = 0;  // a force, mean of a stroke; of the rounds the least
+};
+
+// A released device on a wall: 45 g, 0.2 N s/m.
+struct StabilityRow {
+  double period = 0;              // s
+  double damping = 0;             // N s/m
+  int delay = 0;                  // ticks
+  double measured = 0, rule = 0;  // N/m
+};
+
+// At the program's own gains.
+struct HandsRow {
+  int tried = 0, escaped = 0;
+  double most_energy = 0;  // J, that the wall gave a hand beyond what it took
+  // J, of a stroke into the wall and out again, over four hands and 0 to 2 ticks of delay.
+  double cycle_energy = 0, cycle_energy_unguarded = 0;
+};
+
+struct HapticsBench {
+  HapticsBenchOptions options;
+  ServoTimes times;
+  std::vector<ForceRow> forces;
+  std::vector<StabilityRow> stability;
+  HandsRow hands;
+};
+
+// The parts of it; MeasureServo is the other one.
+std::vector<ForceRow> MeasureForces(int rounds, const Progress& progress);
+std::vector<StabilityRow> MeasureStability(const Progress& progress);
+HandsRow MeasureHands(int hands, const Progress& progress);
+HapticsBench RunHapticsBench(const HapticsBenchOptions& options, const Progress& progress);
+
+std::string TableOf(const HapticsBench& bench);
+nlohmann::json JsonOf(const HapticsBench& bench);
+std::string PlotOf(const HapticsBench& bench);  // SVG, error of the force over its time
+
+}  // namespace arthro::app
