@@ -10,7 +10,8 @@ bool IsFresh(const DeviceEvents& events) noexcept {
 
 // A fault is ours or of what we were told; what breaks the link is a loss.
 bool IsFault(DeviceTrouble trouble) noexcept {
-  return trouble != DeviceTrouble::kNone && trouble < DeviceTrouble::kReadError;
+  return trouble != DeviceTrouble::kNone &&
+         (trouble < DeviceTrouble::kReadError || trouble == DeviceTrouble::kProtected);
 }
 
 DeviceStatus Running(const DeviceStatus& status, const DeviceEvents& events) noexcept {
@@ -125,6 +126,10 @@ const char* Sentence(const DeviceStatus& status) noexcept {
       return "it was unplugged or has failed; plug it in again";
     case DeviceTrouble::kSilent:
       return "it is connected and says nothing; check its power, or plug it in again";
+    case DeviceTrouble::kProtected:
+      return "it stopped itself, since it was pushed too hard or its motors are warm; let go of "
+             "the "
+             "dead-man, and give it a rest";
     case DeviceTrouble::kNone:
       break;
   }

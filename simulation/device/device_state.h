@@ -18,7 +18,8 @@ enum class DeviceTrouble {
   kSlowWrite,      // a report took too long to be taken
   kReadError,      // unplugged, as a rule
   kWriteError,
-  kSilent,  // no sample for longer than kLostAfter
+  kSilent,     // no sample for longer than kLostAfter
+  kProtected,  // it stopped itself: warm motors, too much force or speed
 };
 
 // An older sample gets no force; with no newer one for so long a device is lost.

@@ -132,7 +132,7 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
       record.sample = body.Sample();
       record.command = body.Vector();
       record.status.state = body.Word(DeviceState::kLost);
-      record.status.reason = body.Word(DeviceTrouble::kSilent);
+      record.status.reason = body.Word(DeviceTrouble::kProtected);
       record.status.must_release = body.Flag();
       record.is_dead_man_held = body.Flag();
       if (record.tick_hand >= record.hand.size()) return false;

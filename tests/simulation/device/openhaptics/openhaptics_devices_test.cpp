@@ -1,0 +1,257 @@
+// Devices behind the maker's library, which is a fake one here: its scheduler ticks when the test
+// says, on the test's clock.
+#include "simulation/device/openhaptics/openhaptics_devices.h"
+
+#include <HD/hd.h>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "app/bench/allocation_counter.h"
+#include "simulation/core/error.h"
+#include "tests/support/fake_openhaptics.h"
+
+namespace arthro::simulation {
+namespace {
+
+using test::FakeTouch;
+using test::OpenHaptics;
+
+double now = 0;  // s
+double Now() noexcept { return now; }
+
+const std::array<double, 3> kNoForce{};
+const glm::dvec3 kForce{0.5, -0.25, 1.0};
+
+class OpenHapticsTest : public testing::Test {
+ protected:
+  OpenHapticsTest() {
+    OpenHaptics().Reset();
+    now = 100;
+    OpenHaptics().devices.resize(2);
+    OpenHaptics().devices[0].name = "left";
+    OpenHaptics().devices[1].name = "right";
+    OpenHaptics().devices[1].serial = "T2";
+  }
+  void Open() {
+    const std::string names[] = {"left", "right"};
+    devices = std::make_unique<OpenHapticsDevices>(names, Now);
+  }
+  // As the library's thread and the servo do, one after the other.
+  DeviceSample Tick(int ticks = 1, const glm::dvec3& force = {}) {
+    DeviceSample sample;
+    for (int i = 0; i < ticks; ++i) {
+      now += 1e-3;
+      OpenHaptics().Tick();
+      for (std::size_t k = 0; k < devices->size(); ++k) {
+        const DeviceSample read = devices->at(k).Read(now);
+        if (k == 0) sample = read;
+        devices->at(k).HoldDeadMan(is_held);
+        devices->at(k).Command(force);
+      }
+    }
+    return sample;
+  }
+  void Arm() {
+    Open();
+    Tick(10);
+    is_held = true;
+    Tick(10);
+    ASSERT_EQ(devices->at(0).state(), DeviceState::kArmed);
+  }
+  static FakeTouch& Left() { return OpenHaptics().devices[0]; }
+  static FakeTouch& Right() { return OpenHaptics().devices[1]; }
+  static glm::dvec3 LastForce(const FakeTouch& touch) {
+    const auto& f = touch.forces.back();
+    return {f[0], f[1], f[2]};
+  }
+  std::unique_ptr<OpenHapticsDevices> devices;
+  bool is_held = false;
+};
+
+TEST_F(OpenHapticsTest, SaysWhereTheHandIsAndHowItHoldsTheHandle) {
+  Left().position_mm = {10, -20, 30};
+  // A quarter turn about z: x goes to y.
+  Left().transform = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, -20, 30, 1};
+  Left().buttons = 3;
+  Open();
+  const DeviceSample sample = Tick(5);
+  EXPECT_TRUE(sample.valid);
+  EXPECT_LT(glm::length(sample.hip_in_device - glm::dvec3(0.01, -0.02, 0.03)), 1e-15);
+  EXPECT_LT(glm::length(sample.handle_in_device * glm::dvec3(1, 0, 0) - glm::dvec3(0, 1, 0)),
+            1e-15);
+  EXPECT_EQ(sample.buttons, 3u);
+  EXPECT_EQ(sample.t, now);
+  EXPECT_EQ(devices->at(1).serial(), "T2");
+}
+
+TEST_F(OpenHapticsTest, SaysWhatItCanDo) {
+  Open();
+  const DeviceCaps& caps = devices->at(0).caps();
+  EXPECT_TRUE(HasForce(caps));
+  EXPECT_TRUE(IsSteady(caps));
+  EXPECT_EQ(caps.sensed_dof, 6);
+  EXPECT_DOUBLE_EQ(caps.peak_force, 3.3);
+  EXPECT_DOUBLE_EQ(caps.max_stiffness, 400);
+  EXPECT_DOUBLE_EQ(caps.damping, 0.2);
+  EXPECT_DOUBLE_EQ(caps.min_hip.x, -0.08);
+  EXPECT_TRUE(Left().has_force_output);
+}
+
+TEST_F(OpenHapticsTest, PushesOnlyAnArmedHandAndEachItsOwn) {
+  Open();
+  Tick(10, kForce);
+  EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0)) << "nobody holds the dead-man";
+  is_held = true;
+  Tick(3, kForce);
+  EXPECT_EQ(LastForce(Left()), kForce);
+  devices->at(1).Command(2.0 * kForce);
+  now += 1e-3;
+  OpenHaptics().Tick();
+  EXPECT_EQ(LastForce(Left()), kForce);
+  EXPECT_EQ(LastForce(Right()), 2.0 * kForce);
+  is_held = false;
+  Tick(3, kForce);
+  EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
+  EXPECT_EQ(OpenHaptics().wrong_calls, 0);
+}
+
+// 9 and 11 ms: a tick is not a whole number of binary fractions of a second.
+TEST_F(OpenHapticsTest, AServoThatFallsSilentLeavesNoForce) {
+  Arm();
+  Tick(3, kForce);
+  for (int i = 1; i <= 20; ++i) {
+    now += 1e-3;
+    OpenHaptics().Tick();
+    if (i != 10) {
+      EXPECT_EQ(LastForce(Left()), i < 10 ? kForce : glm::dvec3(0.0)) << i;
+    }
+  }
+}
+
+TEST_F(OpenHapticsTest, TheEndIsFiveTimesNoForceThenClosed) {
+  Arm();
+  Tick(3, kForce);
+  const std::size_t before = Left().forces.size();
+  devices.reset();
+  ASSERT_EQ(Left().forces.size(), before + 5);
+  for (std::size_t i = before; i < Left().forces.size(); ++i) {
+    EXPECT_EQ(Left().forces[i], kNoForce);
+    EXPECT_EQ(Right().forces[i], kNoForce);
+  }
+  EXPECT_FALSE(Left().is_open);
+  EXPECT_FALSE(Right().is_open);
+  EXPECT_FALSE(OpenHaptics().is_running);
+  EXPECT_FALSE(OpenHaptics().Tick()) << "nothing is scheduled any more";
+  EXPECT_EQ(OpenHaptics().wrong_calls, 0);
+}
+
+TEST_F(OpenHapticsTest, ReleaseIsNoForceFromTheNextFrameOn) {
+  Arm();
+  Tick(3, kForce);
+  devices->Release();
+  Tick(3, kForce);
+  EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
+}
+
+TEST_F(OpenHapticsTest, WarmMotorsAreAFaultUntilTheHandLetsGo) {
+  Arm();
+  Tick(3, kForce);
+  Left().errors = {HD_WARM_MOTORS};
+  Tick(2, kForce);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kFault);
+  EXPECT_EQ(devices->at(0).status().reason, DeviceTrouble::kProtected);
+  EXPECT_EQ(devices->at(1).state(), DeviceState::kArmed) << "the other one goes on";
+  Tick(20, kForce);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kFault) << "the dead-man is still held";
+  EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
+  EXPECT_EQ(LastForce(Right()), kForce);
+  is_held = false;
+  Tick(10);
+  is_held = true;
+  Tick(10, kForce);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kArmed);
+  EXPECT_EQ(LastForce(Left()), kForce);
+}
+
+TEST_F(OpenHapticsTest, ALostLinkIsLostAtOnceAndStaysSo) {
+  Arm();
+  Tick(3, kForce);
+  Left().errors = {HD_COMM_ERROR};
+  const DeviceSample sample = Tick(1, kForce);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kLost);
+  EXPECT_FALSE(sample.valid);
+  Tick(1, kForce);
+  EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
+  is_held = false;
+  Tick(50);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kLost);
+}
+
+// As where the library's thread hangs.
+TEST_F(OpenHapticsTest, ADeviceThatIsSilentFor20MillisecondsIsLost) {
+  Arm();
+  Tick(3, kForce);
+  Device& left = devices->at(0);
+  for (int i = 1; i <= 21; ++i) {
+    now += 1e-3;
+    left.Read(now);
+    left.HoldDeadMan(true);
+    left.Command(kForce);
+    if (i < 20) {
+      EXPECT_EQ(left.state(), DeviceState::kArmed) << i;
+    }
+  }
+  EXPECT_EQ(left.state(), DeviceState::kLost);
+  EXPECT_EQ(left.status().reason, DeviceTrouble::kSilent);
+}
+
+TEST_F(OpenHapticsTest, HardCase6WhatIsNoNumberIsZeroAndAFault) {
+  Arm();
+  Tick(1, glm::dvec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+  Tick(1, kForce);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kFault);
+  Tick(1);
+  for (const auto& force : Left().forces) EXPECT_EQ(force, kNoForce);
+}
+
+TEST_F(OpenHapticsTest, IsHomedByTheLibraryOrWaitsForTheHand) {
+  Left().calibration = HD_CALIBRATION_NEEDS_UPDATE;
+  Right().calibration = HD_CALIBRATION_NEEDS_MANUAL_INPUT;
+  Open();
+  Tick(10);
+  EXPECT_EQ(Left().calibrated, 1);
+  EXPECT_EQ(devices->at(0).state(), DeviceState::kReady);
+  EXPECT_EQ(devices->at(1).state(), DeviceState::kHoming);
+  Right().calibration = HD_CALIBRATION_OK;  // somebody put it into its rest
+  Tick(110);
+  EXPECT_EQ(devices->at(1).state(), DeviceState::kReady);
+}
+
+TEST_F(OpenHapticsTest, OneThatDoesNotOpenIsNamedAndNoneStaysOpen) {
+  Right().opens = false;
+  try {
+    Open();
+    FAIL() << "opened";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::kDevice);
+    EXPECT_NE(error.sentence().find("\"right\""), std::string::npos) << error.sentence();
+  }
+  EXPECT_FALSE(Left().is_open);
+  EXPECT_FALSE(OpenHaptics().is_running);
+}
+
+TEST_F(OpenHapticsTest, AFrameAndATickAllocateNothing) {
+  Arm();
+  Left().forces.reserve(1000);
+  Right().forces.reserve(1000);
+  const long before = app::Allocations();
+  Tick(100, kForce);
+  EXPECT_EQ(app::Allocations(), before);
+}
+
+}  // namespace
+}  // namespace arthro::simulation
