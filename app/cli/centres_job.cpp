@@ -1,6 +1,7 @@
 // arthroscene centres SCENE (design §5): the pixels at the centre of the view as the scope is
 // rotated about its axis at several depths of insertion, the paper's validation figure [paper 3.3,
-// Fig. 7] as numbers.
+// Fig. 7] as numbers and as a picture.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -12,10 +13,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/centres_picture.h"
 #include "app/cli/jobs.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/scope/arthroscope.h"
 
@@ -23,7 +26,8 @@ namespace arthro::app {
 namespace {
 
 struct CentresArguments {
-  std::filesystem::path scene, output;
+  std::filesystem::path scene, output, picture;
+  bool on_grid = false;
   std::optional<double> view_angle_deg;
   std::vector<double> insertion_mm = {5.0, 10.0, 15.0};
   double latitude_deg = 0.0, longitude_deg = 0.0;
@@ -46,20 +50,43 @@ void RunCentresJob(const CentresArguments& arguments) {
                       mm, MmFromMetres(backdrop.radius)),
           arguments.scene);
 
+  // Before the work: what cannot be drawn on is said at once.
+  ColourImage picture;
+  if (!arguments.picture.empty()) {
+    const std::filesystem::path folder = std::filesystem::is_directory(arguments.scene)
+                                             ? arguments.scene
+                                             : arguments.scene.parent_path();
+    picture = ReadColourImage(folder / backdrop.panorama);
+    if (arguments.on_grid)
+      picture = GridPicture(picture.width, picture.height, std::max(2, picture.width / 32));
+  }
+  const auto pixel_of = [&](const simulation::RodPose& pose, double angle) {
+    return PixelFromDirection(backdrop.projection,
+                              simulation::CentreDirection(pose, angle, backdrop.radius));
+  };
+  std::vector<CentresLine> lines;
   std::string table = "insertion,roll_deg,u_px,v_px\n";
   int without_pixel = 0;
-  for (const double mm : arguments.insertion_mm)
+  for (const double mm : arguments.insertion_mm) {
+    CentresLine& line = lines.emplace_back(CentresLine{fmt::format("{:g} mm", mm), {}});
     for (int step = 0; step < arguments.roll_steps; ++step) {
       const double roll_deg = 360.0 * step / arguments.roll_steps;
       const simulation::RodPose pose{RadiansFromDegrees(arguments.latitude_deg),
                                      RadiansFromDegrees(arguments.longitude_deg),
                                      RadiansFromDegrees(roll_deg), MetresFromMm(mm)};
-      const auto pixel = PixelFromDirection(
-          backdrop.projection, simulation::CentreDirection(pose, view_angle, backdrop.radius));
+      const auto pixel = pixel_of(pose, view_angle);
+      line.pixel.push_back(pixel);
       table += fmt::format("{:.10g},{:.10g},", pose.depth, roll_deg);
       table += pixel ? fmt::format("{:.10g},{:.10g}\n", pixel->x, pixel->y) : ",\n";
       without_pixel += pixel ? 0 : 1;
     }
+  }
+  if (!arguments.picture.empty()) {
+    const simulation::RodPose rod{RadiansFromDegrees(arguments.latitude_deg),
+                                  RadiansFromDegrees(arguments.longitude_deg), 0, 0};
+    DrawCentres(picture, pixel_of(rod, 0.0), lines);
+    WriteColourImage(arguments.picture, picture);
+  }
   WriteAtomically(arguments.output, table);
   if (without_pixel > 0)
     fmt::print(stderr,
@@ -76,7 +103,7 @@ void AddCentresJob(CLI::App& program) {
       "centres",
       "Panorama pixels at the centre of the view while the scope is rotated at several depths");
   job->add_option("SCENE", arguments->scene,
-                  "Scene folder or scene.json; its pictures are not read")
+                  "Scene folder or scene.json; its pictures are not read without --picture")
       ->required();
   job->add_option("--view-angle-deg", arguments->view_angle_deg,
                   "Angle between rod and view; the scene's own where not given")
@@ -97,6 +124,11 @@ void AddCentresJob(CLI::App& program) {
       ->capture_default_str();
   job->add_option("-o,--output", arguments->output, "Table to write; - is standard output")
       ->required();
+  job->add_option("--picture", arguments->picture,
+                  "Picture to write: the centres on the panorama, a line each depth, a cross where "
+                  "the rod points");
+  job->add_flag("--on-grid", arguments->on_grid,
+                "The picture has a regular grid of the panorama's size in its place");
   job->footer(
       "Columns: insertion (m), roll_deg, u_px, v_px (origin at the centre of the top-left pixel). "
       "u "

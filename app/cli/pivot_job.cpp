@@ -1,7 +1,9 @@
 // arthroscene pivot POSES.csv -o pivot.json (design §5): where the incision lies in a device's
-// frame.
+// frame, from presses or, with --swing, from a recorded hand that kept swinging.
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -9,20 +11,34 @@
 #include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/device/trace_io.h"
 #include "simulation/scope/pivot_calibration.h"
 #include "simulation/scope/pivot_io.h"
+#include "simulation/scope/pivot_swing.h"
 
 namespace arthro::app {
 namespace {
 
 struct PivotArguments {
   std::filesystem::path poses, output;
+  std::string swing;  // role of a trace's hand; empty: poses is a table of presses
+  double rod_length_mm = 200.0;
   simulation::PivotOptions options;
 };
 
+std::vector<simulation::PivotPress> SwingOf(const PivotArguments& arguments) {
+  simulation::PivotSwing swing(MetresFromMm(arguments.rod_length_mm));
+  for (const simulation::TraceRow& row : simulation::ReadTrace(arguments.poses))
+    if (simulation::Word(row.device) == arguments.swing)
+      swing.Add(row.sample.hip_in_device, row.sample.handle_in_device);
+  return {swing.presses().begin(), swing.presses().end()};
+}
+
 void RunPivotJob(const PivotArguments& arguments) {
   CheckOptions(arguments.options);
-  const auto presses = simulation::ReadPresses(arguments.poses);
+  const auto presses =
+      arguments.swing.empty() ? simulation::ReadPresses(arguments.poses) : SwingOf(arguments);
   const auto calibration = simulation::CalibratePivot(presses, arguments.options);
   WriteAtomically(arguments.output, simulation::JsonFromPivot(calibration));
   // The record is kept in either case; a pivot that should not be used ends the job with its
@@ -46,6 +62,13 @@ void AddPivotJob(CLI::App& program) {
       ->required();
   job->add_option("-o,--output", arguments->output, "pivot.json to write; - is standard output")
       ->required();
+  job->add_option("--swing", arguments->swing,
+                  "POSES is a TRACE.csv instead, in which this hand kept swinging its rod through "
+                  "the incision; a pose is taken each millimetre, and what slipped is left out")
+      ->check(CLI::IsMember({"scope", "instrument"}));
+  job->add_option("--rod-length-mm", arguments->rod_length_mm, "With --swing: hand to tip")
+      ->check(CLI::Range(10.0, 1000.0))
+      ->capture_default_str();
   AddOptions(*job, arguments->options);
   job->footer(
       "status is ok, too_few, too_narrow, inconsistent or outside_rod; all but ok end with exit "

@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -9,6 +13,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "simulation/scene/image_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 
@@ -138,6 +143,50 @@ TEST(CentresJob, CentreWithoutAPixelIsEmptyAndSaid) {
   EXPECT_EQ(run.exit_code, 0);
   for (const Centre& centre : ReadCentres(run.out)) EXPECT_FALSE(centre.u || centre.v);
   EXPECT_NE(run.err.find("72 of 72"), std::string::npos) << run.err;
+}
+
+// Fig. 7 of the paper, on the panorama and on a grid.
+TEST(CentresJob, ThePictureShowsTheCentresOfTheTable) {
+  const TempFolder folder;
+  WriteSceneJson(folder, kGnomonic);
+  const std::string scene = folder.path().string(), picture = (folder / "fig7.png").string();
+  const std::string job = "centres " + scene + " --roll-steps 24 -o - --picture " + picture;
+  const ProgramResult without = RunProgram(job);
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_NE(without.err.find("grid.png"), std::string::npos) << without.err;
+  EXPECT_FALSE(std::filesystem::exists(picture));
+
+  ColourImage panorama(4096, 2048);
+  std::fill(panorama.rgb.begin(), panorama.rgb.end(), std::uint8_t{90});
+  WriteColourImage(folder / "grid.png", panorama);
+  const auto colour_at = [](const ColourImage& image, double x, double y) {
+    const std::uint8_t* p =
+        image.at(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
+    return std::array{p[0], p[1], p[2]};
+  };
+  for (const bool on_grid : {false, true}) {
+    const ProgramResult run = RunProgram(job + (on_grid ? " --on-grid" : ""));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, RunProgram("centres " + scene + " --roll-steps 24 -o -").out);
+    const ColourImage shown = ReadColourImage(picture);
+    ASSERT_EQ(shown.width, 4096);
+    // A line has one colour, and each of the three its own.
+    std::map<double, std::array<std::uint8_t, 3>> colours;
+    for (const Centre& centre : ReadCentres(run.out)) {
+      ASSERT_TRUE(centre.u && centre.v);
+      const auto colour = colour_at(shown, *centre.u, *centre.v);
+      EXPECT_EQ(colours.emplace(centre.insertion, colour).first->second, colour) << centre.roll_deg;
+    }
+    ASSERT_EQ(colours.size(), 3u);
+    std::set<std::array<std::uint8_t, 3>> different;
+    for (const auto& [insertion, colour] : colours) different.insert(colour);
+    EXPECT_EQ(different.size(), 3u);
+    // Where the rod points, and what lies under it all.
+    EXPECT_EQ(colour_at(shown, 2048, 1024), (std::array<std::uint8_t, 3>{0, 0, 0}));
+    const std::uint8_t line = on_grid ? 160 : 90, ground = on_grid ? 255 : 90;
+    EXPECT_EQ(colour_at(shown, 128, 1990)[0], line);
+    EXPECT_EQ(colour_at(shown, 190, 1990)[0], ground);
+  }
 }
 
 TEST(CentresJob, WhatCannotBeIsRefused) {

@@ -1,11 +1,15 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "simulation/device/trace_io.h"
+#include "simulation/scope/rod_pose.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 
@@ -144,6 +148,38 @@ TEST(PivotJob, MissingTableAndBadUseAreTold) {
   EXPECT_FALSE(std::filesystem::exists(output));
   EXPECT_EQ(RunProgram("pivot").exit_code, 2);
   EXPECT_EQ(RunProgram("pivot --help").exit_code, 0);
+}
+
+// Ten seconds of swinging about (0.01, 0.02, 0.1) by the scope; by the instrument in and out alone.
+TEST(PivotJob, AHandThatKeepsSwingingGivesTheIncision) {
+  const TempFolder folder;
+  const DeviceRig rig{{0.01, 0.02, 0.1}, {1, 0, 0, 0}, 0.2};
+  std::vector<simulation::TraceRow> rows;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.01 * i;
+    const simulation::RodPose swing{0.35 * std::sin(2.1 * t), 0.35 * std::sin(1.3 * t), t,
+                                    0.08 + 0.02 * std::sin(0.7 * t)};
+    const simulation::RodPose stroke{0.1, 0.1, 0, 0.08 + 0.02 * std::sin(t)};
+    for (const auto& [role, pose] : {std::pair{simulation::DeviceRole::kScope, swing},
+                                     {simulation::DeviceRole::kInstrument, stroke}})
+      rows.push_back({role, {t, HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig), 0, true}});
+  }
+  const std::string trace = (folder / "swing.csv").string();
+  simulation::WriteTrace(trace, rows);
+  const ProgramResult run = RunProgram("pivot " + trace + " --swing scope -o -");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto found = nlohmann::json::parse(run.out);
+  EXPECT_EQ(found["status"], "ok");
+  EXPECT_GT(found["poses_used"], 100);
+  for (int axis : {0, 1, 2})
+    EXPECT_NEAR(found["pivot"][axis].get<double>(), rig.pivot[axis], 1e-12);
+  const ProgramResult narrow = RunProgram("pivot " + trace + " --swing instrument -o -");
+  EXPECT_EQ(narrow.exit_code, 1);
+  EXPECT_NE(narrow.err.find("too_narrow"), std::string::npos) << narrow.err;
+  // A rod of a wrong length has its lines all the same: only where it ends is not known.
+  EXPECT_EQ(RunProgram("pivot " + trace + " --swing scope --rod-length-mm 300 -o -").exit_code, 0);
+  EXPECT_EQ(RunProgram("pivot " + trace + " --swing left -o -").exit_code, 2);
+  EXPECT_EQ(RunProgram("pivot " + trace + " -o -").exit_code, 1) << "it is no table of presses";
 }
 
 TEST(PivotJob, StandardOutputTakesTheRecord) {

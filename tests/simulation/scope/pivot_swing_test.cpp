@@ -1,0 +1,137 @@
+// A hand that keeps swinging the rod through an incision whose place is known.
+#include "simulation/scope/pivot_swing.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/core/random.h"
+#include "simulation/core/units.h"
+#include "simulation/scope/rod_pose.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr double kQuantum = 0.055e-3;                   // m, of a Touch-class device
+constexpr double kAngleNoise = 0.1 * kRadianPerDegree;  // encoders of 0.35° a count
+const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
+
+struct Sample {
+  glm::dvec3 hip{0.0};
+  glm::dquat handle{1, 0, 0, 0};
+};
+
+// At time t of a swing 20° either way and 40 mm in and out; from then on exact, or as sensors say.
+RodPose PoseAt(double t) {
+  return {0.35 * std::sin(2.1 * t), 0.35 * std::sin(1.3 * t), 0.5 * t,
+          0.08 + 0.02 * std::sin(0.7 * t)};
+}
+Sample Exact(const RodPose& pose, const DeviceRig& rig = kRig) {
+  return {HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig)};
+}
+Sample Sensed(const RodPose& pose, Random& random, const DeviceRig& rig = kRig) {
+  Sample sample = Exact(pose, rig);
+  sample.hip = kQuantum * glm::round(sample.hip / kQuantum);
+  const double even = kAngleNoise * std::sqrt(3.0);  // even noise of that rms
+  const glm::dvec3 turn(random.Uniform(-even, even), random.Uniform(-even, even), 0);
+  sample.handle = sample.handle * glm::dquat(1, turn.x / 2, turn.y / 2, 0);
+  return sample;
+}
+
+PivotOptions Options() {
+  PivotOptions options;
+  options.position_noise = kQuantum / std::sqrt(12.0);
+  options.angle_noise = kAngleNoise;
+  return options;
+}
+
+TEST(PivotSwing, APressOfAHandleIsItsRod) {
+  const RodPose pose{0.3, -0.2, 1.1, 0.05};
+  const Sample sample = Exact(pose);
+  const PivotPress press = PressOf(sample.hip, sample.handle, kRig.rod_length);
+  EXPECT_LT(glm::length(press.tip - (kRig.pivot + TipInOwnPortal(pose))), 1e-15);
+}
+
+// Notes, 9: within 3 sigma in 99 of 100.
+TEST(PivotSwing, TwentySecondsOfSwingingFindTheIncisionWithinThreeSigma) {
+  int within = 0;
+  double largest = 0, sigma = 0;
+  constexpr int kTrials = 100;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<std::uint64_t>(trial));
+    PivotSwing swing(kRig.rod_length);
+    for (int i = 0; i < 20000; ++i) {
+      const Sample sample = Sensed(PoseAt(7.0 * trial + 1e-3 * i), random);
+      swing.Add(sample.hip, sample.handle);
+    }
+    const PivotCalibration found = CalibratePivot(swing.presses(), Options());
+    ASSERT_EQ(found.status, PivotStatus::kOk) << found.reason;
+    const double error = glm::length(*found.pivot - kRig.pivot);
+    within += error <= 3 * found.sigma;
+    largest = std::max(largest, error);
+    sigma = found.sigma;
+  }
+  std::printf("%d of %d within 3 sigma; sigma %.3f mm, largest error %.3f mm\n", within, kTrials,
+              1e3 * sigma, 1e3 * largest);
+  EXPECT_GE(within, 99);
+}
+
+// Hard case 20, in motion: the trocar slips by 20 mm for a second of twenty.
+TEST(PivotSwing, HardCase20WhatSlipsForAWhileIsLeftOut) {
+  Random random(1);
+  PivotSwing swing(kRig.rod_length);
+  DeviceRig slipped = kRig;
+  slipped.pivot += glm::dvec3(0.02, 0, 0);
+  for (int i = 0; i < 20000; ++i) {
+    const bool slips = i >= 9000 && i < 10000;
+    const Sample sample = Sensed(PoseAt(1e-3 * i), random, slips ? slipped : kRig);
+    swing.Add(sample.hip, sample.handle);
+  }
+  const PivotCalibration found = CalibratePivot(swing.presses(), Options());
+  ASSERT_EQ(found.status, PivotStatus::kOk) << found.reason;
+  EXPECT_FALSE(found.left_out.empty());
+  EXPECT_LT(glm::length(*found.pivot - kRig.pivot), 3 * found.sigma);
+}
+
+TEST(PivotSwing, AHandThatRestsCountsOnce) {
+  Random random(1);
+  PivotSwing swing(kRig.rod_length);
+  for (int i = 0; i < 5000; ++i) {
+    const Sample sample = Sensed(PoseAt(0.4), random);
+    EXPECT_EQ(swing.Add(sample.hip, sample.handle), i == 0);
+  }
+  EXPECT_EQ(CalibratePivot(swing.presses(), Options()).status, PivotStatus::kTooFew);
+}
+
+TEST(PivotSwing, InAndOutAloneIsRefused) {
+  Random random(1);
+  PivotSwing swing(kRig.rod_length);
+  for (int i = 0; i < 5000; ++i) {
+    const Sample sample = Sensed({0.1, 0.2, 0, 0.08 + 0.03 * std::sin(1e-3 * i)}, random);
+    swing.Add(sample.hip, sample.handle);
+  }
+  EXPECT_GT(swing.presses().size(), 50u);
+  EXPECT_EQ(CalibratePivot(swing.presses(), Options()).status, PivotStatus::kTooNarrow);
+}
+
+TEST(PivotSwing, ALongSwingIsThinnedAndStillCoversItsBeginning) {
+  PivotSwing swing(kRig.rod_length);
+  const Sample first = Exact(PoseAt(0));
+  for (int i = 0; i < 200000; ++i) {
+    const Sample sample = Exact(PoseAt(1e-3 * i));
+    swing.Add(sample.hip, sample.handle);
+    ASSERT_LE(swing.presses().size(), 2000u);
+  }
+  EXPECT_GT(swing.presses().size(), 900u);
+  EXPECT_EQ(swing.presses().front().hip, first.hip);
+  EXPECT_FALSE(swing.Add(glm::dvec3(std::numeric_limits<double>::quiet_NaN()), {1, 0, 0, 0}));
+  EXPECT_FALSE(swing.Add({0, 0, 0}, {0, 0, 0, 0})) << "no direction";
+}
+
+}  // namespace
+}  // namespace arthro::simulation
