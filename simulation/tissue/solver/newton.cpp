@@ -96,7 +96,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
                                          bool leads, StepReport& report) {
   const bool is_static = problem.dt == 0;
   CgGoal linear;
-  linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : goal.tolerance;
+  linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : kForcing;
   linear.residual = is_static ? 0.0 : std::max(0.5 * goal.tolerance, kForcing * residual) * scale;
   linear.max_iterations = goal.max_iterations;
   if (goal.follows) {
