@@ -8,7 +8,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kLeafSize = 6;  // fewer items: a further box costs more than it saves
+constexpr int kLeafSize = 12;  // fewer items: a further box costs more than it saves
 constexpr int kBits = 10;     // of a place along each axis
 
 glm::dvec3 Centre(const Box3& box) { return box.low + box.high; }  // twice; only compared
@@ -78,6 +78,7 @@ void BoxTree::Build(std::span<const std::uint32_t> code, int first, int count) {
   if (count <= kLeafSize) {
     nodes_[node].next = first;
     nodes_[node].count = count;
+    leaf_.push_back(static_cast<int>(node));
     return;
   }
   // In two where the highest bit changes: a plane. What is in one cell is halved.

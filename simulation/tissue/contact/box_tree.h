@@ -33,24 +33,40 @@ class BoxTree {
   bool empty() const noexcept { return nodes_.empty(); }
   const Box3& box() const noexcept { return nodes_.front().box; }  // of all; not when empty
 
-  // `box_of(i)`: the box of item i now.
+  // Leaves in the order of their items; what they have in common is asked once a leaf by who knows.
+  int leaf_count() const noexcept { return static_cast<int>(leaf_.size()); }
+  std::span<const int> ItemsOf(int leaf) const noexcept {
+    const Node& node = nodes_[static_cast<std::size_t>(leaf_[static_cast<std::size_t>(leaf)])];
+    return {items_.data() + node.next, static_cast<std::size_t>(node.count)};
+  }
+
+  // `box_of(leaf)`: the box of all of its items now.
   template <class BoxOf>
-  void Refit(BoxOf&& box_of) noexcept {
+  void RefitLeaves(BoxOf&& box_of) noexcept {
+    int leaf = leaf_count();
     for (std::size_t n = nodes_.size(); n-- > 0;) {
       Node& node = nodes_[n];
       if (node.count == 0) {
         const Box3 &a = nodes_[n + 1].box, &b = nodes_[static_cast<std::size_t>(node.next)].box;
         node.box = {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-        continue;
+      } else {
+        node.box = box_of(--leaf);
       }
+    }
+  }
+
+  // `box_of(i)`: the box of item i now.
+  template <class BoxOf>
+  void Refit(BoxOf&& box_of) noexcept {
+    RefitLeaves([&](int leaf) noexcept {
       Box3 box{glm::dvec3(std::numeric_limits<double>::max()),
                glm::dvec3(std::numeric_limits<double>::lowest())};
-      for (int i = node.next; i < node.next + node.count; ++i) {
-        const Box3 item = box_of(items_[static_cast<std::size_t>(i)]);
+      for (const int i : ItemsOf(leaf)) {
+        const Box3 item = box_of(i);
         box = {glm::min(box.low, item.low), glm::max(box.high, item.high)};
       }
-      node.box = box;
-    }
+      return box;
+    });
   }
 
   // Calls visit(i) for the items of every leaf whose box is not further from `shape` (a point or a
@@ -96,7 +112,7 @@ class BoxTree {
   void Build(std::span<const std::uint32_t> code, int first, int count);
 
   std::vector<Node> nodes_;
-  std::vector<int> items_;
+  std::vector<int> items_, leaf_;  // leaf_: which nodes are leaves, rising
 };
 
 }  // namespace arthro::simulation

@@ -46,13 +46,33 @@ SkinContact::SkinContact(const EmbeddedSkin& skin, const TetMesh& mesh, const So
   std::vector<Box3> boxes(skin.rest.triangles.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = BoxOf(static_cast<int>(i));
   tree_ = BoxTree(boxes);
+  // Neighbours share corners: each is asked for once a leaf, as the skin moves.
+  for (int leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
+    leaf_begin_.push_back(static_cast<int>(leaf_vertex_.size()));
+    for (const int t : tree_.ItemsOf(leaf))
+      for (const int v : skin.rest.triangles[static_cast<std::size_t>(t)])
+        if (std::find(leaf_vertex_.begin() + leaf_begin_.back(), leaf_vertex_.end(), v) ==
+            leaf_vertex_.end())
+          leaf_vertex_.push_back(v);
+  }
+  leaf_begin_.push_back(static_cast<int>(leaf_vertex_.size()));
 }
 
 void SkinContact::Refit(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> normals,
                         std::span<const glm::dvec3> x) noexcept {
   std::copy_n(positions.begin(), std::min(positions.size(), positions_.size()), positions_.begin());
   std::copy_n(normals.begin(), std::min(normals.size(), normals_.size()), normals_.begin());
-  tree_.Refit([this](int i) noexcept { return BoxOf(i); });
+  tree_.RefitLeaves([this](int leaf) noexcept {
+    Box3 box{glm::dvec3(std::numeric_limits<double>::max()),
+             glm::dvec3(std::numeric_limits<double>::lowest())};
+    for (int k = leaf_begin_[static_cast<std::size_t>(leaf)];
+         k < leaf_begin_[static_cast<std::size_t>(leaf) + 1]; ++k) {
+      const glm::dvec3& place =
+          positions_[static_cast<std::size_t>(leaf_vertex_[static_cast<std::size_t>(k)])];
+      box = {glm::min(box.low, place), glm::max(box.high, place)};
+    }
+    return box;
+  });
   finder_.Refit(x);
 }
 

@@ -122,6 +122,7 @@ class SkinContact {
   ElementFinder finder_;
   std::vector<glm::dvec3> positions_, normals_, rest_normals_;
   BoxTree tree_;
+  std::vector<int> leaf_begin_, leaf_vertex_;  // of the tree's leaves, one more; the skin's
 };
 
 // After the step: how the tissue holds the tool now. `contacts` and `results` are those of the

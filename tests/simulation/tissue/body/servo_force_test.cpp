@@ -166,10 +166,10 @@ Errors Measure(Case c, double turn) {
 }
 
 // Asked are 2 % of both. A step is there up to 0.5 mm at once. The servo is not: 1 to 3 % at 0.1
-// mm, 5 to 7 % at 0.5 mm and 7 to 10 % at 1 mm aside, where the force of the full solve itself goes up and down by some 4
-// % within each element, whose edges a dent feels, and no pose that was solved foretells it. What
-// is held here is what was reached. Along edges a hook feels them most, and a meniscus that hangs
-// free tilts as well: printed last.
+// mm, 5 to 7 % at 0.5 mm and 7 to 10 % at 1 mm aside, where the force of the full solve itself goes
+// up and down by some 4 % within each element, whose edges a dent feels, and no pose that was
+// solved foretells it. What is held here is what was reached. Along edges a hook feels them most,
+// and a meniscus that hangs free tilts as well: printed last.
 TEST(ServoForce, AndThatOfAStepAreNearWhatTheWholeSolveSettlesAt) {
   for (Case (*make)() :
        {+[] { return Slab(); }, +[] { return Meniscus(true); }, +[] { return Dome(); }}) {
