@@ -32,9 +32,8 @@ std::string TableOf(const HapticsBench& bench) {
                          Microseconds(row.calm_p99), Microseconds(row.calm_p999), row.about);
   table += fmt::format(
       "behind the bar: of each tick the least of its {} times, so without what other programs "
-      "took\n"
-      "{} calls of operator new in {} ticks\n",
-      bench.options.rounds, bench.times.allocations, bench.times.ticks);
+      "took\n",
+      bench.options.rounds);
 
   table += fmt::format(
       "\n# force on a stroke 1 mm ± 0.3 mm under a closed form, 500 N/m\n"
@@ -95,7 +94,6 @@ nlohmann::json JsonOf(const HapticsBench& bench) {
           {"machine", MachineWords()},
           {"options", JsonFromOptions(bench.options)},
           {"times", times},
-          {"allocations", {{"ticks", bench.times.ticks}, {"calls", bench.times.allocations}}},
           {"forces", forces},
           {"stability", stability},
           {"hands",

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/bench/allocation_counter.h"
 #include "app/bench/analytic_relief.h"
 #include "app/bench/force_cases.h"
 #include "simulation/device/driver/drivers.h"
@@ -131,7 +130,7 @@ struct LoopTimes {
       : tick("tick, two devices, " + scene, ticks_a_round),
         plants("  both hands simulated, " + scene, ticks_a_round) {}
   CallTimes tick, plants;
-  long ticks = 0, allocations = 0, contacts = 0, mesh_contacts = 0;
+  long ticks = 0, heap_calls = 0, contacts = 0, mesh_contacts = 0;
   std::string About() const {
     const double share = 50.0 / static_cast<double>(std::max(1L, ticks));
     return fmt::format("in contact {:.0f} %, with triangles {:.0f} %",
@@ -140,7 +139,7 @@ struct LoopTimes {
   }
 };
 
-void RunLoop(const LoadedScene& scene, int ticks, LoopTimes& times,
+void RunLoop(const LoadedScene& scene, int ticks, long (*heap_calls)() noexcept, LoopTimes& times,
              std::vector<TickRecord>* record) {
   Session session(scene);
   TimedPlant scope(session.scope_rig(), ScopeAt(0), "a"),
@@ -165,11 +164,11 @@ void RunLoop(const LoadedScene& scene, int ticks, LoopTimes& times,
     scope.Lead(ScopeAt(i * kTouchTick));
     instrument.Lead(InstrumentAt(i * kTouchTick));
     now += kTouchTick;
-    const long before = Allocations();
+    const long before = heap_calls ? heap_calls() : 0;
     const Clock::time_point start = Clock::now();
     loop.TickOnce(now);
     const double whole = Since(start);
-    times.allocations += Allocations() - before;
+    times.heap_calls += heap_calls ? heap_calls() - before : 0;
     const double plants = scope.seconds() + instrument.seconds();
     times.tick.Add(i, whole - plants);
     times.plants.Add(i, plants);
@@ -335,10 +334,11 @@ ServoTimes MeasureServo(const ServoTimesOptions& options, const Progress& progre
     for (int round = 0; round < options.rounds; ++round) {
       progress.Step(has_mesh ? "ticks with triangles" : "ticks",
                     static_cast<double>(round) / options.rounds);
-      RunLoop(scene, options.ticks, times, round == 0 && !has_mesh ? &record : nullptr);
+      RunLoop(scene, options.ticks, options.heap_calls, times,
+              round == 0 && !has_mesh ? &record : nullptr);
     }
     result.ticks += times.ticks;
-    result.allocations += times.allocations;
+    result.heap_calls += times.heap_calls;
     result.rows.push_back(times.tick.Row(times.About()));
     if (has_mesh)
       result.rows.push_back(TimeCold(scene, std::max(5, options.ticks / 100), options.rounds));

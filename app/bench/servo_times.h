@@ -13,6 +13,7 @@ namespace arthro::app {
 struct ServoTimesOptions {
   int ticks = 20000;  // of 1 ms, at most a minute's
   int rounds = 5;
+  long (*heap_calls)() noexcept = nullptr;  // of this thread so far; null: they are not counted
 };
 
 struct ServoTime {
@@ -25,7 +26,7 @@ struct ServoTime {
 
 struct ServoTimes {
   std::vector<ServoTime> rows;
-  long ticks = 0, allocations = 0;  // of the whole tick, all rounds
+  long ticks = 0, heap_calls = 0;  // of the whole tick, all rounds
 };
 
 ServoTimes MeasureServo(const ServoTimesOptions& options, const Progress& progress);

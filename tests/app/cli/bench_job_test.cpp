@@ -95,7 +95,6 @@ TEST(BenchJob, HoldsTouchAgainstClosedFormsAndTheRule) {
       EXPECT_TRUE(row.at(error).is_number()) << row;
   for (const auto& row : bench.at("stability")) EXPECT_GT(row.at("rule"), 0.0) << row;
   EXPECT_EQ(bench.at("hands").at("tried"), 5);
-  EXPECT_EQ(bench.at("allocations").at("calls"), 0);
   const std::string svg = ReadWholeFile(plot);
   EXPECT_TRUE(svg.starts_with("<svg"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -88,10 +88,10 @@ TEST(PlantDevice, UnpluggedItIsAbsentAndComesBack) {
 TEST(PlantDevice, ATickAllocatesNothing) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   Hold(device, now, 100, {1, 0, 0}, false);
   Hold(device, now, 100, {1, 0, 0}, true);
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 }  // namespace

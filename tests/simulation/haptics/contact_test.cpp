@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "app/bench/analytic_relief.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -358,14 +358,14 @@ TEST(Contact, AllocatesNothing) {
   const DepthField field(relief.backdrop, relief.Float());
   const std::vector<SurfaceBvh> meshes{SurfaceBvh(test::Sphere({0, 0, 0.045}, 0.006, 5), {})};
   ContactState state;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 3000; ++i) {
     const glm::dvec3 tip(0.01 * std::sin(0.003 * i), 0.01 * std::sin(0.002 * i), 0.047);
     TickContact({field, meshes}, ContactOptions{}, kStiffness, {}, tip, kTick, state);
     field.Query(tip);
   }
-  EXPECT_EQ(app::Allocations(), before);
-  EXPECT_GT(app::Allocations(), 0) << "the counter counts";
+  EXPECT_EQ(test::Allocations(), before);
+  EXPECT_GT(test::Allocations(), 0) << "the counter counts";
 }
 
 }  // namespace

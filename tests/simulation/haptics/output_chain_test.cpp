@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/device/hand_plant.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -139,14 +139,14 @@ TEST(OutputChain, HardCase24OverAnHourTheMeanIsBelowWhatTheMotorBears) {
   Chain chain;
   chain.thermal.continuous_force = 0.88;
   const TipForce tip = Push({0, 0, 3});
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   double sum = 0;
   constexpr int kTicks = 3600 * 1000;
   for (int i = 0; i < kTicks; ++i) sum += glm::length(chain.Send(tip).force);
   std::printf("mean over an hour: %.4f N of 0.88 N\n", sum / kTicks);
   EXPECT_LE(sum / kTicks, 0.88);
   EXPECT_GT(sum / kTicks, 0.9 * 0.88) << "what it bears may be used";
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 TEST(OutputChain, TheGuardActsBeforeTheClampAndKnowsWhatWasSent) {

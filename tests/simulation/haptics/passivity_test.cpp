@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/device/hand_plant.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -93,7 +93,7 @@ TEST(Passivity, WhatWasRubbedAwayIsNoLicenceToSwing) {
 
 TEST(Passivity, TakesAnythingAndAllocatesNothing) {
   PassivityState guard;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300})
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 hand(0.0);
@@ -103,7 +103,7 @@ TEST(Passivity, TakesAnythingAndAllocatesNothing) {
       EXPECT_TRUE(std::isfinite(after.x + after.y + after.z)) << bad;
       GuardPassivity({}, {1, 0, 0}, glm::dvec3(0.0), 500, 0.0, guard);
     }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 }  // namespace

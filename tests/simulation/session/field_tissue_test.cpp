@@ -10,10 +10,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "simulation/session/session.h"
 #include "tests/simulation/session/hand.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -122,12 +122,12 @@ TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
   hand.Lead({0, 0, 0.0355});
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 1000; ++i) {
     hand.instrument.Set({0.05 * std::sin(0.01 * i), 0.05 * std::cos(0.01 * i), 0, 0.0365});
     hand.Tick();
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 // The same ball as the scene's own implicit tissue, living.
@@ -229,13 +229,13 @@ TEST(FieldTissue, ItsCutsAreTheSameBytesEveryTimeAndATickOnThemAllocatesNothing)
     shapes[run] = hand.session.tissues()->bodies[0].positions;
     const glm::dvec3 face = kCentre - glm::dvec3(0, -0.8 * kBall, 0.6 * kBall);
     hand.Lead(0.99 * face);
-    const long before = app::Allocations();
+    const long before = test::Allocations();
     for (int i = 0; i < 300; ++i) {
       hand.t += kTick;
       hand.instrument.Advance({1e-5 * i, 0, 0, 1e-6});
       hand.session.Tick(hand.scope.Sample(hand.t), hand.instrument.Sample(hand.t), kTick);
     }
-    EXPECT_EQ(app::Allocations(), before);
+    EXPECT_EQ(test::Allocations(), before);
     for (int i = 0; i < 300; ++i) forces[run].push_back(hand.Tick().tip_force);
   }
   EXPECT_EQ(forces[0], forces[1]);

@@ -13,9 +13,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/device/plant_device.h"
 #include "tests/simulation/session/hand.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -257,7 +257,7 @@ TEST(ServoLoop, HardCase24ALongSessionHeatsNoMotorAndAllocatesNothing) {
   servo.wish.options.lever.max_stiffness = 780;
   servo.Arm();
   const glm::dvec3 rest = servo.scope.plant().position();
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   double sum = 0;
   constexpr int kTicks = 240 * 1000;
   for (int i = 0; i < kTicks; ++i) {
@@ -265,7 +265,7 @@ TEST(ServoLoop, HardCase24ALongSessionHeatsNoMotorAndAllocatesNothing) {
     servo.Tick(1, i % 1000 == 500 ? 3 * kTick : kTick);
     sum += glm::length(servo.scope.force());
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   const double mean = sum / kTicks, bears = servo.scope.caps().continuous_force;
   std::printf("four minutes: mean %.3f N of %.2f N\n", mean, bears);
   EXPECT_GT(mean, 0.5 * bears) << "else nothing was asked";

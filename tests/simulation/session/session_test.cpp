@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/scope/arthroscope.h"
 #include "tests/simulation/session/hand.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -368,7 +368,7 @@ TEST(ServoTick, AllocatesNothing) {
   LoadedScene loaded = MakeScene();
   loaded.surfaces[0] = test::Sphere({0, 0, 0}, 0.005, 5);
   Hands hands(loaded);
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 3000; ++i) {
     const double s = i * kTick;
     hands.scope.Set({0.3 * std::sin(s), 0.4 * std::sin(2 * s), s, 0.046 + 0.002 * std::sin(5 * s)});
@@ -379,7 +379,7 @@ TEST(ServoTick, AllocatesNothing) {
       hands.session.SetCoupling(TissueSpring(hands.session.snapshot().instrument.tip_in_portal,
                                              static_cast<std::uint64_t>(1 + i / 16)));
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 static_assert(noexcept(std::declval<Session&>().SetCoupling(std::declval<const ToolCoupling&>())));

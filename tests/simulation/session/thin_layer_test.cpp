@@ -7,12 +7,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "simulation/session/living_tissues.h"
 #include "simulation/session/session.h"
 #include "simulation/tissue/cut/cutters.h"
 #include "tests/simulation/session/hand.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -172,13 +172,13 @@ TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
 TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
   LayerHand hand(MakeScene(Block()));
   hand.Press(0.5e-3);
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 1000; ++i) {
     hand.t += kTick;
     hand.instrument.Advance({0, 0, 0, i % 2 == 0 ? 3e-4 : -3e-4});
     hand.session.Tick(hand.scope.Sample(hand.t), hand.instrument.Sample(hand.t), kTick);
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {

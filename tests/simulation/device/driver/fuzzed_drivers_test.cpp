@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/random.h"
 #include "simulation/device/driver/drivers.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -34,7 +34,7 @@ TEST_P(FuzzedDriver, HardCase04RejectsWhatIsNoReportAndStaysANumber) {
   report.reserve(100);
   const std::vector<std::size_t> lengths{0, 1, 2, 7, 10, 13, 14, 15, 50, 52, 63, 64, 65, 78, 91};
   const std::vector<std::uint8_t> ids{0x01, 0x02, 0x03, 0x11, 0x17, 0x31};
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 100000; ++i) {
     report.resize(lengths[random.Below(lengths.size())]);
     for (std::uint8_t& byte : report) byte = static_cast<std::uint8_t>(random.Below(256));
@@ -64,7 +64,7 @@ TEST_P(FuzzedDriver, HardCase04RejectsWhatIsNoReportAndStaysANumber) {
       ASSERT_TRUE(IsSame(was, driver->Hand(driver->hands() - 1)));
     }
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   EXPECT_GT(taken, 100);
   EXPECT_GT(rejected, 10000);
 }

@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "tests/simulation/device/live/arm_bench.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -111,11 +111,13 @@ TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
   bench.link.reset();
 }
 
-// A clock that holds up who looks at it when so many looks are left.
+// A clock that holds up who reads when so many of its looks are left. Held up, who writes would
+// leave the reader to empty the ring.
 std::function<void()> hold_up;
 std::atomic<int> looks_left{0};
+std::atomic<std::thread::id> writer;
 double HoldingSeconds() noexcept {
-  if (looks_left.fetch_sub(1) == 1) hold_up();
+  if (std::this_thread::get_id() != writer.load() && looks_left.fetch_sub(1) == 1) hold_up();
   return test::BenchSeconds();
 }
 
@@ -131,7 +133,10 @@ TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
     bench.device = std::make_unique<LiveDevice>(bench.link, 0);
     bench.Arm();
     ASSERT_EQ(bench.device->state(), DeviceState::kArmed);
-    bench.usb.OnWrite(kPath, nullptr);
+    // The board is silent; a servo that says nothing is written as zero all the time.
+    writer = std::thread::id();
+    bench.usb.OnWrite(kPath, [](const auto&) { writer = std::this_thread::get_id(); });
+    ASSERT_TRUE(WaitUntil([] { return writer.load() != std::thread::id(); }));
     hold_up = [&] {
       for (int report = 0; report < 63; ++report) bench.board.SendNow();
       test::AdvanceBench(0.3);
@@ -484,9 +489,9 @@ TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {
 TEST(LiveArm, ATickAllocatesNothing) {
   Plugged bench;
   bench.Arm();
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 200; ++i) bench.TickNow(i % 50 ? kPush : glm::dvec3(std::nan("")), i % 7);
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 }  // namespace

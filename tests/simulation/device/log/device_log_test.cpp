@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/device/log/log_format.h"
 #include "simulation/device/log/logged_device.h"
 #include "simulation/device/plant_device.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::simulation {
@@ -78,12 +78,12 @@ TEST(DeviceLog, WhoPushesNeitherAllocatesNorWaitsAndWhatDoesNotFitIsCounted) {
   {
     DeviceLog log(folder / "a.log", kPlant, options);
     LoggedDevice device(Plant(), log, 0);
-    const long before = app::Allocations();
+    const long before = test::Allocations();
     for (int i = 1; i <= kTicks; ++i) {
       device.Read(1e-3 * i);
       device.Command(glm::dvec3(0.0));
     }
-    EXPECT_EQ(app::Allocations(), before);
+    EXPECT_EQ(test::Allocations(), before);
     EXPECT_EQ(log.dropped(), kTicks - 64);
     log.Close();
   }

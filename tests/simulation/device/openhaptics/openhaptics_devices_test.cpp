@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/fake_openhaptics.h"
 
 namespace arthro::simulation {
@@ -248,9 +248,9 @@ TEST_F(OpenHapticsTest, AFrameAndATickAllocateNothing) {
   Arm();
   Left().forces.reserve(1000);
   Right().forces.reserve(1000);
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   Tick(100, kForce);
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
 #include "tests/simulation/tissue/body/plateau.h"
 #include "tests/simulation/tissue/body/slab_body.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -120,7 +120,7 @@ TEST(BodyCut, WithoutMemoryForABiteTheTissueIsWholeAgainButNotUnderARefresh) {
   body.BeginRefresh();
   const glm::dvec3* const held = body.state().x.data();
   {
-    const app::NoMemory here;
+    const test::NoMemory here;
     EXPECT_TRUE(step(closed).was_reset);
   }
   EXPECT_TRUE(coupling.is_faulty);
@@ -130,7 +130,7 @@ TEST(BodyCut, WithoutMemoryForABiteTheTissueIsWholeAgainButNotUnderARefresh) {
   body.RunRefresh();
   body.TakeRefresh();
   {
-    const app::NoMemory still;
+    const test::NoMemory still;
     EXPECT_TRUE(step(closed).was_reset);
   }
   EXPECT_FALSE(step(closed).was_reset);

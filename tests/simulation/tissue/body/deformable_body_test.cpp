@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "tests/simulation/tissue/body/slab_body.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -84,9 +84,9 @@ TEST(DeformableBody, StepsAllocateNothingOnceWarm) {
   const auto step = [&](double depth, double x) {
     const WorldTool tool = ProbeAt(spec, depth, x);
     coupling = {};
-    const long before = app::Allocations();
+    const long before = test::Allocations();
     body.Step({&tool, 1}, nullptr, kFrame, {&coupling, 1});
-    return app::Allocations() - before;
+    return test::Allocations() - before;
   };
   for (int i = 0; i < 20; ++i) step(1e-3, 1e-4 * i);
   long allocations = 0;

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -124,13 +124,13 @@ TEST(ElasticLayer, StiffnessIsTheDerivativeOfTheForceAndDepthItsInverse) {
 
 TEST(ElasticLayer, PressingAllocatesNothingAndTakesAnyNumber) {
   const ElasticLayer layer = LayerOf(0.45);
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   double sum = 0;
   for (int i = 0; i < 100; ++i) {
     sum += layer.PressBall(0.75e-3, i * 1e-5).force + layer.PressFlat(1e-3, i * 1e-5).force;
     sum += layer.BallDepth(0.75e-3, i * 0.01) + layer.FlatDepth(1e-3, i * 0.01);
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   EXPECT_TRUE(std::isfinite(sum));
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();

@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -221,9 +221,9 @@ TEST(ImplicitBody, AStepThatTakesNothingAllocatesNothing) {
   ImplicitBody body(spec, {});
   WorldTool shaver = ToolAt(ToolKind::kShaver, spec, {30 * kMm, 0, 0});
   shaver.now.is_running = true;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 100; ++i) body.Step(shaver, kFrame);
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 TEST(ImplicitBody, ToolsThatAreNotNumbersAndOpenSurfacesAreRefused) {

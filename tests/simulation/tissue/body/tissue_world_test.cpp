@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
 #include "tests/simulation/tissue/body/random_hand.h"
 #include "tests/simulation/tissue/body/slab_body.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -98,9 +98,9 @@ TEST(TissueWorld, StepsAllocateNothingOnceWarm) {
         hand.now.portal_from_tool =
             spec.portal_from_body * Rigid3{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)),
                                            {0.015, 0.002 * std::sin(0.2 * i), 0.00375 - 0.001}};
-        const long before = app::Allocations();
+        const long before = test::Allocations();
         world.Step(hand, kFrame);
-        allocations += app::Allocations() - before;
+        allocations += test::Allocations() - before;
         world.Show(picture);
         touched += picture.bodies[0].report.contacts > 0;
       }

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -277,7 +277,7 @@ TEST(ToolOnLayers, AHoldAllocatesNothingAndItsTimeIsBounded) {
   glm::dvec3 tip(2 * kMm, 0, 5 * kMm);
   std::vector<double> micros;
   micros.reserve(2000);
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec3 hand(2 * kMm, 0, -2 * kMm * std::sin(0.01 * i));
     const auto start = std::chrono::steady_clock::now();
@@ -286,7 +286,7 @@ TEST(ToolOnLayers, AHoldAllocatesNothingAndItsTimeIsBounded) {
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
             .count());
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   std::ranges::sort(micros);
   std::printf("[ layer ] a punch on a condyle: median %.1f us, p99 %.1f us, most %.1f us\n",
               micros[1000], micros[1980], micros.back());

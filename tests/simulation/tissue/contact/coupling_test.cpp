@@ -13,8 +13,8 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/random.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -305,12 +305,12 @@ TEST(CouplingBlend, ATissueThatFallsSilentFades) {
 TEST(CouplingBlend, AllocatesNothing) {
   const Bulge bulge;
   CouplingBlend blend;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 100; ++i) {
     TakeCoupling(blend, CouplingOf(bulge, {0, 0, 0.019}));
     BlendedForce(blend, {0, 0, 0.019 - 1e-5 * i}, 0.001, 0.0167);
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/core/random.h"
 #include "tests/simulation/tissue/contact/slab.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -169,14 +169,14 @@ TEST(EmbeddedSkin, DeformingAllocatesNothing) {
   const ElementFinder finder(mesh);
   const EmbeddedSkin skin = EmbedSkin(test::SlabSkin(3.2e-4), mesh, finder);
   std::vector<glm::dvec3> positions(skin.point.size()), normals(skin.point.size());
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   double best = 1e9;
   for (int i = 0; i < 20; ++i) {
     const double start = ThreadCpuMs();
     DeformSkin(skin, mesh, mesh.rest_positions, positions, normals);
     best = std::min(best, ThreadCpuMs() - start);
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   std::printf("skin of %zu vertices on %d T10: best %.3f ms\n", positions.size(),
               mesh.ElementCount(), best);
 }

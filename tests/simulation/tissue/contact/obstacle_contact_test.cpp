@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "tests/simulation/tissue/contact/slab.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -132,9 +132,9 @@ TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
   lazy.Find(bone, kPose, x, {}, found);
   found.clear();
   const int first = bone.asked;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   lazy.Find(bone, kPose, x, {}, found);
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   EXPECT_LT(bone.asked - first, first / 5) << "a fifth of the nodes are near";
   // The slab sinks onto the bone: both must always agree.
   for (int step = 0; step < 30; ++step) {

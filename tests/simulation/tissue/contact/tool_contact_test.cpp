@@ -9,10 +9,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/tissue/solver/contact_springs.h"
 #include "tests/simulation/tissue/contact/slab.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -380,7 +380,7 @@ TEST(SkinContact, FindsTheSameTwiceAndAllocatesNothing) {
   first.reserve(kMaxToolContacts);
   second.reserve(kMaxToolContacts);
   ToolGrip grip, again;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   double find = 1e9, refit = 1e9;
   for (int i = 0; i < 20; ++i) {
     first.clear();
@@ -393,7 +393,7 @@ TEST(SkinContact, FindsTheSameTwiceAndAllocatesNothing) {
     slab.contact.Refit(slab.positions, slab.normals, slab.mesh.rest_positions);
     refit = std::min(refit, ThreadCpuMs() - start);
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   ASSERT_EQ(first.size(), second.size());
   EXPECT_FALSE(first.empty());
   for (std::size_t i = 0; i < first.size(); ++i) {

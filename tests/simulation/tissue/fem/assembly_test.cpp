@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/tissue/fem/kernel/element_kernel.h"
 #include "tests/simulation/tissue/fem/tissue_bodies.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -181,12 +181,12 @@ TEST_P(EachOrderAndLaw, AllocatesNothing) {
   Assembled a = AssembleAt(model, x);
   std::vector<glm::dvec3> y(x.size());
   std::vector<glm::dmat3> rotation(x.size());
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (const Tangent tangent : {Tangent::kNone, Tangent::kTrue, Tangent::kProjected})
     model.Assemble(x, law(), tangent, a.force, &a.matrix);
   Multiply(a.matrix, x, y);
   model.NodeRotations(x, rotation);
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 TEST_P(EachOrderAndLaw, EveryInstructionSetGivesTheSameBits) {

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -135,12 +135,12 @@ TEST(ImplicitTissue, WhatLeavesIsLetPassAndALaterHitDoesNotCount) {
 
 TEST(ImplicitTissue, SweepsAllocateNothing) {
   const ImplicitTissue ball(BallField(4 * kMm, 0.25 * kMm), Somewhere());
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int i = 0; i < 100; ++i) {
     FieldHit hit;
     ball.Sweep({0.03, 0.001 * i, 0.05}, {0, -0.02, 0.05}, 0.5 * kMm, hit);
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
 }
 
 TEST(ImplicitTissue, EditsInThePortalFrameShapeItAndItsSkinWhereTheyAre) {

@@ -9,10 +9,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/scene/mesh_io.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
@@ -173,14 +173,14 @@ TEST(SolidField, AToolThatTouchesNothingChangesNothing) {
 TEST(SolidField, QueriesAllocateNothingAndBearAnything) {
   const SolidField field = Ball(5 * kMm, 0.5 * kMm), none;
   const double nan = std::nan(""), far = 1e30;
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   double sum = 0;
   for (const glm::dvec3& x : {glm::dvec3(0), glm::dvec3(nan, 0, 0), glm::dvec3(far, -far, far),
                               glm::dvec3(0.02, 0, 0), glm::dvec3(INFINITY, 0, 0)}) {
     sum += field.Distance(x) + none.Distance(x) + field.CutDistance(x) + field.Gradient(x).x +
            none.Gradient(x).x;
   }
-  EXPECT_EQ(app::Allocations(), before);
+  EXPECT_EQ(test::Allocations(), before);
   EXPECT_GT(field.Distance({far, 0, 0}), 0.0);
   EXPECT_GT(field.Distance({nan, nan, nan}), 0.0) << "NaN is nowhere in the solid";
   (void)sum;

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/bench/allocation_counter.h"
 #include "simulation/core/error.h"
 #include "tests/simulation/tissue/solver/solver_bodies.h"
+#include "tests/support/allocation_counter.h"
 
 namespace arthro::simulation {
 namespace {
@@ -101,14 +101,14 @@ TEST(ImplicitSolver, StepAllocatesNothing) {
   for (ContactPoint& contact : contacts) contact.friction = 0.03, contact.hold = 500;
   std::vector<ContactResult> results(contacts.size());
   for (int step = 0; step < 3; ++step) solver.Step(state, body.load, contacts, {}, kFrame, results);
-  const long before = app::Allocations();
+  const long before = test::Allocations();
   for (int step = 0; step < 6; ++step) {
     for (ContactPoint& contact : contacts) contact.foot.z -= 2e-4;
     solver.Step(state, body.load, contacts, {}, kFrame, results);
     solver.ToolStiffness(0, 3e-2);
     for (glm::dvec3& x : state.x) x.z += step == 3 ? 1e-3 * std::sin(1e4 * x.x) : 0;  // a bad start
   }
-  EXPECT_EQ(app::Allocations() - before, 0);
+  EXPECT_EQ(test::Allocations() - before, 0);
 }
 
 TEST(ImplicitSolver, AContactBalancesItsSpring) {

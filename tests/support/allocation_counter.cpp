@@ -1,4 +1,4 @@
-#include "app/bench/allocation_counter.h"
+#include "tests/support/allocation_counter.h"
 
 #include <cstdlib>
 #include <new>
@@ -26,11 +26,11 @@ void* Allocate(std::size_t size, std::size_t alignment) {
 
 }  // namespace
 
-namespace arthro::app {
+namespace arthro::test {
 long Allocations() noexcept { return allocations; }
 NoMemory::NoMemory() noexcept { has_memory = false; }
 NoMemory::~NoMemory() { has_memory = true; }
-}  // namespace arthro::app
+}  // namespace arthro::test
 
 void* operator new(std::size_t size) { return Allocate(size); }
 void* operator new[](std::size_t size) { return Allocate(size); }

@@ -1,7 +1,7 @@
 // Counts what a thread takes from the heap. Who links it has its operator new, which counts.
 #pragma once
 
-namespace arthro::app {
+namespace arthro::test {
 
 // Calls of operator new by this thread since it began.
 long Allocations() noexcept;
@@ -14,4 +14,4 @@ struct NoMemory {
   NoMemory& operator=(const NoMemory&) = delete;
 };
 
-}  // namespace arthro::app
+}  // namespace arthro::test
