@@ -1,10 +1,12 @@
 // edit and practise: the jobs that open a window.
+#include <cstdio>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/jobs.h"
+#include "app/cli/output_check.h"
 #include "app/editor/editor.h"
 
 namespace arthro::app {
@@ -31,6 +33,37 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
   job.add_flag("--timing", options.timing, "Say when the first picture stood")->group(kHidden);
 }
 
+// Which devices hold the hands.
+struct HandFlags {
+  std::string rig, hands, log;
+  bool is_zero_force = false;
+};
+
+void AddHandFlags(CLI::App& job, HandFlags& flags) {
+  auto* rig = job.add_option("--rig", flags.rig,
+                             "Rig file: which device holds the scope and which the instrument");
+  job.add_option("--hands", flags.hands,
+                 "Instead of a rig: TRACE.csv or a device log plays recorded hands, plant is a "
+                 "simulated device")
+      ->type_name("TRACE|plant")
+      ->excludes(rig);
+  job.add_option("--log", flags.log,
+                 "Write all that the hands say and are told there; replay plays it");
+  job.add_flag("--zero-force", flags.is_zero_force,
+               "Show forces and give the devices none; 0 ends it");
+}
+
+// A rig or trace that cannot be used is told before there is a window.
+void Open(EditorOptions options, const HandFlags& flags) {
+  options.hands = ReadHands(flags.rig, flags.hands);
+  if (!options.hands.notice.empty())
+    std::fprintf(stderr, "warning: %s\n", options.hands.notice.c_str());
+  options.hands.log = flags.log;
+  CheckOutputs({flags.log}, {flags.rig, flags.hands, options.scene.value_or("")});
+  options.hands.is_zero_force = flags.is_zero_force;
+  RunEditor(options);
+}
+
 }  // namespace
 
 void AddEditJob(CLI::App& program) {
@@ -39,8 +72,10 @@ void AddEditJob(CLI::App& program) {
   job->add_option("scene", options->scene,
                   "Scene folder or scene.json; without one, the demo scene")
       ->type_name("SCENE");
+  const auto hands = std::make_shared<HandFlags>();
+  AddHandFlags(*job, *hands);
   AddWindowFlags(*job, *options);
-  job->callback([options] { RunEditor(*options); });
+  job->callback([options, hands] { Open(*options, *hands); });
 }
 
 void AddPractiseJob(CLI::App& program) {
@@ -51,8 +86,10 @@ void AddPractiseJob(CLI::App& program) {
   job->add_option("scene", options->scene, "Scene folder or scene.json")
       ->type_name("SCENE")
       ->required();
+  const auto hands = std::make_shared<HandFlags>();
+  AddHandFlags(*job, *hands);
   AddWindowFlags(*job, *options);
-  job->callback([options] { RunEditor(*options); });
+  job->callback([options, hands] { Open(*options, *hands); });
 }
 
 }  // namespace arthro::app

@@ -94,10 +94,12 @@ struct EditorState {
   bool shows_sources = false;  // of the material's values
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own
-  std::optional<Practice> practice;       // while it runs
+  std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // what holds them; outlives practices
+  std::optional<Practice> practice;                          // while it runs
   std::optional<Practice> poke;           // the author's live poke (tissue/tissue_poke.h)
   int poke_of = 0;                        // position of the history that it was made of
-  bool practice_only = false;             // the practise job: no editor behind it
+  bool shows_devices = false;  // their panel, instead of the practice's
+  bool practice_only = false;  // the practise job: no editor behind it
   std::vector<Dialog> dialogs;
   std::string message;  // last thing done, for the status bar
   Jobs jobs;            // tetrahedra, reading pictures, footage to panorama

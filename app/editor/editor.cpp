@@ -22,6 +22,7 @@
 #include "app/editor/pictures.h"
 #include "app/panels/footage/footage_panels.h"
 #include "app/panels/panels.h"
+#include "app/platform/ending_signals.h"
 #include "app/platform/script_runner.h"
 #include "app/platform/window.h"
 #include "app/resource_folder.h"
@@ -97,8 +98,9 @@ class Editor {
                  frame_seconds_.size(), at(0.5), at(0.99), at(1.0));
   }
 
-  explicit Editor(const EditorOptions& options)
+  Editor(const EditorOptions& options, const EndingSignals& signals)
       : options_(options),
+        signals_(signals),
         window_(WindowFrom(options)),
         pictures_(options.script.has_value()),
         state_(NewDocument(), Window::WakeUp,
@@ -112,6 +114,7 @@ class Editor {
   void Run() {
     while (!state_.quit) {
       Wait();
+      if (signals_.HasCome()) return;
       Frame();
       if (options_.frames > 0 && frames_ >= options_.frames) return;
       if (!script_ || script_->state() == ScriptState::kRunning) continue;
@@ -124,6 +127,12 @@ class Editor {
           Code::kBadData,
           fmt::format("the window closed before line {} of the script", script_->line_number()),
           *options_.script);
+  }
+
+  void End() {
+    state_.practice.reset();
+    if (const std::string missing = state_.hands->End(); !missing.empty())
+      std::fprintf(stderr, "warning: %s\n", missing.c_str());
   }
 
  private:
@@ -147,6 +156,7 @@ class Editor {
       StartDocument(state_, std::move(document), true);
     }
     state_.practice_only = options_.practice;
+    state_.hands = std::make_unique<Hands>(options_.hands);
     state_.lens_folder = ResourceFolder() / "presets" / "lenses";
     state_.tissue_preset_folder = ResourceFolder() / "presets" / "tissues";
     LoadTissuePresets(state_);
@@ -170,7 +180,8 @@ class Editor {
       if (since < kFrame) std::this_thread::sleep_for(Seconds(kFrame - since));
     } else if (Seconds(Clock::now() - last_event_).count() < kLivelyAfter || unsettled_ > 0) {
       window_.WaitEvents(1.0 / 30.0);
-    } else if (busy || ImGui::GetIO().WantTextInput) {
+    } else if (busy || ImGui::GetIO().WantTextInput ||
+               (state_.shows_devices && state_.hands->HasDevices())) {
       window_.WaitEvents(0.1);
     } else {
       window_.WaitEvents(10.0);
@@ -191,7 +202,9 @@ class Editor {
     RunShortcuts(state_);
     if (state_.dialogs.empty() && !ShowsFootage(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
-    if (state_.practice && state_.dialogs.empty()) state_.practice->Advance(step);
+    if (state_.hands->Look()) last_event_ = now;
+    if (state_.practice && state_.dialogs.empty())
+      state_.practice->Advance(step, state_.hands.get());
     if (state_.poke && state_.dialogs.empty()) state_.poke->Advance(step);
     window_.SetTitle(TitleOf(state_));
     window_.SetFullScreen(state_.full_screen);
@@ -231,7 +244,10 @@ class Editor {
       picture_focused_ = true;
       DrawPictures(ui, layout);
       TakePictureInput(ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()));
-      PracticePanel(ui, state_, layout.side);
+      if (state_.shows_devices)
+        DevicesPage(ui, state_, layout.side);
+      else
+        PracticePanel(ui, state_, layout.side);
     } else {
       const Layout layout = EditorLayout(width, height, ui.scale);
       TopBar(ui, state_, layout.top);
@@ -282,6 +298,7 @@ class Editor {
   }
 
   const EditorOptions options_;
+  const EndingSignals& signals_;
   Window window_;
   Pictures pictures_;
   FootageTextures footage_textures_;
@@ -297,8 +314,10 @@ class Editor {
 }  // namespace
 
 void RunEditor(const EditorOptions& options) {
-  Editor editor(options);
+  const EndingSignals signals(Window::WakeUp);  // ends last: it may end the program
+  Editor editor(options, signals);
   editor.Run();
+  editor.End();
 }
 
 }  // namespace arthro::app

@@ -5,11 +5,14 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/commands/devices/hands.h"
+
 namespace arthro::app {
 
 struct EditorOptions {
   std::optional<std::filesystem::path> scene;  // none: the demo scene
   bool practice = false;                       // the practise job: nothing but practice
+  HandsChoice hands;                           // devices that hold them
   // For tests.
   std::optional<std::filesystem::path> script;
   int width = 1280, height = 800;

@@ -68,6 +68,7 @@ void HelpWindow(Ui& ui, EditorState&) {
   if (BeginRows(ui, "hands")) {
     for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);
     Row(ui, "C", "Close the jaws, run the shaver");
+    Row(ui, "V", "Dead-man: the devices may push");
     ImGui::EndTable();
   }
   QuietText(ui, "Arrow and page keys move the scope once the picture was clicked.");

@@ -32,6 +32,7 @@ void TopBar(Ui& ui, EditorState& state, const Area& area);
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
 void StepsPanel(Ui& ui, EditorState& state, const Area& area);
 void PracticePanel(Ui& ui, EditorState& state, const Area& area);
+void DevicesPage(Ui& ui, EditorState& state, const Area& area);  // in the place of the last
 void Dialogs(Ui& ui, EditorState& state);
 
 // One page of controls each, inside StepsPanel.
@@ -41,6 +42,7 @@ void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void PortalsPanel(Ui& ui, EditorState& state);
 void PracticeStepPanel(Ui& ui, EditorState& state);
+void DevicesPanel(Ui& ui, EditorState& state);
 
 // ---- Dialogs with much in them. ----
 void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog

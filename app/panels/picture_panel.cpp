@@ -162,6 +162,7 @@ bool ApplyHeldKeys(EditorState& state, bool picture_has_focus, double seconds) {
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) return false;
   const auto held = [&](int key) { return io.KeysDown[key]; };
   if (state.practice) state.practice->Press(held(kActKey));
+  state.hands->HoldDeadMan(held(kDeadManKey));
   return MoveHands(state, MotionOfKeys(false, picture_has_focus, seconds, held),
                    MotionOfKeys(true, picture_has_focus, seconds, held));
 }

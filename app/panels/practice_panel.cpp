@@ -20,6 +20,8 @@ constexpr double kForceOfHarm = simulation::kSafeProbingForce;
 constexpr double kForceOfFullBar = 10.0;  // N
 constexpr double kForceOfCare = 3.0;      // N: amber from here
 
+constexpr double kButton = 44;  // px; a thumb hits it
+
 std::string ClockWords(double seconds) {
   const int whole = static_cast<int>(seconds);
   return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
@@ -46,6 +48,8 @@ const char* FaultWords(simulation::Fault fault) {
       return "No force: the device is lost; check its cable.";
     case simulation::Fault::kNotFinite:
       return "No force: the device sent something unreadable.";
+    case simulation::Fault::kTooFar:
+      return "No force: the device says that the hand is metres away.";
     case simulation::Fault::kTooFast:
       return "No force: the hand is too fast; slow down.";
     case simulation::Fault::kNotArmed:
@@ -116,7 +120,7 @@ void Instruments(Ui& ui, EditorState& state) {
     if (column++ % 2 == 1) ImGui::SameLine(0, ui.Px(6));
     const Command& command = CommandOf(id);
     const bool chosen = state.practice->instrument_kind() == kind;
-    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(44)}, command.help))
+    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(kButton)}, command.help))
       Run(state, command);
   }
   const auto* world = state.practice->tissues();
@@ -130,12 +134,26 @@ void Instruments(Ui& ui, EditorState& state) {
   for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
 }
 
+// What a rig names and is not there. True: there was something to say.
+bool MissingDevices(Ui& ui, const EditorState& state) {
+  bool is_any = state.hands->is_zero_force();
+  for (const auto role : {simulation::DeviceRole::kScope, simulation::DeviceRole::kInstrument})
+    if (const std::string sentence = state.hands->Missing(role); !sentence.empty())
+      ColouredText(ui, sentence, kWarning), is_any = true;
+  if (state.hands->is_zero_force())
+    ColouredText(ui, "Zero-force mode: no device pushes. 0 ends it.", kWarning);
+  return is_any;
+}
+
 }  // namespace
 
 void PracticeStepPanel(Ui& ui, EditorState& state) {
+  if (state.shows_devices) return DevicesPanel(ui, state);
   Text(ui, "Practise in the scene as it stands. Esc brings you back to exactly this place.");
   Gap(ui);
   CommandButton(ui, state, "practise", {-FLT_MIN, ui.Px(48)});
+  CommandButton(ui, state, "devices", {-FLT_MIN, ui.Px(48)});
+  MissingDevices(ui, state);
   Gap(ui);
   QuietText(ui,
             "Drag over the picture to swing the scope, turn the wheel to move it in and out. The "
@@ -178,7 +196,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
     if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
     const Command& command = CommandOf("view-" + std::to_string(degrees));
     const bool chosen = std::abs(practice.view_angle() - RadiansFromDegrees(degrees)) < 1e-6;
-    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(48)}, command.help))
+    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(kButton)}, command.help))
       Run(state, command);
   }
   Gap(ui);
@@ -186,22 +204,27 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui);
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   if (Taken(state) > 0) {
-    CommandButton(ui, state, "reset-tissues", {half, ui.Px(48)});
+    CommandButton(ui, state, "reset-tissues", {half, ui.Px(kButton)});
     ImGui::SameLine(0, ui.Px(8));
   }
-  CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(48)});
+  CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(kButton)});
   Gap(ui);
-  QuietText(
-      ui, "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
+  // What is missing is more urgent than the hint, and there is room for one of them.
+  if (!MissingDevices(ui, state))
+    QuietText(
+        ui,
+        "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
 
   // At the foot, where it is not pressed by chance.
-  const float foot = 2 * ui.Px(48) + ui.Px(22);
+  const float foot = 2 * ui.Px(kButton) + ui.Px(22);
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
-  CommandButton(ui, state, "full-screen", {half, ui.Px(48)});
+  CommandButton(ui, state, "full-screen", {half, ui.Px(kButton)});
   ImGui::SameLine(0, ui.Px(8));
-  CommandButton(ui, state, "help", {half, ui.Px(48)});
-  CommandButton(ui, state, "leave-practice", {-FLT_MIN, ui.Px(48)});
+  CommandButton(ui, state, "help", {half, ui.Px(kButton)});
+  CommandButton(ui, state, "devices", {half, ui.Px(kButton)});
+  ImGui::SameLine(0, ui.Px(8));
+  CommandButton(ui, state, "leave-practice", {half, ui.Px(kButton)});
 }
 
 }  // namespace arthro::app

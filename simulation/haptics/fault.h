@@ -10,6 +10,7 @@ enum class Fault {
   kStale,      // the same sample for longer than max_sample_age
   kLost,       // the same sample for longer than lost_after
   kNotFinite,  // a position or a force that is not a number
+  kTooFar,     // the hand is further from its incision than any rod reaches
   kTooFast,    // the hand is faster than max_hand_speed
   kNotArmed,   // nobody holds the dead-man of the device
   kTissue,     // a tissue could not be computed and was reset
@@ -28,6 +29,8 @@ constexpr const char* Word(Fault fault) noexcept {
       return "lost";
     case Fault::kNotFinite:
       return "not_finite";
+    case Fault::kTooFar:
+      return "too_far";
     case Fault::kTooFast:
       return "too_fast";
     case Fault::kNotArmed:

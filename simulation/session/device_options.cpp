@@ -13,6 +13,12 @@ double StableStiffness(double device_damping, const ContactOptions& contact, dou
   return device_damping / (late - contact.damping / contact.stiffness);
 }
 
+double FreshFor(const DeviceCaps& caps, double period) noexcept {
+  constexpr double kReports =
+      2.0;  // intervals, between two reports where the second is late by one
+  return HasForce(caps) || !IsSteady(caps) || caps.rate <= 0 ? 0.0 : kReports / caps.rate + period;
+}
+
 SessionOptions OptionsFor(const DeviceCaps& caps, double period, SessionOptions options) noexcept {
   if (!HasForce(caps)) return options;
   const double delay = caps.rate > 0 ? caps.delay_ticks / caps.rate : 0.0;

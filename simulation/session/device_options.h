@@ -15,6 +15,11 @@ namespace arthro::simulation {
 double StableStiffness(double device_damping, const ContactOptions& contact, double period,
                        double delay) noexcept;
 
+// s, that a sample of it is fresh for though the session's options may say less, so that a report
+// that comes late by a whole interval is not called stale: the Hydra's 4 ms alone are nearly the
+// 5 ms that a hand with force is allowed. 0 where there is force: then the options hold.
+double FreshFor(const DeviceCaps& caps, double period) noexcept;
+
 // `period` of the servo. A device without force changes nothing.
 SessionOptions OptionsFor(const DeviceCaps& caps, double period, SessionOptions options) noexcept;
 

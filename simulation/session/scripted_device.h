@@ -21,6 +21,7 @@ class ScriptedDevice {
   explicit ScriptedDevice(const DeviceRig& rig, const RodPose& start = {},
                           const RodLimits& limits = {});
 
+  const DeviceRig& rig() const noexcept { return rig_; }
   const RodPose& pose() const noexcept { return pose_; }
   void Set(const RodPose& pose) noexcept;        // kept within the limits
   void Advance(const RodPose& change) noexcept;  // adds to each of the four

@@ -74,8 +74,13 @@ ServoLoop::ServoLoop(Session& session, Device* scope, Device* instrument,
            session.incision_spacing(),
            session.view_angle(),
            session.instrument(),
-           {}};
+           {},
+           false};
   ApplyOptions();
+  for (const DeviceRole role : kRoles)
+    if (const Device* device = devices_[Index(role)])
+      session.SetFreshFor(role, FreshFor(device->caps(), period_));
+  snapshots_.Write(session.snapshot());  // until the first tick
 }
 
 ServoLoop::~ServoLoop() { Stop(); }
@@ -128,8 +133,11 @@ void ServoLoop::ApplyOptions() noexcept {
   session_.SetOptions(options);
 }
 
-void ServoLoop::TakeWish() noexcept {
+void ServoLoop::TakeWish(double now) noexcept {
+  is_watched_ = now - wished_at_ <= options_.wish_lasts;
   if (!wishes_.HasNew()) return;
+  is_watched_ = true;
+  wished_at_ = now;
   wish_ = wishes_.Read();
   ApplyOptions();
   session_.SetIncisionSpacing(wish_.incision_spacing);
@@ -141,12 +149,14 @@ DeviceSample ServoLoop::ReadDevice(DeviceRole role, double now, HandPush push) n
   Device* device = devices_[Index(role)];
   if (device == nullptr) return {};
   const DeviceSample sample = device->Read(now);
-  device->HoldDeadMan(wish_.is_dead_man_held[Index(role)] ||
-                      (sample.valid && (sample.buttons & options_.dead_man_buttons) != 0));
+  device->HoldDeadMan(is_watched_ &&
+                      (wish_.is_dead_man_held[Index(role)] ||
+                       (sample.valid && (sample.buttons & options_.dead_man_buttons) != 0)));
   if (sample.valid) report_.sample_age[Index(role)].Add(now - sample.t);
-  // One that shows no force has nothing to arm.
-  const bool is_armed =
-      device->caps().feedback == Feedback::kNone || device->state() == DeviceState::kArmed;
+  // One that shows no force has nothing to arm, and one that is given none need not be. When that
+  // ends a hand is pushed gently at first.
+  const bool is_armed = device->caps().feedback == Feedback::kNone || wish_.is_zero_force ||
+                        (device->state() == DeviceState::kArmed && !was_zero_force_);
   session_.SetPush(role, is_armed ? push : HandPush::kNo);
   return sample;
 }
@@ -156,7 +166,8 @@ void ServoLoop::CommandDevice(DeviceRole role, const glm::dvec3& force_in_portal
   if (device == nullptr) return;
   const DeviceRig& rig =
       role == DeviceRole::kScope ? session_.scope_rig() : session_.instrument_rig();
-  device->Command(glm::conjugate(rig.portal_from_device) * force_in_portal);
+  device->Command(wish_.is_zero_force ? glm::dvec3(0.0)
+                                      : glm::conjugate(rig.portal_from_device) * force_in_portal);
 }
 
 void ServoLoop::CommandNothing() noexcept {
@@ -167,7 +178,7 @@ void ServoLoop::CommandNothing() noexcept {
 void ServoLoop::TickOnce(double now) noexcept {
   const double dt = last_ ? now - *last_ : period_;
   last_ = now;
-  TakeWish();
+  TakeWish(now);
   // A hand that was pushed all that time with what was right before it is let go for a tick.
   const double late = dt / period_ - 1.0;
   HandPush push = HandPush::kYes;
@@ -184,7 +195,9 @@ void ServoLoop::TickOnce(double now) noexcept {
   CommandDevice(DeviceRole::kScope, session_.snapshot().scope.hand_force);
   CommandDevice(DeviceRole::kInstrument, session_.snapshot().instrument.hand_force);
   session_.TickTissues(dt);
+  was_zero_force_ = wish_.is_zero_force;
   snapshots_.Write(session_.snapshot());
+  if (options_.watch != nullptr) options_.watch->AfterTick(session_.snapshot(), dt);
 
   if (report_.ticks % std::max(1L, std::lround(kReportEvery / period_)) != 0) return;
   if (!report_.has_priority) ApplyOptions();

@@ -2,13 +2,15 @@
 // its own, 250 Hz where no device has force [notes on haptics, 3 and 5; design §2, threads]. Its
 // clock is absolute: ticks that were missed are left out, and the next one is told the true time.
 // While it runs the session is its own; what somebody wishes and what came of it go through newest
-// values. However it ends, the last thing that a device hears is no force.
+// values. However it ends, the last thing that a device hears is no force. In zero-force mode what
+// a hand would feel is computed, shown and scored, and no device is given any.
 // Time is an argument of TickOnce, so that a test drives it by hand. s; a tick is noexcept, locks
 // nothing, allocates nothing.
 #pragma once
 
 #include <array>
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <string>
 #include <thread>
@@ -20,6 +22,13 @@
 
 namespace arthro::simulation {
 
+// Who wants to know of each tick. On the servo's thread: noexcept, no waiting, no allocation.
+class ServoWatch {
+ public:
+  virtual ~ServoWatch() = default;
+  virtual void AfterTick(const Snapshot& snapshot, double dt) noexcept = 0;
+};
+
 struct ServoOptions {
   double period = 0.001;
   double period_without_force = 0.004;  // nothing swings: a picture's rate and more will do
@@ -27,6 +36,9 @@ struct ServoOptions {
   bool wants_priority = true;
   // Which buttons of a handle are its dead-man: the second; the first closes the jaws.
   std::uint32_t dead_man_buttons = 2;
+  // s; somebody who wished nothing for longer hangs or is busy: then no dead-man counts.
+  double wish_lasts = std::numeric_limits<double>::infinity();
+  ServoWatch* watch = nullptr;  // outlives the loop
 };
 
 // What somebody wishes of a session that a servo ticks.
@@ -35,6 +47,7 @@ struct ServoWish {
   double incision_spacing = 0, view_angle = 0;
   ToolKind instrument = ToolKind::kProbe;
   std::array<bool, 2> is_dead_man_held{};  // by key or pedal, by DeviceRole
+  bool is_zero_force = false;
 };
 
 struct ServoReport {
@@ -73,7 +86,7 @@ class ServoLoop {
 
  private:
   void Run() noexcept;
-  void TakeWish() noexcept;
+  void TakeWish(double now) noexcept;
   void ApplyOptions() noexcept;
   DeviceSample ReadDevice(DeviceRole role, double now, HandPush push) noexcept;
   void CommandDevice(DeviceRole role, const glm::dvec3& force_in_portal) noexcept;
@@ -84,6 +97,8 @@ class ServoLoop {
   ServoOptions options_;
   double period_;
   ServoWish wish_;
+  double wished_at_ = -std::numeric_limits<double>::infinity();
+  bool is_watched_ = false, was_zero_force_ = false;
   std::optional<double> last_;  // tick
   ServoReport report_;
   LatestValue<ServoWish> wishes_;

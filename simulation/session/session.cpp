@@ -45,6 +45,9 @@ double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept
 // Jaws close and open in this time, so that what they bite is between them.
 constexpr double kJawTime = 0.15;  // s
 
+// Rods are half a metre at most; what is further off is not a hand but a broken number.
+constexpr double kFarthestHand = 10.0;  // m, from its incision
+
 // The round end of the arthroscope's tube of 4 mm.
 constexpr double kScopeRadius = 2e-3;  // m
 
@@ -193,6 +196,7 @@ Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexce
   const glm::dquat& q = sample.handle_in_device;
   if (!IsFinite(sample.hip_in_device) || !std::isfinite(q.w + q.x + q.y + q.z))
     return Fault::kNotFinite;
+  if (!(glm::length(sample.hip_in_device - tool.rig.pivot) < kFarthestHand)) return Fault::kTooFar;
   tool.age += dt;
   if (!tool.has_sample || sample.t != tool.last.t) {
     const double way = glm::length(sample.hip_in_device - tool.last.hip_in_device);
@@ -202,7 +206,7 @@ Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexce
     tool.age = 0.0;
   }
   if (tool.age > options_.limiter.lost_after) return Fault::kLost;
-  if (tool.age > options_.limiter.max_sample_age) return Fault::kStale;
+  if (tool.age > std::max(options_.limiter.max_sample_age, tool.fresh_for)) return Fault::kStale;
   return Fault::kNone;
 }
 

@@ -56,6 +56,12 @@ class Session {
     (role == DeviceRole::kScope ? scope_ : instrument_).push = push;
   }
 
+  // A sample is fresh for so long even where the options say less, s: of a device that speaks too
+  // seldom for them and has no force to be pushed with.
+  void SetFreshFor(DeviceRole role, double seconds) noexcept {
+    (role == DeviceRole::kScope ? scope_ : instrument_).fresh_for = seconds;
+  }
+
   // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
   // TissuePace::kInline the same inputs give the same bits. `layers` give way to both tools, all
   // along them, by their closed form, in the servo; their picture is beside the bodies'. One whose
@@ -100,6 +106,7 @@ class Session {
     bool has_sample = false;
     DeviceSample last;      // the newest one
     double age = 0;         // s since it came
+    double fresh_for = 0;   // s, at least
     double hand_speed = 0;  // m/s, between the last two
     CouplingBlend tissue;
   };

@@ -1,5 +1,6 @@
 // The steps of the editor, practice, the window.
 #include <string>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 
@@ -17,7 +18,9 @@ bool Practising(const State& state) { return state.practice.has_value(); }
 
 void StartPractice(State& state) {
   WhenDepthIsReady(state, [](State& ready) {
-    ready.jobs.Start("Practise", [document = ready.document(), presets = ready.tissue_presets,
+    authoring::Document mounted = ready.document();
+    ready.hands->Mount(mounted.scene);
+    ready.jobs.Start("Practise", [document = std::move(mounted), presets = ready.tissue_presets,
                                   pace = ready.pace](const Progress&) {
       const auto practice = std::make_shared<Practice>(document, presets, pace);
       return [practice](State& now) {  // shared only because a std::function is copied
@@ -44,6 +47,20 @@ void ResetHands(State& state) {
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
   state.message = "Both hands are back where they began.";
+}
+
+// Beside the practice that runs, or in the editor's last step.
+void ToggleDevices(State& state) {
+  const bool is_in_sight = state.practice || state.step == Step::kPractice;
+  state.shows_devices = !(state.shows_devices && is_in_sight);
+  if (!state.practice) state.step = Step::kPractice;
+}
+
+void ToggleZeroForce(State& state) {
+  state.hands->SetZeroForce(!state.hands->is_zero_force());
+  state.message = state.hands->is_zero_force()
+                      ? "Zero-force mode: forces are shown, and no device is given any."
+                      : "Zero-force mode has ended.";
 }
 
 template <int degrees>
@@ -172,6 +189,22 @@ constexpr Command kCommands[] = {
        state.practice->ResetTissues();
        state.message = "The tissue is whole again.";
      }},
+    {"devices",
+     "Devices",
+     "What holds the two hands, how they fare, and why there is no force.",
+     "Practice",
+     {GLFW_KEY_F4},
+     {},
+     [](const State& state) { return state.practice.has_value() || InEditor(state); },
+     ToggleDevices},
+    {"zero-force",
+     "Zero-force mode",
+     "Show forces and give the devices none, or end that.",
+     "Practice",
+     {GLFW_KEY_0},
+     {},
+     Always,
+     ToggleZeroForce},
     {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
     {"view-30",
      "30°",

@@ -26,6 +26,9 @@ class LiveDevice final : public Device {
   void Command(const glm::dvec3& force_in_device) noexcept override;
   DeviceStatus status() const noexcept override { return status_; }
 
+  // Between ticks: an integrated hand goes on from there.
+  void SetRateHand(const RateHand& at) noexcept { rate_hand_ = at; }
+
   LiveLink& link() noexcept { return *link_; }
   // N, as it was sent last.
   const glm::dvec3& force() const noexcept { return force_; }

@@ -1,8 +1,11 @@
 // The window as its users meet it: scripts click by name, type and look (app/platform/script.h).
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
 #include "tests/support/run_window.h"
@@ -122,6 +125,84 @@ expect value "Incision spacing" "22.0 mm"
 click Undo
 expect value "Incision spacing" "30.0 mm"
 )");
+}
+
+TEST_F(EditorWindow, TheDevicesPanelSaysWhatHoldsTheHandsAndWhyThereIsNoForce) {
+  Drive(R"(
+click Practice
+click Devices
+expect "No device holds this hand"
+click "Hide devices"
+expect not "No device holds this hand"
+key p
+wait job
+hold r 60
+click Devices
+expect "simulated device, serial 2"
+expect "ready, without force"
+expect "Nobody holds the dead-man"
+expect value "Instrument force meter" "0.00 N"
+expect value "Zero-force mode" off
+key 0
+expect value "Zero-force mode" on
+expect "Zero-force mode is on"
+click "Zero-force mode"
+expect value "Zero-force mode" off
+key f4
+expect "Force on the tissue"
+expect not "simulated device"
+key escape
+click Devices
+expect "No device holds this hand"
+)",
+        "--hands plant");
+}
+
+TEST_F(EditorWindow, ADeviceThatARigNamesAndIsAbsentIsToldInOneSentence) {
+  const auto rig = temp / "rig.json";
+  std::ofstream(rig) << R"({"schema": "arthroscene.rig/1", "title": "t", "scope": {
+    "device": {"family": "space_mouse", "serial": "that nobody has"}, "rod_length": 0.2}})";
+  Drive(R"(
+key p
+wait job
+wait frames 5
+expect "No SpaceMouse: mouse and keys hold the scope."
+hold right 20
+wait frames 2
+)",
+        "--rig " + rig.string());
+}
+
+// What was practised with simulated devices is a log, and that is a recording: of the replay and of
+// another practice.
+TEST_F(EditorWindow, PracticeWritesALogThatReplayAndPracticePlay) {
+  const std::string log = (temp / "practice.log").string();
+  Drive(R"(
+key p
+wait job
+hold r 120
+wait frames 60
+key escape
+)",
+        "--hands plant --log " + log);
+  for (const char* forces : {"a.csv", "b.csv"}) {
+    const auto run = test::RunProgram("replay " + scene.string() + " " + log + " -o " +
+                                      (temp / forces).string());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  const std::string a = ReadWholeFile(temp / "a.csv");
+  EXPECT_GT(std::count(a.begin(), a.end(), '\n'), 2 * 2900)
+      << "three seconds, each tick, each hand";
+  EXPECT_TRUE(a == ReadWholeFile(temp / "b.csv")) << "bit-identical";
+  Drive(R"(
+key p
+wait job
+wait frames 30
+click Devices
+expect "recorded hand"
+expect "A recording holds this hand"
+)",
+        "--hands " + log);
 }
 
 TEST_F(EditorWindow, SaveAsWritesAWholeSceneElsewhere) {

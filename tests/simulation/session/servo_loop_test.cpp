@@ -178,6 +178,137 @@ TEST(ServoLoop, ALostDeviceGetsNoForceInSixMillisecondsAndIsLostIn25) {
   EXPECT_LT(lost, 25e-3);
 }
 
+TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
+  Servo servo;
+  servo.Arm();
+  ASSERT_GT(glm::length(servo.scope.force()), 0.1);
+  servo.wish.is_zero_force = true;
+  servo.HoldDeadMan(true);
+  for (int i = 0; i < 500; ++i) {
+    servo.Tick();
+    ASSERT_EQ(servo.scope.force(), glm::dvec3(0.0)) << i;
+  }
+  EXPECT_GT(glm::length(servo.loop.Read().scope.hand_force), 0.1) << "what it would feel";
+  servo.HoldDeadMan(false);
+  servo.Tick(700);
+  EXPECT_GT(glm::length(servo.loop.Read().scope.hand_force), 0.1) << "nobody need be armed for it";
+  servo.HoldDeadMan(true);
+  servo.Tick(10);
+  servo.wish.is_zero_force = false;
+  servo.HoldDeadMan(true);
+  for (int i = 0; i < 500; ++i) {
+    servo.Tick();
+    ASSERT_LE(glm::length(servo.scope.force()), 500 * kDepth * i * kTick / 0.5 + 1e-9) << i;
+  }
+  EXPECT_GT(glm::length(servo.scope.force()), 0.1);
+}
+
+TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
+  ServoOptions options;
+  options.wish_lasts = 0.5;
+  Servo servo(options);
+  servo.scope.SetButtons(2);  // of the handle, and it stays down
+  servo.HoldDeadMan(false);
+  servo.Tick(10);
+  servo.scope.SetButtons(0);
+  servo.Tick(10);
+  servo.scope.SetButtons(2);
+  servo.Tick(470);
+  EXPECT_GT(glm::length(servo.scope.force()), 0.1);
+  servo.Tick(20);  // 0.51 s after the wish
+  EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0));
+  EXPECT_EQ(servo.scope.state(), DeviceState::kReady);
+  servo.HoldDeadMan(false);
+  servo.Tick(300);
+  EXPECT_GT(glm::length(servo.scope.force()), 0.1) << "it is back, and so is the force";
+}
+
+TEST(ServoLoop, WhoWatchesIsToldOfEachTickWithItsTime) {
+  struct Watch final : ServoWatch {
+    void AfterTick(const Snapshot& snapshot, double dt) noexcept override {
+      ++ticks;
+      time += dt;
+      newest = snapshot.t;
+    }
+    int ticks = 0;
+    double time = 0, newest = 0;
+  } watch;
+  ServoOptions options;
+  options.watch = &watch;
+  Servo servo(options);
+  servo.Tick(100);
+  servo.Tick(1, 5 * kTick);
+  EXPECT_EQ(watch.ticks, 101);
+  EXPECT_NEAR(watch.time, 0.105, 1e-12);
+  EXPECT_EQ(watch.newest, servo.loop.Read().t);
+}
+
+// As a Hydra: a report each 4 ms, that comes up to 4 ms late, and a servo that ticks as often.
+class Tracker final : public Device {
+ public:
+  explicit Tracker(const glm::dvec3& at, Feedback feedback) {
+    caps_.input = HandInput::kAbsolute;
+    caps_.rate = 250;
+    caps_.feedback = feedback;
+    caps_.actuated_dof = feedback == Feedback::kForce ? 3 : 0;
+    caps_.peak_force = 3;
+    sample_.hip_in_device = at;
+    sample_.valid = true;
+    status_.state = DeviceState::kReady;
+  }
+  const DeviceCaps& caps() const noexcept override { return caps_; }
+  const std::string& name() const noexcept override { return name_; }
+  const std::string& serial() const noexcept override { return name_; }
+  DeviceSample Read(double now) noexcept override {
+    while (next_ + late_ <= now) {
+      sample_.t = next_ + late_;
+      next_ += 0.004;
+      late_ = 0.004 * static_cast<double>(++sent_ * 7919 % 101) / 101;
+    }
+    return sample_;
+  }
+  void HoldDeadMan(bool) noexcept override {}
+  void Command(const glm::dvec3&) noexcept override {}
+  DeviceStatus status() const noexcept override { return status_; }
+  void Stop() noexcept { next_ = 1e9; }
+
+ private:
+  DeviceCaps caps_;
+  std::string name_ = "tracker";
+  DeviceSample sample_;
+  DeviceStatus status_;
+  double next_ = 0, late_ = 0;
+  long sent_ = 0;
+};
+
+TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
+  const auto stale = [](Feedback feedback, double period) {
+    Session session(BareSphere());
+    Tracker tracker(HipFromRodPose({0, 0, 0, 0.05}, session.scope_rig()), feedback);
+    ServoLoop loop(session, &tracker, nullptr);
+    int count = 0;
+    double now = 1e-4;
+    for (; now < 4.0; now += period) {
+      loop.TickOnce(now);
+      const Fault fault = loop.Read().scope.fault;
+      count += fault == Fault::kStale || fault == Fault::kLost;
+    }
+    // It stops: stale and lost are told as ever.
+    tracker.Stop();
+    bool is_stale = false;
+    for (const double end = now + 0.05; now < end; now += period) {
+      loop.TickOnce(now);
+      is_stale = is_stale || loop.Read().scope.fault == Fault::kStale;
+    }
+    EXPECT_TRUE(is_stale);
+    EXPECT_EQ(loop.Read().scope.fault, Fault::kLost);
+    return count;
+  };
+  EXPECT_EQ(stale(Feedback::kNone, 0.004), 0);
+  EXPECT_EQ(stale(Feedback::kNone, 0.001), 0);
+  EXPECT_GT(stale(Feedback::kForce, 0.001), 0) << "who is pushed is not spared";
+}
+
 TEST(ServoLoop, LimitsAreThoseOfTheDevicesAndWishesOnlyLowerThem) {
   PlantOptions weak;
   weak.peak_force = 0.2;

@@ -174,6 +174,21 @@ TEST(Session, BadSamplesGiveAFaultAndNoForce) {
     EXPECT_EQ(scope.hand_force, glm::dvec3(0.0));
     EXPECT_TRUE(std::isfinite(scope.tip_in_portal.x)) << "what is drawn stays finite";
   }
+  // A number, and no hand: from the first sample on, and for as long as it stays.
+  Session fresh(MakeScene(true, false));
+  for (const glm::dvec3& far :
+       {glm::dvec3(1e300, 0, 0), glm::dvec3(0, -11, 0), glm::dvec3(1e160)}) {
+    for (int i = 0; i < 3; ++i) {
+      DeviceSample sample = hands.scope.Sample(hands.t += kTick);
+      sample.hip_in_device = far;
+      fresh.Tick(sample, sample, kTick);
+      for (const ToolState& tool : {fresh.snapshot().scope, fresh.snapshot().instrument}) {
+        EXPECT_EQ(tool.fault, Fault::kTooFar) << far.x << " " << far.y;
+        EXPECT_EQ(tool.hand_force, glm::dvec3(0.0));
+        EXPECT_EQ(tool.tip_force, glm::dvec3(0.0));
+      }
+    }
+  }
   DeviceSample gone = hands.scope.Sample(hands.t += kTick);
   gone.valid = false;
   hands.session.Tick(gone, {}, kTick);

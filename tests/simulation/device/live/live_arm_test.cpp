@@ -2,14 +2,20 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 #include <thread>
+#include <unistd.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/device/live/release_on_crash.h"
 #include "tests/simulation/device/live/arm_bench.h"
 #include "tests/support/allocation_counter.h"
 
@@ -468,6 +474,41 @@ TEST(LiveArm, ReleasedItIsNeverPushedAgain) {
     bench.Tick(kPush, true);
     ASSERT_EQ(CurrentsAt(bench.usb, kPath), kNoCurrents);
   }
+}
+
+// Dies while it pushes; what its board was told goes to `file`, a line of currents each.
+void Crash(const std::filesystem::path& file, int signal) {
+  Plugged bench;
+  bench.Arm();
+  for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
+  const ReleaseOnCrash crash({bench.link});
+  const int out = ::open(file.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
+  bench.usb.OnWrite(kPath, [&](const Bytes& report) {
+    const char line[2] = {report == Bytes(15) ? '0' : '1', '\n'};
+    if (::write(out, line, 2) != 2) std::_Exit(3);
+    bench.board.SendNow();
+  });
+  bench.Tick(kPush, true);
+  std::atomic<bool> is_over{false};
+  std::thread servo([&] {
+    while (!is_over) bench.Tick(kPush, true);
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  signal == 0 ? std::exit(4) : std::abort();
+}
+
+TEST(LiveArmDeathTest, AProgramThatCrashesOrIsEndedByALibrarySaysZeroFirst) {
+  test::TempFolder folder;
+  const auto last = [&](const std::string& name) {
+    std::ifstream lines(folder / name);
+    std::string all((std::istreambuf_iterator<char>(lines)), {});
+    EXPECT_NE(all.find('1'), std::string::npos) << "it was pushed";
+    return all.size() < 4 ? std::string() : all.substr(all.size() - 2);
+  };
+  EXPECT_EXIT(Crash(folder / "abort", SIGABRT), testing::KilledBySignal(SIGABRT), "");
+  EXPECT_EQ(last("abort"), "0\n");
+  EXPECT_EXIT(Crash(folder / "exit", 0), testing::ExitedWithCode(4), "");
+  EXPECT_EQ(last("exit"), "0\n");
 }
 
 TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {

@@ -1,0 +1,310 @@
+#include "app/commands/devices/hands.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "simulation/core/error.h"
+#include "simulation/device/log/log_replay.h"
+#include "simulation/scene/rig_io.h"
+
+namespace arthro::app {
+
+using simulation::DeviceRole;
+using simulation::DeviceState;
+using simulation::LiveDevice;
+
+namespace {
+
+constexpr DeviceRole kRoles[] = {DeviceRole::kScope, DeviceRole::kInstrument};
+
+std::size_t Index(DeviceRole role) noexcept { return static_cast<std::size_t>(role); }
+
+bool IsReady(DeviceState state) {
+  return state == DeviceState::kReady || state == DeviceState::kArmed;
+}
+
+// Of what is simulated.
+const char* SerialOf(DeviceRole role) { return role == DeviceRole::kScope ? "1" : "2"; }
+
+const char* NameOf(HandKind kind) {
+  switch (kind) {
+    case HandKind::kMouse:
+      return "mouse and keys";
+    case HandKind::kRecorded:
+      return "recorded hand";
+    case HandKind::kSimulated:
+    case HandKind::kPluggedIn:
+      break;
+  }
+  return "simulated device";
+}
+
+// Of a device that no servo reads: a board that only answers is then asked too seldom for its
+// samples to be fresh.
+simulation::DeviceStatus StatusOfLink(simulation::LiveLink& link, int hand) {
+  if (const simulation::DeviceTrouble trouble = link.trouble();
+      trouble != simulation::DeviceTrouble::kNone)
+    return {DeviceState::kFault, trouble, true};
+  if (!link.is_present()) return {DeviceState::kAbsent, {}, true};
+  const int opening = link.opening();
+  if (opening == 0) return {DeviceState::kOpening, {}, true};
+  const simulation::HandNews& news = link.Newest(hand);
+  const bool is_homed =
+      news.opening == opening ? news.reading.is_homed : !simulation::IsSteady(link.caps());
+  return {is_homed ? DeviceState::kReady : DeviceState::kHoming, {}, true};
+}
+
+// One that is never driven is told at once, and not by a hand that never comes.
+void CheckDriven(const RigDevice& own, const char* where, const std::filesystem::path& rig) {
+  simulation::KnownDevice device;
+  device.family = simulation::FamilyNamed(own.family).value_or(device.family);
+  std::string refusal;
+  if (!MakeDriver(device, own.model, refusal))
+    throw Error(Code::kBadData, fmt::format("{}: {}", where, refusal), rig);
+}
+
+}  // namespace
+
+HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands) {
+  HandsChoice choice;
+  if (!rig.empty()) {
+    choice.rig = ReadRig(rig);
+    if (choice.rig->scope) CheckDriven(choice.rig->scope->device, "scope", rig);
+    if (choice.rig->instrument) CheckDriven(choice.rig->instrument->device, "instrument", rig);
+    if (choice.rig->pedals) CheckDriven(choice.rig->pedals->device, "pedals", rig);
+  }
+  choice.is_simulated = hands == "plant";
+  if (!hands.empty() && !choice.is_simulated)
+    choice.trace = simulation::ReadTraceOrLog(hands, choice.notice);
+  return choice;
+}
+
+Hands::Hands(HandsChoice choice, std::unique_ptr<simulation::HidBus> bus,
+             const simulation::LiveOptions& options)
+    : choice_(std::move(choice)),
+      options_(options),
+      bus_(std::move(bus)),
+      is_zero_force_(choice_.is_zero_force) {
+  if (!choice_.log.empty()) OpenLog();
+  if (!choice_.rig) return;
+  if (!bus_) bus_ = simulation::MachineHidBus();
+  for (const DeviceRole role : kRoles)
+    if (const auto& own = RigOf(role)) {
+      Role& now = roles_[Index(role)];
+      now.link = LinkOf(own->device);
+      now.device = std::make_unique<LiveDevice>(now.link, own->device.hand);
+    }
+  if (choice_.rig->pedals) pedals_ = LinkOf(choice_.rig->pedals->device);
+  std::vector<std::shared_ptr<simulation::LiveLink>> links;
+  for (const Link& own : links_) links.push_back(own.link);
+  crash_.emplace(std::move(links));
+}
+
+Hands::~Hands() = default;
+
+const std::optional<RigRole>& Hands::RigOf(DeviceRole role) const noexcept {
+  static const std::optional<RigRole> none;
+  if (!choice_.rig) return none;
+  return role == DeviceRole::kScope ? choice_.rig->scope : choice_.rig->instrument;
+}
+
+// A source a link, in the order in which links are made; then those hands that have none.
+void Hands::OpenLog() {
+  std::vector<simulation::LogSource> sources;
+  const auto source_of = [&](const RigDevice& device) {
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      if (sources[i].family == device.family && sources[i].serial == device.serial) return i;
+    sources.push_back({device.family, device.model, device.serial, {}});
+    return sources.size() - 1;
+  };
+  for (const DeviceRole role : kRoles)
+    if (const auto& own = RigOf(role)) {
+      const std::size_t source = source_of(own->device);
+      logged_[Index(role)] = {static_cast<int>(source), own->device.hand};
+      sources[source].roles[static_cast<std::size_t>(own->device.hand)] = role;
+    }
+  if (choice_.rig && choice_.rig->pedals) source_of(choice_.rig->pedals->device);
+  const std::size_t links = sources.size();
+  for (const DeviceRole role : kRoles)
+    if (!RigOf(role)) {
+      logged_[Index(role)] = {static_cast<int>(sources.size()), 0};
+      sources.push_back({"", "", choice_.is_simulated ? SerialOf(role) : "", {role, {}}});
+    }
+  log_ = std::make_unique<simulation::DeviceLog>(choice_.log, sources);
+  for (std::size_t i = 0; i < links; ++i)
+    taps_.push_back(std::make_unique<simulation::LoggedReports>(*log_, static_cast<int>(i)));
+}
+
+std::shared_ptr<simulation::LiveLink> Hands::LinkOf(const RigDevice& device) {
+  simulation::DeviceWish wish;
+  wish.family = simulation::FamilyNamed(device.family).value_or(wish.family);
+  wish.serial = device.serial;
+  wish.model = device.model;
+  for (const Link& known : links_)
+    if (known.wish.family == wish.family && known.wish.serial == wish.serial) return known.link;
+  simulation::LiveOptions options = options_;
+  if (log_) options.tap = taps_[links_.size()].get();
+  links_.push_back({wish, std::make_shared<simulation::LiveLink>(*bus_, wish, options)});
+  return links_.back().link;
+}
+
+void Hands::Mount(Scene& scene) const {
+  if (const auto& scope = RigOf(DeviceRole::kScope)) {
+    scene.rig.scope = scope->mount;
+    scene.scope.rod_length = scope->mount.rod_length;
+  }
+  if (const auto& instrument = RigOf(DeviceRole::kInstrument))
+    scene.rig.instrument = instrument->mount;
+}
+
+void Hands::Lower(simulation::SessionOptions& options) const noexcept {
+  for (const DeviceRole role : kRoles)
+    if (const auto& own = RigOf(role)) {
+      if (own->max_force > 0)
+        options.limiter.max_force = std::min(options.limiter.max_force, own->max_force);
+      if (own->max_stiffness > 0)
+        options.lever.max_stiffness = std::min(options.lever.max_stiffness, own->max_stiffness);
+    }
+}
+
+std::shared_ptr<HeldHands> Hands::Hold(const std::array<simulation::ScriptedDevice, 2>& by_mouse) {
+  const auto parts_of = [&](DeviceRole role) {
+    HandParts parts{HandKind::kMouse, by_mouse[Index(role)], {}, {}, {}, {}, 0, kNoButtons};
+    simulation::ScriptedDevice start = parts.by_mouse;
+    const simulation::DeviceSample at = start.Sample(0.0);
+    if (choice_.is_simulated) {
+      auto plant = std::make_unique<simulation::PlantDevice>(
+          simulation::PlantOptions{}, simulation::kHand, at.hip_in_device, SerialOf(role));
+      parts.kind = HandKind::kSimulated;
+      parts.led = &plant->plant();
+      parts.device = std::move(plant);
+    } else if (!choice_.trace.empty()) {
+      simulation::RecordedDevice recorded(choice_.trace, role);
+      if (!recorded.empty()) {
+        parts.kind = HandKind::kRecorded;
+        parts.recorded = std::move(recorded);
+        parts.recording_begins = choice_.trace.front().sample.t;
+      }
+    } else if (const auto& own = RigOf(role)) {
+      parts.kind = HandKind::kPluggedIn;
+      auto live = std::make_unique<LiveDevice>(Of(role).link, own->device.hand);
+      if (live->caps().input == simulation::HandInput::kRate) parts.integrates = live.get();
+      parts.device = std::move(live);
+      parts.buttons = own->buttons;
+    }
+    return parts;
+  };
+  PedalParts pedals;
+  if (pedals_) {
+    const RigPedals& own = *choice_.rig->pedals;
+    pedals.device = std::make_unique<LiveDevice>(pedals_, own.device.hand);
+    pedals.buttons = own.buttons;
+  }
+  auto held = std::make_shared<HeldHands>(
+      std::array{parts_of(DeviceRole::kScope), parts_of(DeviceRole::kInstrument)},
+      std::move(pedals));
+  if (log_)
+    for (const DeviceRole role : kRoles)
+      held->LogTo(*log_, role, logged_[Index(role)].source, logged_[Index(role)].hand);
+  held_ = held;
+  return held;
+}
+
+bool Hands::Look() {
+  if (!held_.expired()) return false;  // its servo reads them, and its frames follow each other
+  bool has_news = false;
+  for (const DeviceRole role : kRoles)
+    if (Role& own = roles_[Index(role)]; own.link) {
+      const auto before =
+          std::exchange(own.status, StatusOfLink(*own.link, RigOf(role)->device.hand));
+      has_news = has_news || !(before == own.status);
+    }
+  return has_news;
+}
+
+simulation::DeviceStatus Hands::StatusOf(DeviceRole role) const {
+  const auto held = held_.lock();
+  return held ? held->News().hand[Index(role)].status : Of(role).status;
+}
+
+bool Hands::Leads(DeviceRole role) const {
+  const auto held = held_.lock();
+  return held && held->News().hand[Index(role)].is_led_by_device;
+}
+
+ForceHistory Hands::History(DeviceRole role) const {
+  const auto held = held_.lock();
+  return held ? held->News().hand[Index(role)].history : ForceHistory{};
+}
+
+HandNow Hands::Now(DeviceRole role) const {
+  HandNow now;
+  const auto held = held_.lock();
+  const Role& own = Of(role);
+  if (held) now.kind = held->KindOf(role);
+  if (own.link) now.kind = HandKind::kPluggedIn;
+  now.situation.kind = now.kind;
+  now.situation.is_zero_force = is_zero_force_;
+  now.situation.is_practising = held != nullptr;
+  now.situation.status = StatusOf(role);
+  now.name = NameOf(now.kind);
+  const simulation::Device* device = held ? held->Of(role) : own.device.get();
+  if (device != nullptr && (now.kind == HandKind::kPluggedIn || now.kind == HandKind::kSimulated)) {
+    now.name = device->name();
+    now.serial = device->serial();
+    now.situation.caps = device->caps();
+    now.peak = device->caps().peak_force;
+    now.sentence = simulation::Sentence(now.situation.status);
+  }
+  if (own.link && !IsReady(now.situation.status.state))
+    if (const std::string detail = own.link->detail(); !detail.empty()) now.sentence = detail;
+  if (!held) return now;
+
+  const HandsNews::Hand& news = held->News().hand[Index(role)];
+  now.felt = news.felt;
+  now.given = news.given;
+  now.sample_age = news.age;
+  now.is_led_by_device = news.is_led_by_device;
+  now.situation.sample_age = news.age;
+  now.situation.fault = news.fault;
+  now.situation.has_force = news.felt > 0;
+  now.situation.is_dead_man_held = news.is_dead_man_held;
+  if (now.kind == HandKind::kRecorded)
+    now.sentence = news.is_led_by_device ? "is played" : "has ended; mouse and keys hold it";
+  if (news.last_fault.state != DeviceState::kAbsent)
+    now.last_fault = simulation::Sentence(news.last_fault);
+  return now;
+}
+
+std::string Hands::Missing(DeviceRole role) const {
+  const Role& own = Of(role);
+  if (!own.link) return "";
+  const DeviceState state = StatusOf(role).state;
+  if (IsReady(state)) return "";
+  const std::string& name = own.device->name();
+  return state == DeviceState::kAbsent
+             ? fmt::format("No {}: mouse and keys hold the {}.", name, Word(role))
+             : fmt::format("{}: {} (F4). Mouse and keys hold the {}.", name, Word(state),
+                           Word(role));
+}
+
+void Hands::AskHome(DeviceRole role) {
+  if (Of(role).link) Of(role).link->AskHome();
+}
+
+std::string Hands::End() {
+  crash_.reset();
+  pedals_.reset();
+  roles_ = {};
+  links_.clear();
+  if (!log_) return "";
+  log_->Close();
+  const long dropped = log_->dropped();
+  return dropped == 0 ? ""
+                      : fmt::format("{}: {} records were dropped, since this machine was too busy",
+                                    choice_.log.string(), dropped);
+}
+
+}  // namespace arthro::app

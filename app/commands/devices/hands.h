@@ -1,0 +1,128 @@
+// What a person chose to hold the two hands of a practice: the devices of a rig, a recorded pair,
+// simulated devices, or nothing, and then mouse and keys. It finds and keeps the devices, makes the
+// hands of each practice (held_hands.h), and says how they fare. The servo of a practice alone
+// reads and commands the devices; while none runs their links are looked at here. SI. All of it is
+// called by the window's thread.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/devices/held_hands.h"
+#include "app/commands/devices/why_no_force.h"
+#include "simulation/device/live/live_device.h"
+#include "simulation/device/live/release_on_crash.h"
+#include "simulation/session/session_options.h"
+
+namespace arthro::app {
+
+struct HandsChoice {
+  std::optional<RigFile> rig;
+  std::vector<simulation::TraceRow> trace;  // recorded hands; empty: none
+  bool is_simulated = false;
+  bool is_zero_force = false;
+  std::filesystem::path log;  // that all of it is written to; empty: none
+  std::string notice;         // a sentence where the recording is not whole
+};
+
+// `rig`: a rig file or empty; `hands`: TRACE.csv, a device log, "plant" or empty. Throws Error.
+HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands);
+
+// How a hand stands now, for panels.
+struct HandNow {
+  HandKind kind = HandKind::kMouse;
+  std::string name, serial;       // of its device
+  std::string sentence;           // its state
+  std::string last_fault;         // empty: none since the practice began
+  ForceSituation situation;       // for WhyNoForce
+  double felt = 0, given = 0;     // N: what the session has for the hand, and what the device gets
+  double peak = 0;                // N, the device's
+  double sample_age = 0;          // s
+  bool is_led_by_device = false;  // or else mouse and keys hold it
+};
+
+class Hands {
+ public:
+  // `bus` null: this machine's, asked for only where the rig needs it. Throws Error where the log
+  // cannot be written.
+  explicit Hands(HandsChoice choice = {}, std::unique_ptr<simulation::HidBus> bus = {},
+                 const simulation::LiveOptions& options = {});
+  ~Hands();
+  Hands(const Hands&) = delete;
+  Hands& operator=(const Hands&) = delete;
+
+  // The rig's mounts take the scene's place, and what it allows lowers what is felt.
+  void Mount(Scene& scene) const;
+  void Lower(simulation::SessionOptions& options) const noexcept;
+
+  // The hands of a practice that begins, by DeviceRole, where mouse and keys have them. This must
+  // outlive them. Shared only so that it is known here when they are gone.
+  std::shared_ptr<HeldHands> Hold(const std::array<simulation::ScriptedDevice, 2>& by_mouse);
+  // What is plugged in keeps its own time: its practice needs a servo with a thread.
+  bool NeedsThread() const noexcept { return !links_.empty(); }
+  double Clock() const noexcept { return options_.clock(); }
+
+  // Once a frame. True where a panel has news.
+  bool Look();
+
+  void HoldDeadMan(bool is_held) noexcept { is_key_held_ = is_held; }
+  bool is_dead_man_held() const noexcept { return is_key_held_; }
+  bool is_zero_force() const noexcept { return is_zero_force_; }
+  void SetZeroForce(bool is_on) noexcept { is_zero_force_ = is_on; }
+
+  bool HasDevices() const noexcept { return !links_.empty(); }
+  // Whether a device, and not mouse or keys, said where this hand is in the newest tick.
+  bool Leads(simulation::DeviceRole role) const;
+  HandNow Now(simulation::DeviceRole role) const;
+  ForceHistory History(simulation::DeviceRole role) const;
+  // What a person must know when a rig's device does not hold its hand; empty: all is well.
+  std::string Missing(simulation::DeviceRole role) const;
+  // Its handle is in its rest: counts from here.
+  void AskHome(simulation::DeviceRole role);
+
+  // No practice runs and none will: lets go of the devices and ends the log. A sentence where
+  // something is missing in that; empty: all is well. Throws Error(kFile).
+  std::string End();
+
+ private:
+  struct Link {
+    simulation::DeviceWish wish;
+    std::shared_ptr<simulation::LiveLink> link;
+  };
+  struct Role {
+    std::shared_ptr<simulation::LiveLink> link;      // null: the rig names none
+    std::unique_ptr<simulation::LiveDevice> device;  // for what never changes of it
+    simulation::DeviceStatus status;                 // while no practice runs
+  };
+  // Of a log: which source a role's hand is there, and which hand of that.
+  struct Logged {
+    int source = 0, hand = 0;
+  };
+  void OpenLog();
+  std::shared_ptr<simulation::LiveLink> LinkOf(const RigDevice& device);
+  const std::optional<RigRole>& RigOf(simulation::DeviceRole role) const noexcept;
+  const Role& Of(simulation::DeviceRole role) const noexcept {
+    return roles_[static_cast<std::size_t>(role)];
+  }
+  simulation::DeviceStatus StatusOf(simulation::DeviceRole role) const;
+
+  HandsChoice choice_;
+  simulation::LiveOptions options_;
+  std::unique_ptr<simulation::HidBus> bus_;  // outlives the links, as the next three do
+  std::unique_ptr<simulation::DeviceLog> log_;
+  std::vector<std::unique_ptr<simulation::LoggedReports>>
+      taps_;                        // one a link, where there is a log
+  std::array<Logged, 2> logged_{};  // by DeviceRole
+  std::vector<Link> links_;
+  std::optional<simulation::ReleaseOnCrash> crash_;
+  std::array<Role, 2> roles_;  // by DeviceRole
+  std::shared_ptr<simulation::LiveLink> pedals_;
+  std::weak_ptr<HeldHands> held_;
+  bool is_key_held_ = false, is_zero_force_ = false;
+};
+
+}  // namespace arthro::app

@@ -1,0 +1,32 @@
+// Why a hand feels no force, in one sentence for the person who asks, the first thing to be mended
+// first. Pure. s.
+#pragma once
+
+#include "simulation/device/device_caps.h"
+#include "simulation/device/device_state.h"
+#include "simulation/haptics/fault.h"
+
+namespace arthro::app {
+
+// What holds a hand.
+enum class HandKind { kMouse, kRecorded, kSimulated, kPluggedIn };
+
+// Held: the devices may push. GLFW_KEY_V.
+inline constexpr int kDeadManKey = 86;
+
+struct ForceSituation {
+  HandKind kind = HandKind::kMouse;
+  simulation::DeviceCaps caps;
+  simulation::DeviceStatus status;
+  double sample_age = 0;
+  bool is_dead_man_held = false;
+  bool is_zero_force = false;                          // the mode: shown, not commanded
+  bool is_practising = false;                          // devices push only then
+  simulation::Fault fault = simulation::Fault::kNone;  // of the session
+  bool has_force = false;                              // the session has one to give
+};
+
+// Empty: there is force.
+const char* WhyNoForce(const ForceSituation& situation) noexcept;
+
+}  // namespace arthro::app

@@ -1,0 +1,99 @@
+// What holds the two hands and how they fare: beside the practice, or in the editor's last step.
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/commands/command_list.h"
+#include "app/panels/fixed_window.h"
+#include "app/panels/panels.h"
+
+namespace arthro::app {
+namespace {
+
+using simulation::DeviceRole;
+
+constexpr double kFullMeter = 3.3;  // N, where a device says no peak of its own
+constexpr float kPlotHeight = 34;
+
+// Filled: what the device is given. The line: what the session has for the hand.
+void ForceMeter(Ui& ui, const std::string& name, const HandNow& now) {
+  const double full = now.peak > 0 ? now.peak : kFullMeter;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(16);
+  const auto at = [&](double newton) {
+    return corner.x + width * static_cast<float>(std::clamp(newton / full, 0.0, 1.0));
+  };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
+                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
+  if (now.given > 0)
+    draw->AddRectFilled(corner, {std::max(at(now.given), corner.x + ui.Px(3)), corner.y + height},
+                        kGood, ui.Px(4));
+  if (now.felt > 0)
+    draw->AddLine({at(now.felt), corner.y}, {at(now.felt), corner.y + height}, 0xFFFFFFFF,
+                  ui.Px(2));
+  ImGui::Dummy({width, height});
+  RecordItem(ui, name + " force meter", true, fmt::format("{:.2f} N", now.given));
+  QuietText(ui, fmt::format("{:.2f} N given of {:.2f} N shown; full at {:.1f} N", now.given,
+                            now.felt, full));
+}
+
+void Plot(Ui& ui, const std::string& name, const std::array<float, ForceHistory::kLength>& values,
+          int oldest, float least_top, const char* unit) {
+  const float top = std::max(least_top, *std::max_element(values.begin(), values.end()));
+  ImGui::PlotLines(("##" + name).c_str(), values.data(), ForceHistory::kLength, oldest, nullptr, 0,
+                   top, {ImGui::GetContentRegionAvail().x, ui.Px(kPlotHeight)});
+  RecordItem(ui, name);
+  // Its scale, in its corner.
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const std::string scale = fmt::format("{:.3g} {}", top, unit);
+  ImGui::GetWindowDrawList()->AddText({low.x + ui.Px(6), low.y + ui.Px(2)}, kQuiet, scale.c_str());
+}
+
+void HandPart(Ui& ui, const Hands& hands, DeviceRole role, const char* name) {
+  const HandNow now = hands.Now(role);
+  Heading(ui, name);
+  Text(ui, now.serial.empty() ? now.name : now.name + ", serial " + now.serial);
+  if (!now.sentence.empty()) QuietText(ui, now.sentence);
+  if (!now.last_fault.empty()) ColouredText(ui, "Last fault: " + now.last_fault, kWarning);
+  if (now.kind != HandKind::kMouse) {
+    ForceMeter(ui, name, now);
+    const ForceHistory history = hands.History(role);
+    QuietText(ui,
+              fmt::format("Ten seconds of force and sample age ({:.1f} ms)", 1e3 * now.sample_age));
+    Plot(ui, std::string(name) + " force plot", history.forces(), history.oldest(), 1.0f, "N");
+    Plot(ui, std::string(name) + " age plot", history.ages(), history.oldest(), 5.0f, "ms");
+  }
+  if (const char* why = WhyNoForce(now.situation); *why != '\0') {
+    Text(ui, "Why is there no force?");
+    ColouredText(ui, why, kAccent);
+  }
+}
+
+}  // namespace
+
+void DevicesPanel(Ui& ui, EditorState& state) {
+  HandPart(ui, *state.hands, DeviceRole::kScope, "Scope");
+  Gap(ui);
+  HandPart(ui, *state.hands, DeviceRole::kInstrument, "Instrument");
+  Gap(ui);
+  if (state.practice && !state.practice->servo_sentence().empty())
+    QuietText(ui, state.practice->servo_sentence());
+  const Command& zero = CommandOf("zero-force");
+  if (ToggleButton(ui, zero.words, state.hands->is_zero_force(), true, {-FLT_MIN, ui.Px(44)},
+                   zero.help))
+    Run(state, zero);
+  QuietText(ui,
+            "V, a handle's button or a pedal is the dead-man: devices push only while it is held.");
+  Gap(ui, 2);
+  if (Button(ui, "Hide devices", true, {-FLT_MIN, ui.Px(44)})) Run(state, "devices");
+}
+
+void DevicesPage(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "devices", area, kPageWindow);
+  DevicesPanel(ui, state);
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,29 @@
+// Ctrl-C, SIGTERM and SIGHUP as a wish to end, so that what has a window ends as by its close box:
+// devices let go, files whole. Make it before any thread that must not be ended by them. A second
+// one while the first is heeded ends the program at once.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+namespace arthro::app {
+
+class EndingSignals {
+ public:
+  // `wake` is called by another thread when one comes.
+  explicit EndingSignals(std::function<void()> wake);
+  ~EndingSignals();  // the signal that came ends the program now, as it would have
+  EndingSignals(const EndingSignals&) = delete;
+  EndingSignals& operator=(const EndingSignals&) = delete;
+
+  bool HasCome() const noexcept { return came_.load() != 0; }
+
+ private:
+  std::function<void()> wake_;
+  std::atomic<int> came_{0};  // its number
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace arthro::app
