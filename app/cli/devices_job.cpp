@@ -14,10 +14,12 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/device/live/device_survey.h"
+#include "simulation/device/log/logged_device.h"
 
 namespace arthro::app {
 namespace {
@@ -27,7 +29,7 @@ using namespace simulation;
 constexpr auto kWatchEvery = std::chrono::milliseconds(500);
 
 struct DevicesArguments {
-  std::string json, model;
+  std::string json, model, log;
   bool watches = false, tries = false;
   double seconds = 0;
 };
@@ -132,6 +134,18 @@ std::string Advice(int nodes) {
          "mouse and keys without any.\n";
 }
 
+// Those that are tried, in their order.
+std::vector<LogSource> SourcesOf(const DeviceSurvey& survey, const std::string& model) {
+  std::vector<LogSource> sources;
+  for (const SurveyedDevice& own : survey.devices)
+    if (own.can_be_used)
+      sources.push_back({Word(own.device.family),
+                         own.device.family == DeviceFamily::kWoodenHaptics ? model : "",
+                         own.device.node.serial,
+                         {}});
+  return sources;
+}
+
 void Watch(HidBus& bus, const DevicesArguments& arguments) {
   const Progress progress = TerminalProgress();
   std::map<std::string, std::string> there;
@@ -157,15 +171,25 @@ void Watch(HidBus& bus, const DevicesArguments& arguments) {
 void List(HidBus& bus, const DevicesArguments& arguments) {
   constexpr double kTrial = 2.0;  // s
   const Progress progress = TerminalProgress();
+  CheckOutputs({arguments.json, arguments.log}, {});
   const DeviceSurvey survey = SurveyDevices(bus, arguments.model);
+  std::unique_ptr<DeviceLog> log;
+  const auto sources = SourcesOf(survey, arguments.model);
+  if (!arguments.log.empty() && !sources.empty())
+    log = std::make_unique<DeviceLog>(arguments.log, sources);
+  int source = 0;
   nlohmann::ordered_json devices = nlohmann::ordered_json::array();
   std::string text;
   int failed = 0;
   for (const SurveyedDevice& own : survey.devices) {
     std::optional<DeviceTrial> trial;
-    if (arguments.tries && own.can_be_used)
+    if (arguments.tries && own.can_be_used) {
+      std::optional<LoggedReports> reports;
+      LiveOptions options;
+      if (log) options.tap = &reports.emplace(*log, source++);
       trial = TryDevice(bus, {own.device.family, own.device.node.serial, arguments.model},
-                        arguments.seconds > 0 ? arguments.seconds : kTrial, {}, progress.stop);
+                        arguments.seconds > 0 ? arguments.seconds : kTrial, options, progress.stop);
+    }
     failed += arguments.tries && !(trial && trial->has_passed);
     devices.push_back(JsonOf(own, trial));
     text += NameOf(own) + "\n";
@@ -178,6 +202,12 @@ void List(HidBus& bus, const DevicesArguments& arguments) {
           "old (median), {:.2f} ms (p99); hand moved {:.3f} mm\n",
           trial->has_passed ? "passed" : "failed", trial->sentence, trial->rate, trial->rejected,
           trial->written, 1e3 * trial->age_p50, 1e3 * trial->age_p99, MmFromMetres(trial->spread));
+  }
+  if (log) {
+    log->Close();
+    if (const long dropped = log->dropped(); dropped > 0)
+      fmt::print(stderr, "warning: {}: {} records were dropped, since this machine was too busy\n",
+                 arguments.log, dropped);
   }
   if (!arguments.json.empty()) {
     nlohmann::ordered_json looked_for = nlohmann::ordered_json::array();
@@ -198,6 +228,16 @@ void List(HidBus& bus, const DevicesArguments& arguments) {
                                            survey.devices.size()));
 }
 
+void CheckModel(const std::string& model) {
+  if (model.empty() || WoodenModelNamed(model) != nullptr) return;
+  const std::string why =
+      IsSecretWoodenModel(model)
+          ? fmt::format("the kinematics of {} are not published, so it is not driven", model)
+          : fmt::format("there is no arm \"{}\"", model);
+  throw Error(Code::kBadArgument,
+              fmt::format("--model: {}; the models are {}", why, WoodenModelWords()));
+}
+
 }  // namespace
 
 void AddDevicesJob(CLI::App& program) {
@@ -211,6 +251,9 @@ void AddDevicesJob(CLI::App& program) {
   auto* json = job->add_option("--json", own->json, "Write the list as JSON; - is standard output");
   watch->excludes(tries);
   watch->excludes(json);
+  job->add_option("--log", own->log,
+                  "Write each report of the self-test, and what was made of it, to this file")
+      ->needs(tries);
   job->add_option("--seconds", own->seconds, "How long to watch, or to listen to each device")
       ->check(CLI::Range(0.1, 3600.0));
   job->add_option(
@@ -221,6 +264,7 @@ void AddDevicesJob(CLI::App& program) {
       "Serial numbers are what a rig file names its devices by. A device that may not be opened "
       "needs the rule 70-arthroscene.rules in /etc/udev/rules.d.");
   job->callback([own] {
+    CheckModel(own->model);
     const auto bus = MachineHidBus();
     own->watches ? Watch(*bus, *own) : List(*bus, *own);
   });

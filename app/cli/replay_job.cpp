@@ -1,4 +1,4 @@
-// arthroscene replay SCENE TRACE.csv -o forces.csv [--report r.json]
+// arthroscene replay SCENE TRACE -o forces.csv [--report r.json]
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
@@ -14,6 +15,7 @@
 #include "app/cli/output_check.h"
 #include "app/cli/replay_pictures.h"
 #include "simulation/core/atomic_file.h"
+#include "simulation/device/log/log_replay.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/session/replay.h"
 
@@ -51,7 +53,9 @@ void Run(const ReplayJob& job) {
   CheckOptions(job.options);
   CheckOutputs({job.forces, job.report}, {job.trace, job.scene});
   if (!job.pictures.empty()) CheckOutputFolder(job.pictures, {job.forces, job.report});
-  const std::vector<simulation::TraceRow> trace = simulation::ReadTrace(job.trace);
+  std::string notice;
+  const std::vector<simulation::TraceRow> trace = simulation::ReadTraceOrLog(job.trace, notice);
+  if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
   CheckOutputs({job.forces, job.report}, FilesOf(loaded));
   std::optional<ReplayPictures> pictures;
@@ -77,7 +81,8 @@ void AddReplayJob(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "replay", "Play recorded hands in a scene, on a fixed clock, and write the forces");
   command->add_option("SCENE", job->scene, "Scene folder or scene.json")->required();
-  command->add_option("TRACE", job->trace, "Recorded devices, TRACE.csv")->required();
+  command->add_option("TRACE", job->trace, "Recorded devices: TRACE.csv or a device log")
+      ->required();
   command->add_option("-o,--output", job->forces, "forces.csv; - writes to standard output")
       ->required();
   command->add_option("--report", job->report, "Report as JSON: peaks, contacts, faults, times");

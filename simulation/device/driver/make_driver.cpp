@@ -7,13 +7,6 @@ namespace {
 
 constexpr std::uint16_t kTeensy = 0x16c0;  // whose RawHID reports are 64 bytes
 
-std::string ModelWords() {
-  std::string words;
-  for (const WoodenModel& model : WoodenModels())
-    words += (words.empty() ? "" : " or ") + std::string(model.word);
-  return words;
-}
-
 }  // namespace
 
 std::unique_ptr<DeviceDriver> MakeDriver(const KnownDevice& device, std::string_view model,
@@ -26,12 +19,13 @@ std::unique_ptr<DeviceDriver> MakeDriver(const KnownDevice& device, std::string_
         refusal = fmt::format(
             "which arm it is cannot be read from it, and a wrong one would push the wrong way; "
             "name its model ({}) in the rig file",
-            ModelWords());
+            WoodenModelWords());
       else if (IsSecretWoodenModel(model))
         refusal = fmt::format("the kinematics of {} are not published, so it is not driven; {} are",
-                              model, ModelWords());
+                              model, WoodenModelWords());
       else
-        refusal = fmt::format("there is no model {}; name {} in the rig file", model, ModelWords());
+        refusal =
+            fmt::format("there is no model {}; name {} in the rig file", model, WoodenModelWords());
       return nullptr;
     case DeviceFamily::kSpaceMouse:
       return MakeSpaceMouseDriver();

@@ -45,6 +45,15 @@ const WoodenModel* WoodenModelNamed(std::string_view word) noexcept {
   return nullptr;
 }
 
+std::string WoodenModelWords() {
+  std::string words;
+  for (const WoodenModel& model : kModels) {
+    if (!words.empty()) words += " or ";
+    words += model.word;
+  }
+  return words;
+}
+
 bool IsSecretWoodenModel(std::string_view word) noexcept {
   return word == "polhem_v2" || word == "polhem_v3";
 }

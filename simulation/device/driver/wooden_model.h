@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "simulation/device/codec/wooden_haptics.h"
@@ -24,6 +25,8 @@ struct WoodenModel {
 std::span<const WoodenModel> WoodenModels() noexcept;
 // Nothing: unknown, or refused.
 const WoodenModel* WoodenModelNamed(std::string_view word) noexcept;
+// The words of those that are driven: "a or b".
+std::string WoodenModelWords();
 // One whose geometry is not public.
 bool IsSecretWoodenModel(std::string_view word) noexcept;
 

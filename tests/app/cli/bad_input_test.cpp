@@ -106,6 +106,16 @@ TEST(BadInput, NotANumberInATrace) {
                 "line 3", folder / "f.csv");
 }
 
+TEST(BadInput, ADamagedDeviceLog) {
+  TempFolder folder;
+  MakeScene(folder.path());
+  // Its name says nothing; that it begins as a log does.
+  WriteAtomically(folder / "trace.csv", std::string("ARTHRLOG\1\0\0\0", 12) + std::string(64, 'x'));
+  ExpectRefusal("replay " + folder.path().string() + " " + (folder / "trace.csv").string() +
+                    " -o " + (folder / "f.csv").string(),
+                "block at byte 12 is damaged", folder / "f.csv");
+}
+
 TEST(BadInput, ReplayOverTheSceneThatItPlaysIn) {
   TempFolder folder;
   MakeScene(folder.path());
@@ -163,6 +173,28 @@ TEST(BadInput, NoDisplay) {
   for (const std::string job : {"edit ", "practise "})
     ExpectRefusal(job + folder.path().string(), "no display", folder / "untouched",
                   "DISPLAY= WAYLAND_DISPLAY=");
+}
+
+// Told before there is a window.
+TEST(BadInput, RigAndRecordedHands) {
+  TempFolder folder;
+  MakeScene(folder.path());
+  const auto rig = folder / "rig.json", trace = folder / "trace.csv";
+  std::ofstream(rig) << R"({"schema": "arthroscene.rig/1", "title": "t",
+                            "scope": {"device": {"family": "joystick"}, "rod_length": 0.2}})";
+  std::ofstream(trace) << "time,x\n";
+  const std::string practise = "practise " + folder.path().string();
+  const fs::path none = folder / "untouched";
+  ExpectRefusal(practise + " --rig " + rig.string(), "the families are", none, "DISPLAY=");
+  const auto model = folder / "model.json";
+  std::ofstream(model)
+      << R"({"schema": "arthroscene.rig/1", "title": "t", "scope": {"rod_length": 0.2,
+                              "device": {"family": "wooden_haptics", "model": "of pine"}}})";
+  ExpectRefusal(practise + " --rig " + model.string(), "there is no model of pine", none,
+                "DISPLAY=");
+  ExpectRefusal(practise + " --rig " + none.string(), "untouched", none, "DISPLAY=");
+  ExpectRefusal(practise + " --hands " + trace.string(), "first line", none, "DISPLAY=");
+  EXPECT_EQ(RunProgram(practise + " --hands plant --rig " + rig.string()).exit_code, 2);
 }
 
 // /dev/full is the kernel's own full disk.

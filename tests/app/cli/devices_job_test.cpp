@@ -44,5 +44,19 @@ TEST(DevicesJob, RefusesFlagsThatContradict) {
   EXPECT_EQ(RunProgram("devices --seconds -1").exit_code, 2);
 }
 
+TEST(DevicesJob, RefusesAModelThatItDoesNotKnowWithThoseThatItDoes) {
+  for (const auto& [model, says] :
+       {std::pair("word", "there is no arm"), std::pair("polhem_v3", "not published"),
+        std::pair("Polhem_v1", "there is no arm")})
+    for (const std::string how : {"", " --self-test", " --watch --seconds 0.1"}) {
+      const ProgramResult run = RunProgram(std::string("devices --model ") + model + how);
+      EXPECT_EQ(run.exit_code, 1) << model << how;
+      EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+      EXPECT_NE(run.err.find("woodenhaptics_2015 or polhem_v1"), std::string::npos) << run.err;
+      EXPECT_EQ(run.out, "") << how;
+    }
+  EXPECT_EQ(RunProgram("devices --model polhem_v1").exit_code, 0);
+}
+
 }  // namespace
 }  // namespace arthro::test

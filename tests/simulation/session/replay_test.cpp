@@ -222,6 +222,22 @@ TEST_F(ReplayJob, StiffnessIsAnOption) {
   EXPECT_EQ(Run(Path("trace.csv") + " -o " + Path("c.csv") + " --stiffness 1e9").exit_code, 2);
 }
 
+TEST_F(ReplayJob, AHandThatIsNowhereGetsAFaultAndNoForce) {
+  WriteAtomically(folder_ / "far.csv",
+                  std::string_view("t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n"
+                                   "0,scope,0,0,-0.15,1,0,0,0,0\n"
+                                   "0.01,scope,1e300,0,0,1,0,0,0,0\n"
+                                   "0.02,scope,1e300,0,0,1,0,0,0,0\n"));
+  ASSERT_EQ(Run(Path("far.csv") + " -o " + Path("f.csv")).exit_code, 0);
+  const auto table = Table(ReadWholeFile(folder_ / "f.csv"));
+  ASSERT_EQ(table.size(), 4u);
+  for (std::size_t row : {2u, 3u}) {
+    EXPECT_EQ(table[row].back(), "too_far");
+    for (int column = 5; column <= 10; ++column)
+      EXPECT_EQ(std::stod(table[row][static_cast<std::size_t>(column)]), 0.0) << column;
+  }
+}
+
 TEST_F(ReplayJob, RefusesABadTraceWithItsLineAndWritesNothing) {
   WriteAtomically(folder_ / "bad.csv",
                   std::string_view("t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n"
