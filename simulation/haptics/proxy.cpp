@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -15,11 +16,11 @@ constexpr double kTouching = 2e-6;  // m; nearer than this a surface bears
 // met much better than the foot: 0.1 nm of height is 0.4 µm of foot at 1 mm.
 constexpr double kOnSurface = 1e-10;  // m
 constexpr double kNearer = 1e-11;     // m
-constexpr double kArrived = 1e-8;     // m; 5 µN
+constexpr double kArrived = 1e-7;     // m; 50 µN
 constexpr double kBlindStep = 1e-3;   // m; where no pixel tells how fine to step
 // Bounds of the work a tick; what is left over is made up in the next one.
-constexpr int kMaxSlides = 48, kMaxHalvings = 10, kMaxMarch = 4096, kMaxFaces = 4;
-constexpr int kMaxProjections = 6, kMaxBisections = 24;
+constexpr int kMaxSlides = 48, kMaxHalvings = 5, kMaxMarch = 4096, kMaxFaces = 4;
+constexpr int kMaxProjections = 4, kMaxBisections = 24;
 
 class Mover {
  public:
@@ -161,6 +162,7 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
   Mover mover(surroundings, radius, proxy);
   glm::dvec3& x = proxy.position;
   double budget = max_travel;
+  double stride = std::numeric_limits<double>::infinity();  // m; near its goal it goes by less
   for (int slide = 0; slide < kMaxSlides && budget > kArrived; ++slide) {
     const FieldQuery query = mover.Query(x);
     // Below a surface that was not there before: out along its normal first.
@@ -185,7 +187,8 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
     planes.Add(mover.FieldPlane(query, x));
     const glm::dvec3 start = x;
     const double distance = glm::length(goal - start);
-    double reach = std::min(budget, query.px_per_m > 0.0 ? 1.0 / query.px_per_m : kBlindStep);
+    double reach =
+        std::min({budget, stride, query.px_per_m > 0.0 ? 1.0 / query.px_per_m : kBlindStep});
     bool is_nearer = false;
     for (int halving = 0; halving < kMaxHalvings && !is_nearer; ++halving, reach *= 0.5) {
       PlaneSet met = planes;
@@ -197,7 +200,10 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
         if (met.plane[static_cast<std::size_t>(i)].contact > 0)
           faces.Add(met.plane[static_cast<std::size_t>(i)]);
       is_nearer = mover.Project(faces, trial) && glm::length(goal - trial) < distance - kNearer;
-      if (is_nearer) x = trial, budget -= glm::length(trial - start);
+      if (!is_nearer) continue;
+      x = trial;
+      budget -= glm::length(trial - start);
+      stride = halving == 0 ? 2.0 * reach : reach;
     }
     if (!is_nearer) return;
   }
