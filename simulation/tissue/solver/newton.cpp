@@ -16,6 +16,8 @@ constexpr int kFollowingIterations = 300;
 constexpr double kAsleep = 1e-4;  // of the tolerance: a step that begins there has nothing to do
 // A direction far from balance need not be exact: a tenth of what is left [Eisenstat & Walker].
 constexpr double kForcing = 0.1;
+// Nor, in energy, nearer than this: what the residual asks for besides is met on the way.
+constexpr double kEnergy = 0.03;
 constexpr int kManyIterations = 8;  // that call for a new factor where one may be made
 // As many take as long as a new factor: a system that is not solved by then gets one and begins
 // again.
@@ -96,7 +98,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
                                          bool leads, StepReport& report) {
   const bool is_static = problem.dt == 0;
   CgGoal linear;
-  linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : kForcing;
+  linear.relative = is_static ? std::clamp(0.1 * residual, 1e-7, 1e-2) : kEnergy;
   linear.residual = is_static ? 0.0 : std::max(0.5 * goal.tolerance, kForcing * residual) * scale;
   linear.max_iterations = goal.max_iterations;
   if (goal.follows) {
