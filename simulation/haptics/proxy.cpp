@@ -16,7 +16,8 @@ constexpr double kTouching = 2e-6;  // m; nearer than this a surface bears
 // met much better than the foot: 0.1 nm of height is 0.4 µm of foot at 1 mm.
 constexpr double kOnSurface = 1e-10;  // m
 constexpr double kNearer = 1e-11;     // m
-constexpr double kArrived = 1e-7;     // m; 50 µN
+constexpr double kArrived = 1e-8;     // m; 5 µN
+constexpr double kNearEnough = 1e-7;  // m, along the field: 50 µN, for a third of the queries
 constexpr double kBlindStep = 1e-3;   // m; where no pixel tells how fine to step
 // Bounds of the work a tick; what is left over is made up in the next one.
 constexpr int kMaxSlides = 48, kMaxHalvings = 5, kMaxMarch = 4096, kMaxFaces = 4;
@@ -124,7 +125,7 @@ class Mover {
     for (int face = 0; face < kMaxFaces; ++face) {
       glm::dvec3 way = NearestPoint(planes, goal, x).nearest - x;
       double length = glm::length(way);
-      if (!(length > kArrived)) return has_moved;
+      if (!(length > (is_on_field ? kNearEnough : kArrived))) return has_moved;
       const bool is_limited = planes.count > 0 || !is_free;
       if (is_limited && length > reach) way *= reach / length, length = reach;
       SweepHit hit;
