@@ -8,6 +8,7 @@
 namespace arthro::simulation {
 namespace {
 
+constexpr double kRounding = 1e-6;  // of a count
 constexpr double kForgiving = 0.1;  // s, three swings of a hand that is thrown
 
 // What the motors did since the last tick.
@@ -15,6 +16,16 @@ const glm::dvec3& Acting(const PassivityOptions& options, const PassivityState& 
   const std::size_t size = state.sent.size();
   const auto delay = static_cast<std::uint64_t>(std::clamp(options.delay, 0, 7));
   return state.sent[(state.count + size - 1 - delay) % size];
+}
+
+// Axis by axis, as a device counts: along one a hand may rest while it strokes along another.
+glm::dvec3 WithPlay(const glm::dvec3& off, double play) noexcept {
+  glm::dvec3 way = off;
+  for (int axis = 0; axis < 3 && play > 0; ++axis) {
+    const double past = std::abs(off[axis]) - play;
+    way[axis] = past < kRounding * play ? 0.0 : std::copysign(past, off[axis]);
+  }
+  return way;
 }
 
 }  // namespace
@@ -33,8 +44,15 @@ glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& for
   }
   if (is_new) {
     state.energy = 0;
+    state.played = hand;
     return force;
   }
+  const glm::dvec3 seen = WithPlay(hand - state.played, options.quantum);
+  const double seen2 = glm::dot(seen, seen), count2 = options.quantum * options.quantum;
+  state.played += seen;
+  const bool is_count = seen2 > 0 && seen2 < 2.25 * count2;
+  const double took = is_count ? state.still + dt : dt;
+  state.still = seen2 > 0 ? 0.0 : state.still + dt;
   state.energy -= glm::dot(Acting(options, state), way);
   // What the spring holds now, and nothing of what was rubbed away.
   const double held = stiffness > 0 ? 0.5 * force2 / stiffness : 0.0;
@@ -46,10 +64,10 @@ glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& for
     return force;
   }
   const double over = -options.allowance - state.energy;
-  if (!(over > 0) || !(way2 > 0)) return force;
+  if (!(over > 0) || !(seen2 > 0)) return force;
   // A damper that would take it out within this tick, at the speed of the last one.
-  const double damping = std::min(over * dt / way2, options.max_damping);
-  return force - damping / dt * way;
+  const double damping = std::min(over * took * took / (seen2 * dt), options.max_damping);
+  return force - damping / took * seen;
 }
 
 void NoteSent(const glm::dvec3& force, PassivityState& state) noexcept {

@@ -2,7 +2,10 @@
 // passivity [Hannaford & Ryu 2002; notes on haptics, 4.5]. A sampled spring gives a hand some
 // energy at every touch, since it answers a tick late; what it has given too much is taken out by a
 // damper that works only then, while something is touched. At the hand, device frame; m, N, N/m, J,
-// s. noexcept, allocates nothing.
+// s. noexcept, allocates nothing. What is owed is reckoned from every count of the device; how fast
+// the hand goes is not: one count in a tick of 1 ms looks like 55 mm/s, at rest on the edge of two
+// as in a slow stroke. The damper sees motion with a play of one count, and a single count spread
+// over the time since the last.
 #pragma once
 
 #include <array>
@@ -18,6 +21,7 @@ struct PassivityOptions {
   double max_damping = 30.0;
   double allowance = 2e-4;
   int delay = 0;  // with one that is left out, 1.7 mJ go unseen in a tap (notes 9: 1 mJ)
+  double quantum = 0;
   template <class V>
   void Visit(V&& v) {
     v("guard_damping", max_damping, Range{0, 200}, "N s/m",
@@ -26,6 +30,8 @@ struct PassivityOptions {
       "Energy that a surface may give back beyond what it took.");
     v("guard_delay", delay, Range{0, 7}, "",
       "Servo ticks from a command to the force; what a device says of itself counts if more.");
+    v("guard_quantum", quantum, Range{0, 1e-3}, "m",
+      "Motion by less is not damped; a count of the device, if that is more.");
   }
 };
 
@@ -34,7 +40,9 @@ struct PassivityState {
   glm::dvec3 hand{0.0};              // of the last tick
   std::array<glm::dvec3, 8> sent{};  // on the hand, the newest at (count − 1) % 8
   std::uint64_t count = 0;
-  double energy = 0;  // J, taken from the hand and not given back
+  double energy = 0;       // J, taken from the hand and not given back
+  glm::dvec3 played{0.0};  // where the hand is, with play
+  double still = 0;        // s, that this has not moved
 };
 
 // `force` on the hand at `hand`, of a surface of `stiffness`; what it is with the guard's damper.

@@ -28,6 +28,7 @@ SessionOptions OptionsFor(const DeviceCaps& caps, double period, SessionOptions 
   options.limiter.max_force = std::min(options.limiter.max_force, caps.peak_force);
   const int late = static_cast<int>(std::lround(delay / period));
   options.passivity.delay = std::clamp(late, options.passivity.delay, 7);
+  options.passivity.quantum = std::max(options.passivity.quantum, caps.position_quantum);
   double& bears = options.thermal.continuous_force;
   if (caps.continuous_force > 0)
     bears = bears > 0 ? std::min(bears, caps.continuous_force) : caps.continuous_force;

@@ -24,7 +24,8 @@ struct Touch {
 };
 
 // Two seconds against a one-sided wall at x = 0, one tick of delay, no friction, clamped to 3.3 N.
-Touch TouchWall(double stiffness, const HandModel& hand, bool is_guarded) {
+Touch TouchWall(double stiffness, const HandModel& hand, bool is_guarded,
+                const PassivityOptions& options = {}) {
   HandPlant plant({0.045, 0.2, 0, 5.5e-5, 3.3, 1}, hand, {1e-3, 0, 0});
   plant.SetIntent({-5e-3, 0, 0});
   PassivityState guard;
@@ -35,7 +36,7 @@ Touch TouchWall(double stiffness, const HandModel& hand, bool is_guarded) {
     const glm::dvec3 at = plant.Sample().hip_in_device;
     const glm::dvec3 spring(std::min(3.3, stiffness * std::max(0.0, -at.x)), 0, 0);
     glm::dvec3 force = spring;
-    if (is_guarded) force = GuardPassivity({}, spring, at, stiffness, kTick, guard);
+    if (is_guarded) force = GuardPassivity(options, spring, at, stiffness, kTick, guard);
     if (const double length = glm::length(force); length > 3.3) force *= 3.3 / length;
     NoteSent(force, guard);
     error2 += glm::dot(force - spring, force - spring);
@@ -57,6 +58,34 @@ TEST(Passivity, AWallThatIsTooStiffSwingsLessAndGivesLess) {
   EXPECT_GT(bare.swing, 0.3e-3) << "else there is nothing to guard against";
   EXPECT_LT(guarded.swing, 0.5 * bare.swing);
   EXPECT_LT(guarded.swing, 0.5e-3);
+  // Told of the device's counts it holds it as well.
+  PassivityOptions counts;
+  counts.quantum = 5.5e-5;
+  const Touch told = TouchWall(4000, kHand, true, counts);
+  std::printf("told of the counts: %.2f mm\n", 1e3 * told.swing);
+  EXPECT_LT(told.swing, 0.5e-3);
+}
+
+// A hand at rest on the edge of two counts, its force a tick late: what it seems to do to and fro
+// would soon be owed. Then one count after a long rest, which looks fast.
+TEST(Passivity, CountsOfTheDeviceAreNoMotion) {
+  constexpr double kCount = 5.5e-5;  // m
+  PassivityOptions options;
+  options.quantum = kCount;
+  options.delay = 1;
+  PassivityState guard;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 at(i % 2 * kCount, 0, 0);
+    const glm::dvec3 spring(0.5 + 500 * kCount * (i % 2 == 0), 0, 0);
+    ASSERT_EQ(GuardPassivity(options, spring, at, 500, kTick, guard), spring) << "tick " << i;
+    NoteSent(spring, guard);
+  }
+  guard.energy = -1e-3;  // owed
+  const glm::dvec3 push(0.5, 0, 0);
+  for (int i = 0; i < 500; ++i) GuardPassivity(options, push, {0, 0, 0}, 500, kTick, guard);
+  const glm::dvec3 braked = GuardPassivity(options, push, {2 * kCount, 0, 0}, 500, kTick, guard);
+  EXPECT_LT(glm::distance(braked, push), 0.01) << "of 1.65 N at the speed of a count in a tick";
+  EXPECT_LT(braked.x, push.x);
 }
 
 TEST(Passivity, AWallThatIsSoftEnoughIsLeftAsItIs) {

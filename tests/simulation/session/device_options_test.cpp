@@ -51,6 +51,7 @@ TEST(DeviceOptions, OnlyEverLower) {
   low.limiter.max_force = 1;
   low.thermal.continuous_force = 0.5;
   low.passivity.delay = 7;
+  low.passivity.quantum = 1e-3;
   const SessionOptions same = OptionsFor(TouchClass(), 1e-3, low);
   EXPECT_EQ(JsonFromOptions(same), JsonFromOptions(low));
   DeviceCaps weak = TouchClass();

@@ -2,12 +2,14 @@
 // session, contact, lever, output chain, and where a hand is pushed a simulated device that
 // somebody holds. Their parts are tested where they live.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdio>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -24,7 +26,8 @@ namespace {
 
 using app::AnalyticRelief;
 
-constexpr double kPixel = 5e-5;  // m, of AnalyticRelief
+constexpr double kPixel = 5e-5;             // m, of AnalyticRelief
+constexpr double kFrictionOfDevice = 0.26;  // N, of a plant
 
 LoadedScene SceneOver(const AnalyticRelief& relief, DepthMap depth) {
   LoadedScene loaded;
@@ -333,6 +336,52 @@ TEST(HardCase27, TenMinutesAreTheSameToTheBitThreeTimes) {
       ASSERT_EQ(again[i].state.hand_force, first[i].state.hand_force) << i;
       ASSERT_EQ(again[i].state.proxy_in_portal, first[i].state.proxy_in_portal) << i;
     }
+  }
+}
+
+// 0.1 mm/s along a wall for 60 s, then still for 20: device friction, quantum, delay and all. A
+// limit cycle swings on and on: nine tenths of the ticks of 0.1 s are then further apart than a
+// swing of that size lets them be. Nor does the passivity guard strike at each count of the device,
+// which looks like 55 mm/s.
+TEST(HardCase23, ASlowStrokeStaysStillWhenItIsHeldAndDoesNotSwing) {
+  const AnalyticRelief relief = Flat();
+  for (const HandModel& hand : {kSoftHand, kHand, kStiffHand}) {
+    const auto tip_at = [](double along) {
+      return 0.048 * glm::normalize(glm::dvec3(along, 0, 0.048));
+    };
+    Held held(SceneOver(relief, relief.Float()), tip_at(-3e-3), {}, hand);
+    double swing = 0, strike = 0;
+    int strikes = 0;
+    glm::dvec3 last = held.scope.force();
+    std::array<std::vector<double>, 3> window;  // 0.1 s of each axis: swings of 10 Hz and more
+    for (int i = 0; i < 60000; ++i) {
+      held.Tick(tip_at(-3e-3 + 1e-4 * i * kTick));
+      const double step =
+          glm::distance(held.scope.force(), std::exchange(last, held.scope.force()));
+      strike = std::max(strike, step);
+      strikes += step > kFrictionOfDevice;
+      for (int axis = 0; axis < 3; ++axis) {
+        auto& forces = window[static_cast<std::size_t>(axis)];
+        forces.push_back(held.scope.force()[axis]);
+        if (forces.size() < 100) continue;
+        std::ranges::sort(forces);
+        swing = std::max(swing, forces[94] - forces[5]);
+        forces.clear();
+      }
+    }
+    for (int i = 0; i < 2000; ++i) held.Tick(tip_at(3e-3));
+    const glm::dvec3 still = held.scope.plant().position();
+    EXPECT_GT(glm::length(held.scope.force()), 0.05);
+    for (int i = 0; i < 18000; ++i) held.Tick(tip_at(3e-3));
+    const double drift = glm::distance(held.scope.plant().position(), still);
+    std::printf(
+        "hand of %.0f N/m: swing %.3f N, drift %.4f mm in 18 s; %d of 60000 ticks step by more "
+        "than "
+        "%.2f N, %.2f at most\n",
+        hand.stiffness, swing, 1e3 * drift, strikes, kFrictionOfDevice, strike);
+    EXPECT_LT(drift, 1e-5);
+    EXPECT_LT(swing, kFrictionOfDevice);
+    EXPECT_LT(strikes, 10);
   }
 }
 
