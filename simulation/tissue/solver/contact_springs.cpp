@@ -162,7 +162,8 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
   for (std::size_t h = 0; h < holds.size(); ++h) began[h] = holds[h].offset;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     springs[i].point = PointOf(contacts[i], x);
-    springs[i].gap = GapAt(contacts[i], springs[i].point - offset_of(hold_of(contacts[i]))).gap;
+    if (const int hold = hold_of(contacts[i]); hold >= 0)
+      springs[i].gap = GapAt(contacts[i], springs[i].point - offset_of(hold)).gap;
   }
   const auto is_clear = [&](std::size_t i, const glm::dvec3& p, int hold) noexcept {
     return springs[i].gap > 2.0 * glm::distance(p, began[static_cast<std::size_t>(hold)]) &&
