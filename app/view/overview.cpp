@@ -2,75 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
-#include <vtkBoxRepresentation.h>
-#include <vtkBoxWidget2.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkEvent.h>
-#include <vtkGenericRenderWindowInteractor.h>
-#include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkLight.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
 #include <vtkTextureObject.h>
 #include <vtkTransform.h>
 #include <vtkWidgetEvent.h>
 #include <vtkWidgetEventTranslator.h>
 #include <vtk_glew.h>
 
-#include "app/view/context_render_window.h"
+#include "app/view/overview_impl.h"
 #include "app/view/overview_parts.h"
 #include "app/view/probe_mesh.h"
-#include "app/view/srgb.h"
 #include "app/view/tool_mesh.h"
 #include "simulation/core/error.h"
-#include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
 
-const glm::dvec3 kScopeColour{0.25, 0.75, 0.80}, kInstrumentColour{0.95, 0.68, 0.25};
 const glm::dvec3 kAxisColours[3] = {{0.90, 0.35, 0.32}, {0.45, 0.80, 0.40}, {0.40, 0.58, 0.95}};
-const glm::dvec3 kFreshColour{0.97, 0.93, 0.84};  // of a cut face: the inside of a tissue is paler
-constexpr double kRodBehindPortal = 0.035;        // of each rod, drawn outside the joint, m
-constexpr double kScopeRadius = 2.0e-3;           // of a 4 mm arthroscope
+constexpr double kRodBehindPortal = 0.035;  // of each rod, drawn outside the joint, m
+constexpr double kScopeRadius = 2.0e-3;     // of a 4 mm arthroscope
 constexpr double kLineRadius = 0.22e-3;
 constexpr double kAxisLength = 0.01;  // also the scale: its label says so
-
-vtkSmartPointer<vtkMatrix4x4> MatrixOf(const Pose& pose) {
-  const glm::dmat3 rotation = glm::mat3_cast(pose.quaternion);
-  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) matrix->SetElement(r, c, pose.scale * rotation[c][r]);
-    matrix->SetElement(r, 3, pose.position[r]);
-  }
-  return matrix;
-}
-
-Pose PoseOf(const vtkMatrix4x4& matrix) {
-  glm::dmat3 linear;
-  Pose pose;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) linear[c][r] = matrix.GetElement(r, c);
-    pose.position[r] = matrix.GetElement(r, 3);
-  }
-  pose.scale = std::cbrt(glm::determinant(linear));
-  // The box keeps its angles but for rounding.
-  const glm::dvec3 x = glm::normalize(linear[0]);
-  const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
-  pose.quaternion = glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
-  return pose;
-}
 
 // A flat-lying ring about an incision, across the rod.
 std::vector<std::vector<glm::dvec3>> PortalRing(const glm::dvec3& centre, double radius) {
@@ -83,54 +44,6 @@ std::vector<std::vector<glm::dvec3>> PortalRing(const glm::dvec3& centre, double
 }
 
 }  // namespace
-
-struct Overview::Parts {
-  struct Model {
-    vtkSmartPointer<vtkActor> actor;
-    vtkSmartPointer<vtkPolyData> data;
-    SurfaceMesh surface;
-    Pose pose;
-  };
-
-  vtkNew<ContextRenderWindow> window;
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkGenericRenderWindowInteractor> interactor;
-  vtkNew<vtkInteractorStyleTrackballCamera> style;
-  vtkNew<vtkBoxWidget2> box;
-  vtkNew<vtkBoxRepresentation> box_look;
-  vtkNew<vtkCallbackCommand> asked_to_draw, box_moved;
-
-  vtkSmartPointer<vtkActor> relief = MakeActor({1, 1, 1}, 0.55);
-  vtkSmartPointer<vtkActor> scope = MakeActor({0.62, 0.66, 0.70});
-  vtkSmartPointer<vtkActor> cone = MakeActor(kScopeColour, 0.7);
-  vtkSmartPointer<vtkActor> probe = MakeActor({0.70, 0.70, 0.72});
-  vtkSmartPointer<vtkActor> moving = MakeActor({0.70, 0.70, 0.72});
-  vtkSmartPointer<vtkActor> scope_portal = MakeActor(kScopeColour, 0.5);
-  vtkSmartPointer<vtkActor> instrument_portal = MakeActor(kInstrumentColour, 0.5);
-  vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope portal", kScopeColour);
-  vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
-      MakeLabel("instrument portal", kInstrumentColour);
-
-  // Translucent: what they hold is seen through them.
-  vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
-  vtkSmartPointer<vtkActor> held_chosen = MakeActor({1.0, 0.85, 0.3});
-
-  std::vector<Model> tissues;
-  std::vector<Ball> balls;
-  Pose balls_pose;
-  bool shows_balls = false;
-  int chosen_ball = -1;
-  int chosen = -1;
-  double radius = 0.05;
-  glm::ivec2 panorama_size{0};
-  bool changed = true;
-  bool dragging = false;
-  int width = 0, height = 0;
-
-  void BuildScene();
-  void PlaceBox();
-  void FitShorterSide();
-};
 
 // The whole scene is seen whichever side is shorter; a narrow picture keeps room for the labels.
 void Overview::Parts::FitShorterSide() {
@@ -195,23 +108,6 @@ void Overview::Parts::BuildScene() {
     renderer->AddActor(axis);
     renderer->AddActor(label);
   }
-}
-
-void Overview::Parts::PlaceBox() {
-  const bool shown = chosen >= 0 && !tissues[std::size_t(chosen)].surface.triangles.empty();
-  if (!shown) {
-    box->Off();
-    return;
-  }
-  // The box is that of the resting surface in its own frame; its transform is the pose.
-  Model& model = tissues[std::size_t(chosen)];
-  double bounds[6];
-  model.data->GetBounds(bounds);
-  box_look->PlaceWidget(bounds);
-  vtkNew<vtkTransform> transform;
-  transform->SetMatrix(MatrixOf(model.pose));
-  box_look->SetTransform(transform);
-  box->On();
 }
 
 Overview::Overview() : parts_(std::make_unique<Parts>()) {
@@ -293,69 +189,6 @@ void Overview::SetRelief(const DepthMap& depth, const Backdrop& backdrop) {
   p.changed = true;
 }
 
-void Overview::SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces) {
-  Parts& p = *parts_;
-  for (const auto& model : p.tissues) p.renderer->RemoveActor(model.actor);
-  p.tissues.clear();
-  for (std::size_t i = 0; i < tissues.size(); ++i) {
-    Parts::Model model;
-    if (i < surfaces.size()) model.surface = surfaces[i];
-    model.pose = tissues[i].pose;
-    model.data = MakeSurfaceData(model.surface);
-    const glm::dvec3& c = tissues[i].colour;
-    // A little darker than in the joint, where light falls on it from the front only.
-    model.actor =
-        MakeActor(0.9 * glm::dvec3(SrgbFromLinear(c.x), SrgbFromLinear(c.y), SrgbFromLinear(c.z)));
-    model.actor->GetProperty()->SetSpecular(0.06);
-    model.actor->GetProperty()->SetSpecularPower(25);
-    SetData(*model.actor, model.data);
-    model.actor->SetUserMatrix(MatrixOf(model.pose));
-    p.renderer->AddActor(model.actor);
-    p.tissues.push_back(std::move(model));
-  }
-  if (p.chosen >= static_cast<int>(p.tissues.size())) p.chosen = -1;
-  p.PlaceBox();
-  p.changed = true;
-}
-
-void Overview::SetTissuePose(int index, const Pose& portal_from_tissue) {
-  Parts& p = *parts_;
-  auto& model = p.tissues.at(static_cast<std::size_t>(index));
-  model.pose = portal_from_tissue;
-  model.actor->SetUserMatrix(MatrixOf(model.pose));
-  // The box under the pointer keeps to the pointer.
-  if (index == p.chosen && !p.dragging) p.PlaceBox();
-  p.changed = true;
-}
-
-bool Overview::SetTissueShape(int index, std::span<const glm::dvec3> positions,
-                              std::span<const glm::dvec3> normals) {
-  auto& model = parts_->tissues.at(static_cast<std::size_t>(index));
-  if (positions.size() != model.surface.vertices.size() ||
-      (!normals.empty() && normals.size() != positions.size()))
-    throw Error(Code::kBadArgument,
-                fmt::format("tissue {} was given {} vertices to draw; its "
-                            "surface has {}",
-                            index, positions.size(), model.surface.vertices.size()));
-  if (std::equal(positions.begin(), positions.end(), model.surface.vertices.begin())) return false;
-  model.surface.vertices.assign(positions.begin(), positions.end());
-  MoveSurfaceData(*model.data, model.surface, normals);
-  parts_->changed = true;
-  return true;
-}
-
-void Overview::SetTissueSurface(int index, const SurfaceMesh& surface,
-                                std::span<const std::uint8_t> fresh) {
-  auto& model = parts_->tissues.at(static_cast<std::size_t>(index));
-  model.surface = surface;
-  model.data = MakeSurfaceData(surface);
-  double own[3];
-  model.actor->GetProperty()->GetColor(own);
-  ColourVertices(*model.data, {own[0], own[1], own[2]}, kFreshColour, fresh);
-  SetData(*model.actor, model.data);
-  parts_->changed = true;
-}
-
 void Overview::SetIncisionSpacing(double spacing) {
   Parts& p = *parts_;
   SetData(*p.instrument_portal, MakeBars(PortalRing({spacing, 0, 0}, 3.2e-3), 0.6e-3));
@@ -392,68 +225,6 @@ void Overview::SetTools(const OverviewTools& tools) {
         MatrixOf({pose * part.position, pose.quaternion * part.quaternion, 1.0}));
   }
   p.changed = true;
-}
-
-void Overview::ChooseTissue(int index) {
-  Parts& p = *parts_;
-  if (index >= static_cast<int>(p.tissues.size())) index = -1;
-  if (index == p.chosen) return;
-  p.chosen = index;
-  p.PlaceBox();
-  p.changed = true;
-}
-
-void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
-  Parts& p = *parts_;
-  if (tissue >= static_cast<int>(p.tissues.size())) tissue = -1;
-  const bool is_shown = tissue >= 0 && !balls.empty();
-  const Pose pose = is_shown ? p.tissues[std::size_t(tissue)].pose : Pose{};
-  const bool is_same = is_shown == p.shows_balls && chosen == p.chosen_ball &&
-                       std::equal(balls.begin(), balls.end(), p.balls.begin(), p.balls.end()) &&
-                       pose.position == p.balls_pose.position &&
-                       pose.quaternion == p.balls_pose.quaternion &&
-                       pose.scale == p.balls_pose.scale;
-  if (is_same) return;
-  p.shows_balls = is_shown;
-  p.chosen_ball = chosen;
-  p.balls.assign(balls.begin(), balls.end());
-  p.balls_pose = pose;
-  std::vector<Ball> others, lit;
-  for (std::size_t i = 0; i < balls.size(); ++i)
-    (static_cast<int>(i) == chosen ? lit : others).push_back(balls[i]);
-  for (const auto& [actor, some] :
-       {std::pair{p.held.Get(), &others}, {p.held_chosen.Get(), &lit}}) {
-    SetData(*actor, MakeSurfaceData(MakeBalls(*some)));
-    actor->SetUserMatrix(MatrixOf(pose));
-    actor->SetVisibility(is_shown && !some->empty() ? 1 : 0);
-  }
-  p.changed = true;
-}
-
-std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) const {
-  const Parts& p = *parts_;
-  glm::dvec3 ends[2];
-  for (int i = 0; i < 2; ++i) {
-    double world[4];
-    p.renderer->SetDisplayPoint(x, p.height - 1 - y, i);
-    p.renderer->DisplayToWorld();
-    p.renderer->GetWorldPoint(world);
-    ends[i] = glm::dvec3(world[0], world[1], world[2]) / world[3];
-  }
-  std::optional<TissuePlace> place;
-  double nearest = 1.0;  // share of the way between the ends
-  for (std::size_t i = 0; i < p.tissues.size(); ++i) {
-    const Pose& pose = p.tissues[i].pose;
-    const auto own = [&](const glm::dvec3& world) {
-      return (glm::conjugate(pose.quaternion) * (world - pose.position)) / pose.scale;
-    };
-    const glm::dvec3 from = own(ends[0]), way = own(ends[1]) - from;
-    if (const auto share = FirstHit(p.tissues[i].surface, from, way); share && *share < nearest) {
-      nearest = *share;
-      place = TissuePlace{static_cast<int>(i), from + *share * way};
-    }
-  }
-  return place;
 }
 
 void Overview::Handle(const PointerEvent& event) {

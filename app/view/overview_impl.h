@@ -1,0 +1,81 @@
+// The inside of Overview: what its window holds. Portal frame, m. Tissues, their box and their
+// balls are overview_tissues.cpp.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <vtkActor.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkBoxRepresentation.h>
+#include <vtkBoxWidget2.h>
+#include <vtkCallbackCommand.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include "app/view/context_render_window.h"
+#include "app/view/overview.h"
+#include "app/view/overview_parts.h"
+
+namespace arthro::app {
+
+inline const glm::dvec3 kScopeColour{0.25, 0.75, 0.80}, kInstrumentColour{0.95, 0.68, 0.25};
+
+// A tissue's pose as VTK has it, and back; shears by rounding are left out.
+vtkSmartPointer<vtkMatrix4x4> MatrixOf(const Pose& pose);
+Pose PoseOf(const vtkMatrix4x4& matrix);
+
+struct Overview::Parts {
+  struct Model {
+    vtkSmartPointer<vtkActor> actor;
+    vtkSmartPointer<vtkPolyData> data;
+    SurfaceMesh surface;
+    Pose pose;
+  };
+
+  vtkNew<ContextRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkGenericRenderWindowInteractor> interactor;
+  vtkNew<vtkInteractorStyleTrackballCamera> style;
+  vtkNew<vtkBoxWidget2> box;
+  vtkNew<vtkBoxRepresentation> box_look;
+  vtkNew<vtkCallbackCommand> asked_to_draw, box_moved;
+
+  vtkSmartPointer<vtkActor> relief = MakeActor({1, 1, 1}, 0.55);
+  vtkSmartPointer<vtkActor> scope = MakeActor({0.62, 0.66, 0.70});
+  vtkSmartPointer<vtkActor> cone = MakeActor(kScopeColour, 0.7);
+  vtkSmartPointer<vtkActor> probe = MakeActor({0.70, 0.70, 0.72});
+  vtkSmartPointer<vtkActor> moving = MakeActor({0.70, 0.70, 0.72});
+  vtkSmartPointer<vtkActor> scope_portal = MakeActor(kScopeColour, 0.5);
+  vtkSmartPointer<vtkActor> instrument_portal = MakeActor(kInstrumentColour, 0.5);
+  vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope portal", kScopeColour);
+  vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
+      MakeLabel("instrument portal", kInstrumentColour);
+
+  // Translucent: what they hold is seen through them.
+  vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
+  vtkSmartPointer<vtkActor> held_chosen = MakeActor({1.0, 0.85, 0.3});
+
+  std::vector<Model> tissues;
+  std::vector<Ball> balls;
+  Pose balls_pose;
+  bool shows_balls = false;
+  int chosen_ball = -1;
+  int chosen = -1;
+  double radius = 0.05;
+  glm::ivec2 panorama_size{0};
+  bool changed = true;
+  bool dragging = false;
+  int width = 0, height = 0;
+
+  void BuildScene();
+  void PlaceBox();
+  void FitShorterSide();
+};
+
+}  // namespace arthro::app
