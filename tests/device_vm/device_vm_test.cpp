@@ -236,7 +236,9 @@ TEST(DeviceVm, RolesFollowSerialNumbersWhenPortsAreSwapped) {
     });
   };
   ASSERT_TRUE(both(false));
+  // The kernel gives a node its number some time after it was asked to: b is to be first.
   b.Do("plug");
+  ASSERT_EQ(WhenListed(1).size(), 1u);
   a.Do("plug");
   ASSERT_TRUE(both(true));
   const auto after = PathsBySerial();
