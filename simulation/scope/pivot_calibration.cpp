@@ -21,6 +21,11 @@ constexpr double kShortestRod = 1e-6;  // m; a shorter one has no direction
 constexpr double kOutlier = 4.0;       // sigmas; Gaussian noise is further out once in 3000 presses
 constexpr int kFewestForOutliers = 5;  // with four, two pairs could each be right
 
+// Of the square that the noise of angles scatters directions by, about two axes. Rods that are as
+// good as parallel and seen through noise turn about the hand, which then passes for the incision.
+// Of two presses noise alone does this once in e⁸ = 3000, of more hardly ever.
+constexpr double kLeastScatter = 8.0;
+
 constexpr std::size_t kManyLines = 2000;  // beyond, not every line is held against every other
 
 struct Line {
@@ -240,6 +245,15 @@ double SpreadOf(const Lines& lines) {
   return std::acos(std::clamp(least, 0.0, 1.0));
 }
 
+// Mean squared sine of the angle between the lines and their common direction, as of a sample.
+double ScatterOf(const Lines& lines) {
+  Matrix3d sum = Matrix3d::Zero();
+  for (const Line& line : lines) sum += line.direction * line.direction.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(sum, Eigen::EigenvaluesOnly);
+  const double n = static_cast<double>(lines.size());
+  return std::max(0.0, n - solver.eigenvalues()[2]) / (n - 1.0);
+}
+
 // Noise of the ends shows at the pivot by where it lies on the rod: at an end in full, beyond it
 // more.
 double EndNoiseFactor(const Lines& lines, const Vector3d& pivot) {
@@ -369,6 +383,15 @@ PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const Pivot
         "more between presses",
         spread_deg, InMm(result.sigma), InMm(options.max_sigma),
         std::max(30.0, DegreesFromRadians(options.min_spread)));
+    return result;
+  }
+  if (ScatterOf(chosen) < kLeastScatter * 2.0 * noise.angle * noise.angle) {
+    result.status = PivotStatus::kTooNarrow;
+    result.reason = fmt::format(
+        "the rods are at most {:.2g} degrees apart in direction, which is little more than the "
+        "handle's angles tremble by ({:.2g} degrees rms); swing the rod by {:.0f} degrees or more",
+        spread_deg, DegreesFromRadians(noise.angle),
+        std::max(30.0, DegreesFromRadians(20.0 * noise.angle)));
     return result;
   }
   result.pivot = glm::dvec3(fit.pivot.x(), fit.pivot.y(), fit.pivot.z());

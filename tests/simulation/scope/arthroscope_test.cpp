@@ -1,3 +1,4 @@
+// The hard cases are numbered as in the notes on haptics.
 #include "simulation/scope/arthroscope.h"
 
 #include <cmath>
@@ -85,9 +86,9 @@ TEST(Arthroscope, DirectionsOutsideTheWindowLandOutsideIt) {
     EXPECT_GT(glm::length(PixelFromRay(window, view, away) - window.centre_px), window.radius_px);
 }
 
-// Notes, hard case 21. Rod and handle turn together by 0.1 degrees about some axis, so the view may
+// Rod and handle turn together by 0.1 degrees about some axis, so the view may
 // turn by 0.1 degrees and no more; the latitude and longitude that lie between may jump.
-TEST(Arthroscope, ViewIsContinuousOverPoleDateLineAndRollWrap) {
+TEST(Arthroscope, HardCase21ViewIsContinuousOverPoleDateLineAndRollWrap) {
   struct Path {
     const char* over;
     glm::dvec3 axis;  // of the motion, portal frame
@@ -128,8 +129,8 @@ TEST(Arthroscope, ViewIsContinuousOverPoleDateLineAndRollWrap) {
   }
 }
 
-// Notes, hard case 15: the picture's side of it.
-TEST(Arthroscope, ViewAndCentreAreFiniteAtEveryDepth) {
+// The picture's side of it.
+TEST(Arthroscope, HardCase15ViewAndCentreAreFiniteAtEveryDepth) {
   for (double depth : {-0.4, -0.05, -0.01, 0.0, 0.01, 0.05 - 1e-15, 0.05, 0.05 + 1e-15, 0.06, 0.2})
     for (double alpha_deg : {0.0, 30.0, 70.0, 90.0})
       for (double roll : {0.0, 1.0, 3.2}) {

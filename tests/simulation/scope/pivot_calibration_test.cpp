@@ -142,8 +142,8 @@ TEST(PivotCalibration, ErrorIsWithinThreePredictedSigmas) {
   }
 }
 
-// Hard case 16, and rods held in parallel.
-TEST(PivotCalibration, SameOppositeAndParallelDirectionsAreRefusedWithTheReason) {
+// And rods held in parallel.
+TEST(PivotCalibration, HardCase16SameOppositeAndParallelDirectionsAreRefusedWithTheReason) {
   const glm::dvec3 u = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
   const PivotPress press{kPivot - 0.1 * u, kPivot + 0.1 * u};
   const PivotPress turned{press.tip, press.hip};
@@ -170,21 +170,36 @@ TEST(PivotCalibration, NoisyParallelPressesAreRefused) {
   }
 }
 
-// Hard case 17: refused at 0.1, 1 and 5 degrees; from where it may be accepted the prediction
-// holds.
-TEST(PivotCalibration, PredictedSigmaIsTheMonteCarloErrorOrThePressesAreRefused) {
-  for (double degrees : {0.1, 1.0, 5.0, 10.0, 20.0, 40.0, 60.0}) {
-    for (int n : {2, 8, 32}) {
+// The target: predicted within 30 % of what chance does, or refused. As the program comes, every
+// nearly parallel set is refused, also where noise of the handle's angles spreads what is seen.
+TEST(PivotCalibration, HardCase17NearlyParallelPressesAreRefusedAsTheProgramComes) {
+  for (const double degrees : {0.1, 1.0, 5.0})
+    for (const int n : {2, 8, 32})
+      for (const double gimbal_deg : {0.0, 0.05, 0.5, 2.0}) {
+        Device device(14);
+        PivotOptions options;
+        options.angle_noise = RadiansFromDegrees(gimbal_deg);
+        for (int trial = 0; trial < 100; ++trial) {
+          std::vector<PivotPress> presses;
+          for (int i = 0; i < n; ++i)
+            presses.push_back(device.Press(OnCone(i, n, RadiansFromDegrees(degrees)), 0.1, kNoise,
+                                           options.angle_noise));
+          const PivotCalibration calibration = CalibratePivot(presses, options);
+          EXPECT_EQ(calibration.status, PivotStatus::kTooNarrow)
+              << degrees << " degrees, " << n << " presses, gimbal " << gimbal_deg;
+          EXPECT_FALSE(calibration.pivot);
+        }
+      }
+}
+
+// Where somebody lowers the limits as far as the options go, what is then accepted is predicted
+// rightly, and a tenth of a degree is still refused.
+TEST(PivotCalibration, HardCase17PredictedSigmaIsTheMonteCarloErrorWhereTheLimitsAreLowered) {
+  for (const double degrees : {0.1, 1.0, 5.0, 10.0, 20.0, 40.0, 60.0})
+    for (const int n : {2, 8, 32}) {
       Device device(5);
       PivotOptions options;
-      const PivotPress narrow[] = {
-          device.Press(OnCone(0, 2, RadiansFromDegrees(degrees)), 0.1, kNoise),
-          device.Press(OnCone(1, 2, RadiansFromDegrees(degrees)), 0.1, kNoise)};
-      if (degrees < 8.0) {
-        EXPECT_EQ(CalibratePivot(narrow, options).status, PivotStatus::kTooNarrow) << degrees;
-      }
-      if (degrees < 5.0) continue;
-      options.min_spread = RadiansFromDegrees(4.0);
+      options.min_spread = RadiansFromDegrees(0.999);  // 1, and rounding
       options.max_sigma = 0.1;
       double error2 = 0.0, sigma2 = 0.0;
       constexpr int kTrials = 300;
@@ -193,19 +208,22 @@ TEST(PivotCalibration, PredictedSigmaIsTheMonteCarloErrorOrThePressesAreRefused)
         for (int i = 0; i < n; ++i)
           presses.push_back(device.Press(OnCone(i, n, RadiansFromDegrees(degrees)), 0.1, kNoise));
         const PivotCalibration calibration = CalibratePivot(presses, options);
-        ASSERT_TRUE(calibration.pivot);
+        if (degrees < 0.5) {
+          EXPECT_EQ(calibration.status, PivotStatus::kTooNarrow);
+          continue;
+        }
+        ASSERT_TRUE(calibration.pivot) << calibration.reason;
         error2 += ErrorOf(calibration) * ErrorOf(calibration) / kTrials;
         sigma2 += calibration.sigma * calibration.sigma / kTrials;
       }
+      if (degrees < 0.5) continue;
       std::printf("%5.1f degrees, %2d presses: error %.3f mm rms, predicted %.3f mm\n", degrees, n,
                   1e3 * std::sqrt(error2), 1e3 * std::sqrt(sigma2));
       EXPECT_NEAR(std::sqrt(sigma2 / error2), 1.0, 0.3);
     }
-  }
 }
 
-// Hard case 18.
-TEST(PivotCalibration, MovedIncisionIsFlagged) {
+TEST(PivotCalibration, HardCase18MovedIncisionIsFlagged) {
   Device device(6);
   const glm::dvec3 moved(0.0, 0.005, 0.0);  // across both rods
   for (int n : {2, 3, 4, 8, 30}) {
@@ -233,25 +251,25 @@ TEST(PivotCalibration, NoiseAloneIsSeldomFlagged) {
   EXPECT_LE(flagged, 20);  // three sigmas of one degree of freedom: 0.27 % of 2000 is 5
 }
 
-// Hard case 19.
-TEST(PivotCalibration, PivotOutsideTheRodIsSolvedAndReported) {
-  for (double reach : {-0.03, 0.23}) {
-    Device device(8);
-    std::vector<PivotPress> presses;
-    for (int i = 0; i < 6; ++i) presses.push_back(device.Press(OnCone(i, 6, 0.8), reach, kNoise));
-    const PivotCalibration calibration = CalibratePivot(presses);
-    EXPECT_EQ(calibration.status, PivotStatus::kOutsideRod) << calibration.reason;
-    ASSERT_TRUE(calibration.pivot);
-    EXPECT_LT(ErrorOf(calibration), 3.0 * calibration.sigma);
-    EXPECT_NE(calibration.reason.find(reach < 0 ? "behind the hand" : "beyond the tip"),
-              std::string::npos);
-  }
+TEST(PivotCalibration, HardCase19PivotOutsideTheRodIsSolvedAndReported) {
+  for (const int n : {2, 6})
+    for (const double reach : {-0.03, 0.23}) {
+      Device device(8);
+      std::vector<PivotPress> presses;
+      for (int i = 0; i < n; ++i) presses.push_back(device.Press(OnCone(i, n, 0.8), reach, kNoise));
+      const PivotCalibration calibration = CalibratePivot(presses);
+      EXPECT_EQ(calibration.status, PivotStatus::kOutsideRod) << calibration.reason;
+      ASSERT_TRUE(calibration.pivot);
+      EXPECT_LT(ErrorOf(calibration), 3.0 * calibration.sigma);
+      EXPECT_NE(calibration.reason.find(reach < 0 ? "behind the hand" : "beyond the tip"),
+                std::string::npos);
+    }
 }
 
-// Hard case 20: 30 presses, positions quantised to 0.055 mm, one press 20 mm off. With the noise of
+// 30 presses, positions quantised to 0.055 mm, one press 20 mm off. With the noise of
 // the gimbals stated or not: unstated noise shows in the residual, and the prediction grows with
 // it.
-TEST(PivotCalibration, OneOutlierInThirtyIsSurvivedAtEveryGimbalNoise) {
+TEST(PivotCalibration, HardCase20OneOutlierInThirtyIsSurvivedAtEveryGimbalNoise) {
   for (double gimbal_deg : {0.0, 0.35, 2.0})
     for (const bool is_stated : {true, false}) {
       Device device(9);

@@ -1,4 +1,5 @@
-// A hand that keeps swinging the rod through an incision whose place is known.
+// A hand that keeps swinging the rod through an incision whose place is known. The hard cases are
+// numbered as in the notes on haptics.
 #include "simulation/scope/pivot_swing.h"
 
 #include <cmath>
@@ -81,7 +82,7 @@ TEST(PivotSwing, TwentySecondsOfSwingingFindTheIncisionWithinThreeSigma) {
   EXPECT_GE(within, 99);
 }
 
-// Hard case 20, in motion: the trocar slips by 20 mm for a second of twenty.
+// In motion: the trocar slips by 20 mm for a second of twenty.
 TEST(PivotSwing, HardCase20WhatSlipsForAWhileIsLeftOut) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
@@ -108,7 +109,8 @@ TEST(PivotSwing, AHandThatRestsCountsOnce) {
   EXPECT_EQ(CalibratePivot(swing.presses(), Options()).status, PivotStatus::kTooFew);
 }
 
-TEST(PivotSwing, InAndOutAloneIsRefused) {
+// However many poses there are.
+TEST(PivotSwing, HardCase16InAndOutAloneIsRefused) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
   for (int i = 0; i < 5000; ++i) {

@@ -1,3 +1,4 @@
+// The hard cases are numbered as in the notes on haptics.
 #include "simulation/scope/rod_pose.h"
 
 #include <cmath>
@@ -41,8 +42,7 @@ TEST(RodPose, IdentityHandleHasNoRoll) {
   EXPECT_LT(glm::length(TipInOwnPortal(pose) - glm::dvec3(0, 0, 0.03)), 1e-12);
 }
 
-// Notes, hard case 22.
-TEST(RodPose, InAndOutLeavesTheAngles) {
+TEST(RodPose, HardCase22InAndOutLeavesTheAngles) {
   const DeviceRig rig = TiltedRig();
   const RodPose pose{0.3, -0.5, 0.0, 0.01};
   const glm::dvec3 hip = HipFromRodPose(pose, rig);
@@ -55,8 +55,8 @@ TEST(RodPose, InAndOutLeavesTheAngles) {
   }
 }
 
-// Notes, hard case 21: roll crosses 180 degrees without a jump.
-TEST(RodPose, RollIsContinuousOverSeveralTurns) {
+// Roll crosses 180 degrees without a jump.
+TEST(RodPose, HardCase21RollIsContinuousOverSeveralTurns) {
   const DeviceRig rig;
   RodPose previous{0.1, 0.2, 0.0, 0.02};
   for (double roll = 0.0; roll < 20.0; roll += 0.1) {
@@ -67,8 +67,8 @@ TEST(RodPose, RollIsContinuousOverSeveralTurns) {
   }
 }
 
-// Notes, hard case 22 at its hardest: beside the pole an arc sine would lose half of the digits.
-TEST(RodPose, InAndOutLeavesTheAnglesBesideThePole) {
+// At its hardest: beside the pole an arc sine would lose half of the digits.
+TEST(RodPose, HardCase22InAndOutLeavesTheAnglesBesideThePole) {
   const DeviceRig rig;
   for (double from_pole : {1e-3, 1e-5, 1e-7, 1e-8}) {
     const glm::dvec3 u(0.0, -std::cos(from_pole), std::sin(from_pole));
@@ -80,8 +80,7 @@ TEST(RodPose, InAndOutLeavesTheAnglesBesideThePole) {
   }
 }
 
-// Notes, hard case 15.
-TEST(RodPose, LeverIsFiniteAtEveryHandAndOnBothSidesOfThePivot) {
+TEST(RodPose, HardCase15LeverIsFiniteAtEveryHandAndOnBothSidesOfThePivot) {
   const DeviceRig rig = TiltedRig();
   const glm::dvec3 along = glm::normalize(glm::dvec3(0.3, -0.2, 0.9));
   RodPose pose;
