@@ -39,7 +39,10 @@ void RunPivotJob(const PivotArguments& arguments) {
   CheckOptions(arguments.options);
   const auto presses =
       arguments.swing.empty() ? simulation::ReadPresses(arguments.poses) : SwingOf(arguments);
-  const auto calibration = simulation::CalibratePivot(presses, arguments.options);
+  const auto calibration =
+      simulation::CalibratePivot(presses, arguments.options,
+                                 arguments.swing.empty() ? simulation::PivotSource::kPresses
+                                                         : simulation::PivotSource::kSwing);
   WriteAtomically(arguments.output, simulation::JsonFromPivot(calibration));
   // The record is kept in either case; a pivot that should not be used ends the job with its
   // reason.

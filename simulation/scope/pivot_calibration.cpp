@@ -286,8 +286,36 @@ std::string InMm(double metres) {
                                : std::string("nothing");
 }
 
+// For a person who presses a button, or one who keeps swinging.
+struct Wording {
+  const char *one, *many, *start, *wider, *while_moved, *again, *longer;
+};
+constexpr Wording kPressWords{
+    "press",
+    "presses",
+    "press at least twice, with the rod in different directions",
+    "swing the rod by {:.0f} degrees or more between presses",
+    "between presses",
+    "press again",
+    "swing wider or press more often",
+};
+constexpr Wording kSwingWords{
+    "pose",
+    "poses",
+    "keep swinging the rod through the incision, in different directions",
+    "swing the rod wider, by {:.0f} degrees or more",
+    "while the rod was swung",
+    "begin again",
+    "swing wider or longer",
+};
+
+std::string WiderWords(const Wording& words, double angle) {
+  return fmt::format(fmt::runtime(words.wider), std::max(30.0, DegreesFromRadians(angle)));
+}
+
 // Presses whose pivot lies outside the stretch from hand to tip by more than `margin`.
-std::string OutsideReason(const Lines& lines, const Vector3d& pivot, double margin) {
+std::string OutsideReason(const Lines& lines, const Vector3d& pivot, double margin,
+                          const Wording& words) {
   int outside = 0;
   double furthest = 0.0;  // negative: behind the hand
   for (const Line& line : lines) {
@@ -299,10 +327,10 @@ std::string OutsideReason(const Lines& lines, const Vector3d& pivot, double marg
   }
   if (outside == 0) return {};
   return fmt::format(
-      "in {} of {} presses the rods meet outside the rod, up to {} {}; the incision must lie "
+      "in {} of {} {} the rods meet outside the rod, up to {} {}; the incision must lie "
       "between "
       "hand and tip, so check the rod's length and put the tip through the incision",
-      outside, lines.size(), InMm(std::abs(furthest)),
+      outside, lines.size(), words.many, InMm(std::abs(furthest)),
       furthest < 0.0 ? "behind the hand" : "beyond the tip");
 }
 
@@ -324,15 +352,16 @@ const char* WordOf(PivotStatus status) {
   return "";
 }
 
-PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const PivotOptions& options) {
+PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const PivotOptions& options,
+                                PivotSource source) {
+  const Wording& words = source == PivotSource::kSwing ? kSwingWords : kPressWords;
   PivotCalibration result;
   const Noise noise{options.position_noise, options.angle_noise};
   const Lines lines = UsableLines(presses, result.left_out);
   result.poses_used = static_cast<int>(lines.size());
   if (lines.size() < 2) {
-    result.reason =
-        fmt::format("{} usable {}; press at least twice, with the rod in different directions",
-                    lines.size(), lines.size() == 1 ? "press" : "presses");
+    result.reason = fmt::format("{} usable {}; {}", lines.size(),
+                                lines.size() == 1 ? words.one : words.many, words.start);
     return result;
   }
 
@@ -379,49 +408,47 @@ PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const Pivot
     result.status = PivotStatus::kTooNarrow;
     result.reason = fmt::format(
         "the rods are at most {:.2g} degrees apart in direction (opposite ones count as the same), "
-        "which leaves the pivot known to {} only (limit {}); swing the rod by {:.0f} degrees or "
-        "more between presses",
+        "which leaves the pivot known to {} only (limit {}); {}",
         spread_deg, InMm(result.sigma), InMm(options.max_sigma),
-        std::max(30.0, DegreesFromRadians(options.min_spread)));
+        WiderWords(words, options.min_spread));
     return result;
   }
   if (ScatterOf(chosen) < kLeastScatter * 2.0 * noise.angle * noise.angle) {
     result.status = PivotStatus::kTooNarrow;
     result.reason = fmt::format(
         "the rods are at most {:.2g} degrees apart in direction, which is little more than the "
-        "handle's angles tremble by ({:.2g} degrees rms); swing the rod by {:.0f} degrees or more",
-        spread_deg, DegreesFromRadians(noise.angle),
-        std::max(30.0, DegreesFromRadians(20.0 * noise.angle)));
+        "handle's angles tremble by ({:.2g} degrees rms); {}",
+        spread_deg, DegreesFromRadians(noise.angle), WiderWords(words, 20.0 * noise.angle));
     return result;
   }
   result.pivot = glm::dvec3(fit.pivot.x(), fit.pivot.y(), fit.pivot.z());
   if (!agree) {
     result.status = PivotStatus::kInconsistent;
-    result.reason = fmt::format(
-        "only {} of {} presses agree on one point; the incision moved between presses: press again",
-        used.size(), lines.size());
+    result.reason =
+        fmt::format("only {} of {} {} agree on one point; the incision moved {}: {}", used.size(),
+                    lines.size(), words.many, words.while_moved, words.again);
   } else if (scale > options.residual_limit) {
     result.status = PivotStatus::kInconsistent;
     result.reason = fmt::format(
         "the rods miss one point by {} rms, {:.2g} times what the stated noise explains; either "
         "the "
-        "incision moved between presses, or the handle's angles are noisier than stated (option "
+        "incision moved {}, or the handle's angles are noisier than stated (option "
         "angle_noise)",
-        InMm(result.residual), scale);
+        InMm(result.residual), scale, words.while_moved);
   } else if (!(result.sigma <= options.max_sigma)) {
     result.status = PivotStatus::kInconsistent;
     result.reason = fmt::format(
         "the rods miss one point by {} rms, which leaves the pivot known to {} only (limit {}); "
-        "swing wider or press more often",
-        InMm(result.residual), InMm(result.sigma), InMm(options.max_sigma));
+        "{}",
+        InMm(result.residual), InMm(result.sigma), InMm(options.max_sigma), words.longer);
   } else {
     const double margin = 3.0 * std::hypot(result.sigma, noise.position);
-    result.reason = OutsideReason(chosen, fit.pivot, margin);
+    result.reason = OutsideReason(chosen, fit.pivot, margin, words);
     result.status = result.reason.empty() ? PivotStatus::kOk : PivotStatus::kOutsideRod;
   }
   if (result.status == PivotStatus::kOk && !result.left_out.empty())
-    result.reason = fmt::format("{} of {} presses disagree with the others and were left out",
-                                result.left_out.size(), presses.size());
+    result.reason = fmt::format("{} of {} {} disagree with the others and were left out",
+                                result.left_out.size(), presses.size(), words.many);
   return result;
 }
 

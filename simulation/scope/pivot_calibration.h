@@ -83,9 +83,13 @@ struct PivotCalibration {
   std::vector<int> left_out;  // outliers, and presses without a direction; indices of presses
 };
 
+// How they were gathered: what the sentences speak of and advise.
+enum class PivotSource { kPresses, kSwing };
+
 // The same presses and options give the same bits. Presses whose hand and tip coincide or are not
 // finite are left out.
 PivotCalibration CalibratePivot(std::span<const PivotPress> presses,
-                                const PivotOptions& options = {});
+                                const PivotOptions& options = {},
+                                PivotSource source = PivotSource::kPresses);
 
 }  // namespace arthro::simulation

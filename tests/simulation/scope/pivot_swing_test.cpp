@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -119,6 +120,37 @@ TEST(PivotSwing, HardCase16InAndOutAloneIsRefused) {
   }
   EXPECT_GT(swing.presses().size(), 50u);
   EXPECT_EQ(CalibratePivot(swing.presses(), Options()).status, PivotStatus::kTooNarrow);
+}
+
+// Whoever swings has pressed nothing.
+TEST(PivotSwing, EverySentenceSpeaksOfPoses) {
+  const auto reason_of = [](const std::vector<PivotPress>& poses, PivotStatus status) {
+    const PivotCalibration found = CalibratePivot(poses, {}, PivotSource::kSwing);
+    EXPECT_EQ(found.status, status) << found.reason;
+    return found.reason;
+  };
+  const auto poses_of = [](double width, double reach, double moved = 0) {
+    std::vector<PivotPress> poses;
+    for (int i = 0; i < 30; ++i) {
+      const Sample sample = Exact({width * std::sin(0.7 * i), width * std::cos(0.9 * i), 0, 0});
+      const PivotPress press = PressOf(sample.hip, sample.handle, reach);
+      const glm::dvec3 off = i % 2 == 0 ? glm::dvec3(0) : moved * glm::dvec3(1, 1, 1);
+      poses.push_back({press.hip + off, press.tip + off});
+    }
+    return poses;
+  };
+  std::vector<PivotPress> one = poses_of(0.4, 0.2), slipped = poses_of(0.4, 0.25);
+  one.resize(1);
+  slipped[3].hip.x += 0.05;
+  for (const std::string& reason :
+       {reason_of(one, PivotStatus::kTooFew),
+        reason_of(poses_of(0.01, 0.2), PivotStatus::kTooNarrow),
+        reason_of(poses_of(0.4, 0.25, 0.02), PivotStatus::kInconsistent),
+        reason_of(poses_of(0.4, 0.1), PivotStatus::kOutsideRod),
+        reason_of(slipped, PivotStatus::kOk)}) {
+    EXPECT_FALSE(reason.empty());
+    EXPECT_EQ(reason.find("press"), std::string::npos) << reason;
+  }
 }
 
 TEST(PivotSwing, ALongSwingIsThinnedAndStillCoversItsBeginning) {
