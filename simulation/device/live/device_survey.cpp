@@ -83,31 +83,20 @@ DeviceSurvey SurveyDevices(HidBus& bus, std::string_view model,
   return survey;
 }
 
-DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
-                      const LiveOptions& options, const std::atomic<bool>* stop) {
+DeviceTrial TryHand(Device& device, const TriedDevice& tried, double seconds,
+                    double (*clock)() noexcept, const std::atomic<bool>* stop) {
   DeviceTrial trial;
-  const auto link = std::make_shared<LiveLink>(bus, wish, options);
-  LiveDevice device(link, 0);
-  const auto is_over = [&] { return stop && stop->load(std::memory_order_relaxed); };
-  const double begin = SteadySeconds();
-  while (link->opening() == 0 && !is_over()) {
-    if (SteadySeconds() - begin > kLongestOpening) {
-      device.Read(options.clock());
-      device.Read(options.clock());
-      trial.sentence = link->detail().empty() ? Sentence(device.status()) : link->detail();
-      return trial;
-    }
-    std::this_thread::sleep_for(kTick);
-  }
-  const LinkCounts before = link->counts();
+  const DeviceCaps& caps = device.caps();
+  const LinkCounts before = tried.counts();
   const double start = SteadySeconds();
   std::vector<double> ages;
   ages.reserve(static_cast<std::size_t>(2000 * seconds));
   glm::dvec3 first(0.0);
   bool has_first = false;
-  while (SteadySeconds() - start < seconds && !is_over()) {
-    const double now = options.clock();
+  while (SteadySeconds() - start < seconds && !(stop && stop->load(std::memory_order_relaxed))) {
+    const double now = clock();
     const DeviceSample sample = device.Read(now);
+    device.HoldDeadMan(false);
     device.Command(glm::dvec3(0.0));
     if (sample.t > 0 && ages.size() < ages.capacity()) ages.push_back(now - sample.t);
     if (sample.valid) {
@@ -118,26 +107,45 @@ DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
     std::this_thread::sleep_for(kTick);
   }
   trial.seconds = SteadySeconds() - start;
-  const LinkCounts after = link->counts();
+  const LinkCounts after = tried.counts();
   trial.taken = after.taken - before.taken;
   trial.rejected = after.rejected - before.rejected;
   trial.full_rings = after.full_rings - before.full_rings;
   trial.written = after.written - before.written;
   trial.rate = static_cast<double>(trial.taken) / trial.seconds;
-  if (IsSteady(link->caps())) {
+  if (IsSteady(caps)) {
     trial.age_p50 = Quantile(ages, 0.5);
     trial.age_p99 = Quantile(ages, 0.99);
   }
-  if (link->opening() == 0) {
+  if (!tried.is_open()) {
     trial.sentence = "it was lost during the test; see to its cable";
     return trial;
   }
-  trial.sentence = Verdict(trial, link->caps());
+  trial.sentence = Verdict(trial, caps);
   trial.has_passed = trial.full_rings == 0 &&
                      static_cast<double>(trial.rejected) <=
                          kMostRejected * static_cast<double>(trial.taken + trial.rejected) &&
-                     (!IsSteady(link->caps()) || trial.rate >= kLeastRate * link->caps().rate);
+                     (!IsSteady(caps) || trial.rate >= kLeastRate * caps.rate);
   return trial;
+}
+
+DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
+                      const LiveOptions& options, const std::atomic<bool>* stop) {
+  const auto link = std::make_shared<LiveLink>(bus, wish, options);
+  LiveDevice device(link, 0);
+  const double begin = SteadySeconds();
+  while (link->opening() == 0 && !(stop && stop->load(std::memory_order_relaxed))) {
+    if (SteadySeconds() - begin > kLongestOpening) {
+      device.Read(options.clock());
+      device.Read(options.clock());
+      DeviceTrial trial;
+      trial.sentence = link->detail().empty() ? Sentence(device.status()) : link->detail();
+      return trial;
+    }
+    std::this_thread::sleep_for(kTick);
+  }
+  return TryHand(device, {[&] { return link->opening() != 0; }, [&] { return link->counts(); }},
+                 seconds, options.clock, stop);
 }
 
 }  // namespace arthro::simulation

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,19 @@ struct DeviceTrial {
   std::string sentence;
 };
 
-// Ticks it at 1 kHz with no force. Passed: it opens, and a device that sends all the time sends at
-// four fifths of its rate at least, with no report lost and one in a hundred rejected at most.
+// What somebody counts of a device that is tried.
+struct TriedDevice {
+  std::function<bool()> is_open;
+  std::function<LinkCounts()> counts;
+};
+
+// Ticks an open one at 1 kHz with no force. Passed: one that sends all the time sends at four
+// fifths of its rate at least, with no report lost and one in a hundred rejected at most. `clock`:
+// the device's.
+DeviceTrial TryHand(Device& device, const TriedDevice& tried, double seconds,
+                    double (*clock)() noexcept, const std::atomic<bool>* stop = nullptr);
+
+// Finds, opens and tries it; where it does not open it has not passed.
 DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
                       const LiveOptions& options = {}, const std::atomic<bool>* stop = nullptr);
 

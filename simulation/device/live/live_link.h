@@ -21,6 +21,7 @@
 #include "simulation/device/hid/hid_link.h"
 #include "simulation/device/live/device_lock.h"
 #include "simulation/device/live/report_tap.h"
+#include "simulation/device/releasable.h"
 
 namespace arthro::simulation {
 
@@ -53,15 +54,13 @@ struct HandNews {
   int opening = 0;
 };
 
-class LiveLink {
+class LiveLink final : public Releasable {
  public:
   static constexpr int kMostHands = 2;
 
   // `bus` must outlive it. Opens later, by itself.
   LiveLink(HidBus& bus, const DeviceWish& wish, const LiveOptions& options = {});
-  ~LiveLink();
-  LiveLink(const LiveLink&) = delete;
-  LiveLink& operator=(const LiveLink&) = delete;
+  ~LiveLink() override;
 
   const DeviceCaps& caps() const noexcept { return caps_; }
   const DeviceWish& wish() const noexcept { return wish_; }
@@ -79,8 +78,7 @@ class LiveLink {
 
   // The handle is in its rest: counts from here. Any thread.
   void AskHome() noexcept { asks_home_.store(true); }
-  // No force any more, for good: the application is about to end. Also from a signal handler.
-  void Release() noexcept;
+  void Release() noexcept override;
 
   // Any thread; these may wait.
   LinkCounts counts() const noexcept;

@@ -14,8 +14,8 @@ namespace {
 constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr long kForWriters = 20'000'000;  // ns; ten times what a report takes
 
-std::array<std::atomic<LiveLink*>, ReleaseOnCrash::kMostLinks> links_to_release{};
-static_assert(std::atomic<LiveLink*>::is_always_lock_free);
+std::array<std::atomic<Releasable*>, ReleaseOnCrash::kMost> to_release{};
+static_assert(std::atomic<Releasable*>::is_always_lock_free);
 std::array<struct sigaction, kSignals.size()> actions_before{};
 
 void RestoreActions() noexcept {
@@ -26,8 +26,8 @@ void RestoreActions() noexcept {
 // These call only what a handler may call.
 void LetGo() {
   bool is_any = false;
-  for (auto& link : links_to_release)
-    if (LiveLink* own = link.load()) own->Release(), is_any = true;
+  for (auto& device : to_release)
+    if (Releasable* own = device.load()) own->Release(), is_any = true;
   timespec pause{0, kForWriters};
   while (is_any && nanosleep(&pause, &pause) != 0) {
   }
@@ -41,10 +41,10 @@ void LetGoAndDie(int signal) {
 
 }  // namespace
 
-ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<LiveLink>> links)
-    : links_(std::move(links)) {
-  for (std::size_t i = 0; i < std::min(links_.size(), links_to_release.size()); ++i)
-    links_to_release[i] = links_[i].get();
+ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices)
+    : devices_(std::move(devices)) {
+  for (std::size_t i = 0; i < std::min(devices_.size(), to_release.size()); ++i)
+    to_release[i] = devices_[i].get();
   struct sigaction action {};
   action.sa_handler = LetGoAndDie;
   action.sa_flags = SA_NODEFER;  // what is raised at its end must not wait
@@ -56,7 +56,7 @@ ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<LiveLink>> links)
 
 ReleaseOnCrash::~ReleaseOnCrash() {
   RestoreActions();
-  for (auto& link : links_to_release) link = nullptr;
+  for (auto& device : to_release) device = nullptr;
 }
 
 }  // namespace arthro::simulation

@@ -1,5 +1,5 @@
 // A program that dies of its own fault lets go of its devices first: while this lives, SIGSEGV,
-// SIGBUS, SIGFPE, SIGILL and SIGABRT (std::terminate with it) make the links' writers say zero,
+// SIGBUS, SIGFPE, SIGILL and SIGABRT (std::terminate with it) make who writes to them say zero,
 // then do what they did before; so does exit, which Xlib calls where it loses its screen. Where the
 // writer itself is what died the firmware's watchdog is left, as it is when the system goes down.
 #pragma once
@@ -7,22 +7,22 @@
 #include <memory>
 #include <vector>
 
-#include "simulation/device/live/live_link.h"
+#include "simulation/device/releasable.h"
 
 namespace arthro::simulation {
 
 class ReleaseOnCrash {
  public:
   // One at a time, since a signal handler can reach nothing but what is the process's own.
-  explicit ReleaseOnCrash(std::vector<std::shared_ptr<LiveLink>> links);
+  explicit ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices);
   ~ReleaseOnCrash();
   ReleaseOnCrash(const ReleaseOnCrash&) = delete;
   ReleaseOnCrash& operator=(const ReleaseOnCrash&) = delete;
 
-  static constexpr int kMostLinks = 4;  // two roles and pedals, and one to spare
+  static constexpr int kMost = 4;  // two roles and pedals, and one to spare
 
  private:
-  std::vector<std::shared_ptr<LiveLink>> links_;
+  std::vector<std::shared_ptr<Releasable>> devices_;
 };
 
 }  // namespace arthro::simulation
