@@ -12,6 +12,7 @@ HDSchedulerCallback scheduled = nullptr;
 void* scheduled_data = nullptr;
 HHD current = HD_INVALID_HANDLE, framed = HD_INVALID_HANDLE;
 std::deque<unsigned> pending;
+std::mutex scheduler;  // one callback at a time
 
 FakeTouch* Of(HHD device) {
   auto& all = OpenHaptics().devices;
@@ -35,7 +36,10 @@ FakeOpenHaptics& OpenHaptics() {
   return one;
 }
 
+std::unique_lock<std::mutex> HoldOpenHaptics() { return std::unique_lock(scheduler); }
+
 bool FakeOpenHaptics::Tick() {
+  const std::scoped_lock lock(scheduler);
   if (!is_running || scheduled == nullptr) return false;
   if (scheduled(scheduled_data) == HD_CALLBACK_DONE) scheduled = nullptr;
   return true;
@@ -139,15 +143,27 @@ HDErrorInfo hdGetError() {
   return info;
 }
 HDstring hdGetErrorString(HDerror) { return "no answer"; }
-void hdStartScheduler() { OpenHaptics().is_running = true; }
-void hdStopScheduler() { OpenHaptics().is_running = false; }
+void hdStartScheduler() {
+  const std::scoped_lock lock(scheduler);
+  OpenHaptics().is_running = OpenHaptics().starts;
+  if (!OpenHaptics().starts) pending.push_back(HD_COMM_ERROR);
+}
+void hdStopScheduler() {
+  const std::scoped_lock lock(scheduler);
+  OpenHaptics().is_running = false;
+}
 HDSchedulerHandle hdScheduleAsynchronous(HDSchedulerCallback callback, void* data, HDushort) {
+  const std::scoped_lock lock(scheduler);
   scheduled = callback;
   scheduled_data = data;
   return 1;
 }
 void hdScheduleSynchronous(HDSchedulerCallback callback, void* data, HDushort) {
+  const std::scoped_lock lock(scheduler);
   if (!OpenHaptics().is_running) ++OpenHaptics().wrong_calls;
   callback(data);
 }
-void hdUnschedule(HDSchedulerHandle) { scheduled = nullptr; }
+void hdUnschedule(HDSchedulerHandle) {
+  const std::scoped_lock lock(scheduler);
+  scheduled = nullptr;
+}

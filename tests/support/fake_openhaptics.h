@@ -1,9 +1,11 @@
 // A library behind the stub header HD/hd.h: devices that a test makes and moves, a scheduler that
 // runs when the test says, and all forces that were written. One a program; Reset between tests.
+// Who ticks it in a thread looks at its devices under HoldOpenHaptics alone, as the scheduler does.
 #pragma once
 
 #include <array>
 #include <deque>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,12 +27,13 @@ struct FakeTouch {
 
 struct FakeOpenHaptics {
   std::vector<FakeTouch> devices;
-  bool is_running = false;
+  bool is_running = false, starts = true;
   int wrong_calls = 0;  // outside a frame, nested, or of a device that is not open
   void Reset() { *this = {}; }
   // A tick of the scheduler. False: nothing was scheduled, or it does not run.
   bool Tick();
 };
 FakeOpenHaptics& OpenHaptics();
+std::unique_lock<std::mutex> HoldOpenHaptics();
 
 }  // namespace arthro::test

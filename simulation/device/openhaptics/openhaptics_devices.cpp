@@ -6,14 +6,13 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "simulation/core/error.h"
 #include "simulation/core/latest_value.h"
-#include "simulation/core/units.h"
 
 namespace arthro::simulation {
 namespace {
@@ -93,56 +92,87 @@ DeviceCaps CapsOf() {
   return caps;
 }
 
+// What was said before is not of what comes now.
+void ForgetErrors() {
+  for (int i = 0; i < kMostErrors && HD_DEVICE_ERROR(hdGetError()); ++i) {
+  }
+}
+
 }  // namespace
 
-// The scheduler's side of a device, and the servo's.
-class OpenHapticsDevices::OneDevice final : public Device {
+// One device, open or not: what its scheduler reads and writes, and what a servo takes and gives.
+class OpenHapticsDevices::Line {
  public:
-  OneDevice(HHD handle, double (*clock)() noexcept) : handle_(handle), clock_(clock) {
+  Line(std::string configured, double (*clock)() noexcept)
+      : clock_(clock), configured_(std::move(configured)) {}
+  ~Line() { Close(); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  // These while the scheduler stands still.
+  void Open() {
+    Close();
+    ForgetErrors();
+    const HHD handle = hdInitDevice(configured_.empty() ? HD_DEFAULT_DEVICE : configured_.c_str());
+    if (const HDErrorInfo error = hdGetError();
+        HD_DEVICE_ERROR(error) || handle == HD_INVALID_HANDLE) {
+      detail_ = fmt::format(
+          "{} could not be opened ({}); check its power and cable, and its name in the maker's "
+          "setup tool; it is tried again when a practice begins",
+          configured_.empty() ? "the default OpenHaptics device"
+                              : "the OpenHaptics device \"" + configured_ + "\"",
+          hdGetErrorString(error.errorCode));
+      return;
+    }
+    handle_ = handle;
     hdMakeCurrentDevice(handle_);
     caps_ = CapsOf();
     name_ = StringOf(HD_DEVICE_MODEL_TYPE);
     serial_ = StringOf(HD_DEVICE_SERIAL_NUMBER);
     hdEnable(HD_FORCE_OUTPUT);
+    detail_.clear();
+    trouble_ = DeviceTrouble::kNone;
+    news_.Write({});
+    pushes_.Write({});
+    is_homed_ = false;
+    frames_of_opening_ = 0;
+    is_open_ = true;
+  }
+  void Close() noexcept {
+    if (handle_ != HD_INVALID_HANDLE) hdDisableDevice(handle_);
+    handle_ = HD_INVALID_HANDLE;
+    is_open_ = false;
+  }
+  void Refuse(const std::string& detail) {
+    Close();
+    detail_ = detail;
   }
 
-  const DeviceCaps& caps() const noexcept override { return caps_; }
-  const std::string& name() const noexcept override { return name_; }
-  const std::string& serial() const noexcept override { return serial_; }
+  bool is_open() const noexcept { return is_open_; }
+  bool is_lost() const noexcept { return trouble() == DeviceTrouble::kReadError; }
+  const std::string& configured() const noexcept { return configured_; }
+  const std::string& name() const noexcept { return name_; }
+  const std::string& serial() const noexcept { return serial_; }
+  const DeviceCaps& caps() const noexcept { return caps_; }
+  std::string detail() const {
+    return is_open_ && is_lost() ? "it was unplugged, switched off or has failed; see to it, then "
+                                   "begin the practice again (Escape, F5)"
+                                 : detail_;
+  }
+  long frames() const noexcept { return frames_; }
 
-  DeviceSample Read(double now) noexcept override {
-    const News& news = news_.Read();
-    events_.is_present = events_.is_open = true;
-    events_.has_sample = news.sample.valid;
-    events_.sample_age = std::max(0.0, now - news.sample.t);
-    events_.is_homed = news.is_homed;
-    events_.trouble = trouble_.load(std::memory_order_acquire);
-    if (events_.trouble == DeviceTrouble::kNone && is_not_finite_)
-      events_.trouble = DeviceTrouble::kNotFinite;
-    is_not_finite_ = false;
-    status_ = Next(status_, events_);
-    // Its protection has been told of: it goes on when the hand has let go. What ended the link
-    // stays.
-    if (events_.trouble == DeviceTrouble::kProtected)
-      trouble_.compare_exchange_strong(events_.trouble, DeviceTrouble::kNone);
-    events_.trouble = trouble_.load(std::memory_order_acquire);
-    DeviceSample sample = news.sample;
-    sample.valid = sample.valid &&
-                   (status_.state == DeviceState::kReady || status_.state == DeviceState::kArmed);
-    return sample;
+  // Who reads: one servo, or the window while there is none.
+  const News& Newest() noexcept { return news_.Read(); }
+  DeviceTrouble trouble() const noexcept { return trouble_.load(std::memory_order_acquire); }
+  void ForgetProtection() noexcept {
+    DeviceTrouble told = DeviceTrouble::kProtected;
+    trouble_.compare_exchange_strong(told, DeviceTrouble::kNone);
   }
-  void HoldDeadMan(bool is_held) noexcept override { events_.is_dead_man_held = is_held; }
-  void Command(const glm::dvec3& force) noexcept override {
-    const bool is_finite =
-        std::isfinite(force.x) && std::isfinite(force.y) && std::isfinite(force.z);
-    is_not_finite_ = !is_finite;
-    const bool may_push = is_finite && HasForce(caps_) && MayPush(status_, events_);
-    pushes_.Write({may_push ? force : glm::dvec3(0.0), clock_()});
-  }
-  DeviceStatus status() const noexcept override { return status_; }
+  void Send(const glm::dvec3& force) noexcept { pushes_.Write({force, clock_()}); }
 
   // Scheduler: one frame. `is_released`: no force.
   void Frame(bool is_released) noexcept {
+    if (!is_open_) return;
     hdBeginFrame(handle_);
     std::array<HDdouble, 3> position{};
     std::array<HDdouble, 16> transform{};
@@ -150,13 +180,13 @@ class OpenHapticsDevices::OneDevice final : public Device {
     hdGetDoublev(HD_CURRENT_TRANSFORM, transform.data());
     News news;
     news.sample.buttons = static_cast<std::uint32_t>(IntOf(HD_CURRENT_BUTTONS)) & 0xfu;
-    if (frames_++ % kCalibrationEvery == 0) Calibrate();
+    if (frames_of_opening_++ % kCalibrationEvery == 0) Calibrate();
     news.is_homed = is_homed_;
 
     const double now = clock_();
     const Push& push = pushes_.Read();
     const bool may_push = !is_released && is_homed_ && now - push.t <= kSilentServo &&
-                          trouble_.load(std::memory_order_acquire) == DeviceTrouble::kNone;
+                          trouble() == DeviceTrouble::kNone;
     const glm::dvec3 force = may_push ? push.force : glm::dvec3(0.0);
     const std::array<HDdouble, 3> newtons{force.x, force.y, force.z};
     hdSetDoublev(HD_CURRENT_FORCE, newtons.data());
@@ -174,9 +204,8 @@ class OpenHapticsDevices::OneDevice final : public Device {
     const glm::dvec3& x = news.sample.hip_in_device;
     news.sample.valid = std::isfinite(x.x + x.y + x.z + q.w + q.x + q.y + q.z);
     news_.Write(news);
+    ++frames_;
   }
-
-  HHD handle() const noexcept { return handle_; }
 
  private:
   void Calibrate() noexcept {
@@ -192,79 +221,169 @@ class OpenHapticsDevices::OneDevice final : public Device {
     for (int i = 0; i < kMostErrors; ++i) {
       const HDErrorInfo error = hdGetError();
       if (!HD_DEVICE_ERROR(error)) break;
-      const DeviceTrouble trouble = TroubleOf(error.errorCode);
-      if (trouble_.load(std::memory_order_acquire) != DeviceTrouble::kReadError)
-        trouble_.store(trouble, std::memory_order_release);
+      const DeviceTrouble told = TroubleOf(error.errorCode);
+      if (!is_lost()) trouble_.store(told, std::memory_order_release);
     }
-    return trouble_.load(std::memory_order_acquire) == DeviceTrouble::kReadError;
+    return is_lost();
   }
 
-  HHD handle_;
   double (*clock_)() noexcept;
+  std::string configured_, name_ = kOpenHapticsName, serial_, detail_;
+  HHD handle_ = HD_INVALID_HANDLE;
   DeviceCaps caps_;
-  std::string name_, serial_;
   LatestValue<News> news_;
   LatestValue<Push> pushes_;
   std::atomic<DeviceTrouble> trouble_{DeviceTrouble::kNone};
-  // The servo's.
-  DeviceEvents events_;
-  DeviceStatus status_;
-  bool is_not_finite_ = false;
+  std::atomic<long> frames_{0};
+  std::atomic<bool> is_open_{false};
   // The scheduler's.
-  long frames_ = 0;
+  long frames_of_opening_ = 0;
   bool is_homed_ = false;
 };
 
+// A servo's side of a line. What a line becomes while this lives is not its own to see: it is
+// opened again for the next one.
+class OpenHapticsDevices::OneHand final : public Device {
+ public:
+  explicit OneHand(Line& line)
+      : line_(line),
+        caps_(line.is_open() ? line.caps() : DeviceCaps{}),
+        name_(line.name()),
+        serial_(line.serial()) {
+    events_.is_present = events_.is_open = line.is_open() && !line.is_lost();
+  }
+
+  const DeviceCaps& caps() const noexcept override { return caps_; }
+  const std::string& name() const noexcept override { return name_; }
+  const std::string& serial() const noexcept override { return serial_; }
+
+  DeviceSample Read(double now) noexcept override {
+    if (!events_.is_open) return {};
+    const News& news = line_.Newest();
+    events_.has_sample = news.sample.valid;
+    events_.sample_age = std::max(0.0, now - news.sample.t);
+    events_.is_homed = news.is_homed;
+    events_.trouble = line_.trouble();
+    if (events_.trouble == DeviceTrouble::kNone && is_not_finite_)
+      events_.trouble = DeviceTrouble::kNotFinite;
+    is_not_finite_ = false;
+    status_ = Next(status_, events_);
+    // Its protection has been told of: it goes on when the hand has let go. What ended the link
+    // stays.
+    line_.ForgetProtection();
+    events_.trouble = line_.trouble();
+    DeviceSample sample = news.sample;
+    sample.valid = sample.valid &&
+                   (status_.state == DeviceState::kReady || status_.state == DeviceState::kArmed);
+    return sample;
+  }
+  void HoldDeadMan(bool is_held) noexcept override { events_.is_dead_man_held = is_held; }
+  void Command(const glm::dvec3& force) noexcept override {
+    const bool is_finite =
+        std::isfinite(force.x) && std::isfinite(force.y) && std::isfinite(force.z);
+    is_not_finite_ = !is_finite;
+    const bool may_push = is_finite && HasForce(caps_) && MayPush(status_, events_);
+    line_.Send(may_push ? force : glm::dvec3(0.0));
+  }
+  DeviceStatus status() const noexcept override { return status_; }
+
+ private:
+  Line& line_;
+  DeviceCaps caps_;
+  std::string name_, serial_;
+  DeviceEvents events_;
+  DeviceStatus status_;
+  bool is_not_finite_ = false;
+};
+
 struct OpenHapticsDevices::Scheduled {
-  std::vector<OneDevice*> devices;
+  std::vector<Line*> lines;
   std::atomic<bool> is_released{false};
   HDSchedulerHandle handle = 0;
+  bool is_running = false;
 
   void Frames() noexcept {
-    for (OneDevice* device : devices) device->Frame(is_released.load(std::memory_order_relaxed));
+    for (Line* line : lines) line->Frame(is_released.load(std::memory_order_relaxed));
   }
   static HDCallbackCode HDCALLBACK EachTick(void* self) {
     static_cast<Scheduled*>(self)->Frames();
     return HD_CALLBACK_CONTINUE;
   }
-  static HDCallbackCode HDCALLBACK Once(void* self) {
-    static_cast<Scheduled*>(self)->Frames();
+  static HDCallbackCode HDCALLBACK NoForce(void* self) {
+    for (Line* line : static_cast<Scheduled*>(self)->lines) line->Frame(true);
     return HD_CALLBACK_DONE;
   }
 };
 
-OpenHapticsDevices::OpenHapticsDevices(std::span<const std::string> names,
+bool HasOpenHaptics() noexcept { return true; }
+
+OpenHapticsDevices::OpenHapticsDevices(const std::vector<std::string>& names,
                                        double (*clock)() noexcept)
     : scheduled_(std::make_unique<Scheduled>()) {
-  for (const std::string& name : names) {
-    const HHD handle = hdInitDevice(name.empty() ? HD_DEFAULT_DEVICE : name.c_str());
-    if (const HDErrorInfo error = hdGetError();
-        HD_DEVICE_ERROR(error) || handle == HD_INVALID_HANDLE) {
-      for (const auto& device : devices_) hdDisableDevice(device->handle());
-      throw Error(Code::kDevice,
-                  fmt::format("the device {} could not be opened ({}); check its power and cable, "
-                              "and its name in the maker's setup tool",
-                              name.empty() ? "of no name" : "\"" + name + "\"",
-                              hdGetErrorString(error.errorCode)));
-    }
-    devices_.push_back(std::make_unique<OneDevice>(handle, clock));
-    scheduled_->devices.push_back(devices_.back().get());
-  }
-  hdStartScheduler();
-  scheduled_->handle =
-      hdScheduleAsynchronous(Scheduled::EachTick, scheduled_.get(), HD_MAX_SCHEDULER_PRIORITY);
+  for (const std::string& name : names)
+    scheduled_->lines.push_back(lines_.emplace_back(std::make_unique<Line>(name, clock)).get());
+  OpenMissing();
 }
 
 OpenHapticsDevices::~OpenHapticsDevices() {
   Release();
-  for (int i = 0; i < kLastZeros; ++i)
-    hdScheduleSynchronous(Scheduled::Once, scheduled_.get(), HD_MAX_SCHEDULER_PRIORITY);
-  hdUnschedule(scheduled_->handle);
-  hdStopScheduler();
-  for (const auto& device : devices_) hdDisableDevice(device->handle());
+  Stop();
 }
 
-Device& OpenHapticsDevices::at(std::size_t i) noexcept { return *devices_[i]; }
+void OpenHapticsDevices::OpenMissing() {
+  const auto is_missing = [](const auto& line) { return !line->is_open() || line->is_lost(); };
+  if (std::ranges::none_of(lines_, is_missing)) return;
+  Stop();
+  for (const auto& line : lines_)
+    if (is_missing(line)) line->Open();
+  Start();
+}
+
+void OpenHapticsDevices::Start() {
+  if (std::ranges::none_of(lines_, [](const auto& line) { return line->is_open(); })) return;
+  ForgetErrors();
+  scheduled_->handle =
+      hdScheduleAsynchronous(Scheduled::EachTick, scheduled_.get(), HD_MAX_SCHEDULER_PRIORITY);
+  hdStartScheduler();
+  const HDErrorInfo error = hdGetError();
+  scheduled_->is_running = !HD_DEVICE_ERROR(error);
+  if (!scheduled_->is_running) {
+    hdUnschedule(scheduled_->handle);
+    for (const auto& line : lines_)
+      line->Refuse(
+          fmt::format("the scheduler of OpenHaptics did not start ({}); end other programs "
+                      "that use these devices, then begin the practice again",
+                      hdGetErrorString(error.errorCode)));
+  }
+}
+
+void OpenHapticsDevices::Stop() noexcept {
+  if (!scheduled_->is_running) return;
+  for (int i = 0; i < kLastZeros; ++i)
+    hdScheduleSynchronous(Scheduled::NoForce, scheduled_.get(), HD_MAX_SCHEDULER_PRIORITY);
+  hdUnschedule(scheduled_->handle);
+  hdStopScheduler();
+  scheduled_->is_running = false;
+}
+
+std::size_t OpenHapticsDevices::size() const noexcept { return lines_.size(); }
+
+std::unique_ptr<Device> OpenHapticsDevices::Hand(std::size_t i) {
+  return std::make_unique<OneHand>(*lines_[i]);
+}
+
+DeviceStatus OpenHapticsDevices::Look(std::size_t i) noexcept {
+  Line& line = *lines_[i];
+  if (!line.is_open()) return {};
+  if (line.is_lost()) return {DeviceState::kLost, DeviceTrouble::kReadError, true};
+  return {line.Newest().is_homed ? DeviceState::kReady : DeviceState::kHoming, {}, true};
+}
+
+std::string OpenHapticsDevices::detail(std::size_t i) const { return lines_[i]->detail(); }
+bool OpenHapticsDevices::is_open(std::size_t i) const noexcept {
+  return lines_[i]->is_open() && !lines_[i]->is_lost();
+}
+long OpenHapticsDevices::frames(std::size_t i) const noexcept { return lines_[i]->frames(); }
 
 void OpenHapticsDevices::Release() noexcept {
   scheduled_->is_released.store(true, std::memory_order_relaxed);

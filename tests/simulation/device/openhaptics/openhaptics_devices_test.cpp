@@ -4,15 +4,24 @@
 
 #include <HD/hd.h>
 #include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
 #include <limits>
 #include <memory>
+#include <thread>
+#include <unistd.h>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "simulation/core/error.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/device/live/release_on_crash.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/fake_openhaptics.h"
+#include "tests/support/temp_folder.h"
 
 namespace arthro::simulation {
 namespace {
@@ -37,8 +46,18 @@ class OpenHapticsTest : public testing::Test {
     OpenHaptics().devices[1].serial = "T2";
   }
   void Open() {
-    const std::string names[] = {"left", "right"};
-    devices = std::make_unique<OpenHapticsDevices>(names, Now);
+    devices = std::make_unique<OpenHapticsDevices>(std::vector<std::string>{"left", "right"}, Now);
+    Hold();
+  }
+  // As a practice that begins does.
+  void Hold() {
+    hands.clear();
+    devices->OpenMissing();
+    for (std::size_t i = 0; i < devices->size(); ++i) hands.push_back(devices->Hand(i));
+  }
+  void End() {
+    hands.clear();
+    devices.reset();
   }
   // As the library's thread and the servo do, one after the other.
   DeviceSample Tick(int ticks = 1, const glm::dvec3& force = {}) {
@@ -46,11 +65,11 @@ class OpenHapticsTest : public testing::Test {
     for (int i = 0; i < ticks; ++i) {
       now += 1e-3;
       OpenHaptics().Tick();
-      for (std::size_t k = 0; k < devices->size(); ++k) {
-        const DeviceSample read = devices->at(k).Read(now);
+      for (std::size_t k = 0; k < hands.size(); ++k) {
+        const DeviceSample read = hands[k]->Read(now);
         if (k == 0) sample = read;
-        devices->at(k).HoldDeadMan(is_held);
-        devices->at(k).Command(force);
+        hands[k]->HoldDeadMan(is_held);
+        hands[k]->Command(force);
       }
     }
     return sample;
@@ -60,7 +79,7 @@ class OpenHapticsTest : public testing::Test {
     Tick(10);
     is_held = true;
     Tick(10);
-    ASSERT_EQ(devices->at(0).state(), DeviceState::kArmed);
+    ASSERT_EQ(hands[0]->state(), DeviceState::kArmed);
   }
   static FakeTouch& Left() { return OpenHaptics().devices[0]; }
   static FakeTouch& Right() { return OpenHaptics().devices[1]; }
@@ -69,6 +88,7 @@ class OpenHapticsTest : public testing::Test {
     return {f[0], f[1], f[2]};
   }
   std::unique_ptr<OpenHapticsDevices> devices;
+  std::vector<std::unique_ptr<Device>> hands;
   bool is_held = false;
 };
 
@@ -85,12 +105,12 @@ TEST_F(OpenHapticsTest, SaysWhereTheHandIsAndHowItHoldsTheHandle) {
             1e-15);
   EXPECT_EQ(sample.buttons, 3u);
   EXPECT_EQ(sample.t, now);
-  EXPECT_EQ(devices->at(1).serial(), "T2");
+  EXPECT_EQ(hands[1]->serial(), "T2");
 }
 
 TEST_F(OpenHapticsTest, SaysWhatItCanDo) {
   Open();
-  const DeviceCaps& caps = devices->at(0).caps();
+  const DeviceCaps& caps = hands[0]->caps();
   EXPECT_TRUE(HasForce(caps));
   EXPECT_TRUE(IsSteady(caps));
   EXPECT_EQ(caps.sensed_dof, 6);
@@ -108,7 +128,7 @@ TEST_F(OpenHapticsTest, PushesOnlyAnArmedHandAndEachItsOwn) {
   is_held = true;
   Tick(3, kForce);
   EXPECT_EQ(LastForce(Left()), kForce);
-  devices->at(1).Command(2.0 * kForce);
+  hands[1]->Command(2.0 * kForce);
   now += 1e-3;
   OpenHaptics().Tick();
   EXPECT_EQ(LastForce(Left()), kForce);
@@ -136,7 +156,7 @@ TEST_F(OpenHapticsTest, TheEndIsFiveTimesNoForceThenClosed) {
   Arm();
   Tick(3, kForce);
   const std::size_t before = Left().forces.size();
-  devices.reset();
+  End();
   ASSERT_EQ(Left().forces.size(), before + 5);
   for (std::size_t i = before; i < Left().forces.size(); ++i) {
     EXPECT_EQ(Left().forces[i], kNoForce);
@@ -162,18 +182,18 @@ TEST_F(OpenHapticsTest, WarmMotorsAreAFaultUntilTheHandLetsGo) {
   Tick(3, kForce);
   Left().errors = {HD_WARM_MOTORS};
   Tick(2, kForce);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kFault);
-  EXPECT_EQ(devices->at(0).status().reason, DeviceTrouble::kProtected);
-  EXPECT_EQ(devices->at(1).state(), DeviceState::kArmed) << "the other one goes on";
+  EXPECT_EQ(hands[0]->state(), DeviceState::kFault);
+  EXPECT_EQ(hands[0]->status().reason, DeviceTrouble::kProtected);
+  EXPECT_EQ(hands[1]->state(), DeviceState::kArmed) << "the other one goes on";
   Tick(20, kForce);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kFault) << "the dead-man is still held";
+  EXPECT_EQ(hands[0]->state(), DeviceState::kFault) << "the dead-man is still held";
   EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
   EXPECT_EQ(LastForce(Right()), kForce);
   is_held = false;
   Tick(10);
   is_held = true;
   Tick(10, kForce);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kArmed);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kArmed);
   EXPECT_EQ(LastForce(Left()), kForce);
 }
 
@@ -182,20 +202,20 @@ TEST_F(OpenHapticsTest, ALostLinkIsLostAtOnceAndStaysSo) {
   Tick(3, kForce);
   Left().errors = {HD_COMM_ERROR};
   const DeviceSample sample = Tick(1, kForce);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kLost);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kLost);
   EXPECT_FALSE(sample.valid);
   Tick(1, kForce);
   EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
   is_held = false;
   Tick(50);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kLost);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kLost);
 }
 
 // As where the library's thread hangs.
 TEST_F(OpenHapticsTest, ADeviceThatIsSilentFor20MillisecondsIsLost) {
   Arm();
   Tick(3, kForce);
-  Device& left = devices->at(0);
+  Device& left = *hands[0];
   for (int i = 1; i <= 21; ++i) {
     now += 1e-3;
     left.Read(now);
@@ -213,7 +233,7 @@ TEST_F(OpenHapticsTest, HardCase6WhatIsNoNumberIsZeroAndAFault) {
   Arm();
   Tick(1, glm::dvec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
   Tick(1, kForce);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kFault);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kFault);
   Tick(1);
   for (const auto& force : Left().forces) EXPECT_EQ(force, kNoForce);
 }
@@ -224,24 +244,128 @@ TEST_F(OpenHapticsTest, IsHomedByTheLibraryOrWaitsForTheHand) {
   Open();
   Tick(10);
   EXPECT_EQ(Left().calibrated, 1);
-  EXPECT_EQ(devices->at(0).state(), DeviceState::kReady);
-  EXPECT_EQ(devices->at(1).state(), DeviceState::kHoming);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kReady);
+  EXPECT_EQ(hands[1]->state(), DeviceState::kHoming);
   Right().calibration = HD_CALIBRATION_OK;  // somebody put it into its rest
   Tick(110);
-  EXPECT_EQ(devices->at(1).state(), DeviceState::kReady);
+  EXPECT_EQ(hands[1]->state(), DeviceState::kReady);
 }
 
-TEST_F(OpenHapticsTest, OneThatDoesNotOpenIsNamedAndNoneStaysOpen) {
+TEST_F(OpenHapticsTest, OneThatDoesNotOpenIsNamedAndTheOtherIsHeld) {
   Right().opens = false;
-  try {
-    Open();
-    FAIL() << "opened";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), Code::kDevice);
-    EXPECT_NE(error.sentence().find("\"right\""), std::string::npos) << error.sentence();
-  }
-  EXPECT_FALSE(Left().is_open);
+  Open();
+  Tick(10);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kReady);
+  EXPECT_EQ(hands[1]->state(), DeviceState::kAbsent);
+  EXPECT_EQ(devices->Look(1).state, DeviceState::kAbsent);
+  EXPECT_EQ(devices->detail(0), "");
+  EXPECT_EQ(devices->detail(1),
+            "the OpenHaptics device \"right\" could not be opened (no answer); check its power and "
+            "cable, and its name in the maker's setup tool; it is tried again when a practice "
+            "begins");
+  EXPECT_FALSE(HasForce(hands[1]->caps())) << "nobody knows what it bears";
+
+  // Switched on: as long as a servo runs it is left alone, and the next one has it.
+  Right().opens = true;
+  Tick(10);
+  EXPECT_EQ(hands[1]->state(), DeviceState::kAbsent);
+  Hold();
+  Tick(10);
+  EXPECT_EQ(hands[1]->state(), DeviceState::kReady);
+  EXPECT_TRUE(HasForce(hands[1]->caps()));
+  EXPECT_EQ(hands[1]->serial(), "T2");
+  EXPECT_EQ(devices->detail(1), "");
+  EXPECT_EQ(OpenHaptics().wrong_calls, 0);
+}
+
+TEST_F(OpenHapticsTest, WhereNoneOpensNothingIsScheduled) {
+  Left().opens = Right().opens = false;
+  Open();
   EXPECT_FALSE(OpenHaptics().is_running);
+  Tick(3, kForce);
+  EXPECT_TRUE(Left().forces.empty());
+  End();
+  EXPECT_EQ(OpenHaptics().wrong_calls, 0);
+}
+
+TEST_F(OpenHapticsTest, ASchedulerThatDoesNotStartIsToldAndNoDeviceStaysOpen) {
+  OpenHaptics().starts = false;
+  Open();
+  EXPECT_NE(devices->detail(0).find("scheduler of OpenHaptics did not start"), std::string::npos);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kAbsent);
+  EXPECT_FALSE(Left().is_open);
+  OpenHaptics().starts = true;
+  Hold();
+  Tick(10);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kReady);
+  EXPECT_EQ(OpenHaptics().wrong_calls, 0);
+}
+
+TEST_F(OpenHapticsTest, TheNextServoMustSeeTheDeadManLetGo) {
+  Arm();
+  Tick(3, kForce);
+  Hold();
+  Tick(20, kForce);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kReady);
+  EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
+  is_held = false;
+  Tick(5);
+  is_held = true;
+  Tick(5, kForce);
+  EXPECT_EQ(LastForce(Left()), kForce);
+}
+
+TEST_F(OpenHapticsTest, ALostOneIsOpenedAgainForTheNextServoAndItsFellowKeepsItsForce) {
+  Arm();
+  Left().errors = {HD_COMM_ERROR};
+  Tick(3, kForce);
+  EXPECT_EQ(hands[0]->state(), DeviceState::kLost);
+  EXPECT_EQ(LastForce(Right()), kForce);
+  EXPECT_EQ(devices->Look(0).state, DeviceState::kLost);
+  EXPECT_NE(devices->detail(0).find("begin the practice again"), std::string::npos);
+  is_held = false;
+  const std::size_t before = Right().forces.size();
+  Hold();
+  ASSERT_EQ(Right().forces.size(), before + 5) << "without force while it is opened";
+  for (std::size_t i = before; i < Right().forces.size(); ++i)
+    EXPECT_EQ(Right().forces[i], kNoForce);
+  Tick(10);
+  is_held = true;
+  Tick(10, kForce);
+  EXPECT_EQ(LastForce(Left()), kForce);
+  EXPECT_EQ(LastForce(Right()), kForce);
+  EXPECT_EQ(devices->detail(0), "");
+  EXPECT_EQ(OpenHaptics().wrong_calls, 0);
+}
+
+using OpenHapticsDeathTest = OpenHapticsTest;
+
+TEST_F(OpenHapticsDeathTest, AProgramThatCrashesSaysZeroFirst) {
+  test::TempFolder folder;
+  const auto file = folder / "forces";
+  const auto crash = [&] {
+    Arm();
+    Tick(3, kForce);
+    const std::shared_ptr<OpenHapticsDevices> shared = std::move(devices);
+    const ReleaseOnCrash guard({shared});
+    const int out = ::open(file.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
+    // The library's thread; `now` stands still, so that nobody falls silent.
+    std::thread scheduler([&] {
+      for (;;) {
+        OpenHaptics().Tick();
+        const char said = LastForce(Left()) == kForce ? '1' : '0';
+        if (::write(out, &said, 1) != 1) std::_Exit(3);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    std::abort();
+  };
+  EXPECT_EXIT(crash(), testing::KilledBySignal(SIGABRT), "");
+  const std::string said = ReadWholeFile(file);
+  EXPECT_EQ(said.front(), '1') << "it was pushed";
+  EXPECT_EQ(said.back(), '0');
+  EXPECT_EQ(said.find("01"), std::string::npos) << "and never again";
 }
 
 TEST_F(OpenHapticsTest, AFrameAndATickAllocateNothing) {
