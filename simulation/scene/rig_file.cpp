@@ -5,9 +5,9 @@
 namespace arthro {
 namespace {
 
-constexpr const char* kFamilies[] = {"wooden_haptics", "space_mouse", "razer_hydra", "dual_sense",
-                                     "dual_shock_4"};
-constexpr std::size_t kHandFamilies = 3;  // the first of them
+constexpr const char* kFamilies[] = {"wooden_haptics", "space_mouse", "razer_hydra",
+                                     "openhaptics",    "dual_sense",  "dual_shock_4"};
+constexpr std::size_t kHandFamilies = 4;  // the first of them
 
 }  // namespace
 

@@ -24,9 +24,11 @@ inline constexpr RigButtons kNoButtons{-1, -1, -1};
 
 struct RigDevice {
   std::string family;  // a word of device families
-  std::string serial;  // empty: the only one of its family
-  std::string model;   // of a WoodenHaptics, whose numbers on the bus do not say it
-  int hand = 0;        // of a device with two
+  // Empty: the only one of its family. Of openhaptics the name that its maker's setup tool gave it,
+  // and the tool's default where it is empty.
+  std::string serial;
+  std::string model;  // of a WoodenHaptics, whose numbers on the bus do not say it
+  int hand = 0;       // of a device with two
 };
 
 struct RigRole {

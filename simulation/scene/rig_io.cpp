@@ -16,7 +16,8 @@ namespace {
 using Reader = JsonObjectReader;
 
 constexpr const char* kSchema = "arthroscene.rig/1";
-constexpr const char *kWooden = "wooden_haptics", *kHydra = "razer_hydra";
+constexpr const char *kWooden = "wooden_haptics", *kHydra = "razer_hydra",
+                     *kOpenHaptics = "openhaptics";
 // m; a shorter rod does not reach a joint through its incision, a longer one is no instrument.
 constexpr JsonLimits kRod{0.05, 0.6, "metres"};
 constexpr JsonLimits kForce{0, 20, "N", true}, kStiffness{0, 10000, "N/m", true};
@@ -51,6 +52,10 @@ void ReadDevice(Reader& owner, RigDevice& device, bool needs_hand) {
     if (needs_hand && !IsHandFamily(device.family))
       reader.Fault("family", fmt::format("is \"{}\", which does not know where a hand is; it may "
                                          "be the pedals",
+                                         device.family));
+    if (!needs_hand && device.family == kOpenHaptics)
+      reader.Fault("family", fmt::format("is \"{}\", which may hold a hand and is no pedal; bind "
+                                         "its buttons there",
                                          device.family));
     if (device.hand > 0 && device.family != kHydra)
       reader.Fault("hand",
@@ -119,10 +124,12 @@ void CheckTogether(const RigFile& rig, Reader& reader) {
   if (scope.family != instrument.family) return;
   const bool is_one_of_two_hands = scope.family == kHydra && scope.serial == instrument.serial;
   if (IsSame(scope, instrument))
-    reader.Fault("instrument.device",
-                 fmt::format("is the scope's; two {} are told apart by serial, which "
-                             "`arthroscene devices` lists{}",
-                             scope.family, scope.family == kHydra ? ", or by hand" : ""));
+    reader.Fault(
+        "instrument.device",
+        fmt::format("is the scope's; two {} are told apart by serial, which {}{}", scope.family,
+                    scope.family == kOpenHaptics ? "is the name in the maker's setup tool"
+                                                 : "`arthroscene devices` lists",
+                    scope.family == kHydra ? ", or by hand" : ""));
   else if (!is_one_of_two_hands && (scope.serial.empty() || instrument.serial.empty()))
     reader.Fault("instrument.device",
                  "and the scope's are of one family; give both a serial, or the roles would change "

@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "simulation/core/error.h"
-#include "simulation/device/log/log_replay.h"
-#include "simulation/scene/rig_io.h"
 
 namespace arthro::app {
 
@@ -56,30 +54,7 @@ simulation::DeviceStatus StatusOfLink(simulation::LiveLink& link, int hand) {
   return {is_homed ? DeviceState::kReady : DeviceState::kHoming, {}, true};
 }
 
-// One that is never driven is told at once, and not by a hand that never comes.
-void CheckDriven(const RigDevice& own, const char* where, const std::filesystem::path& rig) {
-  simulation::KnownDevice device;
-  device.family = simulation::FamilyNamed(own.family).value_or(device.family);
-  std::string refusal;
-  if (!MakeDriver(device, own.model, refusal))
-    throw Error(Code::kBadData, fmt::format("{}: {}", where, refusal), rig);
-}
-
 }  // namespace
-
-HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands) {
-  HandsChoice choice;
-  if (!rig.empty()) {
-    choice.rig = ReadRig(rig);
-    if (choice.rig->scope) CheckDriven(choice.rig->scope->device, "scope", rig);
-    if (choice.rig->instrument) CheckDriven(choice.rig->instrument->device, "instrument", rig);
-    if (choice.rig->pedals) CheckDriven(choice.rig->pedals->device, "pedals", rig);
-  }
-  choice.is_simulated = hands == "plant";
-  if (!hands.empty() && !choice.is_simulated)
-    choice.trace = simulation::ReadTraceOrLog(hands, choice.notice);
-  return choice;
-}
 
 Hands::Hands(HandsChoice choice, std::unique_ptr<simulation::HidBus> bus,
              const simulation::LiveOptions& options)
@@ -88,18 +63,7 @@ Hands::Hands(HandsChoice choice, std::unique_ptr<simulation::HidBus> bus,
       bus_(std::move(bus)),
       is_zero_force_(choice_.is_zero_force) {
   if (!choice_.log.empty()) OpenLog();
-  if (!choice_.rig) return;
-  if (!bus_) bus_ = simulation::MachineHidBus();
-  for (const DeviceRole role : kRoles)
-    if (const auto& own = RigOf(role)) {
-      Role& now = roles_[Index(role)];
-      now.link = LinkOf(own->device);
-      now.device = std::make_unique<LiveDevice>(now.link, own->device.hand);
-    }
-  if (choice_.rig->pedals) pedals_ = LinkOf(choice_.rig->pedals->device);
-  std::vector<std::shared_ptr<simulation::LiveLink>> links;
-  for (const Link& own : links_) links.push_back(own.link);
-  crash_.emplace(std::move(links));
+  if (choice_.rig) OpenRig();
 }
 
 Hands::~Hands() = default;
@@ -108,6 +72,34 @@ const std::optional<RigRole>& Hands::RigOf(DeviceRole role) const noexcept {
   static const std::optional<RigRole> none;
   if (!choice_.rig) return none;
   return role == DeviceRole::kScope ? choice_.rig->scope : choice_.rig->instrument;
+}
+
+void Hands::OpenRig() {
+  std::vector<std::string> names;
+  for (const DeviceRole role : kRoles)
+    if (const auto& own = RigOf(role); own && IsOpenHaptics(own->device)) {
+      roles_[Index(role)].number = names.size();
+      names.push_back(own->device.serial);
+    } else if (own) {
+      roles_[Index(role)].link = LinkOf(own->device);
+    }
+  if (choice_.rig->pedals) pedals_ = LinkOf(choice_.rig->pedals->device);
+  std::vector<std::shared_ptr<simulation::Releasable>> devices;
+  for (const Link& own : links_) devices.push_back(own.link);
+  if (!names.empty()) {
+    openhaptics_ = std::make_shared<simulation::OpenHapticsDevices>(names, options_.clock);
+    devices.push_back(openhaptics_);
+  }
+  for (const DeviceRole role : kRoles)
+    if (RigOf(role)) roles_[Index(role)].device = DeviceOf(role);
+  crash_.emplace(std::move(devices));
+}
+
+// For a servo: it begins without force, and must be let go of first.
+std::unique_ptr<simulation::Device> Hands::DeviceOf(DeviceRole role) {
+  const Role& own = Of(role);
+  if (own.number) return openhaptics_->Hand(*own.number);
+  return std::make_unique<LiveDevice>(own.link, RigOf(role)->device.hand);
 }
 
 // A source a link, in the order in which links are made; then those hands that have none.
@@ -119,8 +111,13 @@ void Hands::OpenLog() {
     sources.push_back({device.family, device.model, device.serial, {}});
     return sources.size() - 1;
   };
+  // What the maker's library reads has no reports of ours.
+  const auto has_reports = [&](DeviceRole role) {
+    return RigOf(role) && !IsOpenHaptics(RigOf(role)->device);
+  };
   for (const DeviceRole role : kRoles)
-    if (const auto& own = RigOf(role)) {
+    if (has_reports(role)) {
+      const auto& own = RigOf(role);
       const std::size_t source = source_of(own->device);
       logged_[Index(role)] = {static_cast<int>(source), own->device.hand};
       sources[source].roles[static_cast<std::size_t>(own->device.hand)] = role;
@@ -128,9 +125,11 @@ void Hands::OpenLog() {
   if (choice_.rig && choice_.rig->pedals) source_of(choice_.rig->pedals->device);
   const std::size_t links = sources.size();
   for (const DeviceRole role : kRoles)
-    if (!RigOf(role)) {
+    if (!has_reports(role)) {
       logged_[Index(role)] = {static_cast<int>(sources.size()), 0};
-      sources.push_back({"", "", choice_.is_simulated ? SerialOf(role) : "", {role, {}}});
+      std::string serial = choice_.is_simulated ? SerialOf(role) : "";
+      if (const auto& own = RigOf(role)) serial = own->device.serial;
+      sources.push_back({"", "", serial, {role, {}}});
     }
   log_ = std::make_unique<simulation::DeviceLog>(choice_.log, sources);
   for (std::size_t i = 0; i < links; ++i)
@@ -145,6 +144,7 @@ std::shared_ptr<simulation::LiveLink> Hands::LinkOf(const RigDevice& device) {
   for (const Link& known : links_)
     if (known.wish.family == wish.family && known.wish.serial == wish.serial) return known.link;
   simulation::LiveOptions options = options_;
+  if (!bus_) bus_ = simulation::MachineHidBus();
   if (log_) options.tap = taps_[links_.size()].get();
   links_.push_back({wish, std::make_shared<simulation::LiveLink>(*bus_, wish, options)});
   return links_.back().link;
@@ -170,6 +170,11 @@ void Hands::Lower(simulation::SessionOptions& options) const noexcept {
 }
 
 std::shared_ptr<HeldHands> Hands::Hold(const std::array<simulation::ScriptedDevice, 2>& by_mouse) {
+  if (openhaptics_) {
+    openhaptics_->OpenMissing();
+    for (const DeviceRole role : kRoles)
+      if (Of(role).number) roles_[Index(role)].device = DeviceOf(role);
+  }
   const auto parts_of = [&](DeviceRole role) {
     HandParts parts{HandKind::kMouse, by_mouse[Index(role)], {}, {}, {}, {}, 0, kNoButtons};
     simulation::ScriptedDevice start = parts.by_mouse;
@@ -189,9 +194,9 @@ std::shared_ptr<HeldHands> Hands::Hold(const std::array<simulation::ScriptedDevi
       }
     } else if (const auto& own = RigOf(role)) {
       parts.kind = HandKind::kPluggedIn;
-      auto live = std::make_unique<LiveDevice>(Of(role).link, own->device.hand);
-      if (live->caps().input == simulation::HandInput::kRate) parts.integrates = live.get();
-      parts.device = std::move(live);
+      parts.device = DeviceOf(role);
+      if (parts.device->caps().input == simulation::HandInput::kRate)
+        parts.integrates = dynamic_cast<LiveDevice*>(parts.device.get());
       parts.buttons = own->buttons;
     }
     return parts;
@@ -216,9 +221,10 @@ bool Hands::Look() {
   if (!held_.expired()) return false;  // its servo reads them, and its frames follow each other
   bool has_news = false;
   for (const DeviceRole role : kRoles)
-    if (Role& own = roles_[Index(role)]; own.link) {
+    if (Role& own = roles_[Index(role)]; own.device) {
       const auto before =
-          std::exchange(own.status, StatusOfLink(*own.link, RigOf(role)->device.hand));
+          std::exchange(own.status, own.number ? openhaptics_->Look(*own.number)
+                                               : StatusOfLink(*own.link, RigOf(role)->device.hand));
       has_news = has_news || !(before == own.status);
     }
   return has_news;
@@ -227,6 +233,12 @@ bool Hands::Look() {
 simulation::DeviceStatus Hands::StatusOf(DeviceRole role) const {
   const auto held = held_.lock();
   return held ? held->News().hand[Index(role)].status : Of(role).status;
+}
+
+// More than its state says.
+std::string Hands::DetailOf(DeviceRole role) const {
+  const Role& own = Of(role);
+  return own.number ? openhaptics_->detail(*own.number) : own.link ? own.link->detail() : "";
 }
 
 bool Hands::Leads(DeviceRole role) const {
@@ -244,7 +256,7 @@ HandNow Hands::Now(DeviceRole role) const {
   const auto held = held_.lock();
   const Role& own = Of(role);
   if (held) now.kind = held->KindOf(role);
-  if (own.link) now.kind = HandKind::kPluggedIn;
+  if (own.device) now.kind = HandKind::kPluggedIn;
   now.situation.kind = now.kind;
   now.situation.is_zero_force = is_zero_force_;
   now.situation.is_practising = held != nullptr;
@@ -258,8 +270,8 @@ HandNow Hands::Now(DeviceRole role) const {
     now.peak = device->caps().peak_force;
     now.sentence = simulation::Sentence(now.situation.status);
   }
-  if (own.link && !IsReady(now.situation.status.state))
-    if (const std::string detail = own.link->detail(); !detail.empty()) now.sentence = detail;
+  if (!IsReady(now.situation.status.state))
+    if (const std::string detail = DetailOf(role); !detail.empty()) now.sentence = detail;
   if (!held) return now;
 
   const HandsNews::Hand& news = held->News().hand[Index(role)];
@@ -280,7 +292,7 @@ HandNow Hands::Now(DeviceRole role) const {
 
 std::string Hands::Missing(DeviceRole role) const {
   const Role& own = Of(role);
-  if (!own.link) return "";
+  if (!own.device) return "";
   const DeviceState state = StatusOf(role).state;
   if (IsReady(state)) return "";
   const std::string& name = own.device->name();
@@ -299,6 +311,7 @@ std::string Hands::End() {
   pedals_.reset();
   roles_ = {};
   links_.clear();
+  openhaptics_.reset();
   if (!log_) return "";
   log_->Close();
   const long dropped = log_->dropped();

@@ -1,36 +1,24 @@
-// What a person chose to hold the two hands of a practice: the devices of a rig, a recorded pair,
-// simulated devices, or nothing, and then mouse and keys. It finds and keeps the devices, makes the
-// hands of each practice (held_hands.h), and says how they fare. The servo of a practice alone
-// reads and commands the devices; while none runs their links are looked at here. SI. All of it is
-// called by the window's thread.
+// What holds the two hands of a practice, as a person chose (hands_choice.h). It finds and keeps
+// the devices, makes the hands of each practice (held_hands.h), and says how they fare. The servo
+// of a practice alone reads and commands the devices; while none runs their links are looked at
+// here. SI. All of it is called by the window's thread.
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/commands/devices/hands_choice.h"
 #include "app/commands/devices/held_hands.h"
 #include "app/commands/devices/why_no_force.h"
 #include "simulation/device/live/live_device.h"
 #include "simulation/device/live/release_on_crash.h"
+#include "simulation/device/openhaptics/openhaptics_devices.h"
 #include "simulation/session/session_options.h"
 
 namespace arthro::app {
-
-struct HandsChoice {
-  std::optional<RigFile> rig;
-  std::vector<simulation::TraceRow> trace;  // recorded hands; empty: none
-  bool is_simulated = false;
-  bool is_zero_force = false;
-  std::filesystem::path log;  // that all of it is written to; empty: none
-  std::string notice;         // a sentence where the recording is not whole
-};
-
-// `rig`: a rig file or empty; `hands`: TRACE.csv, a device log, "plant" or empty. Throws Error.
-HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands);
 
 // How a hand stands now, for panels.
 struct HandNow {
@@ -63,7 +51,7 @@ class Hands {
   // outlive them. Shared only so that it is known here when they are gone.
   std::shared_ptr<HeldHands> Hold(const std::array<simulation::ScriptedDevice, 2>& by_mouse);
   // What is plugged in keeps its own time: its practice needs a servo with a thread.
-  bool NeedsThread() const noexcept { return !links_.empty(); }
+  bool NeedsThread() const noexcept { return HasDevices(); }
   double Clock() const noexcept { return options_.clock(); }
 
   // Once a frame. True where a panel has news.
@@ -74,7 +62,7 @@ class Hands {
   bool is_zero_force() const noexcept { return is_zero_force_; }
   void SetZeroForce(bool is_on) noexcept { is_zero_force_ = is_on; }
 
-  bool HasDevices() const noexcept { return !links_.empty(); }
+  bool HasDevices() const noexcept { return !links_.empty() || openhaptics_ != nullptr; }
   // Whether a device, and not mouse or keys, said where this hand is in the newest tick.
   bool Leads(simulation::DeviceRole role) const;
   HandNow Now(simulation::DeviceRole role) const;
@@ -94,21 +82,26 @@ class Hands {
     std::shared_ptr<simulation::LiveLink> link;
   };
   struct Role {
-    std::shared_ptr<simulation::LiveLink> link;      // null: the rig names none
-    std::unique_ptr<simulation::LiveDevice> device;  // for what never changes of it
-    simulation::DeviceStatus status;                 // while no practice runs
+    std::shared_ptr<simulation::LiveLink> link;  // where it is a HID …
+    std::optional<std::size_t> number;           // … or which of openhaptics_
+    // For what never changes of it; null: the rig names none.
+    std::unique_ptr<simulation::Device> device;
+    simulation::DeviceStatus status;  // while no practice runs
   };
   // Of a log: which source a role's hand is there, and which hand of that.
   struct Logged {
     int source = 0, hand = 0;
   };
   void OpenLog();
+  void OpenRig();
   std::shared_ptr<simulation::LiveLink> LinkOf(const RigDevice& device);
   const std::optional<RigRole>& RigOf(simulation::DeviceRole role) const noexcept;
   const Role& Of(simulation::DeviceRole role) const noexcept {
     return roles_[static_cast<std::size_t>(role)];
   }
+  std::unique_ptr<simulation::Device> DeviceOf(simulation::DeviceRole role);
   simulation::DeviceStatus StatusOf(simulation::DeviceRole role) const;
+  std::string DetailOf(simulation::DeviceRole role) const;
 
   HandsChoice choice_;
   simulation::LiveOptions options_;
@@ -118,6 +111,7 @@ class Hands {
       taps_;                        // one a link, where there is a log
   std::array<Logged, 2> logged_{};  // by DeviceRole
   std::vector<Link> links_;
+  std::shared_ptr<simulation::OpenHapticsDevices> openhaptics_;  // null: the rig names none
   std::optional<simulation::ReleaseOnCrash> crash_;
   std::array<Role, 2> roles_;  // by DeviceRole
   std::shared_ptr<simulation::LiveLink> pedals_;

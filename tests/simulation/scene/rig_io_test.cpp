@@ -3,6 +3,7 @@
 #include <functional>
 #include <rapidjson/document.h>
 #include <rapidjson/schema.h>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include "simulation/core/error.h"
 #include "simulation/device/driver/wooden_model.h"
 #include "simulation/device/hid/hid_node.h"
+#include "simulation/device/openhaptics/openhaptics_devices.h"
 
 namespace arthro {
 namespace {
@@ -101,6 +103,14 @@ TEST(RigIo, RefusesInASentence) {
          j["scope"]["device"] = {{"family", "dual_sense"}};
        },
        "does not know where a hand is", true},
+      {[](json& j) {
+         j["pedals"]["device"] = {{"family", "openhaptics"}};
+       },
+       "is no pedal", true},
+      {[](json& j) {
+         j["scope"]["device"] = j["instrument"]["device"] = {{"family", "openhaptics"}};
+       },
+       "the name in the maker's setup tool", true},
       {[](json& j) { j["scope"]["rod_length"] = 250; }, "between 0.05 and 0.6 metres"},
       {[](json& j) { j["scope"]["rod_length"] = 0.02; }, "between 0.05 and 0.6 metres"},
       {[](json& j) { j["scope"].erase("rod_length"); }, "rod_length"},
@@ -147,9 +157,9 @@ TEST(RigIo, TwoHandsOfOneHydraNeedNoSerial) {
 
 TEST(RigIo, KnowsTheFamiliesAndModelsThatThereAre) {
   const auto families = simulation::AllFamilies();
-  ASSERT_EQ(families.size(), RigFamilies().size());
-  for (std::size_t i = 0; i < families.size(); ++i)
-    EXPECT_STREQ(Word(families[i]), RigFamilies()[i]);
+  std::set<std::string> words{simulation::kOpenHapticsWord};
+  for (const simulation::DeviceFamily family : families) words.insert(Word(family));
+  EXPECT_EQ(words, std::set<std::string>(RigFamilies().begin(), RigFamilies().end()));
   for (const auto& model : simulation::WoodenModels())
     EXPECT_TRUE(FitsSchema(Changed([&](json& j) { j["scope"]["device"]["model"] = model.word; })))
         << model.word;
@@ -167,10 +177,15 @@ TEST(RigIo, ShippedRigsReadAndPointIntoTheJoint) {
       if (!role) continue;
       const DeviceRig& mount = role->mount;
       const bool is_mouse = role->device.family == "space_mouse";
+      const bool is_touch = role->device.family == "openhaptics";
       // Who sits before it pushes away from himself to go in, and up is up. An arm's x comes
-      // towards him and its z is up; of a knob it is y, and z is down.
-      const glm::dvec3 away = is_mouse ? glm::dvec3(0, -1, 0) : glm::dvec3(-1, 0, 0);
-      const glm::dvec3 up = is_mouse ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 0, 1);
+      // towards him and its z is up; of a knob it is y, and z is down; of a Touch z, and y is up.
+      const glm::dvec3 away = is_touch   ? glm::dvec3(0, 0, -1)
+                              : is_mouse ? glm::dvec3(0, -1, 0)
+                                         : glm::dvec3(-1, 0, 0);
+      const glm::dvec3 up = is_touch   ? glm::dvec3(0, 1, 0)
+                            : is_mouse ? glm::dvec3(0, 0, -1)
+                                       : glm::dvec3(0, 0, 1);
       EXPECT_LT(glm::distance(mount.portal_from_device * away, glm::dvec3(0, 0, 1)), 1e-12);
       EXPECT_LT(glm::distance(mount.portal_from_device * up, glm::dvec3(0, -1, 0)), 1e-12);
       const glm::dvec3 rest = RestingHip(mount, 0.05);
@@ -178,7 +193,7 @@ TEST(RigIo, ShippedRigsReadAndPointIntoTheJoint) {
       EXPECT_GT(glm::dot(mount.pivot - rest, away), 0.15 - 1e-12);
     }
   }
-  EXPECT_EQ(count, 3);
+  EXPECT_EQ(count, 4);
 }
 
 }  // namespace
