@@ -1,23 +1,24 @@
 // arthroscene devices: which haptic devices there are, whether they may be used, and what to do if
 // not.
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/device_words.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/core/units.h"
 #include "simulation/device/live/device_survey.h"
 #include "simulation/device/log/logged_device.h"
 
@@ -30,121 +31,10 @@ constexpr auto kWatchEvery = std::chrono::milliseconds(500);
 
 struct DevicesArguments {
   std::string json, model, log;
+  std::vector<std::string> openhaptics;
   bool watches = false, tries = false;
   double seconds = 0;
 };
-
-std::string Number(const HidNode& node) {
-  return fmt::format("{:04x}:{:04x}", node.vendor, node.product);
-}
-
-const char* Word(HandInput input) {
-  return input == HandInput::kAbsolute ? "absolute" : input == HandInput::kRate ? "rate" : "none";
-}
-const char* Word(Feedback feedback) {
-  return feedback == Feedback::kForce ? "force" : feedback == Feedback::kRumble ? "rumble" : "none";
-}
-
-std::string TextOf(const DeviceCaps& caps, int hands) {
-  std::string text;
-  if (caps.input == HandInput::kAbsolute)
-    text = fmt::format("{} of {} degrees of freedom to {:.3f} mm at {:.0f} Hz",
-                       hands == 1 ? "a hand" : "two hands", caps.sensed_dof,
-                       MmFromMetres(caps.position_quantum), caps.rate);
-  else if (caps.input == HandInput::kRate)
-    text = "a hand led by pushing and turning";
-  else
-    text = "no hand";
-  if (HasForce(caps))
-    text += fmt::format(", force to {:g} N ({:.2g} N for long) and {:g} N/m", caps.peak_force,
-                        caps.continuous_force, caps.max_stiffness);
-  else
-    text += caps.feedback == Feedback::kRumble ? ", rumbles" : ", no force";
-  return text + fmt::format(", {} button{}", caps.buttons, caps.buttons == 1 ? "" : "s");
-}
-
-std::string NameOf(const SurveyedDevice& own) {
-  const HidNode& node = own.device.node;
-  return fmt::format("{}  {}  {}  {}", Name(own.device.family), Number(node),
-                     node.serial.empty() ? "no serial number" : "serial " + node.serial, node.path);
-}
-
-nlohmann::ordered_json JsonOf(const DeviceCaps& caps) {
-  return {{"input", Word(caps.input)},
-          {"feedback", Word(caps.feedback)},
-          {"sensed_dof", caps.sensed_dof},
-          {"actuated_dof", caps.actuated_dof},
-          {"position_quantum", caps.position_quantum},
-          {"gimbal_sigma_deg", DegreesFromRadians(caps.gimbal_sigma)},
-          {"peak_force", caps.peak_force},
-          {"continuous_force", caps.continuous_force},
-          {"max_stiffness", caps.max_stiffness},
-          {"damping", caps.damping},
-          {"rate", caps.rate},
-          {"delay_ticks", caps.delay_ticks},
-          {"buttons", caps.buttons},
-          {"watchdog", caps.watchdog}};
-}
-
-nlohmann::ordered_json JsonOf(const DeviceTrial& trial) {
-  return {{"passed", trial.has_passed},     {"sentence", trial.sentence},
-          {"seconds", trial.seconds},       {"rate", trial.rate},
-          {"taken", trial.taken},           {"rejected", trial.rejected},
-          {"full_rings", trial.full_rings}, {"written", trial.written},
-          {"age_p50", trial.age_p50},       {"age_p99", trial.age_p99},
-          {"spread", trial.spread}};
-}
-
-nlohmann::ordered_json JsonOf(const SurveyedDevice& own, const std::optional<DeviceTrial>& trial) {
-  const HidNode& node = own.device.node;
-  nlohmann::ordered_json json{{"family", Word(own.device.family)},
-                              {"name", Name(own.device.family)},
-                              {"number", Number(node)},
-                              {"serial", node.serial},
-                              {"path", node.path},
-                              {"bluetooth", node.is_bluetooth},
-                              {"can_be_used", own.can_be_used},
-                              {"sentence", own.sentence},
-                              {"hands", own.hands},
-                              {"caps", JsonOf(own.caps)}};
-  if (trial) json["self_test"] = JsonOf(*trial);
-  return json;
-}
-
-std::map<DeviceFamily, std::vector<std::string>> LookedFor() {
-  std::map<DeviceFamily, std::vector<std::string>> numbers;
-  for (const HidNumber& known : KnownNumbers())
-    numbers[known.family].push_back(fmt::format("{:04x}:{:04x}", known.vendor, known.product));
-  return numbers;
-}
-
-// What to do on a machine that has none.
-std::string Advice(int nodes) {
-  std::string text =
-      fmt::format("No haptic device is plugged in. Among {} HID device{} these were looked for:\n",
-                  nodes, nodes == 1 ? "" : "s");
-  for (const auto& [family, numbers] : LookedFor()) {
-    text += fmt::format("  {}: ", Name(family));
-    for (std::size_t i = 0; i < numbers.size(); ++i) text += (i ? ", " : "") + numbers[i];
-    text += "\n";
-  }
-  return text +
-         "Plug it in and run `arthroscene devices --watch`. If `lsusb` shows it and this does not, "
-         "it does not\nspeak HID: a Touch, Falcon, Inverse3 or Omega does not. Practice works with "
-         "mouse and keys without any.\n";
-}
-
-// Those that are tried, in their order.
-std::vector<LogSource> SourcesOf(const DeviceSurvey& survey, const std::string& model) {
-  std::vector<LogSource> sources;
-  for (const SurveyedDevice& own : survey.devices)
-    if (own.can_be_used)
-      sources.push_back({Word(own.device.family),
-                         own.device.family == DeviceFamily::kWoodenHaptics ? model : "",
-                         own.device.node.serial,
-                         {}});
-  return sources;
-}
 
 void Watch(HidBus& bus, const DevicesArguments& arguments) {
   const Progress progress = TerminalProgress();
@@ -154,7 +44,7 @@ void Watch(HidBus& bus, const DevicesArguments& arguments) {
   for (;;) {
     std::map<std::string, std::string> now;
     for (const SurveyedDevice& own : SurveyDevices(bus, arguments.model).devices)
-      now[NameOf(own)] = own.sentence;
+      now[HeadOf(ListedOf(own))] = own.sentence;
     for (const auto& [name, sentence] : now)
       if (const auto was = there.find(name); was == there.end() || was->second != sentence)
         fmt::print("+ {}: {}\n", name, sentence);
@@ -168,64 +58,140 @@ void Watch(HidBus& bus, const DevicesArguments& arguments) {
   }
 }
 
-void List(HidBus& bus, const DevicesArguments& arguments) {
-  constexpr double kTrial = 2.0;  // s
-  const Progress progress = TerminalProgress();
-  CheckOutputs({arguments.json, arguments.log}, {});
-  const DeviceSurvey survey = SurveyDevices(bus, arguments.model);
-  std::unique_ptr<DeviceLog> log;
-  const auto sources = SourcesOf(survey, arguments.model);
-  if (!arguments.log.empty() && !sources.empty())
-    log = std::make_unique<DeviceLog>(arguments.log, sources);
-  int source = 0;
-  nlohmann::ordered_json devices = nlohmann::ordered_json::array();
-  std::string text;
-  int failed = 0;
-  for (const SurveyedDevice& own : survey.devices) {
+// Of OpenHaptics, which cannot be asked what there is: those that were named, or the default, which
+// need not be there.
+struct Touches {
+  std::vector<std::string> names;
+  std::unique_ptr<OpenHapticsDevices> devices;  // null: built without
+  std::string absent;                           // a sentence where none is listed
+  std::vector<std::size_t> listed;
+};
+
+Touches FindTouches(const std::vector<std::string>& named) {
+  Touches touches{named, {}, kNoOpenHaptics, {}};
+  if (!HasOpenHaptics()) {
+    if (!named.empty())
+      throw Error(Code::kDevice,
+                  fmt::format("--openhaptics {}: {}", named.front(), touches.absent));
+    return touches;
+  }
+  if (named.empty()) touches.names.push_back("");
+  touches.devices = std::make_unique<OpenHapticsDevices>(touches.names, SteadySeconds);
+  touches.absent = touches.devices->detail(0);
+  for (std::size_t i = 0; i < touches.names.size(); ++i)
+    if (!named.empty() || touches.devices->is_open(i)) touches.listed.push_back(i);
+  return touches;
+}
+
+// Lists them all, and tries those that can be used, in this order: HID devices, then the others.
+class Lister {
+ public:
+  Lister(HidBus& bus, const DevicesArguments& arguments)
+      : bus_(bus),
+        arguments_(arguments),
+        survey_(SurveyDevices(bus, arguments.model)),
+        touches_(FindTouches(arguments.openhaptics)) {}
+
+  void Run() {
+    OpenLog();
+    for (const SurveyedDevice& own : survey_.devices) Take(ListedOf(own), [&] { return Try(own); });
+    for (const std::size_t i : touches_.listed)
+      Take(ListedOf(*touches_.devices, i, touches_.names[i]), [&] { return Try(i); });
+    CloseLog();
+    Write();
+  }
+
+ private:
+  static constexpr double kTrial = 2.0;  // s
+
+  // A source each that is tried.
+  void OpenLog() {
+    std::vector<LogSource> sources;
+    for (const SurveyedDevice& own : survey_.devices)
+      if (own.can_be_used)
+        sources.push_back(
+            {Word(own.device.family),
+             own.device.family == DeviceFamily::kWoodenHaptics ? arguments_.model : "",
+             own.device.node.serial,
+             {}});
+    for (const std::size_t i : touches_.listed)
+      if (touches_.devices->is_open(i)) sources.push_back({"", "", touches_.names[i], {}});
+    if (!arguments_.log.empty() && !sources.empty())
+      log_ = std::make_unique<DeviceLog>(arguments_.log, sources);
+  }
+
+  double seconds() const { return arguments_.seconds > 0 ? arguments_.seconds : kTrial; }
+
+  DeviceTrial Try(const SurveyedDevice& own) {
+    std::optional<LoggedReports> reports;
+    LiveOptions options;
+    if (log_) options.tap = &reports.emplace(*log_, source_++);
+    return TryDevice(bus_, {own.device.family, own.device.node.serial, arguments_.model}, seconds(),
+                     options, progress_.stop);
+  }
+
+  // Its reports are the library's: what is logged is what each tick saw.
+  DeviceTrial Try(std::size_t i) {
+    std::unique_ptr<Device> hand = touches_.devices->Hand(i);
+    if (log_) hand = std::make_unique<LoggedDevice>(std::move(hand), *log_, source_++);
+    const auto counts = [&] {
+      LinkCounts now;
+      now.taken = now.written = touches_.devices->frames(i);
+      return now;
+    };
+    return TryHand(*hand, {[&] { return touches_.devices->is_open(i); }, counts}, seconds(),
+                   SteadySeconds, progress_.stop);
+  }
+
+  void Take(const ListedDevice& own, const std::function<DeviceTrial()>& attempt) {
     std::optional<DeviceTrial> trial;
-    if (arguments.tries && own.can_be_used) {
-      std::optional<LoggedReports> reports;
-      LiveOptions options;
-      if (log) options.tap = &reports.emplace(*log, source++);
-      trial = TryDevice(bus, {own.device.family, own.device.node.serial, arguments.model},
-                        arguments.seconds > 0 ? arguments.seconds : kTrial, options, progress.stop);
-    }
-    failed += arguments.tries && !(trial && trial->has_passed);
-    devices.push_back(JsonOf(own, trial));
-    text += NameOf(own) + "\n";
-    if (own.caps.rate > 0) text += "  " + TextOf(own.caps, own.hands) + "\n";
-    text += "  " + own.sentence + "\n";
-    if (trial)
-      text += fmt::format(
-          "  self-test {}: {}\n  {:.0f} reports a second, {} rejected, {} written; samples {:.2f} "
-          "ms "
-          "old (median), {:.2f} ms (p99); hand moved {:.3f} mm\n",
-          trial->has_passed ? "passed" : "failed", trial->sentence, trial->rate, trial->rejected,
-          trial->written, 1e3 * trial->age_p50, 1e3 * trial->age_p99, MmFromMetres(trial->spread));
+    if (arguments_.tries && own.can_be_used) trial = attempt();
+    failed_ += arguments_.tries && !(trial && trial->has_passed);
+    devices_.push_back(JsonOf(own, trial));
+    text_ += TextOf(own, trial);
   }
-  if (log) {
-    log->Close();
-    if (const long dropped = log->dropped(); dropped > 0)
+
+  void CloseLog() {
+    if (!log_) return;
+    log_->Close();
+    if (const long dropped = log_->dropped(); dropped > 0)
       fmt::print(stderr, "warning: {}: {} records were dropped, since this machine was too busy\n",
-                 arguments.log, dropped);
+                 arguments_.log, dropped);
   }
-  if (!arguments.json.empty()) {
-    nlohmann::ordered_json looked_for = nlohmann::ordered_json::array();
-    for (const auto& [family, numbers] : LookedFor())
-      looked_for.push_back(
-          {{"family", Word(family)}, {"name", Name(family)}, {"numbers", numbers}});
-    const nlohmann::ordered_json json{{"schema", "arthroscene.devices/1"},
-                                      {"hid_devices", survey.nodes},
-                                      {"looked_for", looked_for},
-                                      {"devices", devices}};
-    WriteAtomically(arguments.json, json.dump(2) + "\n");
+
+  void Write() const {
+    if (!arguments_.json.empty()) {
+      const nlohmann::ordered_json json{
+          {"schema", "arthroscene.devices/1"},
+          {"hid_devices", survey_.nodes},
+          {"looked_for", LookedForJson()},
+          {"openhaptics", {{"built", HasOpenHaptics()}, {"sentence", touches_.absent}}},
+          {"devices", devices_}};
+      WriteAtomically(arguments_.json, json.dump(2) + "\n");
+    }
+    if (arguments_.json != "-")
+      fmt::print("{}", devices_.empty() ? Advice(survey_.nodes, touches_.absent) : text_);
+    if (arguments_.tries && devices_.empty())
+      throw Error(Code::kDevice, "there is no device to test; plug one in");
+    if (failed_ > 0)
+      throw Error(Code::kDevice,
+                  fmt::format("{} of {} devices failed the self-test", failed_, devices_.size()));
   }
-  if (arguments.json != "-") fmt::print("{}", survey.devices.empty() ? Advice(survey.nodes) : text);
-  if (arguments.tries && survey.devices.empty())
-    throw Error(Code::kDevice, "there is no device to test; plug one in");
-  if (failed > 0)
-    throw Error(Code::kDevice, fmt::format("{} of {} devices failed the self-test", failed,
-                                           survey.devices.size()));
+
+  HidBus& bus_;
+  const DevicesArguments& arguments_;
+  const Progress progress_ = TerminalProgress();
+  DeviceSurvey survey_;
+  std::unique_ptr<DeviceLog> log_;
+  Touches touches_;
+  int source_ = 0, failed_ = 0;
+  nlohmann::ordered_json devices_ = nlohmann::ordered_json::array();
+  std::string text_;
+};
+
+void List(HidBus& bus, const DevicesArguments& arguments) {
+  CheckOutputs({arguments.json, arguments.log}, {});
+  Lister(bus, arguments).Run();
 }
 
 void CheckModel(const std::string& model) {
@@ -248,9 +214,14 @@ void AddDevicesJob(CLI::App& program) {
   auto* tries = job->add_flag(
       "--self-test", own->tries,
       "Listen to each for two seconds and say how fast and how well it speaks; gives no force");
+  auto* names =
+      job->add_option("--openhaptics", own->openhaptics,
+                      "A Touch or its kin, by the name that its maker's setup tool gave it; "
+                      "without this the tool's default is looked for");
   auto* json = job->add_option("--json", own->json, "Write the list as JSON; - is standard output");
   watch->excludes(tries);
   watch->excludes(json);
+  watch->excludes(names);
   job->add_option("--log", own->log,
                   "Write each report of the self-test, and what was made of it, to this file")
       ->needs(tries);

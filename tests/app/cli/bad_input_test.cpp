@@ -193,6 +193,11 @@ TEST(BadInput, RigAndRecordedHands) {
   ExpectRefusal(practise + " --rig " + model.string(), "there is no model of pine", none,
                 "DISPLAY=");
   ExpectRefusal(practise + " --rig " + none.string(), "untouched", none, "DISPLAY=");
+  if (RunProgram("devices --json -").out.find("built without OpenHaptics") != std::string::npos)
+    ExpectRefusal(
+        practise + " --rig " ARTHRO_SOURCE_DIR "/resources/presets/rigs/touch_instrument.json",
+        "touch_instrument.json: instrument: this program was built without OpenHaptics", none,
+        "DISPLAY=");
   ExpectRefusal(practise + " --hands " + trace.string(), "first line", none, "DISPLAY=");
   EXPECT_EQ(RunProgram(practise + " --hands plant --rig " + rig.string()).exit_code, 2);
 }

@@ -31,12 +31,26 @@ TEST(DevicesJob, WhereThereIsNoneSaysWhatItLookedForAndWhatToTry) {
   if (!json["devices"].empty()) GTEST_SKIP() << "SKIPPED: a haptic device is plugged in here";
   const ProgramResult run = RunProgram("devices");
   EXPECT_EQ(run.exit_code, 0);
-  for (const char* part : {"No haptic device", "WoodenHaptics", "256f:c635", "--watch", "mouse"})
+  for (const char* part :
+       {"No haptic device", "WoodenHaptics", "256f:c635", "--watch", "mouse", "Touch and its kin"})
     EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;
   const ProgramResult test = RunProgram("devices --self-test");
   EXPECT_EQ(test.exit_code, 1);
   EXPECT_NE(test.err.find("no device to test"), std::string::npos) << test.err;
   EXPECT_EQ(RunProgram("devices --watch --seconds 0.1").exit_code, 0);
+}
+
+TEST(DevicesJob, WithoutTheMakersLibrarySaysWhatATouchNeeds) {
+  const auto json = nlohmann::json::parse(RunProgram("devices --json -").out);
+  if (json["openhaptics"]["built"]) GTEST_SKIP() << "SKIPPED: OpenHaptics is installed here";
+  EXPECT_EQ(json["openhaptics"]["sentence"],
+            "this program was built without OpenHaptics, through which a Touch and its kin speak; "
+            "install it (HD/hd.h, libHD) and build this program again");
+  const ProgramResult named = RunProgram("devices --openhaptics left");
+  EXPECT_EQ(named.exit_code, 1);
+  EXPECT_NE(named.err.find("--openhaptics left: this program was built without OpenHaptics"),
+            std::string::npos)
+      << named.err;
 }
 
 TEST(DevicesJob, RefusesFlagsThatContradict) {
