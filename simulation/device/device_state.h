@@ -22,8 +22,10 @@ enum class DeviceTrouble {
   kProtected,  // it stopped itself: warm motors, too much force or speed
 };
 
-// An older sample gets no force; with no newer one for so long a device is lost.
+// A sample of that age gets no force any more, so that with a tick of 1 ms none is given 6 ms after
+// the last one; with no newer one for longer than the second a device is lost.
 inline constexpr double kFreshFor = 0.005, kLostAfter = 0.020;  // s; 5 and 20 missed reports
+inline constexpr double kClockGrain = 1e-6;  // s; ticks that add up to an age are off by less
 
 struct DeviceEvents {
   bool is_present = false;  // it is listed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -44,10 +45,41 @@ bool Contains(const std::array<glm::dvec3, 3>& corner, const glm::dvec3& normal,
   return true;
 }
 
+// Of a long way the box is mostly empty, and a tree's box is apart from the ball as well where the
+// shadows of both are, seen along the way and a side of the box.
+class LongWay {
+ public:
+  LongWay(const glm::dvec3& from, const glm::dvec3& motion, double radius) noexcept
+      : from_(from), motion_(motion), reach_(glm::abs(motion)) {
+    constexpr double kRounding = 1e-12;  // m
+    for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i, ++i)
+      beside_[i] = (radius + kRounding) * std::sqrt(reach_[j] * reach_[j] + reach_[k] * reach_[k]);
+  }
+  [[gnu::noinline]] bool IsApart(const std::array<float, 3>& low,
+                                 const std::array<float, 3>& high) const noexcept {
+    glm::dvec3 centre, half;
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double a = static_cast<double>(low[k]), b = static_cast<double>(high[k]);
+      centre[i] = 0.5 * (a + b) - from_[i];
+      half[i] = 0.5 * (b - a);
+    }
+    const glm::dvec3 off = glm::abs(glm::cross(centre, motion_));
+    for (int i = 0, j = 1, k = 2; i < 3; j = k, k = i, ++i)
+      if (off[i] > half[j] * reach_[k] + half[k] * reach_[j] + beside_[i]) return true;
+    return false;
+  }
+
+ private:
+  glm::dvec3 from_, motion_, reach_;
+  glm::dvec3 beside_{0.0};  // the ball's shadow, times the way's
+};
+
 }  // namespace
 
 SurfaceBvh::SurfaceBvh(const SurfaceMesh& mesh, const Pose& portal_from_mesh) {
   triangles_.reserve(mesh.triangles.size());
+  double area_sum = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const auto corner = [&](int i) {
       return portal_from_mesh * mesh.vertices[static_cast<std::size_t>(i)];
@@ -59,8 +91,10 @@ SurfaceBvh::SurfaceBvh(const SurfaceMesh& mesh, const Pose& portal_from_mesh) {
     if (!(area > 1e-18) || !std::isfinite(area)) continue;  // m², 1 nm square
     triangle.normal = across / area;
     triangles_.push_back(triangle);
+    area_sum += 0.5 * area;
   }
   if (triangles_.empty()) return;
+  triangle_size_ = std::sqrt(area_sum / static_cast<double>(triangles_.size()));
   nodes_.reserve(triangles_.size());
   Build(0, static_cast<int>(triangles_.size()));
 }
@@ -152,6 +186,10 @@ bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
   };
   if (first >= 0 && first < static_cast<int>(triangles_.size())) test(first);
   glm::dvec3 low, high;
+  // A way of a few triangles fills its box.
+  std::optional<LongWay> long_way;
+  const double few = 4.0 * (radius + triangle_size_);
+  if (glm::dot(motion, motion) > few * few) long_way.emplace(from, motion, radius);
   const auto shrink = [&] {  // the box of what is left of the way
     const glm::dvec3 end = from + hit.fraction * motion;
     low = glm::min(from, end);
@@ -182,7 +220,7 @@ bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
   while (depth > 0 && hit.fraction > 0.0) {
     const int index = stack[--depth];
     const Node& node = nodes_[static_cast<std::size_t>(index)];
-    if (is_apart(node)) continue;
+    if (is_apart(node) || (long_way && long_way->IsApart(node.low, node.high))) continue;
     if (node.count == 0) {  // the nearer child first: what it finds shortens the way
       const int first_child = index + 1;
       const bool is_second_nearer = along(nodes_[static_cast<std::size_t>(node.next)]) <

@@ -54,6 +54,7 @@ class SurfaceBvh {
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;
+  double triangle_size_ = 0;  // m, root of their mean area
 };
 
 }  // namespace arthro::simulation

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/device/device_state.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/session/living_tissues.h"
 
@@ -206,7 +207,8 @@ Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexce
     tool.age = 0.0;
   }
   if (tool.age > options_.limiter.lost_after) return Fault::kLost;
-  if (tool.age > std::max(options_.limiter.max_sample_age, tool.fresh_for)) return Fault::kStale;
+  const double fresh_for = std::max(options_.limiter.max_sample_age, tool.fresh_for);
+  if (tool.age >= fresh_for - kClockGrain) return Fault::kStale;
   return Fault::kNone;
 }
 

@@ -37,7 +37,7 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
   // What comes from the device, and from the hand. What is no number is not fresh.
   if (!(situation.sample_age <= simulation::kLostAfter))
     return "The device has said nothing for more than 20 ms; check its cable.";
-  if (!(situation.sample_age <= simulation::kFreshFor))
+  if (!(situation.sample_age < simulation::kFreshFor))
     return "Its last sample is older than 5 ms; the force waits for a fresh one.";
   if (situation.status.state == DeviceState::kReady) {
     if (!situation.is_dead_man_held)

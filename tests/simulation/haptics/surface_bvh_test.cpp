@@ -65,6 +65,35 @@ TEST(SurfaceBvh, AgreesWithTryingEveryTriangle) {
   EXPECT_GT(met, 300);
 }
 
+// A long way leaves out boxes in another manner than a short one.
+TEST(SurfaceBvh, ALongWayMeetsWhatItsShortPiecesMeet) {
+  const SurfaceBvh tree(test::Sphere({0, 0, 0.03}, 0.01, 4), {});
+  constexpr double kPiece = 1e-3;  // m; triangles are 0.5 mm
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-0.02, 0.02);
+  int met = 0;
+  for (int trial = 0; trial < 6000; ++trial) {
+    glm::dvec3 from(any(random), any(random), 0.03 + any(random));
+    glm::dvec3 to(any(random), any(random), 0.03 + any(random));
+    // Some along an axis, some in a plane of two, where shadows have no width.
+    if (trial % 4 == 1) to[trial % 3] = from[trial % 3];
+    if (trial % 4 == 2) to = from, to[trial % 3] += 3.0 * any(random);
+    const double radius = trial % 5 * 0.5e-3;
+    SweepHit whole;
+    tree.Sweep(from, to, radius, -1, whole);
+    const int pieces = 1 + static_cast<int>(glm::length(to - from) / kPiece);
+    SweepHit piece;
+    int i = 0;
+    for (; i < pieces && piece.fraction == 1.0; ++i)
+      tree.Sweep(from + (to - from) * (1.0 * i / pieces), from + (to - from) * ((i + 1.0) / pieces),
+                 radius, -1, piece);
+    const double reference = piece.fraction < 1.0 ? (i - 1 + piece.fraction) / pieces : 1.0;
+    ASSERT_NEAR(whole.fraction, reference, 1e-9) << trial;
+    met += whole.fraction < 1.0;
+  }
+  EXPECT_GT(met, 1500);
+}
+
 TEST(SurfaceBvh, NoMeshBuildsNothing) {
   EXPECT_TRUE(SurfaceBvh(SurfaceMesh{}, {}).empty());
   SurfaceMesh flat;  // triangles with no area
