@@ -190,23 +190,22 @@ class FieldSkin::Cells {
 SkinUpdate FieldSkin::Update(const SolidField& field) {
   SkinUpdate update;
   const FieldGrid& grid = field.grid();
-  const auto [bx, by, bz] = field.bricks();
+  const std::array<int, 3> brick_count = field.bricks();
   const bool is_new = bricks_.empty() || grid.origin != grid_.origin ||
                       grid.spacing != grid_.spacing || grid.count != grid_.count ||
                       field.version() < version_;
   if (is_new) {
-    bricks_.assign(static_cast<std::size_t>(bx * by * bz), {});
+    bricks_.assign(static_cast<std::size_t>(brick_count[0] * brick_count[1] * brick_count[2]), {});
     grid_ = grid;
   }
   const auto index = [&](const Cell& b) {
-    return static_cast<std::size_t>((b[2] * by + b[1]) * bx + b[0]);
+    return static_cast<std::size_t>((b[2] * brick_count[1] + b[1]) * brick_count[0] + b[0]);
   };
   const auto for_each_brick = [&](auto&& visit) {
-    for (int k = 0; k < bz; ++k)
-      for (int j = 0; j < by; ++j)
-        for (int i = 0; i < bx; ++i) visit(Cell{i, j, k});
+    for (int k = 0; k < brick_count[2]; ++k)
+      for (int j = 0; j < brick_count[1]; ++j)
+        for (int i = 0; i < brick_count[0]; ++i) visit(Cell{i, j, k});
   };
-  const std::array<int, 3> brick_count = {bx, by, bz};
   const auto versions = field.brick_versions();
   const auto has_changed = [&](const Cell& b) { return is_new || versions[index(b)] > version_; };
 
