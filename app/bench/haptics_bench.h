@@ -1,7 +1,7 @@
 // Speed against error of touch: what the servo's tick costs, stage by stage; how far its force is
-// from closed forms, beside the paper's kernel; where a sampled wall begins to swing, beside the
-// rule K = (b + B)/(T/2 + t_d); and whether simulated hands come to rest on it. All but the times
-// is the same in every run. [notes on haptics, 4, 9]
+// from closed forms, beside the paper's kernel, and from a tissue's between two steps of it; where
+// a sampled wall begins to swing, beside the rule K = (b + B)/(T/2 + t_d); and whether simulated
+// hands come to rest on it. All but the times is the same in every run. [notes on haptics, 4, 9]
 #pragma once
 
 #include <string>
@@ -11,6 +11,7 @@
 
 #include "app/bench/force_cases.h"
 #include "app/bench/servo_times.h"
+#include "app/bench/tissue_bridge.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
 
@@ -54,11 +55,12 @@ struct HapticsBench {
   HapticsBenchOptions options;
   ServoTimes times;
   std::vector<ForceRow> forces;
+  std::vector<BridgeRow> bridges;
   std::vector<StabilityRow> stability;
   HandsRow hands;
 };
 
-// The parts of it; MeasureServo is the other one.
+// The parts of it, beside MeasureServo and MeasureBridges.
 std::vector<ForceRow> MeasureForces(int rounds, const Progress& progress);
 std::vector<StabilityRow> MeasureStability(const Progress& progress);
 HandsRow MeasureHands(int hands, const Progress& progress);

@@ -97,6 +97,8 @@ HapticsBench RunHapticsBench(const HapticsBenchOptions& options, const Progress&
   bench.options = options;
   bench.times = MeasureServo({options.ticks, options.rounds}, progress);
   bench.forces = MeasureForces(options.rounds, progress);
+  progress.Step("between a tissue's steps", 0.0);
+  bench.bridges = MeasureBridges(options.rounds);
   bench.stability = MeasureStability(progress);
   bench.hands = MeasureHands(options.hands, progress);
   return bench;

@@ -15,9 +15,6 @@
 namespace arthro::simulation {
 namespace {
 
-// A step of the tissue is felt evenly over the frame until the next one.
-constexpr double kTissueFrame = 1.0 / 60.0;  // s
-
 // Of a change of the surfaces' push, in a tick.
 constexpr double kPushedAtOnce = 0.5;
 

@@ -83,6 +83,7 @@ struct CouplingBlend {
   glm::dvec3 left{0.0};  // N beside `from`, of a blend that had not ended when `to` came
 };
 void TakeCoupling(CouplingBlend& blend, const ToolCoupling& coupling) noexcept;
+inline constexpr double kTissueFrame = 1.0 / 60.0;  // s, the usual `time`
 CoupledForce BlendedForce(CouplingBlend& blend, const glm::dvec3& tip, double dt,
                           double time) noexcept;
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ TEST(HapticsBench, WhatIsComputedIsTheSameTwice) {
   for (nlohmann::json& run : bench) {
     run = JsonOf(RunHapticsBench(options, {}));
     run.erase("times");
-    for (auto& row : run.at("forces")) row.erase("us");
+    for (const char* part : {"forces", "bridges"})
+      for (auto& row : run.at(part)) row.erase("us");
   }
   EXPECT_EQ(bench[0], bench[1]);
   EXPECT_EQ(bench[0].at("hands").at("escaped"), 0);
@@ -60,6 +62,26 @@ TEST(HapticsBench, OurForceIsNearTheClosedFormAndNearerThanThePapers) {
   EXPECT_EQ(ours.size(), 9u);
   EXPECT_EQ(paper.size(), 6u);
   for (const auto& [what, step] : paper) EXPECT_LT(ours.at(what), step) << what;
+}
+
+// Notes on haptics, section 9: at 60 steps a second and 2 Hz an error below 1 % and a step below
+// 0.02 N; 7 % is what a hand can tell. At a third of the steps only the others are a measure.
+TEST(HapticsBench, BetweenATissuesStepsOurForceIsNearItsOwn) {
+  std::map<std::pair<double, double>, std::map<Bridge, BridgeRow>> cases;
+  for (const BridgeRow& row : MeasureBridges(1))
+    cases[{row.step_rate, row.stroke_rate}][row.bridge] = row;
+  ASSERT_EQ(cases.size(), 6u);
+  for (const auto& [rates, by] : cases) {
+    ASSERT_EQ(by.size(), kBridges.size());
+    const BridgeRow& ours = by.at(Bridge::kOurs);
+    for (const Bridge other : {Bridge::kHold, Bridge::kSecant, Bridge::kTangent}) {
+      EXPECT_LT(ours.rms, by.at(other).rms) << rates.first << " " << rates.second;
+      EXPECT_LT(ours.excess_step, by.at(other).excess_step) << rates.first << " " << rates.second;
+    }
+  }
+  const BridgeRow& asked = cases.at({60, 2}).at(Bridge::kOurs);
+  EXPECT_LT(asked.rms, 0.01);
+  EXPECT_LT(asked.excess_step, 0.02);
 }
 
 // The bounds of tests/simulation/haptics/stability_test.cpp, over the whole map.
