@@ -36,7 +36,9 @@ std::vector<ForceRow> MeasureForces(int rounds, const Progress& progress) {
   const Surface surfaces[] = {{"plane", AnalyticRelief::Plane()},
                               {"sphere", AnalyticRelief::Ball()},
                               {"waves", AnalyticRelief::Waves()}};
-  for (const auto& [name, relief] : surfaces) {
+  for (const Surface& surface : surfaces) {
+    const char* name = surface.name;
+    const AnalyticRelief& relief = surface.relief;
     progress.Step("forces", static_cast<double>(rows.size()) / 15);
     const TouchStroke stroke = StrokeUnder(relief);
     for (const bool is_coarse : {false, true}) {

@@ -140,7 +140,7 @@ struct Box {
 class BoxTree {
  public:
   BoxTree(const SurfaceMesh& surface, std::vector<int> triangles)
-      : surface_(surface), triangles_(std::move(triangles)), boxes_(surface.triangles.size()) {
+      : triangles_(std::move(triangles)), boxes_(surface.triangles.size()) {
     for (const int t : triangles_)
       for (const int corner : surface.triangles[t]) boxes_[t].Add(surface.vertices[corner]);
     if (!triangles_.empty()) Build(0, static_cast<int>(triangles_.size()));
@@ -197,7 +197,6 @@ class BoxTree {
     Query(node.right, t, visit);
   }
 
-  const SurfaceMesh& surface_;
   std::vector<int> triangles_;
   std::vector<Box> boxes_;
   std::vector<Node> nodes_;

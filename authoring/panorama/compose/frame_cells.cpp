@@ -23,7 +23,6 @@ CellRays::CellRays(const LaidFrame& frame, int cell, const RectifiedView& view)
     : rectified_from_cell_(frame.composed_from_rectified.inv() * Shrink(1.0 / cell)),
       composed_from_rectified_(frame.composed_from_rectified),
       view_(view),
-      cell_(cell),
       det_(std::abs(cv::determinant(frame.composed_from_rectified))) {}
 
 CellRays::Ray CellRays::At(int column, int row) const {

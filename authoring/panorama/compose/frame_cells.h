@@ -32,7 +32,7 @@ class CellRays {
  private:
   cv::Matx33d rectified_from_cell_, composed_from_rectified_;
   RectifiedView view_;
-  double cell_, det_;
+  double det_;
 };
 
 // Marks what is burnt out or a glint: CV_8UC1, 255 where tissue shows.

@@ -98,10 +98,10 @@ cv::Point2d FocalChange::Apply(const cv::Point2d& rectified) const {
 }
 
 cv::Matx22d FocalChange::Derivative(const cv::Point2d& p) const {
-  constexpr double kStep = 0.5;
-  const cv::Point2d dx = Apply(p + cv::Point2d(kStep, 0)) - Apply(p - cv::Point2d(kStep, 0)),
-                    dy = Apply(p + cv::Point2d(0, kStep)) - Apply(p - cv::Point2d(0, kStep));
-  return {dx.x / (2 * kStep), dy.x / (2 * kStep), dx.y / (2 * kStep), dy.y / (2 * kStep)};
+  constexpr double kHalf = 0.5;  // px
+  const cv::Point2d dx = Apply(p + cv::Point2d(kHalf, 0)) - Apply(p - cv::Point2d(kHalf, 0)),
+                    dy = Apply(p + cv::Point2d(0, kHalf)) - Apply(p - cv::Point2d(0, kHalf));
+  return {dx.x / (2 * kHalf), dy.x / (2 * kHalf), dx.y / (2 * kHalf), dy.y / (2 * kHalf)};
 }
 
 PairEstimate FocalChange::Apply(const PairEstimate& pair) const {
