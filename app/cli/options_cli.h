@@ -14,6 +14,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/options.h"
 #include "simulation/core/options_json.h"
+#include "simulation/scene/json_text.h"
 
 namespace arthro::app {
 
@@ -83,14 +84,8 @@ void AddOptionsFile(CLI::App& job, Options& options) {
   job.add_option_function<std::string>(
          "--options",
          [&options](const std::string& file) {
-           nlohmann::json json;
-           try {
-             json = nlohmann::json::parse(ReadWholeFile(file));
-           } catch (const nlohmann::json::exception&) {
-             throw Error(Code::kBadData, "these options are not JSON; mend or leave them out",
-                         file);
-           }
-           options = OptionsFromJson<Options>(json, file, options);
+           options = OptionsFromJson<Options>(ParseJson(ReadWholeFile(file), Code::kBadData, file),
+                                              file, options);
          },
          "JSON file with options; flags win over it")
       ->trigger_on_parse();

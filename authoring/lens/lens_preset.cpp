@@ -9,16 +9,12 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/json_text.h"
 
 namespace arthro::authoring {
 
 LensPreset ReadLensPreset(const std::filesystem::path& file) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(ReadWholeFile(file));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(Code::kBadData, "this lens preset is not JSON; mend or remove it", file);
-  }
+  const nlohmann::json json = ParseJson(ReadWholeFile(file), Code::kBadData, file);
   if (!json.is_object())
     throw Error(Code::kBadData, "a lens preset must be a JSON object {…}; mend or remove it", file);
   std::vector<JsonFault> faults;

@@ -11,6 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/json_text.h"
 
 namespace arthro {
 namespace {
@@ -104,12 +105,7 @@ std::string_view WordOf(LensModel model) {
 }
 
 Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception&) {
-    throw Error(Code::kBadData, "this lens is not JSON; make it with `arthroscene lens`", file);
-  }
+  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
   if (!json.is_object())
     throw Error(Code::kBadData, "a lens must be a JSON object {…}; make it with `arthroscene lens`",
                 file);

@@ -8,6 +8,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/json_text.h"
 #include "simulation/scene/scene_limits.h"
 
 namespace arthro {
@@ -139,12 +140,7 @@ void CheckTogether(const RigFile& rig, Reader& reader) {
 }  // namespace
 
 RigFile ParseRig(const std::string& text, const std::filesystem::path& file) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception&) {
-    throw Error(Code::kBadData, "this rig is not JSON; mend or remove it", file);
-  }
+  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
   if (!json.is_object())
     throw Error(Code::kBadData, "a rig must be a JSON object {…}; mend or remove it", file);
   std::vector<JsonFault> faults;

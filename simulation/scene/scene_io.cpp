@@ -1,7 +1,6 @@
 #include "simulation/scene/scene_io.h"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/scene/json_text.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_json.h"
 #include "simulation/scene/scene_migration.h"
@@ -23,28 +23,6 @@ using nlohmann::json;
 // scene.json is written by hand or by this program; a larger one is some other file.
 constexpr std::size_t kMaxBytes = 16u << 20;
 
-std::string LineAndColumn(const std::string& text, std::size_t byte) {
-  const std::size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
-  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-  const std::size_t start = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
-  return fmt::format("line {}, column {}", line + 1,
-                     end - (start == std::string::npos ? 0 : start + 1) + 1);
-}
-
-// JSON lets a key come twice and the last one win; whoever wrote it meant something else.
-struct TwiceFinder {
-  std::vector<std::set<std::string>> open = {};
-  std::string twice = {};
-
-  bool operator()(int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) open.emplace_back();
-    if (event == json::parse_event_t::object_end) open.pop_back();
-    if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
-      twice = value.get<std::string>();
-    return true;
-  }
-};
-
 json ParseScene(const fs::path& file) {
   std::string text;
   try {
@@ -54,24 +32,7 @@ json ParseScene(const fs::path& file) {
   }
   if (text.size() > kMaxBytes)
     throw Error(Code::kBadScene, "this is too large to be a scene.json; check the name", file);
-  TwiceFinder twice;
-  json parsed;
-  try {
-    parsed = json::parse(text, std::ref(twice));
-  } catch (const json::parse_error& fault) {
-    throw Error(
-        Code::kBadScene,
-        fmt::format("this is not JSON from {} on; mend it there", LineAndColumn(text, fault.byte)),
-        file);
-  } catch (const json::exception&) {  // a number beyond what a double holds
-    throw Error(Code::kBadScene, "a number here is too large to be read; mend it", file);
-  }
-  if (!twice.twice.empty())
-    throw Error(Code::kBadScene,
-                fmt::format("the key {} comes twice in one object; remove one of them",
-                            json(twice.twice).dump()),
-                file);
-  return parsed;
+  return ParseJson(text, Code::kBadScene, file);
 }
 
 Scene ReadSceneFile(const fs::path& file, std::vector<JsonFault>& faults) {

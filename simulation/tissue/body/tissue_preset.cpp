@@ -10,6 +10,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
 #include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/json_text.h"
 
 namespace arthro::simulation {
 namespace {
@@ -30,12 +31,7 @@ struct FibreAxisFinder {
 }  // namespace
 
 TissuePreset ReadTissuePreset(const std::filesystem::path& file) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(ReadWholeFile(file));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(Code::kBadData, "this tissue preset is not JSON; mend or remove it", file);
-  }
+  nlohmann::json json = ParseJson(ReadWholeFile(file), Code::kBadData, file);
   if (!json.is_object())
     throw Error(Code::kBadData, "a tissue preset must be a JSON object {…}; mend or remove it",
                 file);

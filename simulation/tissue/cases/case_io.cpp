@@ -14,6 +14,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
 #include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/json_text.h"
 #include "simulation/scene/mesh_io.h"
 
 namespace arthro::simulation {
@@ -28,12 +29,7 @@ class CaseReader {
   explicit CaseReader(const std::filesystem::path& file) : file_(file) {}
 
   TissueCase Read() {
-    nlohmann::json json;
-    try {
-      json = nlohmann::json::parse(ReadWholeFile(file_));
-    } catch (const nlohmann::json::exception& error) {
-      throw Error(Code::kBadData, fmt::format("this is not JSON: {}", error.what()), file_);
-    }
+    nlohmann::json json = ParseJson(ReadWholeFile(file_), Code::kBadData, file_);
     if (!json.is_object()) throw Error(Code::kBadData, "a case must be a JSON object {…}", file_);
     // The material reads itself, by its own list of fields.
     ReadMaterial(json);

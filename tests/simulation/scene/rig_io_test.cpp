@@ -143,6 +143,14 @@ TEST(RigIo, RefusesInASentence) {
   }
   EXPECT_NE(Refusal("{").find("not JSON"), std::string::npos);
   EXPECT_NE(Refusal("[]").find("object"), std::string::npos);
+  EXPECT_EQ(
+      Refusal("{\"schema\": \"arthroscene.rig/1\",\n\"scope\": {\"rod_length\": -1e999}}"),
+      "rig.json: the number -1e999 at line 2, column 25 is larger than any that is read; mend "
+      "it");
+  EXPECT_NE(Refusal("{\"title\": \"a\", \"title\": \"b\"}").find("\"title\" comes twice"),
+            std::string::npos);
+  // Thousands of digits are not said again.
+  EXPECT_LT(Refusal("{\"title\": " + std::string(5000, '9') + "e5}").size(), 140u);
 }
 
 TEST(RigIo, TwoHandsOfOneHydraNeedNoSerial) {
