@@ -89,6 +89,9 @@ void DeviceLog::Run() {
     ended_.wait_for(lock, pause, [this] { return has_ended_; });
     WriteOut();
   } while (!has_ended_);
+  std::uint64_t pushed = 0;
+  for (const auto& channel : channels_) pushed += channel->pushed();
+  Write(LogEnd(pushed));
 }
 
 void DeviceLog::WriteOut() {

@@ -28,6 +28,10 @@ class LogChannel {
   // The number is written here.
   void Push(const LogRecord& record) noexcept;
   long dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+  // Dropped or not.
+  std::uint64_t pushed() const noexcept {
+    return end_.load(std::memory_order_acquire) + static_cast<std::uint64_t>(dropped());
+  }
 
  private:
   friend class DeviceLog;
@@ -50,8 +54,8 @@ class DeviceLog {
 
   // Lives as long as the log. Not on the servo path.
   LogChannel& AddChannel();
-  // Writes what is left; no channel may be pushed to any more. Throws Error(kFile) where something
-  // could not be written: then the file ends before that.
+  // Writes what is left, and the end; no channel may be pushed to any more. Throws Error(kFile)
+  // where something could not be written: then the file ends before that.
   void Close();
   long dropped() const;
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <type_traits>
 #include <zlib.h>
 
@@ -105,7 +106,8 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
   record.t_ns = taker.Take<std::int64_t>();
   record.number = taker.Take<std::uint64_t>();
   Taker body(taker.Bytes(size));
-  if (!taker.is_good() || record.source >= sources) return false;
+  const bool is_known = record.kind == LogKind::kEnd || record.source < sources;
+  if (!taker.is_good() || !is_known) return false;
   switch (record.kind) {
     case LogKind::kOpened:
       record.vendor = body.Take<std::uint16_t>();
@@ -136,6 +138,9 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
       record.status.must_release = body.Flag();
       record.is_dead_man_held = body.Flag();
       if (record.tick_hand >= record.hand.size()) return false;
+      break;
+    case LogKind::kEnd:
+      record.pushed = body.Take<std::uint64_t>();
       break;
     default:
       return false;
@@ -237,6 +242,9 @@ void Append(const LogRecord& record, std::string& payload) {
       Put(payload, static_cast<std::uint8_t>(record.status.must_release));
       Put(payload, static_cast<std::uint8_t>(record.is_dead_man_held));
       break;
+    case LogKind::kEnd:
+      Put(payload, record.pushed);
+      break;
   }
   const auto size = static_cast<std::uint16_t>(payload.size() - begin - kRecordHead);
   std::memcpy(payload.data() + begin + 2, &size, sizeof size);
@@ -252,7 +260,16 @@ std::string LogBlock(std::string_view payload, std::uint32_t records) {
   return block.append(payload);
 }
 
-std::string LogHead(std::span<const LogSource> sources) {
+std::string LogEnd(std::uint64_t pushed) {
+  LogRecord end;
+  end.kind = LogKind::kEnd;
+  end.pushed = pushed;
+  std::string payload;
+  Append(end, payload);
+  return LogBlock(payload, 1);
+}
+
+std::string LogHead(std::span<const LogSource> sources, std::uint32_t version) {
   nlohmann::ordered_json json;
   json["sources"] = nlohmann::ordered_json::array();
   for (const LogSource& source : sources) {
@@ -265,7 +282,7 @@ std::string LogHead(std::span<const LogSource> sources) {
                                {"roles", roles}});
   }
   std::string head(kMagic);
-  Put(head, kLogVersion);
+  Put(head, version);
   // A serial number may hold what is no UTF-8.
   const std::string text =
       json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -280,12 +297,13 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
   if (!IsDeviceLog(bytes)) refuse("this is no device log; give a file that was recorded as one");
   Taker taker(bytes.substr(kMagic.size()));
   const auto version = taker.Take<std::uint32_t>();
-  if (taker.is_good() && version != kLogVersion)
+  if (taker.is_good() && (version < kOldestLogVersion || version > kLogVersion))
     refuse(
-        fmt::format("this device log has version {}, and {} is read here; use the program that "
-                    "recorded it",
-                    version, kLogVersion));
+        fmt::format("this device log has version {}, and {} to {} are read here; use the program "
+                    "that recorded it",
+                    version, kOldestLogVersion, kLogVersion));
   DeviceLogContent log;
+  std::optional<std::uint64_t> pushed;  // once the end was read
   bool has_sources = false;
   while (taker.left() > 0 || !has_sources) {
     const std::size_t at = bytes.size() - taker.left();
@@ -322,6 +340,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
       has_sources = true;
       continue;
     }
+    if (pushed) refuse(where + " comes after the end of this device log; record it again");
     Taker inside(payload);
     for (std::uint32_t i = 0; i < records; ++i)
       if (!TakeRecord(inside, log.sources.size(), log.records.emplace_back()))
@@ -330,10 +349,27 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
                         "recorded it",
                         where, i));
     if (inside.left() > 0) refuse(where + " is longer than its records; record it again");
+    if (records == 1 && log.records.back().kind == LogKind::kEnd) {
+      pushed = log.records.back().pushed;
+      log.records.pop_back();
+    }
   }
+  if (std::ranges::any_of(log.records,
+                          [](const LogRecord& record) { return record.kind == LogKind::kEnd; }))
+    refuse("this device log has an end among its records; use the program that recorded it");
   std::stable_sort(log.records.begin(), log.records.end(),
                    [](const LogRecord& a, const LogRecord& b) { return a.t_ns < b.t_ns; });
   log.missing = CountMissing(log.records);
+  if (pushed) {
+    const std::uint64_t kept = log.records.size();
+    if (*pushed < kept + static_cast<std::uint64_t>(log.missing))
+      refuse("the end of this device log counts fewer records than there are; record it again");
+    log.missing = static_cast<long>(*pushed - kept);
+  } else if (version > kOldestLogVersion && log.torn.empty()) {
+    log.torn =
+        "the recording has no end: who recorded it did not come to close it, and what came "
+        "last may be missing";
+  }
   return log;
 }
 

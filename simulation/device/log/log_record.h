@@ -29,6 +29,7 @@ enum class LogKind : std::uint8_t {
   kHomeAsked,
   kReport,
   kTick,
+  kEnd,  // the last one, of the log itself
 };
 
 // A hand as the driver said it after a report. Of what the servo does not see (joints, push and
@@ -64,6 +65,9 @@ struct LogRecord {
   glm::dvec3 command{0.0};
   DeviceStatus status;
   bool is_dead_man_held = false;
+
+  // kEnd
+  std::uint64_t pushed = 0;  // records of all channels, those that were dropped included
 };
 
 }  // namespace arthro::simulation

@@ -18,6 +18,9 @@ const std::vector<LogSource> kSources = {
     {"razer_hydra", "", "é\"7", {DeviceRole::kInstrument, DeviceRole::kScope}},
     {"", "", "1", {}}};
 
+// Without an end, as the first version was.
+const std::string kOldHead = LogHead(kSources, 1);
+
 LogRecord Tick(std::int64_t t_ns, std::uint64_t number) {
   LogRecord record;
   record.kind = LogKind::kTick;
@@ -65,7 +68,7 @@ std::string Sample() {
   asked.kind = LogKind::kHomeAsked;
   asked.number = 1;
   asked.t_ns = 5;
-  return LogHead(kSources) + BlockOf({opened, asked, Report(10, 0, 14)}) +
+  return kOldHead + BlockOf({opened, asked, Report(10, 0, 14)}) +
          BlockOf({Tick(20, 0), Report(30, 1, kReportRoom), Tick(40, 1)});
 }
 
@@ -110,7 +113,7 @@ TEST(LogFormat, TheLargestRecordFitsItsRoom) {
 }
 
 TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
-  const std::string head = LogHead(kSources), first = BlockOf({Tick(20, 0), Tick(30, 1)}),
+  const std::string head = kOldHead, first = BlockOf({Tick(20, 0), Tick(30, 1)}),
                     last = BlockOf({Tick(40, 2), Report(50, 0, 64)}), whole = head + first + last;
   for (std::size_t size = (head + first).size(); size < whole.size(); ++size) {
     const DeviceLogContent log = ParseDeviceLog(whole.substr(0, size));
@@ -133,7 +136,7 @@ TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
 }
 
 TEST(LogFormat, AHeadThatIsNotWholeIsRefused) {
-  const std::string head = LogHead(kSources);
+  const std::string head = kOldHead;
   for (std::size_t size = 1; size < head.size(); ++size)
     ASSERT_NE(Refusal(head.substr(0, size)), "") << size;
   EXPECT_EQ(Refusal(head), "");
@@ -157,15 +160,17 @@ TEST(LogFormat, SaysInOneSentenceWhatItIsNot) {
   EXPECT_NE(Refusal("").find("empty"), std::string::npos);
   EXPECT_NE(Refusal("t,device,hip_x").find("no device log"), std::string::npos);
   std::string other = Sample();
-  other[8] = 2;
-  EXPECT_NE(Refusal(other).find("has version 2, and 1 is read here"), std::string::npos);
+  for (const char version : {0, 3}) {
+    other[8] = version;
+    EXPECT_NE(Refusal(other).find("and 1 to 2 are read here"), std::string::npos);
+  }
 }
 
 TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
   const auto put = [](std::string& bytes, std::size_t at, std::uint32_t value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
   };
-  const std::string head = LogHead(kSources);
+  const std::string head = kOldHead;
   // A block that claims too much, its own checksum right.
   std::string empty = LogBlock("", 0);
   for (const std::uint32_t size : {std::uint32_t{kLargestBlock} + 1, 0x7fffffffu, 0xffffffffu}) {
@@ -199,8 +204,54 @@ TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
 
 TEST(LogFormat, CountsWhatWasDropped) {
   const DeviceLogContent log =
-      ParseDeviceLog(LogHead(kSources) + BlockOf({Tick(1, 2), Tick(2, 3), Report(3, 1, 14)}));
+      ParseDeviceLog(kOldHead + BlockOf({Tick(1, 2), Tick(2, 3), Report(3, 1, 14)}));
   EXPECT_EQ(log.missing, 3) << "ticks 0 and 1, report 0";
+}
+
+// Of version 2.
+std::string Ended(std::uint64_t pushed) {
+  return LogHead(kSources) + BlockOf({Tick(1, 0), Tick(2, 1), Report(3, 0, 14)}) + LogEnd(pushed);
+}
+
+TEST(LogFormat, TheEndIsTheseBytes) {
+  const unsigned char golden[] = {
+      0x1c, 0, 0, 0, 1, 0, 0, 0, 0x25, 0x5a, 0xfe, 0xd8, 0x33, 0x04, 0x9d, 0x4a,  // block
+      5,    0, 8, 0, 0, 0, 0, 0, 0,    0,    0,    0,    0,    0,    0,    0,     // record
+      0,    0, 0, 0, 7, 0, 0, 0, 0,    0,    0,    0};
+  const std::string end = LogEnd(7);
+  ASSERT_EQ(end.size(), sizeof golden);
+  EXPECT_EQ(std::memcmp(end.data(), golden, sizeof golden), 0) << testing::PrintToString(end);
+}
+
+TEST(LogFormat, TheEndSaysWhatWasDroppedAfterTheLastThatWasKept) {
+  const DeviceLogContent whole = ParseDeviceLog(Ended(3));
+  EXPECT_EQ(whole.records.size(), 3u) << "the end is none of them";
+  EXPECT_EQ(whole.missing, 0);
+  EXPECT_EQ(whole.torn, "");
+  EXPECT_EQ(ParseDeviceLog(Ended(10)).missing, 7);
+  EXPECT_EQ(ParseDeviceLog(Ended(10)).torn, "");
+  EXPECT_NE(Refusal(Ended(2)).find("counts fewer records than there are"), std::string::npos);
+}
+
+TEST(LogFormat, WithoutItsEndALogOfTheSecondVersionSaysSoAtEveryByte) {
+  const std::string whole = Ended(5);
+  const std::size_t without = whole.size() - LogEnd(5).size();
+  for (std::size_t size = without; size < whole.size(); ++size) {
+    const DeviceLogContent log = ParseDeviceLog(whole.substr(0, size));
+    ASSERT_EQ(log.records.size(), 3u) << size;
+    ASSERT_EQ(log.missing, 0) << "nobody can know";
+    ASSERT_NE(log.torn.find(size == without ? "has no end" : "was cut short"), std::string::npos)
+        << size << ": " << log.torn;
+  }
+}
+
+TEST(LogFormat, NothingComesAfterTheEndAndNoneIsAmongRecords) {
+  EXPECT_NE(Refusal(Ended(3) + BlockOf({Tick(9, 2)})).find("comes after the end"),
+            std::string::npos);
+  LogRecord end;
+  end.kind = LogKind::kEnd;
+  EXPECT_NE(Refusal(LogHead(kSources) + BlockOf({Tick(1, 0), end})).find("an end among"),
+            std::string::npos);
 }
 
 }  // namespace
