@@ -23,6 +23,7 @@ struct ViewArguments {
   std::optional<double> view_angle_deg, head_roll_deg, field_of_view_deg;
   int size = 512;
   bool plain = false;
+  int relief_steps = 0;
 };
 
 double Radians(const char* flag, double degrees) {
@@ -51,6 +52,7 @@ void RunViewJob(const ViewArguments& arguments) {
   StillPictures pictures(loaded);
   Picture picture = PictureFromPose(pose, view_angle, field_of_view, head_roll);
   picture.plain = arguments.plain;
+  picture.relief_steps = arguments.relief_steps;
   const ColourImage image = pictures.Draw(picture, arguments.size);
   WriteColourImage(arguments.output, image);
   if (!pictures.view().notice().empty())
@@ -87,6 +89,13 @@ void AddViewJob(CLI::App& program) {
       ->capture_default_str();
   job->add_flag("--plain", arguments->plain,
                 "Backdrop colours only: no light, soft rim, mark, tissues or instrument");
+  job->add_option(
+         "--relief-steps", arguments->relief_steps,
+         "Places along a ray, at most, that are held against the depth map, so that what is "
+         "near hides what is far and moves before it: 128 for a fine picture; 0: all colours "
+         "lie on the bare sphere")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
   job->add_option("-o,--output", arguments->output, "Picture to write, by its ending: .png, .tif…")
       ->required();
   job->footer(

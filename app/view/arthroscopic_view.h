@@ -41,6 +41,10 @@ struct Picture {
   double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
   std::optional<InstrumentView> instrument;
   bool plain = false;  // backdrop colours only: no light, softness, mark or models
+  // Places along a ray, at most, that are held against the relief, which then hides what is behind
+  // it and moves as the lens does; 0: its colours lie on the bare sphere. For still pictures:
+  // without a graphics card 16 take 0.5 us a pixel, and the sphere 0.1.
+  int relief_steps = 0;
 };
 
 class ArthroscopicView {

@@ -35,19 +35,23 @@ constexpr const char* kHead = R"(//VTK::System::Dec
 in vec2 texCoord;
 uniform sampler2D panorama;
 uniform sampler2D relief;       // m
+uniform sampler2D reliefCeiling;  // m, of blocks of blockTexels
 uniform sampler2D imagedShare;  // 1 well inside what was imaged
 uniform vec3 tip;               // in radii of the sphere
 uniform float clearance;        // 1 - |tip|^2, worked out in double
 uniform vec3 viewAxis, upAxis, rightAxis;
 uniform float lensScale;        // sin(fov/4)
 uniform float windowRadius;     // px
-uniform int equirectangular, wraps, plain;
+uniform int wraps, plain;
 uniform vec2 centre, scale;     // of the projection, in texture units
 uniform vec2 texels;
 const float kSharpness = 0.7;
 uniform float samples;           // at most, a pixel
 uniform float radius;           // m
 uniform float nearest, farthest, lightReach;
+uniform float highest;          // of the relief, in radii
+uniform float blockTexels;
+uniform float reliefSteps;      // at most, along a ray
 uniform vec3 endColour;
 uniform vec2 notch;             // unit, image right and up
 )";
@@ -74,6 +78,78 @@ vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
 }
 )";
 
+// Where a ray first meets the relief, in radii along it. Nothing lies nearer to the portal than the
+// relief's highest place; from that sphere out to the bare one a ray passes a block of texels at
+// once where the relief around does not reach it, and an eighth of one where it may. Where it has
+// gone behind the relief the place is closed in on.
+constexpr const char* kRelief = R"(
+#ifdef EQUIRECTANGULAR
+vec2 panoramaPlace(vec3 d) {
+  return centre + scale * vec2(atan(d.x, d.z), atan(d.y, length(d.xz)));
+}
+// How much finer the panorama is there than at its centre, at most.
+float fineness(vec3 x, float far) { return inversesqrt(max(1.0 - x.y * x.y / far, 1e-4)); }
+bool isBefore(vec3 d) { return true; }
+#else
+vec2 panoramaPlace(vec3 d) { return centre + scale * d.xy / max(d.z, 1e-4); }
+float fineness(vec3 x, float far) { return far / max(x.z * x.z, 1e-4 * far); }
+bool isBefore(vec3 d) { return d.z > 0.0; }
+#endif
+bool isImaged(vec3 d, vec2 uv) {
+  return isBefore(d) && (wraps != 0 || abs(uv.x - 0.5) <= 0.5) && abs(uv.y - 0.5) <= 0.5;
+}
+// How far x is behind the relief, in radii.
+float behind(vec3 x) {
+  vec2 uv = panoramaPlace(x);
+  return (isImaged(x, uv) ? textureLod(relief, uv, 0.0).r / radius : 0.0) - 1.0 + length(x);
+}
+// In radii; nothing within a block is higher.
+float ceilingAt(vec2 uv) {
+  ivec2 block = ivec2(uv * texels / blockTexels);
+  return texelFetch(reliefCeiling, clamp(block, ivec2(0), textureSize(reliefCeiling, 0) - 1), 0).r / radius;
+}
+// Texels that x passes a radius on its way, at most.
+float texelsARadius(vec3 x, vec3 ray) {
+  float far = dot(x, x);
+  float turn = length(cross(x, ray)) / far;
+  return max(turn * fineness(x, far) * max(abs(scale.x) * texels.x, abs(scale.y) * texels.y), 1.0);
+}
+// The first crossing from `near` to `far`; beyond `far` where there is none. What stands under an if
+// is done for every pixel on a processor, so there is little.
+float firstBehind(vec3 ray, float b, float near, float far) {
+  float least = (far - near) / reliefSteps;
+  float low = near, high = near, gapLow = behind(tip + near * ray), gapHigh = gapLow;
+  for (float i = 0.0; i < reliefSteps; i += 1.0) {
+    low = high;
+    gapLow = gapHigh;
+    vec3 x = tip + low * ray;
+    float pace = blockTexels / texelsARadius(x, ray);
+    // To the end of the block, or to where the relief around begins.
+    float ceiling = ceilingAt(panoramaPlace(x));
+    float begins = sqrt(max(b * b + clearance + ceiling * (ceiling - 2.0), 0.0)) - b;
+    float clear = ceiling < 1.0 - length(x) ? min(pace, begins - low) : 0.0;
+    high = min(low + max(clear, max(0.125 * pace, least)), far);
+    gapHigh = behind(tip + high * ray);
+    if ((gapHigh >= 0.0 && gapLow < 0.0) || high >= far) break;
+  }
+  if (!(gapHigh >= 0.0 && gapLow < 0.0)) return 2.0 * far;
+  for (int k = 0; k < 5; ++k) {
+    float at = mix(low, high, clamp(gapLow / (gapLow - gapHigh), 0.05, 0.95));
+    float gap = behind(tip + at * ray);
+    bool is = gap >= 0.0;
+    high = is ? at : high, gapHigh = is ? gap : gapHigh;
+    low = is ? low : at, gapLow = is ? gapLow : gap;
+  }
+  return mix(low, high, gapLow / (gapLow - gapHigh));
+}
+float meetRelief(vec3 ray, float b, float sphere) {
+  float inside = clearance + highest * (highest - 2.0);  // (1 - highest)^2 - |tip|^2
+  float begins = sqrt(max(b * b + inside, 0.0)) - b;
+  // A lens among the relief looks from where it is.
+  return min(firstBehind(ray, b, inside >= 0.0 ? begins : 0.0, sphere), sphere);
+}
+)";
+
 constexpr const char* kMain = R"(
 void main() {
   // Pixel -> equisolid ray: |offset| lensScale = sin(theta/2).
@@ -83,29 +159,26 @@ void main() {
   vec2 across = 2.0 * lensScale * sqrt(1.0 - s2) * offset;
   vec3 ray = (1.0 - 2.0 * s2) * viewAxis + across.x * rightAxis + across.y * upAxis;
 
-  // Ray -> sphere -> direction from the portal.
+  // Ray -> sphere -> direction from the portal -> panorama.
   float b = dot(tip, ray);
-  float reach = sqrt(max(b * b + clearance, 0.0)) - b;
-  vec3 d = normalize(tip + reach * ray);
-
-  // Direction -> panorama.
-  bool imaged = true;
-  vec2 uv;
-  if (equirectangular != 0) {
-    uv = centre + scale * vec2(atan(d.x, d.z), atan(d.y, length(d.xz)));
-  } else {
-    imaged = d.z > 0.0;
-    uv = centre + scale * d.xy / max(d.z, 1e-4);
-  }
+  float sphere = sqrt(max(b * b + clearance, 0.0)) - b;
+  vec3 d = normalize(tip + sphere * ray);
+  vec2 uv = panoramaPlace(d);
+  // Of the smooth sphere: at the relief's outlines a pixel's neighbours are elsewhere.
   vec2 dx = dFdx(uv), dy = dFdy(uv);
+  float coverage = rimCoverage(r, windowRadius);
   if (wraps != 0) {
     dx.x -= round(dx.x);
     dy.x -= round(dy.x);
-  } else {
-    imaged = imaged && uv.x >= 0.0 && uv.x <= 1.0;
   }
-  imaged = imaged && uv.y >= 0.0 && uv.y <= 1.0;
-  float coverage = rimCoverage(r, windowRadius);
+#ifdef RELIEF
+  float reach = meetRelief(ray, b, sphere);
+  d = normalize(tip + reach * ray);
+  uv = panoramaPlace(d);
+  dx *= reach / sphere;
+  dy *= reach / sphere;
+#endif
+  bool imaged = isImaged(d, uv);
   vec3 colour = imaged && coverage > 0.0 ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
   float h = imaged ? texture(relief, uv).r / radius : 0.0;
 
@@ -183,14 +256,17 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
 }
 
 void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth) {
-  if (depth.empty()) {
-    const float bare = 0.0f;
-    Fill(*relief_, window, 1, 1, 1, VTK_FLOAT, &bare);
-  } else {
-    const std::vector<float> relief = ReliefTexture(depth, reduction_);
-    Fill(*relief_, window, (depth.width + reduction_ - 1) / reduction_,
-         (depth.height + reduction_ - 1) / reduction_, 1, VTK_FLOAT, relief.data());
-  }
+  const int width = depth.empty() ? 1 : (depth.width + reduction_ - 1) / reduction_;
+  const int height = depth.empty() ? 1 : (depth.height + reduction_ - 1) / reduction_;
+  const std::vector<float> relief =
+      depth.empty() ? std::vector<float>(1, 0.0f) : ReliefTexture(depth, reduction_);
+  Fill(*relief_, window, width, height, 1, VTK_FLOAT, relief.data());
+  const ReliefCeiling ceiling = MakeReliefCeiling(relief, width, height, wraps_);
+  Fill(*ceiling_, window, ceiling.width, ceiling.height, 1, VTK_FLOAT, ceiling.relief.data());
+  ceiling_->SetMinificationFilter(vtkTextureObject::Nearest);
+  ceiling_->SetMagnificationFilter(vtkTextureObject::Nearest);
+  block_ = ceiling.block;
+  highest_ = *std::max_element(ceiling.relief.begin(), ceiling.relief.end());
   const ImagedMask mask = MakeImagedMask(panorama_size_.x, panorama_size_.y, depth, wraps_);
   Fill(*imaged_, window, mask.width, mask.height, 1, VTK_UNSIGNED_CHAR, mask.share.data());
 }
@@ -223,9 +299,17 @@ void BackdropProp::SetPicture(const Picture& picture, int size) {
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
   if (!window || !panorama_->GetHandle()) return 0;
-  if (!quad_) {
-    const std::string source = std::string(kHead) + kDepthShader + kLightShader + kFilter + kMain;
+  // A processor goes both ways of every if of a shader, so what is not needed is not compiled.
+  const bool is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
+  const bool has_relief = highest_ > 0.0 && picture_.relief_steps > 0;
+  const int variant = (is_equirectangular ? 1 : 0) + (has_relief ? 2 : 0);
+  if (!quad_ || variant != variant_) {
+    std::string source = kHead;
+    if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
+    if (has_relief) source += "#define RELIEF\n";
+    source = source + kDepthShader + kLightShader + kFilter + kRelief + kMain;
     quad_ = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), nullptr);
+    variant_ = variant;
   } else {
     window->GetShaderCache()->ReadyShaderProgram(quad_->Program);
   }
@@ -238,10 +322,12 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   state->vtkglDepthFunc(GL_ALWAYS);
   panorama_->Activate();
   relief_->Activate();
+  ceiling_->Activate();
   imaged_->Activate();
   SetUniforms();
   quad_->Render();
   imaged_->Deactivate();
+  ceiling_->Deactivate();
   relief_->Deactivate();
   panorama_->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
@@ -257,6 +343,7 @@ void BackdropProp::SetUniforms() {
   const glm::dvec3 tip = view.tip / backdrop_.radius;
   program.SetUniformi("panorama", panorama_->GetTextureUnit());
   program.SetUniformi("relief", relief_->GetTextureUnit());
+  program.SetUniformi("reliefCeiling", ceiling_->GetTextureUnit());
   program.SetUniformi("imagedShare", imaged_->GetTextureUnit());
   SetUniform(program, "tip", tip);
   SetUniform(program, "clearance", 1.0 - glm::dot(tip, tip));
@@ -265,7 +352,6 @@ void BackdropProp::SetUniforms() {
   SetUniform(program, "rightAxis", view.right);
   SetUniform(program, "lensScale", std::sin(picture_.field_of_view / 4.0));
   SetUniform(program, "windowRadius", size_ / 2.0);
-  program.SetUniformi("equirectangular", equirectangular ? 1 : 0);
   program.SetUniformi("wraps", wraps_ ? 1 : 0);
   program.SetUniformi("plain", picture_.plain ? 1 : 0);
   // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
@@ -278,6 +364,9 @@ void BackdropProp::SetUniforms() {
   SetUniform(program, "texels", texels);
   SetUniform(program, "samples", kSamples);
   SetUniform(program, "radius", backdrop_.radius);
+  SetUniform(program, "highest", highest_ / backdrop_.radius);
+  SetUniform(program, "blockTexels", block_);
+  SetUniform(program, "reliefSteps", double(picture_.relief_steps));
   SetUniform(program, "nearest", kNearest);
   SetUniform(program, "farthest", kFarthest);
   SetUniform(program, "lightReach", light_reach());
@@ -289,7 +378,7 @@ void BackdropProp::SetUniforms() {
 void BackdropProp::ReleaseGraphicsResources(vtkWindow* window) {
   if (quad_) quad_->ReleaseGraphicsResources(window);
   quad_.reset();
-  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), imaged_.Get()})
+  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), ceiling_.Get(), imaged_.Get()})
     texture->ReleaseGraphicsResources(window);
   Superclass::ReleaseGraphicsResources(window);
 }

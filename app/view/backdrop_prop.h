@@ -58,9 +58,12 @@ class BackdropProp : public vtkProp {
   glm::ivec2 panorama_size_{0};
   int reduction_ = 1;   // panorama pixels a texel and axis
   bool wraps_ = false;  // a whole turn: left and right edge meet
+  double highest_ = 0;  // of the relief, m
+  int block_ = 1;       // texels of the relief's ceiling
   FootageLight light_;
-  vtkNew<vtkTextureObject> panorama_, relief_, imaged_;
+  vtkNew<vtkTextureObject> panorama_, relief_, ceiling_, imaged_;
   std::unique_ptr<vtkOpenGLQuadHelper> quad_;
+  int variant_ = 0;  // of its shader
 };
 
 }  // namespace arthro::app

@@ -69,6 +69,39 @@ std::vector<float> ReliefTexture(const DepthMap& depth, int reduction) {
   return relief;
 }
 
+ReliefCeiling MakeReliefCeiling(const std::vector<float>& relief, int width, int height,
+                                bool whole_turn) {
+  constexpr int kBlocks = 128, kLeast = 8;
+  ReliefCeiling ceiling;
+  ceiling.block = std::max(kLeast, (std::max(width, height) + kBlocks - 1) / kBlocks);
+  ceiling.width = (width + ceiling.block - 1) / ceiling.block;
+  ceiling.height = (height + ceiling.block - 1) / ceiling.block;
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(ceiling.width) +
+           static_cast<std::size_t>(x);
+  };
+  std::vector<float> own(index(0, ceiling.height), 0.0f);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      float& highest = own[index(x / ceiling.block, y / ceiling.block)];
+      highest =
+          std::max(highest, relief[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                   static_cast<std::size_t>(x)]);
+    }
+  ceiling.relief = own;
+  for (int y = 0; y < ceiling.height; ++y)
+    for (int x = 0; x < ceiling.width; ++x)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const int row = y + j;
+          const int column = whole_turn ? (x + i + ceiling.width) % ceiling.width : x + i;
+          if (row < 0 || row >= ceiling.height || column < 0 || column >= ceiling.width) continue;
+          ceiling.relief[index(x, y)] =
+              std::max(ceiling.relief[index(x, y)], own[index(column, row)]);
+        }
+  return ceiling;
+}
+
 bool IsWholeTurn(const Projection& projection, int width) {
   return projection.type == ProjectionType::kEquirectangular &&
          std::abs(360.0 * projection.px_per_deg - width) < 1.0;

@@ -21,6 +21,15 @@ ColourImage ReducedPanorama(const ColourImage& panorama, int reduction);
 // The relief at the middle of each block, m; 0 where it is not known. Edges stay edges.
 std::vector<float> ReliefTexture(const DepthMap& depth, int reduction);
 
+// The highest relief of each block of block x block texels and of the eight about it, m: a ray that
+// is further in there passes the block without a look at it.
+struct ReliefCeiling {
+  int block = 1, width = 0, height = 0;
+  std::vector<float> relief;
+};
+ReliefCeiling MakeReliefCeiling(const std::vector<float>& relief, int width, int height,
+                                bool whole_turn);
+
 // Whether the panorama is a whole turn, so that its left edge meets its right.
 bool IsWholeTurn(const Projection& projection, int width);
 

@@ -117,6 +117,51 @@ std::optional<glm::dvec2> ReferencePixel(const Projection& projection,
                     projection.centre_px.y - projection.px_per_deg * latitude);
 }
 
+std::optional<glm::dvec3> ReferenceReliefHit(const Backdrop& backdrop, const DepthMap& depth,
+                                             const glm::dvec3& origin,
+                                             const glm::dvec3& direction) {
+  const auto sphere = ReferenceSphereHit(origin, direction, backdrop.radius);
+  if (!sphere) return std::nullopt;
+  const auto relief = [&](int x, int y) {
+    const double h = static_cast<double>(depth.at(x, y));
+    return std::isfinite(h) ? h : 0.0;
+  };
+  const auto is_behind = [&](const glm::dvec3& x) {
+    double h = 0.0;
+    const auto pixel = ReferencePixel(backdrop.projection, x);
+    if (pixel && pixel->x >= -0.5 && pixel->y >= -0.5 && pixel->x <= depth.width - 0.5 &&
+        pixel->y <= depth.height - 0.5) {
+      const double u = std::clamp(pixel->x, 0.0, depth.width - 1.0);
+      const double v = std::clamp(pixel->y, 0.0, depth.height - 1.0);
+      const int i = std::min(static_cast<int>(u), depth.width - 2);
+      const int j = std::min(static_cast<int>(v), depth.height - 2);
+      const double right = relief(i + 1, j) + (v - j) * (relief(i + 1, j + 1) - relief(i + 1, j));
+      const double left = relief(i, j) + (v - j) * (relief(i, j + 1) - relief(i, j));
+      h = left + (u - i) * (right - left);
+    }
+    return glm::length(x) > backdrop.radius - h;
+  };
+  const double whole = glm::dot(*sphere - origin, direction);
+  double before = 0.0;
+  // A lens that is behind the relief sees from there until it is out.
+  bool was_behind = is_behind(origin);
+  const double step = backdrop.radius / 2000;
+  for (double t = step; t < whole; t += step) {
+    const bool is = is_behind(origin + t * direction);
+    if (is && !was_behind) {
+      double low = before, high = t;
+      while (high - low > 1e-12 * backdrop.radius) {
+        const double middle = 0.5 * (low + high);
+        (is_behind(origin + middle * direction) ? high : low) = middle;
+      }
+      return origin + low * direction;
+    }
+    was_behind = is;
+    before = t;
+  }
+  return sphere;
+}
+
 std::optional<glm::dvec2> PanoramaPixelAt(const Backdrop& backdrop,
                                           const simulation::ScopeView& view, double field_of_view,
                                           int size, const glm::dvec2& pixel) {
@@ -145,7 +190,7 @@ glm::dvec3 ReferenceColour(const ColourImage& panorama, const glm::dvec2& pixel)
 
 TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                           const simulation::ScopeView& view, double field_of_view, int size,
-                          std::span<const ReferenceMesh> meshes) {
+                          std::span<const ReferenceMesh> meshes, const DepthMap* depth) {
   const std::vector<SeenTriangle> triangles = SeeTriangles(meshes, view.tip);
   TracedPicture picture;
   picture.colours = ColourImage(size, size);
@@ -158,10 +203,12 @@ TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
       const std::size_t index = static_cast<std::size_t>(y) * size + x;
       glm::dvec3 colour(0.0);
       double closest = INFINITY;
-      if (const auto hit = ReferenceSphereHit(view.tip, *ray, backdrop.radius)) {
+      const auto hit = depth ? ReferenceReliefHit(backdrop, *depth, view.tip, *ray)
+                             : ReferenceSphereHit(view.tip, *ray, backdrop.radius);
+      if (hit) {
         closest = glm::dot(*hit - view.tip, *ray);
         picture.what[index] = TracedPicture::kBackdrop;
-        if (const auto pixel = ReferencePixel(backdrop.projection, *hit / backdrop.radius))
+        if (const auto pixel = ReferencePixel(backdrop.projection, *hit))
           colour = ReferenceColour(panorama, *pixel);
       }
       for (const SeenTriangle& triangle : triangles) {

@@ -38,6 +38,12 @@ std::optional<glm::dvec3> ReferenceSphereHit(const glm::dvec3& origin, const glm
 
 std::optional<glm::dvec2> ReferencePixel(const Projection& projection, const glm::dvec3& direction);
 
+// Where a ray first comes to lie behind the relief, or meets the bare sphere: looked at every
+// `radius / 2000` of its way and then halved down to 1e-12 of it. The relief between pixels is
+// bilinear; beyond the panorama, and where it is not known, there is none.
+std::optional<glm::dvec3> ReferenceReliefHit(const Backdrop& backdrop, const DepthMap& depth,
+                                             const glm::dvec3& origin, const glm::dvec3& direction);
+
 // Panorama pixel that the round window shows at `pixel`: all of the above in a row.
 std::optional<glm::dvec2> PanoramaPixelAt(const Backdrop& backdrop,
                                           const simulation::ScopeView& view, double field_of_view,
@@ -61,9 +67,10 @@ struct TracedPicture {
   std::vector<double> distance;        // from the tip, m; 0 where kOutside
 };
 
-// Only the sphere is traced: the relief of a depth map moves no colour in this model (design §4).
+// Without a depth map only the sphere is traced (design §4), which is what a plain picture shows.
 TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                           const simulation::ScopeView& view, double field_of_view, int size,
-                          std::span<const ReferenceMesh> meshes = {});
+                          std::span<const ReferenceMesh> meshes = {},
+                          const DepthMap* depth = nullptr);
 
 }  // namespace arthro::test

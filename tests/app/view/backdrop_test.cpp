@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "app/view/backdrop_texture.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/grid_picture.h"
@@ -171,6 +174,119 @@ TEST_F(BackdropView, DepthIsTheReliefsDistanceAlongTheView) {
     // 32-bit depth stored as 1/distance: 3 µm at 0.1 m, less nearer.
     EXPECT_LT(worst, 5e-6);
   }
+}
+
+// A bulge of 8 mm and a step of 6 mm, at which what is near hides what is far.
+LoadedScene CliffScene(bool is_equirectangular) {
+  LoadedScene loaded = MakeViewScene(512, 384);
+  Projection& projection = loaded.scene.backdrop.projection;
+  if (is_equirectangular) {
+    projection.type = ProjectionType::kEquirectangular;
+    projection.px_per_deg = 4;
+  }
+  for (int y = 0; y < loaded.depth.height; ++y)
+    for (int x = 0; x < loaded.depth.width; ++x)
+      loaded.depth.at(x, y) += x + y / 3 < 230 ? 0.006f : 0.0f;
+  return loaded;
+}
+
+struct ReliefAgreement {
+  int compared = 0, elsewhere = 0;  // pixels; off by more than 0.1 mm
+  int worst_colour = 0;             // of 255, of the others
+  double worst = 0;                 // m
+};
+// Within the window and the panorama, but for their edges.
+ReliefAgreement CompareWithTraced(const ColourImage& drawn, const std::vector<float>& distances,
+                                  const TracedPicture& traced, const Picture& picture,
+                                  const Projection& projection) {
+  ReliefAgreement result;
+  const int size = drawn.width;
+  const double half = 0.5 * (size - 1);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const auto ray = ReferenceRay(picture.view, picture.field_of_view, size, {x, y});
+      if (!ray || std::hypot(x - half, y - half) > half - 1.5) continue;
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                            static_cast<std::size_t>(x);
+      const auto pixel = ReferencePixel(projection, picture.view.tip + traced.distance[i] * *ray);
+      if (!pixel || pixel->x < 1 || pixel->y < 1 || pixel->x > 510 || pixel->y > 382) continue;
+      ++result.compared;
+      const double off = std::abs(static_cast<double>(distances[i]) - traced.distance[i]);
+      if (off > 0.1e-3) {
+        ++result.elsewhere;
+        continue;
+      }
+      result.worst = std::max(result.worst, off);
+      for (int c = 0; c < 3; ++c)
+        result.worst_colour =
+            std::max(result.worst_colour,
+                     std::abs(int{drawn.at(x, y)[c]} - int{traced.colours.at(x, y)[c]}));
+    }
+  return result;
+}
+
+// Asked of the depth: 0.1 mm at 20 mm. Where a crest runs through a pixel one of the two may see
+// its near side and the other what is behind it: of 96 x 96 pixels a crest across crosses some 1 %.
+TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
+  for (const bool is_equirectangular : {false, true}) {
+    const LoadedScene loaded = CliffScene(is_equirectangular);
+    const Backdrop& backdrop = loaded.scene.backdrop;
+    view_->SetBackdrop(loaded.panorama, loaded.depth, backdrop);
+    for (const double angle : {0.0, 30.0, 70.0}) {
+      Picture picture = PictureFromPose({0.05, -0.1, 0.7, 0.018}, RadiansFromDegrees(angle), 1.5);
+      picture.plain = true;
+      const int size = 96;
+      const TracedPicture traced = TraceWindow(backdrop, loaded.panorama, picture.view,
+                                               picture.field_of_view, size, {}, &loaded.depth);
+      double share_before = 1;
+      for (const int steps : {0, 16, 128, 1024}) {
+        picture.relief_steps = steps;
+        view_->Render(picture, size);
+        const ReliefAgreement off = CompareWithTraced(view_->ReadPixels(), view_->ReadDistances(),
+                                                      traced, picture, backdrop.projection);
+        ASSERT_GT(off.compared, 1000);
+        const double share = 1.0 * off.elsewhere / off.compared;
+        std::printf(
+            "relief, %s, %2.0f deg, %4d steps: %5.2f %% of %d pixels elsewhere, the others off by "
+            "at most %.2g mm and %d of 255\n",
+            is_equirectangular ? "equirectangular" : "gnomonic", angle, steps, 100 * share,
+            off.compared, 1e3 * off.worst, off.worst_colour);
+        EXPECT_LE(share, share_before);
+        share_before = share;
+        if (steps == 1024) {
+          EXPECT_LT(share, 0.01);
+        }
+      }
+    }
+  }
+}
+
+TEST(ReliefCeiling, NothingInABlockOrTheEightAboutItIsHigher) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> any(0.0f, 0.01f);
+  for (const bool is_whole_turn : {false, true})
+    for (const auto& [width, height] : {std::pair{1, 1}, {37, 5}, {300, 170}, {1500, 40}}) {
+      std::vector<float> relief(static_cast<std::size_t>(width * height));
+      for (float& h : relief) h = any(random);
+      const app::ReliefCeiling ceiling =
+          app::MakeReliefCeiling(relief, width, height, is_whole_turn);
+      ASSERT_EQ(ceiling.relief.size(), static_cast<std::size_t>(ceiling.width * ceiling.height));
+      for (int trial = 0; trial < 2000; ++trial) {
+        const int x = static_cast<int>(random() % static_cast<unsigned>(width));
+        const int y = static_cast<int>(random() % static_cast<unsigned>(height));
+        const auto off = [&, block = ceiling.block] {
+          return static_cast<int>(random() % static_cast<unsigned>(2 * block + 1)) - block;
+        };
+        int u = x + off();
+        const int v = y + off();
+        if (is_whole_turn) u = (u + width) % width;
+        if (u < 0 || v < 0 || u >= width || v >= height) continue;
+        const float top = ceiling.relief[static_cast<std::size_t>(
+            y / ceiling.block * ceiling.width + x / ceiling.block)];
+        ASSERT_GE(top, relief[static_cast<std::size_t>(v * width + u)])
+            << "at " << x << ", " << y << " of " << u << ", " << v;
+      }
+    }
 }
 
 TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture) {
