@@ -13,6 +13,7 @@
 #include "simulation/device/live/arrival.h"
 #include "tests/device_vm/arm_process.h"
 #include "tests/device_vm/live_arm.h"
+#include "tests/device_vm/when_listed.h"
 
 namespace arthro::test {
 namespace {
@@ -26,15 +27,6 @@ constexpr std::array<std::int16_t, 3> kNoCurrents{};
 // (kArrivalSlack) and by two reports, since one may be late by up to a report and the next on time.
 constexpr double kOldest = kFreshFor + kArrivalSlack + 0.002;
 constexpr double kSurelyLost = kLostAfter + kArrivalSlack + 0.002;  // 25 ms
-
-// What is plugged in, once it is so many; the kernel takes its time.
-std::vector<KnownDevice> WhenListed(std::size_t count) {
-  const auto bus = MachineHidBus();
-  std::vector<KnownDevice> known;
-  for (const double start = SteadySeconds(); known.size() != count && SteadySeconds() - start < 10;)
-    known = KnownAmong(bus->List());
-  return known;
-}
 
 std::map<std::string, std::string> PathsBySerial() {
   std::map<std::string, std::string> paths;
