@@ -48,6 +48,7 @@ struct DeviceRig {
   glm::dvec3 pivot{0.0};                              // in the device frame
   glm::dquat portal_from_device{1.0, 0.0, 0.0, 0.0};  // w, x, y, z
   double rod_length = 0.2;                            // of the scope: as ScopeSpec::rod_length
+  friend bool operator==(const DeviceRig&, const DeviceRig&) = default;
 };
 
 struct Rig {

@@ -75,7 +75,8 @@ ServoLoop::ServoLoop(Session& session, Device* scope, Device* instrument,
            session.view_angle(),
            session.instrument(),
            {},
-           false};
+           false,
+           {}};
   ApplyOptions();
   for (const DeviceRole role : kRoles)
     if (const Device* device = devices_[Index(role)])
@@ -143,6 +144,8 @@ void ServoLoop::TakeWish(double now) noexcept {
   session_.SetIncisionSpacing(wish_.incision_spacing);
   session_.SetViewAngle(wish_.view_angle);
   session_.SetInstrument(wish_.instrument);
+  for (const DeviceRole role : kRoles)
+    if (const auto& mount = wish_.mount[Index(role)]) session_.SetMount(role, *mount);
 }
 
 DeviceSample ServoLoop::ReadDevice(DeviceRole role, double now, HandPush push) noexcept {

@@ -48,6 +48,7 @@ struct ServoWish {
   ToolKind instrument = ToolKind::kProbe;
   std::array<bool, 2> is_dead_man_held{};  // by key or pedal, by DeviceRole
   bool is_zero_force = false;
+  std::array<std::optional<DeviceRig>, 2> mount{};  // by DeviceRole; none: as it is
 };
 
 struct ServoReport {

@@ -117,6 +117,13 @@ void Session::SetIncisionSpacing(double spacing) noexcept {
   instrument_.contact = ContactState{};
 }
 
+void Session::SetMount(DeviceRole role, const DeviceRig& mount) noexcept {
+  Tool& tool = role == DeviceRole::kScope ? scope_ : instrument_;
+  if (mount == tool.rig) return;
+  tool.rig = mount;
+  tool.is_remounted = true;
+}
+
 void Session::SetLiveTissues(std::span<const std::uint8_t> is_live) {
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     const std::uint8_t now = i < is_live.size() && is_live[i] != 0 ? 1 : 0;
@@ -233,8 +240,16 @@ LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::d
   return hold;
 }
 
+// Where the tool was: it enters anew.
+void Session::Forget(Tool& tool) noexcept {
+  tool.contact = ContactState{};
+  tool.let_be.reset();
+  tool.layer_push = tool.beside = glm::dvec3(0.0);
+}
+
 void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                        ToolState& state) noexcept {
+  if (tool.is_remounted) Forget(tool);
   Fault fault = Receive(tool, sample, dt);
   ContactForce contact;
   TipForce to_hand;
@@ -290,14 +305,10 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
     }
   }
   // A tool that is gone, or not a number, enters anew when it comes back.
-  if (fault != Fault::kNone && fault != Fault::kStale && fault != Fault::kTissue) {
-    tool.contact = ContactState{};
-    tool.let_be.reset();
-    tool.layer_push = tool.beside = glm::dvec3(0.0);
-  }
+  if (fault != Fault::kNone && fault != Fault::kStale && fault != Fault::kTissue) Forget(tool);
   to_hand.hand_speed = tool.hand_speed;
   to_hand.fault = fault;
-  to_hand.push = tool.push;
+  to_hand.push = std::exchange(tool.is_remounted, false) ? HandPush::kNo : tool.push;
   const LimitedForce limited = ForceToHand({options_.passivity, options_.thermal, options_.limiter},
                                            to_hand, dt, tool.output);
   if (!tool.contact.has_started) {

@@ -91,6 +91,10 @@ class Session {
   // gives Fault::kTissue and no force until a good one comes.
   void SetCoupling(const ToolCoupling& coupling) noexcept;
 
+  // How a hand's device is mounted on its incision, live, between ticks: a calibration found it.
+  // The tool then is somewhere else at once, so it enters anew, and its hand is pushed gently at
+  // first.
+  void SetMount(DeviceRole role, const DeviceRig& mount) noexcept;
   const DeviceRig& scope_rig() const noexcept { return scope_.rig; }
   const DeviceRig& instrument_rig() const noexcept { return instrument_.rig; }
 
@@ -103,6 +107,7 @@ class Session {
     ContactState contact;
     OutputState output;
     HandPush push = HandPush::kYes;
+    bool is_remounted = false;  // since the last tick
     bool has_sample = false;
     DeviceSample last;      // the newest one
     double age = 0;         // s since it came
@@ -110,6 +115,7 @@ class Session {
     double hand_speed = 0;  // m/s, between the last two
     CouplingBlend tissue;
   };
+  static void Forget(Tool& tool) noexcept;
   Fault Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept;
   void PlaceField(std::size_t tissue, std::unique_ptr<FieldSurface> field);
   void FeelSolids() noexcept;

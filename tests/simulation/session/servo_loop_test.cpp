@@ -104,6 +104,45 @@ TEST(ServoLoop, HardCase7ArmedInsideAWallTheHandIsPushedOutOverHalfASecond) {
   EXPECT_GT(peak, 0.05);
 }
 
+// A pivot that a calibration found is taken over while the device is armed and its tip in a wall:
+// of which there is more at once, or less. It is pushed as one that is armed there.
+TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick) {
+  for (const double deeper : {3e-3, -0.5e-3, 0.05, 0.2}) {  // m; beyond the hand at last
+    Servo servo;
+    servo.Arm();
+    servo.Tick(1000);
+    ASSERT_GT(glm::length(servo.scope.force()), 0.05);
+    DeviceRig mount = servo.session.scope_rig();
+    mount.pivot += glm::conjugate(mount.portal_from_device) * glm::dvec3(0, 0, -deeper);
+    servo.wish.mount[0] = mount;
+    servo.HoldDeadMan(true);
+    servo.Tick();
+    EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0)) << "in the tick of the change";
+    EXPECT_EQ(servo.session.scope_rig(), mount);
+    glm::dvec3 before(0.0);
+    double peak = 0;
+    for (int i = 0; i < 700; ++i) {
+      servo.Tick();
+      EXPECT_EQ(servo.scope.state(), DeviceState::kArmed);
+      const glm::dvec3 force = servo.scope.force();
+      // The spring's own at most, over half a second; a device's peak at most, at 300 N/s.
+      const double whole = std::min(3.3, 500 * (kDepth + std::max(0.0, deeper)));
+      ASSERT_LE(glm::length(force), whole * std::min(1.0, (i + 1) * kTick / 0.5) + 1e-9)
+          << i << " ms after " << deeper;
+      ASSERT_LE(glm::length(force) - glm::length(before), 300 * kTick + 1e-9) << i;
+      before = force;
+      peak = std::max(peak, glm::length(force));
+    }
+    if (deeper > 0 && deeper < 0.1) {
+      EXPECT_GT(peak, 0.5) << "and it is pushed again";
+    }
+    // The same mount once more is no change.
+    servo.HoldDeadMan(true);
+    servo.Tick();
+    EXPECT_EQ(servo.loop.Read().scope.fault, Fault::kNone);
+  }
+}
+
 // The wall is touched at 2 Hz the while; what is compared is the work of the force on the hand.
 class HardCase12 : public testing::TestWithParam<int> {};
 TEST_P(HardCase12, ALateTickGivesNoEnergyAndIsToldTheTrueTime) {
