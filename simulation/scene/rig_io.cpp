@@ -169,4 +169,27 @@ RigFile ParseRig(const std::string& text, const std::filesystem::path& file) {
 
 RigFile ReadRig(const std::filesystem::path& file) { return ParseRig(ReadWholeFile(file), file); }
 
+std::string RigTextWith(const RigPivots& pivots, const std::string& text,
+                        const std::filesystem::path& file) {
+  ParseRig(text, file);
+  auto json = nlohmann::ordered_json::parse(text);
+  const auto put = [&](const char* role, const std::optional<glm::dvec3>& pivot) {
+    if (!pivot) return;
+    if (!json.contains(role))
+      throw Error(Code::kBadData, fmt::format("{} is missing, so its pivot has no place", role),
+                  file);
+    json[role]["pivot"] = {pivot->x, pivot->y, pivot->z};
+  };
+  put("scope", pivots.scope);
+  put("instrument", pivots.instrument);
+  std::string with = json.dump(2) + "\n";
+  ParseRig(with, file);  // a pivot that cannot be read again is not written
+  return with;
+}
+
+void WriteRigWith(const RigPivots& pivots, const std::filesystem::path& from,
+                  const std::filesystem::path& to) {
+  WriteAtomically(to, RigTextWith(pivots, ReadWholeFile(from), from));
+}
+
 }  // namespace arthro

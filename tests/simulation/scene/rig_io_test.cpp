@@ -1,6 +1,7 @@
 #include "simulation/scene/rig_io.h"
 
 #include <functional>
+#include <limits>
 #include <rapidjson/document.h>
 #include <rapidjson/schema.h>
 #include <set>
@@ -14,6 +15,7 @@
 #include "simulation/device/driver/wooden_model.h"
 #include "simulation/device/hid/hid_node.h"
 #include "simulation/device/openhaptics/openhaptics_devices.h"
+#include "tests/support/temp_folder.h"
 
 namespace arthro {
 namespace {
@@ -202,6 +204,41 @@ TEST(RigIo, ShippedRigsReadAndPointIntoTheJoint) {
     }
   }
   EXPECT_EQ(count, 4);
+}
+
+// All of it but the pivot, also what ParseRig passes over, and in its order.
+TEST(RigIo, APivotIsWrittenAndAllElseStaysAsItIs) {
+  const glm::dvec3 pivot(0.1 + 1e-17, -1.0 / 3.0, 2.5e-5);
+  const std::string with = RigTextWith({pivot, {}}, Whole().dump());
+  EXPECT_EQ(ParseRig(with).scope->mount.pivot, pivot) << "to the last bit";
+  json expected = Whole();
+  expected["scope"]["pivot"] = {pivot.x, pivot.y, pivot.z};
+  EXPECT_EQ(json::parse(with), expected);
+  EXPECT_TRUE(FitsSchema(json::parse(with)));
+  EXPECT_EQ(RigTextWith({pivot, {}}, with), with);
+  const std::string ordered = RigTextWith({{}, pivot}, R"({"title": "t",
+    "schema": "arthroscene.rig/1",
+    "instrument": {"rod_length": 0.2, "device": {"family": "space_mouse"}}})");
+  EXPECT_LT(ordered.find("title"), ordered.find("schema"));
+  EXPECT_EQ(ParseRig(ordered).instrument->mount.pivot, pivot) << "it had none";
+}
+
+TEST(RigIo, APivotThatCannotBeWrittenLeavesTheFileAsItIs) {
+  const test::TempFolder folder;
+  const fs::path file = folder / "rig.json";
+  const std::string text = Changed([](json& rig) { rig.erase("pedals"); }).dump();
+  WriteAtomically(file, text);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(WriteRigWith({glm::dvec3(nan), {}}, file, file), Error);
+  EXPECT_THROW(WriteRigWith({glm::dvec3(1e9), {}}, file, file), Error);
+  EXPECT_THROW(WriteRigWith({glm::dvec3(0), {}}, file, folder / "nowhere" / "rig.json"), Error);
+  EXPECT_EQ(ReadWholeFile(file), text);
+  EXPECT_THROW(RigTextWith({glm::dvec3(0), {}}, R"({"schema": "arthroscene.rig/1", "title": "t",
+    "instrument": {"rod_length": 0.2, "device": {"family": "space_mouse"}}})"),
+               Error);
+  WriteRigWith({glm::dvec3(0.01, 0, 0), {}}, file, folder / "copy.json");
+  EXPECT_EQ(ReadRig(folder / "copy.json").scope->mount.pivot.x, 0.01);
+  EXPECT_EQ(ReadWholeFile(file), text) << "a copy elsewhere";
 }
 
 }  // namespace
