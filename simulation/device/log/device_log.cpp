@@ -18,22 +18,9 @@ static_assert(kBlock + kLargestRecord < kLargestBlock);
 }  // namespace
 
 void LogChannel::Push(const LogRecord& record) noexcept {
-  const std::uint64_t end = end_.load(std::memory_order_relaxed);
-  const std::uint64_t number = number_++;
-  if (end - begin_.load(std::memory_order_acquire) == records_.size()) {
-    dropped_.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  LogRecord& slot = records_[end % records_.size()];
-  slot = record;
-  slot.number = number;
-  end_.store(end + 1, std::memory_order_release);
-}
-
-const LogRecord* LogChannel::Front() const noexcept {
-  const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
-  if (begin == end_.load(std::memory_order_acquire)) return nullptr;
-  return &records_[begin % records_.size()];
+  LogRecord numbered = record;
+  numbered.number = number_++;
+  if (!records_.Push(numbered)) dropped_.fetch_add(1, std::memory_order_relaxed);
 }
 
 DeviceLog::DeviceLog(const std::filesystem::path& file, std::vector<LogSource> sources,
@@ -96,9 +83,9 @@ void DeviceLog::Run() {
 
 void DeviceLog::WriteOut() {
   for (const auto& channel : channels_)
-    while (const LogRecord* record = channel->Front()) {
+    while (const LogRecord* record = channel->records_.Front()) {
       Append(*record, payload_);
-      channel->Pop();
+      channel->records_.Pop();
       ++count_;
       if (payload_.size() >= kBlock) WriteBlock();
     }

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "simulation/core/bounded_queue.h"
 #include "simulation/device/log/log_record.h"
 
 namespace arthro::simulation {
@@ -30,15 +31,12 @@ class LogChannel {
   long dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
   // Dropped or not.
   std::uint64_t pushed() const noexcept {
-    return end_.load(std::memory_order_acquire) + static_cast<std::uint64_t>(dropped());
+    return records_.pushed() + static_cast<std::uint64_t>(dropped());
   }
 
  private:
   friend class DeviceLog;
-  const LogRecord* Front() const noexcept;
-  void Pop() noexcept { begin_.store(begin_.load() + 1, std::memory_order_release); }
-  std::vector<LogRecord> records_;
-  std::atomic<std::uint64_t> begin_{0}, end_{0};
+  BoundedQueue<LogRecord> records_;
   std::atomic<long> dropped_{0};
   std::uint64_t number_ = 0;  // who pushes
 };
