@@ -40,13 +40,12 @@ struct HandFlags {
 };
 
 void AddHandFlags(CLI::App& job, HandFlags& flags) {
-  auto* rig = job.add_option("--rig", flags.rig,
-                             "Rig file: which device holds the scope and which the instrument");
+  job.add_option("--rig", flags.rig,
+                 "Rig file: which device holds the scope and which the instrument");
   job.add_option("--hands", flags.hands,
-                 "Instead of a rig: TRACE.csv or a device log plays recorded hands, plant is a "
-                 "simulated device")
-      ->type_name("TRACE|plant")
-      ->excludes(rig);
+                 "Instead of devices: TRACE.csv or a device log plays recorded hands, plant is a "
+                 "simulated device; with --rig on the mounts of that rig")
+      ->type_name("TRACE|plant");
   job.add_option("--log", flags.log,
                  "Write all that the hands say and are told there; replay plays it");
   job.add_flag("--zero-force", flags.is_zero_force,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/commands/depth_cache.h"
+#include "app/commands/devices/pivot_work.h"
 #include "app/commands/footage/footage_board.h"
 #include "app/commands/footage/footage_makers.h"
 #include "app/commands/jobs.h"
@@ -64,6 +65,14 @@ struct PracticeEndedDialog {
 using Dialog = std::variant<ErrorDialog, GuardDialog, BrowseDialog, UnitDialog, HelpDialog,
                             PracticeEndedDialog>;
 
+// A hand's incision that is being found, in the practice that runs.
+struct PivotCalibrating {
+  simulation::DeviceRole role = simulation::DeviceRole::kScope;
+  PivotWork work;
+  std::string outcome;      // of what was taken over last; empty: nothing was
+  bool is_unsaved = false;  // it has a place in a rig, and is not there
+};
+
 struct EditorState {
   // `wake` ends the window's sleep, from any thread.
   explicit EditorState(authoring::Document document, std::function<void()> wake_window = {},
@@ -72,6 +81,7 @@ struct EditorState {
         jobs(wake_window),
         preview_jobs(wake_window),
         frame_jobs(wake_window),
+        pivot_jobs(wake_window),
         recent(std::move(recent_file)) {
     history.MarkSaved();  // nothing was done yet
   }
@@ -96,8 +106,9 @@ struct EditorState {
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own
   std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // what holds them; outlives practices
   std::optional<Practice> practice;                          // while it runs
-  std::optional<Practice> poke;           // the author's live poke (tissue/tissue_poke.h)
-  int poke_of = 0;                        // position of the history that it was made of
+  std::optional<Practice> poke;  // the author's live poke (tissue/tissue_poke.h)
+  int poke_of = 0;               // position of the history that it was made of
+  std::optional<PivotCalibrating> calibrating;
   bool shows_devices = false;  // their panel, instead of the practice's
   bool practice_only = false;  // the practise job: no editor behind it
   std::vector<Dialog> dialogs;
@@ -105,6 +116,7 @@ struct EditorState {
   Jobs jobs;            // tetrahedra, reading pictures, footage to panorama
   Jobs preview_jobs;    // depth
   Jobs frame_jobs;      // one frame of the footage at full size
+  Jobs pivot_jobs;      // where the poses of a swing meet
   DepthCache depth_cache;
   authoring::DepthOptions depth_in_work;  // what preview_jobs computes
   std::function<void(EditorState&)> when_depth_is_ready;
@@ -114,7 +126,7 @@ struct EditorState {
   bool shows_footage = false;  // in the Panorama step: the clip, not the backdrop
   FootageMakers makers;
   std::filesystem::path lens_folder;  // presets
-  std::filesystem::path tissue_preset_folder;
+  std::filesystem::path tissue_preset_folder, rig_preset_folder;
   std::vector<simulation::TissuePreset> tissue_presets;
   simulation::TissuePace pace = simulation::TissuePace::kThread;  // of living tissue
   ScratchFolder scratch;  // files of products until they are saved

@@ -144,10 +144,12 @@ void Practice::Tell(Hands* hands, double until) noexcept {
     wish.hand[i].episode = episodes_[i];
   }
   wish.hand[1].buttons = buttons_;
+  for (std::size_t i = 0; i < 2; ++i) wish.hand[i].mount = wish_.mount[i];
+  if (hands != nullptr) wish.calibrated = hands->calibrated();
   held_->Wish(wish);
   const bool is_held = hands != nullptr && hands->is_dead_man_held();
   wish_.is_dead_man_held = {is_held, is_held};
-  wish_.is_zero_force = hands != nullptr && hands->is_zero_force();
+  wish_.is_zero_force = hands != nullptr && (hands->is_zero_force() || hands->calibrated());
   servo_->Wish(wish_);
 }
 
@@ -186,6 +188,10 @@ void Practice::Advance(double seconds, Hands* hands) {
     if (ticks == 0) return;
   }
   TakeNews();
+}
+
+void Practice::SetMount(DeviceRole role, const DeviceRig& mount) {
+  wish_.mount[static_cast<std::size_t>(role)] = mount;
 }
 
 void Practice::ResetTissues() {

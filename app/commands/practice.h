@@ -46,6 +46,8 @@ class Practice {
   void ResetTissues();
   simulation::ToolKind instrument_kind() const { return wish_.instrument; }
   void SetInstrument(simulation::ToolKind kind) { wish_.instrument = kind; }
+  // How a hand's device is mounted, from now on: its incision was calibrated.
+  void SetMount(simulation::DeviceRole role, const DeviceRig& mount);
   // The button under the finger: jaws close, a shaver runs.
   void Press(bool is_pressed) { buttons_ = is_pressed ? 1u : 0u; }
   double blade_turn() const;  // of the shaver, rad

@@ -13,6 +13,7 @@
 #include <imgui.h>
 
 #include "app/commands/command_list.h"
+#include "app/commands/devices/calibrate_incision.h"
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/hand_motion.h"
@@ -159,6 +160,7 @@ class Editor {
     state_.hands = std::make_unique<Hands>(options_.hands);
     state_.lens_folder = ResourceFolder() / "presets" / "lenses";
     state_.tissue_preset_folder = ResourceFolder() / "presets" / "tissues";
+    state_.rig_preset_folder = ResourceFolder() / "presets" / "rigs";
     LoadTissuePresets(state_);
     if (options_.script) state_.pace = simulation::TissuePace::kInline;
     if (!options_.practice && !state_.document().folder.empty())
@@ -190,7 +192,8 @@ class Editor {
   }
 
   bool Busy() const {
-    return state_.jobs.busy() || state_.preview_jobs.busy() || state_.frame_jobs.busy();
+    return state_.jobs.busy() || state_.preview_jobs.busy() || state_.frame_jobs.busy() ||
+           state_.pivot_jobs.busy();
   }
 
   void Frame() {
@@ -205,6 +208,7 @@ class Editor {
     if (state_.hands->Look()) last_event_ = now;
     if (state_.practice && state_.dialogs.empty())
       state_.practice->Advance(step, state_.hands.get());
+    KeepPivotFresh(state_);
     if (state_.poke && state_.dialogs.empty()) state_.poke->Advance(step);
     window_.SetTitle(TitleOf(state_));
     window_.SetFullScreen(state_.full_screen);
@@ -244,7 +248,9 @@ class Editor {
       picture_focused_ = true;
       DrawPictures(ui, layout);
       TakePictureInput(ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()));
-      if (state_.shows_devices)
+      if (state_.calibrating)
+        IncisionPage(ui, state_, layout.side);
+      else if (state_.shows_devices)
         DevicesPage(ui, state_, layout.side);
       else
         PracticePanel(ui, state_, layout.side);

@@ -52,7 +52,8 @@ void Plot(Ui& ui, const std::string& name, const std::array<float, ForceHistory:
   ImGui::GetWindowDrawList()->AddText({low.x + ui.Px(6), low.y + ui.Px(2)}, kQuiet, scale.c_str());
 }
 
-void HandPart(Ui& ui, const Hands& hands, DeviceRole role, const char* name) {
+void HandPart(Ui& ui, EditorState& state, DeviceRole role, const char* name) {
+  const Hands& hands = *state.hands;
   const HandNow now = hands.Now(role);
   Heading(ui, name);
   Text(ui, now.serial.empty() ? now.name : now.name + ", serial " + now.serial);
@@ -70,14 +71,21 @@ void HandPart(Ui& ui, const Hands& hands, DeviceRole role, const char* name) {
     Text(ui, "Why is there no force?");
     ColouredText(ui, why, kAccent);
   }
+  if (hands.KindOf(role) == HandKind::kMouse) return;
+  if (const std::string why = hands.WhyNotCalibrated(role); !why.empty())
+    QuietText(ui, why);
+  else
+    CommandButton(ui, state,
+                  role == DeviceRole::kScope ? "calibrate-scope" : "calibrate-instrument",
+                  {-FLT_MIN, ui.Px(40)});
 }
 
 }  // namespace
 
 void DevicesPanel(Ui& ui, EditorState& state) {
-  HandPart(ui, *state.hands, DeviceRole::kScope, "Scope");
+  HandPart(ui, state, DeviceRole::kScope, "Scope");
   Gap(ui);
-  HandPart(ui, *state.hands, DeviceRole::kInstrument, "Instrument");
+  HandPart(ui, state, DeviceRole::kInstrument, "Instrument");
   Gap(ui);
   if (state.practice && !state.practice->servo_sentence().empty())
     QuietText(ui, state.practice->servo_sentence());
@@ -88,6 +96,7 @@ void DevicesPanel(Ui& ui, EditorState& state) {
   QuietText(ui,
             "V, a handle's button or a pedal is the dead-man: devices push only while it is held.");
   Gap(ui, 2);
+  CommandButton(ui, state, "validation-plot", {-FLT_MIN, ui.Px(40)});
   if (Button(ui, "Hide devices", true, {-FLT_MIN, ui.Px(44)})) Run(state, "devices");
 }
 

@@ -60,12 +60,6 @@ const char* FaultWords(simulation::Fault fault) {
   return "";
 }
 
-void Large(Ui& ui, const std::string& text, unsigned colour = 0xFFEEEBE9) {
-  ImGui::PushFont(ui.fonts.large);
-  ColouredText(ui, text, colour);
-  ImGui::PopFont();
-}
-
 void ForceBar(Ui& ui, double force, double peak) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(26);
@@ -169,13 +163,13 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   const std::string title = state.document().scene.title;
   Heading(ui, title.empty() ? "Practice" : title);
   QuietText(ui, "Time");
-  Large(ui, ClockWords(practice.snapshot().t));
+  LargeText(ui, ClockWords(practice.snapshot().t));
 
   QuietText(ui, "Force on the tissue");
-  Large(ui, fmt::format("{:.2f} N", force),
-        force < kForceOfCare   ? 0xFFEEEBE9
-        : force < kForceOfHarm ? kWarning
-                               : kBad);
+  LargeText(ui, fmt::format("{:.2f} N", force),
+            force < kForceOfCare   ? kBright
+            : force < kForceOfHarm ? kWarning
+                                   : kBad);
   ForceBar(ui, force, practice.peak_force());
   QuietText(ui, fmt::format("largest so far {:.2f} N; harm above {:.1f} N (red mark)",
                             practice.peak_force(), kForceOfHarm));

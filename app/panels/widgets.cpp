@@ -209,6 +209,12 @@ void Heading(Ui& ui, const std::string& text) {
   ImGui::PopFont();
 }
 
+void LargeText(Ui& ui, const std::string& text, unsigned colour) {
+  ImGui::PushFont(ui.fonts.large);
+  ColouredText(ui, text, colour);
+  ImGui::PopFont();
+}
+
 void Text(Ui& ui, const std::string& text) {
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextUnformatted(text.c_str());

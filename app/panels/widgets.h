@@ -58,6 +58,7 @@ bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::
 bool DialogKeyPressed(int key);  // GLFW_KEY_…
 
 void Heading(Ui& ui, const std::string& text);
+void LargeText(Ui& ui, const std::string& text, unsigned colour = kBright);
 void Text(Ui& ui, const std::string& text);       // wrapped
 void QuietText(Ui& ui, const std::string& text);  // wrapped, secondary
 // One line that gives up its middle where there is no room for all; `full` is its tooltip. 0: up to

@@ -26,5 +26,6 @@ inline constexpr unsigned kGood = 0xFF7CC47A;     // green
 inline constexpr unsigned kWarning = 0xFF4DB8F2;  // amber
 inline constexpr unsigned kBad = 0xFF6A6AF0;      // red
 inline constexpr unsigned kQuiet = 0xFFB4AAA2;    // secondary text
+inline constexpr unsigned kBright = 0xFFEEEBE9;   // numbers
 
 }  // namespace arthro::app

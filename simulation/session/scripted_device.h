@@ -22,6 +22,7 @@ class ScriptedDevice {
                           const RodLimits& limits = {});
 
   const DeviceRig& rig() const noexcept { return rig_; }
+  void SetRig(const DeviceRig& rig) noexcept { rig_ = rig; }  // the same pose, elsewhere
   const RodPose& pose() const noexcept { return pose_; }
   void Set(const RodPose& pose) noexcept;        // kept within the limits
   void Advance(const RodPose& change) noexcept;  // adds to each of the four

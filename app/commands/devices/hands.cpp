@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "simulation/core/error.h"
+#include "simulation/scene/rig_io.h"
 
 namespace arthro::app {
 
@@ -62,6 +63,7 @@ Hands::Hands(HandsChoice choice, std::unique_ptr<simulation::HidBus> bus,
       options_(options),
       bus_(std::move(bus)),
       is_zero_force_(choice_.is_zero_force) {
+  for (const simulation::TraceRow& row : choice_.trace) is_recorded_[Index(row.device)] = true;
   if (!choice_.log.empty()) OpenLog();
   if (choice_.rig) OpenRig();
 }
@@ -77,7 +79,7 @@ const std::optional<RigRole>& Hands::RigOf(DeviceRole role) const noexcept {
 void Hands::OpenRig() {
   std::vector<std::string> names;
   for (const DeviceRole role : kRoles)
-    if (const auto& own = RigOf(role); own && IsOpenHaptics(own->device)) {
+    if (const auto& own = DrivenOf(role); own && IsOpenHaptics(own->device)) {
       roles_[Index(role)].number = names.size();
       names.push_back(own->device.serial);
     } else if (own) {
@@ -91,7 +93,7 @@ void Hands::OpenRig() {
     devices.push_back(openhaptics_);
   }
   for (const DeviceRole role : kRoles)
-    if (RigOf(role)) roles_[Index(role)].device = DeviceOf(role);
+    if (DrivenOf(role)) roles_[Index(role)].device = DeviceOf(role);
   crash_.emplace(std::move(devices));
 }
 
@@ -100,6 +102,11 @@ std::unique_ptr<simulation::Device> Hands::DeviceOf(DeviceRole role) {
   const Role& own = Of(role);
   if (own.number) return openhaptics_->Hand(*own.number);
   return std::make_unique<LiveDevice>(own.link, RigOf(role)->device.hand);
+}
+
+const std::optional<RigRole>& Hands::DrivenOf(DeviceRole role) const noexcept {
+  static const std::optional<RigRole> none;
+  return choice_.is_simulated || is_recorded_[Index(role)] ? none : RigOf(role);
 }
 
 // A source a link, in the order in which links are made; then those hands that have none.
@@ -113,11 +120,11 @@ void Hands::OpenLog() {
   };
   // What the maker's library reads has no reports of ours.
   const auto has_reports = [&](DeviceRole role) {
-    return RigOf(role) && !IsOpenHaptics(RigOf(role)->device);
+    return DrivenOf(role) && !IsOpenHaptics(DrivenOf(role)->device);
   };
   for (const DeviceRole role : kRoles)
     if (has_reports(role)) {
-      const auto& own = RigOf(role);
+      const auto& own = DrivenOf(role);
       const std::size_t source = source_of(own->device);
       logged_[Index(role)] = {static_cast<int>(source), own->device.hand};
       sources[source].roles[static_cast<std::size_t>(own->device.hand)] = role;
@@ -128,7 +135,7 @@ void Hands::OpenLog() {
     if (!has_reports(role)) {
       logged_[Index(role)] = {static_cast<int>(sources.size()), 0};
       std::string serial = choice_.is_simulated ? SerialOf(role) : "";
-      if (const auto& own = RigOf(role)) serial = own->device.serial;
+      if (const auto& own = DrivenOf(role)) serial = own->device.serial;
       sources.push_back({"", "", serial, {role, {}}});
     }
   log_ = std::make_unique<simulation::DeviceLog>(choice_.log, sources);
@@ -151,12 +158,17 @@ std::shared_ptr<simulation::LiveLink> Hands::LinkOf(const RigDevice& device) {
 }
 
 void Hands::Mount(Scene& scene) const {
-  if (const auto& scope = RigOf(DeviceRole::kScope)) {
-    scene.rig.scope = scope->mount;
-    scene.scope.rod_length = scope->mount.rod_length;
-  }
-  if (const auto& instrument = RigOf(DeviceRole::kInstrument))
-    scene.rig.instrument = instrument->mount;
+  scene.rig.scope = MountOf(DeviceRole::kScope, scene);
+  scene.rig.instrument = MountOf(DeviceRole::kInstrument, scene);
+  scene.scope.rod_length = scene.rig.scope.rod_length;
+}
+
+DeviceRig Hands::MountOf(DeviceRole role, const Scene& scene) const {
+  DeviceRig mount = role == DeviceRole::kScope ? scene.rig.scope : scene.rig.instrument;
+  if (role == DeviceRole::kScope) mount.rod_length = scene.scope.rod_length;
+  if (const auto& own = RigOf(role)) mount = own->mount;
+  if (const auto& pivot = pivots_[Index(role)]) mount.pivot = *pivot;
+  return mount;
 }
 
 void Hands::Lower(simulation::SessionOptions& options) const noexcept {
@@ -185,14 +197,11 @@ std::shared_ptr<HeldHands> Hands::Hold(const std::array<simulation::ScriptedDevi
       parts.kind = HandKind::kSimulated;
       parts.led = &plant->plant();
       parts.device = std::move(plant);
-    } else if (!choice_.trace.empty()) {
-      simulation::RecordedDevice recorded(choice_.trace, role);
-      if (!recorded.empty()) {
-        parts.kind = HandKind::kRecorded;
-        parts.recorded = std::move(recorded);
-        parts.recording_begins = choice_.trace.front().sample.t;
-      }
-    } else if (const auto& own = RigOf(role)) {
+    } else if (KindOf(role) == HandKind::kRecorded) {
+      parts.kind = HandKind::kRecorded;
+      parts.recorded = simulation::RecordedDevice(choice_.trace, role);
+      parts.recording_begins = choice_.trace.front().sample.t;
+    } else if (const auto& own = DrivenOf(role)) {
       parts.kind = HandKind::kPluggedIn;
       parts.device = DeviceOf(role);
       if (parts.device->caps().input == simulation::HandInput::kRate)
@@ -251,15 +260,59 @@ ForceHistory Hands::History(DeviceRole role) const {
   return held ? held->News().hand[Index(role)].history : ForceHistory{};
 }
 
+HandKind Hands::KindOf(DeviceRole role) const {
+  if (choice_.is_simulated) return HandKind::kSimulated;
+  if (DrivenOf(role)) return HandKind::kPluggedIn;
+  return is_recorded_[Index(role)] ? HandKind::kRecorded : HandKind::kMouse;
+}
+
+std::string Hands::WhyNotCalibrated(DeviceRole role) const {
+  const HandKind kind = KindOf(role);
+  if (kind == HandKind::kMouse)
+    return "Mouse and keys hold this hand, and their incision is where they say.";
+  if (kind != HandKind::kPluggedIn) return "";
+  const simulation::DeviceCaps& caps = Of(role).device->caps();
+  if (caps.input == simulation::HandInput::kRate)
+    return "This device is pushed and has no rod, so it has no incision to find.";
+  if (caps.sensed_dof > 0 && caps.sensed_dof < 5)
+    return "This device does not say how its handle is turned, so its rod's line is not known; "
+           "measure the pivot and write it into the rig file.";
+  return "";
+}
+
+void Hands::Calibrate(std::optional<DeviceRole> role) {
+  calibrated_ = role;
+  simulation::DeviceSample old;
+  while (Hear(old)) {
+  }
+}
+
+bool Hands::Hear(simulation::DeviceSample& sample) {
+  const auto held = held_.lock();
+  return held && held->Hear(sample);
+}
+
+void Hands::SetPivot(DeviceRole role, const glm::dvec3& pivot_in_device) {
+  pivots_[Index(role)] = pivot_in_device;
+}
+
+void Hands::SaveRig(const std::filesystem::path& file) {
+  RigPivots pivots;
+  if (RigOf(DeviceRole::kScope)) pivots.scope = pivots_[Index(DeviceRole::kScope)];
+  if (RigOf(DeviceRole::kInstrument)) pivots.instrument = pivots_[Index(DeviceRole::kInstrument)];
+  WriteRigWith(pivots, choice_.rig_file, file);
+  choice_.rig_file = file;
+}
+
 HandNow Hands::Now(DeviceRole role) const {
   HandNow now;
   const auto held = held_.lock();
   const Role& own = Of(role);
-  if (held) now.kind = held->KindOf(role);
-  if (own.device) now.kind = HandKind::kPluggedIn;
+  if (held || own.device) now.kind = KindOf(role);
   now.situation.kind = now.kind;
   now.situation.is_zero_force = is_zero_force_;
   now.situation.is_practising = held != nullptr;
+  now.situation.is_calibrating = calibrated_.has_value();
   now.situation.status = StatusOf(role);
   now.name = NameOf(now.kind);
   const simulation::Device* device = held ? held->Of(role) : own.device.get();

@@ -47,6 +47,9 @@ class Hands {
   void Mount(Scene& scene) const;
   void Lower(simulation::SessionOptions& options) const noexcept;
 
+  // Where this hand's incision is: of the rig, or as it was calibrated since, or the scene's.
+  DeviceRig MountOf(simulation::DeviceRole role, const Scene& scene) const;
+
   // The hands of a practice that begins, by DeviceRole, where mouse and keys have them. This must
   // outlive them. Shared only so that it is known here when they are gone.
   std::shared_ptr<HeldHands> Hold(const std::array<simulation::ScriptedDevice, 2>& by_mouse);
@@ -72,6 +75,23 @@ class Hands {
   // Its handle is in its rest: counts from here.
   void AskHome(simulation::DeviceRole role);
 
+  // The incision of this hand is being calibrated, in the practice that runs: no device is given a
+  // force meanwhile, and what the hand's device says is heard, the oldest first.
+  void Calibrate(std::optional<simulation::DeviceRole> role);
+  const std::optional<simulation::DeviceRole>& calibrated() const noexcept { return calibrated_; }
+  bool Hear(simulation::DeviceSample& sample);
+  // What will hold this hand once a practice runs.
+  HandKind KindOf(simulation::DeviceRole role) const;
+  // A sentence where this hand has no incision to calibrate; empty: it has one.
+  std::string WhyNotCalibrated(simulation::DeviceRole role) const;
+  // It was found there, from the next Mount on.
+  void SetPivot(simulation::DeviceRole role, const glm::dvec3& pivot_in_device);
+  // Whether the rig's file has a place for this hand's pivot.
+  bool IsInRig(simulation::DeviceRole role) const noexcept { return RigOf(role).has_value(); }
+  const std::filesystem::path& rig_file() const noexcept { return choice_.rig_file; }
+  // The rig with the pivots that were found; `file` is its own from then on. Throws Error.
+  void SaveRig(const std::filesystem::path& file);
+
   // No practice runs and none will: lets go of the devices and ends the log. A sentence where
   // something is missing in that; empty: all is well. Throws Error(kFile).
   std::string End();
@@ -96,6 +116,8 @@ class Hands {
   void OpenRig();
   std::shared_ptr<simulation::LiveLink> LinkOf(const RigDevice& device);
   const std::optional<RigRole>& RigOf(simulation::DeviceRole role) const noexcept;
+  // Of those whose device holds their hand: nothing stands in for it.
+  const std::optional<RigRole>& DrivenOf(simulation::DeviceRole role) const noexcept;
   const Role& Of(simulation::DeviceRole role) const noexcept {
     return roles_[static_cast<std::size_t>(role)];
   }
@@ -108,14 +130,17 @@ class Hands {
   std::unique_ptr<simulation::HidBus> bus_;  // outlives the links, as the next three do
   std::unique_ptr<simulation::DeviceLog> log_;
   std::vector<std::unique_ptr<simulation::LoggedReports>>
-      taps_;                        // one a link, where there is a log
-  std::array<Logged, 2> logged_{};  // by DeviceRole
+      taps_;                           // one a link, where there is a log
+  std::array<Logged, 2> logged_{};     // by DeviceRole
+  std::array<bool, 2> is_recorded_{};  // by DeviceRole
   std::vector<Link> links_;
   std::shared_ptr<simulation::OpenHapticsDevices> openhaptics_;  // null: the rig names none
   std::optional<simulation::ReleaseOnCrash> crash_;
   std::array<Role, 2> roles_;  // by DeviceRole
   std::shared_ptr<simulation::LiveLink> pedals_;
   std::weak_ptr<HeldHands> held_;
+  std::optional<simulation::DeviceRole> calibrated_;
+  std::array<std::optional<glm::dvec3>, 2> pivots_;  // by DeviceRole; that were found since
   bool is_key_held_ = false, is_zero_force_ = false;
 };
 

@@ -35,6 +35,7 @@ HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands
   HandsChoice choice;
   if (!rig.empty()) {
     choice.rig = ReadRig(rig);
+    choice.rig_file = rig;
     if (choice.rig->scope) CheckDriven(choice.rig->scope->device, "scope", rig);
     if (choice.rig->instrument) CheckDriven(choice.rig->instrument->device, "instrument", rig);
     if (choice.rig->pedals) CheckDriven(choice.rig->pedals->device, "pedals", rig);

@@ -14,6 +14,7 @@ namespace arthro::app {
 
 struct HandsChoice {
   std::optional<RigFile> rig;
+  std::filesystem::path rig_file;           // that it was read from
   std::vector<simulation::TraceRow> trace;  // recorded hands; empty: none
   bool is_simulated = false;
   bool is_zero_force = false;
@@ -21,7 +22,8 @@ struct HandsChoice {
   std::string notice;         // a sentence where the recording is not whole
 };
 
-// `rig`: a rig file or empty; `hands`: TRACE.csv, a device log, "plant" or empty. Throws Error.
+// `rig`: a rig file or empty; `hands`: TRACE.csv, a device log, "plant" or empty. Of both, the
+// recording or the simulated devices stand in for the rig's, on its mounts. Throws Error.
 HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands);
 
 // A device of a rig that its maker's library drives, and not hidapi.

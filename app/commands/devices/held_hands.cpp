@@ -55,6 +55,7 @@ class HeldHands::Hand final : public simulation::Device {
     both_.BeginTick(now);
     const HandsWish::Hand& wish = both_.wish_.hand[Index(role_)];
     HandsNews::Hand& told = both_.told_.hand[Index(role_)];
+    if (wish.mount && parts_.led == nullptr) parts_.by_mouse.SetRig(*wish.mount);
     if (wish.episode == told.episode) parts_.by_mouse.Set(wish.pose);
     const double remaining = both_.wish_.until - now;
     const DeviceSample by_mouse =
@@ -70,13 +71,19 @@ class HeldHands::Hand final : public simulation::Device {
     } else if (parts_.led != nullptr) {
       parts_.led->SetIntent(by_mouse.hip_in_device);
       sample = parts_.device->Read(now);
-      sample.handle_in_device = by_mouse.handle_in_device;
+      // Its rod goes through the incision, wherever the hand is pushed to.
+      const DeviceRig& rig = parts_.by_mouse.rig();
+      sample.handle_in_device = simulation::HandleFromRodPose(
+          simulation::RodPoseFromHip(parts_.led->position(), by_mouse.handle_in_device, rig,
+                                     parts_.by_mouse.pose()),
+          rig);
     } else if (parts_.device) {
       if (parts_.integrates != nullptr && !told.is_led_by_device)
         parts_.integrates->SetRateHand({by_mouse.hip_in_device, by_mouse.handle_in_device});
       sample = parts_.device->Read(now);
       pressed_ = IsReady(parts_.device->state()) ? sample.buttons : 0;
     }
+    if (both_.wish_.calibrated == role_) Tell(sample);
     told.age = sample.valid ? std::max(0.0, now - sample.t) : 0.0;
     const bool is_led = sample.valid && parts_.led == nullptr;
     if (is_led) {
@@ -103,11 +110,13 @@ class HeldHands::Hand final : public simulation::Device {
   }
 
   void HoldDeadMan(bool is_held) noexcept override {
+    is_held = is_held && !both_.wish_.calibrated;
     both_.told_.hand[Index(role_)].is_dead_man_held = is_held;
     if (parts_.device) parts_.device->HoldDeadMan(is_held);
   }
 
-  void Command(const glm::dvec3& force_in_device) noexcept override {
+  void Command(const glm::dvec3& force) noexcept override {
+    const glm::dvec3 force_in_device = both_.wish_.calibrated ? glm::dvec3(0.0) : force;
     if (parts_.device) parts_.device->Command(force_in_device);
     HandsNews::Hand& told = both_.told_.hand[Index(role_)];
     told.given =
@@ -125,6 +134,14 @@ class HeldHands::Hand final : public simulation::Device {
   const simulation::RodPose& pose() const noexcept { return parts_.by_mouse.pose(); }
 
  private:
+  // Once; a device may speak less often than it is asked.
+  void Tell(const DeviceSample& sample) noexcept {
+    if (!parts_.device && !parts_.recorded) return;
+    if (sample.valid && sample.t == told_t_) return;
+    told_t_ = sample.t;
+    both_.heard_.Push(sample);
+  }
+
   static inline const std::string kNoSerial;
   HeldHands& both_;
   DeviceRole role_;
@@ -132,6 +149,7 @@ class HeldHands::Hand final : public simulation::Device {
   simulation::RodPose led_pose_;
   std::uint32_t buttons_ = 0, pressed_ = 0;  // of the session; of the device
   std::optional<double> began_;              // the recording
+  double told_t_ = -1;                       // of the sample that was heard last
 };
 
 HeldHands::HeldHands(std::array<HandParts, 2> parts, PedalParts pedals)
@@ -166,7 +184,16 @@ void HeldHands::BeginTick(double now) noexcept {
   if (!IsReady(pedals_.device->state())) pedal_sample_.buttons = 0;
 }
 
+bool HeldHands::Hear(DeviceSample& sample) noexcept {
+  const DeviceSample* oldest = heard_.Front();
+  if (oldest == nullptr) return false;
+  sample = *oldest;
+  heard_.Pop();
+  return true;
+}
+
 bool HeldHands::IsHeld(RigAction action) const noexcept {
+  if (wish_.calibrated) return false;
   return IsDown(pedals_.buttons, action, pedal_sample_.buttons) || hands_[0]->IsHeld(action) ||
          hands_[1]->IsHeld(action);
 }

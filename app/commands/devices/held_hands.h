@@ -11,6 +11,7 @@
 
 #include "app/commands/devices/force_history.h"
 #include "app/commands/devices/why_no_force.h"
+#include "simulation/core/bounded_queue.h"
 #include "simulation/core/latest_value.h"
 #include "simulation/device/live/live_device.h"
 #include "simulation/device/log/logged_device.h"
@@ -45,9 +46,15 @@ struct HandsWish {
     simulation::RodPose pose;   // where mouse and keys want it
     int episode = 0;            // of the news that this pose goes on from
     std::uint32_t buttons = 0;  // of the session
+    // Where its device's incision is from now on; none: as it was, as it is for ever of a simulated
+    // device, whose rod goes through the true one.
+    std::optional<DeviceRig> mount;
   };
   std::array<Hand, 2> hand;  // by DeviceRole
-  double until = 0;          // s, by when it is to be there; evenly until then
+  // Its incision is calibrated: what its device says is heard, no device is given a force or armed,
+  // and buttons do nothing else.
+  std::optional<simulation::DeviceRole> calibrated;
+  double until = 0;  // s, by when it is to be there; evenly until then
 };
 
 // To the window, of the newest tick.
@@ -85,6 +92,9 @@ class HeldHands final : public simulation::ServoWatch {
 
   void Wish(const HandsWish& wish) noexcept { wishes_.Write(wish); }
   const HandsNews& News() noexcept { return news_.Read(); }
+  // While one is calibrated: what its device said, the oldest first, not valid where it said
+  // nothing. False: that was all. Two seconds are kept.
+  bool Hear(simulation::DeviceSample& sample) noexcept;
 
  private:
   class Hand;
@@ -102,6 +112,7 @@ class HeldHands final : public simulation::ServoWatch {
   HandsNews told_;
   LatestValue<HandsWish> wishes_;
   LatestValue<HandsNews> news_;
+  BoundedQueue<simulation::DeviceSample> heard_{2000};
 };
 
 }  // namespace arthro::app

@@ -33,6 +33,8 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
   // What was chosen.
   if (situation.is_zero_force)
     return "Zero-force mode is on: the force is shown and none is given. 0 ends it.";
+  if (situation.is_calibrating)
+    return "An incision is being calibrated; no device pushes until that is closed.";
   if (!situation.is_practising) return "Devices push only in a practice; F5 begins one.";
   // What comes from the device, and from the hand. What is no number is not fresh.
   if (!(situation.sample_age <= simulation::kLostAfter))

@@ -21,6 +21,7 @@ struct ForceSituation {
   double sample_age = 0;
   bool is_dead_man_held = false;
   bool is_zero_force = false;                          // the mode: shown, not commanded
+  bool is_calibrating = false;                         // an incision: no device pushes meanwhile
   bool is_practising = false;                          // devices push only then
   simulation::Fault fault = simulation::Fault::kNone;  // of the session
   bool has_force = false;                              // the session has one to give

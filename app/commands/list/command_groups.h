@@ -10,6 +10,7 @@ namespace arthro::app {
 
 std::span<const Command> SceneCommands();     // files, footage, undo
 std::span<const Command> TissueCommands();    // what is done to the selected tissue
+std::span<const Command> IncisionCommands();  // their calibration
 std::span<const Command> PracticeCommands();  // steps, practice, window
 
 inline bool Always(const EditorState&) { return true; }

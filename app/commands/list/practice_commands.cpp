@@ -1,12 +1,12 @@
 // The steps of the editor, practice, the window.
 #include <string>
-#include <utility>
 
 #include <GLFW/glfw3.h>
 
-#include "app/commands/depth_work.h"
+#include "app/commands/devices/calibrate_incision.h"
 #include "app/commands/edits.h"
 #include "app/commands/list/command_groups.h"
+#include "app/commands/start_practice.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -16,22 +16,9 @@ using State = EditorState;
 
 bool Practising(const State& state) { return state.practice.has_value(); }
 
-void StartPractice(State& state) {
-  WhenDepthIsReady(state, [](State& ready) {
-    authoring::Document mounted = ready.document();
-    ready.hands->Mount(mounted.scene);
-    ready.jobs.Start("Practise", [document = std::move(mounted), presets = ready.tissue_presets,
-                                  pace = ready.pace](const Progress&) {
-      const auto practice = std::make_shared<Practice>(document, presets, pace);
-      return [practice](State& now) {  // shared only because a std::function is copied
-        now.practice.emplace(std::move(*practice));
-        now.message = "Practice. Esc leaves it.";
-      };
-    });
-  });
-}
-
+// A calibration first.
 void LeavePractice(State& state) {
+  if (state.calibrating) return EndCalibration(state);
   const double seconds = state.practice->snapshot().t;
   state.practice.reset();
   state.full_screen = false;
@@ -126,10 +113,8 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_F5},
      {GLFW_KEY_P},
-     [](const State& state) {
-       return !state.practice && !state.jobs.busy() && state.document().panorama;
-     },
-     StartPractice},
+     MayPractise,
+     [](State& state) { StartPractice(state); }},
     {"leave-practice",
      "Leave practice",
      "Back to the editor, exactly where it was.",

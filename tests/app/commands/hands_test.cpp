@@ -456,6 +456,30 @@ TEST_F(PractisedArm, IsLetGoWhenTheDeadManOrTheModeOrTheWindowSaysSo) {
   EXPECT_TRUE(IsLetGo());
 }
 
+// However the dead-man is held; and it comes back by a ramp, where the incision then is.
+TEST_F(PractisedArm, IsNotPushedWhileAnIncisionIsCalibratedAndGentlyAfterIt) {
+  ASSERT_TRUE(Begin());
+  hands->Calibrate(DeviceRole::kInstrument);
+  ASSERT_TRUE(FramesUntil([&] { return !IsPushed(); })) << "whichever hand it is";
+  for (int i = 0; i < 60; ++i) {
+    Frame();
+    ASSERT_FALSE(IsPushed()) << i;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const auto state = [&] { return hands->Now(DeviceRole::kScope).situation.status.state; };
+  EXPECT_EQ(state(), simulation::DeviceState::kReady) << "not armed";
+  EXPECT_NE(std::string(WhyNoForce(hands->Now(DeviceRole::kScope).situation)).find("calibrated"),
+            std::string::npos);
+  EXPECT_GT(glm::length(practice->snapshot().scope.tip_force), 0.1) << "it is deep in the wall";
+
+  DeviceRig mount = hands->MountOf(DeviceRole::kScope, document.scene);
+  mount.pivot += glm::dvec3(0, 0, -0.001);
+  practice->SetMount(DeviceRole::kScope, mount);
+  hands->Calibrate({});
+  EXPECT_TRUE(FramesUntil([&] { return IsPushed(); }));
+  EXPECT_EQ(state(), simulation::DeviceState::kArmed);
+}
+
 TEST_F(PractisedArm, IsLetGoByAnException) {
   ASSERT_TRUE(Begin());
   try {

@@ -41,6 +41,7 @@ TEST(WhyNoForce, NamesEachThingThatIsAloneInTheWay) {
   };
   EXPECT_TRUE(Says(with([](auto& s) { s.kind = HandKind::kMouse; }), "No device"));
   EXPECT_TRUE(Says(with([](auto& s) { s.kind = HandKind::kRecorded; }), "recording"));
+  EXPECT_TRUE(Says(with([](auto& s) { s.is_calibrating = true; }), "calibrated"));
   EXPECT_TRUE(Says(with([](auto& s) { s.status.state = DeviceState::kAbsent; }), "plug it in"));
   EXPECT_TRUE(Says(with([](auto& s) { s.status.state = DeviceState::kOpening; }), "opened"));
   EXPECT_TRUE(Says(with([](auto& s) { s.status.state = DeviceState::kHoming; }), "rest"));

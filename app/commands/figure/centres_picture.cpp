@@ -1,4 +1,4 @@
-#include "app/cli/centres_picture.h"
+#include "app/commands/figure/centres_picture.h"
 
 #include <algorithm>
 #include <array>

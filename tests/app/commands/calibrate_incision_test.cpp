@@ -1,0 +1,234 @@
+// An incision that is calibrated in the window's own way (app/commands/devices), without a window:
+// by commands, on simulated and recorded hands, on a rig whose file keeps it.
+#include "app/commands/devices/calibrate_incision.h"
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "app/commands/command_list.h"
+#include "app/commands/scene_files.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/rig_io.h"
+#include "tests/support/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+using simulation::DeviceRole;
+using simulation::PivotStatus;
+
+constexpr const char* kRig = R"({"schema": "arthroscene.rig/1", "title": "t", "x-room": "3.14",
+  "scope": {"device": {"family": "razer_hydra"}, "rod_length": 0.25,
+            "pivot": [0.02, -0.01, 0.1], "portal_from_device": [0.5, 0.5, 0.5, -0.5]}})";
+const glm::dvec3 kPivot(0.02, -0.01, 0.1);
+
+class CalibrateIncision : public testing::Test {
+ protected:
+  void SetUp() override {
+    StartDocument(state, authoring::OpenDocument(test::WriteSmallScene(temp / "knee", false)),
+                  true);
+    state.pace = simulation::TissuePace::kInline;
+    rig = temp / "rig.json";
+    WriteAtomically(rig, kRig);
+  }
+  void Hold(HandsChoice choice) { state.hands = std::make_unique<Hands>(std::move(choice)); }
+  void Frame() {
+    FinishWork(state);
+    state.hands->Look();
+    if (state.practice && state.dialogs.empty())
+      state.practice->Advance(1.0 / 60, state.hands.get());
+    KeepPivotFresh(state);
+  }
+  void Frames(int count) {
+    for (int i = 0; i < count; ++i) Frame();
+  }
+  // Until all work is done.
+  void Settle() {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    do {
+      Frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
+    } while (state.jobs.busy() || state.preview_jobs.busy() || state.pivot_jobs.busy());
+  }
+  void Begin(const char* command = "calibrate-scope") {
+    Run(state, command);
+    Settle();
+    ASSERT_TRUE(state.calibrating) << "in a practice that is begun for it";
+  }
+  // Swings the scope there within half a second, lets it rest, presses.
+  void PressAt(double latitude_deg, double longitude_deg) {
+    const simulation::RodPose from = state.practice->scope().pose();
+    for (int i = 1; i <= 30; ++i) {
+      simulation::RodPose pose = from;
+      pose.latitude += (RadiansFromDegrees(latitude_deg) - from.latitude) * i / 30;
+      pose.longitude += (RadiansFromDegrees(longitude_deg) - from.longitude) * i / 30;
+      state.practice->scope().Set(pose);
+      Frame();
+    }
+    Frames(60);
+    Run(state, "press-incision");
+    Frames(10);
+  }
+  const PivotWork& work() const { return state.calibrating->work; }
+  DeviceRig Mount() const {
+    return state.hands->MountOf(DeviceRole::kScope, state.document().scene);
+  }
+
+  test::TempFolder temp;
+  fs::path rig;
+  EditorState state{NewDocument()};
+};
+
+TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyCameFrom) {
+  Hold(ReadHands(rig, "plant"));
+  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), HandKind::kSimulated);
+  Begin();
+  EXPECT_FALSE(CommandOf("use-incision").enabled(state));
+  PressAt(0, 0);
+  EXPECT_EQ(work().poses().size(), 1u) << work().refusal();
+  PressAt(10, 35);
+  ASSERT_EQ(work().poses().size(), 2u) << work().refusal();
+  ASSERT_EQ(work().found().status, PivotStatus::kOk) << work().found().reason;
+  const double sigma = work().found().sigma;
+  EXPECT_LT(sigma, 0.1e-3);
+  EXPECT_LT(glm::distance(*work().found().pivot, kPivot), 3 * sigma);
+  Run(state, "use-incision");
+  EXPECT_TRUE(state.dialogs.empty());
+  EXPECT_NE(state.calibrating->outcome.find("saved in " + rig.string()), std::string::npos);
+  Frames(2);
+  EXPECT_EQ(Mount().pivot, *work().found().pivot);
+  EXPECT_NE(Mount().pivot, kPivot) << "what was found, not what was there";
+  // Read again by whoever comes next.
+  const RigFile saved = ReadRig(rig);
+  EXPECT_EQ(saved.scope->mount, Mount());
+  EXPECT_NE(ReadWholeFile(rig).find("x-room"), std::string::npos);
+  Scene next;
+  Hands(ReadHands(rig, "plant")).Mount(next);
+  EXPECT_EQ(next.rig.scope.pivot, Mount().pivot);
+
+  Run(state, "leave-practice");
+  EXPECT_FALSE(state.calibrating) << "Esc closes the calibration first";
+  EXPECT_FALSE(state.hands->calibrated());
+  EXPECT_TRUE(state.practice);
+}
+
+TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
+  Hold(ReadHands(rig, "plant"));
+  Begin();
+  PressAt(0, 0);
+  PressAt(0, 4);
+  ASSERT_EQ(work().poses().size(), 2u) << work().refusal();
+  EXPECT_EQ(work().found().status, PivotStatus::kTooNarrow);
+  EXPECT_NE(work().found().reason.find("degrees"), std::string::npos);
+  EXPECT_FALSE(CommandOf("use-incision").enabled(state));
+  Run(state, "use-incision");
+  EXPECT_EQ(Mount().pivot, kPivot);
+  EXPECT_EQ(ReadWholeFile(rig), kRig);
+}
+
+TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritten) {
+  Hold(ReadHands(rig, "plant"));
+  state.rig_preset_folder = temp.path();  // as if the rig had come with the program
+  Begin();
+  PressAt(0, 0);
+  PressAt(0, 40);
+  ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
+  Run(state, "use-incision");
+  EXPECT_TRUE(state.calibrating->is_unsaved);
+  EXPECT_NE(state.calibrating->outcome.find("came with the program"), std::string::npos)
+      << state.calibrating->outcome;
+  EXPECT_EQ(Mount().pivot, *work().found().pivot);
+  EXPECT_EQ(ReadWholeFile(rig), kRig);
+
+  // Elsewhere, by the browser: first where there is no folder, then where there is one.
+  const auto save = [&](const fs::path& file) {
+    Run(state, "save-rig-as");
+    const auto browse = std::get<BrowseDialog>(std::move(state.dialogs.back()));
+    state.dialogs.pop_back();
+    Guarded(state, "Save", [&] { browse.then(state, file); });
+  };
+  save(temp / "nowhere" / "mine.json");
+  ASSERT_EQ(state.dialogs.size(), 1u) << "in a sentence";
+  state.dialogs.clear();
+  EXPECT_TRUE(state.calibrating->is_unsaved);
+  fs::create_directory(temp / "own");
+  save(temp / "own" / "mine.json");
+  EXPECT_TRUE(state.dialogs.empty());
+  EXPECT_FALSE(state.calibrating->is_unsaved);
+  EXPECT_EQ(ReadRig(temp / "own" / "mine.json").scope->mount.pivot, Mount().pivot);
+  EXPECT_EQ(ReadWholeFile(rig), kRig);
+}
+
+TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
+  Hold(ReadHands({}, "plant"));
+  Begin();
+  PressAt(0, 0);
+  PressAt(0, 40);
+  ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
+  Run(state, "use-incision");
+  EXPECT_NE(state.calibrating->outcome.find("until the program ends"), std::string::npos);
+  EXPECT_FALSE(CommandOf("save-rig-as").enabled(state));
+  EXPECT_EQ(Mount().pivot, *work().found().pivot);
+  // Also of the practice after this one.
+  Run(state, "leave-practice");
+  Run(state, "leave-practice");
+  EXPECT_FALSE(state.practice);
+  Scene scene = state.document().scene;
+  state.hands->Mount(scene);
+  EXPECT_EQ(scene.rig.scope.pivot, Mount().pivot);
+}
+
+// The recorded hand's incision is 30 mm beside the one that the rig names.
+TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
+  HandsChoice choice = ReadHands(rig, "");
+  DeviceRig truth = choice.rig->scope->mount;
+  truth.pivot += glm::dvec3(0.03, 0, 0.01);
+  for (int i = 0; i < 9000; ++i) {
+    const double t = 1e-3 * i;
+    const simulation::RodPose pose{0.35 * std::sin(2.1 * t), 0.35 * std::sin(1.3 * t), 0, 0.06};
+    simulation::TraceRow& row = choice.trace.emplace_back();
+    row.sample = {t, simulation::HipFromRodPose(pose, truth),
+                  simulation::HandleFromRodPose(pose, truth), 0, true};
+  }
+  Hold(std::move(choice));
+  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), HandKind::kRecorded);
+  EXPECT_FALSE(CommandOf("calibrate-instrument").enabled(state)) << "mouse and keys have it";
+  Begin();
+  state.calibrating->work.Begin(simulation::PivotSource::kSwing);
+  const auto off = [&] { return glm::distance(state.practice->snapshot().scope.pose.depth, 0.06); };
+  Frames(60);
+  EXPECT_GT(off(), 1e-3) << "the rig is wrong";
+  Frames(180);
+  Settle();
+  ASSERT_EQ(work().found().status, PivotStatus::kOk) << work().found().reason;
+  EXPECT_GT(work().poses().size(), 100u);
+  EXPECT_LT(glm::distance(*work().found().pivot, truth.pivot), 3 * work().found().sigma);
+  Run(state, "use-incision");
+  Frames(3);
+  EXPECT_LT(off(), 3 * work().found().sigma) << "the practice goes on with it";
+  EXPECT_EQ(ReadRig(rig).scope->mount.pivot, *work().found().pivot);
+}
+
+TEST_F(CalibrateIncision, OfADeviceWithoutARodIsNotOffered) {
+  HandsChoice choice;
+  choice.rig.emplace().scope.emplace().device.family = "space_mouse";
+  Hold(std::move(choice));
+  EXPECT_FALSE(CommandOf("calibrate-scope").enabled(state));
+  EXPECT_NE(state.hands->WhyNotCalibrated(DeviceRole::kScope).find("no rod"), std::string::npos);
+  EXPECT_NE(state.hands->WhyNotCalibrated(DeviceRole::kInstrument).find("Mouse"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace arthro::app
