@@ -97,6 +97,8 @@ void DevicesPanel(Ui& ui, EditorState& state) {
             "V, a handle's button or a pedal is the dead-man: devices push only while it is held.");
   Gap(ui, 2);
   CommandButton(ui, state, "validation-plot", {-FLT_MIN, ui.Px(40)});
+  // In the editor the status bar says what was done.
+  if (state.practice && !state.message.empty()) QuietText(ui, state.message);
   if (Button(ui, "Hide devices", true, {-FLT_MIN, ui.Px(44)})) Run(state, "devices");
 }
 

@@ -62,7 +62,7 @@ class CalibrateIncision : public testing::Test {
     } while (state.jobs.busy() || state.preview_jobs.busy() || state.pivot_jobs.busy());
   }
   void Begin(const char* command = "calibrate-scope") {
-    Run(state, command);
+    app::Run(state, command);
     Settle();
     ASSERT_TRUE(state.calibrating) << "in a practice that is begun for it";
   }
@@ -77,7 +77,7 @@ class CalibrateIncision : public testing::Test {
       Frame();
     }
     Frames(60);
-    Run(state, "press-incision");
+    app::Run(state, "press-incision");
     Frames(10);
   }
   const PivotWork& work() const { return state.calibrating->work; }
@@ -103,7 +103,7 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   const double sigma = work().found().sigma;
   EXPECT_LT(sigma, 0.1e-3);
   EXPECT_LT(glm::distance(*work().found().pivot, kPivot), 3 * sigma);
-  Run(state, "use-incision");
+  app::Run(state, "use-incision");
   EXPECT_TRUE(state.dialogs.empty());
   EXPECT_NE(state.calibrating->outcome.find("saved in " + rig.string()), std::string::npos);
   Frames(2);
@@ -117,7 +117,7 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   Hands(ReadHands(rig, "plant")).Mount(next);
   EXPECT_EQ(next.rig.scope.pivot, Mount().pivot);
 
-  Run(state, "leave-practice");
+  app::Run(state, "leave-practice");
   EXPECT_FALSE(state.calibrating) << "Esc closes the calibration first";
   EXPECT_FALSE(state.hands->calibrated());
   EXPECT_TRUE(state.practice);
@@ -132,7 +132,7 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
   EXPECT_EQ(work().found().status, PivotStatus::kTooNarrow);
   EXPECT_NE(work().found().reason.find("degrees"), std::string::npos);
   EXPECT_FALSE(CommandOf("use-incision").enabled(state));
-  Run(state, "use-incision");
+  app::Run(state, "use-incision");
   EXPECT_EQ(Mount().pivot, kPivot);
   EXPECT_EQ(ReadWholeFile(rig), kRig);
 }
@@ -144,7 +144,7 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
   PressAt(0, 0);
   PressAt(0, 40);
   ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
-  Run(state, "use-incision");
+  app::Run(state, "use-incision");
   EXPECT_TRUE(state.calibrating->is_unsaved);
   EXPECT_NE(state.calibrating->outcome.find("came with the program"), std::string::npos)
       << state.calibrating->outcome;
@@ -153,7 +153,7 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
 
   // Elsewhere, by the browser: first where there is no folder, then where there is one.
   const auto save = [&](const fs::path& file) {
-    Run(state, "save-rig-as");
+    app::Run(state, "save-rig-as");
     const auto browse = std::get<BrowseDialog>(std::move(state.dialogs.back()));
     state.dialogs.pop_back();
     Guarded(state, "Save", [&] { browse.then(state, file); });
@@ -176,13 +176,13 @@ TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
   PressAt(0, 0);
   PressAt(0, 40);
   ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
-  Run(state, "use-incision");
+  app::Run(state, "use-incision");
   EXPECT_NE(state.calibrating->outcome.find("until the program ends"), std::string::npos);
   EXPECT_FALSE(CommandOf("save-rig-as").enabled(state));
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   // Also of the practice after this one.
-  Run(state, "leave-practice");
-  Run(state, "leave-practice");
+  app::Run(state, "leave-practice");
+  app::Run(state, "leave-practice");
   EXPECT_FALSE(state.practice);
   Scene scene = state.document().scene;
   state.hands->Mount(scene);
@@ -214,7 +214,7 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
   ASSERT_EQ(work().found().status, PivotStatus::kOk) << work().found().reason;
   EXPECT_GT(work().poses().size(), 100u);
   EXPECT_LT(glm::distance(*work().found().pivot, truth.pivot), 3 * work().found().sigma);
-  Run(state, "use-incision");
+  app::Run(state, "use-incision");
   Frames(3);
   EXPECT_LT(off(), 3 * work().found().sigma) << "the practice goes on with it";
   EXPECT_EQ(ReadRig(rig).scope->mount.pivot, *work().found().pivot);

@@ -23,7 +23,7 @@ constexpr double kQuantum = 0.055e-3;  // m
 const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
 
 struct Hand {
-  explicit Hand(PivotWork& work) : work(work) {}
+  explicit Hand(PivotWork& own) : work(own) {}
   // Stays there for so long.
   void Rest(const RodPose& pose, double seconds, std::uint32_t buttons = 0) {
     for (int i = 0; i < std::lround(1e3 * seconds); ++i) Say(pose, buttons);

@@ -1,0 +1,124 @@
+// An incision calibrated as its users do it: scripts click by name, hold keys and look
+// (app/platform/script.h).
+#include <filesystem>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/scene/rig_io.h"
+#include "tests/support/run_window.h"
+#include "tests/support/small_scene.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RunWindow;
+
+constexpr const char* kRig = R"({"schema": "arthroscene.rig/1", "title": "t", "x-room": "3.14",
+  "scope": {"device": {"family": "razer_hydra"}, "rod_length": 0.25,
+            "pivot": [0.02, -0.01, 0.1], "portal_from_device": [0.5, 0.5, 0.5, -0.5]}})";
+const glm::dvec3 kPivot(0.02, -0.01, 0.1);
+
+class IncisionWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    ARTHRO_REQUIRE_XVFB();
+    scene = test::WriteSmallScene(temp / "knee", false);
+    rig = temp / "rig.json";
+    WriteAtomically(rig, kRig);
+  }
+  // A failed script tells its line on stderr.
+  void Drive(const std::string& script, const std::string& flags) {
+    const auto result = RunWindow("edit " + scene.string() + " " + flags, script, "1280x800x24");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+  double Moved() const { return glm::distance(ReadRig(rig).scope->mount.pivot, kPivot); }
+  test::TempFolder temp;
+  fs::path scene, rig;
+};
+
+// In the middle of the range; 110 frames of a key are 37 degrees.
+constexpr const char* kBegin = R"(
+click Practice
+click Devices
+click "Calibrate scope incision…"
+wait job
+wait frames 60
+expect "Incision of the scope"
+expect "No device is given a force meanwhile."
+expect disabled "Use this incision"
+)";
+
+TEST_F(IncisionWindow, TwoPressesAreTakenOverAndSavedInTheRig) {
+  Drive(std::string(kBegin) + R"(
+expect value Presses "0"
+click Press
+wait frames 12
+expect value Presses "1"
+expect disabled "Use this incision"
+hold right 110
+wait frames 60
+key b
+wait frames 12
+expect value Presses "2"
+expect "This incision can be used."
+click "Use this incision"
+expect "In use, and saved in"
+wait frames 5
+key escape
+expect "simulated device"
+expect not "Incision of the scope"
+key escape
+expect "Practice left."
+)",
+        "--hands plant --rig " + rig.string());
+  // As predicted: 0.05 mm or less is what a rounding of 0.055 mm leaves of presses 37 degrees
+  // apart.
+  EXPECT_LT(Moved(), 3 * 0.05e-3);
+  EXPECT_GT(Moved(), 0) << "what was found, not what was there";
+  EXPECT_NE(ReadWholeFile(rig).find("x-room"), std::string::npos);
+}
+
+TEST_F(IncisionWindow, PressesThatAreTooNarrowAreRefusedInWords) {
+  Drive(std::string(kBegin) + R"(
+key b
+wait frames 12
+hold right 12
+wait frames 60
+key b
+wait frames 12
+expect value Presses "2"
+expect "degrees apart in direction"
+expect disabled "Use this incision"
+click "Begin again"
+expect value Presses "0"
+)",
+        "--hands plant --rig " + rig.string());
+  EXPECT_EQ(ReadWholeFile(rig), kRig);
+}
+
+TEST_F(IncisionWindow, ASwingIsFittedWhileItGoesOn) {
+  Drive(std::string(kBegin) + R"(
+click "Keep swinging"
+expect "keep swinging the rod"
+hold right 100
+hold up 80
+hold left 200
+hold down 160
+hold right 100
+wait frames 20
+wait job
+wait frames 2
+expect "This incision can be used."
+click "Use this incision"
+expect "In use, and saved in"
+)",
+        "--hands plant --rig " + rig.string());
+  EXPECT_LT(Moved(), 3 * 0.05e-3);
+  EXPECT_GT(Moved(), 0);
+}
+
+}  // namespace
+}  // namespace arthro
