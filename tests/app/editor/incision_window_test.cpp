@@ -1,11 +1,12 @@
-// An incision calibrated as its users do it: scripts click by name, hold keys and look
-// (app/platform/script.h).
+// An incision calibrated, and the validation figure saved, as their users do it: scripts click by
+// name, hold keys and look (app/platform/script.h).
 #include <filesystem>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
+#include "simulation/scene/image_io.h"
 #include "simulation/scene/rig_io.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
@@ -118,6 +119,68 @@ expect "In use, and saved in"
         "--hands plant --rig " + rig.string());
   EXPECT_LT(Moved(), 3 * 0.05e-3);
   EXPECT_GT(Moved(), 0);
+}
+
+TEST_F(IncisionWindow, ARigThatCameWithTheProgramStaysAsItIsAndIsSavedElsewhere) {
+  const fs::path shipped =
+      fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/rigs/woodenhaptics_instrument.json";
+  const std::string text = ReadWholeFile(shipped), own = (temp / "mine.json").string();
+  Drive(R"(
+key p
+wait job
+key f4
+click "Calibrate instrument incision…"
+wait frames 60
+key b
+wait frames 12
+hold d 110
+wait frames 60
+key b
+wait frames 12
+click "Use this incision"
+expect "came with the program"
+click "Save rig as…"
+set "File name" ")" +
+            (temp / "nowhere" / "mine.json").string() +
+            R"("
+wait frames 3
+expect not "saved in"
+key escape
+wait frames 3
+click "Save rig as…"
+set "File name" ")" +
+            own + R"("
+expect "In use, and saved in"
+)",
+        "--hands plant --rig " + shipped.string());
+  EXPECT_EQ(ReadWholeFile(shipped), text);
+  const RigFile before = ReadRig(shipped), after = ReadRig(own);
+  EXPECT_NE(after.instrument->mount.pivot, before.instrument->mount.pivot);
+  EXPECT_LT(glm::distance(after.instrument->mount.pivot, before.instrument->mount.pivot), 0.15e-3);
+}
+
+// The same table as the job's, and both pictures.
+TEST_F(IncisionWindow, TheValidationPlotOfTheOpenSceneIsThatOfTheJob) {
+  const std::string script = R"(
+click Practice
+click Devices
+click "Validation plot…"
+set "File name" ")" + (temp / "fig7.png").string() +
+                             R"("
+wait job
+)";
+  Drive(script + "expect \"Validation plot: \"\n", "");
+  const auto job =
+      test::RunProgram("centres " + scene.string() + " -o " + (temp / "job.csv").string() +
+                       " --picture " + (temp / "job.png").string());
+  ASSERT_EQ(job.exit_code, 0) << job.err;
+  EXPECT_EQ(ReadWholeFile(temp / "fig7.csv"), ReadWholeFile(temp / "job.csv"));
+  EXPECT_EQ(ReadColourImage(temp / "fig7.png").rgb, ReadColourImage(temp / "job.png").rgb);
+  EXPECT_NE(ReadColourImage(temp / "fig7-grid.png").rgb, ReadColourImage(temp / "job.png").rgb);
+  // Nothing beside it is overwritten unasked.
+  fs::remove(temp / "fig7.png");
+  Drive(script + "expect \"is already there\"\n", "");
+  EXPECT_FALSE(fs::exists(temp / "fig7.png"));
 }
 
 }  // namespace
