@@ -16,41 +16,30 @@ using simulation::DeviceRole;
 
 constexpr double kFullMeter = 3.3;  // N, where a device says no peak of its own
 constexpr float kPlotHeight = 34;
+constexpr float kBetween = 8;  // of two side by side
 
 // Filled: what the device is given. The line: what the session has for the hand.
 void ForceMeter(Ui& ui, const std::string& name, const HandNow& now) {
   const double full = now.peak > 0 ? now.peak : kFullMeter;
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(16);
-  const auto at = [&](double newton) {
-    return corner.x + width * static_cast<float>(std::clamp(newton / full, 0.0, 1.0));
-  };
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
-                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
-  if (now.given > 0)
-    draw->AddRectFilled(corner, {std::max(at(now.given), corner.x + ui.Px(3)), corner.y + height},
-                        kGood, ui.Px(4));
-  if (now.felt > 0)
-    draw->AddLine({at(now.felt), corner.y}, {at(now.felt), corner.y + height}, 0xFFFFFFFF,
-                  ui.Px(2));
-  ImGui::Dummy({width, height});
-  RecordItem(ui, name + " force meter", true, fmt::format("{:.2f} N", now.given));
+  MarkedBar(ui, name + " force meter", now.given / full, kGood, now.felt / full,
+            fmt::format("{:.2f} N", now.given));
   QuietText(ui, fmt::format("{:.2f} N given of {:.2f} N shown; full at {:.1f} N", now.given,
                             now.felt, full));
 }
 
 void Plot(Ui& ui, const std::string& name, const std::array<float, ForceHistory::kLength>& values,
-          int oldest, float least_top, const char* unit) {
+          int oldest, float least_top, const char* unit, float width) {
   const float top = std::max(least_top, *std::max_element(values.begin(), values.end()));
   ImGui::PlotLines(("##" + name).c_str(), values.data(), ForceHistory::kLength, oldest, nullptr, 0,
-                   top, {ImGui::GetContentRegionAvail().x, ui.Px(kPlotHeight)});
+                   top, {width, ui.Px(kPlotHeight)});
   RecordItem(ui, name);
   // Its scale, in its corner.
   const ImVec2 low = ImGui::GetItemRectMin();
   const std::string scale = fmt::format("{:.3g} {}", top, unit);
   ImGui::GetWindowDrawList()->AddText({low.x + ui.Px(6), low.y + ui.Px(2)}, kQuiet, scale.c_str());
 }
+
+float HalfWidth(const Ui& ui) { return (ImGui::GetContentRegionAvail().x - ui.Px(kBetween)) / 2; }
 
 void HandPart(Ui& ui, EditorState& state, DeviceRole role, const char* name) {
   const Hands& hands = *state.hands;
@@ -64,8 +53,11 @@ void HandPart(Ui& ui, EditorState& state, DeviceRole role, const char* name) {
     const ForceHistory history = hands.History(role);
     QuietText(ui,
               fmt::format("Ten seconds of force and sample age ({:.1f} ms)", 1e3 * now.sample_age));
-    Plot(ui, std::string(name) + " force plot", history.forces(), history.oldest(), 1.0f, "N");
-    Plot(ui, std::string(name) + " age plot", history.ages(), history.oldest(), 5.0f, "ms");
+    const float half = HalfWidth(ui);
+    Plot(ui, std::string(name) + " force plot", history.forces(), history.oldest(), 1.0f, "N",
+         half);
+    ImGui::SameLine(0, ui.Px(kBetween));
+    Plot(ui, std::string(name) + " age plot", history.ages(), history.oldest(), 5.0f, "ms", half);
   }
   if (const char* why = WhyNoForce(now.situation); *why != '\0') {
     Text(ui, "Why is there no force?");
@@ -96,10 +88,12 @@ void DevicesPanel(Ui& ui, EditorState& state) {
   QuietText(ui,
             "V, a handle's button or a pedal is the dead-man: devices push only while it is held.");
   Gap(ui, 2);
-  CommandButton(ui, state, "validation-plot", {-FLT_MIN, ui.Px(40)});
+  const float half = HalfWidth(ui);
+  CommandButton(ui, state, "validation-plot", {half, ui.Px(44)});
+  ImGui::SameLine(0, ui.Px(kBetween));
+  if (Button(ui, "Hide devices", true, {half, ui.Px(44)})) Run(state, "devices");
   // In the editor the status bar says what was done.
   if (state.practice && !state.message.empty()) QuietText(ui, state.message);
-  if (Button(ui, "Hide devices", true, {-FLT_MIN, ui.Px(44)})) Run(state, "devices");
 }
 
 void DevicesPage(Ui& ui, EditorState& state, const Area& area) {

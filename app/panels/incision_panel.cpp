@@ -1,6 +1,5 @@
 // Beside the picture while a hand's incision is calibrated: what to do, how well it is known by
 // now, and whether that may be used.
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -33,23 +32,6 @@ std::string Capital(std::string sentence) {
   return sentence;
 }
 
-void AngleBar(Ui& ui, double angle) {
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(16);
-  const auto at = [&](double radian) {
-    return corner.x + width * static_cast<float>(std::clamp(radian / kFullBar, 0.0, 1.0));
-  };
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
-                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
-  if (angle > 0)
-    draw->AddRectFilled(corner, {std::max(at(angle), corner.x + ui.Px(3)), corner.y + height},
-                        angle < kEnough ? kWarning : kGood, ui.Px(4));
-  draw->AddLine({at(kEnough), corner.y}, {at(kEnough), corner.y + height}, kBright, ui.Px(2));
-  ImGui::Dummy({width, height});
-  RecordItem(ui, "Angle bar", true, fmt::format("{:.0f}°", DegreesFromRadians(angle)));
-}
-
 // Name on the left, number on the right.
 void Number(Ui& ui, const std::string& name, const std::string& value) {
   QuietText(ui, name);
@@ -65,7 +47,8 @@ void HowWellKnown(Ui& ui, const PivotWork& work) {
                                                  : "Angle to the furthest press");
   LargeText(ui, fmt::format("{:.0f}°", DegreesFromRadians(work.angle())),
             work.angle() < kEnough ? kBright : kGood);
-  AngleBar(ui, work.angle());
+  MarkedBar(ui, "Angle bar", work.angle() / kFullBar, work.angle() < kEnough ? kWarning : kGood,
+            kEnough / kFullBar, fmt::format("{:.0f}°", DegreesFromRadians(work.angle())));
   QuietText(ui, "30° or more (mark)");
   Gap(ui);
   const bool is_solved = found.status != PivotStatus::kTooFew;

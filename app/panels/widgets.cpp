@@ -222,6 +222,25 @@ void Text(Ui& ui, const std::string& text) {
   if (ImGui::IsItemVisible()) ui.widgets.RecordText(text);
 }
 
+void MarkedBar(Ui& ui, const std::string& name, double filled, unsigned colour, double mark,
+               const std::string& value) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(16);
+  const auto at = [&](double share) {
+    return corner.x + width * static_cast<float>(std::clamp(share, 0.0, 1.0));
+  };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
+                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
+  if (filled > 0)
+    draw->AddRectFilled(corner, {std::max(at(filled), corner.x + ui.Px(3)), corner.y + height},
+                        colour, ui.Px(4));
+  if (mark > 0)
+    draw->AddLine({at(mark), corner.y}, {at(mark), corner.y + height}, kBright, ui.Px(2));
+  ImGui::Dummy({width, height});
+  RecordItem(ui, name, true, value);
+}
+
 void QuietText(Ui& ui, const std::string& text) { ColouredText(ui, text, kQuiet); }
 
 void ColouredText(Ui& ui, const std::string& text, unsigned colour) {

@@ -57,6 +57,9 @@ bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::
 // A key that goes down in this frame, for the dialog that is drawn; not the one that opened it.
 bool DialogKeyPressed(int key);  // GLFW_KEY_…
 
+// As wide as there is room, filled to a share of it and with a line at another; 0: neither.
+void MarkedBar(Ui& ui, const std::string& name, double filled, unsigned colour, double mark,
+               const std::string& value);
 void Heading(Ui& ui, const std::string& text);
 void LargeText(Ui& ui, const std::string& text, unsigned colour = kBright);
 void Text(Ui& ui, const std::string& text);       // wrapped
