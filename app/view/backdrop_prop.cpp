@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -84,17 +85,23 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
 void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth) {
   const int width = depth.empty() ? 1 : (depth.width + reduction_ - 1) / reduction_;
   const int height = depth.empty() ? 1 : (depth.height + reduction_ - 1) / reduction_;
-  const std::vector<float> relief =
+  std::vector<float> relief =
       depth.empty() ? std::vector<float>(1, 0.0f) : ReliefTexture(depth, reduction_);
   Fill(*relief_, window, width, height, 1, VTK_FLOAT, relief.data());
+  unsearched_ = {std::move(relief), width, height};
+  const ImagedMask mask = MakeImagedMask(panorama_size_.x, panorama_size_.y, depth, wraps_);
+  Fill(*imaged_, window, mask.width, mask.height, 1, VTK_UNSIGNED_CHAR, mask.share.data());
+}
+
+void BackdropProp::PrepareSearch(vtkOpenGLRenderWindow* window) {
+  if (unsearched_.relief.empty()) return;
+  const auto [relief, width, height] = std::exchange(unsearched_, {});
   const ReliefCeiling ceiling = MakeReliefCeiling(relief, width, height, wraps_);
   Fill(*ceiling_, window, ceiling.width, ceiling.height, 1, VTK_FLOAT, ceiling.relief.data());
   ceiling_->SetMinificationFilter(vtkTextureObject::Nearest);
   ceiling_->SetMagnificationFilter(vtkTextureObject::Nearest);
   block_ = ceiling.block;
   highest_ = *std::max_element(ceiling.relief.begin(), ceiling.relief.end());
-  const ImagedMask mask = MakeImagedMask(panorama_size_.x, panorama_size_.y, depth, wraps_);
-  Fill(*imaged_, window, mask.width, mask.height, 1, VTK_UNSIGNED_CHAR, mask.share.data());
 }
 
 bool BackdropProp::SetGeometry(const Backdrop& backdrop) {
@@ -127,6 +134,7 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   if (!window || !panorama_->GetHandle()) return 0;
   // A processor goes both ways of every if of a shader, so what is not needed is not compiled.
   const bool is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
+  if (picture_.relief_steps > 0) PrepareSearch(window);
   const bool has_relief = highest_ > 0.0 && picture_.relief_steps > 0;
   const int variant = (is_equirectangular ? 1 : 0) + (has_relief ? 2 : 0);
   if (!quad_ || variant != variant_) {
@@ -148,19 +156,19 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   state->vtkglDepthFunc(GL_ALWAYS);
   panorama_->Activate();
   relief_->Activate();
-  ceiling_->Activate();
+  if (has_relief) ceiling_->Activate();
   imaged_->Activate();
-  SetUniforms();
+  SetUniforms(has_relief);
   quad_->Render();
   imaged_->Deactivate();
-  ceiling_->Deactivate();
+  if (has_relief) ceiling_->Deactivate();
   relief_->Deactivate();
   panorama_->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
   return 1;
 }
 
-void BackdropProp::SetUniforms() {
+void BackdropProp::SetUniforms(bool has_relief) {
   vtkShaderProgram& program = *quad_->Program;
   const simulation::ScopeView& view = picture_.view;
   const Projection& projection = backdrop_.projection;
@@ -169,7 +177,7 @@ void BackdropProp::SetUniforms() {
   const glm::dvec3 tip = view.tip / backdrop_.radius;
   program.SetUniformi("panorama", panorama_->GetTextureUnit());
   program.SetUniformi("relief", relief_->GetTextureUnit());
-  program.SetUniformi("reliefCeiling", ceiling_->GetTextureUnit());
+  if (has_relief) program.SetUniformi("reliefCeiling", ceiling_->GetTextureUnit());
   program.SetUniformi("imagedShare", imaged_->GetTextureUnit());
   SetUniform(program, "tip", tip);
   SetUniform(program, "clearance", 1.0 - glm::dot(tip, tip));

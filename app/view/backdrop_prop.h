@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <vtkNew.h>
 #include <vtkProp.h>
@@ -48,7 +49,9 @@ class BackdropProp : public vtkProp {
   ~BackdropProp() override;
 
  private:
-  void SetUniforms();
+  void SetUniforms(bool has_relief);
+  // What the search for the relief needs, made for the first picture that searches.
+  void PrepareSearch(vtkOpenGLRenderWindow* window);
   void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
             int channels, int type, const void* data) const;
 
@@ -58,6 +61,11 @@ class BackdropProp : public vtkProp {
   glm::ivec2 panorama_size_{0};
   int reduction_ = 1;   // panorama pixels a texel and axis
   bool wraps_ = false;  // a whole turn: left and right edge meet
+  struct Relief {
+    std::vector<float> relief;  // m
+    int width = 0, height = 0;
+  };
+  Relief unsearched_;
   double highest_ = 0;  // of the relief, m
   int block_ = 1;       // texels of the relief's ceiling
   FootageLight light_;

@@ -80,14 +80,21 @@ ReliefCeiling MakeReliefCeiling(const std::vector<float>& relief, int width, int
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(ceiling.width) +
            static_cast<std::size_t>(x);
   };
+  // Rows of a block first, all columns at once: a live preview of a depth map waits for this.
   std::vector<float> own(index(0, ceiling.height), 0.0f);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      float& highest = own[index(x / ceiling.block, y / ceiling.block)];
-      highest =
-          std::max(highest, relief[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                   static_cast<std::size_t>(x)]);
+  std::vector<float> highest(static_cast<std::size_t>(width));
+  for (int top = 0; top < height; top += ceiling.block) {
+    std::fill(highest.begin(), highest.end(), 0.0f);
+    for (int y = top; y < std::min(top + ceiling.block, height); ++y) {
+      const float* row = &relief[static_cast<std::size_t>(y) * highest.size()];
+      for (std::size_t x = 0; x < highest.size(); ++x)
+        highest[x] = highest[x] < row[x] ? row[x] : highest[x];
     }
+    for (int x = 0; x < width; ++x) {
+      float& of_block = own[index(x / ceiling.block, top / ceiling.block)];
+      of_block = std::max(of_block, highest[static_cast<std::size_t>(x)]);
+    }
+  }
   ceiling.relief = own;
   for (int y = 0; y < ceiling.height; ++y)
     for (int x = 0; x < ceiling.width; ++x)
