@@ -24,6 +24,9 @@ struct ViewArguments {
   int size = 512;
   bool plain = false;
   int relief_steps = 0;
+  std::string disturb;
+  int disturb_seed = 0;
+  double disturb_time = 0;
 };
 
 double Radians(const char* flag, double degrees) {
@@ -33,6 +36,19 @@ double Radians(const char* flag, double degrees) {
   return RadiansFromDegrees(degrees);
 }
 
+// "haze (blood in …), …" for the help, by the one list of them.
+std::string DisturbanceWords() {
+  struct Words {
+    std::string all;
+    void operator()(const char* name, double&, const Range&, const char*, const char* help) {
+      all += fmt::format("{}{} ({})", all.empty() ? "" : "; ", name,
+                         std::string_view(help).substr(0, std::string_view(help).size() - 1));
+    }
+  } words;
+  Disturbances().Visit(words);
+  return words.all;
+}
+
 void RunViewJob(const ViewArguments& arguments) {
   const simulation::RodPose pose{Radians("--latitude-deg", arguments.latitude_deg),
                                  Radians("--longitude-deg", arguments.longitude_deg),
@@ -40,6 +56,11 @@ void RunViewJob(const ViewArguments& arguments) {
                                  MetresFromMm(arguments.insertion_mm)};
   std::optional<double> head_roll;
   if (arguments.head_roll_deg) head_roll = Radians("--head-roll-deg", *arguments.head_roll_deg);
+  Disturbances disturbances;
+  if (!arguments.disturb.empty()) disturbances = ParseDisturbances(arguments.disturb);
+  disturbances.seed = arguments.disturb_seed;
+  disturbances.time = arguments.disturb_time;
+  CheckDisturbances(disturbances);
   const LoadedScene loaded = LoadScene(arguments.scene);
   const ScopeSpec& scope = loaded.scene.scope;
   const double view_angle = arguments.view_angle_deg
@@ -53,6 +74,7 @@ void RunViewJob(const ViewArguments& arguments) {
   Picture picture = PictureFromPose(pose, view_angle, field_of_view, head_roll);
   picture.plain = arguments.plain;
   picture.relief_steps = arguments.relief_steps;
+  picture.disturbances = disturbances;
   const ColourImage image = pictures.Draw(picture, arguments.size);
   WriteColourImage(arguments.output, image);
   if (!pictures.view().notice().empty())
@@ -95,6 +117,15 @@ void AddViewJob(CLI::App& program) {
          "near hides what is far and moves before it: 128 for a fine picture; 0: all colours "
          "lie on the bare sphere")
       ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  job->add_option("--disturb", arguments->disturb,
+                  "What disturbs the picture, each with a strength from 0 to 1, as in "
+                  "haze=0.5,bubbles=0.3: " +
+                      DisturbanceWords());
+  job->add_option("--disturb-seed", arguments->disturb_seed,
+                  "Another seed gives other bubbles, flakes and swirls")
+      ->capture_default_str();
+  job->add_option("--disturb-time", arguments->disturb_time, "Moment of what drifts and swirls, s")
       ->capture_default_str();
   job->add_option("-o,--output", arguments->output, "Picture to write, by its ending: .png, .tif…")
       ->required();

@@ -16,6 +16,7 @@
 #include "app/view/backdrop_prop.h"
 #include "app/view/context_render_window.h"
 #include "app/view/lens_model.h"
+#include "app/view/lens_pass.h"
 #include "app/view/lens_shader.h"
 #include "app/view/probe_mesh.h"
 #include "app/view/tool_mesh.h"
@@ -49,11 +50,14 @@ struct ArthroscopicView::Parts {
   ToolMesh tool_mesh;
   std::vector<std::unique_ptr<LensModel>> tissues;
   std::vector<std::size_t> vertex_counts;
+  LensPass lens_pass;
+  bool is_disturbed = false;  // the last frame, by that pass
   std::string notice;
   int size = 0;
 
   void ShowTool(const Picture& picture, const LensFrame& frame);
   vtkOpenGLFramebufferObject& drawn() const { return *window->GetRenderFramebuffer(); }
+  vtkOpenGLFramebufferObject& shown() { return is_disturbed ? lens_pass.result() : drawn(); }
 };
 
 void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& frame) {
@@ -109,7 +113,10 @@ ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
                 "LIBGL_ALWAYS_SOFTWARE=1");
 }
 
-ArthroscopicView::~ArthroscopicView() { parts_->window->Finalize(); }
+ArthroscopicView::~ArthroscopicView() {
+  parts_->lens_pass.ReleaseGraphicsResources(parts_->window);
+  parts_->window->Finalize();
+}
 
 void ArthroscopicView::SetBackdrop(const ColourImage& panorama, const DepthMap& depth,
                                    const Backdrop& backdrop) {
@@ -166,6 +173,7 @@ void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) 
 
 void ArthroscopicView::Render(const Picture& picture, int size) {
   Parts& p = *parts_;
+  CheckDisturbances(picture.disturbances);
   p.size = size;
   p.window->GetState()->Reset();  // others have drawn in this context
   p.window->SetSize(size, size);
@@ -192,13 +200,17 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   }
   p.ShowTool(picture, frame);
   p.window->Render();
+  p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
+  if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, size);
 }
 
 unsigned int ArthroscopicView::TextureId() const {
-  return parts_->drawn().GetColorAttachmentAsTextureObject(0)->GetHandle();
+  return parts_->shown().GetColorAttachmentAsTextureObject(0)->GetHandle();
 }
 
-ColourImage ArthroscopicView::ReadPixels() const { return parts_->window->ReadPicture(); }
+ColourImage ArthroscopicView::ReadPixels() const {
+  return parts_->window->ReadPicture(parts_->shown());
+}
 
 std::vector<float> ArthroscopicView::ReadDistances() const {
   const auto size = static_cast<std::size_t>(parts_->size);

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view/disturbances.h"
 #include "simulation/scene/image.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
@@ -45,6 +46,7 @@ struct Picture {
   // it and moves as the lens does; 0: its colours lie on the bare sphere. For still pictures:
   // without a graphics card 16 take 0.5 us a pixel, and the sphere 0.1.
   int relief_steps = 0;
+  Disturbances disturbances;  // over all but a plain picture
 };
 
 class ArthroscopicView {
@@ -76,14 +78,14 @@ class ArthroscopicView {
   void SetTissuePose(int index, const Pose& portal_from_tissue);
 
   // Draws into the texture, size x size pixels. The caller binds its own framebuffer,
-  // viewport and program afterwards.
+  // viewport and program afterwards. Throws Error(kBadArgument) for disturbances that are none.
   void Render(const Picture& picture, int size);
 
   // The last frame, as an OpenGL texture name: RGBA, opaque, first row at the bottom.
   unsigned int TextureId() const;
   ColourImage ReadPixels() const;
   // Distance from the tip at each pixel of the last frame, m; row-major from the top. 0 outside the
-  // window and under its mark.
+  // window and under its mark. Disturbances change none.
   std::vector<float> ReadDistances() const;
 
   // A sentence for the user, e.g. that the panorama was drawn smaller; empty when all is well.

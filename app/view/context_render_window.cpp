@@ -33,13 +33,13 @@ void ContextRenderWindow::OpenGLInitContext() {
   Superclass::OpenGLInitContext();
 }
 
-ColourImage ContextRenderWindow::ReadPicture() {
+ColourImage ContextRenderWindow::ReadPicture(vtkOpenGLFramebufferObject& drawn) {
   const int* size = GetActualSize();
   ColourImage image(size[0], size[1]);
   std::vector<std::uint8_t> rows(image.rgb.size());
   GetState()->PushReadFramebufferBinding();
-  GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
-  GetRenderFramebuffer()->ActivateReadBuffer(0);
+  drawn.Bind(GL_READ_FRAMEBUFFER);
+  drawn.ActivateReadBuffer(0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width, image.height, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
   GetState()->PopReadFramebufferBinding();

@@ -17,8 +17,9 @@ class ContextRenderWindow : public vtkGenericOpenGLRenderWindow {
   void OpenGLInitContext() override;
   // False where the context's OpenGL is too old or could not be loaded.
   bool IsReady() const { return Initialized && GlewInitValid; }
-  // The last frame as it was drawn.
-  ColourImage ReadPicture();
+  // The last frame as it was drawn, or what a pass of the same size made of it.
+  ColourImage ReadPicture() { return ReadPicture(*GetRenderFramebuffer()); }
+  ColourImage ReadPicture(vtkOpenGLFramebufferObject& drawn);
   // The caller keeps its context current.
   void MakeCurrent() override {}
   bool IsCurrent() override { return true; }

@@ -64,6 +64,22 @@ TEST_F(ViewJob, DrawsWhatTheViewDraws) {
   EXPECT_EQ(ReadColourImage(folder_ / "p.png").rgb, pictures.Draw(picture, 128).rgb);
 }
 
+TEST_F(ViewJob, DisturbsAsAsked) {
+  const auto drawn = [&](const std::string& options) {
+    const std::string file = (folder_ / "d.png").string();
+    const ProgramResult run =
+        RunProgram("view " + scene_ + kPose + " --size 96 " + options + " -o " + file, kNoDisplay);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return ReadColourImage(file).rgb;
+  };
+  const auto clear = drawn(""), hazy = drawn("--disturb haze=0.6,debris=1");
+  EXPECT_NE(hazy, clear);
+  EXPECT_EQ(drawn("--disturb haze=0.6,debris=1 --disturb-seed 0 --disturb-time 0"), hazy);
+  EXPECT_NE(drawn("--disturb haze=0.6,debris=1 --disturb-seed 2"), hazy);
+  EXPECT_NE(drawn("--disturb haze=0.6,debris=1 --disturb-time 2"), hazy);
+  EXPECT_EQ(drawn("--disturb haze=0 --disturb-time 2"), clear);
+}
+
 TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
   const std::string output = (folder_ / "none.png").string();
   const auto refuse = [&](const std::string& arguments, int code, const std::string& word) {
@@ -76,6 +92,11 @@ TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
   refuse(scene_ + " --roll-deg nan", 1, "--roll-deg");
   refuse(scene_ + " --insertion-mm nan", 1, "insert");
   refuse(scene_ + " --view-angle-deg 120", 2, "view-angle-deg");
+  refuse(scene_ + " --disturb smoke=1", 1, "there are haze, bubbles, debris, fog");
+  refuse(scene_ + " --disturb haze=7", 1, "between 0 and 1");
+  refuse(scene_ + " --disturb haze=nan", 1, "between 0 and 1");
+  refuse(scene_ + " --disturb haze=-1", 1, "between 0 and 1");
+  refuse(scene_ + " --disturb haze=1 --disturb-time nan", 1, "seconds");
   refuse(scene_ + " --size 0", 2, "size");
   refuse((folder_ / "absent").string(), 1, "absent");
 }

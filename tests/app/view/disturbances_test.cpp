@@ -1,0 +1,439 @@
+// What disturbs a picture: each as its numbers say, and nothing where nothing is on.
+#include "app/view/disturbances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+
+#include "app/view/drifting_bits.h"
+#include "simulation/core/units.h"
+#include "tests/app/view/view_scene.h"
+
+namespace arthro::test {
+namespace {
+
+using app::Disturbances;
+using app::Picture;
+using app::PictureFromPose;
+
+constexpr int kSize = 256;
+
+class DisturbedView : public ViewTest {
+ protected:
+  // A panorama seen along its middle from 10 mm behind the portal, every place at one distance.
+  void ShowWall(const ColourImage& panorama, double distance) {
+    Backdrop backdrop = MakeViewScene(16, 16).scene.backdrop;
+    backdrop.projection.centre_px = {(panorama.width - 1) / 2.0, (panorama.height - 1) / 2.0};
+    backdrop.projection.focal_px = 0.3 * panorama.width;
+    const auto relief = static_cast<float>(backdrop.radius - kTip - distance);
+    view_->SetBackdrop(panorama, DepthMap(panorama.width, panorama.height, relief), backdrop);
+  }
+  void ShowJoint() {
+    const LoadedScene loaded = MakeViewScene();
+    view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+    view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  }
+  ColourImage Draw(const Disturbances& disturbances, int size = kSize) {
+    picture_.disturbances = disturbances;
+    view_->Render(picture_, size);
+    return view_->ReadPixels();
+  }
+
+  static constexpr double kTip = 2e-3;
+  Picture picture_ = PictureFromPose({0, 0, 0, kTip}, 0.0, 1.4);
+};
+
+ColourImage Grey(std::uint8_t level) {
+  ColourImage image(256, 256);
+  std::ranges::fill(image.rgb, level);
+  return image;
+}
+
+double Light(std::uint8_t byte) { return std::pow(byte / 255.0, 2.2); }
+
+// Every strength alone.
+std::vector<Disturbances> EachAt(double strength) {
+  std::vector<Disturbances> all;
+  for (double Disturbances::*field :
+       {&Disturbances::haze, &Disturbances::bubbles, &Disturbances::debris, &Disturbances::fog,
+        &Disturbances::near_blur, &Disturbances::far_blur, &Disturbances::overexposure}) {
+    all.emplace_back();
+    all.back().*field = strength;
+  }
+  return all;
+}
+
+TEST_F(DisturbedView, WithNothingOnIsTheSameBytesAndTexture) {
+  ShowJoint();
+  picture_.instrument = ProbeInFront();
+  const ColourImage clear = Draw({});
+  const unsigned texture = view_->TextureId();
+  for (const Disturbances& one : EachAt(1.0)) {
+    EXPECT_NE(Draw(one).rgb, clear.rgb);
+    EXPECT_NE(view_->TextureId(), texture);
+  }
+  Disturbances none;
+  none.seed = 7;
+  none.time = 3.0;
+  EXPECT_EQ(Draw(none).rgb, clear.rgb);
+  EXPECT_EQ(view_->TextureId(), texture);
+  picture_.plain = true;
+  const ColourImage plain = Draw({});
+  for (const Disturbances& one : EachAt(1.0)) EXPECT_EQ(Draw(one).rgb, plain.rgb);
+}
+
+TEST_F(DisturbedView, IsAFunctionOfSeedAndTime) {
+  ShowJoint();
+  for (const Disturbances& one : EachAt(1.0)) {
+    Disturbances other = one;
+    const auto first = Draw(one).rgb;
+    other.seed = 5;
+    EXPECT_EQ(Draw(other).rgb != first, one.is_moving() || one.fog > 0);
+    other = one;
+    other.time = 1.7;
+    const auto later = Draw(other).rgb;
+    EXPECT_EQ(later != first, one.is_moving());
+    Draw({});
+    EXPECT_EQ(Draw(other).rgb, later);
+    EXPECT_EQ(Draw(one).rgb, first);
+  }
+}
+
+TEST_F(DisturbedView, DistancesStayAsTheyAre) {
+  ShowJoint();
+  Draw({});
+  const std::vector<float> clear = view_->ReadDistances();
+  Disturbances all;
+  all.haze = all.bubbles = all.debris = all.fog = all.near_blur = all.far_blur = 1;
+  Draw(all);
+  EXPECT_EQ(view_->ReadDistances(), clear);
+}
+
+// Beer-Lambert: over 20 mm at half strength red gains exp(0.5 * (100 - 27) * 0.02) = 2.1 times on
+// green at mean density; clouds that differ by half and the veil's own red leave at least 1.5.
+TEST_F(DisturbedView, BloodReddensTheMoreTheFartherOneLooks) {
+  Disturbances haze;
+  haze.haze = 0.5;
+  double last = 0;
+  for (const double distance : {5e-3, 15e-3, 35e-3}) {
+    ShowWall(Grey(170), distance);
+    const ColourImage picture = Draw(haze);
+    double red = 0, green = 0;
+    for (int y = 64; y < 192; ++y)
+      for (int x = 64; x < 192; ++x) {
+        red += Light(picture.at(x, y)[0]);
+        green += Light(picture.at(x, y)[1]);
+      }
+    std::printf("haze 0.5, %2.0f mm: red is %.2f times green\n", 1e3 * distance, red / green);
+    EXPECT_GT(red / green, distance < 10e-3 ? 1.05 : 1.5 * last);
+    last = red / green;
+  }
+}
+
+// Variance, in px², of the spread of a step from dark to bright along the middle row.
+double EdgeVariance(const ColourImage& picture) {
+  double sum = 0, mean = 0, square = 0;
+  const int y = picture.height / 2, half = picture.width / 4;
+  for (int x = picture.width / 2 - half; x < picture.width / 2 + half; ++x) {
+    const double step = double(picture.at(x + 1, y)[1]) - double(picture.at(x, y)[1]);
+    sum += step;
+    mean += step * x;
+    square += step * x * x;
+  }
+  mean /= sum;
+  return square / sum - mean * mean;
+}
+
+// A disc of diameter c has a standard deviation of c/4 along a line. A mipmap's boxes lie where
+// they lie, so that an edge is a little wider or narrower by its place: over eight places the mean
+// is within 15 %.
+TEST_F(DisturbedView, ABlurredEdgeIsAsWideAsTheDiscOfConfusion) {
+  constexpr int kPixels = 512, kPlaces = 8;
+  ColourImage step(1024, 1024);
+  const auto check = [&](double Disturbances::*field, double distance) {
+    Disturbances blur;
+    blur.*field = 0.8;
+    double sharp = 0, blurred = 0;
+    for (int place = 0; place < kPlaces; ++place) {
+      for (int y = 0; y < step.height; ++y)
+        for (int x = 0; x < step.width; ++x)
+          std::fill_n(step.at(x, y), 3, std::uint8_t(x < step.width / 2 + 3 * place ? 60 : 180));
+      ShowWall(step, distance);
+      sharp += EdgeVariance(Draw({}, kPixels)) / kPlaces;
+      blurred += EdgeVariance(Draw(blur, kPixels)) / kPlaces;
+    }
+    const double disc = app::BlurDiameter(blur, distance, picture_.field_of_view, kPixels / 2.0);
+    const double measured = std::sqrt(blurred), expected = std::sqrt(disc * disc / 16 + sharp);
+    std::printf("%s blur, %4.1f mm: disc %5.2f px, spread %5.2f px, expected %5.2f px\n",
+                field == &Disturbances::near_blur ? "near" : "far ", 1e3 * distance, disc, measured,
+                expected);
+    EXPECT_NEAR(measured, expected, 0.15 * expected);
+    return disc;
+  };
+  EXPECT_EQ(check(&Disturbances::far_blur, app::kFarBlurFocus), 0.0);
+  EXPECT_GT(check(&Disturbances::far_blur, 12e-3), 3.0);
+  EXPECT_GT(check(&Disturbances::far_blur, 40e-3), 10.0);
+  EXPECT_EQ(check(&Disturbances::near_blur, app::kNearBlurFocus), 0.0);
+  EXPECT_GT(check(&Disturbances::near_blur, 12e-3), 3.0);
+  EXPECT_GT(check(&Disturbances::near_blur, 6e-3), 10.0);
+}
+
+// What is sharp before a blurred background gives nothing of itself to it, and what is blurred
+// before a sharp one spreads over it.
+TEST_F(DisturbedView, OnlyWhatIsOutOfFocusSpreads) {
+  ShowWall(Grey(200), 40e-3);
+  picture_.instrument = app::InstrumentView{{0.03, 0, 0.009}, {-0.02, 0, 0.009}, 0.0};
+  const auto beside = [&](const Disturbances& blur) {
+    // A column of pixels across the darker shaft, and how far it reaches beyond its edge.
+    const ColourImage clear = Draw({}), blurred = Draw(blur);
+    const std::vector<float> distances = view_->ReadDistances();
+    int reached = 0;
+    for (int y = 0; y < kSize; ++y)
+      if (distances[std::size_t(y) * kSize + kSize / 2] > 0.02f)
+        reached += blurred.at(kSize / 2, y)[1] + 6 < clear.at(kSize / 2, y)[1] ? 1 : 0;
+    return reached;
+  };
+  Disturbances far, near;
+  far.far_blur = 1;
+  near.near_blur = 1;
+  EXPECT_LE(beside(far), 2);  // a pixel on each side
+  EXPECT_GE(beside(near), 4);
+}
+
+// 8-bit rounding of two greys of about 60 is 2 % of their light.
+TEST_F(DisturbedView, OverexposureIsAGainOfLight) {
+  ShowWall(Grey(60), 15e-3);
+  const ColourImage clear = Draw({});
+  for (const double strength : {0.2, 0.5, 1.0}) {
+    Disturbances over;
+    over.overexposure = strength;
+    const ColourImage bright = Draw(over);
+    double before = 0, after = 0;
+    for (int y = 100; y < 156; ++y)
+      for (int x = 100; x < 156; ++x) {
+        before += Light(clear.at(x, y)[1]);
+        after += Light(bright.at(x, y)[1]);
+      }
+    std::printf("overexposure %.1f: %.3f times the light, expected %.3f\n", strength,
+                after / before, app::ExposureGain(strength));
+    EXPECT_NEAR(after / before, app::ExposureGain(strength), 0.03 * app::ExposureGain(strength));
+  }
+}
+
+TEST_F(DisturbedView, FogComesFromTheRimAndTakesContrast) {
+  ColourImage checks(512, 512);
+  for (int y = 0; y < checks.height; ++y)
+    for (int x = 0; x < checks.width; ++x)
+      std::fill_n(checks.at(x, y), 3, std::uint8_t((x / 16 + y / 16) % 2 == 0 ? 60 : 180));
+  ShowWall(checks, 20e-3);
+  const ColourImage clear = Draw({});
+  // Mean step from a pixel to its third neighbour.
+  const auto detail = [&](const ColourImage& picture, double inner, double outer) {
+    double sum = 0, count = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x + 3 < kSize; ++x) {
+        const double r = std::hypot(x - 126.0, y - 127.5) / 128;
+        if (r < inner || r > outer) continue;
+        sum += std::abs(double(picture.at(x, y)[1]) - double(picture.at(x + 3, y)[1]));
+        ++count;
+      }
+    return sum / count;
+  };
+  double last = 1;
+  for (const double strength : {0.25, 0.5, 1.0}) {
+    Disturbances fog;
+    fog.fog = strength;
+    const ColourImage veiled = Draw(fog);
+    const double middle = detail(veiled, 0, 0.3) / detail(clear, 0, 0.3);
+    const double rim = detail(veiled, 0.7, 0.93) / detail(clear, 0.7, 0.93);
+    std::printf("fog %.2f leaves %.2f of the detail in the middle, %.2f at the rim\n", strength,
+                middle, rim);
+    EXPECT_LT(rim, last);
+    last = rim;
+    if (strength < 1.0) {
+      EXPECT_LT(rim, middle);
+      EXPECT_GT(middle, 0.9 - strength);
+    }
+  }
+  EXPECT_LT(last, 0.2);
+}
+
+double DiscArea(const std::vector<app::DriftingBit>& bits, double margin) {
+  double area = 0;
+  for (const auto& bit : bits) {
+    const double r = 0.5 * kSize * bit.radius * (1.0 + margin * bit.softness) + margin;
+    area += std::numbers::pi * r * r;
+  }
+  return area;
+}
+
+TEST_F(DisturbedView, BubblesChangeThePictureWhereTheyAreAndNowhereElse) {
+  ShowWall(Grey(120), 40e-3);
+  const ColourImage clear = Draw({});
+  int last = 0;
+  for (const double strength : {0.1, 0.4, 1.0}) {
+    Disturbances air;
+    air.bubbles = strength;
+    const auto bits = app::Bubbles(air, picture_.view, picture_.field_of_view);
+    const ColourImage picture = Draw(air);
+    int changed = 0, elsewhere = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        if (std::equal(picture.at(x, y), picture.at(x, y) + 3, clear.at(x, y))) continue;
+        ++changed;
+        const glm::dvec2 at((x + 0.5) / (0.5 * kSize) - 1.0, 1.0 - (y + 0.5) / (0.5 * kSize));
+        elsewhere += std::ranges::none_of(bits, [&](const app::DriftingBit& bit) {
+          return glm::distance(at, bit.centre) < bit.radius * (1 + 1.0 * bit.softness) + 0.02;
+        });
+      }
+    std::printf("bubbles %.1f: %d of %d in sight, %d px changed, discs of %.0f px\n", strength,
+                int(bits.size()), app::BubbleCount(strength), changed, DiscArea(bits, 0));
+    EXPECT_EQ(elsewhere, 0);
+    EXPECT_GT(changed, last);
+    EXPECT_LE(changed, DiscArea(bits, 1.0));
+    // Some overlap, fade in or reach out of the window.
+    EXPECT_GE(changed, 0.4 * DiscArea(bits, 0));
+    last = changed;
+  }
+  EXPECT_EQ(app::BubbleCount(0), 0);
+  EXPECT_EQ(app::BubbleCount(0.01), 1);
+  EXPECT_EQ(app::BubbleCount(1), app::kMostBubbles);
+}
+
+TEST_F(DisturbedView, DebrisBehindTheProbeIsNotSeen) {
+  ShowWall(Grey(60), 40e-3);
+  // A shaft across the window, 4 mm before the lens.
+  const app::InstrumentView shaft{{0.03, 0, 0.006}, {-0.03, 0, 0.006}, 0.0};
+  Disturbances debris;
+  debris.debris = 1;
+  int hidden = 0, seen_without = 0;
+  for (debris.seed = 0; debris.seed < 4; ++debris.seed) {
+    picture_.instrument.reset();
+    const ColourImage bare = Draw({}), bare_dirty = Draw(debris);
+    picture_.instrument = shaft;
+    const ColourImage clear = Draw({}), dirty = Draw(debris);
+    const std::vector<float> distances = view_->ReadDistances();
+    const auto flakes = app::Flakes(debris, picture_.view, picture_.field_of_view);
+    const auto is_over = [&](const glm::dvec2& at, const app::DriftingBit& flake) {
+      return glm::distance(at, flake.centre) < flake.radius * 1.5 * (1.0 + flake.softness);
+    };
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const float distance = distances[std::size_t(y) * kSize + x];
+        const glm::dvec2 at((x + 0.5) / (0.5 * kSize) - 1.0, 1.0 - (y + 0.5) / (0.5 * kSize));
+        if (distance <= 0.0f || distance > 0.03f ||
+            std::ranges::any_of(flakes, [&](const auto& flake) {
+              return flake.distance < distance && is_over(at, flake);
+            }))
+          continue;
+        EXPECT_TRUE(std::equal(dirty.at(x, y), dirty.at(x, y) + 3, clear.at(x, y)));
+        ++hidden;
+        seen_without += std::equal(bare.at(x, y), bare.at(x, y) + 3, bare_dirty.at(x, y)) ? 0 : 1;
+      }
+  }
+  std::printf(
+      "debris: %d px of the shaft with nothing before them, %d of them with debris behind\n",
+      hidden, seen_without);
+  EXPECT_GT(seen_without, 50);
+}
+
+TEST_F(DisturbedView, WhatIsNoStrengthIsRefusedInOneSentence) {
+  ShowJoint();
+  const auto refuse = [&](const std::function<void()>& act, const std::string& word) {
+    try {
+      act();
+      ADD_FAILURE() << "not refused: " << word;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  for (const double wrong : {-1.0, 7.0, double(NAN), double(INFINITY)}) {
+    for (const Disturbances& one : EachAt(wrong)) refuse([&] { Draw(one); }, "between 0 and 1");
+    Disturbances late;
+    late.time = wrong;
+    if (!std::isfinite(wrong)) refuse([&] { Draw(late); }, "seconds");
+  }
+  refuse([] { app::ParseDisturbances("haze=0.5,smoke=1"); }, "there are haze, bubbles, debris");
+  refuse([] { app::ParseDisturbances("haze=0.5,haze=1"); }, "haze");
+  refuse([] { app::ParseDisturbances("haze=7"); }, "between 0 and 1");
+  refuse([] { app::ParseDisturbances("haze=nan"); }, "between 0 and 1");
+  refuse([] { app::ParseDisturbances("haze=0.5x"); }, "between 0 and 1");
+  refuse([] { app::ParseDisturbances("haze"); }, "name=strength");
+  refuse([] { app::ParseDisturbances(""); }, "name=strength");
+  const Disturbances read = app::ParseDisturbances("fog=0.25,near_blur=1,haze=0");
+  EXPECT_EQ(read.fog, 0.25);
+  EXPECT_EQ(read.near_blur, 1.0);
+  EXPECT_EQ(read.haze + read.bubbles + read.debris, 0.0);
+}
+
+// Flakes stay where they are in the joint while the scope moves past them: parallax.
+TEST(DriftingBits, PassByAsTheScopeMoves) {
+  Disturbances debris;
+  debris.debris = 1;
+  const auto here = PictureFromPose({0, 0, 0, 0.010}, 0.0, 1.4).view;
+  auto there = here;
+  there.tip += 0.3e-3 * here.right;
+  const auto before = app::Flakes(debris, here, 1.4), after = app::Flakes(debris, there, 1.4);
+  int moved = 0;
+  for (const auto& a : before)
+    for (const auto& b : after)
+      if (a.shape == b.shape && glm::length(a.centre) < 0.5) {
+        ++moved;
+        // To first order the same way on the window as on the flake's own sphere.
+        const double expected = -0.3e-3 / a.distance / (2.0 * std::sin(1.4 / 4.0));
+        EXPECT_NEAR(b.centre.x - a.centre.x, expected, 0.2 * std::abs(expected));
+      }
+  EXPECT_GT(moved, 3);
+  // In the picture's own frame, those on the lens do not move with it.
+  Disturbances air;
+  air.bubbles = 1;
+  int stuck = 0;
+  for (const auto& a : app::Bubbles(air, here, 1.4))
+    for (const auto& b : app::Bubbles(air, there, 1.4))
+      stuck += a.shape == b.shape && a.centre == b.centre ? 1 : 0;
+  EXPECT_EQ(stuck, app::kMostBubbles / 4);
+}
+
+double CpuMilliseconds(const std::function<void()>& frame) {
+  double least = 1e9;
+  for (int batch = 0; batch < 2; ++batch) {
+    const std::clock_t start = std::clock();
+    for (int i = 0; i < 3; ++i) frame();
+    least = std::min(least, 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC / 3);
+  }
+  return least;
+}
+
+// Of the process, with llvmpipe's threads. No disturbance takes more than the picture itself does
+// twice over; all together no more than four times.
+TEST_F(DisturbedView, CostsLessThanThePictureTwiceOver) {
+  ShowJoint();
+  picture_.instrument = ProbeInFront();
+  Disturbances all = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+  for (const int size : {512, 1024}) {
+    const auto cost = [&](Disturbances what) {
+      Draw(what, size);  // compiles
+      return CpuMilliseconds([&] {
+        what.time += 0.04;
+        Draw(what, size);
+      });
+    };
+    const double clear = cost({});
+    std::printf("%4d px: %.1f ms of processor time a frame;", size, clear);
+    const char* names[] = {"haze", "bubbles", "debris", "fog", "near blur", "far blur", "over"};
+    const char* const* name = names;
+    for (const Disturbances& one : EachAt(0.5)) {
+      const double with = cost(one);
+      std::printf(" %s %+.1f,", *name++, with - clear);
+      EXPECT_LT(with, 3.0 * clear);
+    }
+    const double with = cost(all);
+    std::printf(" all %+.1f\n", with - clear);
+    EXPECT_LT(with, 5.0 * clear);
+  }
+}
+
+}  // namespace
+}  // namespace arthro::test
