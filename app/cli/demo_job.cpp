@@ -57,6 +57,8 @@ class Moments {
 
   void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,
              const simulation::WorldPicture* world) {
+    if (t < next_look_) return;
+    next_look_ = t + kLookEvery - 1e-6;
     const int last = static_cast<int>(moments_.size()) - 1;
     const auto index = static_cast<std::size_t>(
         std::clamp(part_ > 0.0 ? static_cast<int>((t - begin_) / part_) : 0, 0, last));
@@ -71,7 +73,8 @@ class Moments {
   const std::vector<Moment>& all() const { return moments_; }
 
  private:
-  double begin_, part_;
+  static constexpr double kLookEvery = 0.01;  // s, as often as the demo's hands are recorded
+  double begin_, part_, next_look_ = begin_;
   std::vector<Moment> moments_;
   std::vector<double> best_;
 };
@@ -90,11 +93,11 @@ void Run(const DemoJob& job) {
   simulation::ReplayReport report;
   if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
   Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
-  const auto rows =
-      simulation::Replay(loaded, trace, {}, progress, &report, LivingTissuesOf(loaded), LayersOf(loaded),
-                         [&](double t, const auto& snapshot, auto kind, const auto* world) {
-                           moments.Watch(t, snapshot, kind, world);
-                         });
+  const auto rows = simulation::Replay(
+      loaded, trace, {}, progress, &report, LivingTissuesOf(loaded), LayersOf(loaded),
+      [&](double t, const auto& snapshot, auto kind, const auto* world) {
+        moments.Watch(t, snapshot, kind, world);
+      });
 
   std::error_code fault;
   fs::create_directories(job.folder, fault);

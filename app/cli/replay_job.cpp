@@ -1,8 +1,9 @@
-// arthroscene replay SCENE TRACE -o forces.csv [--report r.json]
+// arthroscene replay SCENE TRACE -o forces.csv [--report r.json] [--pictures DIR] [--video FILE]
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "app/cli/options_cli.h"
 #include "app/cli/output_check.h"
 #include "app/cli/replay_pictures.h"
+#include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/scene_io.h"
@@ -27,9 +29,9 @@ namespace fs = std::filesystem;
 struct ReplayJob {
   fs::path scene, trace, forces, report;
   simulation::SessionOptions options;
-  fs::path pictures;
-  int size = 512;
-  double rate = 30.0;  // a second
+  fs::path pictures, video;
+  ReplayPictures::Form of_pictures, of_video{.size = 720};
+  std::string layout{WordOf(FrameShape::kSquare)};
 };
 
 // What a replay reads of a scene.
@@ -51,25 +53,41 @@ std::vector<fs::path> FilesOf(const LoadedScene& loaded) {
 
 void Run(const ReplayJob& job) {
   CheckOptions(job.options);
-  CheckOutputs({job.forces, job.report}, {job.trace, job.scene});
-  if (!job.pictures.empty()) CheckOutputFolder(job.pictures, {job.forces, job.report});
+  const std::vector<fs::path> outputs{job.forces, job.report, job.video};
+  CheckOutputs(outputs, {job.trace, job.scene});
+  if (!job.pictures.empty()) CheckOutputFolder(job.pictures, outputs);
+  const FrameShape shape = FrameShapeOf(job.layout);
+  const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
+  if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
   std::string notice;
   const std::vector<simulation::TraceRow> trace = simulation::ReadTraceOrLog(job.trace, notice);
   if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
-  CheckOutputs({job.forces, job.report}, FilesOf(loaded));
+  CheckOutputs(outputs, FilesOf(loaded));
+
   std::optional<ReplayPictures> pictures;
+  std::optional<VideoFile> video;
+  if (!job.pictures.empty() || !job.video.empty())
+    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t);
+  const auto add = [&](ReplayPictures::Form form, ReplayPictures::Take take) {
+    form.shape = shape;
+    pictures->AddRow(form, std::move(take));
+  };
+  if (!job.pictures.empty()) add(job.of_pictures, IntoFolder(job.pictures));
+  if (!job.video.empty()) {
+    video.emplace(job.video, video_size, job.of_video.rate);
+    add(job.of_video, [&](const ColourImage& picture) { video->Add(picture); });
+  }
   simulation::ReplayWatch watch;
-  if (!job.pictures.empty()) {
-    pictures.emplace(loaded, job.pictures, job.size, job.rate);
+  if (pictures)
     watch = [&](double t, const auto& snapshot, auto kind, const auto* world) {
       pictures->Watch(t, snapshot, kind, world);
     };
-  }
   simulation::ReplayReport report;
-  const auto rows = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report,
-                                       LivingTissuesOf(loaded), LayersOf(loaded), watch);
-  WriteAtomically(job.forces, simulation::ForcesText(rows, loaded.scene));
+  const auto forces = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report,
+                                         LivingTissuesOf(loaded), LayersOf(loaded), watch);
+  if (video) video->Finish();
+  WriteAtomically(job.forces, simulation::ForcesText(forces, loaded.scene));
   if (!job.report.empty())
     WriteAtomically(job.report, simulation::ReportText(report, loaded.scene));
 }
@@ -88,11 +106,22 @@ void AddReplayJob(CLI::App& program) {
   command->add_option("--report", job->report, "Report as JSON: peaks, contacts, faults, times");
   command->add_option("--pictures", job->pictures,
                       "Folder for what the scope saw: frame_00000.png and on");
-  command->add_option("--size", job->size, "Width and height of a picture, px")
+  command->add_option("--size", job->of_pictures.size, "Height of a picture, px")
       ->check(CLI::Range(StillPictures::kMinSize, StillPictures::kMaxSize))
       ->capture_default_str();
-  command->add_option("--rate", job->rate, "Pictures a second")
+  command->add_option("--rate", job->of_pictures.rate, "Pictures a second")
       ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  command->add_option("--video", job->video,
+                      "Film of what the scope saw: .mp4 or .mkv (H.264), .avi (Motion JPEG)");
+  command->add_option("--video-size", job->of_video.size, "Height of the film, px, even")
+      ->capture_default_str();
+  command->add_option("--fps", job->of_video.rate, "Pictures of the film a second")
+      ->capture_default_str();
+  command
+      ->add_option("--layout", job->layout,
+                   "Of both: square, or the round picture in the middle of a black frame, 4:3 "
+                   "or 16:9")
       ->capture_default_str();
   AddOptions(*command, job->options, "Force");
   command->callback([job] { Run(*job); });

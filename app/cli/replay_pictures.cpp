@@ -1,5 +1,7 @@
 #include "app/cli/replay_pictures.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,28 +11,31 @@
 
 namespace arthro::app {
 
-ReplayPictures::ReplayPictures(const LoadedScene& loaded, std::filesystem::path folder, int size,
-                               double rate)
-    : scene_(loaded.scene),
-      folder_(std::move(folder)),
-      size_(size),
-      period_(1.0 / rate),
-      pictures_(loaded) {
-  std::error_code fault;
-  std::filesystem::create_directories(folder_, fault);
-  if (fault)
-    throw Error(Code::kFile,
-                "this folder could not be made: " + fault.message() + "; choose another", folder_);
+void ReplayPictures::AddRow(const Form& form, Take take) {
+  const double count = std::ceil((end_ - begin_) * form.rate - 1e-6);
+  rows_.push_back({form, std::move(take), 0, std::max(1, static_cast<int>(count))});
 }
 
 void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
                            simulation::ToolKind kind, const simulation::WorldPicture* world) {
-  if (count_ == 0) begin_ = t;
-  if (t < begin_ + count_ * period_ - 1e-9) return;
-  if (world != nullptr) tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
-  WriteColourImage(folder_ / fmt::format("frame_{:05}.png", count_),
-                   pictures_.Draw(PictureOf(snapshot, kind, scene_), size_));
-  ++count_;
+  for (Row& row : rows_)
+    while (row.count < row.all && t >= begin_ + row.count / row.form.rate - 1e-9) {
+      if (world != nullptr) tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
+      const Picture picture = PictureOf(snapshot, kind, scene_);
+      row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
+      ++row.count;
+    }
+}
+
+ReplayPictures::Take IntoFolder(const std::filesystem::path& folder) {
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault)
+    throw Error(Code::kFile,
+                "this folder could not be made: " + fault.message() + "; choose another", folder);
+  return [folder, count = 0](const ColourImage& picture) mutable {
+    WriteColourImage(folder / fmt::format("frame_{:05}.png", count++), picture);
+  };
 }
 
 Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,

@@ -1,9 +1,14 @@
-// A replay as a row of pictures, frame_00000.png and on: what the trainee saw, tissue and all.
+// A replay as rows of pictures, each at a constant rate: what the trainee saw, tissue and all.
+// Picture i of a row is of the tick at t = begin + i/rate, or the next one, which is a millisecond
+// away at most, so that the same trace gives the same pictures. It stands for [t, t + 1/rate), so
+// that a film of them lasts as long as the trace.
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <functional>
+#include <vector>
 
+#include "app/recording/frame_shape.h"
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
 #include "simulation/scene/scene_io.h"
@@ -13,21 +18,36 @@ namespace arthro::app {
 
 class ReplayPictures {
  public:
-  // Makes the folder. `size` px a side, `rate` pictures a second. Throws Error.
-  ReplayPictures(const LoadedScene& loaded, std::filesystem::path folder, int size, double rate);
+  using Take = std::function<void(const ColourImage&)>;
+  struct Form {
+    FrameShape shape = FrameShape::kSquare;
+    int size = 512;      // px, height
+    double rate = 30.0;  // a second
+  };
 
+  // Of a trace from `begin` to `end`, s.
+  ReplayPictures(const LoadedScene& loaded, double begin, double end)
+      : scene_(loaded.scene), begin_(begin), end_(end), pictures_(loaded) {}
+
+  void AddRow(const Form& form, Take take);
   void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,
              const simulation::WorldPicture* world);
-  int count() const { return count_; }
 
  private:
+  struct Row {
+    Form form;
+    Take take;
+    int count = 0, all = 0;
+  };
   const Scene& scene_;
-  std::filesystem::path folder_;
-  int size_, count_ = 0;
-  double period_, begin_ = 0;
+  double begin_, end_;
   StillPictures pictures_;
   LiveTissues tissues_;
+  std::vector<Row> rows_;
 };
+
+// Makes the folder, and writes frame_00000.png and on. Throws Error(kFile).
+ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
 // What the view shows of a moment: the camera head is held upright, as surgeons do, while the scope
 // turns in it.

@@ -1,17 +1,15 @@
 #include "authoring/footage/footage.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "authoring/footage/picture_list.h"
+#include "authoring/footage/quiet_decoders.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/image_io.h"
 
@@ -21,16 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMostFrames = 1e7;  // more is a broken header
-
-// Decoders talk on stderr, where our one sentence belongs. OpenCV reads FFmpeg's level from the
-// environment when it first opens a video; a level that the user has set stays.
-void QuietDecoders() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-  });
-}
 
 // File backends only: a name must never open a camera or a network address.
 cv::VideoCapture OpenVideo(const fs::path& file) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,10 @@ fs::path NameBeside(const fs::path& target) {
   beside.replace_filename(fmt::format(".{}.{}.partial{}", target.stem().string(), ::getpid(),
                                       target.extension().string()));
   return beside;
+}
+
+fs::path FolderOf(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
 // Flushes a file or a folder's entry to disk.
@@ -59,28 +64,44 @@ std::string WhyNotWritten(int error) {
   return std::strerror(error);
 }
 
-void WriteAtomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+PartialFile::PartialFile(fs::path target) : target_(std::move(target)) {
+  const fs::path folder = FolderOf(target_);
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
     throw Error(Code::kFile,
                 fmt::format("the folder {} does not exist; create it first", folder.string()),
-                target);
-  if (fs::is_directory(target, ignored))
-    throw Error(Code::kFile, "this is a folder; give the name of a file", target);
+                target_);
+  if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored))
+    throw Error(Code::kFile,
+                fs::is_directory(target_, ignored)
+                    ? "this is a folder; give the name of a file"
+                    : "this is a device or a pipe; give the name of a file",
+                target_);
+  beside_ = NameBeside(target_);
+}
+
+PartialFile::~PartialFile() {
+  std::error_code ignored;
+  if (!is_in_place_) fs::remove(beside_, ignored);
+}
+
+void PartialFile::PutInPlace() {
+  Sync(beside_, O_RDONLY, target_);
+  if (::rename(beside_.c_str(), target_.c_str()) != 0)
+    throw Error(Code::kFile, "could not be put in place: " + WhyNotWritten(errno), target_);
+  is_in_place_ = true;
+  Sync(FolderOf(target_), O_RDONLY | O_DIRECTORY, target_);
+}
+
+void WriteAtomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+  std::error_code ignored;
   // Into a device or a pipe as it is: a file in its place would be another thing.
-  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return write(target);
-  const fs::path beside = NameBeside(target);
-  try {
-    write(beside);
-    Sync(beside, O_RDONLY, target);
-    if (::rename(beside.c_str(), target.c_str()) != 0)
-      throw Error(Code::kFile, "could not be put in place: " + WhyNotWritten(errno), target);
-  } catch (...) {
-    fs::remove(beside, ignored);
-    throw;
-  }
-  Sync(folder, O_RDONLY | O_DIRECTORY, target);
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored) &&
+      !fs::is_directory(target, ignored))
+    return write(target);
+  PartialFile file(target);
+  write(file.beside());
+  file.PutInPlace();
 }
 
 void WriteAtomically(const fs::path& target, std::string_view bytes) {

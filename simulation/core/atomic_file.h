@@ -18,6 +18,26 @@ void WriteAtomically(const std::filesystem::path& target,
 // The same for bytes already in memory. "-" writes to standard output.
 void WriteAtomically(const std::filesystem::path& target, std::string_view bytes);
 
+// A file that takes long to fill, such as a film: fill beside(), then put it in place. One that is
+// dropped before is removed.
+class PartialFile {
+ public:
+  // Throws Error(kFile) where the folder is missing or `target` is something else than a file.
+  explicit PartialFile(std::filesystem::path target);
+  ~PartialFile();
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  const std::filesystem::path& target() const { return target_; }
+  const std::filesystem::path& beside() const { return beside_; }
+  // Flushes it to disk and renames it. Throws Error(kFile).
+  void PutInPlace();
+
+ private:
+  std::filesystem::path target_, beside_;
+  bool is_in_place_ = false;
+};
+
 // What an errno of a failed write means, and what to do.
 std::string WhyNotWritten(int error);
 

@@ -98,6 +98,7 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
     if (session.HasNewTissues()) CountTissues(*(world = session.tissues()), counts.tissues);
     if (scope_sample.valid) Count(session.snapshot().scope, dt, counts.hand[0]);
     if (instrument_sample.valid) Count(session.snapshot().instrument, dt, counts.hand[1]);
+    if (watch) watch(t, session.snapshot(), session.instrument(), world);
   };
 
   const double begin = trace.front().sample.t, end = trace.back().sample.t;
@@ -122,7 +123,6 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
                         is_scope ? session.snapshot().scope : session.snapshot().instrument});
       ++counts.hand[is_scope ? 0 : 1].rows;
     }
-    if (watch) watch(next, session.snapshot(), session.instrument(), world);
   }
   progress.Step("replay", 1.0);
   if (report != nullptr) {

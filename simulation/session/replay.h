@@ -53,8 +53,8 @@ struct ReplayReport {
   std::vector<TissueReport> tissues;     // those that live
 };
 
-// Called after the ticks of each instant of the trace, its own t in s; `world` is null where
-// nothing lives.
+// Called after each tick, its t in s; they are a millisecond or a little less apart, and one is on
+// each row of the trace. `world` is null where nothing lives.
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
 

@@ -1,10 +1,15 @@
 // A session again from what its devices said.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
+#include "authoring/footage/footage.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_format.h"
 #include "simulation/device/log/log_replay.h"
+#include "simulation/scene/image_io.h"
 #include "tests/support/run_program.h"
+#include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::test {
@@ -50,6 +55,106 @@ TEST(ReplayJob, ADeviceLogGivesTheForcesOfItsTraceEachTime) {
   // The machine went off in the middle of the next block.
   WriteAtomically(folder / "torn.bin", log + LogBlock(payload, count).substr(0, 1000));
   EXPECT_TRUE(forces("torn.bin", "d.csv") == expected);
+}
+
+// Both hands swing for a second, with a row every 7 ms and a pause of 0.2 s in the middle.
+std::filesystem::path WriteSwing(const std::filesystem::path& file) {
+  std::vector<TraceRow> trace;
+  for (double t = 3.0; t<4.0001; t += t> 3.4 && t < 3.5 ? 0.2 : 0.007)
+    for (const DeviceRole device : {DeviceRole::kScope, DeviceRole::kInstrument}) {
+      TraceRow& row = trace.emplace_back();
+      row.device = device;
+      row.sample.t = t;
+      row.sample.hip_in_device = {0.01 * std::sin(9 * t), 0.01 * std::cos(7 * t), -0.18};
+      row.sample.valid = true;
+    }
+  trace.push_back(trace.back());
+  trace.back().sample.t = 4.0;
+  std::erase_if(trace, [](const TraceRow& row) { return row.sample.t > 4.0; });
+  WriteTrace(file, trace);
+  return file;
+}
+
+double Psnr(const cv::Mat& film, const ColourImage& picture) {
+  const cv::Mat given(picture.height, picture.width, CV_8UC3,
+                      const_cast<std::uint8_t*>(picture.rgb.data()));
+  cv::Mat a, b;
+  cv::cvtColor(film, a, cv::COLOR_RGB2GRAY);
+  cv::cvtColor(given, b, cv::COLOR_RGB2GRAY);
+  return cv::PSNR(a, b);
+}
+
+// 33 dB in luma as in tests/app/recording; pictures a sixth of a second apart differ by more.
+TEST(ReplayJob, AFilmLastsAsLongAsTheTraceAndHoldsThePictures) {
+  TempFolder folder;
+  const auto scene = WriteSmallScene(folder / "knee");
+  const auto trace = WriteSwing(folder / "swing.csv");
+  const auto play = [&](const std::string& flags) {
+    return RunProgram("replay " + scene.string() + " " + trace.string() + " -o " +
+                      (folder / "f.csv").string() + " " + flags);
+  };
+  ASSERT_EQ(play("").exit_code, 0);
+  const std::string forces = ReadWholeFile(folder / "f.csv");
+  const auto film = folder / "film.mp4";
+  const ProgramResult run =
+      play("--video " + film.string() + " --video-size 180 --fps 24 --layout 4:3 --pictures " +
+           (folder / "frames").string() + " --size 180 --rate 6");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_TRUE(ReadWholeFile(folder / "f.csv") == forces) << "looking changed the forces";
+
+  auto footage = authoring::Footage::Open(film);
+  EXPECT_EQ(footage.info().width, 240);
+  EXPECT_EQ(footage.info().height, 180);
+  EXPECT_NEAR(footage.info().frames_per_second, 24.0, 1e-9);
+  std::vector<cv::Mat> frames(1);
+  while (footage.Next(frames.back())) frames.emplace_back();
+  frames.pop_back();
+  ASSERT_EQ(frames.size(), 24u) << "one second";
+  double worst = 1e9;
+  for (int i = 0; i < 6; ++i) {
+    const ColourImage picture =
+        ReadColourImage(folder / "frames" / fmt::format("frame_{:05}.png", i));
+    ASSERT_EQ(picture.width, 240);
+    const double own = Psnr(frames[static_cast<std::size_t>(4 * i)], picture);
+    worst = std::min(worst, own);
+    for (std::size_t other = 0; other < frames.size(); other += 4)
+      if (other != static_cast<std::size_t>(4 * i)) {
+        EXPECT_LT(Psnr(frames[other], picture), own - 3.0) << i << " and " << other;
+      }
+    for (int x = 0; x < 30; ++x) EXPECT_EQ(picture.at(x, 90)[0], 0) << "black beside it";
+  }
+  EXPECT_GT(worst, 33.0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "frame_00006.png"));
+  std::printf("worst frame %.1f dB\n", worst);
+
+  const std::string bytes = ReadWholeFile(film);
+  ASSERT_EQ(play("--video " + film.string() + " --video-size 180 --fps 24 --layout 4:3").exit_code,
+            0);
+  EXPECT_TRUE(ReadWholeFile(film) == bytes) << "the same trace gave another film";
+}
+
+TEST(ReplayJob, AFilmThatCannotBeIsRefusedBeforeAnythingIsPlayed) {
+  TempFolder folder;
+  const auto scene = WriteSmallScene(folder / "knee");
+  const auto trace = WriteSwing(folder / "swing.csv");
+  const auto refusal = [&](const std::string& flags) {
+    const ProgramResult run = RunProgram("replay " + scene.string() + " " + trace.string() +
+                                         " -o " + (folder / "f.csv").string() + " " + flags);
+    EXPECT_EQ(run.exit_code, 1) << flags;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "f.csv")) << flags;
+    return run.err;
+  };
+  const std::string film = "--video " + (folder / "film").string();
+  EXPECT_NE(refusal(film + ".gif").find(".mp4, .mkv or .avi"), std::string::npos);
+  EXPECT_NE(refusal("--video " + (folder / "no" / "film.mp4").string()).find("does not exist"),
+            std::string::npos);
+  EXPECT_NE(refusal(film + ".mp4 --video-size 181").find("even"), std::string::npos);
+  EXPECT_NE(refusal(film + ".mp4 --video-size 0").find("even"), std::string::npos);
+  EXPECT_NE(refusal(film + ".mp4 --fps 0").find("pictures a second"), std::string::npos);
+  EXPECT_NE(refusal(film + ".mp4 --layout 5:4").find("square, 4:3 or 16:9"), std::string::npos);
+  EXPECT_NE(refusal("--video " + trace.string()).find("would overwrite it"), std::string::npos);
 }
 
 }  // namespace

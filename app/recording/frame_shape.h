@@ -1,0 +1,31 @@
+// The black frame that a camera unit puts round the scope's picture: as high as the picture, and
+// the picture in its middle. px.
+#pragma once
+
+#include <string_view>
+
+#include "simulation/scene/image.h"
+
+namespace arthro::app {
+
+enum class FrameShape { kSquare, k4x3, k16x9 };
+
+// As on the command line: "square", "4:3", "16:9". Throws Error(kBadArgument) for another word.
+FrameShape FrameShapeOf(std::string_view word);
+std::string_view WordOf(FrameShape shape);
+
+// To the next even number, which films need.
+int FrameWidth(FrameShape shape, int height);
+
+// Where the square picture goes on a screen: the frame as large as the screen lets it be, in its
+// middle, and in that the picture. From the top left.
+struct PicturePlace {
+  int x = 0, y = 0, edge = 0;
+  friend bool operator==(const PicturePlace&, const PicturePlace&) = default;
+};
+PicturePlace PlaceOnScreen(FrameShape shape, int width, int height);
+
+// A square picture in its frame.
+ColourImage LaidOut(const ColourImage& picture, FrameShape shape);
+
+}  // namespace arthro::app
