@@ -42,6 +42,7 @@ Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kin
                   const Scene& scene) {
   Picture picture =
       PictureFromPose(snapshot.scope.pose, scene.scope.view_angle, scene.scope.field_of_view, 0.0);
+  picture.relief = kUsualRelief;
   if (snapshot.instrument.fault != simulation::Fault::kNone) return picture;
   picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
                                       snapshot.instrument.proxy_in_portal,

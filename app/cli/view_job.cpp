@@ -23,10 +23,10 @@ struct ViewArguments {
   std::optional<double> view_angle_deg, head_roll_deg, field_of_view_deg;
   int size = 512;
   bool plain = false;
-  int relief_steps = 0;
   std::string disturb;
   int disturb_seed = 0;
   double disturb_time = 0;
+  std::optional<int> relief_steps, relief_cell;
 };
 
 double Radians(const char* flag, double degrees) {
@@ -73,8 +73,10 @@ void RunViewJob(const ViewArguments& arguments) {
   StillPictures pictures(loaded);
   Picture picture = PictureFromPose(pose, view_angle, field_of_view, head_roll);
   picture.plain = arguments.plain;
-  picture.relief_steps = arguments.relief_steps;
   picture.disturbances = disturbances;
+  picture.relief = arguments.plain || arguments.relief_steps ? ReliefSearch{} : kUsualRelief;
+  if (arguments.relief_steps) picture.relief.steps = *arguments.relief_steps;
+  if (arguments.relief_cell) picture.relief.cell = *arguments.relief_cell;
   const ColourImage image = pictures.Draw(picture, arguments.size);
   WriteColourImage(arguments.output, image);
   if (!pictures.view().notice().empty())
@@ -115,9 +117,8 @@ void AddViewJob(CLI::App& program) {
          "--relief-steps", arguments->relief_steps,
          "Places along a ray, at most, that are held against the depth map, so that what is "
          "near hides what is far and moves before it: 128 for a fine picture; 0: all colours "
-         "lie on the bare sphere")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
+         "lie on the bare sphere; where not given 64, and 0 with --plain")
+      ->check(CLI::Range(0, 4096));
   job->add_option("--disturb", arguments->disturb,
                   "What disturbs the picture, each with a strength from 0 to 1, as in "
                   "haze=0.5,bubbles=0.3: " +
@@ -127,6 +128,11 @@ void AddViewJob(CLI::App& program) {
       ->capture_default_str();
   job->add_option("--disturb-time", arguments->disturb_time, "Moment of what drifts and swirls, s")
       ->capture_default_str();
+  job->add_option(
+         "--relief-cell", arguments->relief_cell,
+         "Cells of so many pixels share one search, and each pixel closes in from there; "
+         "1: every pixel searches. Where not given 8, and 1 with --relief-steps or --plain")
+      ->check(CLI::Range(1, 64));
   job->add_option("-o,--output", arguments->output, "Picture to write, by its ending: .png, .tif…")
       ->required();
   job->footer(

@@ -33,6 +33,8 @@ Picture PictureOf(const EditorState& state) {
   const Scene& scene = state.document().scene;
   Picture picture;
   picture.field_of_view = scene.scope.field_of_view;
+  picture.relief = kUsualRelief;
+  picture.samples = 2;
   const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
   if (state.practice) {
     const auto& snapshot = state.practice->snapshot();

@@ -1,6 +1,7 @@
 #include "app/view/arthroscopic_view.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <vtkCamera.h>
@@ -13,7 +14,7 @@
 #include <vtkTextureObject.h>
 #include <vtk_glew.h>
 
-#include "app/view/backdrop_prop.h"
+#include "app/view/backdrop/backdrop_prop.h"
 #include "app/view/context_render_window.h"
 #include "app/view/lens_model.h"
 #include "app/view/lens_pass.h"
@@ -222,10 +223,13 @@ std::vector<float> ArthroscopicView::ReadDistances() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, parts_->size, parts_->size, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
   state->PopReadFramebufferBinding();
+  const double middle = 0.5 * (parts_->size - 1);
   for (std::size_t y = 0; y < size; ++y)
     for (std::size_t x = 0; x < size; ++x) {
       const float depth = stored[(size - 1 - y) * size + x];
-      distances[y * size + x] = depth > 0.0f ? static_cast<float>(DistanceFromStored(depth)) : 0.0f;
+      const bool is_inside = std::hypot(double(x) - middle, double(y) - middle) < middle + 1.0;
+      distances[y * size + x] =
+          is_inside && depth > 0.0f ? static_cast<float>(DistanceFromStored(depth)) : 0.0f;
     }
   return distances;
 }

@@ -35,6 +35,16 @@ struct InstrumentView {
   friend bool operator==(const InstrumentView&, const InstrumentView&) = default;
 };
 
+// How a ray is held against the relief, which then hides what is behind it and moves as the lens
+// does. With cells, rays through the corners of cells of pixels are searched, and each pixel closes
+// in from there: what is thinner than a cell may be missed. `bench view` prints time and error.
+struct ReliefSearch {
+  int steps = 0;  // places along a ray, at most; 0: colours lie on the bare sphere
+  int cell = 1;   // px; 1: every pixel searches
+  friend bool operator==(const ReliefSearch&, const ReliefSearch&) = default;
+};
+inline constexpr ReliefSearch kUsualRelief{64, 8};
+
 // One frame.
 struct Picture {
   simulation::ScopeView view;
@@ -42,11 +52,11 @@ struct Picture {
   double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
   std::optional<InstrumentView> instrument;
   bool plain = false;  // backdrop colours only: no light, softness, mark or models
-  // Places along a ray, at most, that are held against the relief, which then hides what is behind
-  // it and moves as the lens does; 0: its colours lie on the bare sphere. For still pictures:
-  // without a graphics card 16 take 0.5 us a pixel, and the sphere 0.1.
-  int relief_steps = 0;
   Disturbances disturbances;  // over all but a plain picture
+  ReliefSearch relief;
+  // Looks at the panorama a pixel, at most: eight serve footprints eight times as long as wide. Two
+  // are for what moves: quicker, and a fine pattern may blur or shimmer.
+  int samples = 8;
 };
 
 class ArthroscopicView {

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/view/backdrop_texture.h"
+#include "app/view/backdrop/backdrop_texture.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/grid_picture.h"
@@ -239,23 +239,92 @@ TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
       const TracedPicture traced = TraceWindow(backdrop, loaded.panorama, picture.view,
                                                picture.field_of_view, size, {}, &loaded.depth);
       double share_before = 1;
-      for (const int steps : {0, 16, 128, 1024}) {
-        picture.relief_steps = steps;
+      for (const app::ReliefSearch relief :
+           {app::ReliefSearch{0, 1}, {16, 1}, {128, 1}, {1024, 1}, {64, 4}}) {
+        picture.relief = relief;
         view_->Render(picture, size);
         const ReliefAgreement off = CompareWithTraced(view_->ReadPixels(), view_->ReadDistances(),
                                                       traced, picture, backdrop.projection);
         ASSERT_GT(off.compared, 1000);
         const double share = 1.0 * off.elsewhere / off.compared;
         std::printf(
-            "relief, %s, %2.0f deg, %4d steps: %5.2f %% of %d pixels elsewhere, the others off by "
+            "relief, %s, %2.0f deg, %4d steps, cells of %d: %5.2f %% of %d pixels elsewhere, the "
+            "others off by "
             "at most %.2g mm and %d of 255\n",
-            is_equirectangular ? "equirectangular" : "gnomonic", angle, steps, 100 * share,
-            off.compared, 1e3 * off.worst, off.worst_colour);
+            is_equirectangular ? "equirectangular" : "gnomonic", angle, relief.steps, relief.cell,
+            100 * share, off.compared, 1e3 * off.worst, off.worst_colour);
+        if (relief.cell > 1) {
+          // Of this small picture a cell is as wide as five of a usual one.
+          EXPECT_LT(share, 0.02);
+          continue;
+        }
         EXPECT_LE(share, share_before);
         share_before = share;
-        if (steps == 1024) {
+        if (relief.steps == 1024) {
           EXPECT_LT(share, 0.01);
         }
+      }
+    }
+  }
+}
+
+// What hides what: a ball that a lens on the high side of the step sees half of.
+TEST_F(BackdropView, WhatIsBeforeTheReliefEndsWhereTheReferenceTracerEndsIt) {
+  for (const bool is_equirectangular : {false, true}) {
+    const LoadedScene loaded = CliffScene(is_equirectangular);
+    const Backdrop& backdrop = loaded.scene.backdrop;
+    const Picture usual = [] {
+      Picture picture = PictureFromPose({0.0, -0.45, 1.6, 0.032}, RadiansFromDegrees(70), 1.5);
+      picture.relief = app::kUsualRelief;
+      return picture;
+    }();
+    SurfaceMesh ball = Ellipsoid(glm::dvec3(0.003));
+    for (glm::dvec3& x : ball.vertices) x += glm::dvec3(0.004, 0.0, 0.042);
+    Tissue tissue;
+    view_->SetBackdrop(loaded.panorama, loaded.depth, backdrop);
+    view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+    constexpr int kSize = 256;
+    const ReferenceMesh mesh{&ball};
+    const TracedPicture traced = TraceWindow(backdrop, loaded.panorama, usual.view,
+                                             usual.field_of_view, kSize, {&mesh, 1}, &loaded.depth);
+    for (const app::ReliefSearch relief : {app::kUsualRelief, app::ReliefSearch{}}) {
+      Picture picture = usual;
+      picture.relief = relief;
+      view_->Render(picture, kSize);
+      const std::vector<float> bare = [&] {
+        view_->SetTissues({}, {});
+        view_->Render(picture, kSize);
+        auto distances = view_->ReadDistances();
+        view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+        view_->Render(picture, kSize);
+        return distances;
+      }();
+      const std::vector<float> drawn = view_->ReadDistances();
+      int on_ball = 0, hidden = 0, beyond = 0;
+      for (int y = 2; y < kSize - 2; ++y)
+        for (int x = 2; x < kSize - 2; ++x) {
+          const auto at = [&](int u, int v) {
+            return static_cast<std::size_t>(v) * kSize + static_cast<std::size_t>(u);
+          };
+          if (std::hypot(x - 127.5, y - 127.5) > 124 || drawn[at(x, y)] == 0) continue;
+          const bool is_ball = drawn[at(x, y)] < bare[at(x, y)];
+          on_ball += is_ball ? 1 : 0;
+          hidden += !is_ball && traced.what[at(x, y)] == TracedPicture::kBackdrop ? 1 : 0;
+          // Every pixel within 1.5 px that the tracer sees otherwise is at most that far off.
+          bool agrees = false;
+          for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+              agrees = agrees || (traced.what[at(x + i, y + j)] == 1) == is_ball;
+          beyond += agrees ? 0 : 1;
+        }
+      std::printf("occlusion, %s, %d steps: ball on %d pixels, %d of %d more than 1.5 px off\n",
+                  is_equirectangular ? "equirectangular" : "gnomonic", relief.steps, on_ball,
+                  beyond, on_ball + hidden);
+      if (relief == app::kUsualRelief) {
+        EXPECT_GT(on_ball, 500);
+        EXPECT_EQ(beyond, 0);
+      } else {
+        EXPECT_GT(beyond, 20) << "without the relief it must not end there";
       }
     }
   }
@@ -266,10 +335,10 @@ TEST(ReliefCeiling, NothingInABlockOrTheEightAboutItIsHigher) {
   std::uniform_real_distribution<float> any(0.0f, 0.01f);
   for (const bool is_whole_turn : {false, true})
     for (const auto& [width, height] : {std::pair{1, 1}, {37, 5}, {300, 170}, {1500, 40}}) {
-      std::vector<float> relief(static_cast<std::size_t>(width * height));
-      for (float& h : relief) h = any(random);
-      const app::ReliefCeiling ceiling =
-          app::MakeReliefCeiling(relief, width, height, is_whole_turn);
+      app::ReliefTexture relief{width, height, {}};
+      for (int i = 0; i < 4 * width * height; ++i)
+        relief.texels.push_back(any(random) + (i % 4 == 0 ? 0.0f : 1.0f));
+      const app::ReliefCeiling ceiling = app::MakeReliefCeiling(relief, is_whole_turn);
       ASSERT_EQ(ceiling.relief.size(), static_cast<std::size_t>(ceiling.width * ceiling.height));
       for (int trial = 0; trial < 2000; ++trial) {
         const int x = static_cast<int>(random() % static_cast<unsigned>(width));
@@ -283,7 +352,7 @@ TEST(ReliefCeiling, NothingInABlockOrTheEightAboutItIsHigher) {
         if (u < 0 || v < 0 || u >= width || v >= height) continue;
         const float top = ceiling.relief[static_cast<std::size_t>(
             y / ceiling.block * ceiling.width + x / ceiling.block)];
-        ASSERT_GE(top, relief[static_cast<std::size_t>(v * width + u)])
+        ASSERT_GE(top, relief.texels[4 * static_cast<std::size_t>(v * width + u)])
             << "at " << x << ", " << y << " of " << u << ", " << v;
       }
     }

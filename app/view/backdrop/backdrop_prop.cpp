@@ -1,4 +1,4 @@
-#include "app/view/backdrop_prop.h"
+#include "app/view/backdrop/backdrop_prop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,16 +7,15 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <vtkObjectFactory.h>
-#include <vtkOpenGLQuadHelper.h>
 #include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 #include <vtkShaderProgram.h>
 #include <vtkTextureObject.h>
 #include <vtkViewport.h>
 #include <vtk_glew.h>
 
-#include "app/view/backdrop_shader.h"
+#include "app/view/backdrop/backdrop_shader.h"
+#include "app/view/backdrop/relief_shader.h"
 #include "app/view/lens_shader.h"
 #include "simulation/core/units.h"
 
@@ -29,8 +28,9 @@ namespace {
 // Where the light is neutral, in radii of the backdrop: a usual working distance.
 constexpr double kLightReach = 0.55;
 
-// Samples a pixel at most. Eight serve footprints eight times as long as wide.
-constexpr double kSamples = 8;
+// A cell's relief counts as smooth where the distances of its corners and those about it bend by
+// less than this share.
+constexpr double kSmoothBend = 0.02;
 
 void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec3& value) {
   const float v[3] = {static_cast<float>(value.x), static_cast<float>(value.y),
@@ -83,20 +83,14 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
 }
 
 void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth) {
-  const int width = depth.empty() ? 1 : (depth.width + reduction_ - 1) / reduction_;
-  const int height = depth.empty() ? 1 : (depth.height + reduction_ - 1) / reduction_;
-  std::vector<float> relief =
-      depth.empty() ? std::vector<float>(1, 0.0f) : ReliefTexture(depth, reduction_);
-  Fill(*relief_, window, width, height, 1, VTK_FLOAT, relief.data());
-  unsearched_ = {std::move(relief), width, height};
-  const ImagedMask mask = MakeImagedMask(panorama_size_.x, panorama_size_.y, depth, wraps_);
-  Fill(*imaged_, window, mask.width, mask.height, 1, VTK_UNSIGNED_CHAR, mask.share.data());
+  ReliefTexture relief = MakeReliefTexture(panorama_size_, depth, wraps_);
+  Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
+  unsearched_ = std::move(relief);
 }
 
 void BackdropProp::PrepareSearch(vtkOpenGLRenderWindow* window) {
-  if (unsearched_.relief.empty()) return;
-  const auto [relief, width, height] = std::exchange(unsearched_, {});
-  const ReliefCeiling ceiling = MakeReliefCeiling(relief, width, height, wraps_);
+  if (unsearched_.texels.empty()) return;
+  const ReliefCeiling ceiling = MakeReliefCeiling(std::exchange(unsearched_, {}), wraps_);
   Fill(*ceiling_, window, ceiling.width, ceiling.height, 1, VTK_FLOAT, ceiling.relief.data());
   ceiling_->SetMinificationFilter(vtkTextureObject::Nearest);
   ceiling_->SetMagnificationFilter(vtkTextureObject::Nearest);
@@ -134,20 +128,31 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   if (!window || !panorama_->GetHandle()) return 0;
   // A processor goes both ways of every if of a shader, so what is not needed is not compiled.
   const bool is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
-  if (picture_.relief_steps > 0) PrepareSearch(window);
-  const bool has_relief = highest_ > 0.0 && picture_.relief_steps > 0;
-  const int variant = (is_equirectangular ? 1 : 0) + (has_relief ? 2 : 0);
-  if (!quad_ || variant != variant_) {
-    std::string source = kBackdropHead;
-    if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
-    if (has_relief) source += "#define RELIEF\n";
-    source = source + kDepthShader + kLightShader + kPanoramaFilter + kReliefSearch + kBackdropMain;
-    quad_ = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), nullptr);
-    variant_ = variant;
-  } else {
-    window->GetShaderCache()->ReadyShaderProgram(quad_->Program);
+  if (picture_.relief.steps > 0) PrepareSearch(window);
+  const bool has_relief = highest_ > 0.0 && picture_.relief.steps > 0;
+  const bool has_cells = has_relief && picture_.relief.cell > 1;
+  const std::size_t variant = (is_equirectangular ? 1u : 0u) + (has_relief ? 2u : 0u) +
+                              (has_cells ? 4u : 0u) + (picture_.plain ? 8u : 0u);
+  std::string head = kBackdropHead;
+  if (is_equirectangular) head += "#define EQUIRECTANGULAR\n";
+  head += kLensRay;
+  relief_->Activate();
+  if (has_relief) ceiling_->Activate();
+  if (has_cells)
+    cells_.Draw(window, size_, picture_.relief.cell, head,
+                [this](vtkShaderProgram& program) { SetUniforms(program); });
+  auto& pass = passes_[variant];
+  if (!pass) {
+    if (picture_.plain) head += "#define PLAIN\n";
+    if (has_relief) head += "#define RELIEF\n";
+    if (has_cells) head += "#define CELLS\n";
+    const std::string source = head + kDepthShader + kLightShader + kPanoramaFilter +
+                               kPanoramaPlace + (has_relief ? kReliefSearch : "") +
+                               (has_cells ? kReliefFromCells : "") + kBackdropMain;
+    pass.emplace(source, ShaderPass::Shape::kRound);
   }
-  if (!quad_->Program) return 0;
+  vtkShaderProgram* program = pass->Ready(window);
+  if (program == nullptr) return 0;
 
   vtkOpenGLState* state = window->GetState();
   state->vtkglDisable(GL_BLEND);
@@ -155,21 +160,19 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_ALWAYS);
   panorama_->Activate();
-  relief_->Activate();
-  if (has_relief) ceiling_->Activate();
-  imaged_->Activate();
-  SetUniforms(has_relief);
-  quad_->Render();
-  imaged_->Deactivate();
+  if (has_cells) cells_.cells()->Activate();
+  SetUniforms(*program);
+  if (has_cells) program->SetUniformi("cells", cells_.cells()->GetTextureUnit());
+  pass->Draw(size_);
+  if (has_cells) cells_.cells()->Deactivate();
+  panorama_->Deactivate();
   if (has_relief) ceiling_->Deactivate();
   relief_->Deactivate();
-  panorama_->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
   return 1;
 }
 
-void BackdropProp::SetUniforms(bool has_relief) {
-  vtkShaderProgram& program = *quad_->Program;
+void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   const simulation::ScopeView& view = picture_.view;
   const Projection& projection = backdrop_.projection;
   const bool equirectangular = projection.type == ProjectionType::kEquirectangular;
@@ -177,8 +180,7 @@ void BackdropProp::SetUniforms(bool has_relief) {
   const glm::dvec3 tip = view.tip / backdrop_.radius;
   program.SetUniformi("panorama", panorama_->GetTextureUnit());
   program.SetUniformi("relief", relief_->GetTextureUnit());
-  if (has_relief) program.SetUniformi("reliefCeiling", ceiling_->GetTextureUnit());
-  program.SetUniformi("imagedShare", imaged_->GetTextureUnit());
+  if (ceiling_->GetHandle()) program.SetUniformi("reliefCeiling", ceiling_->GetTextureUnit());
   SetUniform(program, "tip", tip);
   SetUniform(program, "clearance", 1.0 - glm::dot(tip, tip));
   SetUniform(program, "viewAxis", view.view);
@@ -187,7 +189,6 @@ void BackdropProp::SetUniforms(bool has_relief) {
   SetUniform(program, "lensScale", std::sin(picture_.field_of_view / 4.0));
   SetUniform(program, "windowRadius", size_ / 2.0);
   program.SetUniformi("wraps", wraps_ ? 1 : 0);
-  program.SetUniformi("plain", picture_.plain ? 1 : 0);
   // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
   const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
   const glm::dvec2 covered = texels * double(reduction_);
@@ -196,11 +197,16 @@ void BackdropProp::SetUniforms(bool has_relief) {
   SetUniform(program, "centre", (projection.centre_px + 0.5) / covered);
   SetUniform(program, "scale", pixels / covered);
   SetUniform(program, "texels", texels);
-  SetUniform(program, "samples", kSamples);
+  SetUniform(program, "reliefTexels", glm::dvec2(relief_->GetWidth(), relief_->GetHeight()));
+  SetUniform(program, "samples", double(picture_.samples));
   SetUniform(program, "radius", backdrop_.radius);
+  SetUniform(program, "perRadius", 1.0 / backdrop_.radius);
   SetUniform(program, "highest", highest_ / backdrop_.radius);
   SetUniform(program, "blockTexels", block_);
-  SetUniform(program, "reliefSteps", double(picture_.relief_steps));
+  SetUniform(program, "reliefSteps", double(picture_.relief.steps));
+  SetUniform(program, "cellPixels", double(picture_.relief.cell));
+  SetUniform(program, "cellSteps", 0.5 * picture_.relief.steps);
+  SetUniform(program, "smoothBend", kSmoothBend);
   SetUniform(program, "nearest", kNearest);
   SetUniform(program, "farthest", kFarthest);
   SetUniform(program, "lightReach", light_reach());
@@ -210,9 +216,12 @@ void BackdropProp::SetUniforms(bool has_relief) {
 }
 
 void BackdropProp::ReleaseGraphicsResources(vtkWindow* window) {
-  if (quad_) quad_->ReleaseGraphicsResources(window);
-  quad_.reset();
-  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), ceiling_.Get(), imaged_.Get()})
+  for (auto& pass : passes_) {
+    if (pass) pass->ReleaseGraphicsResources();
+    pass.reset();
+  }
+  cells_.ReleaseGraphicsResources(vtkOpenGLRenderWindow::SafeDownCast(window));
+  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), ceiling_.Get()})
     texture->ReleaseGraphicsResources(window);
   Superclass::ReleaseGraphicsResources(window);
 }

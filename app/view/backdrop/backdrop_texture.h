@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/image.h"
@@ -18,8 +19,19 @@ int TextureReduction(int width, int height, int max_size);
 // Means over reduction x reduction blocks; a last, thinner block takes what is left.
 ColourImage ReducedPanorama(const ColourImage& panorama, int reduction);
 
-// The relief at the middle of each block, m; 0 where it is not known. Edges stay edges.
-std::vector<float> ReliefTexture(const DepthMap& depth, int reduction);
+// The relief as it is drawn, over the same part of the sphere as the panorama. Its longer side has
+// at most kReliefSide texels: a wide view of 1024 px shows no more. Edges stay edges.
+inline constexpr int kReliefSide = 2048;
+struct ReliefTexture {
+  int width = 0, height = 0;
+  // Four a texel: the relief, m, 0 where it is not known; how it changes along u and along v, m a
+  // texture's width and height; and 1 well inside what was imaged, falling to 0 at its edge, the
+  // fall inside.
+  std::vector<float> texels;
+};
+// `depth` may be empty: the bare sphere, all of it imaged.
+ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
+                                bool whole_turn);
 
 // The highest relief of each block of block x block texels and of the eight about it, m: a ray that
 // is further in there passes the block without a look at it.
@@ -27,19 +39,10 @@ struct ReliefCeiling {
   int block = 1, width = 0, height = 0;
   std::vector<float> relief;
 };
-ReliefCeiling MakeReliefCeiling(const std::vector<float>& relief, int width, int height,
-                                bool whole_turn);
+ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 
 // Whether the panorama is a whole turn, so that its left edge meets its right.
 bool IsWholeTurn(const Projection& projection, int width);
-
-// 255 well inside what was imaged, falling to 0 at its edge; the fall lies inside. Coarser than the
-// panorama: it is smooth. `depth` may be empty: all was imaged.
-struct ImagedMask {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> share;
-};
-ImagedMask MakeImagedMask(int width, int height, const DepthMap& depth, bool whole_turn);
 
 // What light the footage was taken in; linear, of the imaged part.
 struct FootageLight {

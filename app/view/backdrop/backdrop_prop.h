@@ -3,7 +3,8 @@
 // into the depth buffer for the models to be held against.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,11 @@
 #include <vtkProp.h>
 
 #include "app/view/arthroscopic_view.h"
-#include "app/view/backdrop_texture.h"
+#include "app/view/backdrop/backdrop_texture.h"
+#include "app/view/backdrop/relief_cells.h"
 
-class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
 class vtkTextureObject;
 
 namespace arthro::app {
@@ -49,7 +51,7 @@ class BackdropProp : public vtkProp {
   ~BackdropProp() override;
 
  private:
-  void SetUniforms(bool has_relief);
+  void SetUniforms(vtkShaderProgram& program) const;
   // What the search for the relief needs, made for the first picture that searches.
   void PrepareSearch(vtkOpenGLRenderWindow* window);
   void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
@@ -61,17 +63,13 @@ class BackdropProp : public vtkProp {
   glm::ivec2 panorama_size_{0};
   int reduction_ = 1;   // panorama pixels a texel and axis
   bool wraps_ = false;  // a whole turn: left and right edge meet
-  struct Relief {
-    std::vector<float> relief;  // m
-    int width = 0, height = 0;
-  };
-  Relief unsearched_;
+  ReliefTexture unsearched_;
   double highest_ = 0;  // of the relief, m
   int block_ = 1;       // texels of the relief's ceiling
   FootageLight light_;
-  vtkNew<vtkTextureObject> panorama_, relief_, ceiling_, imaged_;
-  std::unique_ptr<vtkOpenGLQuadHelper> quad_;
-  int variant_ = 0;  // of its shader
+  vtkNew<vtkTextureObject> panorama_, relief_, ceiling_;
+  ReliefCells cells_;
+  std::array<std::optional<ShaderPass>, 16> passes_;  // one a variant of the shader
 };
 
 }  // namespace arthro::app

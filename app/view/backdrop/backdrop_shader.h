@@ -1,0 +1,155 @@
+// GLSL of the backdrop: a pixel's ray to the sphere about the portal, or before it to the relief
+// (relief_shader.h), and from there into the panorama [design §4]. Put together in
+// backdrop_prop.cpp, with EQUIRECTANGULAR, RELIEF, CELLS defined or not: a processor goes both ways
+// of every if.
+#pragma once
+
+namespace arthro::app {
+
+inline constexpr const char* kBackdropHead = R"(//VTK::System::Dec
+//VTK::Output::Dec
+uniform sampler2D panorama;
+uniform sampler2D relief;         // m, its slopes along u and v, how well inside the imaged part
+uniform sampler2D reliefCeiling;  // m, of blocks of blockTexels
+uniform sampler2D corners, cells; // relief_cells.h
+uniform vec3 tip;               // in radii of the sphere
+uniform float clearance;        // 1 - |tip|^2, worked out in double
+uniform vec3 viewAxis, upAxis, rightAxis;
+uniform float lensScale;        // sin(fov/4)
+uniform float windowRadius;     // px
+uniform int wraps, plain;
+uniform vec2 centre, scale;     // of the projection, in texture units
+uniform vec2 texels, reliefTexels;
+const float kSharpness = 0.7;
+
+uniform float samples;           // at most, a pixel
+uniform float radius, perRadius; // m, 1/m
+uniform float nearest, farthest, lightReach;
+uniform float highest;          // of the relief, in radii
+uniform float blockTexels;
+uniform float reliefSteps;      // at most, along a ray
+uniform float cellPixels, cellSteps, smoothBend;
+uniform vec3 endColour;
+uniform vec2 notch;             // unit, image right and up
+)";
+
+// A place in the window, in its radii from its centre, right and up: |offset| lensScale =
+// sin(theta/2).
+inline constexpr const char* kLensRay = R"(
+vec3 rayOf(vec2 offset) {
+  float s2 = min(dot(offset, offset) * lensScale * lensScale, 1.0);
+  vec2 across = 2.0 * lensScale * sqrt(1.0 - s2) * offset;
+  return (1.0 - 2.0 * s2) * viewAxis + across.x * rightAxis + across.y * upAxis;
+}
+)";
+
+// A pixel's footprint in the panorama is an ellipse (texels a pixel: dx, dy), long and thin near
+// the edge of a gnomonic picture and the poles of an equirectangular one. Samples are strung along
+// its longer axis, each averaged over the shorter one; a single round average would blur fine lines
+// together there (grid lines up to 1.8 px off instead of 0.3).
+inline constexpr const char* kPanoramaFilter = R"(
+vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
+  float a = dx.x * dx.x + dy.x * dy.x, b = dx.x * dx.y + dy.x * dy.y, c = dx.y * dx.y + dy.y * dy.y;
+  float mean = 0.5 * (a + c), spread = sqrt(max(0.25 * (a - c) * (a - c) + b * b, 0.0));
+  float longer = sqrt(mean + spread);
+  float shorter = abs(dx.x * dy.y - dx.y * dy.x) / max(longer, 1e-6);
+  vec2 axis = abs(b) > 1e-6 * mean ? normalize(vec2(mean + spread - c, b))
+                                   : (a >= c ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
+  float count = clamp(ceil(longer / max(shorter, 1.0) - 0.4), 1.0, samples);
+  float lod = log2(max(max(longer / count, shorter) * kSharpness, 1.0));
+  // One level is half the work of two.
+  if (samples <= 2.0) lod = floor(lod + 0.5);
+
+  vec2 step = axis * longer / count / texels;
+  vec2 start = uv - 0.5 * (count - 1.0) * step;
+  vec3 sum = vec3(0.0);
+  float i = 0.0;
+  while (true) {
+    sum += textureLod(panorama, start + i * step, lod).rgb;
+    i += 1.0;
+    if (i >= count) break;
+  }
+  return sum / count;
+}
+)";
+
+inline constexpr const char* kBackdropMain = R"(
+void main() {
+  vec2 offset = gl_FragCoord.xy / windowRadius - 1.0;
+  float r = length(offset);
+  float coverage = rimCoverage(r, windowRadius);
+  vec3 ray = rayOf(offset);
+
+  // Ray -> sphere, or what stands before it.
+  float b = dot(tip, ray);
+  float sphere = sqrt(max(b * b + clearance, 0.0)) - b;
+#ifdef CELLS
+  vec3 x;
+  vec2 uv;
+  bool imaged;
+  vec4 ground;  // there
+  float reach = meetReliefByCells(ray, sphere, x, uv, imaged, ground);
+#else
+#ifdef RELIEF
+  float reach = meetRelief(ray, b, sphere);
+#else
+  float reach = sphere;
+#endif
+  vec3 x = tip + reach * ray;
+  vec2 uv = panoramaPlace(x);
+  bool imaged = isImaged(x, uv);
+  vec4 ground = textureLod(relief, uv, 0.0) * vec4(vec3(perRadius), 1.0);
+#endif
+  vec3 alongU, alongV;
+  placeGradients(x, alongU, alongV);
+#ifdef CELLS
+  // Once more towards it, by its slope there.
+  vec3 outward = normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0));
+  float gap = (imaged ? ground.r : 0.0) - 1.0 + length(x);
+  float nearer = clamp(gap / max(dot(outward, ray), 0.05), -0.03 * reach, 0.03 * reach);
+  reach = min(reach - nearer, sphere);
+  x -= nearer * ray;
+  uv -= nearer * vec2(dot(alongU, ray), dot(alongV, ray));
+#endif
+
+  // A pixel's footprint: of the surface as it lies there, but at outlines, where a pixel's
+  // neighbours are elsewhere, not much more than that of one that faces the lens.
+  vec3 acrossX = dFdx(x), acrossY = dFdy(x);
+#ifdef RELIEF
+  float facing = reach * length(dFdx(ray));
+  acrossX *= min(1.0, 4.0 * facing / max(length(acrossX), 1e-9));
+  acrossY *= min(1.0, 4.0 * facing / max(length(acrossY), 1e-9));
+#endif
+  vec2 dx = vec2(dot(alongU, acrossX), dot(alongV, acrossX)),
+       dy = vec2(dot(alongU, acrossY), dot(alongV, acrossY));
+  
+  vec3 colour = imaged ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
+
+#ifdef RELIEF
+  float distance = radius * reach;
+#else
+  // Depth of the relief's point in the direction that the colour comes from.
+  float distance = radius * dot((1.0 - (imaged ? ground.r : 0.0)) * x - tip, ray);
+#endif
+  distance = clamp(distance, 1.001 * nearest, farthest);
+  float stored = storedDepth(distance);
+
+#ifdef PLAIN
+  vec3 shown = imaged ? colour : vec3(0.0);
+#else
+  // The panorama was lit when it was taken: what lies far fades, but nothing is lit a second time.
+  vec3 lit = shoulder(colour * sqrt(min(lightAt(distance), 1.0)));
+  vec3 shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, ground.a) : 0.0) * softRim(r);
+  float along = dot(offset, notch) - 0.925;
+  float beside = abs(offset.x * notch.y - offset.y * notch.x);
+  float mark = clamp((0.5 * along - beside) * 0.9 * windowRadius + 0.5, 0.0, 1.0);
+  shown *= 1.0 - mark;
+  if (mark > 0.5) stored = 0.0;
+#endif
+  if (coverage <= 0.0) stored = 0.0;
+  gl_FragDepth = stored;
+  gl_FragData[0] = vec4(shown * coverage, 1.0);
+}
+)";
+
+}  // namespace arthro::app

@@ -1,0 +1,242 @@
+#include "app/view/backdrop/backdrop_texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "app/view/srgb.h"
+
+namespace arthro::app {
+namespace {
+
+// The soft end takes this share of the panorama's longer edge.
+constexpr double kSoftEnd = 1.0 / 40.0;
+// Longer edge of the mask, px: fine enough for the soft end's 13.
+constexpr int kMaskSide = 512;
+
+// Box blur of one line in place, by running sum. Beyond the ends it goes on periodically or as 0.
+void BlurLine(float* line, int count, int stride, int radius, bool periodic,
+              std::vector<float>& copy) {
+  copy.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    copy[static_cast<std::size_t>(i)] = line[static_cast<std::ptrdiff_t>(i) * stride];
+  const auto at = [&](int i) {
+    if (periodic) return copy[static_cast<std::size_t>((i % count + count) % count)];
+    return i < 0 || i >= count ? 0.0f : copy[static_cast<std::size_t>(i)];
+  };
+  double sum = 0;
+  for (int i = -radius; i <= radius; ++i) sum += at(i);
+  for (int i = 0; i < count; ++i) {
+    line[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<float>(sum / (2 * radius + 1));
+    sum += at(i + radius + 1) - at(i - radius);
+  }
+}
+
+// Coarser than the panorama: it is smooth.
+struct ImagedMask {
+  int width = 0, height = 0;
+  std::vector<float> share;
+};
+ImagedMask MakeImagedMask(int width, int height, const DepthMap& depth, bool whole_turn) {
+  ImagedMask mask;
+  const double scale = std::min(1.0, double(kMaskSide) / std::max(width, height));
+  mask.width = std::max(1, static_cast<int>(std::lround(width * scale)));
+  mask.height = std::max(1, static_cast<int>(std::lround(height * scale)));
+  std::vector<float> share(
+      static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height), 1.0f);
+  if (!depth.empty())
+    for (int y = 0; y < mask.height; ++y)
+      for (int x = 0; x < mask.width; ++x) {
+        const int u = static_cast<int>((x + 0.5) * width / mask.width);
+        const int v = static_cast<int>((y + 0.5) * height / mask.height);
+        if (std::isnan(depth.at(u, v)))
+          share[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
+                static_cast<std::size_t>(x)] = 0.0f;
+      }
+  const int radius =
+      std::max(1, static_cast<int>(std::max(mask.width, mask.height) * kSoftEnd / 2));
+  std::vector<float> copy;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int y = 0; y < mask.height; ++y)
+      BlurLine(&share[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width)],
+               mask.width, 1, radius, whole_turn, copy);
+    for (int x = 0; x < mask.width; ++x)
+      BlurLine(&share[static_cast<std::size_t>(x)], mask.height, mask.width, radius, false, copy);
+  }
+  for (float& value : share) value = std::clamp(2 * value - 1, 0.0f, 1.0f);
+  mask.share = std::move(share);
+  return mask;
+}
+
+float Bilinear(const ImagedMask& mask, double u, double v) {
+  const double x = std::clamp(u * mask.width - 0.5, 0.0, mask.width - 1.0),
+               y = std::clamp(v * mask.height - 0.5, 0.0, mask.height - 1.0);
+  const int i = static_cast<int>(x), j = static_cast<int>(y);
+  const int right = std::min(i + 1, mask.width - 1), below = std::min(j + 1, mask.height - 1);
+  const auto at = [&](int column, int row) {
+    return mask.share[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
+                      static_cast<std::size_t>(column)];
+  };
+  const auto fx = static_cast<float>(x - i), fy = static_cast<float>(y - j);
+  return (1 - fy) * ((1 - fx) * at(i, j) + fx * at(right, j)) +
+         fy * ((1 - fx) * at(i, below) + fx * at(right, below));
+}
+
+}  // namespace
+
+int TextureReduction(int width, int height, int max_size) {
+  return (std::max(width, height) + max_size - 1) / max_size;
+}
+
+ColourImage ReducedPanorama(const ColourImage& image, int reduction) {
+  ColourImage small((image.width + reduction - 1) / reduction,
+                    (image.height + reduction - 1) / reduction);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      std::array<int, 3> sum{};
+      int count = 0;
+      for (int v = y * reduction; v < std::min((y + 1) * reduction, image.height); ++v)
+        for (int u = x * reduction; u < std::min((x + 1) * reduction, image.width); ++u, ++count)
+          for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += image.at(u, v)[c];
+      for (int c = 0; c < 3; ++c)
+        small.at(x, y)[c] =
+            static_cast<std::uint8_t>((sum[static_cast<std::size_t>(c)] + count / 2) / count);
+    }
+  return small;
+}
+
+ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
+                                bool whole_turn) {
+  const ImagedMask mask = MakeImagedMask(panorama_size.x, panorama_size.y, depth, whole_turn);
+  ReliefTexture relief;
+  if (depth.empty()) {
+    relief.width = mask.width;
+    relief.height = mask.height;
+    for (const float share : mask.share)
+      relief.texels.insert(relief.texels.end(), {0, 0, 0, share});
+    return relief;
+  }
+  // As many texels as pixels where that is not too many, so that a texel is a pixel.
+  const double shrink = std::max(1.0, double(std::max(depth.width, depth.height)) / kReliefSide);
+  relief.width = std::max(1, static_cast<int>(std::lround(depth.width / shrink)));
+  relief.height = std::max(1, static_cast<int>(std::lround(depth.height / shrink)));
+  relief.texels.resize(4 * static_cast<std::size_t>(relief.width) *
+                       static_cast<std::size_t>(relief.height));
+  const auto texel = [&](int x, int y) {
+    return &relief
+                .texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
+                             static_cast<std::size_t>(x))];
+  };
+  for (int y = 0; y < relief.height; ++y) {
+    const int v =
+        std::min(static_cast<int>((y + 0.5) * depth.height / relief.height), depth.height - 1);
+    for (int x = 0; x < relief.width; ++x) {
+      const float h = depth.at(
+          std::min(static_cast<int>((x + 0.5) * depth.width / relief.width), depth.width - 1), v);
+      float* at = texel(x, y);
+      at[0] = std::isfinite(h) ? h : 0.0f;
+      at[3] = Bilinear(mask, (x + 0.5) / relief.width, (y + 0.5) / relief.height);
+    }
+  }
+  for (int y = 0; y < relief.height; ++y) {
+    const int above = std::max(y - 1, 0), below = std::min(y + 1, relief.height - 1);
+    for (int x = 0; x < relief.width; ++x) {
+      int left = x - 1, right = x + 1;
+      if (whole_turn) {
+        left = (left + relief.width) % relief.width;
+        right %= relief.width;
+      } else {
+        left = std::max(left, 0);
+        right = std::min(right, relief.width - 1);
+      }
+      const int columns = whole_turn ? 2 : std::max(right - left, 1);
+      float* at = texel(x, y);
+      at[1] = (texel(right, y)[0] - texel(left, y)[0]) * static_cast<float>(relief.width) /
+              static_cast<float>(columns);
+      at[2] = (texel(x, below)[0] - texel(x, above)[0]) * static_cast<float>(relief.height) /
+              static_cast<float>(std::max(below - above, 1));
+    }
+  }
+  return relief;
+}
+
+ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
+  constexpr int kBlocks = 128, kLeast = 8;
+  const int width = relief.width, height = relief.height;
+  ReliefCeiling ceiling;
+  ceiling.block = std::max(kLeast, (std::max(width, height) + kBlocks - 1) / kBlocks);
+  ceiling.width = (width + ceiling.block - 1) / ceiling.block;
+  ceiling.height = (height + ceiling.block - 1) / ceiling.block;
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(ceiling.width) +
+           static_cast<std::size_t>(x);
+  };
+  // Rows of a block first, all columns at once: a live preview of a depth map waits for this.
+  std::vector<float> own(index(0, ceiling.height), 0.0f);
+  std::vector<float> highest(static_cast<std::size_t>(width));
+  for (int top = 0; top < height; top += ceiling.block) {
+    std::fill(highest.begin(), highest.end(), 0.0f);
+    for (int y = top; y < std::min(top + ceiling.block, height); ++y) {
+      const float* row = &relief.texels[4 * static_cast<std::size_t>(y) * highest.size()];
+      for (std::size_t x = 0; x < highest.size(); ++x)
+        highest[x] = highest[x] < row[4 * x] ? row[4 * x] : highest[x];
+    }
+    for (int x = 0; x < width; ++x) {
+      float& of_block = own[index(x / ceiling.block, top / ceiling.block)];
+      of_block = std::max(of_block, highest[static_cast<std::size_t>(x)]);
+    }
+  }
+  ceiling.relief = own;
+  for (int y = 0; y < ceiling.height; ++y)
+    for (int x = 0; x < ceiling.width; ++x)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const int row = y + j;
+          const int column = whole_turn ? (x + i + ceiling.width) % ceiling.width : x + i;
+          if (row < 0 || row >= ceiling.height || column < 0 || column >= ceiling.width) continue;
+          ceiling.relief[index(x, y)] =
+              std::max(ceiling.relief[index(x, y)], own[index(column, row)]);
+        }
+  return ceiling;
+}
+
+bool IsWholeTurn(const Projection& projection, int width) {
+  return projection.type == ProjectionType::kEquirectangular &&
+         std::abs(360.0 * projection.px_per_deg - width) < 1.0;
+}
+
+FootageLight MeasureLight(const ColourImage& panorama, const DepthMap& depth) {
+  constexpr int kBins = 64;
+  std::array<glm::dvec3, kBins> sums{};
+  std::array<double, kBins> counts{};
+  const std::size_t pixels = panorama.rgb.size() / 3;
+  const std::size_t step = std::max<std::size_t>(1, pixels / 100'000);  // enough for a mean
+  for (std::size_t i = 0; i < pixels; i += step) {
+    if (!depth.empty() && std::isnan(depth.relief[i])) continue;
+    const std::uint8_t* p = &panorama.rgb[i * 3];
+    const double luma = (p[0] * 2 + p[1] * 5 + p[2]) / 8.0;
+    const auto bin = static_cast<std::size_t>(std::min(luma / 256.0 * kBins, kBins - 1.0));
+    sums[bin] += glm::dvec3(LinearFromSrgb(p[0]), LinearFromSrgb(p[1]), LinearFromSrgb(p[2]));
+    counts[bin] += 1;
+  }
+  double total = 0;
+  glm::dvec3 sum{0.0};
+  for (std::size_t b = 0; b < kBins; ++b) {
+    total += counts[b];
+    sum += sums[b];
+  }
+  FootageLight light;
+  if (total == 0) return light;
+  light.mean = sum / total;
+  double bright = 0;
+  glm::dvec3 bright_sum{0.0};
+  for (std::size_t b = kBins; b-- > 0 && bright < 0.2 * total;) {
+    bright += counts[b];
+    bright_sum += sums[b];
+  }
+  light.bright = bright_sum / bright;
+  return light;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,56 @@
+#include "app/view/shader_pass.h"
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLShaderCache.h>
+#include <vtkShaderProgram.h>
+#include <vtk_glew.h>
+
+namespace arthro::app {
+namespace {
+
+constexpr const char* kWhole = R"(//VTK::System::Dec
+void main() { gl_Position = vec4(2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); }
+)";
+
+// A fan of 64 corners about the disc.
+constexpr int kCorners = 64;
+constexpr const char* kRound = R"(//VTK::System::Dec
+uniform float reach;  // of the corners; 1 is the disc's rim
+void main() {
+  float turn = 6.283185307 / 64.0 * float(gl_VertexID);
+  gl_Position = vec4(gl_VertexID == 0 ? vec2(0.0) : reach * vec2(cos(turn), sin(turn)), 0.0, 1.0);
+}
+)";
+
+}  // namespace
+
+vtkShaderProgram* ShaderPass::Ready(vtkOpenGLRenderWindow* window) {
+  vtkOpenGLShaderCache* cache = window->GetShaderCache();
+  if (program_ == nullptr) {
+    program_ =
+        cache->ReadyShaderProgram(shape_ == Shape::kRound ? kRound : kWhole, fragment_.c_str(), "");
+    glGenVertexArrays(1, &vertex_array_);
+  } else {
+    cache->ReadyShaderProgram(program_);
+  }
+  return program_;
+}
+
+void ShaderPass::Draw(int side) {
+  glBindVertexArray(vertex_array_);
+  if (shape_ == Shape::kRound) {
+    program_->SetUniformf("reach", static_cast<float>(1.00121 + 2.0 / side));
+    glDrawArrays(GL_TRIANGLE_FAN, 0, kCorners + 2);
+  } else {
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  glBindVertexArray(0);
+}
+
+void ShaderPass::ReleaseGraphicsResources() {
+  if (vertex_array_ != 0) glDeleteVertexArrays(1, &vertex_array_);
+  vertex_array_ = 0;
+  program_ = nullptr;
+}
+
+}  // namespace arthro::app

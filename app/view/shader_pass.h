@@ -1,0 +1,33 @@
+// One shader over a whole target, or over the round window in it: no vertices are stored. OpenGL
+// 3.2; belongs to the context that was current when it was first drawn.
+#pragma once
+
+#include <string>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace arthro::app {
+
+class ShaderPass {
+ public:
+  // kRound: the disc that the target's edges touch, and a pixel more for its soft rim. A processor
+  // fills a fifth less than for the whole.
+  enum class Shape { kWhole, kRound };
+  ShaderPass(std::string fragment_shader, Shape shape)
+      : fragment_(std::move(fragment_shader)), shape_(shape) {}
+
+  // The program, in use; null where the driver refuses the shader.
+  vtkShaderProgram* Ready(vtkOpenGLRenderWindow* window);
+  // After Ready; `side`: of the target, px.
+  void Draw(int side);
+  void ReleaseGraphicsResources();
+
+ private:
+  std::string fragment_;
+  Shape shape_;
+  vtkShaderProgram* program_ = nullptr;  // the window's shader cache owns it
+  unsigned vertex_array_ = 0;
+};
+
+}  // namespace arthro::app
