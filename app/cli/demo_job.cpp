@@ -106,6 +106,7 @@ void Run(const DemoJob& job) {
                 "this folder could not be made: " + fault.message() + "; choose another",
                 job.folder);
   StillPictures pictures(loaded);
+  const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
   auto json = nlohmann::json::parse(simulation::ReportText(report, loaded.scene));
   json["pictures"] = nlohmann::json::array();
   LiveTissues tissues;
@@ -117,7 +118,7 @@ void Run(const DemoJob& job) {
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     WriteColourImage(
         job.folder / name,
-        pictures.Draw(PictureOf(moment.snapshot, moment.kind, loaded.scene), job.size));
+        pictures.Draw(PictureOf(moment.snapshot, moment.kind, loaded.scene, optics), job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},
                                 {"t", moment.t},

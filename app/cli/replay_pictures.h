@@ -27,7 +27,11 @@ class ReplayPictures {
 
   // Of a trace from `begin` to `end`, s.
   ReplayPictures(const LoadedScene& loaded, double begin, double end)
-      : scene_(loaded.scene), begin_(begin), end_(end), pictures_(loaded) {}
+      : scene_(loaded.scene),
+        optics_(simulation::OpticsOf(loaded.scene.scope, loaded.lens)),
+        begin_(begin),
+        end_(end),
+        pictures_(loaded) {}
 
   void AddRow(const Form& form, Take take);
   void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,
@@ -40,6 +44,7 @@ class ReplayPictures {
     int count = 0, all = 0;
   };
   const Scene& scene_;
+  simulation::ScopeOptics optics_;
   double begin_, end_;
   StillPictures pictures_;
   LiveTissues tissues_;
@@ -52,6 +57,6 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 // What the view shows of a moment: the camera head is held upright, as surgeons do, while the scope
 // turns in it.
 Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                  const Scene& scene);
+                  const Scene& scene, const simulation::ScopeOptics& optics);
 
 }  // namespace arthro::app

@@ -66,12 +66,14 @@ void RunViewJob(const ViewArguments& arguments) {
   const double view_angle = arguments.view_angle_deg
                                 ? Radians("--view-angle-deg", *arguments.view_angle_deg)
                                 : scope.view_angle;
-  const double field_of_view = arguments.field_of_view_deg
-                                   ? Radians("--field-of-view-deg", *arguments.field_of_view_deg)
-                                   : scope.field_of_view;
+  std::optional<double> field_of_view;
+  if (arguments.field_of_view_deg)
+    field_of_view = Radians("--field-of-view-deg", *arguments.field_of_view_deg);
+  const simulation::ScopeOptics optics = simulation::OpticsOf(scope, loaded.lens, field_of_view);
 
   StillPictures pictures(loaded);
-  Picture picture = PictureFromPose(pose, view_angle, field_of_view, head_roll);
+  Picture picture = PictureFromPose(pose, view_angle, optics.field_of_view, head_roll);
+  picture.lens = optics.lens;
   picture.plain = arguments.plain;
   picture.disturbances = disturbances;
   picture.relief = arguments.plain || arguments.relief_steps ? ReliefSearch{} : kUsualRelief;

@@ -7,6 +7,7 @@
 #include "app/commands/same.h"
 #include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_cut.h"
+#include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
@@ -17,7 +18,8 @@ constexpr double kCoarse = 0.55;                                 // of the full 
 
 bool Same(const Picture& a, const Picture& b) {
   return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
-         a.field_of_view == b.field_of_view && a.notch == b.notch && a.instrument == b.instrument;
+         a.field_of_view == b.field_of_view && a.lens == b.lens && a.notch == b.notch &&
+         a.instrument == b.instrument;
 }
 
 // What a projection in pixels of one picture is in pixels of a smaller one, whose pixel (x, y)
@@ -29,10 +31,11 @@ Projection Shrunk(Projection projection, double factor) {
   return projection;
 }
 
-Picture PictureOf(const EditorState& state) {
+Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optics) {
   const Scene& scene = state.document().scene;
   Picture picture;
-  picture.field_of_view = scene.scope.field_of_view;
+  picture.field_of_view = optics.field_of_view;
+  picture.lens = optics.lens;
   picture.relief = kUsualRelief;
   picture.samples = 2;
   const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
@@ -154,9 +157,22 @@ void Pictures::Take(const EditorState& state) {
   TakeLiveTissues(state);
 }
 
+const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& document) {
+  const ScopeSpec& scope = document.scene.scope;
+  if (document.lens == optics_.lens && scope.field_of_view == optics_.field_of_view)
+    return optics_.fitted;
+  optics_ = {document.lens, scope.field_of_view, {scope.field_of_view, {}}, {}};
+  try {
+    optics_.fitted = simulation::OpticsOf(scope, document.lens);
+  } catch (const Error& error) {
+    optics_.fault = std::string(error.what()) + "; an equisolid lens is drawn";
+  }
+  return optics_.fitted;
+}
+
 bool Pictures::DrawScope(const EditorState& state, int size) {
   Take(state);
-  const Picture picture = PictureOf(state);
+  const Picture picture = PictureOf(state, TakeOptics(state.document()));
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
   has_picture_ = panorama_ != nullptr;
@@ -185,7 +201,7 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     document_number_ = state.document_number;
     overview_.ResetCamera();
   }
-  const Picture picture = PictureOf(state);
+  const Picture picture = PictureOf(state, TakeOptics(state.document()));
   if (!Same(picture, overview_tools_)) {
     overview_tools_ = picture;
     overview_.SetIncisionSpacing(state.document().scene.portals.incision_spacing);

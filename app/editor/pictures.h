@@ -37,7 +37,10 @@ class Pictures {
   void NoteFrame(double milliseconds);
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   const simulation::ScopeView& view() const { return picture_.view; }
-  const std::string& notice() const { return cut_fault_.empty() ? scope_.notice() : cut_fault_; }
+  const std::string& notice() const {
+    if (!cut_fault_.empty()) return cut_fault_;
+    return optics_.fault.empty() ? scope_.notice() : optics_.fault;
+  }
 
  private:
   void Take(const EditorState& state);
@@ -50,6 +53,15 @@ class Pictures {
   ArthroscopicView scope_;
   Overview overview_;
   bool steady_, has_picture_ = false, has_overview_ = false, changed_ = true;
+  // The scope's lens, fitted when it changes.
+  struct Optics {
+    std::optional<Lens> lens;
+    double field_of_view = 0;
+    simulation::ScopeOptics fitted;
+    std::string fault;  // why the lens is not drawn
+  };
+  const simulation::ScopeOptics& TakeOptics(const authoring::Document& document);
+  Optics optics_;
   Picture picture_;
   int drawn_size_ = 0;
   bool drew_full_ = false;

@@ -191,6 +191,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
 
   LensFrame frame;
   frame.field_of_view = picture.field_of_view;
+  frame.lens = picture.lens;
   frame.window_radius = size / 2.0;
   frame.light_reach = p.backdrop->light_reach();
   frame.light_colour = LightOf(p.backdrop->footage_light().bright);

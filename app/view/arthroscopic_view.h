@@ -21,6 +21,7 @@
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/arthroscope.h"
+#include "simulation/scope/window_lens.h"
 #include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::app {
@@ -49,6 +50,7 @@ inline constexpr ReliefSearch kUsualRelief{64, 8};
 struct Picture {
   simulation::ScopeView view;
   double field_of_view = std::numbers::pi / 2;  // full
+  simulation::WindowLens lens;                  // of that field
   double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
   std::optional<InstrumentView> instrument;
   bool plain = false;  // backdrop colours only: no light, softness, mark or models

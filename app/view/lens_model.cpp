@@ -1,5 +1,6 @@
 #include "app/view/lens_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -21,14 +22,15 @@ namespace arthro::app {
 namespace {
 
 // After VTK's own: the point in the lens' frame (x right, y up, -z along the view) goes to the
-// equisolid window. sin(theta/2) = sin(theta) / (2 cos(theta/2)), so no angle is needed; w is the
-// distance, so that what is interpolated follows the surface.
+// window. sin(theta/2) = sin(theta) / (2 cos(theta/2)), so no angle is needed; w is the distance,
+// so that what is interpolated follows the surface.
 constexpr const char* kWarp = R"(//VTK::PositionVC::Impl
   lensPoint = vertexVCVSOutput.xyz;
   modelPoint = vertexMC.xyz;
   float lensDistance = max(length(lensPoint), 1e-7);
   float halfCosine = sqrt(max(0.5 - 0.5 * lensPoint.z / lensDistance, 0.0025));
-  vec2 lensPlace = lensPoint.xy / (2.0 * lensScaleV * halfCosine);
+  vec2 equisolid = lensPoint.xy / lensDistance / (2.0 * lensScaleV * halfCosine);
+  vec2 lensPlace = lensDistance * (lensAxis + equisolid * lensFactor(lensOutward, lensEnd, dot(equisolid, equisolid)));
   float lensClip = 2.0 * farthestV / (farthestV - nearestV) * (lensDistance - nearestV) - lensDistance;
   gl_Position = vec4(lensPlace, lensClip, lensDistance);
 )";
@@ -46,6 +48,7 @@ constexpr const char* kFragmentStart = R"(
   float lensR = length(lensOffset);
   float halfCosine = sqrt(max(0.5 - 0.5 * lensPoint.z / lensDistance, 0.0025));
   vec2 lensPlace = lensPoint.xy / lensDistance / (2.0 * lensScale * halfCosine);
+  lensPlace = lensAxis + lensPlace * lensFactor(lensOutward, lensEnd, dot(lensPlace, lensPlace));
   float coverage = rimCoverage(lensR, windowRadius);
   bool behind = lensPoint.z > (2.42 * lensScale * lensScale - 1.0) * lensDistance;
   if (behind || distance(lensPlace, lensOffset) > 0.12 || coverage <= 0.0 || lensDistance < nearest)
@@ -172,7 +175,7 @@ LensModel::LensModel(Look look) {
   const bool is_tissue = look == Look::kTissue;
   shader->AddVertexShaderReplacement(
       "//VTK::Normal::Dec", true,
-      std::string("//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n") +
+      std::string("//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n") + kLensFactor +
           (is_tissue ? "in float freshMC;\nout float fresh;\n" : ""),
       false);
   shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true,
@@ -180,7 +183,8 @@ LensModel::LensModel(Look look) {
                                      false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                        std::string("//VTK::Light::Dec\n") + kDepthShader +
-                                           kLightShader + (look == Look::kTissue ? kNoise : ""),
+                                           kLensFactor + kLightShader +
+                                           (look == Look::kTissue ? kNoise : ""),
                                        false);
   shader->AddFragmentShaderReplacement(
       "//VTK::Normal::Dec", true,
@@ -276,6 +280,14 @@ void LensModel::SetFrame(const LensFrame& frame) {
   vtkShaderProperty* shader = actor_->GetShaderProperty();
   shader->GetVertexCustomUniforms()->SetUniformf("lensScaleV", scale);
   vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
+  float outward[simulation::WindowLens::kTerms];
+  std::transform(frame.lens.outward.begin(), frame.lens.outward.end(), outward, Float);
+  const float axis[2] = {Float(frame.lens.axis.x), Float(frame.lens.axis.y)};
+  for (vtkUniforms* each : {shader->GetVertexCustomUniforms(), uniforms}) {
+    each->SetUniform1fv("lensOutward", simulation::WindowLens::kTerms, outward);
+    each->SetUniform2f("lensAxis", axis);
+    each->SetUniformf("lensEnd", Float(frame.lens.end));
+  }
   const float light[3] = {Float(frame.light_colour.x), Float(frame.light_colour.y),
                           Float(frame.light_colour.z)};
   const float surround[3] = {Float(frame.surround.x), Float(frame.surround.y),

@@ -1,5 +1,5 @@
 // A surface as the arthroscope's lens bends it: a VTK actor whose vertex shader lays each vertex
-// where the equisolid window shows it, with the backdrop's own depth, and whose fragment shader
+// where the scope's lens shows it, with the backdrop's own depth, and whose fragment shader
 // lights it from the lens.
 #pragma once
 
@@ -19,12 +19,14 @@
 
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
+#include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
 // What every model of a frame shares.
 struct LensFrame {
   double field_of_view = 1.57;   // full, rad
+  simulation::WindowLens lens;   // of that field
   double window_radius = 256;    // px
   double light_reach = 0.03;     // m
   glm::dvec3 light_colour{1.0};  // linear: what the lamp and the camera make of white

@@ -16,6 +16,15 @@ inline constexpr double DistanceFromStored(double depth) {
   return kNearest / (1.0 - depth * (kFarthest - kNearest) / kFarthest);
 }
 
+// How much further out than with an equisolid lens, or nearer (simulation/scope/window_lens.h).
+inline constexpr const char* kLensFactor = R"(
+float lensFactor(float terms[10], float end, float squared) {
+  float s = min(squared, end), sum = terms[9];
+  for (int k = 8; k >= 0; --k) sum = sum * s + terms[k];
+  return sum;
+}
+)";
+
 // Needs: uniform float nearest, farthest.
 inline constexpr const char* kDepthShader = R"(
 float storedDepth(float distance) {

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "authoring/depth/depth_options.h"
 #include "simulation/scene/image.h"
+#include "simulation/scene/lens.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 
@@ -30,6 +32,7 @@ struct Document {
   std::shared_ptr<const ColourImage> panorama;               // never null once there is a picture
   std::shared_ptr<const DepthMap> depth;                     // null: a bare sphere
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces;  // one a tissue, own frame, m
+  std::optional<Lens> lens;                                  // of the scope; nothing: equisolid
   // Where it is saved: a scene's folder or an .arthro archive; empty until it is.
   std::filesystem::path folder;
   // Where the bytes of the scene's assets lie, by the name that the scene uses. document_io.h

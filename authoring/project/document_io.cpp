@@ -221,6 +221,7 @@ Document OpenDocument(const fs::path& file) {
   document.scene = std::move(loaded.scene);
   document.folder = IsArchive(file) ? file : loaded.folder;
   document.unpacked = loaded.unpacked;
+  document.lens = loaded.lens;
   const auto note = [&](const fs::path& name, const std::shared_ptr<const void>& part) {
     if (!name.empty())
       document.files[name.generic_string()] = {fs::absolute(loaded.folder / name), part};

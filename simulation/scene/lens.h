@@ -22,6 +22,7 @@ enum class LensModel { kEquisolid, kKannalaBrandt, kDoubleSphere, kPinhole };
 // The round window in the raw picture, px. The sensor may cut its top, bottom or sides off.
 struct LensCircle {
   double cx = 0, cy = 0, r = 0;
+  friend bool operator==(const LensCircle&, const LensCircle&) = default;
 };
 
 struct Lens {
@@ -33,6 +34,7 @@ struct Lens {
   double field_of_view = 0;   // full, rad: of the circle, or of the picture's diagonal
   LensCircle circle;          // r = 0: there is no round window
   double rms_px = 0;          // of the fit; 0 when it was not fitted
+  friend bool operator==(const Lens&, const Lens&) = default;
 };
 
 // Nothing where the model has no pixel (behind the camera of a pinhole) or no ray (beyond the

@@ -10,6 +10,7 @@
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json_text.h"
+#include "simulation/scene/lens_io.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_json.h"
 #include "simulation/scene/scene_migration.h"
@@ -118,7 +119,8 @@ LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
     loaded.depth = ReadDepthMap(path);
     if (!loaded.panorama.empty()) RequireSameSize(loaded.panorama, loaded.depth, path);
   });
-  named("scope.lens", loaded.scene.scope.lens, [](const fs::path&) {});
+  named("scope.lens", loaded.scene.scope.lens,
+        [&](const fs::path& path) { loaded.lens = ReadLens(path); });
   for (std::size_t i = 0; i < loaded.scene.tissues.size(); ++i) {
     const Tissue& tissue = loaded.scene.tissues[i];
     SurfaceMesh& surface = loaded.surfaces.emplace_back();

@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/lens.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 
@@ -23,6 +25,7 @@ struct LoadedScene {
   std::vector<SurfaceMesh> surfaces;  // one a tissue, in its own frame, m
   // Holds the folder that an archive was unpacked into, for as long as its files may be read.
   std::shared_ptr<const void> unpacked;
+  std::optional<Lens> lens;  // of the scope; nothing: equisolid
 };
 
 // The values alone, checked. Older versions are brought up to date in memory; a newer one is
@@ -30,7 +33,7 @@ struct LoadedScene {
 Scene ReadScene(const std::filesystem::path& scene);
 
 // The scene with its pictures and surfaces; all files that it names are there, and sizes fit.
-// Tetrahedra and the lens are read by those who use them.
+// Tetrahedra are read by those who use them.
 LoadedScene LoadScene(const std::filesystem::path& scene);
 
 // The same, with every fault as a sentence of its own instead of an exception, so that an author

@@ -65,11 +65,11 @@ std::vector<LineCrossing> FindLineCrossings(const ColourImage& picture, int thre
 
 GridAgreement CompareWithGrid(const ColourImage& picture, const GridPanorama& grid,
                               const Backdrop& backdrop, const simulation::ScopeView& view,
-                              double field_of_view, double rim_px) {
+                              double field_of_view, double rim_px, const Lens* lens) {
   const int size = picture.width;
   const glm::dvec2 centre(0.5 * (size - 1));
   const auto panorama_at = [&](const glm::dvec2& pixel) {
-    return PanoramaPixelAt(backdrop, view, field_of_view, size, pixel);
+    return PanoramaPixelAt(backdrop, view, field_of_view, size, pixel, lens);
   };
   const auto is_inside = [&](const glm::dvec2& pixel) {
     return glm::length(pixel - centre) < 0.5 * size - rim_px;

@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/lens.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scope/arthroscope.h"
 
@@ -47,6 +48,7 @@ struct GridAgreement {
 // 45 degrees are left to the other scan; a margin at the window's rim is left out.
 GridAgreement CompareWithGrid(const ColourImage& picture, const GridPanorama& grid,
                               const Backdrop& backdrop, const simulation::ScopeView& view,
-                              double field_of_view, double rim_px = 4.0);
+                              double field_of_view, double rim_px = 4.0,
+                              const Lens* lens = nullptr);
 
 }  // namespace arthro::test

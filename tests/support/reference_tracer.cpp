@@ -80,10 +80,16 @@ simulation::ScopeView ReferenceView(const ReferencePose& pose) {
 }
 
 std::optional<glm::dvec3> ReferenceRay(const simulation::ScopeView& view, double field_of_view,
-                                       int size, const glm::dvec2& pixel) {
+                                       int size, const glm::dvec2& pixel, const Lens* lens) {
   const double half = 0.5 * size;
   const glm::dvec2 q = (pixel + 0.5 - half) / half;  // 1 at the rim
   if (glm::dot(q, q) > 1.0) return std::nullopt;
+  if (lens) {
+    const auto ray =
+        RayFromPixel(*lens, glm::dvec2(lens->circle.cx, lens->circle.cy) + lens->circle.r * q);
+    if (!ray) return std::nullopt;
+    return ray->x * view.right - ray->y * view.up + ray->z * view.view;
+  }
   // Equal-area: with s = sin(θ/2) q, cos θ = 1 − 2 s² and sin θ = 2 s √(1 − s²).
   const glm::dvec2 s = q * std::sin(0.25 * field_of_view);
   const double s2 = glm::dot(s, s);
@@ -164,8 +170,8 @@ std::optional<glm::dvec3> ReferenceReliefHit(const Backdrop& backdrop, const Dep
 
 std::optional<glm::dvec2> PanoramaPixelAt(const Backdrop& backdrop,
                                           const simulation::ScopeView& view, double field_of_view,
-                                          int size, const glm::dvec2& pixel) {
-  const auto ray = ReferenceRay(view, field_of_view, size, pixel);
+                                          int size, const glm::dvec2& pixel, const Lens* lens) {
+  const auto ray = ReferenceRay(view, field_of_view, size, pixel, lens);
   if (!ray) return std::nullopt;
   const auto hit = ReferenceSphereHit(view.tip, *ray, backdrop.radius);
   if (!hit) return std::nullopt;

@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/lens.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/arthroscope.h"
@@ -29,8 +30,10 @@ struct ReferencePose {
 simulation::ScopeView ReferenceView(const ReferencePose& pose);
 
 // Unit ray of a pixel of the round window of a size x size picture; nothing outside the window.
+// With a lens the window is its circle, and the ray the lens' own.
 std::optional<glm::dvec3> ReferenceRay(const simulation::ScopeView& view, double field_of_view,
-                                       int size, const glm::dvec2& pixel);
+                                       int size, const glm::dvec2& pixel,
+                                       const Lens* lens = nullptr);
 
 // Where a ray from `origin` meets the sphere ahead of it; nothing if it does not.
 std::optional<glm::dvec3> ReferenceSphereHit(const glm::dvec3& origin, const glm::dvec3& direction,
@@ -47,7 +50,8 @@ std::optional<glm::dvec3> ReferenceReliefHit(const Backdrop& backdrop, const Dep
 // Panorama pixel that the round window shows at `pixel`: all of the above in a row.
 std::optional<glm::dvec2> PanoramaPixelAt(const Backdrop& backdrop,
                                           const simulation::ScopeView& view, double field_of_view,
-                                          int size, const glm::dvec2& pixel);
+                                          int size, const glm::dvec2& pixel,
+                                          const Lens* lens = nullptr);
 
 // Bilinear in the stored bytes, 0 to 255. Half a pixel beyond the outermost centres the edge colour
 // goes on; further out is black.

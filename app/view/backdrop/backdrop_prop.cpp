@@ -131,24 +131,33 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   if (picture_.relief.steps > 0) PrepareSearch(window);
   const bool has_relief = highest_ > 0.0 && picture_.relief.steps > 0;
   const bool has_cells = has_relief && picture_.relief.cell > 1;
-  const std::size_t variant = (is_equirectangular ? 1u : 0u) + (has_relief ? 2u : 0u) +
-                              (has_cells ? 4u : 0u) + (picture_.plain ? 8u : 0u);
-  std::string head = kBackdropHead;
-  if (is_equirectangular) head += "#define EQUIRECTANGULAR\n";
-  head += kLensRay;
+  const bool has_lens = !simulation::IsEquisolid(picture_.lens);
+  const std::size_t head_variant = (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u);
+  const std::size_t variant =
+      head_variant + (has_relief ? 4u : 0u) + (has_cells ? 8u : 0u) + (picture_.plain ? 16u : 0u);
+  const auto head = [&] {
+    std::string source = kBackdropHead;
+    if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
+    if (has_lens) source += std::string("#define LENS\n") + kLensUniforms + kLensFactor;
+    return source + kLensRay;
+  };
   relief_->Activate();
   if (has_relief) ceiling_->Activate();
-  if (has_cells)
-    cells_.Draw(window, size_, picture_.relief.cell, head,
+  if (has_cells) {
+    if (!cells_.Has(head_variant)) cells_.SetShaders(head_variant, head());
+    cells_.Draw(window, size_, picture_.relief.cell,
                 [this](vtkShaderProgram& program) { SetUniforms(program); });
+  }
   auto& pass = passes_[variant];
   if (!pass) {
-    if (picture_.plain) head += "#define PLAIN\n";
-    if (has_relief) head += "#define RELIEF\n";
-    if (has_cells) head += "#define CELLS\n";
-    const std::string source = head + kDepthShader + kLightShader + kPanoramaFilter +
-                               kPanoramaPlace + (has_relief ? kReliefSearch : "") +
-                               (has_cells ? kReliefFromCells : "") + kBackdropMain;
+    std::string source = head();
+    if (picture_.plain) source += "#define PLAIN\n";
+    if (has_relief) source += "#define RELIEF\n";
+    if (has_cells) source += "#define CELLS\n";
+    for (const char* part :
+         {kDepthShader, kLightShader, kPanoramaFilter, kPanoramaPlace,
+          has_relief ? kReliefSearch : "", has_cells ? kReliefFromCells : "", kBackdropMain})
+      source += part;
     pass.emplace(source, ShaderPass::Shape::kRound);
   }
   vtkShaderProgram* program = pass->Ready(window);
@@ -188,6 +197,14 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "rightAxis", view.right);
   SetUniform(program, "lensScale", std::sin(picture_.field_of_view / 4.0));
   SetUniform(program, "windowRadius", size_ / 2.0);
+  if (!simulation::IsEquisolid(picture_.lens)) {
+    float inward[simulation::WindowLens::kTerms];
+    std::transform(picture_.lens.inward.begin(), picture_.lens.inward.end(), inward,
+                   [](double term) { return static_cast<float>(term); });
+    program.SetUniform1fv("lensInward", simulation::WindowLens::kTerms, inward);
+    SetUniform(program, "lensEnd", picture_.lens.end);
+    SetUniform(program, "lensAxis", picture_.lens.axis);
+  }
   program.SetUniformi("wraps", wraps_ ? 1 : 0);
   // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
   const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;

@@ -69,7 +69,7 @@ class BackdropProp : public vtkProp {
   FootageLight light_;
   vtkNew<vtkTextureObject> panorama_, relief_, ceiling_;
   ReliefCells cells_;
-  std::array<std::optional<ShaderPass>, 16> passes_;  // one a variant of the shader
+  std::array<std::optional<ShaderPass>, 32> passes_;  // one a variant of the shader
 };
 
 }  // namespace arthro::app

@@ -33,10 +33,18 @@ uniform vec3 endColour;
 uniform vec2 notch;             // unit, image right and up
 )";
 
-// A place in the window, in its radii from its centre, right and up: |offset| lensScale =
-// sin(theta/2).
+// A place in the window, in its radii from its centre, right and up. Equisolid: |offset| lensScale
+// = sin(theta/2).
+inline constexpr const char* kLensUniforms = R"(
+uniform float lensInward[10], lensEnd;
+uniform vec2 lensAxis;
+)";
 inline constexpr const char* kLensRay = R"(
 vec3 rayOf(vec2 offset) {
+#ifdef LENS
+  offset -= lensAxis;
+  offset *= lensFactor(lensInward, lensEnd, dot(offset, offset));
+#endif
   float s2 = min(dot(offset, offset) * lensScale * lensScale, 1.0);
   vec2 across = 2.0 * lensScale * sqrt(1.0 - s2) * offset;
   return (1.0 - 2.0 * s2) * viewAxis + across.x * rightAxis + across.y * upAxis;

@@ -35,14 +35,15 @@ void ReliefCells::Pass(vtkOpenGLRenderWindow* window, ShaderPass& pass, vtkTextu
   pass.Draw(side);
 }
 
-void ReliefCells::Draw(vtkOpenGLRenderWindow* window, int size, int cell, const std::string& head,
+void ReliefCells::SetShaders(std::size_t variant, const std::string& head) {
+  variant_ = variant;
+  find_corners_.emplace(head + kPanoramaPlace + kReliefSearch + kCornersMain,
+                        ShaderPass::Shape::kWhole);
+  join_corners_.emplace(head + kCellsMain, ShaderPass::Shape::kWhole);
+}
+
+void ReliefCells::Draw(vtkOpenGLRenderWindow* window, int size, int cell,
                        const std::function<void(vtkShaderProgram&)>& set) {
-  if (!find_corners_ || head != head_) {
-    head_ = head;
-    find_corners_.emplace(head + kPanoramaPlace + kReliefSearch + kCornersMain,
-                          ShaderPass::Shape::kWhole);
-    join_corners_.emplace(head + kCellsMain, ShaderPass::Shape::kWhole);
-  }
   const int across = (size + cell - 1) / cell;
   if (across != across_) {
     across_ = across;

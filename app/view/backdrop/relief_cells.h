@@ -20,9 +20,11 @@ namespace arthro::app {
 
 class ReliefCells {
  public:
-  // `head`: what both passes' shaders begin with, as another one is asked for they are built anew.
+  // `head`: what both passes' shaders begin with; `variant` tells one from another.
+  bool Has(std::size_t variant) const { return find_corners_ && variant == variant_; }
+  void SetShaders(std::size_t variant, const std::string& head);
   // `set` gives a program its uniforms. A picture of size x size pixels, cells of cell x cell.
-  void Draw(vtkOpenGLRenderWindow* window, int size, int cell, const std::string& head,
+  void Draw(vtkOpenGLRenderWindow* window, int size, int cell,
             const std::function<void(vtkShaderProgram&)>& set);
   vtkTextureObject* cells() { return cells_; }
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
@@ -31,7 +33,7 @@ class ReliefCells {
   void Pass(vtkOpenGLRenderWindow* window, ShaderPass& pass, vtkTextureObject* into,
             const std::function<void(vtkShaderProgram&)>& set);
 
-  std::string head_;
+  std::size_t variant_ = 0;
   int across_ = 0;  // cells
   vtkNew<vtkTextureObject> corners_, cells_;
   vtkNew<vtkOpenGLFramebufferObject> framebuffer_;

@@ -176,6 +176,45 @@ TEST_F(BackdropView, DepthIsTheReliefsDistanceAlongTheView) {
   }
 }
 
+// A calibrated lens, its axis beside the middle of its round window.
+TEST_F(BackdropView, GridThroughACalibratedLensLiesWhereTheLensPutsIt) {
+  GridPanorama grid;
+  grid.height = 2048;
+  Backdrop backdrop;
+  backdrop.projection.centre_px = {1020.25, 1030.75};
+  backdrop.projection.focal_px = 420;
+  view_->SetBackdrop(grid.Draw(), {}, backdrop);
+  Lens lens;
+  lens.model = LensModel::kKannalaBrandt;
+  lens.width = 720, lens.height = 576;
+  lens.focal_px = 290;
+  lens.cx = 371, lens.cy = 279;
+  lens.k = {-0.09, 0.015, 0, 0};
+  lens.circle = {360, 288, 255};
+  const simulation::ScopeOptics optics = simulation::OpticsOf({}, lens);
+  for (const double angle : {0.0, 30.0, 70.0}) {
+    Picture picture =
+        PictureFromPose({0.1, -0.15, 1.3, 0.015}, RadiansFromDegrees(angle), optics.field_of_view);
+    picture.lens = optics.lens;
+    picture.plain = true;
+    view_->Render(picture, 512);
+    const GridAgreement with = CompareWithGrid(view_->ReadPixels(), grid, backdrop, picture.view,
+                                               picture.field_of_view, 4.0, &lens);
+    std::printf("lens, %.0f deg: %d crossings, rms %.4f px, max %.4f px\n", angle, with.crossings,
+                with.rms_px, with.max_px);
+    EXPECT_GT(with.crossings, 1000);
+    EXPECT_LT(with.max_px, 0.5);
+    EXPECT_EQ(with.wrong_cells, 0);
+    picture.lens = {};
+    view_->Render(picture, 512);
+    EXPECT_GT(CompareWithGrid(view_->ReadPixels(), grid, backdrop, picture.view,
+                              picture.field_of_view, 4.0, &lens)
+                  .max_px,
+              5.0)
+        << "an equisolid lens must not pass for it";
+  }
+}
+
 // A bulge of 8 mm and a step of 6 mm, at which what is near hides what is far.
 LoadedScene CliffScene(bool is_equirectangular) {
   LoadedScene loaded = MakeViewScene(512, 384);
