@@ -31,8 +31,8 @@ std::string WordsOf(const Shortcut& shortcut) {
 std::span<const Command> AllCommands() {
   static const std::vector<Command> all = [] {
     std::vector<Command> commands;
-    for (const auto group :
-         {SceneCommands(), TissueCommands(), PracticeCommands(), IncisionCommands()})
+    for (const auto group : {SceneCommands(), TissueCommands(), PracticeCommands(),
+                             DisturbanceCommands(), IncisionCommands()})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();

@@ -14,6 +14,7 @@
 
 #include "app/commands/depth_cache.h"
 #include "app/commands/devices/pivot_work.h"
+#include "app/commands/disturbing.h"
 #include "app/commands/footage/footage_board.h"
 #include "app/commands/footage/footage_makers.h"
 #include "app/commands/jobs.h"
@@ -110,6 +111,7 @@ struct EditorState {
   int poke_of = 0;               // position of the history that it was made of
   std::optional<PivotCalibrating> calibrating;
   bool shows_devices = false;  // their panel, instead of the practice's
+  Disturbing disturbing;       // of a practice's picture
   bool practice_only = false;  // the practise job: no editor behind it
   std::vector<Dialog> dialogs;
   std::string message;  // last thing done, for the status bar

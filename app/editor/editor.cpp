@@ -252,6 +252,8 @@ class Editor {
         IncisionPage(ui, state_, layout.side);
       else if (state_.shows_devices)
         DevicesPage(ui, state_, layout.side);
+      else if (state_.disturbing.shows_panel)
+        DisturbancesPage(ui, state_, layout.side);
       else
         PracticePanel(ui, state_, layout.side);
     } else {

@@ -19,7 +19,7 @@ constexpr double kCoarse = 0.55;                                 // of the full 
 bool Same(const Picture& a, const Picture& b) {
   return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
          a.field_of_view == b.field_of_view && a.lens == b.lens && a.notch == b.notch &&
-         a.instrument == b.instrument;
+         a.instrument == b.instrument && a.disturbances == b.disturbances;
 }
 
 // What a projection in pixels of one picture is in pixels of a smaller one, whose pixel (x, y)
@@ -46,6 +46,9 @@ Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optic
     picture.instrument = InstrumentView{portal,         tool.proxy_in_portal,
                                         tool.pose.roll, state.practice->instrument_kind(),
                                         tool.opening,   state.practice->blade_turn()};
+    picture.disturbances = state.disturbing.now;
+    // What stands still is not drawn anew.
+    if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
   } else {
     picture.view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
     picture.instrument =

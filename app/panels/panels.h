@@ -32,8 +32,9 @@ void TopBar(Ui& ui, EditorState& state, const Area& area);
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
 void StepsPanel(Ui& ui, EditorState& state, const Area& area);
 void PracticePanel(Ui& ui, EditorState& state, const Area& area);
-void DevicesPage(Ui& ui, EditorState& state, const Area& area);   // in the place of the last
-void IncisionPage(Ui& ui, EditorState& state, const Area& area);  // while one is calibrated
+void DevicesPage(Ui& ui, EditorState& state, const Area& area);       // in the place of the last
+void DisturbancesPage(Ui& ui, EditorState& state, const Area& area);  // there too
+void IncisionPage(Ui& ui, EditorState& state, const Area& area);      // while one is calibrated
 void Dialogs(Ui& ui, EditorState& state);
 
 // One page of controls each, inside StepsPanel.

@@ -197,11 +197,13 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   Instruments(ui, state);
   Gap(ui);
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-  if (Taken(state) > 0) {
-    CommandButton(ui, state, "reset-tissues", {half, ui.Px(kButton)});
-    ImGui::SameLine(0, ui.Px(8));
-  }
-  CommandButton(ui, state, "reset-hands", {-FLT_MIN, ui.Px(kButton)});
+  if (Taken(state) > 0) CommandButton(ui, state, "reset-tissues", {-FLT_MIN, ui.Px(kButton)});
+  CommandButton(ui, state, "reset-hands", {half, ui.Px(kButton)});
+  ImGui::SameLine(0, ui.Px(8));
+  const Command& disturbances = CommandOf("disturbances");
+  if (ToggleButton(ui, disturbances.words, state.disturbing.now.is_any(), true,
+                   {-FLT_MIN, ui.Px(kButton)}, disturbances.help))
+    Run(state, disturbances);
   Gap(ui);
   // What is missing is more urgent than the hint, and there is room for one of them.
   if (!MissingDevices(ui, state))

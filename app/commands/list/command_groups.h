@@ -8,10 +8,11 @@
 
 namespace arthro::app {
 
-std::span<const Command> SceneCommands();     // files, footage, undo
-std::span<const Command> TissueCommands();    // what is done to the selected tissue
-std::span<const Command> IncisionCommands();  // their calibration
-std::span<const Command> PracticeCommands();  // steps, practice, window
+std::span<const Command> SceneCommands();        // files, footage, undo
+std::span<const Command> TissueCommands();       // what is done to the selected tissue
+std::span<const Command> IncisionCommands();     // their calibration
+std::span<const Command> PracticeCommands();     // steps, practice, window
+std::span<const Command> DisturbanceCommands();  // of a practice's picture
 
 inline bool Always(const EditorState&) { return true; }
 inline bool InEditor(const EditorState& state) { return !state.practice && !state.practice_only; }

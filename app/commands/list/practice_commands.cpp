@@ -40,6 +40,7 @@ void ResetHands(State& state) {
 void ToggleDevices(State& state) {
   const bool is_in_sight = state.practice || state.step == Step::kPractice;
   state.shows_devices = !(state.shows_devices && is_in_sight);
+  state.disturbing.shows_panel = false;
   if (!state.practice) state.step = Step::kPractice;
 }
 

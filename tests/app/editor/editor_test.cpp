@@ -158,6 +158,73 @@ expect "No device holds this hand"
         "--hands plant");
 }
 
+TEST_F(EditorWindow, DisturbancesAreSwitchedOnAndOffAndMoveOnlyWhereTheyDo) {
+  const auto file = [&](const char* name) { return (temp / name).string(); };
+  Drive(R"(
+key p
+wait job
+wait frames 5
+expect value "Disturbances" off
+shot )" +
+        file("clear.png") +
+        R"(
+key f3
+expect value "Fogged lens" off
+expect value "Fogged lens strength" "0.50"
+expect disabled "Clear view"
+click "Fogged lens"
+expect value "Fogged lens" on
+set "Fogged lens strength" 0.8
+expect value "Fogged lens strength" "0.80"
+wait frames 3
+shot )" +
+        file("fog.png") +
+        R"(
+wait frames 30
+shot )" +
+        file("fog_later.png") +
+        R"(
+click "Bleeding"
+wait frames 3
+shot )" +
+        file("blood.png") +
+        R"(
+wait frames 30
+shot )" +
+        file("blood_later.png") +
+        R"(
+click "Clear view"
+expect value "Fogged lens" off
+expect value "Bleeding" off
+expect value "Fogged lens strength" "0.80"
+click "Hide disturbances"
+expect "Force on the tissue"
+expect value "Disturbances" off
+wait frames 3
+shot )" +
+        file("clear_again.png") +
+        R"(
+click "Disturbances"
+click "Debris"
+key f3
+expect value "Disturbances" on
+key escape
+)");
+  // The middle of the scope's picture, where no clock runs.
+  const auto seen = [&](const char* name) {
+    const ColourImage shot = ReadColourImage(file(name));
+    std::vector<std::uint8_t> pixels;
+    for (int y = shot.height / 3; y < shot.height * 2 / 3; ++y)
+      pixels.insert(pixels.end(), shot.at(shot.width / 5, y), shot.at(shot.width / 2, y));
+    return pixels;
+  };
+  EXPECT_NE(seen("fog.png"), seen("clear.png"));
+  EXPECT_EQ(seen("fog_later.png"), seen("fog.png"));
+  EXPECT_NE(seen("blood.png"), seen("fog.png"));
+  EXPECT_NE(seen("blood_later.png"), seen("blood.png"));
+  EXPECT_EQ(seen("clear_again.png"), seen("clear.png"));
+}
+
 TEST_F(EditorWindow, ADeviceThatARigNamesAndIsAbsentIsToldInOneSentence) {
   const auto rig = temp / "rig.json";
   std::ofstream(rig) << R"({"schema": "arthroscene.rig/1", "title": "t", "scope": {
