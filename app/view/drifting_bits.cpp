@@ -37,7 +37,8 @@ double Wrapped(double x) { return x - kBox * std::floor(x / kBox + 0.5); }
 
 // Where a point of the repeating fluid is seen, and how much of it: it fades at the box's ends.
 std::optional<DriftingBit> Seen(const glm::dvec3& place, double radius,
-                                const simulation::ScopeView& view, double field_of_view) {
+                                const simulation::ScopeView& view, double field_of_view,
+                                const simulation::WindowLens& lens) {
   const glm::dvec3 middle = view.tip + kAhead * view.view;
   glm::dvec3 from_middle = place - middle;
   double opacity = 1;
@@ -53,8 +54,10 @@ std::optional<DriftingBit> Seen(const glm::dvec3& place, double radius,
   if (cosine < -0.2) return std::nullopt;
   DriftingBit bit;
   const glm::dvec2 pixel = simulation::PixelFromRay({field_of_view, {0, 0}, 1.0}, view, ray);
-  bit.centre = {pixel.x, -pixel.y};
-  bit.radius = radius / (2.0 * std::sin(field_of_view / 4.0) * distance);
+  const double bend =
+      simulation::LensFactor(lens.outward, std::min(glm::dot(pixel, pixel), lens.end));
+  bit.centre = lens.axis + bend * glm::dvec2(pixel.x, -pixel.y);
+  bit.radius = bend * radius / (2.0 * std::sin(field_of_view / 4.0) * distance);
   bit.distance = distance;
   bit.opacity = opacity;
   bit.softness = std::clamp(0.5 * (kDepthOfField / distance - 1.0), 0.0, 1.2);
@@ -88,7 +91,8 @@ int BubbleCount(double strength) { return static_cast<int>(std::ceil(strength * 
 int FlakeCount(double strength) { return static_cast<int>(std::ceil(strength * kMostFlakes)); }
 
 std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
-                                 const simulation::ScopeView& view, double field_of_view) {
+                                 const simulation::ScopeView& view, double field_of_view,
+                                 const simulation::WindowLens& lens) {
   std::vector<DriftingBit> bits;
   const double t = disturbances.time;
   for (int i = 0; i < BubbleCount(disturbances.bubbles); ++i) {
@@ -103,7 +107,8 @@ std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
       // Larger ones rise faster; −y is up.
       const double rise = 2e-3 + 5e-3 * size, phase = 6.28 * Share(own);
       const double sway = 0.4e-3 * std::sin(2.1 * t + phase);
-      bit = Seen(start + glm::dvec3(sway, -rise * t, 0.6 * sway), radius, view, field_of_view);
+      bit =
+          Seen(start + glm::dvec3(sway, -rise * t, 0.6 * sway), radius, view, field_of_view, lens);
       if (bit) bit->softness *= 0.35;  // its rim stays what it is seen by
     }
     const double shape = Share(own);
@@ -116,7 +121,7 @@ std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
 }
 
 std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulation::ScopeView& view,
-                                double field_of_view) {
+                                double field_of_view, const simulation::WindowLens& lens) {
   std::vector<DriftingBit> bits;
   const double t = disturbances.time;
   for (int i = 0; i < FlakeCount(disturbances.debris); ++i) {
@@ -129,7 +134,7 @@ std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulati
                              0.7e-3 * std::sin(0.6 * t + phase) * glm::dvec3(way.y, way.z, way.x);
     const bool is_fibre = shape < kFibreShare;
     const double radius = is_fibre ? 0.5e-3 + 1.1e-3 * size : 0.12e-3 + 0.7e-3 * size * size * size;
-    auto bit = Seen(start + drift, radius, view, field_of_view);
+    auto bit = Seen(start + drift, radius, view, field_of_view, lens);
     if (!bit) continue;
     bit->angle = phase + (0.5 * way.x + 0.1) * t;
     bit->shape = shape;

@@ -10,6 +10,7 @@
 
 #include "app/view/disturbances.h"
 #include "simulation/scope/arthroscope.h"
+#include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
@@ -32,8 +33,9 @@ int FlakeCount(double strength);
 
 // Those in sight, the farthest first.
 std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
-                                 const simulation::ScopeView& view, double field_of_view);
+                                 const simulation::ScopeView& view, double field_of_view,
+                                 const simulation::WindowLens& lens = {});
 std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulation::ScopeView& view,
-                                double field_of_view);
+                                double field_of_view, const simulation::WindowLens& lens = {});
 
 }  // namespace arthro::app

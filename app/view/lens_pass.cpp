@@ -229,12 +229,14 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
               0.0,
               "",
               size};
-  frame.pixels_of_angle = frame.radius / (2.0 * std::sin(picture.field_of_view / 4.0));
+  frame.pixels_of_angle =
+      picture.lens.outward[0] * frame.radius / (2.0 * std::sin(picture.field_of_view / 4.0));
   if (d.haze > 0) frame.defines += "#define HAZE\n";
   if (d.fog > 0) frame.defines += "#define FOG\n";
   if (d.overexposure > 0) frame.defines += "#define OVEREXPOSED\n";
   const bool is_blurred = d.near_blur > 0 || d.far_blur > 0 || d.fog > 0;
-  const std::vector<DriftingBit> bubbles = Bubbles(d, picture.view, picture.field_of_view);
+  const std::vector<DriftingBit> bubbles =
+      Bubbles(d, picture.view, picture.field_of_view, picture.lens);
 
   Resize(target_, window, size, 0);
   vtkOpenGLState* state = window->GetState();
@@ -274,7 +276,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
     }
     DrawInto(*target_.framebuffer, state, size);
     disturb_quad_.helper->Render();
-    DrawBits(frame, Flakes(d, picture.view, picture.field_of_view), kFlakeMain);
+    DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens), kFlakeMain);
     DrawBits(frame, bubbles, kBubbleMain);
   }
 

@@ -10,6 +10,11 @@ inline constexpr const char* kLensPassHead = R"(//VTK::System::Dec
 uniform sampler2D depths;
 uniform float windowRadius;  // px
 uniform float nearest, farthest, lightReach;
+// Stored depth; 0 outside the window and under its mark, where nothing was drawn.
+float storedAt(vec2 at) {
+  float stored = textureLod(depths, at, 0.0).r;
+  return stored < 1.0 ? stored : 0.0;
+}
 float distanceOf(float stored) {
   return nearest / (1.0 - min(stored, 1.0) * (farthest - nearest) / farthest);
 }
@@ -25,7 +30,7 @@ uniform float pixelsOfAngle;  // aperture, m, by px a radian
 uniform float farFocus;
 #endif
 void main() {
-  float stored = textureLod(depths, texCoord, 0.0).r;
+  float stored = storedAt(texCoord);
   float weight = stored > 0.0 ? 1.0 : 0.0;
 #ifdef FAR_ONLY
   float blur = pixelsOfAngle * (1.0 / farFocus - 1.0 / distanceOf(stored));
@@ -42,7 +47,7 @@ inline constexpr const char* kSpreadMain = R"(
 in vec2 texCoord;
 uniform float pixelsOfAngle, nearFocus, mostBlur;  // mostBlur: px
 float blurOf(vec2 at) {
-  float stored = textureLod(depths, at, 0.0).r;
+  float stored = storedAt(at);
   float distance = distanceOf(max(stored, 1e-6));
   return stored > 0.0 ? pixelsOfAngle * max(1.0 / distance - 1.0 / nearFocus, 0.0) : 0.0;
 }
@@ -129,7 +134,7 @@ uniform sampler2D spread;
 uniform float spreadLod, mostBlur;
 #endif
 void main() {
-  float stored = textureLod(depths, texCoord, 0.0).r;
+  float stored = storedAt(texCoord);
   float distance = distanceOf(stored);
   vec3 colour = textureLod(picture, texCoord, 0.0).rgb;
   vec3 before = colour;
@@ -184,7 +189,7 @@ void show(vec3 colour, float alpha, bool through) {
   fog = fogAt(at, r);
 #endif
   // Nothing of it is seen behind what stands in the scene.
-  float stored = textureLod(depths, at, 0.0).r;
+  float stored = storedAt(at);
   float scene = distanceOf(stored);
   float seen = stored > 0.0 ? alpha * clamp((scene - bitPlace.w) / 0.3e-3, 0.0, 1.0) : 0.0;
   float murky = through ? scene : bitPlace.w;
