@@ -111,21 +111,17 @@ uniform sampler2D picture;
 uniform sampler2D gathered;
 uniform float pixelsOfAngle, farPixelsOfAngle, nearFocus, farFocus;  // see kGatherMain
 uniform float fogBlur;                         // px
-// A disc's spread (its variance a sixteenth of the square of its diameter) from the middle and six
+// A disc's spread (its variance a sixteenth of the square of its diameter) from the middle and four
 // places of a ring about it, in the copy whose own spread is the rest: a quarter of its texel's
-// square. Where nothing is blurred the loop is left at once.
+// square.
 vec3 blurred(vec3 sharp, float diameter) {
-  float lod = floor(log2(max(0.31 * diameter, 1.0)) + 0.5), texel = exp2(lod);
+  float lod = floor(log2(max(0.33 * diameter, 1.0)) + 0.5), texel = exp2(lod);
   float rest = diameter * diameter / 16.0 - (lod > 0.0 ? 0.25 : 0.17) * texel * texel;
-  vec2 ring = vec2(sqrt(max(rest, 0.0) * 14.0 / 6.0) / (2.0 * windowRadius), 0.0);
-  const mat2 kSixth = mat2(0.5, 0.8660254, -0.8660254, 0.5);
-  float count = diameter > 0.3 ? 6.0 : 0.0;
-  vec4 sum = vec4(0.0);
-  for (float i = 0.0; i < count; i += 1.0) {
-    sum += textureLod(gathered, texCoord + ring, lod);
-    ring = kSixth * ring;
-    if (i == 5.0) sum += textureLod(gathered, texCoord, lod);
-  }
+  vec2 ring = sqrt(max(rest, 0.0) * 2.5) / (2.0 * windowRadius) * vec2(0.9239, 0.3827);
+  vec2 turned = vec2(-ring.y, ring.x);
+  vec4 sum = textureLod(gathered, texCoord, lod);
+  sum += textureLod(gathered, texCoord + ring, lod) + textureLod(gathered, texCoord - ring, lod);
+  sum += textureLod(gathered, texCoord + turned, lod) + textureLod(gathered, texCoord - turned, lod);
   return sum.a > 0.05 ? sum.rgb / sum.a : sharp;
 }
 #endif
@@ -148,7 +144,10 @@ void main() {
   float diameter = farPixelsOfAngle * max(1.0 / farFocus - inverse, 0.0);
 #ifdef NEAR_BLUR
   float own = pixelsOfAngle * max(inverse - 1.0 / nearFocus, 0.0);
-  diameter = max(diameter, max(own, mostBlur * textureLod(spread, texCoord, spreadLod).r));
+  // Beside what is blurred the mean is of half of it.
+  float mean = mostBlur * textureLod(spread, texCoord, spreadLod).r;
+  mean *= 1.0 + 0.6 * clamp(1.0 - 2.0 * own / max(mean, 1e-3), 0.0, 1.0);
+  diameter = max(diameter, max(own, mean));
 #endif
   diameter = max(diameter, fogBlur * fog);
   colour = mix(colour, blurred(colour / max(rim, 0.02), diameter) * rim, smoothstep(0.3, 1.3, diameter));
