@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/view/loft_mesh.h"
 #include "simulation/scope/rod_pose.h"
 
 namespace arthro::app {
@@ -23,9 +24,7 @@ std::vector<Ring> RingsOf(const ProbeShape& s) {
   const double elbow = -s.neck_radius - bend;
 
   // Shaft and taper: smooth at both ends.
-  const int straight = static_cast<int>(std::ceil((s.shaft_length + elbow) / s.ring_spacing));
-  for (int i = 0; i <= straight; ++i) {
-    const double z = -s.shaft_length + (s.shaft_length + elbow) * i / straight;
+  for (const double z : ShaftStations(elbow, s.shaft_length + elbow, s.ring_spacing)) {
     const double t = std::clamp((z - (elbow - s.taper_length)) / s.taper_length, 0.0, 1.0);
     const double smooth = t * t * (3.0 - 2.0 * t);
     rings.push_back({0.0, z, 0.0, s.shaft_radius + (s.neck_radius - s.shaft_radius) * smooth});
@@ -82,6 +81,17 @@ SurfaceMesh MakeProbeMesh(const ProbeShape& shape) {
       mesh.triangles.push_back({a, b, b + sides});
       mesh.triangles.push_back({a, b + sides, a + sides});
     }
+  // Both ends are closed: the far one flat, the hook's by a point.
+  const int last = (static_cast<int>(rings.size()) - 1) * sides;
+  const int middle = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.push_back({0.0, 0.0, mesh.vertices.front().z});
+  mesh.vertices.push_back(
+      {0.0, shape.hook_length, mesh.vertices[static_cast<std::size_t>(last)].z});
+  for (int i = 0; i < sides; ++i) {
+    const int j = (i + 1) % sides;
+    mesh.triangles.push_back({j, i, middle});
+    mesh.triangles.push_back({last + i, last + j, middle + 1});
+  }
   return mesh;
 }
 

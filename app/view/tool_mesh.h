@@ -1,6 +1,13 @@
 // Instruments as they are drawn, in the tool's frame of simulation/tissue/contact/tool_shape.h: the
 // tip at the origin, +z along the rod into the joint, hook, window and moving jaw towards +y. What
-// is drawn is what touches: jaws and shafts have the shape's own capsules. m, rad.
+// is drawn is where it touches: the tips are the shape's, and no jaw reaches far beyond its
+// capsules (tests/app/view prints it). m, rad.
+//
+// As the real ones are made: probes of 3 to 5 mm with a blunt hook and marks to measure by, hand
+// instruments of 2.7 and 3.4 mm with jaws of about 2 mm [AORN instrument guide]; basket forceps
+// whose moving tooth comes down into an open frame [US 5 389 104]; shavers as a tube in a tube, a
+// toothed window in each, here of 4.5 mm [Gu et al. 2022, The design of a novel arthroscopy
+// shaver]. The grasper's lower jaw stands still.
 #pragma once
 
 #include "simulation/scene/surface_mesh.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include <glm/geometric.hpp>
 
@@ -309,28 +310,109 @@ TEST_F(ModelsView, EachInstrumentLooksItsOwnWayAndItsJawMoves) {
   }
 }
 
-// Drawn is what touches: no vertex lies off the shape's capsules, closed or open.
-TEST(ToolMesh, OfPunchAndGrasperLiesOnTheirCapsules) {
+// Signed distance of a place to the nearest of some capsules, m.
+double OffCapsules(const glm::dvec3& x, std::span<const simulation::Capsule> capsules) {
+  double least = 1;
+  for (const simulation::Capsule& c : capsules) {
+    const glm::dvec3 way = c.b - c.a;
+    const double t = std::clamp(glm::dot(x - c.a, way) / glm::dot(way, way), 0.0, 1.0);
+    least = std::min(least, glm::distance(x, c.a + t * way) - c.radius);
+  }
+  return least;
+}
+
+constexpr simulation::ToolKind kEveryTool[] = {
+    simulation::ToolKind::kProbe, simulation::ToolKind::kPunch, simulation::ToolKind::kShaver,
+    simulation::ToolKind::kGrasper};
+
+// Drawn is what touches. Capsules are round where the real jaws are flat, with edges; nothing is
+// drawn more than 0.45 mm off them, and the tips, which a trainee works with, are within 0.2 mm:
+// along the rod, and each jaw's from its hinge.
+TEST(ToolMesh, IsDrawnWhereItTouches) {
   using namespace simulation;
-  for (const ToolKind kind : {ToolKind::kPunch, ToolKind::kGrasper}) {
+  for (const ToolKind kind : kEveryTool) {
     const ToolShape shape = ShapeOf(kind);
     const app::ToolMesh mesh = app::MakeToolMesh(kind);
-    for (const double opening : {0.0, 0.6, 1.0}) {
+    for (const double opening : {0.0, 0.4, 1.0}) {
       std::vector<Capsule> capsules(shape.capsules.size());
       PosedCapsules(shape, {true, {}, opening, false}, capsules);
-      const auto off = [&](const glm::dvec3& x) {
-        double least = 1;
-        for (const Capsule& c : capsules) {
-          const glm::dvec3 way = c.b - c.a;
-          const double t = std::clamp(glm::dot(x - c.a, way) / glm::dot(way, way), 0.0, 1.0);
-          least = std::min(least, std::abs(glm::distance(x, c.a + t * way) - c.radius));
-        }
-        return least;
+      const Pose part = app::MovingPart(mesh, mesh.turns_freely ? 0.0 : opening, 0.0);
+      double far_off = 0, drawn_tip = -1, touching_tip = -1, drawn_jaw = 0, touching_jaw = 0;
+      const auto see = [&](const glm::dvec3& x) {
+        // The working end; shafts are drawn a little longer than they touch.
+        if (x.z > -30e-3) far_off = std::max(far_off, OffCapsules(x, capsules));
+        drawn_tip = std::max(drawn_tip, x.z);
       };
-      const Pose part = app::MovingPart(mesh, opening, 0.0);
-      for (const glm::dvec3& x : mesh.body.vertices) ASSERT_LT(off(x), 5e-6);
-      for (const glm::dvec3& x : mesh.moving.vertices) ASSERT_LT(off(part * x), 5e-6);
+      for (const glm::dvec3& x : mesh.body.vertices) see(x);
+      for (const glm::dvec3& x : mesh.moving.vertices) {
+        see(part * x);
+        drawn_jaw = std::max(drawn_jaw, glm::distance(part * x, mesh.hinge));
+      }
+      for (std::size_t i = 0; i < capsules.size(); ++i) {
+        const Capsule& c = capsules[i];
+        touching_tip = std::max(touching_tip, std::max(c.a.z, c.b.z) + c.radius);
+        if (std::ranges::count(shape.jaw, static_cast<int>(i)) > 0)
+          touching_jaw = std::max(touching_jaw, glm::distance(c.b, mesh.hinge) + c.radius);
+      }
+      std::printf("tool %d, opening %.1f: tip %+.3f mm, jaw %+.3f mm, at most %.3f mm outside\n",
+                  static_cast<int>(kind), opening, 1e3 * (drawn_tip - touching_tip),
+                  1e3 * (touching_jaw > 0 ? drawn_jaw - touching_jaw : 0.0), 1e3 * far_off);
+      EXPECT_NEAR(drawn_tip, touching_tip, 0.2e-3) << static_cast<int>(kind);
+      if (touching_jaw > 0) {
+        EXPECT_NEAR(drawn_jaw, touching_jaw, 0.2e-3) << static_cast<int>(kind);
+      }
+      EXPECT_LT(far_off, 0.45e-3) << static_cast<int>(kind);
     }
+  }
+}
+
+// Every edge has its other side once the copies of a place (an edge of the metal) are one.
+bool IsClosed(const SurfaceMesh& mesh) {
+  std::map<std::array<long, 3>, int> places;
+  std::vector<int> place;
+  for (const glm::dvec3& v : mesh.vertices)
+    place.push_back(places
+                        .emplace(std::array{std::lround(v.x * 1e9), std::lround(v.y * 1e9),
+                                            std::lround(v.z * 1e9)},
+                                 static_cast<int>(places.size()))
+                        .first->second);
+  std::map<std::pair<int, int>, int> balance;
+  for (const auto& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int a = place[static_cast<std::size_t>(triangle[i])],
+                b = place[static_cast<std::size_t>(triangle[(i + 1) % 3])];
+      ++balance[{a, b}];
+      --balance[{b, a}];
+    }
+  return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+}
+
+TEST(ToolMesh, IsClosedOutwardAndLight) {
+  for (const simulation::ToolKind kind : kEveryTool) {
+    const app::ToolMesh tool = app::MakeToolMesh(kind);
+    EXPECT_LE(tool.body.triangles.size() + tool.moving.triangles.size(), 6000u);
+    for (const SurfaceMesh* mesh : {&tool.body, &tool.moving}) {
+      if (mesh->triangles.empty()) continue;
+      EXPECT_TRUE(IsClosed(*mesh)) << static_cast<int>(kind);
+      double volume = 0;
+      for (const auto& [a, b, c] : mesh->triangles) {
+        const auto& v = mesh->vertices;
+        volume += glm::dot(v[a], glm::cross(v[b], v[c])) / 6.0;
+      }
+      EXPECT_GT(volume, 0.0) << static_cast<int>(kind);
+    }
+    EXPECT_EQ(tool.moving.triangles.empty(), kind == simulation::ToolKind::kProbe);
+  }
+}
+
+// Widest across the rod, further than 20 mm behind the tip: the real shafts' diameters.
+TEST(ToolMesh, HasTheRealShaft) {
+  const double diameters[] = {3.0e-3, 3.4e-3, 4.5e-3, 3.4e-3};
+  for (int i = 0; i < 4; ++i) {
+    double widest = 0;
+    for (const glm::dvec3& v : app::MakeToolMesh(kEveryTool[i]).body.vertices)
+      if (v.z < -20e-3) widest = std::max(widest, std::hypot(v.x, v.y));
+    EXPECT_NEAR(2.0 * widest, diameters[i], 1e-6) << i;
   }
 }
 
