@@ -8,6 +8,7 @@
 namespace arthro::test {
 namespace {
 
+using app::Disturbances;
 using app::Picture;
 using app::PictureFromPose;
 using app::StillPictures;
@@ -44,6 +45,42 @@ TEST(StillPicture, SteepScopeWithItsHeadTurned) {
                                           RadiansFromDegrees(100), 0.5);
   EXPECT_TRUE(MatchesBaseline(pictures->Draw(picture, 256), "view_steep_scope"));
 }
+
+// The comparer sees a disturbance, and a quarter more or less of it.
+struct Disturbed {
+  const char* name;
+  double Disturbances::*strength;
+  double value;
+};
+class DisturbedPicture : public testing::TestWithParam<Disturbed> {};
+
+TEST_P(DisturbedPicture, AnotherStrengthIsCaught) {
+  START_OR_SKIP(pictures, MakeViewScene());
+  Picture picture = ScenePicture();
+  // Near enough for all of them.
+  picture.instrument->proxy = picture.view.tip + 0.006 * picture.view.view;
+  const auto drawn = [&](double value) {
+    picture.disturbances = {};
+    picture.disturbances.*GetParam().strength = value;
+    return pictures->Draw(picture, 176);
+  };
+  const ColourImage disturbed = drawn(GetParam().value);
+  for (const double other : {0.0, 0.75 * GetParam().value, 1.25 * GetParam().value}) {
+    const PictureDifference difference = ComparePictures(drawn(other), disturbed);
+    EXPECT_FALSE(difference.passes()) << other << ": " << difference.Sentence();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, DisturbedPicture,
+                         testing::Values(Disturbed{"haze", &Disturbances::haze, 0.6},
+                                         Disturbed{"bubbles", &Disturbances::bubbles, 0.7},
+                                         Disturbed{"debris", &Disturbances::debris, 0.8},
+                                         Disturbed{"fog", &Disturbances::fog, 0.45},
+                                         Disturbed{"near_blur", &Disturbances::near_blur, 0.8},
+                                         Disturbed{"far_blur", &Disturbances::far_blur, 0.8},
+                                         Disturbed{"overexposure", &Disturbances::overexposure,
+                                                   0.5}),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(StillPicture, AMissingProbeIsCaught) {
   START_OR_SKIP(pictures, MakeViewScene());
