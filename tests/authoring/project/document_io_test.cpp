@@ -36,7 +36,9 @@ struct Sources {
     mesh.rest_positions = Tetrahedron(0.01).vertices;
     mesh.elements = {0, 1, 2, 3};
     WriteTetMesh(folder / "made.vtu", mesh);
-    WriteAtomically(folder / "lens.json", "{}");
+    WriteAtomically(folder / "lens.json",
+                    R"({"model": "equisolid", "width": 720, "height": 576, "focal_px": 330,
+                      "cx": 360, "cy": 288, "circle": {"cx": 360, "cy": 288, "r": 250}})");
   }
 
   // A document as authoring makes it: imported picture, filtered depth, a tissue with tetrahedra.

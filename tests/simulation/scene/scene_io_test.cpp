@@ -114,7 +114,11 @@ TEST(SceneIo, ListsEveryMissingOrUnfitFile) {
     EXPECT_NE(error.sentence().find("and 2 more"), std::string::npos) << error.sentence();
   }
   WriteSmallFiles(folder.path());
-  WriteAtomically(folder / "lens.json", "{}");
+  WriteAtomically(folder / "lens.json",
+                  R"({"model": "equisolid", "width": 720, "height": 576, "focal_px": 330,
+                      "cx": 360, "cy": 288, "circle": {"cx": 360, "cy": 288, "r": 250}})");
+  faults.clear();
+  EXPECT_TRUE(LoadScene(folder.path(), faults).lens) << "it is read with the scene";
   WriteDepthMap(folder / "d.tiff", DepthMap(16, 9, 0.0f));
   faults.clear();
   LoadScene(folder.path(), faults);
