@@ -21,6 +21,7 @@ struct ViewArguments {
   std::filesystem::path scene, output;
   double latitude_deg = 0.0, longitude_deg = 0.0, roll_deg = 0.0, insertion_mm = 10.0;
   std::optional<double> view_angle_deg, head_roll_deg, field_of_view_deg;
+  std::optional<double> relight;
   int size = 512;
   bool plain = false;
   std::string disturb;
@@ -61,7 +62,8 @@ void RunViewJob(const ViewArguments& arguments) {
   disturbances.seed = arguments.disturb_seed;
   disturbances.time = arguments.disturb_time;
   CheckDisturbances(disturbances);
-  const LoadedScene loaded = LoadScene(arguments.scene);
+  LoadedScene loaded = LoadScene(arguments.scene);
+  if (arguments.relight) loaded.scene.backdrop.relight = *arguments.relight;
   const ScopeSpec& scope = loaded.scene.scope;
   const double view_angle = arguments.view_angle_deg
                                 ? Radians("--view-angle-deg", *arguments.view_angle_deg)
@@ -121,6 +123,10 @@ void AddViewJob(CLI::App& program) {
          "near hides what is far and moves before it: 128 for a fine picture; 0: all colours "
          "lie on the bare sphere; where not given 64, and 0 with --plain")
       ->check(CLI::Range(0, 4096));
+  job->add_option("--relight", arguments->relight,
+                  "How far the light of the footage is evened out and the scope's own lamp put in "
+                  "its place: 0 before, 1 after; the scene's own where not given")
+      ->check(CLI::Range(0.0, 1.0));
   job->add_option("--disturb", arguments->disturb,
                   "What disturbs the picture, each with a strength from 0 to 1, as in "
                   "haze=0.5,bubbles=0.3: " +

@@ -122,6 +122,7 @@ struct EditorState {
   DepthCache depth_cache;
   authoring::DepthOptions depth_in_work;  // what preview_jobs computes
   std::function<void(EditorState&)> when_depth_is_ready;
+  bool shows_as_filmed = false;  // the footage's light, to compare
   bool dragging = false;  // a slider is held: preview now, full size after
   std::optional<FootageBoard> footage;
   FootageJob footage_job;

@@ -101,6 +101,12 @@ void SetFieldOfView(EditorState& state, double field_of_view) {
        [&](auto& next) { next.scene.scope.field_of_view = field_of_view; });
 }
 
+void SetRelight(EditorState& state, double share) {
+  if (share == state.document().scene.backdrop.relight) return;
+  Edit(state, "Change the light", "relight",
+       [&](auto& next) { next.scene.backdrop.relight = share; });
+}
+
 void SetRodLength(EditorState& state, double rod_length) {
   if (rod_length == state.document().scene.scope.rod_length) return;
   Edit(state, "Change the scope's length", "rod_length", [&](auto& next) {

@@ -30,6 +30,7 @@ void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
 void SetIncisionSpacing(EditorState& state, double spacing);  // m
 void SetViewAngle(EditorState& state, double view_angle);     // rad; in practice the session's
 void SetFieldOfView(EditorState& state, double field_of_view);
+void SetRelight(EditorState& state, double share);  // Backdrop::relight
 void SetRodLength(EditorState& state, double rod_length);
 
 void AddTissue(EditorState& state, Tissue tissue, std::shared_ptr<const SurfaceMesh> surface);

@@ -68,13 +68,15 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool preview = cache.preview && cache.preview_panorama;
   const auto& panorama = preview ? cache.preview_panorama : document.panorama;
   const auto& depth = preview ? cache.preview : document.depth;
-  const bool same_place = SameBackdrop(backdrop_, document.scene.backdrop);
+  Backdrop wanted = document.scene.backdrop;
+  if (state.shows_as_filmed && !state.practice) wanted.relight = 0;
+  const bool same_place = SameBackdrop(backdrop_, wanted);
   const bool same_panorama = panorama == panorama_ && panorama;
   if (panorama == panorama_ && depth == depth_ && same_place) return;
   const bool same_depth = depth == depth_;
   panorama_ = panorama;
   depth_ = depth;
-  backdrop_ = document.scene.backdrop;
+  backdrop_ = wanted;
   changed_ = true;
   if (!panorama) return;
   Backdrop shown = backdrop_;

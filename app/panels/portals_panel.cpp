@@ -48,6 +48,19 @@ void PortalsPanel(Ui& ui, EditorState& state) {
                   "From the hand to the lens; longer makes the hand's way longer.");
   if (change) SetRodLength(state, MetresFromMm(length_mm));
   Drag(state, change);
+
+  Gap(ui);
+  Heading(ui, "Light");
+  double relight = 100 * scene.backdrop.relight;
+  change = Slider(ui, "Lamp of the scope", relight, 0, 100, "%.0f %%",
+                  "0: as it was filmed, with its light. 100: that light is evened out, and the "
+                  "scope's own lamp lights what is near, with wet highlights.");
+  if (change) SetRelight(state, relight / 100);
+  Drag(state, change);
+  const bool is_relit = scene.backdrop.relight > 0;
+  if (ToggleButton(ui, "As filmed", is_relit && state.shows_as_filmed, is_relit, {},
+                   "Shows the picture before, to compare. Nothing is changed by it."))
+    state.shows_as_filmed = !state.shows_as_filmed;
 }
 
 }  // namespace arthro::app

@@ -39,6 +39,28 @@ glm::dvec3 LightOf(const glm::dvec3& bright) {
   return level * (kTint * bright / luma + (1.0 - kTint));
 }
 
+bool ShowsTool(const Picture& picture) {
+  return picture.instrument && !picture.plain &&
+         glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
+}
+
+LensRod RodOf(const Picture& picture) {
+  if (!ShowsTool(picture)) return {};
+  const auto in_lens = [&view = picture.view](const glm::dvec3& x) {
+    const glm::dvec3 d = x - view.tip;
+    return glm::dvec3(glm::dot(d, view.right), glm::dot(d, view.up), -glm::dot(d, view.view));
+  };
+  constexpr double kProbe = 0.9e-3, kOther = 1.7e-3;  // m, of their shafts' ends
+  return {in_lens(picture.instrument->portal), in_lens(picture.instrument->proxy),
+          picture.instrument->kind == simulation::ToolKind::kProbe ? kProbe : kOther};
+}
+
+glm::dvec3 MiddleOf(std::span<const glm::dvec3> points) {
+  glm::dvec3 sum{0.0};
+  for (const glm::dvec3& x : points) sum += x;
+  return points.empty() ? sum : sum / static_cast<double>(points.size());
+}
+
 }  // namespace
 
 struct ArthroscopicView::Parts {
@@ -51,20 +73,39 @@ struct ArthroscopicView::Parts {
   ToolMesh tool_mesh;
   std::vector<std::unique_ptr<LensModel>> tissues;
   std::vector<std::size_t> vertex_counts;
+  // Where each tissue lies, and the light about it, found when it is asked for.
+  struct Place {
+    glm::dvec3 middle{0.0};  // in its own frame
+    Pose pose;
+    std::optional<FootageLight> about;
+  };
+  std::vector<Place> places;
   LensPass lens_pass;
   bool is_disturbed = false;  // the last frame, by that pass
   std::string notice;
   int size = 0;
 
   void ShowTool(const Picture& picture, const LensFrame& frame);
+  const FootageLight& LightAbout(std::size_t tissue);
+  void ForgetLight() {
+    for (Place& place : places) place.about.reset();
+  }
   vtkOpenGLFramebufferObject& drawn() const { return *window->GetRenderFramebuffer(); }
   vtkOpenGLFramebufferObject& shown() { return is_disturbed ? lens_pass.result() : drawn(); }
 };
 
+const FootageLight& ArthroscopicView::Parts::LightAbout(std::size_t tissue) {
+  Place& place = places[tissue];
+  if (!place.about) {
+    const glm::dvec3 middle = place.pose * place.middle;
+    const double far = glm::length(middle);
+    place.about = backdrop->LightAbout(far > 0 ? middle / far : glm::dvec3(0, 0, 1));
+  }
+  return *place.about;
+}
+
 void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& frame) {
-  const bool is_shown = picture.instrument && !picture.plain &&
-                        glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
-  if (!is_shown) {
+  if (!ShowsTool(picture)) {
     tool.Show(false);
     moving.Show(false);
     return;
@@ -123,6 +164,7 @@ void ArthroscopicView::SetBackdrop(const ColourImage& panorama, const DepthMap& 
                                    const Backdrop& backdrop) {
   parts_->window->GetState()->Reset();
   parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop);
+  parts_->ForgetLight();
 }
 
 void ArthroscopicView::SetDepth(const DepthMap& depth) {
@@ -131,6 +173,7 @@ void ArthroscopicView::SetDepth(const DepthMap& depth) {
 }
 
 bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {
+  parts_->ForgetLight();
   return parts_->backdrop->SetGeometry(backdrop);
 }
 
@@ -140,12 +183,16 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
   for (const auto& model : p.tissues) p.renderer->RemoveViewProp(model->actor());
   p.tissues.clear();
   p.vertex_counts.clear();
+  p.places.clear();
   for (std::size_t i = 0; i < tissues.size(); ++i) {
     auto model = std::make_unique<LensModel>(LensModel::Look::kTissue);
     model->SetSurface(i < surfaces.size() ? surfaces[i] : SurfaceMesh());
     model->SetColour(tissues[i].colour);
     model->SetPose(tissues[i].pose);
     p.vertex_counts.push_back(i < surfaces.size() ? surfaces[i].vertices.size() : 0);
+    p.places.push_back({i < surfaces.size() ? MiddleOf(surfaces[i].vertices) : glm::dvec3(0.0),
+                        tissues[i].pose,
+                        {}});
     p.renderer->AddViewProp(model->actor());
     p.tissues.push_back(std::move(model));
   }
@@ -170,6 +217,8 @@ void ArthroscopicView::SetTissueSurface(int index, const SurfaceMesh& surface,
 
 void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) {
   parts_->tissues.at(static_cast<std::size_t>(index))->SetPose(portal_from_tissue);
+  parts_->places[static_cast<std::size_t>(index)].pose = portal_from_tissue;
+  parts_->places[static_cast<std::size_t>(index)].about.reset();
 }
 
 void ArthroscopicView::Render(const Picture& picture, int size) {
@@ -178,7 +227,6 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   p.size = size;
   p.window->GetState()->Reset();  // others have drawn in this context
   p.window->SetSize(size, size);
-  p.backdrop->SetPicture(picture, size);
 
   // Only the camera's place and axes are used; the lens is the shaders'.
   const simulation::ScopeView& view = picture.view;
@@ -190,17 +238,26 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   camera->SetClippingRange(kNearest, kFarthest);
 
   LensFrame frame;
+  frame.rod = RodOf(picture);
+  p.backdrop->SetPicture(picture, size, frame.rod);
+  frame.gain = p.backdrop->gain();
+  frame.relit = p.backdrop->relight();
   frame.field_of_view = picture.field_of_view;
   frame.lens = picture.lens;
   frame.window_radius = size / 2.0;
   frame.light_reach = p.backdrop->light_reach();
   frame.light_colour = LightOf(p.backdrop->footage_light().bright);
   frame.surround = p.backdrop->footage_light().mean;
-  for (const auto& tissue : p.tissues) {
-    tissue->SetFrame(frame);
-    tissue->Show(!picture.plain);
-  }
   p.ShowTool(picture, frame);
+  for (std::size_t i = 0; i < p.tissues.size(); ++i) {
+    // In the light of its own surroundings, half way, so that it does not look pasted on.
+    const FootageLight& about = p.LightAbout(i);
+    frame.light_colour =
+        0.5 * (LightOf(p.backdrop->footage_light().bright) + LightOf(about.bright));
+    frame.surround = about.mean;
+    p.tissues[i]->SetFrame(frame);
+    p.tissues[i]->Show(!picture.plain);
+  }
   p.window->Render();
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, size);

@@ -62,7 +62,7 @@ constexpr const char* kFragmentStart = R"(
   float facing = max(dot(normal, toLight), 0.0);
   float seen = max(dot(normal, toLens), 0.0);
   float shine = max(dot(normal, halfway), 0.0);
-  float light = lightAt(lensDistance);
+  float light = mix(lightAt(lensDistance), lampAt(lensDistance), relit);
 )";
 
 // Value noise with its gradient: xyz slope, w value, about -1 to 1. An integer hash, so that every
@@ -109,7 +109,7 @@ constexpr const char* kTissueLook = R"(
   // A film of fluid: a broad sheen, a small glint, and the surroundings at grazing angles.
   vec3 wet = lightColour * light * (0.05 * pow(shine, 14.0) + 0.5 * pow(shine, 220.0));
   vec3 mirrored = surround * (0.03 + 0.35 * pow(1.0 - seen, 4.0));
-  vec3 linear = body + wet + mirrored;
+  vec3 linear = (body + wet) * rodShade(lensPoint) + mirrored;
 )";
 
 constexpr const char* kSteelLook = R"(
@@ -183,8 +183,8 @@ LensModel::LensModel(Look look) {
                                      false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                        std::string("//VTK::Light::Dec\n") + kDepthShader +
-                                           kLensFactor + kLightShader +
-                                           (look == Look::kTissue ? kNoise : ""),
+                                           kLensFactor + kLightShader + kLampShader +
+                                           (is_tissue ? std::string(kRodShade) + kNoise : ""),
                                        false);
   shader->AddFragmentShaderReplacement(
       "//VTK::Normal::Dec", true,
@@ -295,6 +295,13 @@ void LensModel::SetFrame(const LensFrame& frame) {
   uniforms->SetUniformf("lensScale", scale);
   uniforms->SetUniformf("windowRadius", Float(frame.window_radius));
   uniforms->SetUniformf("lightReach", Float(frame.light_reach));
+  uniforms->SetUniformf("gain", Float(frame.gain));
+  uniforms->SetUniformf("relit", Float(frame.relit));
+  const float from[3] = {Float(frame.rod.from.x), Float(frame.rod.from.y), Float(frame.rod.from.z)};
+  const float to[3] = {Float(frame.rod.to.x), Float(frame.rod.to.y), Float(frame.rod.to.z)};
+  uniforms->SetUniform3f("rodFrom", from);
+  uniforms->SetUniform3f("rodTo", to);
+  uniforms->SetUniformf("rodRadius", Float(frame.rod.radius));
   uniforms->SetUniform3f("lightColour", light);
   uniforms->SetUniform3f("surround", surround);
 }

@@ -32,8 +32,8 @@ float storedDepth(float distance) {
 }
 )";
 
-// Light from the lens: 1 at `lightReach`, brighter nearer (as a camera that adapts leaves it),
-// fading beyond; a factor on linear light. And how a colour ends at the window's rim: `r` is the
+// The footage's light, a factor on linear light: 1 at `lightReach`, brighter nearer (as a camera
+// that adapts leaves it), fading beyond. And how a colour ends at the window's rim: `r` is the
 // distance from the window's centre in its radii, `rim` the window's radius in pixels. Needs:
 // uniform float lightReach.
 inline constexpr const char* kLightShader = R"(
@@ -49,6 +49,39 @@ float softRim(float r) {
 vec3 shoulder(vec3 c) {
   vec3 over = max(c - 0.8, vec3(0.0));
   return min(c, vec3(0.8)) + 0.2 * (1.0 - exp(-over / 0.2));
+}
+)";
+
+// The lamp's own light: inverse square from a ring of fibres, under the camera's gain. Needs:
+// uniform float lightReach, gain.
+inline constexpr const char* kLampShader = R"(
+float lampAt(float distance) {
+  return gain * lightReach * lightReach / (distance * distance + 0.000016);  // kLampRadius²
+}
+)";
+
+// What a rod from `rodFrom` to `rodTo` (m, in the lens' frame: x right, y up, -z along the view)
+// leaves of the lamp's light at a point: its shadow, since the fibres that give light end beside
+// the lens, with a half shadow as wide as they are, and the dimness where it nearly touches. Needs:
+// uniform vec3 rodFrom, rodTo; uniform float rodRadius (0: no rod).
+inline constexpr const char* kRodShade = R"(
+const vec3 kLampPlace = vec3(0.0, 0.0011, 0.0);
+float rodShade(vec3 point) {
+  // Nearest places of the way to the lamp and of the rod [Ericson 2005, 5.1.9].
+  vec3 way = kLampPlace - point, rod = rodTo - rodFrom, between = point - rodFrom;
+  float ways = dot(way, way), rods = max(dot(rod, rod), 1e-12), across = dot(way, rod);
+  float c = dot(way, between), f = dot(rod, between);
+  float s = clamp((across * f - c * rods) / max(ways * rods - across * across, 1e-12 * ways * rods), 0.0, 1.0);
+  float t = clamp((across * s + f) / rods, 0.0, 1.0);
+  s = clamp((across * t - c) / ways, 0.0, 1.0);
+  // Towards its end it tapers to half.
+  float thick = rodRadius * (0.5 + 0.5 * smoothstep(0.0, 0.006, (1.0 - t) * sqrt(rods)));
+  float gap = length(between + s * way - t * rod) - thick;
+  float half_shadow = 0.0014 * s + 0.00005;
+  float lamp = smoothstep(-half_shadow, half_shadow, gap);
+  float beside = length(between - clamp(f / rods, 0.0, 1.0) * rod);
+  float near = thick / max(beside, thick);
+  return rodRadius > 0.0 ? mix(0.4, 1.0, lamp) * (1.0 - 0.5 * near * near) : 1.0;
 }
 )";
 

@@ -30,6 +30,8 @@ struct Backdrop {
   double radius = 0.05;            // D, of the sphere about the scope portal
   Projection projection;
   AssetRights rights;
+  // 0 to 1: how far the light of the footage is evened out and the scope's own put in its place.
+  double relight = 0;
 };
 
 struct ScopeSpec {

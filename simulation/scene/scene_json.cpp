@@ -68,6 +68,7 @@ void ReadBackdrop(Reader& reader, Backdrop& backdrop) {
   reader.Path("panorama", backdrop.panorama, Reader::kRequired);
   reader.Path("depth", backdrop.depth);
   reader.Number("radius", backdrop.radius, kLength);
+  reader.Number("relight", backdrop.relight, kShare);
   reader.Object("projection", Reader::kRequired,
                 [&](Reader& inner) { ReadProjection(inner, backdrop.projection); });
   ReadRights(reader, backdrop.rights);
@@ -200,6 +201,7 @@ ordered_json JsonFromBackdrop(const Backdrop& backdrop) {
   json["panorama"] = backdrop.panorama.generic_string();
   PutText(json, "depth", backdrop.depth.generic_string());
   json["radius"] = backdrop.radius;
+  if (backdrop.relight != 0) json["relight"] = backdrop.relight;
   const bool is_gnomonic = backdrop.projection.type == ProjectionType::kGnomonic;
   ordered_json& projection = json["projection"];
   projection["type"] = is_gnomonic ? "gnomonic" : "equirectangular";

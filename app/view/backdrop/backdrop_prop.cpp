@@ -59,13 +59,17 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
   backdrop_ = backdrop;
   panorama_size_ = {panorama.width, panorama.height};
   wraps_ = IsWholeTurn(backdrop.projection, panorama.width);
-  light_ = MeasureLight(panorama, depth);
+  grid_ = MakeLightGrid(panorama, depth);
+  const bool is_relit = backdrop.relight > 0;
+  if (is_relit) EvenLight(grid_, backdrop.relight);
+  light_ = MeasureLight(grid_);
+  const ColourImage even = is_relit ? Evened(panorama, grid_) : ColourImage();
   GLint max_size = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
   reduction_ = TextureReduction(panorama.width, panorama.height, max_size);
-  const ColourImage reduced =
-      reduction_ > 1 ? ReducedPanorama(panorama, reduction_) : ColourImage();
-  const ColourImage& drawn = reduction_ > 1 ? reduced : panorama;
+  const ColourImage& whole = is_relit ? even : panorama;
+  const ColourImage reduced = reduction_ > 1 ? ReducedPanorama(whole, reduction_) : ColourImage();
+  const ColourImage& drawn = reduction_ > 1 ? reduced : whole;
   panorama_->SetGenerateMipmap(true);
   panorama_->SetMaxLevel(
       static_cast<int>(std::floor(std::log2(std::max(drawn.width, drawn.height)))));
@@ -99,7 +103,9 @@ void BackdropProp::PrepareSearch(vtkOpenGLRenderWindow* window) {
 }
 
 bool BackdropProp::SetGeometry(const Backdrop& backdrop) {
-  if (IsWholeTurn(backdrop.projection, panorama_size_.x) != wraps_) return false;
+  if (IsWholeTurn(backdrop.projection, panorama_size_.x) != wraps_ ||
+      backdrop.relight != backdrop_.relight)
+    return false;
   backdrop_ = backdrop;
   return true;
 }
@@ -118,9 +124,18 @@ void BackdropProp::Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window
                           type, const_cast<void*>(data));
 }
 
-void BackdropProp::SetPicture(const Picture& picture, int size) {
+FootageLight BackdropProp::LightAbout(const glm::dvec3& direction) const {
+  constexpr double kAround = 0.6;  // rad
+  return MeasureLight(grid_, backdrop_.projection, direction, kAround);
+}
+
+void BackdropProp::SetPicture(const Picture& picture, int size, const LensRod& rod) {
   picture_ = picture;
   size_ = size;
+  rod_ = rod;
+  gain_ = 1;
+  if (backdrop_.relight > 0 && !picture.plain && !grid_.blocks.empty())
+    gain_ = AutomaticGain(grid_, backdrop_, picture.view, picture.field_of_view, light_reach());
 }
 
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
@@ -132,9 +147,12 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   const bool has_relief = highest_ > 0.0 && picture_.relief.steps > 0;
   const bool has_cells = has_relief && picture_.relief.cell > 1;
   const bool has_lens = !simulation::IsEquisolid(picture_.lens);
+  const bool is_relit = backdrop_.relight > 0 && !picture_.plain;
+  const bool has_rod = rod_.radius > 0 && !picture_.plain;
   const std::size_t head_variant = (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u);
-  const std::size_t variant =
-      head_variant + (has_relief ? 4u : 0u) + (has_cells ? 8u : 0u) + (picture_.plain ? 16u : 0u);
+  const std::size_t variant = head_variant + (has_relief ? 4u : 0u) + (has_cells ? 8u : 0u) +
+                              (picture_.plain ? 16u : 0u) + (is_relit ? 32u : 0u) +
+                              (has_rod ? 64u : 0u);
   const auto head = [&] {
     std::string source = kBackdropHead;
     if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
@@ -154,8 +172,10 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
     if (picture_.plain) source += "#define PLAIN\n";
     if (has_relief) source += "#define RELIEF\n";
     if (has_cells) source += "#define CELLS\n";
+    if (is_relit) source += "#define RELIT\n";
+    if (has_rod) source += std::string("#define ROD\n") + kRodShade;
     for (const char* part :
-         {kDepthShader, kLightShader, kPanoramaFilter, kPanoramaPlace,
+         {kDepthShader, kLightShader, kLampShader, kPanoramaFilter, kPanoramaPlace,
           has_relief ? kReliefSearch : "", has_cells ? kReliefFromCells : "", kBackdropMain})
       source += part;
     pass.emplace(source, ShaderPass::Shape::kRound);
@@ -227,6 +247,11 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "nearest", kNearest);
   SetUniform(program, "farthest", kFarthest);
   SetUniform(program, "lightReach", light_reach());
+  SetUniform(program, "gain", gain_);
+  SetUniform(program, "relit", backdrop_.relight);
+  SetUniform(program, "rodFrom", rod_.from);
+  SetUniform(program, "rodTo", rod_.to);
+  SetUniform(program, "rodRadius", rod_.radius);
   // Neutral and dark, but not the black of the window's surround.
   SetUniform(program, "endColour", glm::dvec3(0.105, 0.102, 0.1));
   SetUniform(program, "notch", glm::dvec2(std::sin(picture_.notch), std::cos(picture_.notch)));

@@ -13,7 +13,9 @@
 
 #include "app/view/arthroscopic_view.h"
 #include "app/view/backdrop/backdrop_texture.h"
+#include "app/view/backdrop/footage_light.h"
 #include "app/view/backdrop/relief_cells.h"
+#include "app/view/lens_model.h"
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
@@ -35,12 +37,18 @@ class BackdropProp : public vtkProp {
   // Another place for the panorama that is there; nothing is uploaded. False, and nothing done,
   // where it would begin or cease to be a whole turn.
   bool SetGeometry(const Backdrop& backdrop);
-  void SetPicture(const Picture& picture, int size);
+  // `rod`: of the instrument, where one is shown.
+  void SetPicture(const Picture& picture, int size, const LensRod& rod);
 
   // As the models should take it.
   const FootageLight& footage_light() const { return light_; }
   // Distance at which the light is neutral, m.
   double light_reach() const;
+  // What lies about a direction from the portal, for a model there.
+  FootageLight LightAbout(const glm::dvec3& direction) const;
+  // The camera's gain for the picture that was set; 1 where the footage's light counts.
+  double gain() const { return gain_; }
+  double relight() const { return backdrop_.relight; }
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }
@@ -59,6 +67,7 @@ class BackdropProp : public vtkProp {
 
   Backdrop backdrop_;
   Picture picture_;
+  LensRod rod_;
   int size_ = 0;
   glm::ivec2 panorama_size_{0};
   int reduction_ = 1;   // panorama pixels a texel and axis
@@ -66,10 +75,12 @@ class BackdropProp : public vtkProp {
   ReliefTexture unsearched_;
   double highest_ = 0;  // of the relief, m
   int block_ = 1;       // texels of the relief's ceiling
+  LightGrid grid_;
   FootageLight light_;
+  double gain_ = 1;
   vtkNew<vtkTextureObject> panorama_, relief_, ceiling_;
   ReliefCells cells_;
-  std::array<std::optional<ShaderPass>, 32> passes_;  // one a variant of the shader
+  std::array<std::optional<ShaderPass>, 128> passes_;  // one a variant of the shader
 };
 
 }  // namespace arthro::app

@@ -24,7 +24,9 @@ const float kSharpness = 0.7;
 
 uniform float samples;           // at most, a pixel
 uniform float radius, perRadius; // m, 1/m
-uniform float nearest, farthest, lightReach;
+uniform float nearest, farthest, lightReach, gain, relit;
+uniform vec3 rodFrom, rodTo;
+uniform float rodRadius;
 uniform float highest;          // of the relief, in radii
 uniform float blockTexels;
 uniform float reliefSteps;      // at most, along a ray
@@ -131,6 +133,15 @@ void main() {
   vec2 dx = vec2(dot(alongU, acrossX), dot(alongV, acrossX)),
        dy = vec2(dot(alongU, acrossY), dot(alongV, acrossY));
   
+  float wall = 0.0;
+#if defined(RELIEF) && !defined(PLAIN)
+  // What stands nearly along the way from the portal was hardly seen by the footage: what its texels
+  // have is smeared along it, so only their mean is shown, and dimly.
+  float steep = imaged ? length(ground.g * alongU + ground.b * alongV) : 0.0;
+  wall = smoothstep(2.5, 6.0, steep);
+  dx += wall * 12.0 / texels * vec2(1.0, 0.0);
+  dy += wall * 12.0 / texels * vec2(0.0, 1.0);
+#endif
   vec3 colour = imaged ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
 
 #ifdef RELIEF
@@ -146,7 +157,30 @@ void main() {
   vec3 shown = imaged ? colour : vec3(0.0);
 #else
   // The panorama was lit when it was taken: what lies far fades, but nothing is lit a second time.
-  vec3 lit = shoulder(colour * sqrt(min(lightAt(distance), 1.0)));
+  // Squares and roots stand for sRGB and back.
+  float light = min(lightAt(distance), 1.0);
+  light *= 1.0 - 0.45 * wall;
+#ifdef ROD
+  float shade = rodShade(distance * vec3(dot(ray, rightAxis), dot(ray, upAxis), -dot(ray, viewAxis)));
+  light *= shade;
+#endif
+#ifdef RELIT
+  // A film of fluid over what the relief's slopes make of the surface.
+  vec3 normal = -normalize(normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0)));
+  vec3 toLamp = normalize(tip + 0.0011 * perRadius * upAxis - x);
+  float faces = max(dot(normal, toLamp), 0.0), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
+  float lamp = lampAt(distance);
+#ifdef ROD
+  lamp *= shade;
+#endif
+  float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
+  float shine64 = shine16 * shine16 * shine16 * shine16;
+  float wet = lamp * (0.02 * shine16 + 0.30 * shine64 * shine64 * shine64);
+  vec3 body = colour * colour * mix(light, lamp * (0.2 + 0.8 * faces) * (1.0 - 0.45 * wall), relit);
+  vec3 lit = shoulder(sqrt(body + relit * wet));
+#else
+  vec3 lit = shoulder(colour * sqrt(light));
+#endif
   vec3 shown = mix(endColour, lit, imaged ? smoothstep(0.0, 1.0, ground.a) : 0.0) * softRim(r);
   float along = dot(offset, notch) - 0.925;
   float beside = abs(offset.x * notch.y - offset.y * notch.x);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/view/srgb.h"
-
 namespace arthro::app {
 namespace {
 
@@ -204,39 +202,6 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
 bool IsWholeTurn(const Projection& projection, int width) {
   return projection.type == ProjectionType::kEquirectangular &&
          std::abs(360.0 * projection.px_per_deg - width) < 1.0;
-}
-
-FootageLight MeasureLight(const ColourImage& panorama, const DepthMap& depth) {
-  constexpr int kBins = 64;
-  std::array<glm::dvec3, kBins> sums{};
-  std::array<double, kBins> counts{};
-  const std::size_t pixels = panorama.rgb.size() / 3;
-  const std::size_t step = std::max<std::size_t>(1, pixels / 100'000);  // enough for a mean
-  for (std::size_t i = 0; i < pixels; i += step) {
-    if (!depth.empty() && std::isnan(depth.relief[i])) continue;
-    const std::uint8_t* p = &panorama.rgb[i * 3];
-    const double luma = (p[0] * 2 + p[1] * 5 + p[2]) / 8.0;
-    const auto bin = static_cast<std::size_t>(std::min(luma / 256.0 * kBins, kBins - 1.0));
-    sums[bin] += glm::dvec3(LinearFromSrgb(p[0]), LinearFromSrgb(p[1]), LinearFromSrgb(p[2]));
-    counts[bin] += 1;
-  }
-  double total = 0;
-  glm::dvec3 sum{0.0};
-  for (std::size_t b = 0; b < kBins; ++b) {
-    total += counts[b];
-    sum += sums[b];
-  }
-  FootageLight light;
-  if (total == 0) return light;
-  light.mean = sum / total;
-  double bright = 0;
-  glm::dvec3 bright_sum{0.0};
-  for (std::size_t b = kBins; b-- > 0 && bright < 0.2 * total;) {
-    bright += counts[b];
-    bright_sum += sums[b];
-  }
-  light.bright = bright_sum / bright;
-  return light;
 }
 
 }  // namespace arthro::app

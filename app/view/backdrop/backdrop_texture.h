@@ -44,11 +44,4 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 // Whether the panorama is a whole turn, so that its left edge meets its right.
 bool IsWholeTurn(const Projection& projection, int width);
 
-// What light the footage was taken in; linear, of the imaged part.
-struct FootageLight {
-  glm::dvec3 mean{0.2};    // of all of it
-  glm::dvec3 bright{0.6};  // of its brightest fifth
-};
-FootageLight MeasureLight(const ColourImage& panorama, const DepthMap& depth);
-
 }  // namespace arthro::app

@@ -247,7 +247,9 @@ TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
   view_->Render(picture, 200);
   const ColourImage after = view_->ReadPixels();
   EXPECT_NE(before.rgb, after.rgb);
-  view_->SetTissues(loaded.scene.tissues, std::span(&pressed, 1));
+  // The light about a tissue stays that of the place where it was laid.
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  view_->SetTissueSurface(0, pressed);
   view_->Render(picture, 200);
   EXPECT_EQ(after.rgb, view_->ReadPixels().rgb);
   EXPECT_THROW(view_->SetTissueShape(0, std::span(pressed.vertices).first(3)), Error);

@@ -1,0 +1,63 @@
+// The light that a panorama was taken in, and what the scope's own lamp makes of it. Plain values,
+// no OpenGL; colours linear, 0 to 1; portal frame, m.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scope/arthroscope.h"
+
+namespace arthro::app {
+
+// Of what was imaged.
+struct FootageLight {
+  glm::dvec3 mean{0.2};    // of all of it
+  glm::dvec3 bright{0.6};  // of its brightest fifth
+};
+
+// The panorama in blocks, some 96 along its longer side: enough for what is said of its light.
+struct LightGrid {
+  struct Block {
+    glm::vec3 mean{0.0f};  // colour of what was imaged of it
+    float share = 0;       // how much of it that is
+    float relief = 0;      // m, mean
+    float gain = 1;        // that evens its light
+  };
+  int width = 0, height = 0;
+  glm::dvec2 block_px{1.0};  // panorama pixels a block
+  std::vector<Block> blocks;
+  double even = 0;  // share of the light's unevenness that the gains take away
+  const Block& at(int x, int y) const {
+    return blocks[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+};
+LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth);
+
+// Sets the gains: the wide, smooth part of the brightness (a sixth of the picture's longer side)
+// goes towards its mean by `share`, 0 to 1, at most by a factor of 3. Retinex [Land & McCann 1971],
+// as footage says no more about its lamp.
+void EvenLight(LightGrid& grid, double share);
+// The panorama under the grid's gains.
+ColourImage Evened(const ColourImage& panorama, const LightGrid& grid);
+
+FootageLight MeasureLight(const LightGrid& grid);
+// Only of what lies within `angle` (rad) of a direction from the portal; of all where that is
+// nothing.
+FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
+                          const glm::dvec3& direction, double angle);
+
+// The lamp: light falls as reach² / (distance² + kLampRadius²), the fibres being a ring, not a
+// point.
+inline constexpr double kLampRadius = 0.004;  // m
+
+// Camera gain at which the lit picture is as bright on average as the footage: an unhurried
+// camera's automatic gain, as a smooth function of where the scope is. Rays over the window, more
+// in its middle; without models. 1 where it sees nothing that was imaged.
+double AutomaticGain(const LightGrid& grid, const Backdrop& backdrop,
+                     const simulation::ScopeView& view, double field_of_view, double light_reach);
+
+}  // namespace arthro::app
