@@ -263,6 +263,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, size);
 }
 
+void ArthroscopicView::Finish() const { glFinish(); }
+
 unsigned int ArthroscopicView::TextureId() const {
   return parts_->shown().GetColorAttachmentAsTextureObject(0)->GetHandle();
 }

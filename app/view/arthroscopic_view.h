@@ -93,6 +93,9 @@ class ArthroscopicView {
   // viewport and program afterwards. Throws Error(kBadArgument) for disturbances that are none.
   void Render(const Picture& picture, int size);
 
+  // Returns when the last frame is drawn, which goes on behind Render's back.
+  void Finish() const;
+
   // The last frame, as an OpenGL texture name: RGBA, opaque, first row at the bottom.
   unsigned int TextureId() const;
   ColourImage ReadPixels() const;
