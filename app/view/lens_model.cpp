@@ -94,7 +94,7 @@ vec4 noise(vec3 p) {
 
 constexpr const char* kTissueLook = R"(
   // Uneven by nature: patches of some millimetres, and a surface that is not quite smooth.
-  vec4 coarse = noise(modelPoint * 300.0), fine = noise(modelPoint * 1100.0);
+  vec4 coarse = coarseNoise, fine = noise(modelPoint * 1100.0);
   normal = normalize(normal + 0.022 * fine.xyz + 0.014 * coarse.xyz);
   facing = max(dot(normal, toLight), 0.0);
   shine = max(dot(normal, halfway), 0.0);
@@ -106,9 +106,13 @@ constexpr const char* kTissueLook = R"(
   float wrapped = (facing + 0.3) / 1.3;
   vec3 scattered = mix(vec3(0.95, 0.70, 0.58), vec3(1.0), smoothstep(0.0, 0.75, facing));
   vec3 body = own * scattered * (0.12 + 0.88 * wrapped) * lightColour * light;
+  float shine2 = shine * shine, shine4 = shine2 * shine2, shine8 = shine4 * shine4;
+  float shine64 = shine8 * shine8;
+  shine64 *= shine64 * shine64 * shine64;
+  float glance = (1.0 - seen) * (1.0 - seen);
   // A film of fluid: a broad sheen, a small glint, and the surroundings at grazing angles.
-  vec3 wet = lightColour * light * (0.05 * pow(shine, 14.0) + 0.5 * pow(shine, 220.0));
-  vec3 mirrored = surround * (0.03 + 0.35 * pow(1.0 - seen, 4.0));
+  vec3 wet = lightColour * light * (0.05 * shine8 * shine4 * shine2 + 0.5 * shine64 * shine64 * shine64);
+  vec3 mirrored = surround * (0.03 + 0.35 * glance * glance);
   vec3 linear = (body + wet) * rodShade(lensPoint) + mirrored;
 )";
 
@@ -128,7 +132,10 @@ constexpr const char* kSteelLook = R"(
 )";
 
 constexpr const char* kFragmentEnd = R"(
-  vec3 shown = shoulder(pow(max(linear, vec3(0.0)), vec3(1.0 / 2.2))) * softRim(lensR) * coverage;
+  // The power 1/2.2 to 0.002, by roots.
+  vec3 root = sqrt(max(linear, vec3(0.0))), root2 = sqrt(root);
+  vec3 shown = 0.585122381 * root + 0.783140355 * root2 - 0.368262736 * sqrt(root2);
+  shown = shoulder(max(shown, vec3(0.0))) * softRim(lensR) * coverage;
   gl_FragData[0] = vec4(shown, 1.0);
 )";
 
@@ -176,11 +183,15 @@ LensModel::LensModel(Look look) {
   shader->AddVertexShaderReplacement(
       "//VTK::Normal::Dec", true,
       std::string("//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n") + kLensFactor +
-          (is_tissue ? "in float freshMC;\nout float fresh;\n" : ""),
+          (is_tissue ? "in float freshMC;\nout float fresh;\nout vec4 coarseNoise;\n" +
+                           std::string(kNoise)
+                     : ""),
       false);
-  shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true,
-                                     std::string(kWarp) + (is_tissue ? "  fresh = freshMC;\n" : ""),
-                                     false);
+  shader->AddVertexShaderReplacement(
+      "//VTK::PositionVC::Impl", true,
+      std::string(kWarp) +
+          (is_tissue ? "  fresh = freshMC;\n  coarseNoise = noise(modelPoint * 300.0);\n" : ""),
+      false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                        std::string("//VTK::Light::Dec\n") + kDepthShader +
                                            kLensFactor + kLightShader + kLampShader +
@@ -188,7 +199,8 @@ LensModel::LensModel(Look look) {
                                        false);
   shader->AddFragmentShaderReplacement(
       "//VTK::Normal::Dec", true,
-      std::string(kFragmentHead) + (is_tissue ? "in float fresh;\n" : ""), false);
+      std::string(kFragmentHead) + (is_tissue ? "in float fresh;\nin vec4 coarseNoise;\n" : ""),
+      false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
                                        std::string(kFragmentStart) +
                                            (look == Look::kTissue ? kTissueLook : kSteelLook) +
