@@ -8,6 +8,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/output_check.h"
 #include "app/editor/editor.h"
+#include "app/recording/live_film.h"
 
 namespace arthro::app {
 namespace {
@@ -52,13 +53,45 @@ void AddHandFlags(CLI::App& job, HandFlags& flags) {
                "Show forces and give the devices none; 0 ends it");
 }
 
+struct ScreenFlags {
+  std::string layout{WordOf(FrameShape::kSquare)}, film;
+};
+
+void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
+  job.add_option("--record", flags.film,
+                 "Record the scope's picture there from the beginning: .mp4, .mkv or .avi");
+  job.add_option("--layout", flags.layout,
+                 "Of films and the trainee's screen: square, 4:3 or 16:9 with black beside it")
+      ->capture_default_str();
+  job.add_option_function<std::string>(
+         "--trainee-screen",
+         [&options](const std::string& monitor) {
+           options.trainee_screen = 0;
+           // CLI11 gives "true" where there is no value.
+           if (monitor.empty() || monitor == "true") return;
+           if (std::sscanf(monitor.c_str(), "%d", &*options.trainee_screen) != 1 ||
+               *options.trainee_screen < 1)
+             throw CLI::ValidationError("--trainee-screen", "monitors are counted from 1");
+         },
+         "Show the scope's picture alone on monitor N, counted from 1; without N on one that the "
+         "window is not on")
+      ->type_name("[N]")
+      ->expected(0, 1);
+}
+
 // A rig or trace that cannot be used is told before there is a window.
-void Open(EditorOptions options, const HandFlags& flags) {
+void Open(EditorOptions options, const HandFlags& flags, const ScreenFlags& screens = {}) {
+  options.frame_shape = FrameShapeOf(screens.layout);
+  if (!screens.film.empty()) {
+    options.film = screens.film;
+    const FilmForm form;
+    CheckVideo(*options.film, {FrameWidth(options.frame_shape, form.size), form.size}, form.rate);
+  }
   options.hands = ReadHands(flags.rig, flags.hands);
   if (!options.hands.notice.empty())
     std::fprintf(stderr, "warning: %s\n", options.hands.notice.c_str());
   options.hands.log = flags.log;
-  CheckOutputs({flags.log}, {flags.rig, flags.hands, options.scene.value_or("")});
+  CheckOutputs({flags.log, screens.film}, {flags.rig, flags.hands, options.scene.value_or("")});
   options.hands.is_zero_force = flags.is_zero_force;
   RunEditor(options);
 }
@@ -87,8 +120,10 @@ void AddPractiseJob(CLI::App& program) {
       ->required();
   const auto hands = std::make_shared<HandFlags>();
   AddHandFlags(*job, *hands);
+  const auto screens = std::make_shared<ScreenFlags>();
+  AddScreenFlags(*job, *screens, *options);
   AddWindowFlags(*job, *options);
-  job->callback([options, hands] { Open(*options, *hands); });
+  job->callback([options, hands, screens] { Open(*options, *hands, *screens); });
 }
 
 }  // namespace arthro::app

@@ -7,6 +7,7 @@
 
 #include "app/commands/depth_work.h"
 #include "app/commands/list/command_groups.h"
+#include "app/commands/screens/film.h"
 #include "app/commands/tissue/tissue_poke.h"
 
 namespace arthro::app {
@@ -73,6 +74,7 @@ bool FinishWork(EditorState& state) {
     Guarded(state, words, [&] { changed = state.jobs.Finish(state); });
     changed = changed || !state.jobs.busy();
   }
+  changed = FinishFilm(state) || changed;
   changed = FinishDepth(state) || changed;
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });

@@ -23,6 +23,7 @@
 #include "app/commands/scratch_folder.h"
 #include "app/commands/tissue/cut_brush.h"
 #include "app/platform/file_browser_model.h"
+#include "app/recording/live_film.h"
 #include "authoring/project/history.h"
 #include "authoring/tissue/mesh_budget.h"
 #include "simulation/scope/rod_pose.h"
@@ -74,6 +75,14 @@ struct PivotCalibrating {
   bool is_unsaved = false;  // it has a place in a rig, and is not there
 };
 
+// The scope's picture alone, in a window of its own: on another monitor over all of it, else one
+// that can be moved. The window that shows it takes `is_wanted` back when it is closed.
+struct TraineeScreen {
+  bool is_wanted = false;
+  int monitor = 0;    // from 1; 0: one that the window is not on
+  std::string words;  // what was not as it was asked for; empty: nothing
+};
+
 struct EditorState {
   // `wake` ends the window's sleep, from any thread.
   explicit EditorState(authoring::Document document, std::function<void()> wake_window = {},
@@ -83,7 +92,8 @@ struct EditorState {
         preview_jobs(wake_window),
         frame_jobs(wake_window),
         pivot_jobs(wake_window),
-        recent(std::move(recent_file)) {
+        recent(std::move(recent_file)),
+        wake(std::move(wake_window)) {
     history.MarkSaved();  // nothing was done yet
   }
 
@@ -113,6 +123,14 @@ struct EditorState {
   bool shows_devices = false;  // their panel, instead of the practice's
   Disturbing disturbing;       // of a practice's picture
   bool practice_only = false;  // the practise job: no editor behind it
+  // Of the scope's picture: while it is recorded (screens/film.h), and what became of the last one.
+  FrameShape frame_shape = FrameShape::kSquare;  // of films and of the trainee's screen
+  std::unique_ptr<LiveFilm> film;
+  double film_begin = 0, film_seconds = 0;  // s of the session
+  std::string film_words;
+  bool is_film_lost = false;
+  bool shows_outside = false;  // in practice: the overview in a corner of the picture
+  TraineeScreen trainee_screen;
   std::vector<Dialog> dialogs;
   std::string message;  // last thing done, for the status bar
   Jobs jobs;            // tetrahedra, reading pictures, footage to panorama
@@ -134,6 +152,7 @@ struct EditorState {
   simulation::TissuePace pace = simulation::TissuePace::kThread;  // of living tissue
   ScratchFolder scratch;  // files of products until they are saved
   RecentScenes recent;
+  std::function<void()> wake;  // ends the window's sleep, from any thread
   bool quit = false, full_screen = false;
 };
 

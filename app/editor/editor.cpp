@@ -18,12 +18,15 @@
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/hand_motion.h"
 #include "app/commands/scene_files.h"
+#include "app/commands/screens/film.h"
+#include "app/commands/start_practice.h"
 #include "app/commands/tissue/tissue_material.h"
 #include "app/editor/footage_textures.h"
 #include "app/editor/pictures.h"
 #include "app/panels/footage/footage_panels.h"
 #include "app/panels/panels.h"
 #include "app/platform/ending_signals.h"
+#include "app/platform/picture_window.h"
 #include "app/platform/script_runner.h"
 #include "app/platform/window.h"
 #include "app/resource_folder.h"
@@ -132,6 +135,7 @@ class Editor {
 
   void End() {
     state_.practice.reset();
+    EndFilm();
     if (const std::string missing = state_.hands->End(); !missing.empty())
       std::fprintf(stderr, "warning: %s\n", missing.c_str());
   }
@@ -144,6 +148,13 @@ class Editor {
     window.scale = options.scale;
     if (options.script) window.fixed_step = kFrame;  // the same frames whatever the machine's speed
     return window;
+  }
+
+  // Waits until it is written.
+  void EndFilm() {
+    while (state_.film)
+      if (!FinishFilm(state_)) std::this_thread::sleep_for(Seconds(kFrame));
+    if (state_.is_film_lost) std::fprintf(stderr, "warning: %s\n", state_.film_words.c_str());
   }
 
   void Begin() {
@@ -165,10 +176,20 @@ class Editor {
     if (options_.script) state_.pace = simulation::TissuePace::kInline;
     if (!options_.practice && !state_.document().folder.empty())
       state_.recent.Add(state_.document().folder);
+    state_.frame_shape = options_.frame_shape;
+    state_.trainee_screen = {options_.trainee_screen.has_value(),
+                             options_.trainee_screen.value_or(0), ""};
     if (options_.practice)
-      app::Run(state_, "practise");
+      BeginPractice();
     else
       state_.message = "F1 or ? shows all keys.";
+  }
+
+  void BeginPractice() {
+    if (!MayPractise(state_)) return;
+    StartPractice(state_, [film = options_.film](EditorState& state) {
+      if (film) BeginFilm(state, *film);
+    });
   }
 
   // Sleeps until there is something to draw.
@@ -226,10 +247,13 @@ class Editor {
     window_.EndFrame();
     if (script_)
       script_->AfterFrame(widgets_, Busy(), window_.input(),
-                          [&](const std::filesystem::path& file) {
-                            WriteColourImage(file, window_.ReadPicture());
+                          [&](const std::filesystem::path& file, bool of_trainee) {
+                            if (of_trainee && !trainee_screen_) return;
+                            WriteColourImage(file, of_trainee ? trainee_screen_->ReadPicture()
+                                                              : window_.ReadPicture());
                           });
     window_.Present();
+    ShowTraineeScreen();
     last_draw_ = Clock::now();
     pictures_.NoteFrame(1e3 * Seconds(last_draw_ - now).count());
     if (options_.timing) {
@@ -240,6 +264,35 @@ class Editor {
     if (unsettled_ > 0) --unsettled_;
   }
 
+  void ShowTraineeScreen() {
+    TraineeScreen& screen = state_.trainee_screen;
+    if (trainee_screen_ && trainee_screen_->IsLost()) {
+      screen.is_wanted = false;
+      screen.words = "The trainee's screen was closed, or its monitor is gone.";
+      trainee_screen_.reset();
+      Redraw();
+    } else if (!screen.is_wanted) {
+      if (trainee_screen_) screen.words.clear();
+      trainee_screen_.reset();
+    } else if (!trainee_screen_) {
+      screen.is_wanted = false;
+      Guarded(state_, "Trainee's screen", [&] {
+        trainee_screen_.emplace(window_, "Trainee's screen — Arthroscene", screen.monitor,
+                                !options_.hidden);
+        screen.is_wanted = true;
+        screen.words = trainee_screen_->notice();
+      });
+      Redraw();
+    }
+    if (trainee_screen_)
+      trainee_screen_->Show(pictures_.scope_texture(), pictures_.scope_edge(),
+                            pictures_.scope_version(), state_.frame_shape);
+  }
+  void Redraw() {
+    state_.message = state_.trainee_screen.words;
+    unsettled_ = std::max(unsettled_, 2);
+  }
+
   void Panels(Ui& ui) {
     const float width = static_cast<float>(window_.width()),
                 height = static_cast<float>(window_.height());
@@ -248,6 +301,9 @@ class Editor {
       picture_focused_ = true;
       DrawPictures(ui, layout);
       TakePictureInput(ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()));
+      if (state_.shows_outside)
+        pictures_.HandleOverview(state_,
+                                 InsetOverview(ui, layout.overview, pictures_.overview_texture()));
       if (state_.calibrating)
         IncisionPage(ui, state_, layout.side);
       else if (state_.shows_devices)
@@ -298,7 +354,8 @@ class Editor {
     if (!will_draw_) return;
     if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
       unsettled_ = 2;
-    if (state_.practice) return;
+    if (state_.film && state_.practice) pictures_.Record(*state_.film, FilmSeconds(state_));
+    if (state_.practice && !state_.shows_outside) return;
     if (pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
                                static_cast<int>(layout.overview.height)) &&
         unsettled_ < 2)
@@ -309,6 +366,7 @@ class Editor {
   const EndingSignals& signals_;
   Window window_;
   Pictures pictures_;
+  std::optional<PictureWindow> trainee_screen_;
   FootageTextures footage_textures_;
   EditorState state_;
   WidgetRegistry widgets_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/commands/devices/hands.h"
+#include "app/recording/frame_shape.h"
 
 namespace arthro::app {
 
@@ -13,6 +14,9 @@ struct EditorOptions {
   std::optional<std::filesystem::path> scene;  // none: the demo scene
   bool practice = false;                       // the practise job: nothing but practice
   HandsChoice hands;                           // devices that hold them
+  std::optional<std::filesystem::path> film;   // of a practice, from its beginning
+  FrameShape frame_shape = FrameShape::kSquare;
+  std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
   // For tests.
   std::optional<std::filesystem::path> script;
   int width = 1280, height = 800;

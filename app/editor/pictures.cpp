@@ -16,6 +16,11 @@ constexpr double kSlow = 40.0;  // ms a frame: coarser while it moves
 constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
 constexpr double kCoarse = 0.55;                                 // of the full size
 
+// A practice shows the scene from outside too, and nothing is edited there.
+bool IsTissueEdited(const EditorState& state) {
+  return state.step == Step::kTissue && !state.practice;
+}
+
 bool Same(const Picture& a, const Picture& b) {
   return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
          a.field_of_view == b.field_of_view && a.lens == b.lens && a.notch == b.notch &&
@@ -190,12 +195,17 @@ bool Pictures::DrawScope(const EditorState& state, int size) {
   scope_.Render(picture_, pixels);
   drew_full_ = !coarse;
   drawn_size_ = pixels;
+  ++drawn_count_;
   changed_ = false;
   return coarse;
 }
 
 void Pictures::NoteFrame(double milliseconds) {
   if (drew_full_) milliseconds_ = milliseconds;
+}
+
+void Pictures::Record(LiveFilm& film, double t) {
+  if (has_picture_ && film.IsDue(t)) film.Offer(t, scope_.ReadPixels());
 }
 
 bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
@@ -213,9 +223,9 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
   }
   // The box is there while tissue is worked on.
-  const bool is_brush = state.step == Step::kTissue &&
+  const bool is_brush = IsTissueEdited(state) &&
                         (state.brush.has_value() || state.cut_brush.kind != CutBrush::Kind::kNone);
-  const int chosen = state.step == Step::kTissue && !is_brush ? state.tissue : -1;
+  const int chosen = IsTissueEdited(state) && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
   // What the user looks at comes first.
@@ -230,8 +240,8 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
 // The balls that the page at hand is about.
 void Pictures::ShowPlaces(const EditorState& state) {
   const auto& tissues = state.document().scene.tissues;
-  const bool has_tissue = state.step == Step::kTissue && state.tissue >= 0 &&
-                          state.tissue < static_cast<int>(tissues.size());
+  const bool has_tissue =
+      IsTissueEdited(state) && state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size());
   const auto kind = BallKindOf(state.tissue_page);
   if (has_tissue && kind)
     return overview_.ShowBalls(
@@ -276,7 +286,7 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
       const bool is_cutting = state.cut_brush.kind != CutBrush::Kind::kNone;
-      if (button == 0 && (state.brush || is_cutting) && state.step == Step::kTissue)
+      if (button == 0 && (state.brush || is_cutting) && IsTissueEdited(state))
         if (const auto place = overview_.PickTissue(event.x, event.y)) {
           is_cutting ? UseCutBrush(state, place->tissue, place->x_in_tissue)
                      : AddBall(state, *state.brush, place->tissue, place->x_in_tissue);

@@ -25,6 +25,8 @@ class Pictures {
   // Draws the scope's picture to fill `size` pixels a side. True when it is not the final one yet:
   // call again soon.
   bool DrawScope(const EditorState& state, int size);
+  // The picture that was drawn last, into a film: no more often than the film needs it.
+  void Record(LiveFilm& film, double t);
   // The author's view from outside. Draws only what changed; on a slow machine less often while the
   // user is busy elsewhere. True when it is not up to date yet.
   bool DrawOverview(const EditorState& state, int width, int height);
@@ -36,6 +38,8 @@ class Pictures {
   // back.
   void NoteFrame(double milliseconds);
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
+  int scope_edge() const { return drawn_size_; }       // px of that texture
+  long scope_version() const { return drawn_count_; }  // grows with each picture
   const simulation::ScopeView& view() const { return picture_.view; }
   const std::string& notice() const {
     if (!cut_fault_.empty()) return cut_fault_;
@@ -64,6 +68,7 @@ class Pictures {
   Optics optics_;
   Picture picture_;
   int drawn_size_ = 0;
+  long drawn_count_ = 0;
   bool drew_full_ = false;
   double milliseconds_ = 0;  // of the last frame whose picture was drawn at full size
   bool overview_held_ = false;

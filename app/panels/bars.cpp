@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kTopHeight = 48, kStatusHeight = 32, kSideWidth = 330;
 constexpr float kPracticeWidth = 370;
+constexpr float kOutsideShare = 0.34f;   // in practice, of the picture's area
 constexpr float kOverviewShare = 0.38f;  // of the width beside the controls
 
 }  // namespace
@@ -37,6 +38,10 @@ Layout PracticeLayout(float width, float height, float scale) {
   Layout layout;
   layout.picture = {0, 0, width - side, height};
   layout.side = {width - side, 0, side, height};
+  // In the corner that the round picture leaves free; 4:3.
+  const float outside = std::floor(kOutsideShare * std::min(width - side, height)),
+              edge = 8 * scale;
+  layout.overview = {edge, height - 0.75f * outside - edge, outside, 0.75f * outside};
   return layout;
 }
 

@@ -17,12 +17,16 @@ inline constexpr ImGuiWindowFlags kBarWindow =
 inline constexpr ImGuiWindowFlags kPictureWindow =
     kBarWindow | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoNavFocus;
 
+// Over other pictures.
+inline constexpr ImGuiWindowFlags kInsetWindow =
+    kPictureWindow & ~ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 class FixedWindow {
  public:
   FixedWindow(Ui& ui, const char* name, const Area& area, ImGuiWindowFlags flags) {
     ImGui::SetNextWindowPos({area.x, area.y});
     ImGui::SetNextWindowSize({area.width, area.height});
-    const bool bar = flags == kBarWindow, picture = flags == kPictureWindow;
+    const bool bar = flags == kBarWindow, picture = (flags & kInsetWindow) == kInsetWindow;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,

@@ -70,6 +70,8 @@ struct OverviewInput {
   bool shift = false, ctrl = false;
 };
 OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture);
+// The same in a corner of the scope's picture.
+OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture);
 
 // Moves the hand by what the user did over the picture. True when something moved.
 bool ApplyPictureInput(EditorState& state, const PictureInput& input,

@@ -68,6 +68,33 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
                    RadiansFromDegrees(roll), MetresFromMm(mm)};
 }
 
+// The overview's picture and what is done to it, in the window that was begun.
+OverviewInput Overview(Ui& ui, const Area& area, unsigned texture) {
+  OverviewInput input;
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::InvisibleButton("Overview", {area.width, area.height},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  RecordItem(ui, "Overview");
+  const ImGuiIO& io = ImGui::GetIO();
+  input.hovered = ImGui::IsItemHovered();
+  input.owned = ImGui::IsItemActive();
+  input.pointer = {io.MousePos.x - area.x, io.MousePos.y - area.y};
+  for (int button = 0; button < 3; ++button) {
+    input.pressed[button] = ImGui::IsItemHovered() && ImGui::IsMouseClicked(button);
+    input.released[button] = ImGui::IsMouseReleased(button) && ImGui::IsItemDeactivated();
+  }
+  if (input.hovered) input.wheel = io.MouseWheel;
+  input.shift = io.KeyShift;
+  input.ctrl = io.KeyCtrl;
+  if (texture != 0)
+    OpaqueImage(ImGui::GetWindowDrawList(), texture, {area.x, area.y},
+                {area.x + area.width, area.y + area.height});
+  ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
+  QuietText(ui, "Overview");
+  return input;
+}
+
 }  // namespace
 
 int ScopePictureSize(const Ui& ui, const EditorState& state, const Area& area) {
@@ -116,28 +143,14 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
 
 OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture) {
   const FixedWindow window(ui, "overview", area, kPictureWindow);
-  OverviewInput input;
-  ImGui::SetCursorScreenPos({area.x, area.y});
-  ImGui::InvisibleButton("Overview", {area.width, area.height},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
-  RecordItem(ui, "Overview");
-  const ImGuiIO& io = ImGui::GetIO();
-  input.hovered = ImGui::IsItemHovered();
-  input.owned = ImGui::IsItemActive();
-  input.pointer = {io.MousePos.x - area.x, io.MousePos.y - area.y};
-  for (int button = 0; button < 3; ++button) {
-    input.pressed[button] = ImGui::IsItemHovered() && ImGui::IsMouseClicked(button);
-    input.released[button] = ImGui::IsMouseReleased(button) && ImGui::IsItemDeactivated();
-  }
-  if (input.hovered) input.wheel = io.MouseWheel;
-  input.shift = io.KeyShift;
-  input.ctrl = io.KeyCtrl;
-  if (texture != 0)
-    OpaqueImage(ImGui::GetWindowDrawList(), texture, {area.x, area.y},
-                {area.x + area.width, area.y + area.height});
-  ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
-  QuietText(ui, "Overview");
+  return Overview(ui, area, texture);
+}
+
+OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture) {
+  const FixedWindow window(ui, "inset overview", area, kInsetWindow);
+  const OverviewInput input = Overview(ui, area, texture);
+  ImGui::GetWindowDrawList()->AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height},
+                                      kQuiet);
   return input;
 }
 

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "app/commands/command_list.h"
+#include "app/commands/screens/film.h"
 #include "app/panels/fixed_window.h"
 #include "app/panels/panels.h"
 #include "simulation/core/units.h"
@@ -128,6 +129,58 @@ void Instruments(Ui& ui, EditorState& state) {
   for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
 }
 
+// A lit dot and how long the film is, at the right of a line of text whose top is `top`; under it
+// how many pictures were left out.
+void FilmMark(Ui& ui, const EditorState& state, float top) {
+  if (!state.film) return;
+  const ImVec2 back = ImGui::GetCursorPos();
+  const float left = ui.Px(190);
+  ImGui::SetCursorPos({left + ui.Px(18), top});
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ColouredText(ui,
+               state.film->is_ending() ? std::string("Writing the film")
+                                       : "Recording " + ClockWords(FilmSeconds(state)),
+               kBad);
+  ImGui::GetWindowDrawList()->AddCircleFilled(
+      {corner.x - ui.Px(11), corner.y + 0.5f * ImGui::GetTextLineHeight()}, ui.Px(6), kBad);
+  if (const int left_out = state.film->left_out(); left_out > 0) {
+    ImGui::SetCursorPosX(left);
+    QuietText(ui, fmt::format("{} picture{} left out", left_out, left_out == 1 ? "" : "s"));
+  }
+  ImGui::SetCursorPos(back);
+}
+
+// Commands side by side, each as wide as its words ask; lit while what they stand for is on.
+void CommandRow(Ui& ui, EditorState& state,
+                std::initializer_list<std::pair<const char*, bool>> row) {
+  const float gap = ui.Px(6), count = static_cast<float>(row.size());
+  float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
+  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(id).words).x;
+  bool is_first = true;
+  for (const auto& [id, is_on] : row) {
+    if (!is_first) ImGui::SameLine(0, gap);
+    is_first = false;
+    const Command& command = CommandOf(id);
+    const float width = ImGui::CalcTextSize(command.words).x + spare / count;
+    const std::string tip = command.help + (" (" + WordsOf(command.shortcut) + ")");
+    if (ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)},
+                     tip.c_str()))
+      Run(state, command);
+  }
+}
+
+// What became of the last film and of the trainee's screen. True: there was something to say.
+bool ScreenNews(Ui& ui, const EditorState& state) {
+  const std::string& of_screen = state.trainee_screen.words;
+  if (!of_screen.empty()) QuietText(ui, of_screen);
+  if (state.film || state.film_words.empty()) return !of_screen.empty();
+  if (state.is_film_lost)
+    ColouredText(ui, state.film_words, kWarning);
+  else
+    QuietText(ui, state.film_words);
+  return true;
+}
+
 // What a rig names and is not there. True: there was something to say.
 bool MissingDevices(Ui& ui, const EditorState& state) {
   bool is_any = state.hands->is_zero_force();
@@ -162,8 +215,10 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
 
   const std::string title = state.document().scene.title;
   Heading(ui, title.empty() ? "Practice" : title);
+  const float top = ImGui::GetCursorPosY();
   QuietText(ui, "Time");
   LargeText(ui, ClockWords(practice.snapshot().t));
+  FilmMark(ui, state, top);
 
   QuietText(ui, "Force on the tissue");
   LargeText(ui, fmt::format("{:.2f} N", force),
@@ -206,7 +261,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
     Run(state, disturbances);
   Gap(ui);
   // What is missing is more urgent than the hint, and there is room for one of them.
-  if (!MissingDevices(ui, state))
+  if (!MissingDevices(ui, state) && !ScreenNews(ui, state))
     QuietText(
         ui,
         "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
@@ -215,12 +270,15 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   const float foot = 2 * ui.Px(kButton) + ui.Px(22);
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
-  CommandButton(ui, state, "full-screen", {half, ui.Px(kButton)});
-  ImGui::SameLine(0, ui.Px(8));
-  CommandButton(ui, state, "help", {half, ui.Px(kButton)});
-  CommandButton(ui, state, "devices", {half, ui.Px(kButton)});
-  ImGui::SameLine(0, ui.Px(8));
-  CommandButton(ui, state, "leave-practice", {half, ui.Px(kButton)});
+  CommandRow(ui, state,
+             {{"record", state.film != nullptr},
+              {"outside", state.shows_outside},
+              {"full-screen", state.full_screen},
+              {"help", false}});
+  CommandRow(ui, state,
+             {{"trainee-screen", state.trainee_screen.is_wanted},
+              {"devices", false},
+              {"leave-practice", false}});
 }
 
 }  // namespace arthro::app

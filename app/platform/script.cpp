@@ -69,8 +69,10 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
                                                      {"double-click", ScriptVerb::kDoubleClick},
                                                      {"right-click", ScriptVerb::kRightClick},
                                                      {"hover", ScriptVerb::kHover}};
-  const std::map<std::string, ScriptVerb> of_text = {
-      {"type", ScriptVerb::kType}, {"shot", ScriptVerb::kShot}, {"drop", ScriptVerb::kDrop}};
+  const std::map<std::string, ScriptVerb> of_text = {{"type", ScriptVerb::kType},
+                                                     {"shot", ScriptVerb::kShot},
+                                                     {"shot-trainee", ScriptVerb::kShotTrainee},
+                                                     {"drop", ScriptVerb::kDrop}};
   const std::map<std::string, ScriptVerb> alone = {{"close", ScriptVerb::kClose},
                                                    {"quit", ScriptVerb::kQuit}};
   if (const auto item = of_item.find(verb); item != of_item.end()) {

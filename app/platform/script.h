@@ -3,7 +3,7 @@
 //   click | double-click | right-click | hover NAME [DX DY] (its middle, or px at scale 1 from it)
 //   drag NAME DX DY [right] (pixels at scale 1) · wheel NAME NOTCHES
 //   type TEXT · key ctrl+shift+s · hold KEY FRAMES · set NAME VALUE (a slider, by typing)
-//   wait frames N · wait job · shot FILE.png
+//   wait frames N · wait job · shot FILE.png · shot-trainee FILE.png
 //   expect TEXT · expect not TEXT · expect value NAME TEXT · expect enabled|disabled NAME
 //   drop FILE · close · quit
 // A name or text with blanks stands in double quotes; # begins a comment. Pure: no window.
@@ -30,6 +30,7 @@ enum class ScriptVerb {
   kWaitFrames,
   kWaitJob,
   kShot,
+  kShotTrainee,
   kExpect,
   kExpectNot,
   kExpectValue,

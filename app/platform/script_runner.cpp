@@ -61,9 +61,8 @@ int ScriptRunner::line_number() const {
   return lines_.empty() ? 0 : lines_[std::min(next_, lines_.size() - 1)].number;
 }
 
-ScriptState ScriptRunner::AfterFrame(
-    const WidgetRegistry& widgets, bool busy, InputQueue& input,
-    const std::function<void(const std::filesystem::path&)>& save_picture) {
+ScriptState ScriptRunner::AfterFrame(const WidgetRegistry& widgets, bool busy, InputQueue& input,
+                                     const SavePicture& save_picture) {
   if (state_ != ScriptState::kRunning || !input.empty()) return state_;
   if (frames_to_wait_ > 0) {
     --frames_to_wait_;
@@ -97,8 +96,7 @@ const WidgetRecord* ScriptRunner::Target(const ScriptLine& line, const WidgetReg
 }
 
 void ScriptRunner::Run(const ScriptLine& line, const WidgetRegistry& widgets, bool busy,
-                       InputQueue& input,
-                       const std::function<void(const std::filesystem::path&)>& save_picture) {
+                       InputQueue& input, const SavePicture& save_picture) {
   // A job is waited for over many frames; all else is done in one go.
   if (line.verb == ScriptVerb::kWaitJob && busy) {
     const auto now = std::chrono::steady_clock::now();
@@ -196,7 +194,8 @@ void ScriptRunner::Run(const ScriptLine& line, const WidgetRegistry& widgets, bo
     case ScriptVerb::kWaitJob:
       break;
     case ScriptVerb::kShot:
-      save_picture(line.text);
+    case ScriptVerb::kShotTrainee:
+      save_picture(line.text, line.verb == ScriptVerb::kShotTrainee);
       break;
     case ScriptVerb::kExpect:
       if (!widgets.Shows(line.text)) Fail(line, fmt::format("\"{}\" is not shown", line.text));

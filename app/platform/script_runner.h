@@ -21,9 +21,12 @@ class ScriptRunner {
   // `scale`: content scale, by which a drag's pixels are multiplied.
   explicit ScriptRunner(std::vector<ScriptLine> lines, double scale = 1.0);
 
-  // `busy`: a background job runs. `save_picture` writes the frame that was just drawn.
+  // Writes the frame that was just drawn, of the window or of the trainee's screen.
+  using SavePicture = std::function<void(const std::filesystem::path&, bool of_trainee)>;
+
+  // `busy`: a background job runs.
   ScriptState AfterFrame(const WidgetRegistry& widgets, bool busy, InputQueue& input,
-                         const std::function<void(const std::filesystem::path&)>& save_picture);
+                         const SavePicture& save_picture);
 
   ScriptState state() const { return state_; }
   const std::string& failure() const { return failure_; }  // a sentence with the line's number
@@ -32,7 +35,7 @@ class ScriptRunner {
 
  private:
   void Run(const ScriptLine& line, const WidgetRegistry& widgets, bool busy, InputQueue& input,
-           const std::function<void(const std::filesystem::path&)>& save_picture);
+           const SavePicture& save_picture);
   const WidgetRecord* Target(const ScriptLine& line, const WidgetRegistry& widgets);
   void Fail(const ScriptLine& line, const std::string& sentence);
 

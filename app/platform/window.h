@@ -59,6 +59,7 @@ class Window {
   double scale() const { return scale_; }
   int width() const { return width_; }
   int height() const { return height_; }
+  GLFWwindow* handle() const { return window_; }  // for windows beside it
   const Fonts& fonts() const { return fonts_; }
   void SetTitle(const std::string& title);
   void SetFullScreen(bool full);

@@ -50,7 +50,7 @@ int FrameWidth(FrameShape shape, int height) {
   return 2 * static_cast<int>(std::lround(0.5 * Aspect(shape) * height));
 }
 
-PicturePlace PlaceOnScreen(FrameShape shape, int width, int height) {
+ScreenPlace PlaceOnScreen(FrameShape shape, int width, int height) {
   const int edge =
       std::max(0, std::min(height, static_cast<int>(std::floor(width / Aspect(shape) + 1e-9))));
   return {(width - edge) / 2, (height - edge) / 2, edge};

@@ -19,11 +19,11 @@ int FrameWidth(FrameShape shape, int height);
 
 // Where the square picture goes on a screen: the frame as large as the screen lets it be, in its
 // middle, and in that the picture. From the top left.
-struct PicturePlace {
+struct ScreenPlace {
   int x = 0, y = 0, edge = 0;
-  friend bool operator==(const PicturePlace&, const PicturePlace&) = default;
+  friend bool operator==(const ScreenPlace&, const ScreenPlace&) = default;
 };
-PicturePlace PlaceOnScreen(FrameShape shape, int width, int height);
+ScreenPlace PlaceOnScreen(FrameShape shape, int width, int height);
 
 // A square picture in its frame.
 ColourImage LaidOut(const ColourImage& picture, FrameShape shape);

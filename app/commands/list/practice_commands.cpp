@@ -6,6 +6,7 @@
 #include "app/commands/devices/calibrate_incision.h"
 #include "app/commands/edits.h"
 #include "app/commands/list/command_groups.h"
+#include "app/commands/screens/film.h"
 #include "app/commands/start_practice.h"
 #include "simulation/core/units.h"
 
@@ -183,6 +184,30 @@ constexpr Command kCommands[] = {
      {},
      [](const State& state) { return state.practice.has_value() || InEditor(state); },
      ToggleDevices},
+    {"record",
+     "Record…",
+     "Begin a film of the scope's picture, or end it.",
+     "Practice",
+     {GLFW_KEY_F2},
+     {},
+     MayToggleFilm,
+     ToggleFilm},
+    {"outside",
+     "From outside",
+     "Show both hands from outside, in a corner of the picture, or stop.",
+     "Practice",
+     {GLFW_KEY_O},
+     {},
+     Practising,
+     [](State& state) { state.shows_outside = !state.shows_outside; }},
+    {"trainee-screen",
+     "Trainee's screen",
+     "Show the scope's picture alone, over all of a second monitor, or stop.",
+     "Window",
+     {GLFW_KEY_F12},
+     {},
+     Always,
+     [](State& state) { state.trainee_screen.is_wanted = !state.trainee_screen.is_wanted; }},
     {"zero-force",
      "Zero-force mode",
      "Show forces and give the devices none, or end that.",

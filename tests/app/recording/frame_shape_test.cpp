@@ -40,10 +40,10 @@ TEST(FrameShape, APictureStandsInTheMiddleOfItsBlackFrame) {
 
 TEST(FrameShape, OnAScreenTheFrameFillsWhatItCan) {
   // A screen wider than the frame: as high as the screen.
-  EXPECT_EQ(PlaceOnScreen(FrameShape::k4x3, 1920, 1080), (PicturePlace{420, 0, 1080}));
-  EXPECT_EQ(PlaceOnScreen(FrameShape::kSquare, 1920, 1080), (PicturePlace{420, 0, 1080}));
+  EXPECT_EQ(PlaceOnScreen(FrameShape::k4x3, 1920, 1080), (ScreenPlace{420, 0, 1080}));
+  EXPECT_EQ(PlaceOnScreen(FrameShape::kSquare, 1920, 1080), (ScreenPlace{420, 0, 1080}));
   // A screen narrower than the frame: bars above and below it too.
-  EXPECT_EQ(PlaceOnScreen(FrameShape::k16x9, 1280, 1024), (PicturePlace{280, 152, 720}));
+  EXPECT_EQ(PlaceOnScreen(FrameShape::k16x9, 1280, 1024), (ScreenPlace{280, 152, 720}));
   EXPECT_EQ(PlaceOnScreen(FrameShape::k16x9, 0, 0).edge, 0);
 }
 

@@ -1,0 +1,109 @@
+#include "app/recording/live_film.h"
+
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "simulation/core/error.h"
+
+namespace arthro::app {
+namespace {
+
+ColourImage Resized(const ColourImage& picture, int size) {
+  if (picture.width == size && picture.height == size) return picture;
+  ColourImage resized(size, size);
+  const cv::Mat from(picture.height, picture.width, CV_8UC3,
+                     const_cast<std::uint8_t*>(picture.rgb.data()));
+  cv::Mat to(size, size, CV_8UC3, resized.rgb.data());
+  cv::resize(from, to, to.size(), 0, 0, size < picture.width ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return resized;
+}
+
+}  // namespace
+
+LiveFilm::LiveFilm(const std::filesystem::path& file, const FilmForm& form,
+                   std::function<void()> wake)
+    : file_(file),
+      form_(form),
+      wake_(std::move(wake)),
+      video_(file, {FrameWidth(form.shape, form.size), form.size}, form.rate),
+      thread_([this] { Encode(); }) {}
+
+LiveFilm::~LiveFilm() {
+  if (!is_ending_) End(static_cast<double>(last_offered_ + 1) / form_.rate);
+}
+
+std::int64_t LiveFilm::FrameAt(double t) const {
+  return static_cast<std::int64_t>(std::floor(t * form_.rate + 1e-6));
+}
+
+void LiveFilm::Offer(double t, ColourImage picture) {
+  if (is_ending_ || !IsDue(t)) return;
+  last_offered_ = FrameAt(t);
+  {
+    const std::lock_guard lock(mutex_);
+    if (has_ended_) return;
+    if (queue_.size() >= kQueue) {
+      ++left_out_;
+      return;
+    }
+    queue_.push_back({last_offered_, std::move(picture)});
+  }
+  has_item_.notify_one();
+}
+
+void LiveFilm::End(double t) {
+  is_ending_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back({std::max(FrameAt(t), last_offered_ + 1), {}});
+  }
+  has_item_.notify_one();
+}
+
+bool LiveFilm::HasEnded() const {
+  const std::lock_guard lock(mutex_);
+  return has_ended_;
+}
+
+void LiveFilm::Write() {
+  ColourImage frame;
+  for (;;) {
+    Item item;
+    {
+      std::unique_lock lock(mutex_);
+      has_item_.wait(lock, [this] { return !queue_.empty(); });
+      item = std::move(queue_.front());
+      queue_.pop_front();
+    }
+    const bool is_end = item.picture.empty();
+    ColourImage next;
+    if (!is_end) next = LaidOut(Resized(item.picture, form_.size), form_.shape);
+    if (frame.empty()) frame = next;  // what came first also stands for what was before it
+    while (!frame.empty() && video_.count() < item.frame) video_.Add(frame);
+    if (is_end) return video_.Finish();
+    frame = std::move(next);
+  }
+}
+
+void LiveFilm::Encode() noexcept {
+  std::string fault;
+  try {
+    Write();
+  } catch (const Error& error) {
+    fault = error.what();
+  } catch (const std::bad_alloc&) {
+    fault = file_.string() + ": there is not enough memory for this film, so it was not written";
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    fault_ = std::move(fault);
+    has_ended_ = true;
+    queue_.clear();
+  }
+  if (wake_) wake_();
+}
+
+}  // namespace arthro::app

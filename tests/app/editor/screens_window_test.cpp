@@ -1,0 +1,151 @@
+// What of a practice is shown beside its window: films of it, and the view from outside.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "authoring/footage/footage.h"
+#include "simulation/scene/image_io.h"
+#include "tests/support/run_window.h"
+#include "tests/support/small_scene.h"
+
+namespace arthro {
+namespace {
+
+using test::RunWindow;
+
+class ScreensWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    ARTHRO_REQUIRE_XVFB();
+    scene = test::WriteSmallScene(temp / "knee");
+  }
+  test::ProgramResult Practise(const std::string& flags, const std::string& script) {
+    return RunWindow("practise " + scene.string() + " " + flags, script);
+  }
+  test::TempFolder temp;
+  std::filesystem::path scene;
+};
+
+// 90 frames of 1/60 s are 1.5 s of the session; the script's own few frames before and after them
+// are less than half a second.
+TEST_F(ScreensWindow, APracticeIsRecordedFromItsBeginningAtTrueSpeed) {
+  const auto film = temp / "film.mp4";
+  const auto result = Practise("--record " + film.string() + " --layout 4:3", R"(
+wait job
+wait frames 5
+expect "Recording 00:00"
+hold left 90
+expect "Recording 00:01"
+expect not "left out"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  auto footage = authoring::Footage::Open(film);
+  EXPECT_EQ(footage.info().width, 960);
+  EXPECT_EQ(footage.info().height, 720);
+  EXPECT_NEAR(footage.info().frames_per_second, 30.0, 1e-9);
+  cv::Mat first, rgb, last;
+  int count = 0;
+  for (; footage.Next(rgb); ++count) {
+    if (count == 0) first = rgb.clone();
+    last = rgb.clone();
+  }
+  EXPECT_GE(count, 45);
+  EXPECT_LE(count, 60);
+  ASSERT_FALSE(last.empty());
+  EXPECT_LT(cv::mean(last(cv::Rect(0, 0, 110, 720)))[0], 3.0) << "black beside the picture";
+  EXPECT_GT(cv::norm(first, last, cv::NORM_L1) / (960.0 * 720 * 3), 3.0) << "the scope swung";
+}
+
+TEST_F(ScreensWindow, TheCommandAsksWhereAndEndsTheFilmThePracticeGoesOn) {
+  const auto result = Practise("", R"(
+wait job
+expect not "Recording"
+key f2
+expect "Record the scope's picture as a film"
+set "File name" ")" + (temp / "mine.avi").string() +
+                                       R"("
+wait frames 20
+expect "Recording 00:00"
+key f2
+wait frames 60
+expect not "Recording"
+expect "The film is in"
+expect "Force on the tissue"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GE(authoring::Footage::Open(temp / "mine.avi").info().frames, 5);
+}
+
+TEST_F(ScreensWindow, AFilmThatCannotBeIsRefusedBeforeThereIsAWindow) {
+  for (const char* file : {"film.gif", "no/film.mp4"}) {
+    const auto result = test::RunProgram(
+        "practise " + scene.string() + " --record " + (temp / file).string(), "DISPLAY=");
+    EXPECT_EQ(result.exit_code, 1) << file;
+    EXPECT_EQ(result.err.find("display"), std::string::npos) << result.err;
+  }
+  const auto result = test::RunProgram("practise " + scene.string() + " --layout 5:4", "DISPLAY=");
+  EXPECT_NE(result.err.find("square, 4:3 or 16:9"), std::string::npos) << result.err;
+}
+
+TEST_F(ScreensWindow, TheViewFromOutsideStandsInACornerUntilItIsTakenAway) {
+  const auto without = temp / "without.png", with = temp / "with.png", again = temp / "again.png";
+  const auto result =
+      Practise("", "wait job\nwait frames 10\nshot " + without.string() +
+                       "\nclick \"From outside\"\nexpect Overview\nhover \"Full screen\"\n"
+                       "wait frames 10\nshot " +
+                       with.string() + "\nkey o\nexpect not Overview\nwait frames 10\nshot " +
+                       again.string() + "\n");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const ColourImage a = ReadColourImage(without), b = ReadColourImage(with),
+                    c = ReadColourImage(again);
+  // The picture's area is 910 px wide, the corner 272x204 of it.
+  long inside = 0, outside = 0, left = 0;
+  for (int y = 0; y < 800; ++y)
+    for (int x = 0; x < 910; ++x) {
+      const bool is_corner = x < 290 && y > 580;
+      const bool differs = std::abs(a.at(x, y)[0] - b.at(x, y)[0]) > 8;
+      (is_corner ? inside : outside) += differs;
+      left += std::abs(a.at(x, y)[0] - c.at(x, y)[0]) > 8;
+    }
+  EXPECT_GT(inside, 20000);
+  EXPECT_EQ(outside, 0) << "the hands stand still";
+  EXPECT_EQ(left, 0);
+}
+
+// The picture's pixels in both windows: 600x600 in the first, which its size of 986x616 leaves it,
+// scaled to the second one's 720. Linear scaling of smooth pictures keeps each
+// within a few levels; only the rim's step of black to bright is wider in one than in the other.
+TEST_F(ScreensWindow, TheTraineesScreenShowsThePictureAndNothingElse) {
+  const auto shot = temp / "window.png", trainee = temp / "trainee.png";
+  const auto result =
+      Practise("--size 986x616 --trainee-screen --layout 4:3",
+               "wait job\nwait frames 5\nexpect \"There is one monitor\"\nhold left 20\n"
+               "wait frames 5\nshot " +
+                   shot.string() + "\nshot-trainee " + trainee.string() +
+                   "\nexpect value \"Trainee's screen\" on\nkey f12\nwait frames 3\n"
+                   "expect value \"Trainee's screen\" off\nexpect not \"one monitor\"\n"
+                   "key f12\nwait frames 3\nexpect \"There is one monitor\"\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const ColourImage window = ReadColourImage(shot), screen = ReadColourImage(trainee);
+  ASSERT_EQ(screen.width, 960);
+  ASSERT_EQ(screen.height, 720);
+  for (int y = 0; y < 720; ++y)
+    for (const int x : {0, 60, 119, 840, 959}) EXPECT_EQ(screen.at(x, y)[0], 0) << x << " " << y;
+  const int left = 8, top = 8;  // of the picture in the first window
+  long off = 0, all = 0;
+  for (int y = 90; y < 630; ++y)
+    for (int x = 210; x < 750; ++x) {
+      const double across = x - 120 + 0.5 - 360, down = y + 0.5 - 360;
+      if (across * across + down * down > 330.0 * 330.0) continue;
+      const int u = left + static_cast<int>((x - 120 + 0.5) / 1.2),
+                v = top + static_cast<int>((y + 0.5) / 1.2);
+      ++all;
+      off += std::abs(screen.at(x, y)[0] - window.at(u, v)[0]) > 24;
+    }
+  EXPECT_LT(static_cast<double>(off) / static_cast<double>(all), 0.02);
+  std::printf("%.2f %% of the pixels differ by more than 24\n",
+              100.0 * static_cast<double>(off) / static_cast<double>(all));
+}
+
+}  // namespace
+}  // namespace arthro
