@@ -230,7 +230,7 @@ double AutomaticGain(const LightGrid& grid, const Backdrop& backdrop,
       const double lit = seen.luma / seen.share * light_reach * light_reach /
                          (distance * distance + kLampRadius * kLampRadius);
       const double weight = share * (1.25 - glm::dot(place, place));  // more in the middle
-      sum += weight * std::min(lit, 1.0);  // what is white already gets no whiter
+      sum += weight * lit;
       total += weight;
     }
   const double wanted = Luma(MeasureLight(grid).mean);

@@ -35,6 +35,10 @@ TEST(FootageLight, GainOfAGreySphereIsTheClosedForm) {
   const double expected = (0.05 * 0.05 + kLampRadius * kLampRadius) / (reach * reach);
   const auto view = [](double depth) { return simulation::ViewFromPose({0, 0, 0, depth}, 0.0); };
   EXPECT_NEAR(AutomaticGain(grid, backdrop, view(0.0), 1.5, reach), expected, 1e-3 * expected);
+  // White and near, the picture is as bright as the footage still was: it does not blow out.
+  const LightGrid white = MakeLightGrid(Grey(400, 400, 250), {});
+  const double near = AutomaticGain(white, backdrop, view(0.044), 0.2, reach);
+  EXPECT_NEAR(near, (0.006 * 0.006 + kLampRadius * kLampRadius) / (reach * reach), 0.02 * near);
   // Nearer it takes less gain, and goes there smoothly.
   double before = expected;
   for (double depth = 0.001; depth < 0.038; depth += 0.001) {
