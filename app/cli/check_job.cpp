@@ -9,7 +9,10 @@
 #include "app/cli/jobs.h"
 #include "app/cli/living_tissues_of.h"
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/lens_io.h"
 #include "simulation/scene/scene_check.h"
+#include "simulation/scope/window_lens.h"
 #include "simulation/session/cut_check.h"
 
 namespace arthro::app {
@@ -19,6 +22,18 @@ void Print(std::FILE* stream, const char* word, const std::vector<std::string>& 
   for (const std::string& line : lines) fmt::print(stream, "{}{}\n", word, line);
 }
 
+void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
+  if (!loaded.lens) return;
+  try {
+    const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
+    findings.found.push_back(
+        fmt::format("lens: {}, {:.1f} degrees, which count before the scope's own field of view",
+                    WordOf(loaded.lens->model), DegreesFromRadians(optics.field_of_view)));
+  } catch (const Error& error) {
+    findings.errors.push_back("scope.lens: " + error.sentence());
+  }
+}
+
 void Check(const std::string& scene) {
   const auto presets = ShippedTissuePresets();
   LoadedScene loaded;
@@ -26,6 +41,7 @@ void Check(const std::string& scene) {
     return simulation::IsThinLayer(tissue, presets);
   });
   if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
+  if (findings.errors.empty()) LookAtLens(loaded, findings);
   if (const std::size_t count = findings.errors.size()) {
     // What was found of half a scene would only mislead.
     Print(stderr, "error: ", findings.errors);

@@ -174,6 +174,8 @@ Scene SceneOf(const Phantom& phantom) {
   scene.author = "arthroscene phantom";
   scene.backdrop = {"panorama" + extension, "depth.tiff", phantom.cavity.radius, phantom.projection,
                     rights};
+  // It is lit from the portal when it is computed; a trainee sees it by the scope's lamp.
+  scene.backdrop.relight = 0.6;
   scene.portals.incision_spacing = phantom.incision_spacing;
   Tissue meniscus;
   meniscus.name = phantom.meniscus.name;

@@ -4,6 +4,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/scene/lens_io.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_io.h"
 #include "tests/support/run_program.h"
@@ -131,6 +132,28 @@ TEST(CheckJob, SaysWhatTheAuthorsCutsTakeAndWhichMiss) {
   EXPECT_NE(test::RunProgram("check " + folder.path().string())
                 .out.find("it has no tetrahedra, so its \"cuts\" and \"regions\" do nothing"),
             std::string::npos);
+}
+
+TEST(CheckJob, SaysWhatTheScopeLooksThroughAndWhichLensCannotBeDrawn) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  scene.scope.lens = "lens.json";
+  WriteScene(folder / "scene.json", scene);
+  Lens lens;
+  lens.model = LensModel::kPinhole;
+  lens.width = 640, lens.height = 480;
+  lens.focal_px = 300;
+  lens.cx = 320, lens.cy = 240;
+  lens.circle = {320, 240, 230};
+  WriteLens(folder / "lens.json", lens);
+  const auto good = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_NE(good.out.find("lens: pinhole, 75.0 degrees"), std::string::npos) << good.out;
+  lens.circle.r = 3300;  // 169 degrees of a pinhole
+  WriteLens(folder / "lens.json", lens);
+  const auto wide = test::RunProgram("check " + folder.path().string());
+  EXPECT_EQ(wide.exit_code, 1);
+  EXPECT_NE(wide.err.find("scope.lens: the lens bends too much"), std::string::npos) << wide.err;
 }
 
 TEST(CheckJob, ListsEveryErrorAndExitsWithOne) {
