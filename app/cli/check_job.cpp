@@ -30,7 +30,7 @@ void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
         fmt::format("lens: {}, {:.1f} degrees, which count before the scope's own field of view",
                     WordOf(loaded.lens->model), DegreesFromRadians(optics.field_of_view)));
   } catch (const Error& error) {
-    findings.errors.push_back("scope.lens: " + error.sentence());
+    findings.errors.push_back(error.sentence());
   }
 }
 

@@ -63,6 +63,8 @@ void RunViewJob(const ViewArguments& arguments) {
   disturbances.time = arguments.disturb_time;
   CheckDisturbances(disturbances);
   LoadedScene loaded = LoadScene(arguments.scene);
+  if (arguments.relight && !std::isfinite(*arguments.relight))
+    throw Error(Code::kBadArgument, "--relight is no number; give one from 0 to 1");
   if (arguments.relight) loaded.scene.backdrop.relight = *arguments.relight;
   const ScopeSpec& scope = loaded.scene.scope;
   const double view_angle = arguments.view_angle_deg

@@ -36,7 +36,7 @@ inline constexpr double kWindowLensError = 1e-4;
 WindowLens FitWindowLens(const Lens& lens, double field_of_view);
 
 // What the scope of a scene looks through. A lens file's own field of view counts before the
-// scene's, and one that is asked for before both. Throws as FitWindowLens.
+// scene's, and one that is asked for before both. Throws as FitWindowLens, naming the file.
 struct ScopeOptics {
   double field_of_view = 1.5707963267948966;  // full
   WindowLens lens;

@@ -91,6 +91,8 @@ TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
   refuse(scene_ + " --insertion-mm 60", 1, "50.0 mm");
   refuse(scene_ + " --roll-deg nan", 1, "--roll-deg");
   refuse(scene_ + " --insertion-mm nan", 1, "insert");
+  refuse(scene_ + " --relight nan", 1, "--relight");
+  refuse(scene_ + " --relight 1.5", 2, "--relight");
   refuse(scene_ + " --view-angle-deg 120", 2, "view-angle-deg");
   refuse(scene_ + " --disturb smoke=1", 1, "there are haze, bubbles, debris, fog");
   refuse(scene_ + " --disturb haze=7", 1, "between 0 and 1");
