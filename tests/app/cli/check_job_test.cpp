@@ -145,11 +145,13 @@ TEST(CheckJob, SaysWhatTheScopeLooksThroughAndWhichLensCannotBeDrawn) {
   lens.focal_px = 300;
   lens.cx = 320, lens.cy = 240;
   lens.circle = {320, 240, 230};
+  lens.field_of_view = FieldOfViewOf(lens).value();
   WriteLens(folder / "lens.json", lens);
   const auto good = test::RunProgram("check " + folder.path().string());
   EXPECT_EQ(good.exit_code, 0) << good.err;
   EXPECT_NE(good.out.find("lens: pinhole, 75.0 degrees"), std::string::npos) << good.out;
   lens.circle.r = 3300;  // 169 degrees of a pinhole
+  lens.field_of_view = FieldOfViewOf(lens).value();
   WriteLens(folder / "lens.json", lens);
   const auto wide = test::RunProgram("check " + folder.path().string());
   EXPECT_EQ(wide.exit_code, 1);
