@@ -141,7 +141,7 @@ struct EditorState {
   authoring::DepthOptions depth_in_work;  // what preview_jobs computes
   std::function<void(EditorState&)> when_depth_is_ready;
   bool shows_as_filmed = false;  // the footage's light, to compare
-  bool dragging = false;  // a slider is held: preview now, full size after
+  bool dragging = false;         // a slider is held: preview now, full size after
   std::optional<FootageBoard> footage;
   FootageJob footage_job;
   bool shows_footage = false;  // in the Panorama step: the clip, not the backdrop

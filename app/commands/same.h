@@ -11,8 +11,8 @@ inline bool SamePose(const Pose& a, const Pose& b) {
 }
 
 inline bool SameBackdrop(const Backdrop& a, const Backdrop& b) {
-  return a.panorama == b.panorama && a.depth == b.depth && a.radius == b.radius && a.relight == b.relight &&
-         a.projection.type == b.projection.type &&
+  return a.panorama == b.panorama && a.depth == b.depth && a.radius == b.radius &&
+         a.relight == b.relight && a.projection.type == b.projection.type &&
          a.projection.centre_px == b.projection.centre_px &&
          a.projection.focal_px == b.projection.focal_px &&
          a.projection.px_per_deg == b.projection.px_per_deg && a.rights.source == b.rights.source &&

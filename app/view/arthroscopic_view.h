@@ -53,7 +53,7 @@ struct Picture {
   simulation::WindowLens lens;                  // of that field
   double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
   std::optional<InstrumentView> instrument;
-  bool plain = false;  // backdrop colours only: no light, softness, mark or models
+  bool plain = false;         // backdrop colours only: no light, softness, mark or models
   Disturbances disturbances;  // over all but a plain picture
   ReliefSearch relief;
   // Looks at the panorama a pixel, at most: eight serve footprints eight times as long as wide. Two

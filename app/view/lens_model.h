@@ -32,11 +32,11 @@ struct LensRod {
 
 // What every model of a frame shares.
 struct LensFrame {
-  double field_of_view = 1.57;   // full, rad
-  simulation::WindowLens lens;   // of that field
-  double window_radius = 256;    // px
-  double light_reach = 0.03;     // m
-  double gain = 1, relit = 0;    // the camera's; how far its own lamp lights it
+  double field_of_view = 1.57;  // full, rad
+  simulation::WindowLens lens;  // of that field
+  double window_radius = 256;   // px
+  double light_reach = 0.03;    // m
+  double gain = 1, relit = 0;   // the camera's; how far its own lamp lights it
   LensRod rod;
   glm::dvec3 light_colour{1.0};  // linear: what the lamp and the camera make of white
   glm::dvec3 surround{0.2};      // linear: what a shining surface mirrors

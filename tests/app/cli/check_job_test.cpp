@@ -155,7 +155,8 @@ TEST(CheckJob, SaysWhatTheScopeLooksThroughAndWhichLensCannotBeDrawn) {
   WriteLens(folder / "lens.json", lens);
   const auto wide = test::RunProgram("check " + folder.path().string());
   EXPECT_EQ(wide.exit_code, 1);
-  EXPECT_NE(wide.err.find("scope.lens, lens.json: the lens bends too much"), std::string::npos) << wide.err;
+  EXPECT_NE(wide.err.find("scope.lens, lens.json: the lens bends too much"), std::string::npos)
+      << wide.err;
 }
 
 TEST(CheckJob, ListsEveryErrorAndExitsWithOne) {

@@ -49,7 +49,8 @@ class RunScript : public testing::Test {
   ScriptState Run(const std::string& text) {
     ScriptRunner runner(ParseScript(text));
     for (int frame = 0; frame < 1000 && runner.state() == ScriptState::kRunning; ++frame) {
-      runner.AfterFrame(widgets, busy, input, [&](const auto& file, bool) { shots.push_back(file); });
+      runner.AfterFrame(widgets, busy, input,
+                        [&](const auto& file, bool) { shots.push_back(file); });
       for (const auto& event : input.TakeFrame()) events.push_back(event);
       if (frame == 500) busy = false;
     }
