@@ -90,6 +90,7 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
   ReliefTexture relief = MakeReliefTexture(panorama_size_, depth, wraps_);
   Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
   unsearched_ = std::move(relief);
+  SetRelief(grid_, depth);
 }
 
 void BackdropProp::PrepareSearch(vtkOpenGLRenderWindow* window) {
@@ -135,7 +136,8 @@ void BackdropProp::SetPicture(const Picture& picture, int size, const LensRod& r
   rod_ = rod;
   gain_ = 1;
   if (backdrop_.relight > 0 && !picture.plain && !grid_.blocks.empty())
-    gain_ = AutomaticGain(grid_, backdrop_, picture.view, picture.field_of_view, light_reach());
+    gain_ =
+        AutomaticGain(grid_, light_, backdrop_, picture.view, picture.field_of_view, light_reach());
 }
 
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {

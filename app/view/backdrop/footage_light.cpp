@@ -130,14 +130,28 @@ LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth) {
           ++imaged;
           const std::uint8_t* p = panorama.at(u, v);
           of.mean += glm::vec3(linear[p[0]], linear[p[1]], linear[p[2]]);
-          of.relief += std::isfinite(h) ? h : 0.0f;
         }
       if (imaged == 0) continue;
       of.mean /= static_cast<float>(imaged);
-      of.relief /= static_cast<float>(imaged);
       of.share = static_cast<float>(imaged) / static_cast<float>(all);
     }
+  SetRelief(grid, depth);
   return grid;
+}
+
+void SetRelief(LightGrid& grid, const DepthMap& depth) {
+  const int block = static_cast<int>(grid.block_px.x), step = std::max(1, block / 8);
+  for (int y = 0; y < grid.height; ++y)
+    for (int x = 0; x < grid.width; ++x) {
+      float sum = 0;
+      int count = 0;
+      for (int v = y * block; v < std::min((y + 1) * block, depth.height); v += step)
+        for (int u = x * block; u < std::min((x + 1) * block, depth.width); u += step)
+          if (const float h = depth.at(u, v); std::isfinite(h)) sum += h, ++count;
+      grid.blocks[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
+                  static_cast<std::size_t>(x)]
+          .relief = count > 0 ? sum / static_cast<float>(count) : 0.0f;
+    }
 }
 
 void EvenLight(LightGrid& grid, double share) {
@@ -205,7 +219,7 @@ FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
   return near.empty() ? MeasureLight(grid) : LightOfBlocks(grid, near);
 }
 
-double AutomaticGain(const LightGrid& grid, const Backdrop& backdrop,
+double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
                      const simulation::ScopeView& view, double field_of_view, double light_reach) {
   constexpr int kAcross = 15;  // rays
   const simulation::RoundWindow window{field_of_view, glm::dvec2(0.0), 1.0};
@@ -233,7 +247,7 @@ double AutomaticGain(const LightGrid& grid, const Backdrop& backdrop,
       sum += weight * lit;
       total += weight;
     }
-  const double wanted = Luma(MeasureLight(grid).mean);
+  const double wanted = Luma(footage.mean);
   if (!(total > 0) || !(sum > 0) || !(wanted > 0)) return 1.0;
   return std::clamp(wanted * total / sum, 0.05, 12.0);
 }

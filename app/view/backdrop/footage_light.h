@@ -36,6 +36,8 @@ struct LightGrid {
   }
 };
 LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth);
+// Another relief for the same panorama, of whose size it is; its colours stay what they are.
+void SetRelief(LightGrid& grid, const DepthMap& depth);
 
 // Sets the gains: the wide, smooth part of the brightness (a sixth of the picture's longer side)
 // goes towards its mean by `share`, 0 to 1, at most by a factor of 3. Retinex [Land & McCann 1971],
@@ -57,7 +59,7 @@ inline constexpr double kLampRadius = 0.004;  // m
 // Camera gain at which the lit picture is as bright on average as the footage: an unhurried
 // camera's automatic gain, as a smooth function of where the scope is. Rays over the window, more
 // in its middle; without models. 1 where it sees nothing that was imaged.
-double AutomaticGain(const LightGrid& grid, const Backdrop& backdrop,
+double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
                      const simulation::ScopeView& view, double field_of_view, double light_reach);
 
 }  // namespace arthro::app

@@ -34,15 +34,16 @@ TEST(FootageLight, GainOfAGreySphereIsTheClosedForm) {
   const double reach = 0.0275;
   const double expected = (0.05 * 0.05 + kLampRadius * kLampRadius) / (reach * reach);
   const auto view = [](double depth) { return simulation::ViewFromPose({0, 0, 0, depth}, 0.0); };
-  EXPECT_NEAR(AutomaticGain(grid, backdrop, view(0.0), 1.5, reach), expected, 1e-3 * expected);
+  EXPECT_NEAR(AutomaticGain(grid, MeasureLight(grid), backdrop, view(0.0), 1.5, reach), expected,
+              1e-3 * expected);
   // White and near, the picture is as bright as the footage still was: it does not blow out.
   const LightGrid white = MakeLightGrid(Grey(400, 400, 250), {});
-  const double near = AutomaticGain(white, backdrop, view(0.044), 0.2, reach);
+  const double near = AutomaticGain(white, MeasureLight(white), backdrop, view(0.044), 0.2, reach);
   EXPECT_NEAR(near, (0.006 * 0.006 + kLampRadius * kLampRadius) / (reach * reach), 0.02 * near);
   // Nearer it takes less gain, and goes there smoothly.
   double before = expected;
   for (double depth = 0.001; depth < 0.038; depth += 0.001) {
-    const double gain = AutomaticGain(grid, backdrop, view(depth), 1.5, reach);
+    const double gain = AutomaticGain(grid, MeasureLight(grid), backdrop, view(depth), 1.5, reach);
     EXPECT_LT(gain, before);
     EXPECT_GT(gain, 0.8 * before);
     before = gain;
@@ -53,10 +54,12 @@ TEST(FootageLight, NothingImagedOrBlackNeedsNoGain) {
   const Backdrop backdrop = PlainBackdrop(64, 48);
   const auto view = simulation::ViewFromPose({0, 0, 0, 0.01}, 0.0);
   const LightGrid nothing = MakeLightGrid(Grey(64, 48, 90), DepthMap(64, 48, NAN));
-  EXPECT_EQ(AutomaticGain(nothing, backdrop, view, 1.5, 0.03), 1.0);
-  EXPECT_EQ(AutomaticGain(MakeLightGrid(Grey(64, 48, 0), {}), backdrop, view, 1.5, 0.03), 1.0);
+  EXPECT_EQ(AutomaticGain(nothing, MeasureLight(nothing), backdrop, view, 1.5, 0.03), 1.0);
+  const LightGrid black = MakeLightGrid(Grey(64, 48, 0), {});
+  EXPECT_EQ(AutomaticGain(black, MeasureLight(black), backdrop, view, 1.5, 0.03), 1.0);
   const LightGrid one = MakeLightGrid(Grey(1, 1, 90), {});
-  EXPECT_TRUE(std::isfinite(AutomaticGain(one, PlainBackdrop(1, 1), view, 1.5, 0.03)));
+  EXPECT_TRUE(
+      std::isfinite(AutomaticGain(one, MeasureLight(one), PlainBackdrop(1, 1), view, 1.5, 0.03)));
 }
 
 // Checks under a lamp that falls to a quarter from left to right.
@@ -119,7 +122,7 @@ TEST_F(LitView, PixelsOfAGreySphereAreTheClosedForm) {
   const ColourImage drawn = view_->ReadPixels();
   const LightGrid grid = MakeLightGrid(grey, {});
   const double reach = 0.55 * 0.05;
-  const double gain = AutomaticGain(grid, backdrop, picture.view, 1.4, reach);
+  const double gain = AutomaticGain(grid, MeasureLight(grid), backdrop, picture.view, 1.4, reach);
   const auto window = simulation::WindowOfSize(1.4, size);
   double worst = 0;
   int compared = 0;
@@ -144,6 +147,22 @@ TEST_F(LitView, PixelsOfAGreySphereAreTheClosedForm) {
   std::printf("lit sphere: off by at most %.2f of 255 over %d pixels\n", worst, compared);
   EXPECT_GT(compared, 500);
   EXPECT_LT(worst, 2.0);
+}
+
+// The gain goes by the relief that is shown.
+TEST_F(LitView, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
+  Backdrop backdrop = PlainBackdrop(512, 512);
+  backdrop.relight = 1;
+  const ColourImage grey = Grey(512, 512, 100);
+  const DepthMap flat(512, 512, 0.002f), near(512, 512, 0.02f);
+  const Picture picture = PictureFromPose({0, 0, 0, 0.005}, 0.0, 1.4);
+  view_->SetBackdrop(grey, near, backdrop);
+  view_->Render(picture, 128);
+  const ColourImage expected = view_->ReadPixels();
+  view_->SetBackdrop(grey, flat, backdrop);
+  view_->SetDepth(near);
+  view_->Render(picture, 128);
+  EXPECT_EQ(view_->ReadPixels().rgb, expected.rgb);
 }
 
 // The lamp stands above the lens, so the shadow falls under the rod, and only there.
