@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "app/view/disturbances.h"
+#include "app/view/disturbances/disturbances.h"
 
 namespace arthro::app {
 

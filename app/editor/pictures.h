@@ -12,7 +12,7 @@
 #include "app/panels/panels.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
-#include "app/view/overview.h"
+#include "app/view/overview/overview.h"
 
 namespace arthro::app {
 

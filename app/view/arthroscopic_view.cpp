@@ -16,11 +16,11 @@
 
 #include "app/view/backdrop/backdrop_prop.h"
 #include "app/view/context_render_window.h"
+#include "app/view/disturbances/lens_pass.h"
+#include "app/view/instruments/probe_mesh.h"
+#include "app/view/instruments/tool_mesh.h"
 #include "app/view/lens_model.h"
-#include "app/view/lens_pass.h"
 #include "app/view/lens_shader.h"
-#include "app/view/probe_mesh.h"
-#include "app/view/tool_mesh.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {

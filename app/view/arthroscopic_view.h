@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "app/view/disturbances.h"
+#include "app/view/disturbances/disturbances.h"
 #include "simulation/scene/image.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scene/surface_mesh.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/view/arthroscopic_view.h"
-#include "app/view/overview.h"
+#include "app/view/overview/overview.h"
 #include "simulation/scene/scene.h"
 #include "simulation/tissue/body/tissue_world.h"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/view/tool_mesh.h"
+#include "app/view/instruments/tool_mesh.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/benchmark/bench_report.h"
 #include "tests/support/grid_picture.h"

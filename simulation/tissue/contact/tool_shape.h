@@ -30,8 +30,8 @@ struct ToolShape {
   Capsule bite;  // what a closing punch takes; of the shaver: its window
 };
 
-// Real dimensions: probe hook 4 mm long of 1.5 mm rod (as app/view/probe_mesh draws it), punch 3.4
-// mm wide, shaver 4.5 mm.
+// Real dimensions: probe hook 4 mm long of 1.5 mm rod (as app/view/instruments/probe_mesh draws
+// it), punch 3.4 mm wide, shaver 4.5 mm.
 ToolShape ShapeOf(ToolKind kind);
 // "probe", "punch", "shaver", "grasper" of Instrument::kind; another word: kProbe.
 ToolKind ToolKindOf(const std::string& word);

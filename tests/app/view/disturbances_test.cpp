@@ -1,5 +1,5 @@
 // What disturbs a picture: each as its numbers say, and nothing where nothing is on.
-#include "app/view/disturbances.h"
+#include "app/view/disturbances/disturbances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <ctime>
 #include <functional>
 
-#include "app/view/drifting_bits.h"
+#include "app/view/disturbances/drifting_bits.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 

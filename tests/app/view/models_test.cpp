@@ -6,8 +6,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/view/probe_mesh.h"
-#include "app/view/tool_mesh.h"
+#include "app/view/instruments/probe_mesh.h"
+#include "app/view/instruments/tool_mesh.h"
 #include "app/view/vertex_normals.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"

@@ -1,5 +1,5 @@
 // The author's view: drawn when something changed, and a box that poses the chosen tissue.
-#include "app/view/overview.h"
+#include "app/view/overview/overview.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/view/disturbances.h"
+#include "app/view/disturbances/disturbances.h"
 
 #include <algorithm>
 #include <charconv>

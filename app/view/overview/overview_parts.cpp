@@ -1,4 +1,4 @@
-#include "app/view/overview_parts.h"
+#include "app/view/overview/overview_parts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/view/drifting_bits.h"
+#include "app/view/disturbances/drifting_bits.h"
 
 #include <algorithm>
 #include <cmath>

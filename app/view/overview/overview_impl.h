@@ -19,8 +19,8 @@
 #include <vtkSmartPointer.h>
 
 #include "app/view/context_render_window.h"
-#include "app/view/overview.h"
-#include "app/view/overview_parts.h"
+#include "app/view/overview/overview.h"
+#include "app/view/overview/overview_parts.h"
 
 namespace arthro::app {
 

@@ -1,10 +1,10 @@
-#include "app/view/probe_mesh.h"
+#include "app/view/instruments/probe_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "app/view/loft_mesh.h"
+#include "app/view/instruments/loft_mesh.h"
 #include "simulation/scope/rod_pose.h"
 
 namespace arthro::app {

@@ -1,4 +1,4 @@
-#include "app/view/tool_mesh.h"
+#include "app/view/instruments/tool_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/view/loft_mesh.h"
-#include "app/view/probe_mesh.h"
+#include "app/view/instruments/loft_mesh.h"
+#include "app/view/instruments/probe_mesh.h"
 
 namespace arthro::app {
 namespace {

@@ -10,7 +10,7 @@
 #include <vtkProperty.h>
 #include <vtkTransform.h>
 
-#include "app/view/overview_impl.h"
+#include "app/view/overview/overview_impl.h"
 #include "app/view/srgb.h"
 #include "simulation/core/error.h"
 

@@ -1,4 +1,4 @@
-#include "app/view/murk_field.h"
+#include "app/view/disturbances/murk_field.h"
 
 #include <algorithm>
 #include <cmath>

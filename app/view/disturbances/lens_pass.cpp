@@ -1,4 +1,4 @@
-#include "app/view/lens_pass.h"
+#include "app/view/disturbances/lens_pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
-#include "app/view/drifting_bits.h"
-#include "app/view/lens_pass_shader.h"
+#include "app/view/disturbances/drifting_bits.h"
+#include "app/view/disturbances/lens_pass_shader.h"
+#include "app/view/disturbances/murk_field.h"
 #include "app/view/lens_shader.h"
-#include "app/view/murk_field.h"
 
 namespace arthro::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/view/loft_mesh.h"
+#include "app/view/instruments/loft_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/view/overview.h"
+#include "app/view/overview/overview.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@
 #include <vtkWidgetEventTranslator.h>
 #include <vtk_glew.h>
 
-#include "app/view/overview_impl.h"
-#include "app/view/overview_parts.h"
-#include "app/view/probe_mesh.h"
-#include "app/view/tool_mesh.h"
+#include "app/view/instruments/probe_mesh.h"
+#include "app/view/instruments/tool_mesh.h"
+#include "app/view/overview/overview_impl.h"
+#include "app/view/overview/overview_parts.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
