@@ -9,16 +9,19 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/bench/view/reference_tracer.h"
 #include "simulation/core/units.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/pivot_calibration.h"
 #include "tests/benchmark/bench_report.h"
-#include "tests/support/reference_tracer.h"
 
 namespace arthro::test {
 namespace {
 
 using namespace simulation;
+using app::ReferenceRay;
+using app::ReferenceSphereHit;
+using app::ReferenceView;
 
 void MeasureArthroscope(BenchReport& report) {
   DeviceRig rig;

@@ -9,18 +9,17 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/bench/view/grid_picture.h"
+#include "app/bench/view/reference_tracer.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/benchmark/bench_report.h"
-#include "tests/support/grid_picture.h"
-#include "tests/support/reference_tracer.h"
 
 namespace {
 
 using namespace arthro;
 using namespace arthro::test;
-using app::ArthroscopicView;
-using app::Picture;
+using namespace arthro::app;
 
 double CpuSeconds() {
   timespec time{};

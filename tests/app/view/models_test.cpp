@@ -6,13 +6,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/bench/view/reference_tracer.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/vertex_normals.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/compare_pictures.h"
-#include "tests/support/reference_tracer.h"
 
 namespace arthro::test {
 namespace {
@@ -20,6 +20,11 @@ namespace {
 using app::InstrumentView;
 using app::Picture;
 using app::PictureFromPose;
+using app::ReferenceMesh;
+using app::ReferenceRay;
+using app::ReferenceSphereHit;
+using app::TracedPicture;
+using app::TraceWindow;
 
 SurfaceMesh Moved(SurfaceMesh mesh, const Pose& pose) {
   for (glm::dvec3& vertex : mesh.vertices) vertex = pose * vertex;

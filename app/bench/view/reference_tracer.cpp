@@ -1,4 +1,4 @@
-#include "tests/support/reference_tracer.h"
+#include "app/bench/view/reference_tracer.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-namespace arthro::test {
+namespace arthro::app {
 namespace {
 
 // Columns are the images of the axes.
@@ -232,4 +232,4 @@ TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
   return picture;
 }
 
-}  // namespace arthro::test
+}  // namespace arthro::app

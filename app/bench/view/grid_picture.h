@@ -15,7 +15,7 @@
 #include "simulation/scene/scene.h"
 #include "simulation/scope/arthroscope.h"
 
-namespace arthro::test {
+namespace arthro::app {
 
 struct GridPanorama {
   int width = 2048, height = 1024;
@@ -51,4 +51,4 @@ GridAgreement CompareWithGrid(const ColourImage& picture, const GridPanorama& gr
                               double field_of_view, double rim_px = 4.0,
                               const Lens* lens = nullptr);
 
-}  // namespace arthro::test
+}  // namespace arthro::app

@@ -1,4 +1,4 @@
-#include "tests/support/grid_picture.h"
+#include "app/bench/view/grid_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "tests/support/reference_tracer.h"
+#include "app/bench/view/reference_tracer.h"
 
-namespace arthro::test {
+namespace arthro::app {
 namespace {
 
 // Signed distance to the nearest grid line, px of the panorama.
@@ -123,4 +123,4 @@ GridAgreement CompareWithGrid(const ColourImage& picture, const GridPanorama& gr
   return agreement;
 }
 
-}  // namespace arthro::test
+}  // namespace arthro::app
