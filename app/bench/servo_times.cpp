@@ -11,6 +11,7 @@
 
 #include "app/bench/analytic_relief.h"
 #include "app/bench/force_cases.h"
+#include "app/bench/quantile.h"
 #include "simulation/device/driver/drivers.h"
 #include "simulation/device/plant_device.h"
 #include "simulation/haptics/paper_kernel.h"
@@ -45,19 +46,14 @@ class CallTimes {
     Add(call, Since(start));
   }
   ServoTime Row(std::string about = {}) const {
-    const auto quantile = [](std::vector<double> values, double share) {
-      const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-      std::sort(values.begin(), values.end());
-      return values[std::min(values.size() - 1, at)];
-    };
     return {what_,
             std::move(about),
-            quantile(all_, 0.5),
-            quantile(all_, 0.99),
-            quantile(all_, 0.999),
-            quantile(least_, 0.5),
-            quantile(least_, 0.99),
-            quantile(least_, 0.999)};
+            Quantile(all_, 0.5),
+            Quantile(all_, 0.99),
+            Quantile(all_, 0.999),
+            Quantile(least_, 0.5),
+            Quantile(least_, 0.99),
+            Quantile(least_, 0.999)};
   }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/bench/quantile.h"
 #include "app/bench/tissue_bench.h"
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
@@ -88,14 +89,6 @@ int FramesTo(const Course& course, int hold, double value, double share) {
     frames = i + 1;
   }
   return frames;
-}
-
-// The p-th share of sorted values.
-double Quantile(std::vector<double> values, double p) {
-  std::sort(values.begin(), values.end());
-  const auto last = values.size() - 1;
-  return values[std::min(
-      last, static_cast<std::size_t>(std::ceil(p * static_cast<double>(values.size()))) - 1)];
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// arthroscene bench panorama, tissue, haptics: speed and error side by side, on inputs whose truth
-// is known.
+// arthroscene bench panorama, tissue, haptics, view: speed and error side by side, on inputs whose
+// truth is known.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -13,6 +13,7 @@
 #include "app/bench/registration_bench.h"
 #include "app/bench/stitcher_peer.h"
 #include "app/bench/tissue_bench.h"
+#include "app/bench/view/view_bench.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -88,6 +89,11 @@ void AddBenchJob(CLI::App& program) {
       "Touch: a servo tick's time by stages; force against closed forms, beside the paper's; where "
       "a wall begins to swing.",
       RunHapticsBench);
+  AddBench<ViewBenchOptions>(
+      *bench, "view",
+      "The scope's picture: a frame's time by search, looks, sizes, tissue, lamp and disturbance; "
+      "beside it how far the picture is from a ray tracer. No display is needed.",
+      RunViewBench);
   AddWorker(program);
 }
 

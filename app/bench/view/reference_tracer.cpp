@@ -194,41 +194,61 @@ glm::dvec3 ReferenceColour(const ColourImage& panorama, const glm::dvec2& pixel)
          fy * ((1 - fx) * colour(x0, y1) + fx * colour(x1, y1));
 }
 
+std::vector<TracedRay> TraceRays(const Backdrop& backdrop, const ColourImage& panorama,
+                                 const glm::dvec3& tip, std::span<const glm::dvec3> rays,
+                                 std::span<const ReferenceMesh> meshes, const DepthMap* depth) {
+  const std::vector<SeenTriangle> triangles = SeeTriangles(meshes, tip);
+  std::vector<TracedRay> traced(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3& ray = rays[i];
+    TracedRay& met = traced[i];
+    double closest = INFINITY;
+    const auto hit = depth ? ReferenceReliefHit(backdrop, *depth, tip, ray)
+                           : ReferenceSphereHit(tip, ray, backdrop.radius);
+    if (hit) {
+      closest = glm::dot(*hit - tip, ray);
+      met.what = TracedRay::kBackdrop;
+      if (const auto pixel = ReferencePixel(backdrop.projection, *hit))
+        met.colour = ReferenceColour(panorama, *pixel);
+    }
+    for (const SeenTriangle& triangle : triangles) {
+      if (glm::dot(triangle.middle, ray) < triangle.cos_cone) continue;
+      const auto distance = MeetTriangle(triangle, ray);
+      if (!distance || *distance >= closest) continue;
+      closest = *distance;
+      met.what = 1 + triangle.mesh;
+      met.colour = meshes[static_cast<std::size_t>(triangle.mesh)].colour;
+    }
+    if (met.what != TracedRay::kNothing) met.distance = closest;
+  }
+  return traced;
+}
+
 TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                           const simulation::ScopeView& view, double field_of_view, int size,
                           std::span<const ReferenceMesh> meshes, const DepthMap* depth) {
-  const std::vector<SeenTriangle> triangles = SeeTriangles(meshes, view.tip);
   TracedPicture picture;
   picture.colours = ColourImage(size, size);
-  picture.what.assign(static_cast<std::size_t>(size) * size, TracedPicture::kOutside);
+  picture.what.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
+                      TracedPicture::kOutside);
   picture.distance.assign(picture.what.size(), 0.0);
+  std::vector<glm::dvec3> rays;
+  std::vector<std::size_t> pixels;  // of each ray
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const auto ray = ReferenceRay(view, field_of_view, size, {x, y});
-      if (!ray) continue;
-      const std::size_t index = static_cast<std::size_t>(y) * size + x;
-      glm::dvec3 colour(0.0);
-      double closest = INFINITY;
-      const auto hit = depth ? ReferenceReliefHit(backdrop, *depth, view.tip, *ray)
-                             : ReferenceSphereHit(view.tip, *ray, backdrop.radius);
-      if (hit) {
-        closest = glm::dot(*hit - view.tip, *ray);
-        picture.what[index] = TracedPicture::kBackdrop;
-        if (const auto pixel = ReferencePixel(backdrop.projection, *hit))
-          colour = ReferenceColour(panorama, *pixel);
+    for (int x = 0; x < size; ++x)
+      if (const auto ray = ReferenceRay(view, field_of_view, size, {x, y})) {
+        rays.push_back(*ray);
+        pixels.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                         static_cast<std::size_t>(x));
       }
-      for (const SeenTriangle& triangle : triangles) {
-        if (glm::dot(triangle.middle, *ray) < triangle.cos_cone) continue;
-        const auto distance = MeetTriangle(triangle, *ray);
-        if (!distance || *distance >= closest) continue;
-        closest = *distance;
-        picture.what[index] = 1 + triangle.mesh;
-        colour = meshes[triangle.mesh].colour;
-      }
-      if (picture.what[index] == TracedPicture::kOutside) continue;
-      picture.distance[index] = closest;
-      for (int c = 0; c < 3; ++c) picture.colours.at(x, y)[c] = Byte(colour[c]);
-    }
+  const std::vector<TracedRay> traced =
+      TraceRays(backdrop, panorama, view.tip, rays, meshes, depth);
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    picture.what[pixels[i]] = traced[i].what;
+    picture.distance[pixels[i]] = traced[i].distance;
+    for (std::size_t c = 0; c < 3; ++c)
+      picture.colours.rgb[3 * pixels[i] + c] = Byte(traced[i].colour[static_cast<int>(c)]);
+  }
   return picture;
 }
 

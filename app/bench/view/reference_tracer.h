@@ -66,15 +66,32 @@ struct ReferenceMesh {
   glm::dvec3 colour{255.0};
 };
 
-struct TracedPicture {
-  static constexpr int kOutside = -1;  // outside the round window, or the ray meets nothing
+// What a ray meets first.
+struct TracedRay {
+  static constexpr int kNothing = -1;
   static constexpr int kBackdrop = 0;  // 1 + i is mesh i
-  ColourImage colours;                 // one ray a pixel, through its centre; black where kOutside
-  std::vector<int> what;               // row-major
-  std::vector<double> distance;        // from the tip, m; 0 where kOutside
+  int what = kNothing;
+  double distance = 0;     // from the tip, m
+  glm::dvec3 colour{0.0};  // bytes, 0 to 255
 };
 
-// Without a depth map only the sphere is traced (design §4), which is what a plain picture shows.
+// Unit rays from one tip. Without a depth map only the sphere is traced (design §4), which is what
+// a plain picture shows.
+std::vector<TracedRay> TraceRays(const Backdrop& backdrop, const ColourImage& panorama,
+                                 const glm::dvec3& tip, std::span<const glm::dvec3> rays,
+                                 std::span<const ReferenceMesh> meshes = {},
+                                 const DepthMap* depth = nullptr);
+
+struct TracedPicture {
+  // Outside the round window, or the ray meets nothing.
+  static constexpr int kOutside = TracedRay::kNothing;
+  static constexpr int kBackdrop = TracedRay::kBackdrop;  // 1 + i is mesh i
+  ColourImage colours;           // one ray a pixel, through its centre; black where kOutside
+  std::vector<int> what;         // row-major
+  std::vector<double> distance;  // from the tip, m; 0 where kOutside
+};
+
+// The rays of a whole window.
 TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                           const simulation::ScopeView& view, double field_of_view, int size,
                           std::span<const ReferenceMesh> meshes = {},

@@ -1,8 +1,11 @@
-// Claims about the benchmark of the registration, run as a user runs it, on clips small enough.
+// Claims about the benchmarks, run as a user runs it, on clips small enough.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -98,6 +101,86 @@ TEST(BenchJob, HoldsTouchAgainstClosedFormsAndTheRule) {
   const std::string svg = ReadWholeFile(plot);
   EXPECT_TRUE(svg.starts_with("<svg"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+// The bounds of tests/app/view: of every searched ray at most 2 % end elsewhere with cells of up to
+// 4 pixels (a small picture's cells of 8 are too wide to say), and a line of the grid is at most
+// half a pixel off. Models add their outlines, 0.1 px wide on average: of some 1300 px of outline
+// of two instruments and a ring in a picture of 256 px that is 0.3 % of it; 2 % leaves room for
+// slopes so steep that a tenth of a pixel is a tenth of a millimetre.
+TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
+  test::TempFolder folder;
+  const std::string json = (folder / "v.json").string(), plot = (folder / "v.svg").string();
+  const auto result = test::RunProgram(
+      "bench view --frames 2 --size 256 --panorama 1024 --triangles 2000 --pixels 1500 --json " +
+          json + " --plot " + plot,
+      "env -u DISPLAY -u WAYLAND_DISPLAY");
+  if (result.err.find("no picture can be drawn") != std::string::npos)
+    GTEST_SKIP() << "NOT TESTED, NOTHING WAS DRAWN: " << result.err;
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto bench = nlohmann::json::parse(ReadWholeFile(json));
+  EXPECT_EQ(bench.at("schema"), "arthroscene.bench.view/1");
+  EXPECT_FALSE(bench.at("machine").get<std::string>().empty());
+  EXPECT_NE(bench.at("drawn_by").get<std::string>().find("OpenGL"), std::string::npos);
+  EXPECT_NE(result.out.find(bench.at("drawn_by").get<std::string>()), std::string::npos);
+
+  std::map<std::string, int> parts;
+  std::map<std::pair<int, int>, double> sphere;  // by size and panorama
+  std::set<int> triangles;
+  for (const auto& row : bench.at("rows")) {
+    const std::string part = row.at("part");
+    const int cell = row.at("relief_cell");
+    ++parts[part];
+    for (const char* time : {"wall_ms", "cpu_ms"}) {
+      const double median = row.at(std::string(time) + "_median");
+      EXPECT_GT(median, 0.0) << row;
+      EXPECT_LE(median, row.at(std::string(time) + "_p99")) << row;
+    }
+    EXPECT_GT(row.at("compared"), 100) << row;
+    if (part == "samples") {
+      EXPECT_LE(row.at("lines_rms_px"), row.at("lines_max_px")) << row;
+      EXPECT_LT(row.at("lines_max_px"), 0.5) << row;
+      EXPECT_TRUE(row.at("ends_off").is_null()) << row;
+      continue;
+    }
+    EXPECT_TRUE(row.at("lines_max_px").is_null()) << row;
+    const double off = row.at("ends_off");
+    EXPECT_LT(row.at("others_rms"), 1e-4) << row;
+    if (part == "scene") {
+      triangles.insert(row.at("triangles").get<int>());
+      EXPECT_LT(off, 0.02 + 0.02) << row;
+      EXPECT_TRUE(row.at("colour_off").is_null()) << row;
+      continue;
+    }
+    // Colours vary so slowly that one from elsewhere is often the same.
+    EXPECT_LE(row.at("colour_off"), off) << row;
+    double& bare = sphere[{row.at("size"), row.at("panorama")}];
+    if (row.at("relief_steps") == 0) {
+      bare = off;
+      continue;
+    }
+    EXPECT_LT(off, 0.5 * bare) << row;
+    if (cell <= 4) {
+      EXPECT_LT(off, 0.02) << row;
+    }
+  }
+  EXPECT_EQ(parts, (std::map<std::string, int>{{"relief", 18}, {"samples", 8}, {"scene", 10}}));
+  EXPECT_EQ(sphere.size(), 3u);
+  EXPECT_EQ(triangles, (std::set<int>{0, 392, 2048}));
+  const std::string svg = ReadWholeFile(plot);
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(BenchJob, APictureThatNothingCanDrawIsRefused) {
+  test::TempFolder folder;
+  const std::string json = (folder / "v.json").string();
+  const auto result = test::RunProgram("bench view --json " + json,
+                                       "env -u DISPLAY -u WAYLAND_DISPLAY "
+                                       "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("no picture can be drawn"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(json));
 }
 
 TEST(BenchJob, TwoThingsToStandardOutputAreRefused) {

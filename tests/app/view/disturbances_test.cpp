@@ -17,6 +17,7 @@ namespace {
 using app::Disturbances;
 using app::Picture;
 using app::PictureFromPose;
+using app::ProbeInFront;
 
 constexpr int kSize = 256;
 

@@ -18,18 +18,16 @@ namespace arthro::test {
 namespace {
 
 using app::InstrumentView;
+using app::Moved;
 using app::Picture;
 using app::PictureFromPose;
+using app::ProbeInFront;
 using app::ReferenceMesh;
 using app::ReferenceRay;
 using app::ReferenceSphereHit;
+using app::Ring;
 using app::TracedPicture;
 using app::TraceWindow;
-
-SurfaceMesh Moved(SurfaceMesh mesh, const Pose& pose) {
-  for (glm::dvec3& vertex : mesh.vertices) vertex = pose * vertex;
-  return mesh;
-}
 
 // Largest distance, in px, between an edge as drawn (a chord) and as the lens bends it, over all
 // edges in the window.

@@ -12,6 +12,7 @@ namespace {
 
 using app::Overview;
 using app::PointerEvent;
+using app::ProbeInFront;
 using Kind = PointerEvent::Kind;
 using Button = PointerEvent::Button;
 

@@ -11,6 +11,7 @@ namespace {
 using app::Disturbances;
 using app::Picture;
 using app::PictureFromPose;
+using app::ProbeInFront;
 using app::StillPictures;
 
 Picture ScenePicture() {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/bench/view/view_cases.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/scene_io.h"
@@ -37,24 +38,6 @@ inline SurfaceMesh Ellipsoid(const glm::dvec3& radii, int around = 48, int along
   return mesh;
 }
 
-inline SurfaceMesh Ring(double radius, double thickness, int around = 80, int across = 40) {
-  SurfaceMesh mesh;
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) {
-      const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
-      const double r = radius + thickness * std::cos(b);
-      mesh.vertices.push_back({r * std::cos(a), r * std::sin(a), 0.7 * thickness * std::sin(b)});
-    }
-  const auto at = [&](int i, int j) { return (i % around) * across + j % across; };
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  return mesh;
-}
-
-// Colours vary slowly, so that a picture of it has no more than a rounding's room.
 inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   LoadedScene loaded;
   Backdrop& backdrop = loaded.scene.backdrop;
@@ -64,17 +47,11 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   backdrop.radius = 0.05;
   backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
   backdrop.projection.focal_px = 0.42 * width;
-  loaded.panorama = ColourImage(width, height);
+  loaded.panorama = app::SlowColours(width, height);
   loaded.depth = DepthMap(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double u = double(x) / width, v = double(y) / height;
-      const double wave = 0.5 + 0.25 * std::sin(19 * u + 5 * std::sin(9 * v)) +
-                          0.25 * std::sin(23 * v + 4 * std::cos(7 * u));
-      std::uint8_t* rgb = loaded.panorama.at(x, y);
-      rgb[0] = static_cast<std::uint8_t>(150 + 70 * wave);
-      rgb[1] = static_cast<std::uint8_t>(85 + 90 * wave);
-      rgb[2] = static_cast<std::uint8_t>(75 + 80 * wave * wave);
       const double du = u - 0.55, dv = v - 0.6;
       loaded.depth.at(x, y) =
           static_cast<float>(0.004 + 0.008 * std::exp(-30 * (du * du + dv * dv)));
@@ -85,12 +62,9 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   ring.pose.position = {0.002, 0.004, 0.034};
   ring.pose.quaternion = glm::dquat(std::cos(0.5), std::sin(0.5), 0, 0);
   loaded.scene.tissues = {ring};
-  loaded.surfaces = {Ring(0.007, 0.0024)};
+  loaded.surfaces = {app::Ring(0.007, 0.0024)};
   return loaded;
 }
-
-// The probe in front of the ring.
-inline app::InstrumentView ProbeInFront() { return {{0.03, 0, 0}, {0.005, 0.001, 0.024}, 3.4}; }
 
 class ViewTest : public ::testing::Test {
  protected:

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/bench/quantile.h"
+#include "app/bench/view/view_bench.h"
+#include "app/bench/view/view_cases.h"
+#include "app/view/instruments/probe_mesh.h"
+#include "app/view/instruments/tool_mesh.h"
+#include "app/view/offscreen_context.h"
+#include "simulation/core/process_cost.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr std::array kSearches = {ReliefSearch{0, 1},  ReliefSearch{64, 16}, kUsualRelief,
+                                  ReliefSearch{64, 4}, ReliefSearch{64, 1},  ReliefSearch{256, 1}};
+constexpr std::array kSamples = {1, 2, 4, 8};
+constexpr int kWarmUp = 5;  // frames, in which drivers compile and upload
+
+// What a trainee sees beside the backdrop. `fineness`: share of the options' triangles.
+struct SceneKind {
+  const char* words;
+  double fineness = 0;
+  double relight = 0;
+  bool is_disturbed = false;
+};
+constexpr std::array kScenes = {SceneKind{"two instruments"},
+                                SceneKind{"two instruments, {} triangles", 0.2},
+                                SceneKind{"two instruments, {} triangles", 1},
+                                SceneKind{"two instruments, {} triangles, lamp", 0.2, 1},
+                                SceneKind{"the same, haze and bubbles", 0.2, 1, true}};
+
+// As many steps as there are rows.
+constexpr double kRows = 3 * kSearches.size() + 2 * kSamples.size() + 2 * kScenes.size();
+
+// Nothing where there was nothing to compare, rather than an error of 0.
+std::optional<TracedAgreement> Held(const TracedAgreement& agreement) {
+  return agreement.compared > 0 ? std::optional(agreement) : std::nullopt;
+}
+std::optional<GridAgreement> Held(const GridAgreement& agreement) {
+  return agreement.crossings > 0 ? std::optional(agreement) : std::nullopt;
+}
+
+class ViewBenchRun {
+ public:
+  ViewBenchRun(const ViewBenchOptions& options, const Progress& progress)
+      : options_(options), progress_(progress) {
+    bench_.options = options;
+    bench_.drawn_by = context_.description();
+  }
+  ViewBench Run() {
+    MeasureRelief(options_.panorama, options_.size / 2);
+    MeasureRelief(options_.panorama, options_.size);
+    MeasureRelief(options_.panorama / 4, options_.size / 2);
+    for (const int size : {options_.size / 2, options_.size}) MeasureSamples(size);
+    for (const int size : {options_.size / 2, options_.size}) MeasureScenes(size);
+    return std::move(bench_);
+  }
+
+ private:
+  void MeasureRelief(int width, int size);
+  void MeasureSamples(int size);
+  void MeasureScenes(int size);
+  template <class F>
+  FrameTimes TimeFrames(const std::string& words, F&& frame);
+
+  ViewBenchOptions options_;
+  const Progress& progress_;
+  OffscreenContext context_;
+  ArthroscopicView view_;  // after the context: it must end first
+  ViewBench bench_;
+};
+
+template <class F>
+FrameTimes ViewBenchRun::TimeFrames(const std::string& words, F&& frame) {
+  using Clock = std::chrono::steady_clock;
+  const int warm_up = std::min(kWarmUp, options_.frames), all = warm_up + options_.frames;
+  std::vector<double> wall, cpu;
+  for (int i = 0; i < all; ++i) {
+    progress_.Step(words, (static_cast<double>(bench_.rows.size()) + 1.0 * i / all) / kRows);
+    const Clock::time_point start = Clock::now();
+    const double cpu_start = ProcessCpuMs();
+    frame();
+    view_.Finish();
+    if (i < warm_up) continue;
+    cpu.push_back(1e-3 * (ProcessCpuMs() - cpu_start));
+    wall.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  return {Quantile(wall, 0.5), Quantile(wall, 0.99), Quantile(cpu, 0.5), Quantile(cpu, 0.99)};
+}
+
+void ViewBenchRun::MeasureRelief(int width, int size) {
+  const LoadedScene loaded = WavyJoint(width);
+  view_.SetTissues({}, {});
+  view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  Picture plain = ViewOfWavyJoint();
+  plain.plain = true;
+  plain.samples = 2;
+  const std::vector<TracedPixel> traced = TracePixels(loaded, plain, size, options_.pixels);
+  for (const ReliefSearch& relief : kSearches) {
+    plain.relief = relief;
+    view_.Render(plain, size);
+    const ColourImage colours = view_.ReadPixels();
+    const TracedAgreement agreement =
+        CompareWithTraced(traced, view_.ReadDistances(), size, &colours);
+    const std::string words = relief.steps == 0
+                                  ? std::string("bare sphere")
+                                  : fmt::format("{} steps, cells of {}", relief.steps, relief.cell);
+    Picture picture = plain;
+    picture.plain = false;
+    const FrameTimes times = TimeFrames(words, [&] {
+      picture.view.tip.x += 1e-7;
+      view_.Render(picture, size);
+    });
+    bench_.rows.push_back(
+        {"relief", words, size, width, relief, picture.samples, 0, times, Held(agreement), {}});
+  }
+}
+
+void ViewBenchRun::MeasureSamples(int size) {
+  GridPanorama grid;
+  grid.width = options_.panorama;
+  grid.height = grid.width / 2;
+  grid.line_sigma = 1.25 * grid.width / options_.size;  // a pixel or two of the smaller picture
+  grid.spacing = 25.6 * grid.line_sigma;
+  Backdrop backdrop;
+  backdrop.projection.centre_px = {(grid.width - 1) / 2.0, (grid.height - 1) / 2.0};
+  backdrop.projection.focal_px = 1500.0 * grid.width / 4096;
+  view_.SetTissues({}, {});
+  view_.SetBackdrop(grid.Draw(), {}, backdrop);
+  for (const int samples : kSamples) {
+    Picture picture = ViewOfWavyJoint();
+    picture.samples = samples;
+    picture.plain = true;
+    view_.Render(picture, size);
+    const GridAgreement agreement =
+        CompareWithGrid(view_.ReadPixels(), grid, backdrop, picture.view, picture.field_of_view);
+    picture.plain = false;
+    const std::string words = fmt::format("grid, {} looks a pixel", samples);
+    const FrameTimes times = TimeFrames(words, [&] {
+      picture.view.tip.x += 1e-7;
+      view_.Render(picture, size);
+    });
+    bench_.rows.push_back(
+        {"samples", words, size, grid.width, {}, samples, 0, times, {}, Held(agreement)});
+  }
+}
+
+// The tissue moves in every frame; one instrument is held, the other lies there as a surface.
+void ViewBenchRun::MeasureScenes(int size) {
+  LoadedScene loaded = WavyJoint(options_.panorama);
+  const InstrumentView held = ProbeInFront();
+  // Drawn as far as its portal, which lies behind the lens.
+  const SurfaceMesh probe =
+      Moved(MakeToolMesh(held.kind).body, ProbePose(held.portal, held.proxy, held.roll));
+  const SurfaceMesh lying = MakeToolMesh(simulation::ToolKind::kPunch).body;
+  std::vector<Tissue> tissues(2);
+  tissues[0].pose.position = {-0.004, 0.003, 0.026};
+  tissues[1].pose.position = {0.002, 0.004, 0.034};
+  tissues[1].pose.quaternion = glm::dquat(std::cos(0.5), std::sin(0.5), 0, 0);
+  for (const SceneKind& kind : kScenes) {
+    const int around = std::max(
+        3, static_cast<int>(std::lround(std::sqrt(0.5 * kind.fineness * options_.triangles))));
+    SurfaceMesh ring;
+    if (kind.fineness > 0) ring = Ring(0.007, 0.0024, around, around);
+    loaded.scene.backdrop.relight = kind.relight;
+    view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+    view_.SetTissues(tissues, std::vector{lying, ring});
+    Picture picture = ViewOfWavyJoint();
+    picture.relief = kUsualRelief;
+    picture.samples = 2;
+    picture.instrument = held;
+    if (kind.is_disturbed) picture.disturbances.haze = picture.disturbances.bubbles = 0.4;
+    const std::string words = fmt::format(fmt::runtime(kind.words), ring.triangles.size());
+    SurfaceMesh now = ring;
+    int frame = 0;
+    const FrameTimes times = TimeFrames(words, [&] {
+      ++frame;
+      for (std::size_t i = 0; i < now.vertices.size(); ++i)
+        now.vertices[i].z =
+            ring.vertices[i].z + 1e-4 * std::sin(0.3 * frame + 900 * now.vertices[i].x);
+      if (!now.vertices.empty()) view_.SetTissueShape(1, now.vertices);
+      picture.view.tip.x += 1e-7;
+      picture.disturbances.time += 0.03;
+      view_.Render(picture, size);
+    });
+    // Of the last frame.
+    const SurfaceMesh lies = Moved(lying, tissues[0].pose), moves = Moved(now, tissues[1].pose);
+    const ReferenceMesh meshes[] = {{&probe}, {&lies}, {&moves}};
+    const std::vector<TracedPixel> traced =
+        TracePixels(loaded, picture, size, options_.pixels, meshes);
+    bench_.rows.push_back({"scene",
+                           words,
+                           size,
+                           options_.panorama,
+                           picture.relief,
+                           picture.samples,
+                           static_cast<int>(ring.triangles.size()),
+                           times,
+                           Held(CompareWithTraced(traced, view_.ReadDistances(), size)),
+                           {}});
+  }
+}
+
+}  // namespace
+
+ViewBench RunViewBench(const ViewBenchOptions& options, const Progress& progress) {
+  return ViewBenchRun(options, progress).Run();
+}
+
+}  // namespace arthro::app
