@@ -1,13 +1,12 @@
 // A session again from what its devices said.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
-#include "authoring/footage/footage.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_format.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/image_io.h"
+#include "tests/support/film_frames.h"
 #include "tests/support/run_program.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
@@ -75,15 +74,6 @@ std::filesystem::path WriteSwing(const std::filesystem::path& file) {
   return file;
 }
 
-double Psnr(const cv::Mat& film, const ColourImage& picture) {
-  const cv::Mat given(picture.height, picture.width, CV_8UC3,
-                      const_cast<std::uint8_t*>(picture.rgb.data()));
-  cv::Mat a, b;
-  cv::cvtColor(film, a, cv::COLOR_RGB2GRAY);
-  cv::cvtColor(given, b, cv::COLOR_RGB2GRAY);
-  return cv::PSNR(a, b);
-}
-
 // 33 dB in luma as in tests/app/recording; pictures a sixth of a second apart differ by more.
 TEST(ReplayJob, AFilmLastsAsLongAsTheTraceAndHoldsThePictures) {
   TempFolder folder;
@@ -103,24 +93,21 @@ TEST(ReplayJob, AFilmLastsAsLongAsTheTraceAndHoldsThePictures) {
   EXPECT_EQ(run.err, "");
   EXPECT_TRUE(ReadWholeFile(folder / "f.csv") == forces) << "looking changed the forces";
 
-  auto footage = authoring::Footage::Open(film);
-  EXPECT_EQ(footage.info().width, 240);
-  EXPECT_EQ(footage.info().height, 180);
-  EXPECT_NEAR(footage.info().frames_per_second, 24.0, 1e-9);
-  std::vector<cv::Mat> frames(1);
-  while (footage.Next(frames.back())) frames.emplace_back();
-  frames.pop_back();
+  const auto [info, frames] = ReadFilm(film);
+  EXPECT_EQ(info.width, 240);
+  EXPECT_EQ(info.height, 180);
+  EXPECT_NEAR(info.frames_per_second, 24.0, 1e-9);
   ASSERT_EQ(frames.size(), 24u) << "one second";
   double worst = 1e9;
   for (int i = 0; i < 6; ++i) {
     const ColourImage picture =
         ReadColourImage(folder / "frames" / fmt::format("frame_{:05}.png", i));
     ASSERT_EQ(picture.width, 240);
-    const double own = Psnr(frames[static_cast<std::size_t>(4 * i)], picture);
+    const double own = LumaPsnr(frames[static_cast<std::size_t>(4 * i)], picture);
     worst = std::min(worst, own);
     for (std::size_t other = 0; other < frames.size(); other += 4)
       if (other != static_cast<std::size_t>(4 * i)) {
-        EXPECT_LT(Psnr(frames[other], picture), own - 3.0) << i << " and " << other;
+        EXPECT_LT(LumaPsnr(frames[other], picture), own - 3.0) << i << " and " << other;
       }
     for (int x = 0; x < 30; ++x) EXPECT_EQ(picture.at(x, 90)[0], 0) << "black beside it";
   }

@@ -17,6 +17,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/rig_io.h"
+#include "tests/support/moved_rig.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -27,11 +28,6 @@ namespace fs = std::filesystem;
 using simulation::DeviceRole;
 using simulation::PivotStatus;
 
-constexpr const char* kRig = R"({"schema": "arthroscene.rig/1", "title": "t", "x-room": "3.14",
-  "scope": {"device": {"family": "razer_hydra"}, "rod_length": 0.25,
-            "pivot": [0.02, -0.01, 0.1], "portal_from_device": [0.5, 0.5, 0.5, -0.5]}})";
-const glm::dvec3 kPivot(0.02, -0.01, 0.1);
-
 class CalibrateIncision : public testing::Test {
  protected:
   void SetUp() override {
@@ -39,7 +35,7 @@ class CalibrateIncision : public testing::Test {
                   true);
     state.pace = simulation::TissuePace::kInline;
     rig = temp / "rig.json";
-    WriteAtomically(rig, kRig);
+    WriteAtomically(rig, test::kMovedRig);
   }
   void Hold(HandsChoice choice) { state.hands = std::make_unique<Hands>(std::move(choice)); }
   void Frame() {
@@ -102,13 +98,13 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   ASSERT_EQ(work().found().status, PivotStatus::kOk) << work().found().reason;
   const double sigma = work().found().sigma;
   EXPECT_LT(sigma, 0.1e-3);
-  EXPECT_LT(glm::distance(*work().found().pivot, kPivot), 3 * sigma);
+  EXPECT_LT(glm::distance(*work().found().pivot, test::kMovedPivot), 3 * sigma);
   app::Run(state, "use-incision");
   EXPECT_TRUE(state.dialogs.empty());
   EXPECT_NE(state.calibrating->outcome.find("saved in " + rig.string()), std::string::npos);
   Frames(2);
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
-  EXPECT_NE(Mount().pivot, kPivot) << "what was found, not what was there";
+  EXPECT_NE(Mount().pivot, test::kMovedPivot) << "what was found, not what was there";
   // Read again by whoever comes next.
   const RigFile saved = ReadRig(rig);
   EXPECT_EQ(saved.scope->mount, Mount());
@@ -133,8 +129,8 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
   EXPECT_NE(work().found().reason.find("degrees"), std::string::npos);
   EXPECT_FALSE(CommandOf("use-incision").enabled(state));
   app::Run(state, "use-incision");
-  EXPECT_EQ(Mount().pivot, kPivot);
-  EXPECT_EQ(ReadWholeFile(rig), kRig);
+  EXPECT_EQ(Mount().pivot, test::kMovedPivot);
+  EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 }
 
 TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritten) {
@@ -149,7 +145,7 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
   EXPECT_NE(state.calibrating->outcome.find("came with the program"), std::string::npos)
       << state.calibrating->outcome;
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
-  EXPECT_EQ(ReadWholeFile(rig), kRig);
+  EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 
   // Elsewhere, by the browser: first where there is no folder, then where there is one.
   const auto save = [&](const fs::path& file) {
@@ -167,7 +163,7 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
   EXPECT_TRUE(state.dialogs.empty());
   EXPECT_FALSE(state.calibrating->is_unsaved);
   EXPECT_EQ(ReadRig(temp / "own" / "mine.json").scope->mount.pivot, Mount().pivot);
-  EXPECT_EQ(ReadWholeFile(rig), kRig);
+  EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 }
 
 TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {

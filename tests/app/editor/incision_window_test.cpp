@@ -8,6 +8,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/rig_io.h"
+#include "tests/support/moved_rig.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 
@@ -17,25 +18,20 @@ namespace {
 namespace fs = std::filesystem;
 using test::RunWindow;
 
-constexpr const char* kRig = R"({"schema": "arthroscene.rig/1", "title": "t", "x-room": "3.14",
-  "scope": {"device": {"family": "razer_hydra"}, "rod_length": 0.25,
-            "pivot": [0.02, -0.01, 0.1], "portal_from_device": [0.5, 0.5, 0.5, -0.5]}})";
-const glm::dvec3 kPivot(0.02, -0.01, 0.1);
-
 class IncisionWindow : public testing::Test {
  protected:
   void SetUp() override {
     ARTHRO_REQUIRE_XVFB();
     scene = test::WriteSmallScene(temp / "knee", false);
     rig = temp / "rig.json";
-    WriteAtomically(rig, kRig);
+    WriteAtomically(rig, test::kMovedRig);
   }
   // A failed script tells its line on stderr.
   void Drive(const std::string& script, const std::string& flags) {
     const auto result = RunWindow("edit " + scene.string() + " " + flags, script, "1280x800x24");
     EXPECT_EQ(result.exit_code, 0) << result.err;
   }
-  double Moved() const { return glm::distance(ReadRig(rig).scope->mount.pivot, kPivot); }
+  double Moved() const { return glm::distance(ReadRig(rig).scope->mount.pivot, test::kMovedPivot); }
   test::TempFolder temp;
   fs::path scene, rig;
 };
@@ -97,7 +93,7 @@ click "Begin again"
 expect value Presses "0"
 )",
         "--hands plant --rig " + rig.string());
-  EXPECT_EQ(ReadWholeFile(rig), kRig);
+  EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 }
 
 TEST_F(IncisionWindow, ASwingIsFittedWhileItGoesOn) {

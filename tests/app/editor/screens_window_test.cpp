@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/footage/footage.h"
 #include "simulation/scene/image_io.h"
+#include "tests/support/film_frames.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 
@@ -38,19 +38,14 @@ expect "Recording 00:01"
 expect not "left out"
 )");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  auto footage = authoring::Footage::Open(film);
-  EXPECT_EQ(footage.info().width, 960);
-  EXPECT_EQ(footage.info().height, 720);
-  EXPECT_NEAR(footage.info().frames_per_second, 30.0, 1e-9);
-  cv::Mat first, rgb, last;
-  int count = 0;
-  for (; footage.Next(rgb); ++count) {
-    if (count == 0) first = rgb.clone();
-    last = rgb.clone();
-  }
-  EXPECT_GE(count, 45);
+  const auto [info, frames] = test::ReadFilm(film);
+  EXPECT_EQ(info.width, 960);
+  EXPECT_EQ(info.height, 720);
+  EXPECT_NEAR(info.frames_per_second, 30.0, 1e-9);
+  ASSERT_GE(frames.size(), 45u);
   // A second more for the start: at half the speed there would be 90 and more.
-  EXPECT_LE(count, 75);
+  EXPECT_LE(frames.size(), 75u);
+  const cv::Mat &first = frames.front(), &last = frames.back();
   ASSERT_FALSE(last.empty());
   EXPECT_LT(cv::mean(last(cv::Rect(0, 0, 110, 720)))[0], 3.0) << "black beside the picture";
   EXPECT_GT(cv::norm(first, last, cv::NORM_L1) / (960.0 * 720 * 3), 3.0) << "the scope swung";

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/footage/footage.h"
 #include "simulation/core/error.h"
+#include "tests/support/film_frames.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -31,11 +31,11 @@ void WaitForEnd(const LiveFilm& film) {
 
 // The grey in the middle of each frame.
 std::vector<int> Levels(const std::filesystem::path& file) {
-  auto footage = authoring::Footage::Open(file);
-  EXPECT_EQ(footage.info().width, 160);
-  EXPECT_EQ(footage.info().height, 120);
+  const auto [info, frames] = test::ReadFilm(file);
+  EXPECT_EQ(info.width, 160);
+  EXPECT_EQ(info.height, 120);
   std::vector<int> levels;
-  for (cv::Mat rgb; footage.Next(rgb);) levels.push_back(rgb.at<cv::Vec3b>(60, 80)[1]);
+  for (const cv::Mat& rgb : frames) levels.push_back(rgb.at<cv::Vec3b>(60, 80)[1]);
   return levels;
 }
 

@@ -7,11 +7,10 @@
 #include <sys/resource.h>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
 
-#include "authoring/footage/footage.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "tests/support/film_frames.h"
 #include "tests/support/knee_picture.h"
 #include "tests/support/temp_folder.h"
 
@@ -27,15 +26,6 @@ ColourImage Frame(int index) {
     for (int x = 6 * index; x < 6 * index + 6; ++x)
       for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = 240;
   return picture;
-}
-
-double LumaPsnr(const cv::Mat& film, const ColourImage& picture) {
-  const cv::Mat given(picture.height, picture.width, CV_8UC3,
-                      const_cast<std::uint8_t*>(picture.rgb.data()));
-  cv::Mat a, b;
-  cv::cvtColor(film, a, cv::COLOR_RGB2GRAY);
-  cv::cvtColor(given, b, cv::COLOR_RGB2GRAY);
-  return cv::PSNR(a, b);
 }
 
 int FilesIn(const std::filesystem::path& folder) {
@@ -67,24 +57,23 @@ TEST_P(Films, AreReadBackWithTheirFramesInOrder) {
   film.Finish();
   EXPECT_EQ(FilesIn(folder.path()), 1);
 
-  auto footage = authoring::Footage::Open(file);
-  EXPECT_EQ(footage.info().width, kSize.width);
-  EXPECT_EQ(footage.info().height, kSize.height);
-  EXPECT_EQ(footage.info().frames, kCount);
-  EXPECT_NEAR(footage.info().frames_per_second, 25.0, 1e-6);
-  cv::Mat rgb;
-  int found = 0;
+  const auto [info, frames] = test::ReadFilm(file);
+  EXPECT_EQ(info.width, kSize.width);
+  EXPECT_EQ(info.height, kSize.height);
+  EXPECT_EQ(info.frames, kCount);
+  EXPECT_NEAR(info.frames_per_second, 25.0, 1e-6);
+  ASSERT_EQ(frames.size(), static_cast<std::size_t>(kCount));
   double worst = 1e9;
-  for (; footage.Next(rgb); ++found) {
-    const double own = LumaPsnr(rgb, Frame(found));
+  for (int i = 0; i < kCount; ++i) {
+    const cv::Mat& rgb = frames[static_cast<std::size_t>(i)];
+    const double own = test::LumaPsnr(rgb, Frame(i));
     worst = std::min(worst, own);
-    EXPECT_GT(own, 33.0) << found;
-    for (const int other : {found - 1, found + 1})
+    EXPECT_GT(own, 33.0) << i;
+    for (const int other : {i - 1, i + 1})
       if (other >= 0 && other < kCount) {
-        EXPECT_LT(LumaPsnr(rgb, Frame(other)), own - 3.0) << found;
+        EXPECT_LT(test::LumaPsnr(rgb, Frame(other)), own - 3.0) << i;
       }
   }
-  EXPECT_EQ(found, kCount);
   std::printf("%s: worst frame %.1f dB\n", GetParam(), worst);
 }
 
