@@ -16,6 +16,7 @@
 #include <vtkUniforms.h>
 
 #include "app/view/lens_shader.h"
+#include "app/view/steady_inputs.h"
 #include "app/view/vertex_normals.h"
 
 namespace arthro::app {
@@ -25,19 +26,33 @@ namespace {
 // window. sin(theta/2) = sin(theta) / (2 cos(theta/2)), so no angle is needed; w is the distance,
 // so that what is interpolated follows the surface.
 constexpr const char* kWarp = R"(//VTK::PositionVC::Impl
+  handOn();
   lensPoint = vertexVCVSOutput.xyz;
   modelPoint = vertexMC.xyz;
   float lensDistance = max(length(lensPoint), 1e-7);
   float halfCosine = sqrt(max(0.5 - 0.5 * lensPoint.z / lensDistance, 0.0025));
-  vec2 equisolid = lensPoint.xy / lensDistance / (2.0 * lensScaleV * halfCosine);
-  vec2 lensPlace = lensDistance * (lensAxis + equisolid * lensFactor(lensOutward, lensEnd, dot(equisolid, equisolid)));
-  float lensClip = 2.0 * farthestV / (farthestV - nearestV) * (lensDistance - nearestV) - lensDistance;
-  gl_Position = vec4(lensPlace, lensClip, lensDistance);
+  vec2 lensPlace = lensPoint.xy / lensDistance / (2.0 * lensScale * halfCosine);
+#ifdef LENS
+  lensPlace = lensAxis + lensPlace * lensFactor(lensOutward, lensEnd, dot(lensPlace, lensPlace));
+#endif
+  float lensClip = 2.0 * farthest / (farthest - nearest) * (lensDistance - nearest) - lensDistance;
+  gl_Position = vec4(lensDistance * lensPlace, lensClip, lensDistance);
 )";
 
-constexpr const char* kFragmentHead = R"(//VTK::Normal::Dec
-in vec3 lensPoint;
-in vec3 modelPoint;
+constexpr const char* kSteady = R"(
+steady vec3 modelColour, lightColour, surround;
+steady float lensScale, windowRadius, lightReach, gain, relit;
+)";
+constexpr const char* kLensSteady = R"(
+steady float lensOutward[10], lensEnd;
+steady vec2 lensAxis;
+)";
+constexpr const char* kTissueSteady = R"(
+steady vec3 rodFrom, rodTo;
+steady float rodRadius;
+)";
+constexpr const char* kSteelSteady = R"(
+steady float rodLength, etchedRings;
 )";
 
 // A fragment whose own direction is outside the window, or elsewhere in it, belongs to a triangle
@@ -48,7 +63,9 @@ constexpr const char* kFragmentStart = R"(
   float lensR = length(lensOffset);
   float halfCosine = sqrt(max(0.5 - 0.5 * lensPoint.z / lensDistance, 0.0025));
   vec2 lensPlace = lensPoint.xy / lensDistance / (2.0 * lensScale * halfCosine);
+#ifdef LENS
   lensPlace = lensAxis + lensPlace * lensFactor(lensOutward, lensEnd, dot(lensPlace, lensPlace));
+#endif
   float coverage = rimCoverage(lensR, windowRadius);
   bool behind = lensPoint.z > (2.42 * lensScale * lensScale - 1.0) * lensDistance;
   if (behind || distance(lensPlace, lensOffset) > 0.12 || coverage <= 0.0 || lensDistance < nearest)
@@ -159,7 +176,7 @@ float Float(double value) { return static_cast<float>(value); }
 
 }  // namespace
 
-LensModel::LensModel(Look look) {
+LensModel::LensModel(Look look) : look_(look) {
   points_->SetDataTypeToFloat();
   normal_array_->SetName("Normals");
   normal_array_->SetNumberOfComponents(3);
@@ -178,46 +195,47 @@ LensModel::LensModel(Look look) {
   actor_->SetMapper(mapper_);
   actor_->ForceOpaqueOn();
 
-  vtkShaderProperty* shader = actor_->GetShaderProperty();
-  const bool is_tissue = look == Look::kTissue;
-  shader->AddVertexShaderReplacement(
-      "//VTK::Normal::Dec", true,
-      std::string("//VTK::Normal::Dec\nout vec3 lensPoint;\nout vec3 modelPoint;\n") + kLensFactor +
-          (is_tissue ? "in float freshMC;\nout float fresh;\nout vec4 coarseNoise;\n" +
-                           std::string(kNoise)
-                     : ""),
-      false);
-  shader->AddVertexShaderReplacement(
-      "//VTK::PositionVC::Impl", true,
-      std::string(kWarp) +
-          (is_tissue ? "  fresh = freshMC;\n  coarseNoise = noise(modelPoint * 300.0);\n" : ""),
-      false);
-  shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
-                                       std::string("//VTK::Light::Dec\n") + kDepthShader +
-                                           kLensFactor + kLightShader + kLampShader +
-                                           (is_tissue ? std::string(kRodShade) + kNoise : ""),
-                                       false);
-  shader->AddFragmentShaderReplacement(
-      "//VTK::Normal::Dec", true,
-      std::string(kFragmentHead) + (is_tissue ? "in float fresh;\nin vec4 coarseNoise;\n" : ""),
-      false);
-  shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
-                                       std::string(kFragmentStart) +
-                                           (look == Look::kTissue ? kTissueLook : kSteelLook) +
-                                           kFragmentEnd,
-                                       false);
-  vtkUniforms* vertex = shader->GetVertexCustomUniforms();
-  vertex->SetUniformf("nearestV", Float(kNearest));
-  vertex->SetUniformf("farthestV", Float(kFarthest));
-  vtkUniforms* fragment = shader->GetFragmentCustomUniforms();
-  fragment->SetUniformf("nearest", Float(kNearest));
-  fragment->SetUniformf("farthest", Float(kFarthest));
+  Assemble();
   if (look == Look::kSteel) {
     SetLength(1.0);
     SetEtched(true);
   }
   SetColour(glm::dvec3(1.0));
   SetFrame({});
+}
+
+void LensModel::Assemble() {
+  const bool is_tissue = look_ == Look::kTissue;
+  const std::string define = has_lens_ ? "#define LENS\n" : "";
+  const SteadyInputs inputs =
+      TakeSteadyInputs(std::string(kSteady) + (is_tissue ? kTissueSteady : kSteelSteady) +
+                       (has_lens_ ? kLensSteady : ""));
+  const std::string shared = kDepthShader + std::string(has_lens_ ? kLensFactor : "");
+  const auto ways = [&](const char* direction) {
+    return direction + std::string(" vec3 lensPoint, modelPoint;\n") +
+           (is_tissue ? direction + std::string(" float fresh;\n") + direction +
+                            " vec4 coarseNoise;\n" + kNoise
+                      : "");
+  };
+  vtkShaderProperty* shader = actor_->GetShaderProperty();
+  shader->ClearAllShaderReplacements();
+  shader->AddVertexShaderReplacement("//VTK::Normal::Dec", true,
+                                     "//VTK::Normal::Dec\n" + define + shared + inputs.outputs +
+                                         (is_tissue ? "in float freshMC;\n" : "") + ways("out"),
+                                     false);
+  shader->AddVertexShaderReplacement(
+      "//VTK::PositionVC::Impl", true,
+      std::string(kWarp) +
+          (is_tissue ? "  fresh = freshMC;\n  coarseNoise = noise(modelPoint * 300.0);\n" : ""),
+      false);
+  shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
+                                       "//VTK::Light::Dec\n" + define + inputs.fragment +
+                                           ways("in") + shared + kLightShader + kLampShader +
+                                           (is_tissue ? kRodShade : ""),
+                                       false);
+  shader->AddFragmentShaderReplacement(
+      "//VTK::Light::Impl", true,
+      std::string(kFragmentStart) + (is_tissue ? kTissueLook : kSteelLook) + kFragmentEnd, false);
 }
 
 void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh) {
@@ -273,49 +291,47 @@ void LensModel::SetPose(const Pose& pose) {
   actor_->SetUserMatrix(matrix);
 }
 
-void LensModel::SetColour(const glm::dvec3& linear_rgb) {
-  const float colour[3] = {Float(linear_rgb.x), Float(linear_rgb.y), Float(linear_rgb.z)};
-  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f("modelColour", colour);
+void LensModel::Set(const char* given_name, double value) {
+  actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniformf(given_name, Float(value));
 }
 
-void LensModel::SetLength(double length) {
-  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("rodLength", Float(length));
+void LensModel::Set(const char* given_name, const glm::dvec3& value) {
+  const float v[3] = {Float(value.x), Float(value.y), Float(value.z)};
+  actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform3f(given_name, v);
 }
 
-void LensModel::SetEtched(bool is_etched) {
-  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf("etchedRings",
-                                                                        is_etched ? 1.0f : 0.0f);
-}
+void LensModel::SetColour(const glm::dvec3& linear_rgb) { Set("given_modelColour", linear_rgb); }
+
+void LensModel::SetLength(double length) { Set("given_rodLength", length); }
+
+void LensModel::SetEtched(bool is_etched) { Set("given_etchedRings", is_etched ? 1.0 : 0.0); }
 
 void LensModel::SetFrame(const LensFrame& frame) {
-  const float scale = Float(std::sin(frame.field_of_view / 4.0));
-  vtkShaderProperty* shader = actor_->GetShaderProperty();
-  shader->GetVertexCustomUniforms()->SetUniformf("lensScaleV", scale);
-  vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
-  float outward[simulation::WindowLens::kTerms];
-  std::transform(frame.lens.outward.begin(), frame.lens.outward.end(), outward, Float);
-  const float axis[2] = {Float(frame.lens.axis.x), Float(frame.lens.axis.y)};
-  for (vtkUniforms* each : {shader->GetVertexCustomUniforms(), uniforms}) {
-    each->SetUniform1fv("lensOutward", simulation::WindowLens::kTerms, outward);
-    each->SetUniform2f("lensAxis", axis);
-    each->SetUniformf("lensEnd", Float(frame.lens.end));
+  if (has_lens_ == simulation::IsEquisolid(frame.lens)) {
+    has_lens_ = !has_lens_;
+    Assemble();
   }
-  const float light[3] = {Float(frame.light_colour.x), Float(frame.light_colour.y),
-                          Float(frame.light_colour.z)};
-  const float surround[3] = {Float(frame.surround.x), Float(frame.surround.y),
-                             Float(frame.surround.z)};
-  uniforms->SetUniformf("lensScale", scale);
-  uniforms->SetUniformf("windowRadius", Float(frame.window_radius));
-  uniforms->SetUniformf("lightReach", Float(frame.light_reach));
-  uniforms->SetUniformf("gain", Float(frame.gain));
-  uniforms->SetUniformf("relit", Float(frame.relit));
-  const float from[3] = {Float(frame.rod.from.x), Float(frame.rod.from.y), Float(frame.rod.from.z)};
-  const float to[3] = {Float(frame.rod.to.x), Float(frame.rod.to.y), Float(frame.rod.to.z)};
-  uniforms->SetUniform3f("rodFrom", from);
-  uniforms->SetUniform3f("rodTo", to);
-  uniforms->SetUniformf("rodRadius", Float(frame.rod.radius));
-  uniforms->SetUniform3f("lightColour", light);
-  uniforms->SetUniform3f("surround", surround);
+  Set("given_lensScale", std::sin(frame.field_of_view / 4.0));
+  Set("given_windowRadius", frame.window_radius);
+  Set("given_lightReach", frame.light_reach);
+  Set("given_gain", frame.gain);
+  Set("given_relit", frame.relit);
+  Set("given_lightColour", frame.light_colour);
+  Set("given_surround", frame.surround);
+  if (look_ == Look::kTissue) {
+    Set("given_rodFrom", frame.rod.from);
+    Set("given_rodTo", frame.rod.to);
+    Set("given_rodRadius", frame.rod.radius);
+  }
+  if (has_lens_) {
+    float outward[simulation::WindowLens::kTerms];
+    std::transform(frame.lens.outward.begin(), frame.lens.outward.end(), outward, Float);
+    const float axis[2] = {Float(frame.lens.axis.x), Float(frame.lens.axis.y)};
+    vtkUniforms* uniforms = actor_->GetShaderProperty()->GetVertexCustomUniforms();
+    uniforms->SetUniform1fv("given_lensOutward", simulation::WindowLens::kTerms, outward);
+    uniforms->SetUniform2f("given_lensAxis", axis);
+    Set("given_lensEnd", frame.lens.end);
+  }
 }
 
 }  // namespace arthro::app

@@ -63,6 +63,13 @@ class LensModel {
   void SetEtched(bool is_etched);
 
  private:
+  // Puts the shaders together.
+  void Assemble();
+  void Set(const char* given_name, double value);
+  void Set(const char* given_name, const glm::dvec3& value);
+
+  Look look_;
+  bool has_lens_ = false;  // other than the equisolid one
   std::vector<std::array<int, 3>> triangles_;
   std::vector<glm::dvec3> normals_;
   vtkNew<vtkPoints> points_;

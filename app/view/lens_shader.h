@@ -6,7 +6,7 @@ namespace arthro::app {
 
 // Nearest and farthest drawn distance. Depth is stored as 1/distance in 32-bit float: 3 µm fine at
 // 0.1 m.
-inline constexpr double kNearest = 0.2e-3, kFarthest = 1.0;
+inline constexpr double kNearest = 0.2e-3, kFarthest = 1.0;  // and in kDepthShader
 
 // Stored depth of a distance: f/(f−n) − f n/((f−n) d), 0 at the nearest, 1 at the farthest.
 inline constexpr double StoredDepth(double distance) {
@@ -25,8 +25,8 @@ float lensFactor(float terms[10], float end, float squared) {
 }
 )";
 
-// Needs: uniform float nearest, farthest.
 inline constexpr const char* kDepthShader = R"(
+const float nearest = 0.2e-3, farthest = 1.0;
 float storedDepth(float distance) {
   return farthest / (farthest - nearest) * (1.0 - nearest / distance);
 }

@@ -5,18 +5,24 @@
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
+#include "app/view/steady_inputs.h"
+
 namespace arthro::app {
 namespace {
 
-constexpr const char* kWhole = R"(//VTK::System::Dec
-void main() { gl_Position = vec4(2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); }
+constexpr const char* kWhole = R"(
+void main() {
+  handOn();
+  gl_Position = vec4(2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+}
 )";
 
 // A fan of 64 corners about the disc.
 constexpr int kCorners = 64;
-constexpr const char* kRound = R"(//VTK::System::Dec
+constexpr const char* kRound = R"(
 uniform float reach;  // of the corners; 1 is the disc's rim
 void main() {
+  handOn();
   float turn = 6.283185307 / 64.0 * float(gl_VertexID);
   gl_Position = vec4(gl_VertexID == 0 ? vec2(0.0) : reach * vec2(cos(turn), sin(turn)), 0.0, 1.0);
 }
@@ -24,11 +30,17 @@ void main() {
 
 }  // namespace
 
+ShaderPass::ShaderPass(const std::string& fragment_shader, Shape shape) : shape_(shape) {
+  const SteadyInputs inputs = TakeSteadyInputs(fragment_shader);
+  vertex_ = "//VTK::System::Dec\n" + inputs.uniforms + inputs.outputs +
+            (shape == Shape::kRound ? kRound : kWhole);
+  fragment_ = inputs.fragment;
+}
+
 vtkShaderProgram* ShaderPass::Ready(vtkOpenGLRenderWindow* window) {
   vtkOpenGLShaderCache* cache = window->GetShaderCache();
   if (program_ == nullptr) {
-    program_ =
-        cache->ReadyShaderProgram(shape_ == Shape::kRound ? kRound : kWhole, fragment_.c_str(), "");
+    program_ = cache->ReadyShaderProgram(vertex_.c_str(), fragment_.c_str(), "");
     glGenVertexArrays(1, &vertex_array_);
   } else {
     cache->ReadyShaderProgram(program_);

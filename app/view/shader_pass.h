@@ -1,5 +1,6 @@
 // One shader over a whole target, or over the round window in it: no vertices are stored. OpenGL
 // 3.2; belongs to the context that was current when it was first drawn.
+// What its fragments declare as steady (steady_inputs.h) is set as given_NAME.
 #pragma once
 
 #include <string>
@@ -14,8 +15,7 @@ class ShaderPass {
   // kRound: the disc that the target's edges touch, and a pixel more for its soft rim. A processor
   // fills a fifth less than for the whole.
   enum class Shape { kWhole, kRound };
-  ShaderPass(std::string fragment_shader, Shape shape)
-      : fragment_(std::move(fragment_shader)), shape_(shape) {}
+  ShaderPass(const std::string& fragment_shader, Shape shape);
 
   // The program, in use; null where the driver refuses the shader.
   vtkShaderProgram* Ready(vtkOpenGLRenderWindow* window);
@@ -24,7 +24,7 @@ class ShaderPass {
   void ReleaseGraphicsResources();
 
  private:
-  std::string fragment_;
+  std::string vertex_, fragment_;
   Shape shape_;
   vtkShaderProgram* program_ = nullptr;  // the window's shader cache owns it
   unsigned vertex_array_ = 0;

@@ -151,13 +151,15 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   const bool has_lens = !simulation::IsEquisolid(picture_.lens);
   const bool is_relit = backdrop_.relight > 0 && !picture_.plain;
   const bool has_rod = rod_.radius > 0 && !picture_.plain;
-  const std::size_t head_variant = (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u);
-  const std::size_t variant = head_variant + (has_relief ? 4u : 0u) + (has_cells ? 8u : 0u) +
-                              (picture_.plain ? 16u : 0u) + (is_relit ? 32u : 0u) +
-                              (has_rod ? 64u : 0u);
+  const std::size_t head_variant =
+      (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u) + (wraps_ ? 4u : 0u);
+  const std::size_t variant = head_variant + (has_relief ? 8u : 0u) + (has_cells ? 16u : 0u) +
+                              (picture_.plain ? 32u : 0u) + (is_relit ? 64u : 0u) +
+                              (has_rod ? 128u : 0u);
   const auto head = [&] {
     std::string source = kBackdropHead;
     if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
+    if (wraps_) source += "#define WRAPS\n";
     if (has_lens) source += std::string("#define LENS\n") + kLensUniforms + kLensFactor;
     return source + kLensRay;
   };
@@ -212,51 +214,49 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   program.SetUniformi("panorama", panorama_->GetTextureUnit());
   program.SetUniformi("relief", relief_->GetTextureUnit());
   if (ceiling_->GetHandle()) program.SetUniformi("reliefCeiling", ceiling_->GetTextureUnit());
-  SetUniform(program, "tip", tip);
-  SetUniform(program, "clearance", 1.0 - glm::dot(tip, tip));
-  SetUniform(program, "viewAxis", view.view);
-  SetUniform(program, "upAxis", view.up);
-  SetUniform(program, "rightAxis", view.right);
-  SetUniform(program, "lensScale", std::sin(picture_.field_of_view / 4.0));
-  SetUniform(program, "windowRadius", size_ / 2.0);
+  SetUniform(program, "given_tip", tip);
+  SetUniform(program, "given_clearance", 1.0 - glm::dot(tip, tip));
+  SetUniform(program, "given_viewAxis", view.view);
+  SetUniform(program, "given_upAxis", view.up);
+  SetUniform(program, "given_rightAxis", view.right);
+  SetUniform(program, "given_lensScale", std::sin(picture_.field_of_view / 4.0));
+  SetUniform(program, "given_windowRadius", size_ / 2.0);
   if (!simulation::IsEquisolid(picture_.lens)) {
     float inward[simulation::WindowLens::kTerms];
     std::transform(picture_.lens.inward.begin(), picture_.lens.inward.end(), inward,
                    [](double term) { return static_cast<float>(term); });
-    program.SetUniform1fv("lensInward", simulation::WindowLens::kTerms, inward);
-    SetUniform(program, "lensEnd", picture_.lens.end);
-    SetUniform(program, "lensAxis", picture_.lens.axis);
+    program.SetUniform1fv("given_lensInward", simulation::WindowLens::kTerms, inward);
+    SetUniform(program, "given_lensEnd", picture_.lens.end);
+    SetUniform(program, "given_lensAxis", picture_.lens.axis);
   }
-  program.SetUniformi("wraps", wraps_ ? 1 : 0);
   // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
   const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
   const glm::dvec2 covered = texels * double(reduction_);
   const double pixels =
       equirectangular ? DegreesFromRadians(projection.px_per_deg) : projection.focal_px;
-  SetUniform(program, "centre", (projection.centre_px + 0.5) / covered);
-  SetUniform(program, "scale", pixels / covered);
-  SetUniform(program, "texels", texels);
-  SetUniform(program, "reliefTexels", glm::dvec2(relief_->GetWidth(), relief_->GetHeight()));
-  SetUniform(program, "samples", double(picture_.samples));
-  SetUniform(program, "radius", backdrop_.radius);
-  SetUniform(program, "perRadius", 1.0 / backdrop_.radius);
-  SetUniform(program, "highest", highest_ / backdrop_.radius);
-  SetUniform(program, "blockTexels", block_);
-  SetUniform(program, "reliefSteps", double(picture_.relief.steps));
-  SetUniform(program, "cellPixels", double(picture_.relief.cell));
-  SetUniform(program, "cellSteps", 0.5 * picture_.relief.steps);
-  SetUniform(program, "smoothBend", kSmoothBend);
-  SetUniform(program, "nearest", kNearest);
-  SetUniform(program, "farthest", kFarthest);
-  SetUniform(program, "lightReach", light_reach());
-  SetUniform(program, "gain", gain_);
-  SetUniform(program, "relit", backdrop_.relight);
-  SetUniform(program, "rodFrom", rod_.from);
-  SetUniform(program, "rodTo", rod_.to);
-  SetUniform(program, "rodRadius", rod_.radius);
+  SetUniform(program, "given_centre", (projection.centre_px + 0.5) / covered);
+  SetUniform(program, "given_scale", pixels / covered);
+  SetUniform(program, "given_texels", texels);
+  SetUniform(program, "given_reliefTexels", glm::dvec2(relief_->GetWidth(), relief_->GetHeight()));
+  SetUniform(program, "given_samples", double(picture_.samples));
+  SetUniform(program, "given_radius", backdrop_.radius);
+  SetUniform(program, "given_perRadius", 1.0 / backdrop_.radius);
+  SetUniform(program, "given_highest", highest_ / backdrop_.radius);
+  SetUniform(program, "given_blockTexels", block_);
+  SetUniform(program, "given_reliefSteps", double(picture_.relief.steps));
+  SetUniform(program, "given_cellPixels", double(picture_.relief.cell));
+  SetUniform(program, "given_cellSteps", 0.5 * picture_.relief.steps);
+  SetUniform(program, "given_smoothBend", kSmoothBend);
+  SetUniform(program, "given_lightReach", light_reach());
+  SetUniform(program, "given_gain", gain_);
+  SetUniform(program, "given_relit", backdrop_.relight);
+  SetUniform(program, "given_rodFrom", rod_.from);
+  SetUniform(program, "given_rodTo", rod_.to);
+  SetUniform(program, "given_rodRadius", rod_.radius);
   // Neutral and dark, but not the black of the window's surround.
-  SetUniform(program, "endColour", glm::dvec3(0.105, 0.102, 0.1));
-  SetUniform(program, "notch", glm::dvec2(std::sin(picture_.notch), std::cos(picture_.notch)));
+  SetUniform(program, "given_endColour", glm::dvec3(0.105, 0.102, 0.1));
+  SetUniform(program, "given_notch",
+             glm::dvec2(std::sin(picture_.notch), std::cos(picture_.notch)));
 }
 
 void BackdropProp::ReleaseGraphicsResources(vtkWindow* window) {

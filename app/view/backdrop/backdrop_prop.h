@@ -80,7 +80,7 @@ class BackdropProp : public vtkProp {
   double gain_ = 1;
   vtkNew<vtkTextureObject> panorama_, relief_, ceiling_;
   ReliefCells cells_;
-  std::array<std::optional<ShaderPass>, 128> passes_;  // one a variant of the shader
+  std::array<std::optional<ShaderPass>, 256> passes_;  // one a variant of the shader
 };
 
 }  // namespace arthro::app

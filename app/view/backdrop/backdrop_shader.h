@@ -12,34 +12,33 @@ uniform sampler2D panorama;
 uniform sampler2D relief;         // m, its slopes along u and v, how well inside the imaged part
 uniform sampler2D reliefCeiling;  // m, of blocks of blockTexels
 uniform sampler2D corners, cells; // relief_cells.h
-uniform vec3 tip;               // in radii of the sphere
-uniform float clearance;        // 1 - |tip|^2, worked out in double
-uniform vec3 viewAxis, upAxis, rightAxis;
-uniform float lensScale;        // sin(fov/4)
-uniform float windowRadius;     // px
-uniform int wraps, plain;
-uniform vec2 centre, scale;     // of the projection, in texture units
-uniform vec2 texels, reliefTexels;
+steady vec3 tip;               // in radii of the sphere
+steady float clearance;        // 1 - |tip|^2, worked out in double
+steady vec3 viewAxis, upAxis, rightAxis;
+steady float lensScale;        // sin(fov/4)
+steady float windowRadius;     // px
+steady vec2 centre, scale;     // of the projection, in texture units
+steady vec2 texels, reliefTexels;
 const float kSharpness = 0.7;
 
-uniform float samples;           // at most, a pixel
-uniform float radius, perRadius; // m, 1/m
-uniform float nearest, farthest, lightReach, gain, relit;
-uniform vec3 rodFrom, rodTo;
-uniform float rodRadius;
-uniform float highest;          // of the relief, in radii
-uniform float blockTexels;
-uniform float reliefSteps;      // at most, along a ray
-uniform float cellPixels, cellSteps, smoothBend;
-uniform vec3 endColour;
-uniform vec2 notch;             // unit, image right and up
+steady float samples;           // at most, a pixel
+steady float radius, perRadius; // m, 1/m
+steady float lightReach, gain, relit;
+steady vec3 rodFrom, rodTo;
+steady float rodRadius;
+steady float highest;          // of the relief, in radii
+steady float blockTexels;
+steady float reliefSteps;      // at most, along a ray
+steady float cellPixels, cellSteps, smoothBend;
+steady vec3 endColour;
+steady vec2 notch;             // unit, image right and up
 )";
 
 // A place in the window, in its radii from its centre, right and up. Equisolid: |offset| lensScale
 // = sin(theta/2).
 inline constexpr const char* kLensUniforms = R"(
-uniform float lensInward[10], lensEnd;
-uniform vec2 lensAxis;
+steady float lensInward[10], lensEnd;
+steady vec2 lensAxis;
 )";
 inline constexpr const char* kLensRay = R"(
 vec3 rayOf(vec2 offset) {

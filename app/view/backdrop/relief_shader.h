@@ -32,7 +32,11 @@ float fineness(vec3 x, float far) { return far / max(x.z * x.z, 1e-4 * far); }
 bool isBefore(vec3 d) { return d.z > 0.0; }
 #endif
 bool isImaged(vec3 d, vec2 uv) {
-  return isBefore(d) && (wraps != 0 || abs(uv.x - 0.5) <= 0.5) && abs(uv.y - 0.5) <= 0.5;
+#ifdef WRAPS
+  return isBefore(d) && abs(uv.y - 0.5) <= 0.5;
+#else
+  return isBefore(d) && abs(uv.x - 0.5) <= 0.5 && abs(uv.y - 0.5) <= 0.5;
+#endif
 }
 )";
 
