@@ -11,9 +11,11 @@ namespace arthro::app {
 namespace {
 
 constexpr const char* kWhole = R"(
+out vec2 texCoord;
 void main() {
   handOn();
-  gl_Position = vec4(2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+  texCoord = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(2.0 * texCoord - 1.0, 0.0, 1.0);
 }
 )";
 
@@ -21,20 +23,27 @@ void main() {
 constexpr int kCorners = 64;
 constexpr const char* kRound = R"(
 uniform float reach;  // of the corners; 1 is the disc's rim
+out vec2 texCoord;
 void main() {
   handOn();
   float turn = 6.283185307 / 64.0 * float(gl_VertexID);
-  gl_Position = vec4(gl_VertexID == 0 ? vec2(0.0) : reach * vec2(cos(turn), sin(turn)), 0.0, 1.0);
+  vec2 corner = gl_VertexID == 0 ? vec2(0.0) : reach * vec2(cos(turn), sin(turn));
+  texCoord = 0.5 + 0.5 * corner;
+  gl_Position = vec4(corner, 0.0, 1.0);
 }
 )";
 
 }  // namespace
 
-ShaderPass::ShaderPass(const std::string& fragment_shader, Shape shape) : shape_(shape) {
+ShaderPass::ShaderPass(const std::string& fragment_shader, const std::string& vertex_main) {
   const SteadyInputs inputs = TakeSteadyInputs(fragment_shader);
-  vertex_ = "//VTK::System::Dec\n" + inputs.uniforms + inputs.outputs +
-            (shape == Shape::kRound ? kRound : kWhole);
+  vertex_ = "//VTK::System::Dec\n" + inputs.uniforms + inputs.outputs + vertex_main;
   fragment_ = inputs.fragment;
+}
+
+ShaderPass::ShaderPass(const std::string& fragment_shader, Shape shape)
+    : ShaderPass(fragment_shader, shape == Shape::kRound ? kRound : kWhole) {
+  shape_ = shape;
 }
 
 vtkShaderProgram* ShaderPass::Ready(vtkOpenGLRenderWindow* window) {
@@ -56,6 +65,12 @@ void ShaderPass::Draw(int side) {
   } else {
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
+  glBindVertexArray(0);
+}
+
+void ShaderPass::DrawTriangles(int count) {
+  glBindVertexArray(vertex_array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3 * count);
   glBindVertexArray(0);
 }
 

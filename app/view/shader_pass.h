@@ -15,17 +15,21 @@ class ShaderPass {
   // kRound: the disc that the target's edges touch, and a pixel more for its soft rim. A processor
   // fills a fifth less than for the whole.
   enum class Shape { kWhole, kRound };
+  // Fragments may read `in vec2 texCoord`, 0 to 1 over the target.
   ShaderPass(const std::string& fragment_shader, Shape shape);
+  // Triangles of its own: `vertex_main` calls handOn() and goes by gl_VertexID.
+  ShaderPass(const std::string& fragment_shader, const std::string& vertex_main);
 
   // The program, in use; null where the driver refuses the shader.
   vtkShaderProgram* Ready(vtkOpenGLRenderWindow* window);
   // After Ready; `side`: of the target, px.
   void Draw(int side);
+  void DrawTriangles(int count);
   void ReleaseGraphicsResources();
 
  private:
   std::string vertex_, fragment_;
-  Shape shape_;
+  Shape shape_ = Shape::kWhole;
   vtkShaderProgram* program_ = nullptr;  // the window's shader cache owns it
   unsigned vertex_array_ = 0;
 };

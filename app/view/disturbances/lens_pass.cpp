@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <vtkOpenGLQuadHelper.h>
 #include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLShaderCache.h>
 #include <vtkOpenGLState.h>
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
@@ -27,6 +25,23 @@ constexpr double kMostBlur = 0.25;
 // Dew blurs what is seen through it: the disc's diameter in window radii.
 constexpr double kFogBlur = 0.09;
 
+// What of the picture a variant of a shader disturbs: a processor goes both ways of every if.
+constexpr std::size_t kHaze = 1, kFog = 2, kOverexposed = 4, kBlur = 8, kNearBlur = 16;
+
+std::string Defines(std::size_t variant) {
+  std::string defines;
+  if (variant & kHaze) defines += "#define HAZE\n";
+  if (variant & kFog) defines += "#define FOG\n";
+  if (variant & kOverexposed) defines += "#define OVEREXPOSED\n";
+  if (variant & kBlur) defines += "#define BLUR\n";
+  if (variant & kNearBlur) defines += "#define NEAR_BLUR\n";
+  return defines;
+}
+
+std::string Head() {
+  return std::string("//VTK::System::Dec\n//VTK::Output::Dec\n") + kDepthShader + kLensPassHead;
+}
+
 float Float(double value) { return static_cast<float>(value); }
 
 }  // namespace
@@ -37,30 +52,34 @@ struct LensPass::Frame {
   const Disturbances& disturbances;
   double light_reach, radius;  // m; of the window, px
   double pixels_of_angle;      // px that a radian takes in the middle of the window
-  std::string defines;         // of kDisturbShader
+  std::size_t variant;         // of what all of it shares: haze, fog and overexposure
   int size;
 };
 
-LensPass::LensPass() = default;
-LensPass::~LensPass() = default;
-
 void LensPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
-  for (Quad* quad : {&disturb_quad_, &gather_quad_, &spread_quad_}) {
-    if (quad->helper) quad->helper->ReleaseGraphicsResources(window);
-    *quad = {};
-  }
+  const auto release = [](auto& passes) {
+    for (Pass& pass : passes) {
+      if (pass) pass->ReleaseGraphicsResources();
+      pass.reset();
+    }
+  };
+  release(gather_passes_);
+  release(flake_passes_);
+  release(bubble_passes_);
+  release(disturb_passes_);
+  if (spread_pass_) spread_pass_->ReleaseGraphicsResources();
+  spread_pass_.reset();
   for (Target* target : {&target_, &gathered_, &spread_}) {
     target->texture->ReleaseGraphicsResources(window);
     target->framebuffer->ReleaseGraphicsResources(window);
     target->size = 0;
   }
   murk_->ReleaseGraphicsResources(window);
-  if (vertex_array_ != 0) glDeleteVertexArrays(1, &vertex_array_);
-  vertex_array_ = 0;
 }
 
-// `levels` small copies, to be made once it is drawn.
-void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels) {
+// `levels` small copies, to be made once it is drawn; black, and of `alpha`, where nothing is.
+void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
+                      float alpha) {
   if (target.size == size) return;
   target.size = size;
   vtkTextureObject& texture = *target.texture;
@@ -82,24 +101,20 @@ void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, i
   target.framebuffer->Bind();
   target.framebuffer->AddColorAttachment(0, &texture);
   target.framebuffer->ActivateDrawBuffer(0);
+  state->vtkglViewport(0, 0, size, size);
+  state->vtkglScissor(0, 0, size, size);
+  state->vtkglClearColor(0, 0, 0, alpha);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT);
   state->PopFramebufferBindings();
 }
 
-vtkShaderProgram* LensPass::Ready(Quad& quad, const Frame& frame, const std::string& source) {
-  if (!quad.helper || quad.source != source) {
-    if (quad.helper) quad.helper->ReleaseGraphicsResources(frame.window);
-    quad.helper =
-        std::make_unique<vtkOpenGLQuadHelper>(frame.window, nullptr, source.c_str(), nullptr);
-    quad.source = source;
-  } else {
-    frame.window->GetShaderCache()->ReadyShaderProgram(quad.helper->Program);
-  }
-  vtkShaderProgram* program = quad.helper->Program;
+vtkShaderProgram* LensPass::Ready(Pass& pass, const Frame& frame,
+                                  const std::function<ShaderPass()>& make) {
+  if (!pass) pass.emplace(make());
+  vtkShaderProgram* program = pass->Ready(frame.window);
   if (program == nullptr) return nullptr;
   program->SetUniformi("depths", frame.depths->GetTextureUnit());
-  program->SetUniformf("windowRadius", Float(frame.radius));
-  program->SetUniformf("nearest", Float(kNearest));
-  program->SetUniformf("farthest", Float(kFarthest));
+  program->SetUniformf("given_windowRadius", Float(frame.radius));
   return program;
 }
 
@@ -115,34 +130,39 @@ void DrawInto(vtkOpenGLFramebufferObject& framebuffer, vtkOpenGLState* state, in
 }  // namespace
 
 void LensPass::Gather(const Frame& frame, bool is_far_only) {
-  Resize(gathered_, frame.window, frame.size, kLevels);
-  const std::string source = std::string(kLensPassHead) +
-                             (is_far_only ? "#define FAR_ONLY\n" : "") + kLightShader + kGatherMain;
-  vtkShaderProgram* program = Ready(gather_quad_, frame, source);
+  Resize(gathered_, frame.window, frame.size, kLevels, 0);
+  Pass& pass = gather_passes_[is_far_only ? 1 : 0];
+  vtkShaderProgram* program = Ready(pass, frame, [&] {
+    return ShaderPass(
+        Head() + (is_far_only ? "#define FAR_ONLY\n" : "") + kLightShader + kGatherMain,
+        ShaderPass::Shape::kRound);
+  });
   if (program == nullptr) return;
   program->SetUniformi("picture", frame.colours->GetTextureUnit());
   if (is_far_only) {
-    program->SetUniformf("pixelsOfAngle", Float(kBlurAperture * frame.disturbances.far_blur *
-                                                frame.pixels_of_angle));
-    program->SetUniformf("farFocus", Float(kFarBlurFocus));
+    program->SetUniformf("given_pixelsOfAngle", Float(kBlurAperture * frame.disturbances.far_blur *
+                                                      frame.pixels_of_angle));
+    program->SetUniformf("given_farFocus", Float(kFarBlurFocus));
   }
   DrawInto(*gathered_.framebuffer, frame.window->GetState(), frame.size);
-  gather_quad_.helper->Render();
+  pass->Draw(frame.size);
   gathered_.texture->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void LensPass::Spread(const Frame& frame) {
   const int size = std::max(frame.size / kCoarser, 1);
-  Resize(spread_, frame.window, size, kLevels);
-  vtkShaderProgram* program = Ready(spread_quad_, frame, std::string(kLensPassHead) + kSpreadMain);
+  Resize(spread_, frame.window, size, kLevels, 0);
+  vtkShaderProgram* program = Ready(spread_pass_, frame, [] {
+    return ShaderPass(Head() + kSpreadMain, ShaderPass::Shape::kWhole);
+  });
   if (program == nullptr) return;
-  program->SetUniformf("pixelsOfAngle",
+  program->SetUniformf("given_pixelsOfAngle",
                        Float(kBlurAperture * frame.disturbances.near_blur * frame.pixels_of_angle));
-  program->SetUniformf("nearFocus", Float(kNearBlurFocus));
-  program->SetUniformf("mostBlur", Float(kMostBlur * frame.radius));
+  program->SetUniformf("given_nearFocus", Float(kNearBlurFocus));
+  program->SetUniformf("given_mostBlur", Float(kMostBlur * frame.radius));
   DrawInto(*spread_.framebuffer, frame.window->GetState(), size);
-  spread_quad_.helper->Render();
+  spread_pass_->Draw(size);
   spread_.texture->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);
 }
@@ -169,50 +189,46 @@ void LensPass::TakeMurk(const Frame& frame) {
 
 void LensPass::SetDisturbed(vtkShaderProgram& program, const Frame& frame) const {
   const Disturbances& d = frame.disturbances;
-  program.SetUniformf("lightReach", Float(frame.light_reach));
+  program.SetUniformf("given_lightReach", Float(frame.light_reach));
   if (d.haze > 0 || d.fog > 0) program.SetUniformi("murk", murk_->GetTextureUnit());
   const float extinction[3] = {Float(kHazeExtinction[0]), Float(kHazeExtinction[1]),
                                Float(kHazeExtinction[2])};
   if (d.haze > 0) {
-    program.SetUniformf("hazeStrength", Float(d.haze));
-    program.SetUniform3f("hazeExtinction", extinction);
+    program.SetUniformf("given_hazeStrength", Float(d.haze));
+    program.SetUniform3f("given_hazeExtinction", extinction);
   }
-  if (d.fog > 0) program.SetUniformf("fogStrength", Float(d.fog));
-  if (d.overexposure > 0) program.SetUniformf("exposureGain", Float(ExposureGain(d.overexposure)));
+  if (d.fog > 0) program.SetUniformf("given_fogStrength", Float(d.fog));
+  if (d.overexposure > 0)
+    program.SetUniformf("given_exposureGain", Float(ExposureGain(d.overexposure)));
 }
 
-void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits,
+void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, Pass& pass,
                         const char* main) {
   if (bits.empty()) return;
-  std::string source = std::string(kLensPassHead) + frame.defines + kLightShader + kDisturbShader +
-                       "const float fibreShare = " + std::to_string(kFibreShare) + ";\n" +
-                       kBitHead + main;
-  vtkShaderProgram* program =
-      frame.window->GetShaderCache()->ReadyShaderProgram(kBitVertex, source.c_str(), "");
+  vtkShaderProgram* program = Ready(pass, frame, [&] {
+    return ShaderPass(Head() + Defines(frame.variant) + kLightShader + kDisturbShader +
+                          "const float fibreShare = " + std::to_string(kFibreShare) + ";\n" +
+                          kBitHead + main,
+                      kBitVertex);
+  });
   if (program == nullptr) return;
-  std::vector<float> places, looks;
+  places_.clear();
+  looks_.clear();
   for (const DriftingBit& bit : bits) {
-    places.insert(places.end(), {Float(bit.centre.x), Float(bit.centre.y), Float(bit.radius),
-                                 Float(bit.distance)});
-    looks.insert(looks.end(),
-                 {Float(bit.angle), Float(bit.shape), Float(bit.opacity), Float(bit.softness)});
+    places_.insert(places_.end(), {Float(bit.centre.x), Float(bit.centre.y), Float(bit.radius),
+                                   Float(bit.distance)});
+    looks_.insert(looks_.end(),
+                  {Float(bit.angle), Float(bit.shape), Float(bit.opacity), Float(bit.softness)});
   }
   const auto count = static_cast<int>(bits.size());
-  program->SetUniform4fv("place", count, places.data());
-  program->SetUniform4fv("look", count, looks.data());
-  program->SetUniformi("depths", frame.depths->GetTextureUnit());
+  program->SetUniform4fv("place", count, places_.data());
+  program->SetUniform4fv("look", count, looks_.data());
   if (main == kBubbleMain) program->SetUniformi("gathered", gathered_.texture->GetTextureUnit());
-  program->SetUniformf("windowRadius", Float(frame.radius));
-  program->SetUniformf("nearest", Float(kNearest));
-  program->SetUniformf("farthest", Float(kFarthest));
   SetDisturbed(*program, frame);
   vtkOpenGLState* state = frame.window->GetState();
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-  if (vertex_array_ == 0) glGenVertexArrays(1, &vertex_array_);
-  glBindVertexArray(vertex_array_);
-  glDrawArrays(GL_TRIANGLES, 0, 6 * count);
-  glBindVertexArray(0);
+  pass->DrawTriangles(2 * count);
   state->vtkglDisable(GL_BLEND);
 }
 
@@ -227,18 +243,17 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
               light_reach,
               size / 2.0,
               0.0,
-              "",
+              0,
               size};
   frame.pixels_of_angle =
       picture.lens.outward[0] * frame.radius / (2.0 * std::sin(picture.field_of_view / 4.0));
-  if (d.haze > 0) frame.defines += "#define HAZE\n";
-  if (d.fog > 0) frame.defines += "#define FOG\n";
-  if (d.overexposure > 0) frame.defines += "#define OVEREXPOSED\n";
+  frame.variant = (d.haze > 0 ? kHaze : 0u) + (d.fog > 0 ? kFog : 0u) +
+                  (d.overexposure > 0 ? kOverexposed : 0u);
   const bool is_blurred = d.near_blur > 0 || d.far_blur > 0 || d.fog > 0;
   const std::vector<DriftingBit> bubbles =
       Bubbles(d, picture.view, picture.field_of_view, picture.lens);
 
-  Resize(target_, window, size, 0);
+  Resize(target_, window, size, 0, 1);
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
   state->vtkglDisable(GL_BLEND);
@@ -251,33 +266,38 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
   if (d.near_blur > 0) Spread(frame);
   if (d.haze > 0 || d.fog > 0) TakeMurk(frame);
 
-  const std::string source =
-      std::string(kLensPassHead) + frame.defines + (is_blurred ? "#define BLUR\n" : "") +
-      (d.near_blur > 0 ? "#define NEAR_BLUR\n" : "") + kLightShader + kDisturbShader + kDisturbMain;
-  if (vtkShaderProgram* program = Ready(disturb_quad_, frame, source)) {
+  const std::size_t variant =
+      frame.variant + (is_blurred ? kBlur : 0u) + (d.near_blur > 0 ? kNearBlur : 0u);
+  Pass& pass = disturb_passes_[variant];
+  if (vtkShaderProgram* program = Ready(pass, frame, [&] {
+        return ShaderPass(Head() + Defines(variant) + kLightShader + kDisturbShader + kDisturbMain,
+                          ShaderPass::Shape::kRound);
+      })) {
     program->SetUniformi("picture", frame.colours->GetTextureUnit());
     SetDisturbed(*program, frame);
     if (is_blurred) {
       program->SetUniformi("gathered", gathered_.texture->GetTextureUnit());
-      program->SetUniformf("farPixelsOfAngle",
+      program->SetUniformf("given_farPixelsOfAngle",
                            Float(kBlurAperture * d.far_blur * frame.pixels_of_angle));
-      program->SetUniformf("farFocus", Float(kFarBlurFocus));
-      program->SetUniformf("fogBlur", Float(kFogBlur * frame.radius));
+      program->SetUniformf("given_farFocus", Float(kFarBlurFocus));
+      program->SetUniformf("given_fogBlur", Float(kFogBlur * frame.radius));
     }
     if (d.near_blur > 0) {
       program->SetUniformi("spread", spread_.texture->GetTextureUnit());
-      program->SetUniformf("pixelsOfAngle",
+      program->SetUniformf("given_pixelsOfAngle",
                            Float(kBlurAperture * d.near_blur * frame.pixels_of_angle));
-      program->SetUniformf("nearFocus", Float(kNearBlurFocus));
-      program->SetUniformf("mostBlur", Float(kMostBlur * frame.radius));
+      program->SetUniformf("given_nearFocus", Float(kNearBlurFocus));
+      program->SetUniformf("given_mostBlur", Float(kMostBlur * frame.radius));
       // As wide as a disc of half the largest.
       program->SetUniformf(
-          "spreadLod", Float(std::max(std::log2(0.3 * kMostBlur * frame.radius / kCoarser), 0.0)));
+          "given_spreadLod",
+          Float(std::max(std::log2(0.3 * kMostBlur * frame.radius / kCoarser), 0.0)));
     }
     DrawInto(*target_.framebuffer, state, size);
-    disturb_quad_.helper->Render();
-    DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens), kFlakeMain);
-    DrawBits(frame, bubbles, kBubbleMain);
+    pass->Draw(size);
+    DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens),
+             flake_passes_[frame.variant], kFlakeMain);
+    DrawBits(frame, bubbles, bubble_passes_[frame.variant], kBubbleMain);
   }
 
   if (d.haze > 0 || d.fog > 0) murk_->Deactivate();

@@ -3,16 +3,19 @@
 // drawn. Needs the OpenGL context of the window that drew the frame.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkTextureObject.h>
 
 #include "app/view/arthroscopic_view.h"
+#include "app/view/shader_pass.h"
 
-class vtkOpenGLQuadHelper;
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
 
@@ -22,8 +25,6 @@ struct DriftingBit;
 
 class LensPass {
  public:
-  LensPass();
-  ~LensPass();
   // `drawn` holds the frame of `picture`, size x size; `light_reach` as the models have it, m.
   void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach, int size);
   vtkOpenGLFramebufferObject& result() { return *target_.framebuffer; }
@@ -37,25 +38,28 @@ class LensPass {
     int size = 0;
   };
   struct Frame;
-  // A full-screen shader, compiled anew where its source is another.
-  struct Quad {
-    std::string source;
-    std::unique_ptr<vtkOpenGLQuadHelper> helper;
-  };
-  static void Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels);
-  static vtkShaderProgram* Ready(Quad& quad, const Frame& frame, const std::string& source);
+  // One a variant of a shader, made when it is first needed.
+  using Pass = std::optional<ShaderPass>;
+  static void Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
+                     float alpha);
+  static vtkShaderProgram* Ready(Pass& pass, const Frame& frame,
+                                 const std::function<ShaderPass()>& make);
   void Gather(const Frame& frame, bool is_far_only);
   void Spread(const Frame& frame);
   void TakeMurk(const Frame& frame);
-  void DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, const char* main);
+  void DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, Pass& pass,
+                const char* main);
   void SetDisturbed(vtkShaderProgram& program, const Frame& frame) const;
 
   Target target_, gathered_, spread_;
   vtkNew<vtkTextureObject> murk_;
   int murk_seed_ = -1;
   double murk_time_ = -1;
-  Quad disturb_quad_, gather_quad_, spread_quad_;
-  unsigned vertex_array_ = 0;  // empty: the bits' shader makes its own corners
+  std::vector<float> places_, looks_;  // of the bits, as they are uploaded
+  Pass spread_pass_;
+  std::array<Pass, 2> gather_passes_;
+  std::array<Pass, 8> flake_passes_, bubble_passes_;
+  std::array<Pass, 32> disturb_passes_;
 };
 
 }  // namespace arthro::app

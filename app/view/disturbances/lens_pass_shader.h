@@ -5,11 +5,10 @@
 
 namespace arthro::app {
 
-inline constexpr const char* kLensPassHead = R"(//VTK::System::Dec
-//VTK::Output::Dec
+inline constexpr const char* kLensPassHead = R"(
 uniform sampler2D depths;
-uniform float windowRadius;  // px
-uniform float nearest, farthest, lightReach;
+steady float windowRadius;  // px
+steady float lightReach;
 // Stored depth; 0 outside the window and under its mark, where nothing was drawn.
 float storedAt(vec2 at) {
   float stored = textureLod(depths, at, 0.0).r;
@@ -26,8 +25,8 @@ inline constexpr const char* kGatherMain = R"(
 in vec2 texCoord;
 uniform sampler2D picture;
 #ifdef FAR_ONLY
-uniform float pixelsOfAngle;  // aperture, m, by px a radian
-uniform float farFocus;
+steady float pixelsOfAngle;  // aperture, m, by px a radian
+steady float farFocus;
 #endif
 void main() {
   float stored = storedAt(texCoord);
@@ -45,7 +44,7 @@ void main() {
 // The near blur, at a quarter of the size: what is near spreads over what is behind it.
 inline constexpr const char* kSpreadMain = R"(
 in vec2 texCoord;
-uniform float pixelsOfAngle, nearFocus, mostBlur;  // mostBlur: px
+steady float pixelsOfAngle, nearFocus, mostBlur;  // mostBlur: px
 float blurOf(vec2 at) {
   float stored = storedAt(at);
   float distance = distanceOf(max(stored, 1e-6));
@@ -62,8 +61,8 @@ void main() {
 // Shared by the whole picture and the bits in it.
 inline constexpr const char* kDisturbShader = R"(
 uniform sampler2D murk;
-uniform float hazeStrength, fogStrength, exposureGain;
-uniform vec3 hazeExtinction;  // 1/m
+steady float hazeStrength, fogStrength, exposureGain;
+steady vec3 hazeExtinction;  // 1/m
 // Linear light is near enough to the square of a stored colour here.
 vec3 hazed(vec3 colour, float distance, vec2 at, float rim) {
   vec2 density = 2.0 * textureLod(murk, at, 0.0).rg;
@@ -109,8 +108,8 @@ in vec2 texCoord;
 uniform sampler2D picture;
 #ifdef BLUR
 uniform sampler2D gathered;
-uniform float pixelsOfAngle, farPixelsOfAngle, nearFocus, farFocus;  // see kGatherMain
-uniform float fogBlur;                         // px
+steady float pixelsOfAngle, farPixelsOfAngle, nearFocus, farFocus;  // see kGatherMain
+steady float fogBlur;                         // px
 // A disc's spread (its variance a sixteenth of the square of its diameter) from the middle and four
 // places of a ring about it, in the copy whose own spread is the rest: a quarter of its texel's
 // square.
@@ -127,7 +126,7 @@ vec3 blurred(vec3 sharp, float diameter) {
 #endif
 #ifdef NEAR_BLUR
 uniform sampler2D spread;
-uniform float spreadLod, mostBlur;
+steady float spreadLod, mostBlur;
 #endif
 void main() {
   float stored = storedAt(texCoord);
@@ -160,12 +159,13 @@ void main() {
 
 // One disc a bit, two triangles each: place (centre, radius, distance), look (angle, shape,
 // opacity, softness).
-inline constexpr const char* kBitVertex = R"(//VTK::System::Dec
+inline constexpr const char* kBitVertex = R"(
 uniform vec4 place[48];
 uniform vec4 look[48];
 out vec2 within;
 flat out vec4 bitPlace, bitLook;
 void main() {
+  handOn();
   int bit = gl_VertexID / 6, corner = gl_VertexID % 6;
   vec2 at = vec2(corner == 1 || corner == 2 || corner == 4 ? 1.0 : -1.0,
                  corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0);
