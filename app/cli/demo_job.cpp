@@ -116,9 +116,10 @@ void Run(const DemoJob& job) {
     const Moment& moment = moments.all()[i];
     if (moment.world) tissues.Show(*moment.world, loaded.scene.tissues, pictures.view(), nullptr);
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
-    WriteColourImage(
-        job.folder / name,
-        pictures.Draw(PictureOf(moment.snapshot, moment.kind, loaded.scene, optics), job.size));
+    // Upright, as surgeons hold it.
+    const Picture picture =
+        PictureOf(moment.snapshot, moment.kind, loaded.scene, optics, {.is_upright = true});
+    WriteColourImage(job.folder / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},
                                 {"t", moment.t},

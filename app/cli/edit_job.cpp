@@ -54,7 +54,7 @@ void AddHandFlags(CLI::App& job, HandFlags& flags) {
 }
 
 struct ScreenFlags {
-  std::string layout{WordOf(FrameShape::kSquare)}, film;
+  std::string layout{WordOf(FrameShape::kSquare)}, film, head{"scope"};
 };
 
 void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
@@ -62,6 +62,12 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
                  "Record the scope's picture there from the beginning: .mp4, .mkv or .avi");
   job.add_option("--layout", flags.layout,
                  "Of films and the trainee's screen: square, 4:3 or 16:9 with black beside it")
+      ->capture_default_str();
+  job.add_option(
+         "--head", flags.head,
+         "Camera head: turning with the scope, or held upright while the scope turns in it; "
+         "T and U change it")
+      ->type_name("scope|upright")
       ->capture_default_str();
   job.add_option_function<std::string>(
          "--trainee-screen",
@@ -82,6 +88,7 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
 // A rig or trace that cannot be used is told before there is a window.
 void Open(EditorOptions options, const HandFlags& flags, const ScreenFlags& screens = {}) {
   options.frame_shape = FrameShapeOf(screens.layout);
+  options.head = simulation::CameraHeadOf(screens.head);
   if (!screens.film.empty()) {
     options.film = screens.film;
     const FilmForm form;

@@ -31,7 +31,7 @@ struct ReplayJob {
   simulation::SessionOptions options;
   fs::path pictures, video;
   ReplayPictures::Form of_pictures, of_video{.size = 720};
-  std::string layout{WordOf(FrameShape::kSquare)};
+  std::string layout{WordOf(FrameShape::kSquare)}, head{"upright"};
 };
 
 // What a replay reads of a scene.
@@ -57,6 +57,7 @@ void Run(const ReplayJob& job) {
   CheckOutputs(outputs, {job.trace, job.scene});
   if (!job.pictures.empty()) CheckOutputFolder(job.pictures, outputs);
   const FrameShape shape = FrameShapeOf(job.layout);
+  const simulation::CameraHead head = simulation::CameraHeadOf(job.head);
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
   if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
   std::string notice;
@@ -68,7 +69,7 @@ void Run(const ReplayJob& job) {
   std::optional<ReplayPictures> pictures;
   std::optional<VideoFile> video;
   if (!job.pictures.empty() || !job.video.empty())
-    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t);
+    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t, head);
   const auto add = [&](ReplayPictures::Form form, ReplayPictures::Take take) {
     form.shape = shape;
     pictures->AddRow(form, std::move(take));
@@ -122,6 +123,12 @@ void AddReplayJob(CLI::App& program) {
       ->add_option("--layout", job->layout,
                    "Of both: square, or the round picture in the middle of a black frame, 4:3 "
                    "or 16:9")
+      ->capture_default_str();
+  command
+      ->add_option("--head", job->head,
+                   "Camera head in both: held upright while the scope turns in it, or turning with "
+                   "the scope as a practice begins")
+      ->type_name("upright|scope")
       ->capture_default_str();
   AddOptions(*command, job->options, "Force");
   command->callback([job] { Run(*job); });

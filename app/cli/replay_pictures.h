@@ -12,6 +12,7 @@
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
 #include "simulation/scene/scene_io.h"
+#include "simulation/scope/camera_head.h"
 #include "simulation/session/replay.h"
 
 namespace arthro::app {
@@ -26,9 +27,11 @@ class ReplayPictures {
   };
 
   // Of a trace from `begin` to `end`, s.
-  ReplayPictures(const LoadedScene& loaded, double begin, double end)
+  ReplayPictures(const LoadedScene& loaded, double begin, double end,
+                 const simulation::CameraHead& head)
       : scene_(loaded.scene),
         optics_(simulation::OpticsOf(loaded.scene.scope, loaded.lens)),
+        head_(head),
         begin_(begin),
         end_(end),
         pictures_(loaded) {}
@@ -45,6 +48,7 @@ class ReplayPictures {
   };
   const Scene& scene_;
   simulation::ScopeOptics optics_;
+  simulation::CameraHead head_;
   double begin_, end_;
   StillPictures pictures_;
   LiveTissues tissues_;
@@ -54,9 +58,9 @@ class ReplayPictures {
 // Makes the folder, and writes frame_00000.png and on. Throws Error(kFile).
 ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
-// What the view shows of a moment: the camera head is held upright, as surgeons do, while the scope
-// turns in it.
+// What the view shows of a moment.
 Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                  const Scene& scene, const simulation::ScopeOptics& optics);
+                  const Scene& scene, const simulation::ScopeOptics& optics,
+                  const simulation::CameraHead& head);
 
 }  // namespace arthro::app

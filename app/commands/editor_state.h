@@ -26,6 +26,7 @@
 #include "app/recording/live_film.h"
 #include "authoring/project/history.h"
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/scope/camera_head.h"
 #include "simulation/scope/rod_pose.h"
 #include "simulation/tissue/body/tissue_preset.h"
 
@@ -120,9 +121,10 @@ struct EditorState {
   std::optional<Practice> poke;  // the author's live poke (tissue/tissue_poke.h)
   int poke_of = 0;               // position of the history that it was made of
   std::optional<PivotCalibrating> calibrating;
-  bool shows_devices = false;  // their panel, instead of the practice's
-  Disturbing disturbing;       // of a practice's picture
-  bool practice_only = false;  // the practise job: no editor behind it
+  bool shows_devices = false;   // their panel, instead of the practice's
+  Disturbing disturbing;        // of a practice's picture
+  simulation::CameraHead head;  // of a practice's scope
+  bool practice_only = false;   // the practise job: no editor behind it
   // Of the scope's picture: while it is recorded (screens/film.h), and what became of the last one.
   FrameShape frame_shape = FrameShape::kSquare;  // of films and of the trainee's screen
   std::unique_ptr<LiveFilm> film;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <GLFW/glfw3.h>
 #include <glm/geometric.hpp>
@@ -14,6 +15,7 @@ using simulation::RodPose;
 constexpr double kSwing = 0.35;       // rad/s: a view is crossed in about four seconds
 constexpr double kInsertion = 0.012;  // m/s
 constexpr double kRoll = 1.2;         // rad/s
+constexpr double kHeadTurn = 0.7;     // rad/s
 
 constexpr HandMotion kMotions[] = {
     {"Swing the scope's tip left", GLFW_KEY_LEFT, "Left", false, true, {0, -kSwing, 0, 0}},
@@ -32,6 +34,8 @@ constexpr HandMotion kMotions[] = {
     {"Instrument back", GLFW_KEY_F, "F", true, false, {0, 0, 0, -kInsertion}},
     {"Roll the instrument to the left", GLFW_KEY_Z, "Z", true, false, {0, 0, -kRoll, 0}},
     {"Roll the instrument to the right", GLFW_KEY_X, "X", true, false, {0, 0, kRoll, 0}},
+    {"Turn the camera head to the left", GLFW_KEY_G, "G", false, false, {}, -kHeadTurn},
+    {"Turn the camera head to the right", GLFW_KEY_H, "H", false, false, {}, kHeadTurn},
 };
 
 }  // namespace
@@ -50,6 +54,13 @@ RodPose MotionOfKeys(bool instrument, bool picture_has_focus, double seconds,
         held(motion.key))
       sum = Sum(sum, {motion.a_second.latitude * seconds, motion.a_second.longitude * seconds,
                       motion.a_second.roll * seconds, motion.a_second.depth * seconds});
+  return sum;
+}
+
+double HeadTurnOfKeys(double seconds, const std::function<bool(int key)>& held) {
+  double sum = 0;
+  for (const HandMotion& motion : kMotions)
+    if (motion.head_a_second != 0 && held(motion.key)) sum += motion.head_a_second * seconds;
   return sum;
 }
 
@@ -88,6 +99,12 @@ bool MoveHands(EditorState& state, const RodPose& scope, const RodPose& instrume
     state.poke->scope().Set(state.scope);
     state.poke->instrument().Set(state.instrument);
   }
+  return true;
+}
+
+bool TurnHead(EditorState& state, double angle) {
+  if (!state.practice || angle == 0) return false;
+  state.head.turn = std::remainder(state.head.turn + angle, 2.0 * std::numbers::pi);
   return true;
 }
 

@@ -20,6 +20,7 @@ void StartPractice(EditorState& state, std::function<void(EditorState&)> then) {
       const auto practice = std::make_shared<Practice>(document, presets, pace);
       return [practice, then](EditorState& now) {  // shared only because a std::function is copied
         now.practice.emplace(std::move(*practice));
+        now.head.turn = 0;
         now.message = "Practice. Esc leaves it.";
         if (then) then(now);
       };

@@ -177,6 +177,7 @@ class Editor {
     if (!options_.practice && !state_.document().folder.empty())
       state_.recent.Add(state_.document().folder);
     state_.frame_shape = options_.frame_shape;
+    state_.head = options_.head;
     state_.trainee_screen = {options_.trainee_screen.has_value(),
                              options_.trainee_screen.value_or(0), ""};
     if (options_.practice)

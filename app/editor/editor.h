@@ -7,6 +7,7 @@
 
 #include "app/commands/devices/hands.h"
 #include "app/recording/frame_shape.h"
+#include "simulation/scope/camera_head.h"
 
 namespace arthro::app {
 
@@ -16,6 +17,7 @@ struct EditorOptions {
   HandsChoice hands;                           // devices that hold them
   std::optional<std::filesystem::path> film;   // of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
+  simulation::CameraHead head;
   std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
   // For tests.
   std::optional<std::filesystem::path> script;

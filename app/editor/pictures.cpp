@@ -7,6 +7,7 @@
 #include "app/commands/same.h"
 #include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_cut.h"
+#include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -38,15 +39,19 @@ Projection Shrunk(Projection projection, double factor) {
 
 Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optics) {
   const Scene& scene = state.document().scene;
-  Picture picture;
-  picture.field_of_view = optics.field_of_view;
+  const simulation::RodPose& scope =
+      state.practice ? state.practice->snapshot().scope.pose : state.scope;
+  std::optional<double> head_roll;
+  if (state.practice) head_roll = simulation::HeadRoll(state.head, scope.roll);
+  Picture picture =
+      PictureFromPose(scope, state.practice ? state.practice->view_angle() : scene.scope.view_angle,
+                      optics.field_of_view, head_roll);
   picture.lens = optics.lens;
   picture.relief = kUsualRelief;
   picture.samples = 2;
   const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
   if (state.practice) {
     const auto& snapshot = state.practice->snapshot();
-    picture.view = simulation::ViewFromPose(snapshot.scope.pose, state.practice->view_angle());
     const auto& tool = snapshot.instrument;
     picture.instrument = InstrumentView{portal,         tool.proxy_in_portal,
                                         tool.pose.roll, state.practice->instrument_kind(),
@@ -55,7 +60,6 @@ Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optic
     // What stands still is not drawn anew.
     if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
   } else {
-    picture.view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
     picture.instrument =
         InstrumentView{portal,
                        state.poke ? state.poke->snapshot().instrument.proxy_in_portal

@@ -176,8 +176,10 @@ bool ApplyHeldKeys(EditorState& state, bool picture_has_focus, double seconds) {
   const auto held = [&](int key) { return io.KeysDown[key]; };
   if (state.practice) state.practice->Press(held(kActKey));
   state.hands->HoldDeadMan(held(kDeadManKey));
+  const bool is_turned = TurnHead(state, HeadTurnOfKeys(seconds, held));
   return MoveHands(state, MotionOfKeys(false, picture_has_focus, seconds, held),
-                   MotionOfKeys(true, picture_has_focus, seconds, held));
+                   MotionOfKeys(true, picture_has_focus, seconds, held)) ||
+         is_turned;
 }
 
 }  // namespace arthro::app

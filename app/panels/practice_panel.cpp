@@ -101,23 +101,51 @@ double Taken(const EditorState& state) {
   return removed;
 }
 
+// Commands side by side, each as wide as its words ask; lit while what they stand for is on.
+void CommandRow(Ui& ui, EditorState& state,
+                std::initializer_list<std::pair<const char*, bool>> row) {
+  const float gap = ui.Px(6), count = static_cast<float>(row.size());
+  float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
+  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(id).words).x;
+  bool is_first = true;
+  for (const auto& [id, is_on] : row) {
+    if (!is_first) ImGui::SameLine(0, gap);
+    is_first = false;
+    const Command& command = CommandOf(id);
+    const float width = ImGui::CalcTextSize(command.words).x + spare / count;
+    const std::string keys = WordsOf(command.shortcut);
+    const std::string tip = command.help + (keys.empty() ? keys : " (" + keys + ")");
+    if (ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)},
+                     tip.c_str()))
+      Run(state, command);
+  }
+}
+
+// How the camera's head is held, and by how much it was turned from there.
+void CameraHead(Ui& ui, EditorState& state) {
+  const double turn = DegreesFromRadians(state.head.turn);
+  QuietText(ui, std::abs(turn) < 0.5 ? std::string("Camera head (T, U; G and H turn it)")
+                                     : fmt::format("Camera head, turned {:.0f}° to the {}",
+                                                   std::abs(turn), turn < 0 ? "left" : "right"));
+  ImGui::PushButtonRepeat(true);
+  CommandRow(ui, state,
+             {{"head-with-scope", !state.head.is_upright},
+              {"head-upright", state.head.is_upright},
+              {"head-left", false},
+              {"head-right", false}});
+  ImGui::PopButtonRepeat();
+}
+
 // Which one is in the hand, and what was taken with it.
 void Instruments(Ui& ui, EditorState& state) {
   QuietText(ui, "Instrument (C closes or runs it)");
-  constexpr std::pair<const char*, simulation::ToolKind> kInstruments[] = {
-      {"instrument-probe", simulation::ToolKind::kProbe},
-      {"instrument-punch", simulation::ToolKind::kPunch},
-      {"instrument-shaver", simulation::ToolKind::kShaver},
-      {"instrument-grasper", simulation::ToolKind::kGrasper}};
-  const float width = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
-  int column = 0;
-  for (const auto& [id, kind] : kInstruments) {
-    if (column++ % 2 == 1) ImGui::SameLine(0, ui.Px(6));
-    const Command& command = CommandOf(id);
-    const bool chosen = state.practice->instrument_kind() == kind;
-    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(kButton)}, command.help))
-      Run(state, command);
-  }
+  using simulation::ToolKind;
+  const ToolKind kind = state.practice->instrument_kind();
+  CommandRow(ui, state,
+             {{"instrument-probe", kind == ToolKind::kProbe},
+              {"instrument-punch", kind == ToolKind::kPunch},
+              {"instrument-shaver", kind == ToolKind::kShaver},
+              {"instrument-grasper", kind == ToolKind::kGrasper}});
   const auto* world = state.practice->tissues();
   if (world == nullptr) return;
   const double removed = Taken(state);
@@ -148,25 +176,6 @@ void FilmMark(Ui& ui, const EditorState& state, float top) {
     QuietText(ui, fmt::format("{} picture{} left out", left_out, left_out == 1 ? "" : "s"));
   }
   ImGui::SetCursorPos(back);
-}
-
-// Commands side by side, each as wide as its words ask; lit while what they stand for is on.
-void CommandRow(Ui& ui, EditorState& state,
-                std::initializer_list<std::pair<const char*, bool>> row) {
-  const float gap = ui.Px(6), count = static_cast<float>(row.size());
-  float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
-  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(id).words).x;
-  bool is_first = true;
-  for (const auto& [id, is_on] : row) {
-    if (!is_first) ImGui::SameLine(0, gap);
-    is_first = false;
-    const Command& command = CommandOf(id);
-    const float width = ImGui::CalcTextSize(command.words).x + spare / count;
-    const std::string tip = command.help + (" (" + WordsOf(command.shortcut) + ")");
-    if (ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)},
-                     tip.c_str()))
-      Run(state, command);
-  }
 }
 
 // What became of the last film and of the trainee's screen. True: there was something to say.
@@ -235,10 +244,9 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
     ColouredText(ui, FaultWords(instrument.fault), kWarning);
 
   Gap(ui);
-  QuietText(ui, "Scope");
   const auto& pose = practice.snapshot().scope.pose;
-  Text(ui, fmt::format("{:.0f}° view angle, {:.1f} mm deep",
-                       DegreesFromRadians(practice.view_angle()), MmFromMetres(pose.depth)));
+  QuietText(ui, fmt::format("Scope: {:.0f}° view angle, {:.1f} mm deep",
+                            DegreesFromRadians(practice.view_angle()), MmFromMetres(pose.depth)));
   const float width = (ImGui::GetContentRegionAvail().x - 3 * ui.Px(6)) / 4;
   int column = 0;
   for (const int degrees : {0, 30, 70, 90}) {
@@ -249,16 +257,16 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
       Run(state, command);
   }
   Gap(ui);
+  CameraHead(ui, state);
+  Gap(ui);
   Instruments(ui, state);
   Gap(ui);
-  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-  if (Taken(state) > 0) CommandButton(ui, state, "reset-tissues", {-FLT_MIN, ui.Px(kButton)});
-  CommandButton(ui, state, "reset-hands", {half, ui.Px(kButton)});
-  ImGui::SameLine(0, ui.Px(8));
-  const Command& disturbances = CommandOf("disturbances");
-  if (ToggleButton(ui, disturbances.words, state.disturbing.now.is_any(), true,
-                   {-FLT_MIN, ui.Px(kButton)}, disturbances.help))
-    Run(state, disturbances);
+  const bool is_disturbed = state.disturbing.now.is_any();
+  if (Taken(state) > 0)
+    CommandRow(ui, state,
+               {{"reset-hands", false}, {"disturbances", is_disturbed}, {"reset-tissues", false}});
+  else
+    CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}});
   Gap(ui);
   // What is missing is more urgent than the hint, and there is room for one of them.
   if (!MissingDevices(ui, state) && !ScreenNews(ui, state))

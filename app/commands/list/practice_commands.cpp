@@ -5,6 +5,7 @@
 
 #include "app/commands/devices/calibrate_incision.h"
 #include "app/commands/edits.h"
+#include "app/commands/hand_motion.h"
 #include "app/commands/list/command_groups.h"
 #include "app/commands/screens/film.h"
 #include "app/commands/start_practice.h"
@@ -31,6 +32,7 @@ void ResetHands(State& state) {
   if (state.practice) {
     state.practice->scope().Set(StartOfScope(state.document().scene));
     state.practice->instrument().Set(StartOfInstrument(state.document().scene));
+    state.head.turn = 0;
   }
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
@@ -61,6 +63,19 @@ void LookAt(State& state) {
 template <simulation::ToolKind kind>
 void TakeInstrument(State& state) {
   state.practice->SetInstrument(kind);
+}
+
+// However it was turned, the head is straight again.
+template <bool is_upright>
+void HoldHead(State& state) {
+  state.head = {.is_upright = is_upright};
+  state.message = is_upright ? "The camera head is held upright; the scope turns in it."
+                             : "The camera head turns with the scope.";
+}
+
+template <int steps>
+void StepHead(State& state) {
+  TurnHead(state, steps * kHeadStep);
 }
 
 template <Step step>
@@ -133,6 +148,38 @@ constexpr Command kCommands[] = {
      {},
      [](const State& state) { return state.document().panorama != nullptr && ShowsScope(state); },
      ResetHands},
+    {"head-with-scope",
+     "With scope",
+     "The camera head turns with the scope, and the picture with it.",
+     "Practice",
+     {GLFW_KEY_T},
+     {},
+     Practising,
+     HoldHead<false>},
+    {"head-upright",
+     "Upright",
+     "The camera head is held upright while the scope turns in it.",
+     "Practice",
+     {GLFW_KEY_U},
+     {},
+     Practising,
+     HoldHead<true>},
+    {"head-left",
+     "Turn left",
+     "Turn the camera head to the left; G does while it is held.",
+     "Practice",
+     {},
+     {},
+     Practising,
+     StepHead<-1>},
+    {"head-right",
+     "Turn right",
+     "Turn the camera head to the right; H does while it is held.",
+     "Practice",
+     {},
+     {},
+     Practising,
+     StepHead<1>},
     {"instrument-probe",
      "Probe",
      "Feel and lift with the hook.",

@@ -1,11 +1,16 @@
 // A session again from what its devices said.
+#include <cmath>
+#include <numbers>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_format.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/scope/rod_pose.h"
 #include "tests/support/film_frames.h"
 #include "tests/support/run_program.h"
 #include "tests/support/small_scene.h"
@@ -119,6 +124,52 @@ TEST(ReplayJob, AFilmLastsAsLongAsTheTraceAndHoldsThePictures) {
   ASSERT_EQ(play("--video " + film.string() + " --video-size 180 --fps 24 --layout 4:3").exit_code,
             0);
   EXPECT_TRUE(ReadWholeFile(film) == bytes) << "the same trace gave another film";
+}
+
+// A scope at a view angle of 30 degrees that is rolled by a quarter turn: upright, its picture is
+// the one that turns with it, a quarter turn to the right, but for the lamp, which stands above the
+// lens.
+TEST(ReplayJob, PicturesHoldTheCameraHeadUprightOrTurnItWithTheScope) {
+  TempFolder folder;
+  const auto scene = WriteSmallScene(folder / "knee");
+  std::vector<TraceRow> trace(2);
+  trace[1].sample.t = 0.01;
+  for (TraceRow& row : trace) {
+    const RodPose pose{0.1, 0.2, 0.5 * std::numbers::pi, 0.012};
+    row.device = DeviceRole::kScope;
+    row.sample.hip_in_device = HipFromRodPose(pose, {});
+    row.sample.handle_in_device = HandleFromRodPose(pose, {});
+    row.sample.valid = true;
+  }
+  WriteTrace(folder / "rolled.csv", trace);
+  const auto seen = [&](const std::string& name, const std::string& flags) {
+    const ProgramResult run =
+        RunProgram("replay " + scene.string() + " " + (folder / "rolled.csv").string() + " -o " +
+                   (folder / "f.csv").string() + " --pictures " + (folder / name).string() +
+                   " --size 200 " + flags);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ColourImage picture = ReadColourImage(folder / name / "frame_00000.png");
+    return cv::Mat(picture.height, picture.width, CV_8UC3,
+                   const_cast<std::uint8_t*>(picture.rgb.data()))
+        .clone();
+  };
+  const cv::Mat usual = seen("a", ""), upright = seen("b", "--head upright"),
+                with = seen("c", "--head scope");
+  const auto off = [&](const cv::Mat& a, const cv::Mat& b) {
+    return cv::norm(a, b, cv::NORM_L1) / (3.0 * 200 * 200);
+  };
+  cv::Mat turned;
+  cv::rotate(with, turned, cv::ROTATE_90_CLOCKWISE);
+  std::printf("off by %.2f of 255, %.2f where it is not turned\n", off(turned, upright),
+              off(with, upright));
+  EXPECT_EQ(off(usual, upright), 0.0);
+  EXPECT_LT(off(turned, upright), 2.0);
+  EXPECT_GT(off(with, upright), 10.0);
+  EXPECT_EQ(RunProgram("replay " + scene.string() + " " + (folder / "rolled.csv").string() +
+                       " -o " + (folder / "g.csv").string() + " --head left")
+                .exit_code,
+            1);
+  EXPECT_FALSE(std::filesystem::exists(folder / "g.csv"));
 }
 
 TEST(ReplayJob, AFilmThatCannotBeIsRefusedBeforeAnythingIsPlayed) {

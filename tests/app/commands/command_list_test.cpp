@@ -478,6 +478,34 @@ TEST_F(Commands, InPracticeTheInstrumentPressesOnTheJointAndTheForceIsShown) {
   EXPECT_GE(state.practice->peak_force(), glm::length(instrument.tip_force));
 }
 
+TEST_F(Commands, TheCameraHeadIsHeldOrTurnsWithTheScopeAndEveryPracticeBeginsWithItStraight) {
+  Open();
+  app::Run(state, "head-upright");
+  EXPECT_FALSE(state.head.is_upright) << "only in practice";
+  app::Run(state, "practise");
+  Settle(state);
+  ASSERT_TRUE(state.practice);
+  EXPECT_EQ(state.head, simulation::CameraHead{}) << "with the scope, as in the paper";
+  app::Run(state, "head-upright");
+  for (int i = 0; i < 3; ++i) app::Run(state, "head-right");
+  app::Run(state, "head-left");
+  EXPECT_TRUE(state.head.is_upright);
+  EXPECT_NEAR(state.head.turn, 2 * kHeadStep, 1e-15);
+  for (int i = 0; i < 91; ++i) app::Run(state, "head-right");
+  EXPECT_NEAR(state.head.turn, RadiansFromDegrees(2 * 93 - 360), 1e-7) << "round and on";
+  app::Run(state, "reset-hands");
+  EXPECT_EQ(state.head, simulation::CameraHead{.is_upright = true});
+  TurnHead(state, 0.4);
+  app::Run(state, "head-with-scope");
+  EXPECT_EQ(state.head, simulation::CameraHead{}) << "and straight again";
+  TurnHead(state, 0.4);
+  app::Run(state, "leave-practice");
+  EXPECT_FALSE(TurnHead(state, 0.1));
+  app::Run(state, "practise");
+  Settle(state);
+  EXPECT_EQ(state.head.turn, 0.0);
+}
+
 TEST_F(Commands, ALongPauseIsNotMadeUpFor) {
   Open();
   app::Run(state, "practise");

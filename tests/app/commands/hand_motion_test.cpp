@@ -34,6 +34,15 @@ TEST(HandMotion, AHeldKeyMovesItsHandByTheTimeThatPassed) {
       << "page keys scroll when the picture has no focus";
 }
 
+TEST(HandMotion, GAndHTurnTheCameraHeadByTheTimeThatPassed) {
+  const auto only = [](int key) { return [key](int held) { return held == key; }; };
+  const double right = HeadTurnOfKeys(0.5, only(GLFW_KEY_H));
+  EXPECT_GT(right, 0.2);
+  EXPECT_EQ(HeadTurnOfKeys(0.5, only(GLFW_KEY_G)), -right);
+  EXPECT_EQ(HeadTurnOfKeys(0.5, only(GLFW_KEY_E)), 0.0);
+  EXPECT_EQ(MotionOfKeys(false, true, 0.5, only(GLFW_KEY_H)).roll, 0.0) << "not the scope's";
+}
+
 TEST(TissuePose, AnglesGiveBackTheRotationTheyCameFrom) {
   double worst = 0;
   for (const double x : {-170.0, -90.0, -10.0, 0.0, 35.0, 179.0})

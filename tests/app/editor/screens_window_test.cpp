@@ -1,5 +1,7 @@
 // What of a practice is shown beside its window: films of it, and the view from outside.
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -105,6 +107,71 @@ TEST_F(ScreensWindow, TheViewFromOutsideStandsInACornerUntilItIsTakenAway) {
   EXPECT_GT(inside, 20000);
   EXPECT_EQ(outside, 0) << "the hands stand still";
   EXPECT_EQ(left, 0);
+}
+
+// Of the round picture in a window of 1280x800: where its mark stands, degrees from the top towards
+// the right. The mark is black and reaches 0.925 of the radius.
+double MarkAngle(const ColourImage& window) {
+  const double centre_x = 455, centre_y = 400, radius = 392;
+  double darkest = 1e9, found = 0;
+  for (double degrees = -180; degrees < 180; degrees += 0.5) {
+    const double a = degrees * std::numbers::pi / 180;
+    double sum = 0;
+    for (double r = 0.94; r < 0.975; r += 0.005)
+      sum += window.at(static_cast<int>(centre_x + r * radius * std::sin(a)),
+                       static_cast<int>(centre_y - r * radius * std::cos(a)))[0];
+    if (sum < darkest) darkest = sum, found = degrees;
+  }
+  return found;
+}
+
+// Pixels of the picture's area that differ.
+long Differing(const ColourImage& a, const ColourImage& b) {
+  long count = 0;
+  for (int y = 0; y < 800; ++y)
+    for (int x = 0; x < 910; ++x) count += !std::equal(a.at(x, y), a.at(x, y) + 3, b.at(x, y));
+  return count;
+}
+
+// Held for 40 frames of 1/60 s, E rolls the scope by 46 degrees, and H turns the head by 27; a key
+// is down for a frame or two more.
+TEST_F(ScreensWindow, TheCameraHeadTurnsWithTheScopeOrIsHeldAndTheRimsMarkFollows) {
+  std::string script = "wait job\nwait frames 5\nexpect value \"With scope\" on\n";
+  const auto shoot = [&](const std::string& name) {
+    script += "hover \"Full screen\"\nwait frames 10\nshot " + (temp / name).string() + "\n";
+  };
+  script += "hold e 40\n";
+  shoot("with.png");
+  script += "click Upright\nexpect value Upright on\nexpect value \"With scope\" off\n";
+  shoot("upright.png");
+  script += "hold h 40\nexpect \"to the right\"\n";
+  shoot("turned.png");
+  script +=
+      "key u\nexpect not \"to the right\"\nclick \"Turn right\"\n"
+      "expect \"turned 2° to the right\"\nclick \"Turn left\"\n"
+      "click \"Turn left\"\nexpect \"turned 2° to the left\"\nclick \"Turn right\"\n";
+  shoot("again.png");
+  script += "key t\nexpect value \"With scope\" on\n";
+  shoot("back.png");
+  const auto result = Practise("", script);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto read = [&](const char* name) { return ReadColourImage(temp / name); };
+  const ColourImage with = read("with.png"), upright = read("upright.png");
+  const double roll = MarkAngle(upright), turned = MarkAngle(read("turned.png"));
+  std::printf("mark at %.1f with the scope, %.1f upright, %.1f turned\n", MarkAngle(with), roll,
+              turned);
+  EXPECT_NEAR(MarkAngle(with), 0.0, 1.5);
+  EXPECT_NEAR(roll, 47.5, 3.0);
+  EXPECT_NEAR(roll - turned, 27.5, 2.5);
+  EXPECT_EQ(Differing(read("again.png"), upright), 0);
+  EXPECT_EQ(Differing(read("back.png"), with), 0);
+}
+
+TEST_F(ScreensWindow, APracticeCanBeginWithTheHeadUprightAndNoOtherWordIsTaken) {
+  EXPECT_EQ(Practise("--head upright", "wait job\nexpect value Upright on\n").exit_code, 0);
+  const auto result = test::RunProgram("practise " + scene.string() + " --head up", "DISPLAY=");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("give one of the two"), std::string::npos) << result.err;
 }
 
 // The picture's pixels in both windows: 600x600 in the first, which its size of 986x616 leaves it,
