@@ -119,4 +119,16 @@ ScopeOptics OpticsOf(const ScopeSpec& scope, const std::optional<Lens>& lens,
   }
 }
 
+glm::dvec3 RayThrough(const ScopeOptics& optics, const ScopeView& view,
+                      const glm::dvec2& place) noexcept {
+  const glm::dvec2 offset = place - optics.lens.axis;
+  const double squared = std::min(glm::dot(offset, offset), optics.lens.end);
+  // Equal-area: with s = sin(θ/2), cos θ = 1 − 2 s² and sin θ = 2 s √(1 − s²).
+  const glm::dvec2 s =
+      LensFactor(optics.lens.inward, squared) * std::sin(0.25 * optics.field_of_view) * offset;
+  const double s2 = std::min(glm::dot(s, s), 1.0);
+  const glm::dvec2 across = 2.0 * std::sqrt(1.0 - s2) * s;
+  return across.x * view.right + across.y * view.up + (1.0 - 2.0 * s2) * view.view;
+}
+
 }  // namespace arthro::simulation

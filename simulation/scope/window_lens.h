@@ -12,6 +12,7 @@
 
 #include "simulation/scene/lens.h"
 #include "simulation/scene/scene.h"
+#include "simulation/scope/arthroscope.h"
 
 namespace arthro::simulation {
 
@@ -43,6 +44,10 @@ struct ScopeOptics {
 };
 ScopeOptics OpticsOf(const ScopeSpec& scope, const std::optional<Lens>& lens,
                      std::optional<double> field_of_view = std::nullopt);
+
+// Unit ray in the portal frame of a place in the window, right and up in its radii.
+glm::dvec3 RayThrough(const ScopeOptics& optics, const ScopeView& view,
+                      const glm::dvec2& place) noexcept;
 
 // Even polynomial `factor` of a squared radius.
 double LensFactor(const std::array<double, WindowLens::kTerms>& factor, double squared) noexcept;

@@ -226,7 +226,8 @@ std::vector<TracedRay> TraceRays(const Backdrop& backdrop, const ColourImage& pa
 
 TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                           const simulation::ScopeView& view, double field_of_view, int size,
-                          std::span<const ReferenceMesh> meshes, const DepthMap* depth) {
+                          std::span<const ReferenceMesh> meshes, const DepthMap* depth,
+                          const Lens* lens) {
   TracedPicture picture;
   picture.colours = ColourImage(size, size);
   picture.what.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
@@ -236,7 +237,7 @@ TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
   std::vector<std::size_t> pixels;  // of each ray
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
-      if (const auto ray = ReferenceRay(view, field_of_view, size, {x, y})) {
+      if (const auto ray = ReferenceRay(view, field_of_view, size, {x, y}, lens)) {
         rays.push_back(*ray);
         pixels.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
                          static_cast<std::size_t>(x));

@@ -91,10 +91,10 @@ struct TracedPicture {
   std::vector<double> distance;  // from the tip, m; 0 where kOutside
 };
 
-// The rays of a whole window.
+// The rays of a whole window; with a lens it is its circle, as for ReferenceRay.
 TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                           const simulation::ScopeView& view, double field_of_view, int size,
                           std::span<const ReferenceMesh> meshes = {},
-                          const DepthMap* depth = nullptr);
+                          const DepthMap* depth = nullptr, const Lens* lens = nullptr);
 
 }  // namespace arthro::app

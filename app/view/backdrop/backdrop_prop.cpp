@@ -136,8 +136,8 @@ void BackdropProp::SetPicture(const Picture& picture, int size, const LensRod& r
   rod_ = rod;
   gain_ = 1;
   if (backdrop_.relight > 0 && !picture.plain && !grid_.blocks.empty())
-    gain_ =
-        AutomaticGain(grid_, light_, backdrop_, picture.view, picture.field_of_view, light_reach());
+    gain_ = AutomaticGain(grid_, light_, backdrop_, picture.view,
+                          {picture.field_of_view, picture.lens}, light_reach());
 }
 
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {

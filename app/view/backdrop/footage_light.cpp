@@ -220,16 +220,16 @@ FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
 }
 
 double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
-                     const simulation::ScopeView& view, double field_of_view, double light_reach) {
+                     const simulation::ScopeView& view, const simulation::ScopeOptics& optics,
+                     double light_reach) {
   constexpr int kAcross = 15;  // rays
-  const simulation::RoundWindow window{field_of_view, glm::dvec2(0.0), 1.0};
   double sum = 0, total = 0;
   for (int j = 0; j < kAcross; ++j)
     for (int i = 0; i < kAcross; ++i) {
       const glm::dvec2 place = (glm::dvec2(i, j) + 0.5) * (2.0 / kAcross) - 1.0;
-      const auto ray = simulation::RayFromPixel(window, view, place);
-      if (!ray) continue;
-      const glm::dvec3 out = glm::normalize(simulation::SphereHit(view.tip, *ray, backdrop.radius));
+      if (glm::dot(place, place) > 1.0) continue;
+      const glm::dvec3 ray = simulation::RayThrough(optics, view, {place.x, -place.y});
+      const glm::dvec3 out = glm::normalize(simulation::SphereHit(view.tip, ray, backdrop.radius));
       const auto pixel = PixelFromDirection(backdrop.projection, out);
       if (!pixel) continue;
       const double inside =

@@ -8,7 +8,7 @@
 
 #include "simulation/scene/image.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scope/arthroscope.h"
+#include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
@@ -60,6 +60,7 @@ inline constexpr double kLampRadius = 0.004;  // m
 // camera's automatic gain, as a smooth function of where the scope is. Rays over the window, more
 // in its middle; without models. 1 where it sees nothing that was imaged.
 double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
-                     const simulation::ScopeView& view, double field_of_view, double light_reach);
+                     const simulation::ScopeView& view, const simulation::ScopeOptics& optics,
+                     double light_reach);
 
 }  // namespace arthro::app

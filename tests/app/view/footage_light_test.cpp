@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/bench/view/reference_tracer.h"
+#include "app/view/srgb.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 
@@ -34,16 +36,18 @@ TEST(FootageLight, GainOfAGreySphereIsTheClosedForm) {
   const double reach = 0.0275;
   const double expected = (0.05 * 0.05 + kLampRadius * kLampRadius) / (reach * reach);
   const auto view = [](double depth) { return simulation::ViewFromPose({0, 0, 0, depth}, 0.0); };
-  EXPECT_NEAR(AutomaticGain(grid, MeasureLight(grid), backdrop, view(0.0), 1.5, reach), expected,
-              1e-3 * expected);
+  EXPECT_NEAR(AutomaticGain(grid, MeasureLight(grid), backdrop, view(0.0), {1.5, {}}, reach),
+              expected, 1e-3 * expected);
   // White and near, the picture is as bright as the footage still was: it does not blow out.
   const LightGrid white = MakeLightGrid(Grey(400, 400, 250), {});
-  const double near = AutomaticGain(white, MeasureLight(white), backdrop, view(0.044), 0.2, reach);
+  const double near =
+      AutomaticGain(white, MeasureLight(white), backdrop, view(0.044), {0.2, {}}, reach);
   EXPECT_NEAR(near, (0.006 * 0.006 + kLampRadius * kLampRadius) / (reach * reach), 0.02 * near);
   // Nearer it takes less gain, and goes there smoothly.
   double before = expected;
   for (double depth = 0.001; depth < 0.038; depth += 0.001) {
-    const double gain = AutomaticGain(grid, MeasureLight(grid), backdrop, view(depth), 1.5, reach);
+    const double gain =
+        AutomaticGain(grid, MeasureLight(grid), backdrop, view(depth), {1.5, {}}, reach);
     EXPECT_LT(gain, before);
     EXPECT_GT(gain, 0.8 * before);
     before = gain;
@@ -54,12 +58,12 @@ TEST(FootageLight, NothingImagedOrBlackNeedsNoGain) {
   const Backdrop backdrop = PlainBackdrop(64, 48);
   const auto view = simulation::ViewFromPose({0, 0, 0, 0.01}, 0.0);
   const LightGrid nothing = MakeLightGrid(Grey(64, 48, 90), DepthMap(64, 48, NAN));
-  EXPECT_EQ(AutomaticGain(nothing, MeasureLight(nothing), backdrop, view, 1.5, 0.03), 1.0);
+  EXPECT_EQ(AutomaticGain(nothing, MeasureLight(nothing), backdrop, view, {1.5, {}}, 0.03), 1.0);
   const LightGrid black = MakeLightGrid(Grey(64, 48, 0), {});
-  EXPECT_EQ(AutomaticGain(black, MeasureLight(black), backdrop, view, 1.5, 0.03), 1.0);
+  EXPECT_EQ(AutomaticGain(black, MeasureLight(black), backdrop, view, {1.5, {}}, 0.03), 1.0);
   const LightGrid one = MakeLightGrid(Grey(1, 1, 90), {});
-  EXPECT_TRUE(
-      std::isfinite(AutomaticGain(one, MeasureLight(one), PlainBackdrop(1, 1), view, 1.5, 0.03)));
+  EXPECT_TRUE(std::isfinite(
+      AutomaticGain(one, MeasureLight(one), PlainBackdrop(1, 1), view, {1.5, {}}, 0.03)));
 }
 
 // Checks under a lamp that falls to a quarter from left to right.
@@ -108,27 +112,88 @@ TEST(FootageLight, OfASideIsThatSides) {
   EXPECT_EQ(MeasureLight(grid, backdrop.projection, {0, 0, -1}, 0.3).mean, MeasureLight(grid).mean);
 }
 
-class LitView : public ViewTest {};
+// The axis stands aside by a quarter of the window's radius.
+Lens AsideLens() {
+  Lens lens;
+  lens.model = LensModel::kKannalaBrandt;
+  lens.width = 720, lens.height = 576;
+  lens.focal_px = 290;
+  lens.cx = 360 + 65, lens.cy = 288;
+  lens.k = {-0.09, 0.015, 0, 0};
+  lens.circle = {360, 288, 255};
+  return lens;
+}
+
+// A footage that grows darker from left to right, through a lens that stands aside: the gain by
+// every pixel of the window through the lens' own formulas. 15 rays across instead of 401, and
+// blocks of 5 px, are good to 1 %.
+TEST(FootageLight, GainGoesByWhatTheScenesOwnLensShows) {
+  const Backdrop backdrop = PlainBackdrop(480, 480);
+  ColourImage footage(480, 480);
+  const auto level = [](double x) { return std::lround(220 * std::exp(-x / 150)); };
+  for (int y = 0; y < 480; ++y)
+    for (int x = 0; x < 480; ++x)
+      for (int c = 0; c < 3; ++c) footage.at(x, y)[c] = static_cast<std::uint8_t>(level(x));
+  const LightGrid grid = MakeLightGrid(footage, {});
+  const Lens lens = AsideLens();
+  const simulation::ScopeOptics optics = simulation::OpticsOf({}, lens);
+  const auto view = simulation::ViewFromPose({0.1, 0, 0, 0.02}, 0.2);
+  const double reach = 0.0275;
+  constexpr int kAcross = 401;
+  double sum = 0, total = 0;
+  for (int y = 0; y < kAcross; ++y)
+    for (int x = 0; x < kAcross; ++x) {
+      const auto ray = ReferenceRay(view, optics.field_of_view, kAcross, {x, y}, &lens);
+      if (!ray) continue;
+      const glm::dvec3 hit = *ReferenceSphereHit(view.tip, *ray, backdrop.radius);
+      const auto pixel = ReferencePixel(backdrop.projection, hit);
+      if (!pixel || pixel->x < 0 || pixel->y < 0 || pixel->x > 479 || pixel->y > 479) continue;
+      const double away = glm::distance(hit, view.tip);
+      const double r = std::hypot(x - 200.0, y - 200.0) / 200.5;
+      const double light = reach * reach / (away * away + kLampRadius * kLampRadius);
+      sum += (1.25 - r * r) * LinearFromSrgb(static_cast<std::uint8_t>(level(pixel->x))) * light;
+      total += 1.25 - r * r;
+    }
+  const FootageLight light = MeasureLight(grid);
+  const double expected = light.mean.g * total / sum;
+  const double with = AutomaticGain(grid, light, backdrop, view, optics, reach);
+  const double without =
+      AutomaticGain(grid, light, backdrop, view, {optics.field_of_view, {}}, reach);
+  std::printf("gain %.4f by every pixel, %.4f through the lens, %.4f through an equisolid one\n",
+              expected, with, without);
+  EXPECT_NEAR(with, expected, 0.01 * expected);
+  EXPECT_GT(std::abs(without - expected), 0.1 * expected) << "an equisolid window is caught";
+}
+
+class LitView : public ViewTest, public testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(Lenses, LitView, testing::Bool(), [](const auto& has) {
+  return std::string(has.param ? "kannala_brandt" : "equisolid");
+});
 
 // A grey sphere from beside its middle, all in the lamp's light: each pixel by hand.
-TEST_F(LitView, PixelsOfAGreySphereAreTheClosedForm) {
+TEST_P(LitView, PixelsOfAGreySphereAreTheClosedForm) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   backdrop.relight = 1;
   const ColourImage grey = Grey(512, 512, 100);
   view_->SetBackdrop(grey, {}, backdrop);
-  Picture picture = PictureFromPose({0, 0, 0, 0.02}, RadiansFromDegrees(30), 1.4);
+  const Lens lens = AsideLens();
+  const simulation::ScopeOptics optics =
+      GetParam() ? simulation::OpticsOf({}, lens) : simulation::ScopeOptics{1.4, {}};
+  Picture picture = PictureFromPose({0, 0, 0, 0.02}, RadiansFromDegrees(30), optics.field_of_view);
+  picture.lens = optics.lens;
   const int size = 200;
   view_->Render(picture, size);
   const ColourImage drawn = view_->ReadPixels();
   const LightGrid grid = MakeLightGrid(grey, {});
   const double reach = 0.55 * 0.05;
-  const double gain = AutomaticGain(grid, MeasureLight(grid), backdrop, picture.view, 1.4, reach);
-  const auto window = simulation::WindowOfSize(1.4, size);
+  const double gain =
+      AutomaticGain(grid, MeasureLight(grid), backdrop, picture.view, optics, reach);
   double worst = 0;
   int compared = 0;
   for (int y = 0; y < size; y += 3)
     for (int x = 0; x < size; x += 3) {
-      const auto ray = simulation::RayFromPixel(window, picture.view, {x, y});
+      const auto ray = ReferenceRay(picture.view, optics.field_of_view, size, {x, y},
+                                    GetParam() ? &lens : nullptr);
       // The rim is softened further out.
       if (!ray || std::hypot(x - 99.5, y - 99.5) > 54) continue;
       const glm::dvec3 hit = simulation::SphereHit(picture.view.tip, *ray, 0.05);
@@ -149,8 +214,10 @@ TEST_F(LitView, PixelsOfAGreySphereAreTheClosedForm) {
   EXPECT_LT(worst, 2.0);
 }
 
+class LitModels : public ViewTest {};
+
 // The gain goes by the relief that is shown.
-TEST_F(LitView, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
+TEST_F(LitModels, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   backdrop.relight = 1;
   const ColourImage grey = Grey(512, 512, 100);
@@ -166,7 +233,7 @@ TEST_F(LitView, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
 }
 
 // The lamp stands above the lens, so the shadow falls under the rod, and only there.
-TEST_F(LitView, TheInstrumentShadesWhatIsCloseBehindIt) {
+TEST_F(LitModels, TheInstrumentShadesWhatIsCloseBehindIt) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   view_->SetBackdrop(Grey(512, 512, 150), {}, backdrop);
   Picture picture = PictureFromPose({0, 0, 0, 0.02}, 0.0, 1.4);

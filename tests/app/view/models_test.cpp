@@ -56,66 +56,6 @@ double WorstChord(const SurfaceMesh& mesh, const Picture& picture, int size) {
 
 class ModelsView : public ViewTest {};
 
-TEST_F(ModelsView, OutlinesAndDistancesAreTheReferenceTracersWithinAPixel) {
-  LoadedScene loaded = MakeViewScene(256, 256);
-  loaded.scene.backdrop.projection.focal_px = 110;
-  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
-  const SurfaceMesh mesh = Ellipsoid({0.007, 0.004, 0.005});
-  Pose pose;
-  pose.quaternion = glm::dquat(std::cos(0.3), 0, std::sin(0.3), 0);
-  const int size = 256;
-  int wrong = 0, far_wrong = 0, outline = 0, covered = 0;
-  double worst_distance = 0;
-  for (const glm::dvec3 position :
-       {glm::dvec3(0.001, 0.001, 0.032), glm::dvec3(0.012, -0.008, 0.028),
-        glm::dvec3(-0.015, 0.01, 0.024)}) {
-    pose.position = position;
-    Tissue tissue;
-    tissue.pose = pose;
-    view_->SetTissues(std::span(&tissue, 1), std::span(&mesh, 1));
-    const Picture picture = PictureFromPose({0, 0, 0.4, 0.012}, 0.2, 1.8);
-    view_->Render(picture, size);
-    const std::vector<float> drawn = view_->ReadDistances();
-    const SurfaceMesh moved = Moved(mesh, pose);
-    const ReferenceMesh reference{&moved};
-    const TracedPicture traced = TraceWindow(loaded.scene.backdrop, loaded.panorama, picture.view,
-                                             picture.field_of_view, size, std::span(&reference, 1));
-    const auto is_mesh = [&](int x, int y) {
-      return traced.what[static_cast<std::size_t>(y) * size + x] == 1;
-    };
-    for (int y = 4; y < size - 4; ++y)
-      for (int x = 4; x < size - 4; ++x) {
-        if (std::hypot(x - 127.5, y - 127.5) > 116) continue;
-        const std::size_t i = static_cast<std::size_t>(y) * size + x;
-        const auto ray = ReferenceRay(picture.view, picture.field_of_view, size, {x, y});
-        const double sphere =
-            glm::dot(*ReferenceSphereHit(picture.view.tip, *ray, 0.05) - picture.view.tip, *ray);
-        const bool drawn_mesh = drawn[i] < sphere - 20e-6;
-        const bool edge = is_mesh(x, y) != is_mesh(x + 1, y) ||
-                          is_mesh(x, y) != is_mesh(x - 1, y) ||
-                          is_mesh(x, y) != is_mesh(x, y + 1) || is_mesh(x, y) != is_mesh(x, y - 1);
-        outline += edge ? 1 : 0;
-        if (drawn_mesh != is_mesh(x, y)) {
-          ++wrong;
-          far_wrong += edge ? 0 : 1;
-        } else if (drawn_mesh) {
-          ++covered;
-          // At the outline the surface turns edge-on and a hair's breadth changes the distance.
-          if (!edge)
-            worst_distance = std::max(worst_distance, std::abs(drawn[i] - traced.distance[i]));
-        }
-      }
-  }
-  std::printf(
-      "models: %d of %d outline pixels differ from the tracer (mean %.3f px), none further "
-      "in; distance within %.3g mm over %d pixels\n",
-      wrong, outline, double(wrong) / (outline / 2.0), worst_distance * 1e3, covered);
-  EXPECT_GT(covered, 5000);
-  EXPECT_EQ(far_wrong, 0);
-  EXPECT_LT(double(wrong) / (outline / 2.0), 0.1);
-  EXPECT_LT(worst_distance, 0.3e-3);
-}
-
 TEST(ModelWarp, ChordsOfTissueAndProbeStayUnderHalfAPixel) {
   // At 512 px and 90 degrees: tissue with edges of about a millimetre from 8 mm on, the probe from
   // 5 mm beside the lens.

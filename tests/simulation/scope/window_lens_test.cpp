@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
@@ -42,7 +43,8 @@ TEST(WindowLens, GoesWhereTheLensGoes) {
   for (const Case& c : cases) {
     const double field = WindowFieldOfView(c.lens);
     const WindowLens window = FitWindowLens(c.lens, field);
-    double worst_in = 0, worst_out = 0;
+    const ScopeView view = ViewFromPose({0.2, -0.3, 0.7, 0.01}, 0.4);
+    double worst_in = 0, worst_out = 0, worst_ray = 0;
     for (int y = -40; y <= 40; ++y)
       for (int x = -40; x <= 40; ++x) {
         const glm::dvec2 place = glm::dvec2(x, y) / 40.0;  // right and up, in radii
@@ -61,11 +63,17 @@ TEST(WindowLens, GoesWhereTheLensGoes) {
         worst_out = std::max(
             worst_out,
             glm::length(window.axis + equisolid * LensFactor(window.outward, q * q) - place));
+        const glm::dvec3 through = RayThrough({field, window}, view, place);
+        worst_ray = std::max(
+            worst_ray,
+            glm::length(through - (ray->x * view.right - ray->y * view.up + ray->z * view.view)));
       }
-    std::printf("%s, %.1f degrees: off by %.2g and %.2g radii\n", c.name, DegreesFromRadians(field),
-                worst_in, worst_out);
+    std::printf("%s, %.1f degrees: off by %.2g and %.2g radii, rays by %.2g rad\n", c.name,
+                DegreesFromRadians(field), worst_in, worst_out, worst_ray);
     EXPECT_LT(worst_in, kWindowLensError) << c.name;
     EXPECT_LT(worst_out, kWindowLensError) << c.name;
+    // An error of q moves θ by 2 tan(θ/2) of it at most, below 2 here.
+    EXPECT_LT(worst_ray, 2 * kWindowLensError) << c.name;
   }
 }
 
