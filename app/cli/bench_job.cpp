@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/bench/haptics_bench.h"
-#include "app/bench/registration_bench.h"
-#include "app/bench/stitcher_peer.h"
-#include "app/bench/tissue_bench.h"
+#include "app/bench/haptics/haptics_bench.h"
+#include "app/bench/panorama/registration_bench.h"
+#include "app/bench/panorama/stitcher_peer.h"
+#include "app/bench/tissue/tissue_bench.h"
 #include "app/bench/view/view_bench.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"

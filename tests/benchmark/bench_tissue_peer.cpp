@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/bench/tissue_cases.h"
+#include "app/bench/tissue/tissue_cases.h"
 #include "simulation/core/process_cost.h"
 #include "tests/benchmark/bench_report.h"
 #include "tests/benchmark/bullet_body.h"

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/force_cases.h"
+#include "app/bench/haptics/force_cases.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/contact.h"
 

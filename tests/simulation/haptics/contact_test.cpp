@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/analytic_relief.h"
+#include "app/bench/haptics/analytic_relief.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 

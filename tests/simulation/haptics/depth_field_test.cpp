@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/analytic_relief.h"
+#include "app/bench/haptics/analytic_relief.h"
 #include "simulation/haptics/paper_kernel.h"
 
 namespace arthro::simulation {

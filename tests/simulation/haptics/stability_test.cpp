@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/touch_cases.h"
+#include "app/bench/haptics/touch_cases.h"
 
 namespace arthro::simulation {
 namespace {

@@ -15,7 +15,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/analytic_relief.h"
+#include "app/bench/haptics/analytic_relief.h"
 #include "simulation/device/plant_device.h"
 #include "simulation/session/replay.h"
 #include "simulation/session/servo_loop.h"

@@ -8,7 +8,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/units.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"

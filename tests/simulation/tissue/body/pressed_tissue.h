@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/contact/coupling.h"
 #include "simulation/tissue/contact/obstacle_contact.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
 #include "tests/support/temp_folder.h"

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scene/tet_mesh.h"
 

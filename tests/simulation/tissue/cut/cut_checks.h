@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "tests/support/shapes.h"
 

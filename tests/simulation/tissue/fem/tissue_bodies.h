@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/random.h"
 #include "simulation/tissue/fem/fem_model.h"
 

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 
 namespace arthro::test {

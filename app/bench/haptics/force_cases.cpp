@@ -1,4 +1,4 @@
-#include "app/bench/force_cases.h"
+#include "app/bench/haptics/force_cases.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/bench/servo_times.h"
+#include "app/bench/haptics/servo_times.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/bench/analytic_relief.h"
-#include "app/bench/force_cases.h"
+#include "app/bench/haptics/analytic_relief.h"
+#include "app/bench/haptics/force_cases.h"
 #include "app/bench/quantile.h"
 #include "simulation/device/driver/drivers.h"
 #include "simulation/device/plant_device.h"

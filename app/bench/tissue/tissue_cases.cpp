@@ -1,4 +1,4 @@
-#include "app/bench/tissue_cases.h"
+#include "app/bench/tissue/tissue_cases.h"
 
 #include <cmath>
 #include <cstddef>

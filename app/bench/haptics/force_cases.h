@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "app/bench/analytic_relief.h"
+#include "app/bench/haptics/analytic_relief.h"
 #include "simulation/haptics/contact.h"
 
 namespace arthro::app {

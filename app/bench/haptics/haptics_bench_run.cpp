@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "app/bench/haptics_bench.h"
-#include "app/bench/touch_cases.h"
+#include "app/bench/haptics/haptics_bench.h"
+#include "app/bench/haptics/touch_cases.h"
 #include "simulation/core/process_cost.h"
 
 namespace arthro::app {

@@ -1,6 +1,6 @@
 // Claims about how accurate a mesh of few elements is: deterministic, so they are asserted; times
 // are printed beside them.
-#include "app/bench/tissue_bench.h"
+#include "app/bench/tissue/tissue_bench.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "app/bench/touch_cases.h"
+#include "app/bench/haptics/touch_cases.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/fem/fem_model.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/body/elastic_layer.h"
 #include "simulation/tissue/solver/implicit_solver.h"
 

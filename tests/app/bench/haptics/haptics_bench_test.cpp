@@ -1,6 +1,6 @@
 // Claims about the benchmark of touch, on a setting small enough. Times are printed by it and
 // gated by nobody here; what is computed is the same in every run.
-#include "app/bench/haptics_bench.h"
+#include "app/bench/haptics/haptics_bench.h"
 
 #include <map>
 #include <string>

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/bench/tissue_cases.h"
+#include "app/bench/tissue/tissue_cases.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
 

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/bench/force_cases.h"
-#include "app/bench/servo_times.h"
-#include "app/bench/tissue_bridge.h"
+#include "app/bench/haptics/force_cases.h"
+#include "app/bench/haptics/servo_times.h"
+#include "app/bench/haptics/tissue_bridge.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/bench/quantile.h"
-#include "app/bench/tissue_bench.h"
+#include "app/bench/tissue/tissue_bench.h"
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 

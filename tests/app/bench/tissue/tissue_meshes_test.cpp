@@ -1,6 +1,6 @@
 // Claims about the bodies on which tissue is measured: they are the reference's own meshes, node by
 // node, so that a solver's error on them can be told from the mesh's.
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 
 #include <algorithm>
 #include <numbers>

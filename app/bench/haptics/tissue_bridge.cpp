@@ -1,4 +1,4 @@
-#include "app/bench/tissue_bridge.h"
+#include "app/bench/haptics/tissue_bridge.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "app/bench/registration_bench.h"
+#include "app/bench/panorama/registration_bench.h"
 
 #include <cmath>
 #include <iterator>
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench/machine_words.h"
+#include "app/bench/panorama/stitcher_peer.h"
 #include "app/bench/speed_error_plot.h"
-#include "app/bench/stitcher_peer.h"
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/preparation/prepare.h"
 #include "authoring/phantom/clip/clip.h"

@@ -1,4 +1,4 @@
-#include "app/bench/tissue_meshes.h"
+#include "app/bench/tissue/tissue_meshes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/bench/haptics_bench.h"
+#include "app/bench/haptics/haptics_bench.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

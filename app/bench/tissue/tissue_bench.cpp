@@ -1,4 +1,4 @@
-#include "app/bench/tissue_bench.h"
+#include "app/bench/tissue/tissue_bench.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "app/bench/analytic_relief.h"
+#include "app/bench/haptics/analytic_relief.h"
 
 #include <cmath>
 #include <utility>

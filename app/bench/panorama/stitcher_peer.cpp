@@ -1,4 +1,4 @@
-#include "app/bench/stitcher_peer.h"
+#include "app/bench/panorama/stitcher_peer.h"
 
 #include <cmath>
 #include <csignal>
