@@ -1,4 +1,4 @@
-#include "app/cli/living_tissues_of.h"
+#include "app/cli/practice/living_tissues_of.h"
 
 #include <fmt/format.h>
 

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/device_words.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/measuring/device_words.h"
 #include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"

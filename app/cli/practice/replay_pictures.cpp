@@ -1,4 +1,4 @@
-#include "app/cli/replay_pictures.h"
+#include "app/cli/practice/replay_pictures.h"
 
 #include <algorithm>
 #include <cmath>

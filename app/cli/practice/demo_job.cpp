@@ -15,8 +15,8 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/living_tissues_of.h"
-#include "app/cli/replay_pictures.h"
+#include "app/cli/practice/living_tissues_of.h"
+#include "app/cli/practice/replay_pictures.h"
 #include "app/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/jobs.h"
-#include "app/cli/living_tissues_of.h"
+#include "app/cli/practice/living_tissues_of.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/lens_io.h"

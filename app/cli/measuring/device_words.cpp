@@ -1,4 +1,4 @@
-#include "app/cli/device_words.h"
+#include "app/cli/measuring/device_words.h"
 
 #include <map>
 #include <vector>

@@ -11,10 +11,10 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/living_tissues_of.h"
 #include "app/cli/options_cli.h"
 #include "app/cli/output_check.h"
-#include "app/cli/replay_pictures.h"
+#include "app/cli/practice/living_tissues_of.h"
+#include "app/cli/practice/replay_pictures.h"
 #include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_replay.h"
