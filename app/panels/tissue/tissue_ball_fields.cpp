@@ -1,4 +1,4 @@
-#include "app/panels/tissue_ball_fields.h"
+#include "app/panels/tissue/tissue_ball_fields.h"
 
 #include <algorithm>
 

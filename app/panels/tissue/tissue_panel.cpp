@@ -15,7 +15,7 @@
 #include "app/commands/tissue/tissue_material.h"
 #include "app/commands/tissue_pose.h"
 #include "app/panels/panels.h"
-#include "app/panels/tissue_ball_fields.h"
+#include "app/panels/tissue/tissue_ball_fields.h"
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
 
