@@ -21,14 +21,25 @@ ColourImage Resized(const ColourImage& picture, int size) {
   return resized;
 }
 
+std::variant<VideoFile, PictureSequence> FramesOf(const std::filesystem::path& file,
+                                                  const FilmForm& form) {
+  if (auto names = PictureNamesOf(file)) return PictureSequence(std::move(*names));
+  return VideoFile(file, {FrameWidth(form.shape, form.size), form.size}, form.rate);
+}
+
 }  // namespace
+
+void CheckFilm(const std::filesystem::path& file, const FilmForm& form) {
+  if (const auto names = PictureNamesOf(file)) return CheckPictureFolder(*names);
+  CheckVideo(file, {FrameWidth(form.shape, form.size), form.size}, form.rate);
+}
 
 LiveFilm::LiveFilm(const std::filesystem::path& file, const FilmForm& form,
                    std::function<void()> wake)
     : file_(file),
       form_(form),
       wake_(std::move(wake)),
-      video_(file, {FrameWidth(form.shape, form.size), form.size}, form.rate),
+      frames_(FramesOf(file, form)),
       thread_([this] { Encode(); }) {}
 
 LiveFilm::~LiveFilm() {
@@ -82,8 +93,13 @@ void LiveFilm::Write() {
     ColourImage next;
     if (!is_end) next = LaidOut(Resized(item.picture, form_.size), form_.shape);
     if (frame.empty()) frame = next;  // what came first also stands for what was before it
-    while (!frame.empty() && video_.count() < item.frame) video_.Add(frame);
-    if (is_end) return video_.Finish();
+    std::visit(
+        [&](auto& frames) {
+          while (!frame.empty() && frames.count() < item.frame) frames.Add(frame);
+          if (is_end) frames.Finish();
+        },
+        frames_);
+    if (is_end) return;
     frame = std::move(next);
   }
 }

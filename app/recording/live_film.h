@@ -1,8 +1,8 @@
-// A film of what the window shows while somebody practises. Pictures come when the window has drawn
-// them and at any size; the film has one size and a constant rate, and a picture stands in it until
-// the next one's time, so that it runs at true speed. Encoded in a thread of its own behind a short
-// queue: who offers a picture never waits, and one that finds the queue full is left out and
-// counted.
+// A film of what the window shows while somebody practises, or its frames as numbered pictures.
+// Pictures come when the window has drawn them and at any size; the film has one size and a
+// constant rate, and a picture stands in it until the next one's time, so that it runs at true
+// speed. Encoded in a thread of its own behind a short queue: who offers a picture never waits, and
+// one that finds the queue full is left out and counted.
 #pragma once
 
 #include <condition_variable>
@@ -13,8 +13,10 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <variant>
 
 #include "app/recording/frame_shape.h"
+#include "app/recording/picture_sequence.h"
 #include "app/recording/video_file.h"
 
 namespace arthro::app {
@@ -25,11 +27,15 @@ struct FilmForm {
   double rate = 30.0;  // pictures a second
 };
 
+// Throws Error where no recording of this form can be there: CheckVideo, CheckPictureFolder.
+void CheckFilm(const std::filesystem::path& file, const FilmForm& form);
+
 class LiveFilm {
  public:
   static constexpr std::size_t kQueue = 8;  // pictures
 
-  // `wake` is called from its thread when it has ended. Throws Error as VideoFile.
+  // `file`: of a film, or as PictureNamesOf takes it. `wake` is called from its thread when it has
+  // ended. Throws Error as VideoFile and PictureSequence.
   LiveFilm(const std::filesystem::path& file, const FilmForm& form,
            std::function<void()> wake = {});
   ~LiveFilm();  // ends it, and waits until it is written
@@ -37,6 +43,7 @@ class LiveFilm {
   LiveFilm& operator=(const LiveFilm&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
+  bool is_pictures() const { return std::holds_alternative<PictureSequence>(frames_); }
 
   // ---- One thread, the window's. `t` in s since the film began. ----
   // A picture of this time is due: reading it back would not be in vain.
@@ -49,7 +56,7 @@ class LiveFilm {
 
   // Its thread is done: by End or by a fault.
   bool HasEnded() const;
-  // Once it has ended: what hindered it, a sentence; empty: the film is in its file.
+  // Once it has ended: what hindered it, a sentence; empty: all of it is there.
   const std::string& fault() const { return fault_; }
 
  private:
@@ -64,7 +71,7 @@ class LiveFilm {
   std::filesystem::path file_;
   FilmForm form_;
   std::function<void()> wake_;
-  VideoFile video_;  // its thread's
+  std::variant<VideoFile, PictureSequence> frames_;  // its thread's
   std::int64_t last_offered_ = -1;
   int left_out_ = 0;
   bool is_ending_ = false;

@@ -63,6 +63,20 @@ cv::Mat Decode(const fs::path& file, int flags) {
   return mat;
 }
 
+cv::Mat BgrOf(const ColourImage& image) {
+  cv::Mat bgr(image.height, image.width, CV_8UC3);
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* from = image.at(0, y);
+    unsigned char* to = bgr.ptr<unsigned char>(y);
+    for (int x = 0; x < image.width; ++x, from += 3, to += 3) {
+      to[0] = from[2];
+      to[1] = from[1];
+      to[2] = from[0];
+    }
+  }
+  return bgr;
+}
+
 void Encode(const fs::path& file, const cv::Mat& mat, const std::vector<int>& parameters) {
   std::vector<unsigned char> bytes;
   bool encoded = false;
@@ -100,17 +114,19 @@ ColourImage ReadColourImage(const fs::path& file) {
 }
 
 void WriteColourImage(const fs::path& file, const ColourImage& image) {
-  cv::Mat bgr(image.height, image.width, CV_8UC3);
-  for (int y = 0; y < image.height; ++y) {
-    const std::uint8_t* from = image.at(0, y);
-    unsigned char* to = bgr.ptr<unsigned char>(y);
-    for (int x = 0; x < image.width; ++x, from += 3, to += 3) {
-      to[0] = from[2];
-      to[1] = from[1];
-      to[2] = from[0];
-    }
+  Encode(file, BgrOf(image), {cv::IMWRITE_JPEG_QUALITY, 95});
+}
+
+std::string PngFromColourImage(const ColourImage& image) {
+  std::vector<unsigned char> bytes;
+  bool encoded = false;
+  try {
+    encoded = cv::imencode(".png", BgrOf(image), bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  } catch (const cv::Exception&) {
+    encoded = false;
   }
-  Encode(file, bgr, {cv::IMWRITE_JPEG_QUALITY, 95});
+  if (!encoded) throw Error(Code::kBadImage, "this picture could not be packed as PNG");
+  return {bytes.begin(), bytes.end()};
 }
 
 DepthMap ReadDepthMap(const fs::path& file) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "simulation/scene/image.h"
 
@@ -14,6 +15,9 @@ ColourImage ReadColourImage(const std::filesystem::path& file);
 
 // Format by extension; written atomically. JPEG at quality 95.
 void WriteColourImage(const std::filesystem::path& file, const ColourImage& image);
+
+// The bytes of a PNG file, packed quickly rather than well.
+std::string PngFromColourImage(const ColourImage& image);
 
 // One-channel 32-bit float TIFF, metres. Throws Error(kBadImage) for anything else.
 DepthMap ReadDepthMap(const std::filesystem::path& file);

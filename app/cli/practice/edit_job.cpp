@@ -59,7 +59,8 @@ struct ScreenFlags {
 
 void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
   job.add_option("--record", flags.film,
-                 "Record the scope's picture there from the beginning: .mp4, .mkv or .avi");
+                 "Record the scope's picture there from the beginning: .mp4, .mkv or .avi, or as "
+                 "pictures into an empty or new FOLDER/, FOLDER/frame-%04d.png");
   job.add_option("--layout", flags.layout,
                  "Of films and the trainee's screen: square, 4:3 or 16:9 with black beside it")
       ->capture_default_str();
@@ -89,16 +90,18 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
 void Open(EditorOptions options, const HandFlags& flags, const ScreenFlags& screens = {}) {
   options.frame_shape = FrameShapeOf(screens.layout);
   options.head = simulation::CameraHeadOf(screens.head);
+  bool is_pictures = false;
   if (!screens.film.empty()) {
     options.film = screens.film;
-    const FilmForm form;
-    CheckVideo(*options.film, {FrameWidth(options.frame_shape, form.size), form.size}, form.rate);
+    CheckFilm(*options.film, {.shape = options.frame_shape});
+    is_pictures = PictureNamesOf(*options.film).has_value();
   }
   options.hands = ReadHands(flags.rig, flags.hands);
   if (!options.hands.notice.empty())
     std::fprintf(stderr, "warning: %s\n", options.hands.notice.c_str());
   options.hands.log = flags.log;
-  CheckOutputs({flags.log, screens.film}, {flags.rig, flags.hands, options.scene.value_or("")});
+  CheckOutputs({flags.log, is_pictures ? "" : screens.film},
+               {flags.rig, flags.hands, options.scene.value_or("")});
   options.hands.is_zero_force = flags.is_zero_force;
   RunEditor(options);
 }

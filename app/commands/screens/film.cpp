@@ -13,8 +13,9 @@ bool MayToggleFilm(const EditorState& state) {
 void ToggleFilm(EditorState& state) {
   if (state.film) return state.film->End(FilmSeconds(state));
   Browse(
-      state, BrowseFor::kSaveFile, "Record the scope's picture as a film", "Record",
-      {{"Films", {".mp4", ".mkv", ".avi"}}},
+      state, BrowseFor::kSaveFile,
+      "Record the scope's picture as a film, or as frame-%04d.png in an empty folder", "Record",
+      {{"Films", {".mp4", ".mkv", ".avi"}}, {"Pictures", {".png"}}},
       [](EditorState& now, const std::filesystem::path& file) {
         if (now.practice && !now.film) BeginFilm(now, file);
       },
@@ -40,11 +41,14 @@ bool FinishFilm(EditorState& state) {
   state.film_seconds = FilmSeconds(state);
   if (!state.practice && !film.is_ending()) film.End(state.film_seconds);
   if (!film.HasEnded()) return false;
-  state.film_words = !film.fault().empty() ? film.fault()
-                     : film.left_out() == 0
-                         ? fmt::format("The film is in {}.", film.file().string())
-                         : fmt::format("The film is in {}; {} of its pictures were left out.",
-                                       film.file().string(), film.left_out());
+  state.film_words = film.fault();
+  if (film.fault().empty()) {
+    state.film_words = fmt::format("The {} in {}", film.is_pictures() ? "pictures are" : "film is",
+                                   film.file().string());
+    state.film_words += film.left_out() == 0
+                            ? "."
+                            : fmt::format("; {} of its pictures were left out.", film.left_out());
+  }
   state.is_film_lost = !film.fault().empty();
   state.message = state.film_words;
   state.film.reset();

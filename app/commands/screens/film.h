@@ -1,5 +1,6 @@
-// The recording of a practice as a film of what the scope shows: begun and ended by a command, and
-// ended with the practice. It runs in the session's own time, so a pause for a dialog is cut out.
+// The recording of a practice, as a film or as pictures of what the scope shows: begun and ended by
+// a command, and ended with the practice. It runs in the session's own time, so a pause for a
+// dialog is cut out.
 #pragma once
 
 #include <filesystem>

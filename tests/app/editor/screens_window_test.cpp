@@ -73,8 +73,48 @@ expect "Force on the tissue"
   EXPECT_GE(authoring::Footage::Open(temp / "mine.avi").info().frames, 5);
 }
 
+// As the films above. What the files hold is tested where they are written (tests/app/recording).
+TEST_F(ScreensWindow, APracticeIsRecordedAsPicturesByTheFlagAndByTheCommand) {
+  const auto by_flag = temp / "flag", by_command = temp / "command";
+  std::filesystem::create_directory(by_command);
+  const auto result = Practise("--record " + by_flag.string() + "/ --layout 16:9", R"(
+wait job
+hold left 60
+key f2
+wait frames 60
+expect "The pictures are in"
+key f2
+expect "frame-%04d.png in an empty folder"
+set "File name" ")" + (by_command / "frame-%04d.png").string() +
+                                                                                       R"("
+wait frames 20
+key f2
+wait frames 60
+expect "The pictures are in"
+key f2
+set "File name" ")" + (by_command / "frame-%04d.png").string() +
+                                                                                       R"("
+expect "this folder is not empty"
+)");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto count = [](const std::filesystem::path& folder) {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator());
+  };
+  EXPECT_GE(count(by_flag), 30) << "a second at least";
+  EXPECT_GE(count(by_command), 10);
+  const ColourImage first = ReadColourImage(by_flag / "frame_00000.png"),
+                    last = ReadColourImage(by_flag / "frame_00029.png");
+  EXPECT_EQ(first.width, 1280);
+  EXPECT_EQ(first.height, 720);
+  EXPECT_NE(first.rgb, last.rgb) << "the scope swung";
+  EXPECT_EQ(last.at(100, 360)[0], 0) << "black beside the picture";
+  EXPECT_TRUE(std::filesystem::exists(by_command / "frame-0000.png"));
+}
+
 TEST_F(ScreensWindow, AFilmThatCannotBeIsRefusedBeforeThereIsAWindow) {
-  for (const char* file : {"film.gif", "no/film.mp4"}) {
+  // The scene's own folder is not empty.
+  for (const char* file : {"film.gif", "no/film.mp4", "knee", "knee/frame-%03d.png", "a.png"}) {
     const auto result = test::RunProgram(
         "practise " + scene.string() + " --record " + (temp / file).string(), "DISPLAY=");
     EXPECT_EQ(result.exit_code, 1) << file;
