@@ -256,7 +256,7 @@ class Editor {
     window_.Present();
     ShowTraineeScreen();
     last_draw_ = Clock::now();
-    pictures_.NoteFrame(1e3 * Seconds(last_draw_ - now).count());
+    pictures_.NoteFrame(Seconds(last_draw_ - now).count());
     if (options_.timing) {
       if (frames_ == 0) std::fprintf(stderr, "first picture after %.0f ms\n", 1e3 * ProcessAge());
       frame_seconds_.push_back(Seconds(last_draw_ - now).count());

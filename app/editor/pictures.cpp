@@ -13,9 +13,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr double kSlow = 40.0;  // ms a frame: coarser while it moves
 constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
-constexpr double kCoarse = 0.55;                                 // of the full size
 
 // A practice shows the scene from outside too, and nothing is edited there.
 bool IsTissueEdited(const EditorState& state) {
@@ -190,22 +188,23 @@ bool Pictures::DrawScope(const EditorState& state, int size) {
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
   has_picture_ = panorama_ != nullptr;
-  drew_full_ = false;
+  is_timed_ = false;
   if (!has_picture_ || (!moved && drawn_size_ == size)) return false;
 
   // A machine that is slow at full size draws coarser while things move, and full when they rest.
-  const bool coarse = moved && !steady_ && milliseconds_ > kSlow;
-  const int pixels = coarse ? static_cast<int>(std::lround(kCoarse * size)) : size;
+  const double scale = moved && !steady_ ? scale_.value() : 1.0;
+  const int pixels = static_cast<int>(std::lround(scale * size));
   scope_.Render(picture_, pixels);
-  drew_full_ = !coarse;
+  is_timed_ = scale == scale_.value();
   drawn_size_ = pixels;
   ++drawn_count_;
   changed_ = false;
-  return coarse;
+  return pixels < size;
 }
 
-void Pictures::NoteFrame(double milliseconds) {
-  if (drew_full_) milliseconds_ = milliseconds;
+void Pictures::NoteFrame(double seconds) {
+  if (is_timed_) scale_.Note(seconds);
+  is_timed_ = false;
 }
 
 void Pictures::Record(LiveFilm& film, double t) {
@@ -234,8 +233,7 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   ShowPlaces(state);
   // What the user looks at comes first.
   const auto now = std::chrono::steady_clock::now();
-  if (!steady_ && milliseconds_ > kSlow && !overview_held_ &&
-      now - overview_drawn_ < kOverviewPause)
+  if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
     return true;
   if (overview_.Render(width, height)) overview_drawn_ = now;
   return false;

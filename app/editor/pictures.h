@@ -9,6 +9,7 @@
 
 #include "app/commands/editor_state.h"
 #include "app/commands/tissue/cut_skins.h"
+#include "app/editor/render_scale.h"
 #include "app/panels/panels.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
@@ -34,9 +35,9 @@ class Pictures {
   // Turns the overview or, on the box, moves the chosen tissue.
   void HandleOverview(EditorState& state, const OverviewInput& input);
 
-  // How long the whole frame took, handing over included: graphics in software draw behind our
+  // How long the whole frame took, handing over included, s: graphics in software draw behind our
   // back.
-  void NoteFrame(double milliseconds);
+  void NoteFrame(double seconds);
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   int scope_edge() const { return drawn_size_; }       // px of that texture
   long scope_version() const { return drawn_count_; }  // grows with each picture
@@ -69,8 +70,8 @@ class Pictures {
   Picture picture_;
   int drawn_size_ = 0;
   long drawn_count_ = 0;
-  bool drew_full_ = false;
-  double milliseconds_ = 0;  // of the last frame whose picture was drawn at full size
+  RenderScale scale_;      // of pictures that move
+  bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
   std::chrono::steady_clock::time_point overview_drawn_{};
   // What the view holds.

@@ -266,7 +266,14 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
 void ArthroscopicView::Finish() const { glFinish(); }
 
 unsigned int ArthroscopicView::TextureId() const {
-  return parts_->shown().GetColorAttachmentAsTextureObject(0)->GetHandle();
+  vtkTextureObject& shown = *parts_->shown().GetColorAttachmentAsTextureObject(0);
+  // Shown larger than it was drawn, it must not stand in blocks.
+  if (shown.GetMagnificationFilter() != vtkTextureObject::Linear) {
+    shown.SetMagnificationFilter(vtkTextureObject::Linear);
+    shown.Activate();
+    shown.Deactivate();
+  }
+  return shown.GetHandle();
 }
 
 ColourImage ArthroscopicView::ReadPixels() const {
