@@ -44,15 +44,29 @@ bool ShowsTool(const Picture& picture) {
          glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
 }
 
-LensRod RodOf(const Picture& picture) {
+// What of the instrument shades: its rod, and the hook or the jaw that moves, as it touches.
+LensShade ShadeOf(const Picture& picture) {
   if (!ShowsTool(picture)) return {};
   const auto in_lens = [&view = picture.view](const glm::dvec3& x) {
     const glm::dvec3 d = x - view.tip;
     return glm::dvec3(glm::dot(d, view.right), glm::dot(d, view.up), -glm::dot(d, view.view));
   };
   constexpr double kProbe = 0.9e-3, kOther = 1.7e-3;  // m, of their shafts' ends
-  return {in_lens(picture.instrument->portal), in_lens(picture.instrument->proxy),
-          picture.instrument->kind == simulation::ToolKind::kProbe ? kProbe : kOther};
+  const InstrumentView& tool = *picture.instrument;
+  LensShade shade;
+  shade.rod = {in_lens(tool.portal), in_lens(tool.proxy),
+               tool.kind == simulation::ToolKind::kProbe ? kProbe : kOther};
+  const simulation::ToolShape shape = simulation::ShapeOf(tool.kind);
+  const int head = tool.kind == simulation::ToolKind::kProbe ? 0
+                   : shape.jaw.empty()                       ? -1
+                                                             : shape.jaw.front();
+  if (head < 0) return shade;
+  const Pose pose = ProbePose(tool.portal, tool.proxy, tool.roll);
+  simulation::Capsule capsules[simulation::kMaxCapsules];
+  simulation::PosedCapsules(shape, {true, {pose.quaternion, pose.position}, tool.opening},
+                            capsules);
+  shade.head = {in_lens(capsules[head].a), in_lens(capsules[head].b), capsules[head].radius};
+  return shade;
 }
 
 glm::dvec3 MiddleOf(std::span<const glm::dvec3> points) {
@@ -238,8 +252,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   camera->SetClippingRange(kNearest, kFarthest);
 
   LensFrame frame;
-  frame.rod = RodOf(picture);
-  p.backdrop->SetPicture(picture, size, frame.rod);
+  frame.shade = ShadeOf(picture);
+  p.backdrop->SetPicture(picture, size, frame.shade);
   frame.gain = p.backdrop->gain();
   frame.relit = p.backdrop->relight();
   frame.field_of_view = picture.field_of_view;

@@ -48,8 +48,8 @@ steady float lensOutward[10], lensEnd;
 steady vec2 lensAxis;
 )";
 constexpr const char* kTissueSteady = R"(
-steady vec3 rodFrom, rodTo;
-steady float rodRadius;
+steady vec3 rodFrom, rodTo, headFrom, headTo;
+steady float rodRadius, headRadius;
 )";
 constexpr const char* kSteelSteady = R"(
 steady float rodLength, etchedRings;
@@ -319,9 +319,12 @@ void LensModel::SetFrame(const LensFrame& frame) {
   Set("given_lightColour", frame.light_colour);
   Set("given_surround", frame.surround);
   if (look_ == Look::kTissue) {
-    Set("given_rodFrom", frame.rod.from);
-    Set("given_rodTo", frame.rod.to);
-    Set("given_rodRadius", frame.rod.radius);
+    Set("given_rodFrom", frame.shade.rod.from);
+    Set("given_rodTo", frame.shade.rod.to);
+    Set("given_rodRadius", frame.shade.rod.radius);
+    Set("given_headFrom", frame.shade.head.from);
+    Set("given_headTo", frame.shade.head.to);
+    Set("given_headRadius", frame.shade.head.radius);
   }
   if (has_lens_) {
     float outward[simulation::WindowLens::kTerms];

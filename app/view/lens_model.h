@@ -23,11 +23,14 @@
 
 namespace arthro::app {
 
-// The instrument as it shades what is behind it: m, in the lens' frame (x right, y up, -z along the
-// view).
+// The instrument as it shades what is behind it: its rod, and the part that stands away from it, a
+// hook or an open jaw. m, in the lens' frame (x right, y up, -z along the view).
 struct LensRod {
   glm::dvec3 from{0.0}, to{0.0};
   double radius = 0;  // 0: there is none
+};
+struct LensShade {
+  LensRod rod, head;
 };
 
 // What every model of a frame shares.
@@ -37,7 +40,7 @@ struct LensFrame {
   double window_radius = 256;   // px
   double light_reach = 0.03;    // m
   double gain = 1, relit = 0;   // the camera's; how far its own lamp lights it
-  LensRod rod;
+  LensShade shade;
   glm::dvec3 light_colour{1.0};  // linear: what the lamp and the camera make of white
   glm::dvec3 surround{0.2};      // linear: what a shining surface mirrors
 };

@@ -60,28 +60,32 @@ float lampAt(float distance) {
 }
 )";
 
-// What a rod from `rodFrom` to `rodTo` (m, in the lens' frame: x right, y up, -z along the view)
-// leaves of the lamp's light at a point: its shadow, since the fibres that give light end beside
-// the lens, with a half shadow as wide as they are, and the dimness where it nearly touches. Needs:
-// uniform vec3 rodFrom, rodTo; uniform float rodRadius (0: no rod).
+// What the instrument leaves of the lamp's light at a point (m, in the lens' frame: x right, y up,
+// -z along the view): its shadow, since the fibres that give light end beside the lens, with a half
+// shadow as wide as they are, and the dimness where it nearly touches. Of a rod, which tapers to
+// half its radius, and of what stands away from it. Needs: vec3 rodFrom, rodTo, headFrom, headTo;
+// float rodRadius, headRadius (0: there is none).
 inline constexpr const char* kRodShade = R"(
 const vec3 kLampPlace = vec3(0.0, 0.0011, 0.0);
-float rodShade(vec3 point) {
+float shadeOf(vec3 point, vec3 from, vec3 to, float radius, float taper) {
   // Nearest places of the way to the lamp and of the rod [Ericson 2005, 5.1.9].
-  vec3 way = kLampPlace - point, rod = rodTo - rodFrom, between = point - rodFrom;
+  vec3 way = kLampPlace - point, rod = to - from, between = point - from;
   float ways = dot(way, way), rods = max(dot(rod, rod), 1e-12), across = dot(way, rod);
   float c = dot(way, between), f = dot(rod, between);
   float s = clamp((across * f - c * rods) / max(ways * rods - across * across, 1e-12 * ways * rods), 0.0, 1.0);
   float t = clamp((across * s + f) / rods, 0.0, 1.0);
   s = clamp((across * t - c) / ways, 0.0, 1.0);
-  // Towards its end it tapers to half.
-  float thick = rodRadius * (0.5 + 0.5 * smoothstep(0.0, 0.006, (1.0 - t) * sqrt(rods)));
+  float thick = radius * (1.0 - taper + taper * smoothstep(0.0, 0.006, (1.0 - t) * sqrt(rods)));
   float gap = length(between + s * way - t * rod) - thick;
   float half_shadow = 0.0014 * s + 0.00005;
   float lamp = smoothstep(-half_shadow, half_shadow, gap);
   float beside = length(between - clamp(f / rods, 0.0, 1.0) * rod);
   float near = thick / max(beside, thick);
-  return rodRadius > 0.0 ? mix(0.4, 1.0, lamp) * (1.0 - 0.5 * near * near) : 1.0;
+  return radius > 0.0 ? mix(0.4, 1.0, lamp) * (1.0 - 0.5 * near * near) : 1.0;
+}
+float rodShade(vec3 point) {
+  return min(shadeOf(point, rodFrom, rodTo, rodRadius, 0.5),
+             shadeOf(point, headFrom, headTo, headRadius, 0.0));
 }
 )";
 

@@ -130,10 +130,10 @@ FootageLight BackdropProp::LightAbout(const glm::dvec3& direction) const {
   return MeasureLight(grid_, backdrop_.projection, direction, kAround);
 }
 
-void BackdropProp::SetPicture(const Picture& picture, int size, const LensRod& rod) {
+void BackdropProp::SetPicture(const Picture& picture, int size, const LensShade& shade) {
   picture_ = picture;
   size_ = size;
-  rod_ = rod;
+  shade_ = shade;
   gain_ = 1;
   if (backdrop_.relight > 0 && !picture.plain && !grid_.blocks.empty())
     gain_ = AutomaticGain(grid_, light_, backdrop_, picture.view,
@@ -150,7 +150,7 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   const bool has_cells = has_relief && picture_.relief.cell > 1;
   const bool has_lens = !simulation::IsEquisolid(picture_.lens);
   const bool is_relit = backdrop_.relight > 0 && !picture_.plain;
-  const bool has_rod = rod_.radius > 0 && !picture_.plain;
+  const bool has_rod = shade_.rod.radius > 0 && !picture_.plain;
   const std::size_t head_variant =
       (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u) + (wraps_ ? 4u : 0u);
   const std::size_t variant = head_variant + (has_relief ? 8u : 0u) + (has_cells ? 16u : 0u) +
@@ -250,9 +250,12 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_lightReach", light_reach());
   SetUniform(program, "given_gain", gain_);
   SetUniform(program, "given_relit", backdrop_.relight);
-  SetUniform(program, "given_rodFrom", rod_.from);
-  SetUniform(program, "given_rodTo", rod_.to);
-  SetUniform(program, "given_rodRadius", rod_.radius);
+  SetUniform(program, "given_rodFrom", shade_.rod.from);
+  SetUniform(program, "given_rodTo", shade_.rod.to);
+  SetUniform(program, "given_rodRadius", shade_.rod.radius);
+  SetUniform(program, "given_headFrom", shade_.head.from);
+  SetUniform(program, "given_headTo", shade_.head.to);
+  SetUniform(program, "given_headRadius", shade_.head.radius);
   // Neutral and dark, but not the black of the window's surround.
   SetUniform(program, "given_endColour", glm::dvec3(0.105, 0.102, 0.1));
   SetUniform(program, "given_notch",

@@ -38,7 +38,7 @@ class BackdropProp : public vtkProp {
   // where it would begin or cease to be a whole turn.
   bool SetGeometry(const Backdrop& backdrop);
   // `rod`: of the instrument, where one is shown.
-  void SetPicture(const Picture& picture, int size, const LensRod& rod);
+  void SetPicture(const Picture& picture, int size, const LensShade& shade);
 
   // As the models should take it.
   const FootageLight& footage_light() const { return light_; }
@@ -67,7 +67,7 @@ class BackdropProp : public vtkProp {
 
   Backdrop backdrop_;
   Picture picture_;
-  LensRod rod_;
+  LensShade shade_;
   int size_ = 0;
   glm::ivec2 panorama_size_{0};
   int reduction_ = 1;   // panorama pixels a texel and axis

@@ -24,8 +24,8 @@ const float kSharpness = 0.7;
 steady float samples;           // at most, a pixel
 steady float radius, perRadius; // m, 1/m
 steady float lightReach, gain, relit;
-steady vec3 rodFrom, rodTo;
-steady float rodRadius;
+steady vec3 rodFrom, rodTo, headFrom, headTo;
+steady float rodRadius, headRadius;
 steady float highest;          // of the relief, in radii
 steady float blockTexels;
 steady float reliefSteps;      // at most, along a ray

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/bench/view/reference_tracer.h"
+#include "app/view/instruments/probe_mesh.h"
 #include "app/view/srgb.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
@@ -258,6 +259,45 @@ TEST_F(LitModels, TheInstrumentShadesWhatIsCloseBehindIt) {
   picture.instrument.reset();
   view_->Render(picture, 256);
   EXPECT_EQ(view_->ReadPixels().rgb, plain.rgb);
+}
+
+// A hook that lies across the picture, 8 mm from the lens and far before the sphere, throws its
+// shadow where the way from the lamp over its lower edge ends; turned the other way it does not.
+TEST_F(LitView, TheProbesHookShadesToo) {
+  Backdrop backdrop = PlainBackdrop(512, 512);
+  view_->SetBackdrop(Grey(512, 512, 150), {}, backdrop);
+  Picture picture = PictureFromPose({0, 0, 0, 0.02}, 0.0, 1.4);
+  const int size = 256;
+  view_->Render(picture, size);
+  const ColourImage without = view_->ReadPixels();
+  const std::vector<float> bare = view_->ReadDistances();
+  const glm::dvec3 portal{0.0, 0.03, 0.0}, proxy{0.0, 0.0, 0.028};
+  const simulation::ToolShape shape = simulation::ShapeOf(simulation::ToolKind::kProbe);
+  double darkening[2];
+  glm::dvec2 pixel{0.0};
+  for (const int side : {0, 1}) {
+    const double roll = side == 0 ? std::numbers::pi / 2 : -std::numbers::pi / 2;
+    picture.instrument = InstrumentView{portal, proxy, roll, simulation::ToolKind::kProbe};
+    view_->Render(picture, size);
+    const ColourImage with = view_->ReadPixels();
+    if (side == 0) {
+      const Pose pose = app::ProbePose(portal, proxy, roll);
+      const glm::dvec3 middle = pose * (0.3 * shape.capsules[0].a + 0.7 * shape.capsules[0].b);
+      const glm::dvec3 lamp = picture.view.tip + 0.0011 * picture.view.up;
+      const glm::dvec3 over = middle - 0.5 * shape.capsules[0].radius * picture.view.up;
+      const glm::dvec3 place = simulation::SphereHit(lamp, glm::normalize(over - lamp), 0.05);
+      pixel = simulation::PixelFromRay(simulation::WindowOfSize(1.4, size), picture.view,
+                                       glm::normalize(place - picture.view.tip));
+    }
+    const int x = static_cast<int>(std::lround(pixel.x)),
+              y = static_cast<int>(std::lround(pixel.y));
+    const std::size_t index = static_cast<std::size_t>(y) * size + static_cast<std::size_t>(x);
+    ASSERT_EQ(view_->ReadDistances()[index], bare[index]) << "the instrument itself is there";
+    darkening[side] = double(without.at(x, y)[1]) - double(with.at(x, y)[1]);
+  }
+  std::printf("hook: %.0f of 255 darker, %.0f turned away\n", darkening[0], darkening[1]);
+  EXPECT_GT(darkening[0], 25);
+  EXPECT_LT(darkening[1], 0.5 * darkening[0]);
 }
 
 }  // namespace
