@@ -59,7 +59,7 @@ TEST_P(DisturbedPicture, AnotherStrengthIsCaught) {
   START_OR_SKIP(pictures, MakeViewScene());
   Picture picture = ScenePicture();
   // Near enough for all of them.
-  picture.instrument->proxy = picture.view.tip + 0.006 * picture.view.view;
+  picture.instrument->proxy = picture.view.tip + 0.005 * picture.view.view;
   const auto drawn = [&](double value) {
     picture.disturbances = {};
     picture.disturbances.*GetParam().strength = value;
