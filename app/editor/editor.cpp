@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <thread>
 #include <unistd.h>
@@ -92,14 +93,16 @@ std::string TitleOf(const EditorState& state) {
 class Editor {
  public:
   ~Editor() {
-    if (frame_seconds_.empty()) return;
-    std::sort(frame_seconds_.begin(), frame_seconds_.end());
-    const auto at = [&](double share) {
-      return 1e3 * frame_seconds_[static_cast<std::size_t>(
-                       share * static_cast<double>(frame_seconds_.size() - 1))];
-    };
-    std::fprintf(stderr, "%zu frames, median %.1f ms, p99 %.1f ms, longest %.1f ms\n",
-                 frame_seconds_.size(), at(0.5), at(0.99), at(1.0));
+    for (auto& [mark, seconds] : frame_seconds_) {
+      std::sort(seconds.begin(), seconds.end());
+      const auto at = [&](double share) {
+        return 1e3 *
+               seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
+      };
+      std::fprintf(stderr, "%s%s%zu frames, median %.1f ms, p99 %.1f ms, longest %.1f ms\n",
+                   mark.c_str(), mark.empty() ? "" : ": ", seconds.size(), at(0.5), at(0.99),
+                   at(1.0));
+    }
   }
 
   Editor(const EditorOptions& options, const EndingSignals& signals)
@@ -259,7 +262,8 @@ class Editor {
     pictures_.NoteFrame(Seconds(last_draw_ - now).count());
     if (options_.timing) {
       if (frames_ == 0) std::fprintf(stderr, "first picture after %.0f ms\n", 1e3 * ProcessAge());
-      frame_seconds_.push_back(Seconds(last_draw_ - now).count());
+      const std::string mark = script_ ? script_->mark() : "";
+      frame_seconds_[mark].push_back(Seconds(last_draw_ - now).count());
     }
     ++frames_;
     if (unsettled_ > 0) --unsettled_;
@@ -374,7 +378,7 @@ class Editor {
   std::optional<ScriptRunner> script_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
-  std::vector<double> frame_seconds_;  // of drawn frames, for --timing
+  std::map<std::string, std::vector<double>> frame_seconds_;  // of drawn frames, by mark
   bool picture_focused_ = true, will_draw_ = true;
 };
 

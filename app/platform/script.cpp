@@ -72,6 +72,7 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
   const std::map<std::string, ScriptVerb> of_text = {{"type", ScriptVerb::kType},
                                                      {"shot", ScriptVerb::kShot},
                                                      {"shot-trainee", ScriptVerb::kShotTrainee},
+                                                     {"mark", ScriptVerb::kMark},
                                                      {"drop", ScriptVerb::kDrop}};
   const std::map<std::string, ScriptVerb> alone = {{"close", ScriptVerb::kClose},
                                                    {"quit", ScriptVerb::kQuit}};

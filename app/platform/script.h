@@ -4,6 +4,7 @@
 //   drag NAME DX DY [right] (pixels at scale 1) · wheel NAME NOTCHES
 //   type TEXT · key ctrl+shift+s · hold KEY FRAMES · set NAME VALUE (a slider, by typing)
 //   wait frames N · wait job · shot FILE.png · shot-trainee FILE.png
+//   mark NAME (what --timing counts the frames from here on under; "" ends it)
 //   expect TEXT · expect not TEXT · expect value NAME TEXT · expect enabled|disabled NAME
 //   drop FILE · close · quit
 // A name or text with blanks stands in double quotes; # begins a comment. Pure: no window.
@@ -31,6 +32,7 @@ enum class ScriptVerb {
   kWaitJob,
   kShot,
   kShotTrainee,
+  kMark,
   kExpect,
   kExpectNot,
   kExpectValue,

@@ -197,6 +197,9 @@ void ScriptRunner::Run(const ScriptLine& line, const WidgetRegistry& widgets, bo
     case ScriptVerb::kShotTrainee:
       save_picture(line.text, line.verb == ScriptVerb::kShotTrainee);
       break;
+    case ScriptVerb::kMark:
+      mark_ = line.text;
+      break;
     case ScriptVerb::kExpect:
       if (!widgets.Shows(line.text)) Fail(line, fmt::format("\"{}\" is not shown", line.text));
       break;

@@ -32,6 +32,7 @@ class ScriptRunner {
   const std::string& failure() const { return failure_; }  // a sentence with the line's number
   int line_number() const;                                 // that runs next, or the last
   bool at_end() const { return next_ == lines_.size(); }
+  const std::string& mark() const { return mark_; }
 
  private:
   void Run(const ScriptLine& line, const WidgetRegistry& widgets, bool busy, InputQueue& input,
@@ -46,7 +47,7 @@ class ScriptRunner {
   std::vector<int> held_keys_;
   std::chrono::steady_clock::time_point waiting_since_{};
   ScriptState state_ = ScriptState::kRunning;
-  std::string failure_;
+  std::string failure_, mark_;
 };
 
 }  // namespace arthro::app

@@ -112,5 +112,19 @@ TEST_F(RunScript, TextIsTypedAsCodePoints) {
   EXPECT_EQ(std::get<CharacterTyped>(events[2]).character, U'→');
 }
 
+TEST(Script, FramesAreMarkedFromTheLineOn) {
+  ScriptRunner runner(ParseScript("mark \"at rest\"\nwait frames 5\nmark \"\"\n"));
+  const WidgetRegistry widgets;
+  InputQueue input;
+  int marked = 0;
+  for (int frame = 0; frame < 100 && runner.state() == ScriptState::kRunning; ++frame) {
+    runner.AfterFrame(widgets, false, input, {});
+    marked += runner.mark() == "at rest";
+  }
+  EXPECT_GE(marked, 5);
+  EXPECT_LT(marked, 15) << "and the frames in which a line settles";
+  EXPECT_EQ(runner.mark(), "");
+}
+
 }  // namespace
 }  // namespace arthro::app
