@@ -158,7 +158,7 @@ void main() {
   // The panorama was lit when it was taken: what lies far fades, but nothing is lit a second time.
   // Squares and roots stand for sRGB and back.
   float light = min(lightAt(distance), 1.0);
-  light *= 1.0 - 0.45 * wall;
+  light *= 1.0 - 0.25 * wall;
 #ifdef ROD
   float shade = rodShade(distance * vec3(dot(ray, rightAxis), dot(ray, upAxis), -dot(ray, viewAxis)));
   light *= shade;
@@ -167,7 +167,7 @@ void main() {
   // A film of fluid over what the relief's slopes make of the surface.
   vec3 normal = -normalize(normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0)));
   vec3 toLamp = normalize(tip + 0.0011 * perRadius * upAxis - x);
-  float faces = max(dot(normal, toLamp), 0.0), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
+  float faces = mix(max(dot(normal, toLamp), 0.0), 0.9, wall), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
   float lamp = lampAt(distance);
 #ifdef ROD
   lamp *= shade;
@@ -175,7 +175,7 @@ void main() {
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
   float wet = lamp * (0.02 * shine16 + 0.30 * shine64 * shine64 * shine64);
-  vec3 body = colour * colour * mix(light, lamp * (0.2 + 0.8 * faces) * (1.0 - 0.45 * wall), relit);
+  vec3 body = colour * colour * mix(light, lamp * (0.2 + 0.8 * faces) * (1.0 - 0.25 * wall), relit);
   vec3 lit = shoulder(sqrt(body + relit * wet));
 #else
   vec3 lit = shoulder(colour * sqrt(light));
