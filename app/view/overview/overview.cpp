@@ -12,6 +12,7 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 #include <vtkProperty.h>
+#include <vtkTextProperty.h>
 #include <vtkTextureObject.h>
 #include <vtkTransform.h>
 #include <vtkWidgetEvent.h>
@@ -31,7 +32,8 @@ const glm::dvec3 kAxisColours[3] = {{0.90, 0.35, 0.32}, {0.45, 0.80, 0.40}, {0.4
 constexpr double kRodBehindPortal = 0.035;  // of each rod, drawn outside the joint, m
 constexpr double kScopeRadius = 2.0e-3;     // of a 4 mm arthroscope
 constexpr double kLineRadius = 0.22e-3;
-constexpr double kAxisLength = 0.01;  // also the scale: its label says so
+constexpr double kLabelFromPortal = 0.005;  // m, beyond its ring
+constexpr double kAxisLength = 0.01;        // also the scale: its label says so
 
 // A flat-lying ring about an incision, across the rod.
 std::vector<std::vector<glm::dvec3>> PortalRing(const glm::dvec3& centre, double radius) {
@@ -81,7 +83,6 @@ void Overview::Parts::BuildScene() {
   }
   cone->VisibilityOff();
   SetData(*scope_portal, MakeBars(PortalRing({0, 0, 0}, 3.2e-3), 0.6e-3));
-  scope_label->SetPosition(-0.002, -0.005, 0.0);
   for (vtkActor* actor : {relief.Get(), scope.Get(), cone.Get(), probe.Get(), moving.Get(),
                           scope_portal.Get(), instrument_portal.Get()})
     renderer->AddActor(actor);
@@ -96,7 +97,7 @@ void Overview::Parts::BuildScene() {
   renderer->AddActor(instrument_label);
 
   // The portal frame's axes, below everything.
-  const glm::dvec3 origin{-0.006, 0.032, 0.0};
+  const glm::dvec3 origin{-0.016, 0.034, 0.0};
   const char* names[3] = {"x right", "y down", "z in"};
   for (int i = 0; i < 3; ++i) {
     glm::dvec3 end = origin;
@@ -105,6 +106,11 @@ void Overview::Parts::BuildScene() {
     SetData(*axis, MakeBars({{origin, end}}, 2 * kLineRadius));
     auto label = MakeLabel(names[i], kAxisColours[i]);
     label->SetPosition(end.x, end.y, end.z);
+    // Away from the other two.
+    vtkTextProperty* text = label->GetTextProperty();
+    if (i == 0) text->SetVerticalJustificationToCentered();
+    if (i == 1) text->SetVerticalJustificationToTop();
+    if (i > 0) text->SetJustificationToCentered();
     renderer->AddActor(axis);
     renderer->AddActor(label);
   }
@@ -192,7 +198,15 @@ void Overview::SetRelief(const DepthMap& depth, const Backdrop& backdrop) {
 void Overview::SetIncisionSpacing(double spacing) {
   Parts& p = *parts_;
   SetData(*p.instrument_portal, MakeBars(PortalRing({spacing, 0, 0}, 3.2e-3), 0.6e-3));
-  p.instrument_label->SetPosition(spacing - 0.002, -0.005, 0.0);
+  // Each begins over its own ring and runs away from the other: they may be close.
+  const double side = spacing < 0 ? -1.0 : 1.0;
+  p.scope_label->SetPosition(2e-3 * side, -kLabelFromPortal, 0.0);
+  p.instrument_label->SetPosition(spacing - 2e-3 * side, -kLabelFromPortal, 0.0);
+  for (auto* label : {p.scope_label.Get(), p.instrument_label.Get()}) {
+    const bool is_on_the_right = (label == p.instrument_label.Get()) == (side > 0);
+    is_on_the_right ? label->GetTextProperty()->SetJustificationToLeft()
+                    : label->GetTextProperty()->SetJustificationToRight();
+  }
   p.changed = true;
 }
 

@@ -53,9 +53,9 @@ struct Overview::Parts {
   vtkSmartPointer<vtkActor> moving = MakeActor({0.70, 0.70, 0.72});
   vtkSmartPointer<vtkActor> scope_portal = MakeActor(kScopeColour, 0.5);
   vtkSmartPointer<vtkActor> instrument_portal = MakeActor(kInstrumentColour, 0.5);
-  vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope portal", kScopeColour);
+  vtkSmartPointer<vtkBillboardTextActor3D> scope_label = MakeLabel("scope", kScopeColour);
   vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
-      MakeLabel("instrument portal", kInstrumentColour);
+      MakeLabel("instrument", kInstrumentColour);
 
   // Translucent: what they hold is seen through them.
   vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
