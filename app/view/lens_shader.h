@@ -45,10 +45,16 @@ float rimCoverage(float r, float rim) { return clamp((1.0 - r) * rim + 0.5, 0.0,
 float softRim(float r) {
   return (1.0 - 0.22 * smoothstep(0.55, 1.0, r)) * (1.0 - smoothstep(0.975, 1.0, r));
 }
-// Keeps bright parts from flattening to white; nothing below 0.8 changes.
+// Keeps bright parts from flattening to white; nothing below the knee changes. And back: what is
+// all but white counts as four times as far above the knee as white is.
+const float kKnee = 0.8, kAbove = 1.0 - kKnee;
 vec3 shoulder(vec3 c) {
-  vec3 over = max(c - 0.8, vec3(0.0));
-  return min(c, vec3(0.8)) + 0.2 * (1.0 - exp(-over / 0.2));
+  vec3 over = max(c - kKnee, vec3(0.0));
+  return min(c, vec3(kKnee)) + kAbove * (1.0 - exp(-over / kAbove));
+}
+vec3 unshoulder(vec3 c) {
+  vec3 over = clamp((c - kKnee) / kAbove, 0.0, 0.985);
+  return min(c, vec3(kKnee)) - kAbove * log(1.0 - over);
 }
 )";
 

@@ -84,9 +84,7 @@ vec3 fogged(vec3 colour, float fog, float rim) {
 }
 // The camera's own curve is undone, so that the gain is one of light.
 vec3 exposed(vec3 colour, float rim) {
-  vec3 c = colour / max(rim, 0.05);
-  vec3 over = clamp((c - 0.8) / 0.2, 0.0, 0.985);
-  c = min(c, vec3(0.8)) - 0.2 * log(1.0 - over);
+  vec3 c = unshoulder(colour / max(rim, 0.05));
   return shoulder(c * pow(exposureGain, 1.0 / 2.2)) * rim;
 }
 vec3 disturbed(vec3 colour, float distance, vec2 at, float rim, float fog) {
