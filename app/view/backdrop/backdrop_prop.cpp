@@ -256,8 +256,6 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_headFrom", shade_.head.from);
   SetUniform(program, "given_headTo", shade_.head.to);
   SetUniform(program, "given_headRadius", shade_.head.radius);
-  // Neutral and dark, but not the black of the window's surround.
-  SetUniform(program, "given_endColour", glm::dvec3(0.105, 0.102, 0.1));
   SetUniform(program, "given_notch",
              glm::dvec2(std::sin(picture_.notch), std::cos(picture_.notch)));
 }

@@ -30,8 +30,9 @@ steady float highest;          // of the relief, in radii
 steady float blockTexels;
 steady float reliefSteps;      // at most, along a ray
 steady float cellPixels, cellSteps, smoothBend;
-steady vec3 endColour;
 steady vec2 notch;             // unit, image right and up
+// Where nothing was imaged: neutral and dark, but not the black of the window's surround.
+const vec3 endColour = vec3(0.105, 0.102, 0.1);
 )";
 
 // A place in the window, in its radii from its centre, right and up. Equisolid: |offset| lensScale
