@@ -41,6 +41,10 @@ int ChannelDifference(const std::uint8_t* a, const std::uint8_t* b) {
   return largest;
 }
 
+std::filesystem::path BaselineOf(const std::string& name) {
+  return std::filesystem::path(ARTHRO_SOURCE_DIR) / "tests/baselines" / (name + ".png");
+}
+
 }  // namespace
 
 std::string PictureDifference::Sentence() const {
@@ -78,9 +82,13 @@ PictureDifference ComparePictures(const ColourImage& actual, const ColourImage& 
   return result;
 }
 
+PictureDifference DifferenceFromBaseline(const ColourImage& actual, const std::string& name) {
+  return ComparePictures(actual, ReadColourImage(BaselineOf(name)));
+}
+
 ::testing::AssertionResult MatchesBaseline(const ColourImage& actual, const std::string& name) {
   namespace fs = std::filesystem;
-  const fs::path baseline = fs::path(ARTHRO_SOURCE_DIR) / "tests/baselines" / (name + ".png");
+  const fs::path baseline = BaselineOf(name);
   const char* accept = std::getenv("ARTHRO_ACCEPT_PICTURES");
   if (accept && std::string(accept) == "1") {
     WriteColourImage(baseline, actual);

@@ -37,4 +37,7 @@ PictureDifference ComparePictures(const ColourImage& actual, const ColourImage& 
 // ARTHRO_ACCEPT_PICTURES=1 in the environment the picture becomes the baseline: look at it first.
 ::testing::AssertionResult MatchesBaseline(const ColourImage& actual, const std::string& name);
 
+// For pictures that must not pass: nothing is written.
+PictureDifference DifferenceFromBaseline(const ColourImage& actual, const std::string& name);
+
 }  // namespace arthro::test
