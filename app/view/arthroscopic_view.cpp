@@ -46,14 +46,15 @@ bool ShowsTool(const Picture& picture) {
 
 // What of the instrument shades: its rod, and the hook or the jaw that moves, as it touches.
 LensShade ShadeOf(const Picture& picture) {
-  if (!ShowsTool(picture)) return {};
+  LensShade shade;
+  shade.lamp = kLampAside * glm::dvec3(std::sin(picture.notch), std::cos(picture.notch), 0.0);
+  if (!ShowsTool(picture)) return shade;
   const auto in_lens = [&view = picture.view](const glm::dvec3& x) {
     const glm::dvec3 d = x - view.tip;
     return glm::dvec3(glm::dot(d, view.right), glm::dot(d, view.up), -glm::dot(d, view.view));
   };
   constexpr double kProbe = 0.9e-3, kOther = 1.7e-3;  // m, of their shafts' ends
   const InstrumentView& tool = *picture.instrument;
-  LensShade shade;
   shade.rod = {in_lens(tool.portal), in_lens(tool.proxy),
                tool.kind == simulation::ToolKind::kProbe ? kProbe : kOther};
   const simulation::ToolShape shape = simulation::ShapeOf(tool.kind);

@@ -73,7 +73,7 @@ constexpr const char* kFragmentStart = R"(
   gl_FragDepth = storedDepth(lensDistance);
   vec3 toLens = -lensPoint / lensDistance;
   // The fibres that give light end beside the lens, not in it.
-  vec3 toLight = normalize(vec3(0.0, 0.0011, 0.0) - lensPoint);
+  vec3 toLight = normalize(lampPlace - lensPoint);
   vec3 normal = normalVCVSOutput;
   vec3 halfway = normalize(toLight + toLens);
   float facing = max(dot(normal, toLight), 0.0);
@@ -109,10 +109,12 @@ vec4 noise(vec3 p) {
 }
 )";
 
+// normalMatrix is VTK's own uniform.
 constexpr const char* kTissueLook = R"(
   // Uneven by nature: patches of some millimetres, and a surface that is not quite smooth.
   vec4 coarse = coarseNoise, fine = noise(modelPoint * 1100.0);
-  normal = normalize(normal + 0.022 * fine.xyz + 0.014 * coarse.xyz);
+  mat3 lensFromModel = normalMatrix / length(normalMatrix[0]);
+  normal = normalize(normal + 0.022 * (lensFromModel * fine.xyz) + 0.014 * coarse.xyz);
   facing = max(dot(normal, toLight), 0.0);
   shine = max(dot(normal, halfway), 0.0);
   vec3 own = modelColour * (1.0 + 0.04 * coarse.w + 0.02 * fine.w) *
@@ -143,7 +145,7 @@ constexpr const char* kSteelLook = R"(
   vec3 mirror = reflect(-toLens, normal);
   float lamp = max(dot(mirror, toLight), 0.0);
   vec3 grey = mix(surround, vec3(dot(surround, vec3(0.2126, 0.7152, 0.0722))), 0.75);
-  float sky = 0.5 + 0.5 * mirror.y;
+  float sky = 0.5 + 0.5 * dot(mirror, normalize(lampPlace));  // the joint's lit side
   vec3 linear = steel * (grey * (0.26 + 0.7 * sky * sky + 0.5 * pow(1.0 - seen, 3.0)) +
       lightColour * light * (0.24 * facing * facing + 0.36 * pow(lamp, 4.0) + 1.2 * pow(lamp, 40.0)));
 )";
@@ -226,7 +228,10 @@ void LensModel::Assemble() {
   shader->AddVertexShaderReplacement(
       "//VTK::PositionVC::Impl", true,
       std::string(kWarp) +
-          (is_tissue ? "  fresh = freshMC;\n  coarseNoise = noise(modelPoint * 300.0);\n" : ""),
+          (is_tissue
+               ? "  fresh = freshMC;\n  coarseNoise = noise(modelPoint * 300.0);\n"
+                 "  coarseNoise.xyz = normalMatrix * coarseNoise.xyz / length(normalMatrix[0]);\n"
+               : ""),
       false);
   shader->AddFragmentShaderReplacement("//VTK::Light::Dec", true,
                                        "//VTK::Light::Dec\n" + define + inputs.fragment +
@@ -318,6 +323,9 @@ void LensModel::SetFrame(const LensFrame& frame) {
   Set("given_relit", frame.relit);
   Set("given_lightColour", frame.light_colour);
   Set("given_surround", frame.surround);
+  // No steady one: with a lens a tissue's inputs are 59 numbers, of 60 that every card must have.
+  const float lamp[3] = {Float(frame.shade.lamp.x), Float(frame.shade.lamp.y), 0.0f};
+  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f("lampPlace", lamp);
   if (look_ == Look::kTissue) {
     Set("given_rodFrom", frame.shade.rod.from);
     Set("given_rodTo", frame.shade.rod.to);

@@ -23,6 +23,8 @@
 
 namespace arthro::app {
 
+inline constexpr double kLampAside = 1.1e-3;  // m, of a 4 mm arthroscope
+
 // The instrument as it shades what is behind it: its rod, and the part that stands away from it, a
 // hook or an open jaw. m, in the lens' frame (x right, y up, -z along the view).
 struct LensRod {
@@ -31,6 +33,9 @@ struct LensRod {
 };
 struct LensShade {
   LensRod rod, head;
+  // Where the fibres that give light end: beside the lens, on the side of the scope's own mark,
+  // where they stay when the camera's head is turned.
+  glm::dvec3 lamp{0.0, kLampAside, 0.0};
 };
 
 // What every model of a frame shares.

@@ -69,13 +69,12 @@ float lampAt(float distance) {
 // What the instrument leaves of the lamp's light at a point (m, in the lens' frame: x right, y up,
 // -z along the view): its shadow, since the fibres that give light end beside the lens, with a half
 // shadow as wide as they are, and the dimness where it nearly touches. Of a rod, which tapers to
-// half its radius, and of what stands away from it. Needs: vec3 rodFrom, rodTo, headFrom, headTo;
+// half its radius, and of what stands away from it. Needs: vec3 lampPlace, rodFrom, rodTo, headFrom, headTo;
 // float rodRadius, headRadius (0: there is none).
 inline constexpr const char* kRodShade = R"(
-const vec3 kLampPlace = vec3(0.0, 0.0011, 0.0);
 float shadeOf(vec3 point, vec3 from, vec3 to, float radius, float taper) {
   // Nearest places of the way to the lamp and of the rod [Ericson 2005, 5.1.9].
-  vec3 way = kLampPlace - point, rod = to - from, between = point - from;
+  vec3 way = lampPlace - point, rod = to - from, between = point - from;
   float ways = dot(way, way), rods = max(dot(rod, rod), 1e-12), across = dot(way, rod);
   float c = dot(way, between), f = dot(rod, between);
   float s = clamp((across * f - c * rods) / max(ways * rods - across * across, 1e-12 * ways * rods), 0.0, 1.0);

@@ -31,6 +31,7 @@ steady float blockTexels;
 steady float reliefSteps;      // at most, along a ray
 steady float cellPixels, cellSteps, smoothBend;
 steady vec2 notch;             // unit, image right and up
+#define lampPlace (0.0011 * vec3(notch, 0.0))  // m, kLampAside
 // Where nothing was imaged: neutral and dark, but not the black of the window's surround.
 const vec3 endColour = vec3(0.105, 0.102, 0.1);
 )";
@@ -167,7 +168,7 @@ void main() {
 #ifdef RELIT
   // A film of fluid over what the relief's slopes make of the surface.
   vec3 normal = -normalize(normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0)));
-  vec3 toLamp = normalize(tip + 0.0011 * perRadius * upAxis - x);
+  vec3 toLamp = normalize(tip + perRadius * (lampPlace.x * rightAxis + lampPlace.y * upAxis) - x);
   float faces = mix(max(dot(normal, toLamp), 0.0), 0.9, wall), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
   float lamp = lampAt(distance);
 #ifdef ROD

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -231,6 +233,38 @@ TEST_F(LitModels, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
   view_->SetDepth(near);
   view_->Render(picture, 128);
   EXPECT_EQ(view_->ReadPixels().rgb, expected.rgb);
+}
+
+// The camera's head turns the picture and nothing in it: lamp, shadow and mark stay with the scope.
+// By half a turn and by a quarter pixels fall on pixels; a footprint's axes are rounded.
+TEST_F(LitModels, TurningTheCameraHeadTurnsThePictureAndNothingInIt) {
+  LoadedScene loaded = MakeViewScene(512, 512);
+  loaded.scene.backdrop.relight = 1;
+  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  const simulation::RodPose pose{-0.1, 0.05, 0.4, 0.01};
+  constexpr int kSize = 200;
+  const auto drawn = [&](double turn) {
+    Picture picture = PictureFromPose(pose, RadiansFromDegrees(30), 1.5, pose.roll + turn);
+    picture.instrument = ProbeInFront();
+    view_->Render(picture, kSize);
+    return view_->ReadPixels();
+  };
+  const ColourImage with_scope = drawn(0.0);
+  for (const int quarters : {1, 2}) {
+    const ColourImage turned = drawn(quarters * 0.5 * std::numbers::pi);
+    int worst = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        // A head turned to the right shows the joint turned to the left.
+        const auto [u, v] =
+            quarters == 1 ? std::pair(kSize - 1 - y, x) : std::pair(kSize - 1 - x, kSize - 1 - y);
+        for (int c = 0; c < 3; ++c)
+          worst = std::max(worst, std::abs(int{turned.at(x, y)[c]} - int{with_scope.at(u, v)[c]}));
+      }
+    std::printf("head turned by %d degrees: off by at most %d of 255\n", 90 * quarters, worst);
+    EXPECT_LE(worst, 2);
+  }
 }
 
 // The lamp stands above the lens, so the shadow falls under the rod, and only there.
