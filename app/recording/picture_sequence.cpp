@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
-#include <regex>
 #include <string_view>
 #include <unistd.h>
 #include <utility>
@@ -50,13 +49,16 @@ std::optional<PictureNames> PictureNamesOf(const fs::path& target) {
                         5};
   if (target.extension() != ".png") return std::nullopt;
   const std::string name = target.filename().string();
-  std::smatch parts;
-  if (!std::regex_match(name, parts, std::regex("([^%]*)%0([1-9])d([^%]*)")))
+  // One %0Nd, N a digit.
+  const std::size_t at = name.find('%');
+  if (at == std::string::npos || name.find('%', at + 1) != std::string::npos ||
+      name.size() < at + 4 || name[at + 1] != '0' || name[at + 2] < '1' || name[at + 2] > '9' ||
+      name[at + 3] != 'd')
     throw Error(Code::kBadArgument,
                 "pictures are numbered: name them as in frame-%04d.png, or give a folder/", target);
   const fs::path folder = target.parent_path();
-  return PictureNames{folder.empty() ? fs::path(".") : folder, parts[1], parts[3],
-                      std::stoi(parts[2])};
+  return PictureNames{folder.empty() ? fs::path(".") : folder, name.substr(0, at),
+                      name.substr(at + 4), name[at + 2] - '0'};
 }
 
 void CheckPictureFolder(const PictureNames& names) {
