@@ -217,7 +217,6 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_tip", tip);
   SetUniform(program, "given_clearance", 1.0 - glm::dot(tip, tip));
   SetUniform(program, "given_viewAxis", view.view);
-  SetUniform(program, "given_upAxis", view.up);
   SetUniform(program, "given_rightAxis", view.right);
   SetUniform(program, "given_lensScale", std::sin(picture_.field_of_view / 4.0));
   SetUniform(program, "given_windowRadius", size_ / 2.0);

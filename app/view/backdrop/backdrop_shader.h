@@ -14,7 +14,7 @@ uniform sampler2D reliefCeiling;  // m, of blocks of blockTexels
 uniform sampler2D corners, cells; // relief_cells.h
 steady vec3 tip;               // in radii of the sphere
 steady float clearance;        // 1 - |tip|^2, worked out in double
-steady vec3 viewAxis, upAxis, rightAxis;
+steady vec3 viewAxis, rightAxis;
 steady float lensScale;        // sin(fov/4)
 steady float windowRadius;     // px
 steady vec2 centre, scale;     // of the projection, in texture units
@@ -50,7 +50,7 @@ vec3 rayOf(vec2 offset) {
 #endif
   float s2 = min(dot(offset, offset) * lensScale * lensScale, 1.0);
   vec2 across = 2.0 * lensScale * sqrt(1.0 - s2) * offset;
-  return (1.0 - 2.0 * s2) * viewAxis + across.x * rightAxis + across.y * upAxis;
+  return (1.0 - 2.0 * s2) * viewAxis + across.x * rightAxis + across.y * cross(rightAxis, viewAxis);
 }
 )";
 
@@ -89,7 +89,7 @@ void main() {
   vec2 offset = gl_FragCoord.xy / windowRadius - 1.0;
   float r = length(offset);
   float coverage = rimCoverage(r, windowRadius);
-  vec3 ray = rayOf(offset);
+  vec3 ray = rayOf(offset), upAxis = cross(rightAxis, viewAxis);
 
   // Ray -> sphere, or what stands before it.
   float b = dot(tip, ray);
