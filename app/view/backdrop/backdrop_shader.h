@@ -137,11 +137,14 @@ void main() {
   float wall = 0.0;
 #if defined(RELIEF) && !defined(PLAIN)
   // What stands nearly along the way from the portal was hardly seen by the footage: what its texels
-  // have is smeared along it, so only their mean is shown, and dimly.
+  // have is smeared along it. It is the side of what stands before it, so it is shown in that one's
+  // mean colour, and dimly.
   float steep = imaged ? length(ground.g * alongU + ground.b * alongV) : 0.0;
   wall = smoothstep(2.5, 6.0, steep);
   dx += wall * 12.0 / texels * vec2(1.0, 0.0);
   dy += wall * 12.0 / texels * vec2(0.0, 1.0);
+  vec2 uphill = ground.gb / texels;
+  uv += wall * 14.0 / texels * uphill / max(length(uphill), 1e-9);
 #endif
   vec3 colour = imaged ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
 
@@ -160,7 +163,7 @@ void main() {
   // The panorama was lit when it was taken: what lies far fades, but nothing is lit a second time.
   // Squares and roots stand for sRGB and back.
   float light = min(lightAt(distance), 1.0);
-  light *= 1.0 - 0.25 * wall;
+  light *= 1.0 - 0.35 * wall;
 #ifdef ROD
   float shade = rodShade(distance * vec3(dot(ray, rightAxis), dot(ray, upAxis), -dot(ray, viewAxis)));
   light *= shade;
@@ -169,7 +172,7 @@ void main() {
   // A film of fluid over what the relief's slopes make of the surface.
   vec3 normal = -normalize(normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0)));
   vec3 toLamp = normalize(tip + perRadius * (lampPlace.x * rightAxis + lampPlace.y * upAxis) - x);
-  float faces = mix(max(dot(normal, toLamp), 0.0), 0.9, wall), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
+  float faces = mix(max(dot(normal, toLamp), 0.0), 0.8, wall), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
   float lamp = lampAt(distance);
 #ifdef ROD
   lamp *= shade;
@@ -177,7 +180,7 @@ void main() {
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
   float wet = lamp * (0.02 * shine16 + 0.30 * shine64 * shine64 * shine64);
-  vec3 body = colour * colour * mix(light, lamp * (0.2 + 0.8 * faces) * (1.0 - 0.25 * wall), relit);
+  vec3 body = colour * colour * mix(light, lamp * (0.2 + 0.8 * faces) * (1.0 - 0.35 * wall), relit);
   vec3 lit = shoulder(sqrt(body + relit * wet));
 #else
   vec3 lit = shoulder(colour * sqrt(light));
