@@ -17,7 +17,7 @@
 
 #include "app/view/lens_shader.h"
 #include "app/view/steady_inputs.h"
-#include "app/view/vertex_normals.h"
+#include "simulation/scene/vertex_normals.h"
 
 namespace arthro::app {
 namespace {
@@ -266,6 +266,7 @@ void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint
 bool LensModel::SetShape(std::span<const glm::dvec3> positions,
                          std::span<const glm::dvec3> normals) {
   if (normals.empty()) {
+    normals_.resize(positions.size());
     ComputeVertexNormals(positions, triangles_, normals_);
     normals = normals_;
   }

@@ -18,7 +18,7 @@
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "app/view/vertex_normals.h"
+#include "simulation/scene/vertex_normals.h"
 
 namespace arthro::app {
 
@@ -101,7 +101,10 @@ vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface) {
 void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
                      std::span<const glm::dvec3> given_normals) {
   std::vector<glm::dvec3> normals(given_normals.begin(), given_normals.end());
-  if (normals.empty()) ComputeVertexNormals(surface.vertices, surface.triangles, normals);
+  if (normals.empty()) {
+    normals.resize(surface.vertices.size());
+    ComputeVertexNormals(surface.vertices, surface.triangles, normals);
+  }
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const glm::dvec3 &p = surface.vertices[i], &n = normals[i];
     data.GetPoints()->SetPoint(static_cast<vtkIdType>(i), p.x, p.y, p.z);

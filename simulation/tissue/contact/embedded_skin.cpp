@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/scene/vertex_normals.h"
 
 namespace arthro::simulation {
 
@@ -55,20 +56,7 @@ void DeformSkin(const EmbeddedSkin& skin, const TetMesh& mesh, std::span<const g
   } else {
     Place<4>(skin, mesh, x, positions);
   }
-  // Cross products are twice the areas: their sum weights by area.
-  std::fill(normals.begin(), normals.end(), glm::dvec3(0.0));
-  for (const auto& [a, b, c] : skin.rest.triangles) {
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b),
-               k = static_cast<std::size_t>(c);
-    const glm::dvec3 across = glm::cross(positions[j] - positions[i], positions[k] - positions[i]);
-    normals[i] += across;
-    normals[j] += across;
-    normals[k] += across;
-  }
-  for (glm::dvec3& normal : normals) {
-    const double length = glm::length(normal);
-    normal = length > 0.0 ? normal / length : glm::dvec3(0, 0, 1);
-  }
+  ComputeVertexNormals(positions, skin.rest.triangles, normals);
 }
 
 }  // namespace arthro::simulation

@@ -9,8 +9,8 @@
 #include "app/bench/view/reference_tracer.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
-#include "app/view/vertex_normals.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/vertex_normals.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/compare_pictures.h"
 
@@ -395,25 +395,14 @@ TEST(ProbeMesh, IsClosedRoundTheHookAndTouchesItsOriginWithTheHooksSide) {
   EXPECT_NEAR(reach, shape.hook_length, 20e-6);
   EXPECT_NEAR(widest, 1.5e-3, 1e-9);
   // Normals look outward: away from the shaft's axis.
-  std::vector<glm::dvec3> normals;
-  app::ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
+  std::vector<glm::dvec3> normals(mesh.vertices.size());
+  ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     if (mesh.vertices[i].z < -0.02 && mesh.vertices[i].z > -0.119) {
       EXPECT_GT(glm::dot(normals[i],
                          glm::normalize(glm::dvec3(mesh.vertices[i].x, mesh.vertices[i].y, 0))),
                 0.95);
     }
-}
-
-TEST(VertexNormals, OfASphereAreItsRadii) {
-  const SurfaceMesh mesh = Ellipsoid(glm::dvec3(0.01));
-  std::vector<glm::dvec3> normals;
-  app::ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    EXPECT_GT(glm::dot(normals[i], glm::normalize(mesh.vertices[i])), 0.995);
-  // A vertex without triangles has one all the same.
-  app::ComputeVertexNormals(mesh.vertices, {}, normals);
-  EXPECT_EQ(normals[0], glm::dvec3(0, 0, 1));
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
-#include "app/view/vertex_normals.h"
+#include "simulation/scene/vertex_normals.h"
+
+#include <algorithm>
 
 #include <glm/geometric.hpp>
 
-namespace arthro::app {
+namespace arthro {
 
 void ComputeVertexNormals(std::span<const glm::dvec3> vertices,
                           std::span<const std::array<int, 3>> triangles,
-                          std::vector<glm::dvec3>& normals) {
-  normals.assign(vertices.size(), glm::dvec3(0.0));
+                          std::span<glm::dvec3> normals) noexcept {
+  std::fill(normals.begin(), normals.end(), glm::dvec3(0.0));
   for (const auto& triangle : triangles) {
     const auto a = static_cast<std::size_t>(triangle[0]), b = static_cast<std::size_t>(triangle[1]),
                c = static_cast<std::size_t>(triangle[2]);
@@ -22,4 +24,4 @@ void ComputeVertexNormals(std::span<const glm::dvec3> vertices,
   }
 }
 
-}  // namespace arthro::app
+}  // namespace arthro

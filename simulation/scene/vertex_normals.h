@@ -4,15 +4,14 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
-namespace arthro::app {
+namespace arthro {
 
-// `normals` keeps its storage from call to call.
+// One a vertex.
 void ComputeVertexNormals(std::span<const glm::dvec3> vertices,
                           std::span<const std::array<int, 3>> triangles,
-                          std::vector<glm::dvec3>& normals);
+                          std::span<glm::dvec3> normals) noexcept;
 
-}  // namespace arthro::app
+}  // namespace arthro
