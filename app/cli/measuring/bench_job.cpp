@@ -17,6 +17,7 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 
 namespace arthro::app {
@@ -34,6 +35,7 @@ void Run(const BenchArguments<Options>& job, Measure measure) {
   if (job.json == "-" && job.plot == "-")
     throw Error(Code::kBadArgument,
                 "table and plot cannot both go to standard output; give one of them a file");
+  CheckOutputs({job.json, job.plot}, {});
   const auto bench = measure(job.options, TerminalProgress());
   if (!job.json.empty()) WriteAtomically(job.json, JsonOf(bench).dump(2) + "\n");
   if (!job.plot.empty()) WriteAtomically(job.plot, PlotOf(bench));

@@ -183,6 +183,20 @@ TEST(BenchJob, APictureThatNothingCanDrawIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(json));
 }
 
+// Measuring would take minutes, and more than a test may.
+TEST(BenchJob, AReportThatCannotBeWrittenIsRefusedBeforeAnythingIsMeasured) {
+  test::TempFolder folder;
+  const std::string nowhere = (folder / "nowhere" / "b.json").string();
+  for (const std::string words :
+       {"view --frames 100000", "tissue --frames 100000", "panorama --frames 120", "haptics"})
+    for (const std::string to : {"--json ", "--plot "}) {
+      const auto result = test::RunProgram("bench " + words + " " + to + nowhere);
+      EXPECT_EQ(result.exit_code, 1) << words;
+      EXPECT_NE(result.err.find("create it first"), std::string::npos) << words << result.err;
+      EXPECT_EQ(result.out, "") << words;
+    }
+}
+
 TEST(BenchJob, TwoThingsToStandardOutputAreRefused) {
   const auto result = test::RunProgram("bench panorama --json - --plot -");
   EXPECT_EQ(result.exit_code, 1);
