@@ -33,6 +33,28 @@ bool IsTruncated(const std::string& bytes) {
   return false;
 }
 
+// OpenCV prints its own words about numbers that it does not take, and a depth map of whole numbers
+// is a common slip.
+void RefuseNumbersOfATiff(const std::string& bytes, const fs::path& file) {
+  using namespace std::string_view_literals;
+  if (!bytes.starts_with("II*\0"sv) && !bytes.starts_with("MM\0*"sv)) return;
+  TIFFSetErrorHandler(nullptr);
+  TIFFSetWarningHandler(nullptr);
+  std::istringstream stream(bytes);
+  const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(TIFFStreamOpen("picture", &stream), TIFFClose);
+  if (!tiff) return;  // the decoder says so
+  std::uint16_t bits = 0, format = 0;
+  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLEFORMAT, &format);
+  const bool is_float = format == SAMPLEFORMAT_IEEEFP;
+  if (is_float ? bits == 32 : bits <= 16) return;
+  throw Error(Code::kBadImage,
+              fmt::format("this TIFF holds {} of {} bits; save a picture with 8 or 16 bits and a "
+                          "depth map as 32-bit float",
+                          is_float ? "floats" : "whole numbers", bits),
+              file);
+}
+
 cv::Mat Decode(const fs::path& file, int flags) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   std::string bytes;
@@ -46,6 +68,7 @@ cv::Mat Decode(const fs::path& file, int flags) {
   if (IsTruncated(bytes))
     throw Error(Code::kBadImage, "this picture is cut off before its end; copy or export it again",
                 file);
+  RefuseNumbersOfATiff(bytes, file);
   cv::Mat mat;
   try {
     mat = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, bytes.data()), flags);

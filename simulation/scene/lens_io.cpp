@@ -126,6 +126,14 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
   reader.Number("rms_px", lens.rms_px, kRadius);
   reader.RefuseOtherKeys(true);
   if (faults.empty() && lens.circle.r == 0) lens.circle = {};
+  if (faults.empty() && lens.circle.r > 0 &&
+      !(lens.circle.cx >= 0 && lens.circle.cx <= lens.width && lens.circle.cy >= 0 &&
+        lens.circle.cy <= lens.height))
+    faults.push_back(
+        {"circle",
+         fmt::format("circle's middle ({}, {}) lies outside of the picture of {} x {}; is "
+                     "this lens of footage of another size?",
+                     lens.circle.cx, lens.circle.cy, lens.width, lens.height)});
   if (faults.empty() && lens.field_of_view == 0) {
     const auto whole = FieldOfViewOf(lens);
     if (whole)

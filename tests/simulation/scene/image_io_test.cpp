@@ -1,7 +1,10 @@
 #include "simulation/scene/image_io.h"
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +77,49 @@ TEST(ImageIo, RefusesAnEightBitDepthMapAndSizesThatDiffer) {
   EXPECT_THROW(ReadDepthMap(folder / "d.tiff"), Error);
   EXPECT_THROW(RequireSameSize(Gradient(8, 8), DepthMap(8, 9), "d.tiff"), Error);
   EXPECT_THROW(WriteColourImage(folder / "a.xyz", Gradient(4, 4)), Error);
+}
+
+// A TIFF of one pixel, little-endian: header, the pixel at 8, the directory at 16.
+std::string OnePixelTiff(std::uint16_t bits, std::uint16_t format) {
+  std::string bytes("II*\0\x10\0\0\0", 8);
+  bytes.resize(16);
+  const auto put = [&](std::uint32_t value, int size) {
+    for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
+  };
+  const std::vector<std::pair<int, std::uint32_t>> fields = {
+      {256, 1}, {257, 1}, {258, bits}, {259, 1},         {262, 1},
+      {273, 8}, {277, 1}, {278, 1},    {279, bits / 8u}, {339, format}};
+  put(static_cast<std::uint32_t>(fields.size()), 2);
+  for (const auto& [tag, value] : fields) {
+    put(static_cast<std::uint32_t>(tag), 2);
+    put(4, 2);  // LONG
+    put(1, 4);
+    put(value, 4);
+  }
+  put(0, 4);
+  return bytes;
+}
+
+// Depth maps as other programs write them: the library's own words do not come before ours.
+TEST(ImageIo, NumbersOfATiffThatAreNotTakenAreSaid) {
+  test::TempFolder folder;
+  const auto told = [&](int bits, int format) {
+    std::ofstream(folder / "d.tiff", std::ios::binary)
+        << OnePixelTiff(static_cast<std::uint16_t>(bits), static_cast<std::uint16_t>(format));
+    testing::internal::CaptureStderr();
+    std::string sentence;
+    try {
+      ReadDepthMap(folder / "d.tiff");
+    } catch (const Error& error) {
+      sentence = error.sentence();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    return sentence;
+  };
+  EXPECT_EQ(told(32, 3), "");  // float: read
+  EXPECT_NE(told(32, 1).find("whole numbers of 32 bits"), std::string::npos) << told(32, 1);
+  EXPECT_NE(told(64, 3).find("floats of 64 bits"), std::string::npos) << told(64, 3);
+  EXPECT_NE(told(16, 1).find("32-bit float TIFF in metres"), std::string::npos) << told(16, 1);
 }
 
 }  // namespace

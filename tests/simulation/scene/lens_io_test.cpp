@@ -92,6 +92,7 @@ TEST(LensIo, EveryFaultNamesItsKeyAndWhatMayStandThere) {
          j["focal_px"] = 100;
        },
        "fov_deg is missing, and the model ends before"},
+      {[](json& j) { j["width"] = 300; }, "lies outside of the picture of 300 x "},
   };
   for (const Case& c : cases) {
     json lens = Good();
