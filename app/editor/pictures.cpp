@@ -7,6 +7,7 @@
 #include "app/commands/same.h"
 #include "app/commands/tissue/tissue_balls.h"
 #include "app/commands/tissue/tissue_cut.h"
+#include "app/view/backdrop/footage_light.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 
@@ -75,7 +76,9 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool preview = cache.preview && cache.preview_panorama;
   const auto& panorama = preview ? cache.preview_panorama : document.panorama;
   const auto& depth = preview ? cache.preview : document.depth;
-  Backdrop wanted = document.scene.backdrop;
+  const DepthMap bare;
+  const DepthMap& relief = depth ? *depth : bare;
+  Backdrop wanted = WithKnownLight(document.scene.backdrop, relief);
   if (state.shows_as_filmed && !state.practice) wanted.relight = 0;
   const bool same_place = SameBackdrop(backdrop_, wanted);
   const bool same_panorama = panorama == panorama_ && panorama;
@@ -90,8 +93,6 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   if (preview)
     shown.projection =
         Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
-  const DepthMap bare;
-  const DepthMap& relief = depth ? *depth : bare;
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
   if (same_panorama && (same_place || scope_.SetGeometry(shown))) {
     if (!same_depth) scope_.SetDepth(relief);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/view/backdrop/footage_light.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/session/cut_skin.h"
@@ -36,7 +37,8 @@ Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, doub
 }
 
 StillPictures::StillPictures(const LoadedScene& loaded) : radius_(loaded.scene.backdrop.radius) {
-  view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_.SetBackdrop(loaded.panorama, loaded.depth,
+                    WithKnownLight(loaded.scene.backdrop, loaded.depth));
   const auto& tissues = loaded.scene.tissues;
   view_.SetTissues(tissues, loaded.surfaces);
   for (std::size_t i = 0; i < std::min(tissues.size(), loaded.surfaces.size()); ++i) {

@@ -73,6 +73,10 @@ void LookAtDepth(const LoadedScene& loaded, SceneFindings& findings) {
     if (loaded.scene.backdrop.depth.empty())
       findings.hints.push_back(
           "no depth map, so the backdrop is a bare sphere; `arthroscene depth` makes one");
+    if (loaded.scene.backdrop.relight > 0)
+      findings.hints.push_back(
+          "backdrop.relight waits for a depth map, which says how far the lamp's light goes; till "
+          "then the footage keeps its own light");
     return;
   }
   std::size_t imaged = 0, outside = 0;

@@ -57,7 +57,9 @@ void PortalsPanel(Ui& ui, EditorState& state) {
                   "scope's own lamp lights what is near, with wet highlights.");
   if (change) SetRelight(state, relight / 100);
   Drag(state, change);
-  const bool is_relit = scene.backdrop.relight > 0;
+  if (scene.backdrop.relight > 0 && !state.document().depth)
+    QuietText(ui, "Waits for a depth map, which says how far its light goes.");
+  const bool is_relit = scene.backdrop.relight > 0 && state.document().depth;
   if (ToggleButton(ui, "As filmed", is_relit && state.shows_as_filmed, is_relit, {},
                    "Shows the picture before, to compare. Nothing is changed by it."))
     state.shows_as_filmed = !state.shows_as_filmed;

@@ -51,11 +51,12 @@ FootageLight LightOfBlocks(const LightGrid& grid, const std::vector<std::size_t>
     const double la = Luma(colour(a)), lb = Luma(colour(b));
     return la != lb ? la > lb : a < b;
   });
-  double total = 0, bright = 0;
+  double total = 0, bright = 0, metered = 0;
   glm::dvec3 sum{0.0}, bright_sum{0.0};
   for (const std::size_t i : order) {
     total += grid.blocks[i].share;
     sum += double(grid.blocks[i].share) * colour(i);
+    metered += grid.blocks[i].share * Luma(colour(i)) * Luma(colour(i));
   }
   if (!(total > 0)) return light;
   for (const std::size_t i : order) {
@@ -65,6 +66,7 @@ FootageLight LightOfBlocks(const LightGrid& grid, const std::vector<std::size_t>
   }
   light.mean = sum / total;
   light.bright = bright_sum / bright;
+  light.metered = std::sqrt(metered / total);
   return light;
 }
 
@@ -101,6 +103,11 @@ Seen Look(const LightGrid& grid, const glm::dvec2& pixel) {
 }
 
 }  // namespace
+
+Backdrop WithKnownLight(Backdrop backdrop, const DepthMap& depth) {
+  if (depth.empty()) backdrop.relight = 0;
+  return backdrop;
+}
 
 LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth) {
   LightGrid grid;
@@ -244,12 +251,11 @@ double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const B
       const double lit = seen.luma / seen.share * light_reach * light_reach /
                          (distance * distance + kLampRadius * kLampRadius);
       const double weight = share * (1.25 - glm::dot(place, place));  // more in the middle
-      sum += weight * lit;
+      sum += weight * lit * lit;
       total += weight;
     }
-  const double wanted = Luma(footage.mean);
-  if (!(total > 0) || !(sum > 0) || !(wanted > 0)) return 1.0;
-  return std::clamp(wanted * total / sum, 0.05, 12.0);
+  if (!(total > 0) || !(sum > 0) || !(footage.metered > 0)) return 1.0;
+  return std::clamp(footage.metered / std::sqrt(sum / total), 0.05, 12.0);
 }
 
 }  // namespace arthro::app

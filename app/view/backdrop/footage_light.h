@@ -12,10 +12,15 @@
 
 namespace arthro::app {
 
+// As it can be drawn: without a depth map nothing says how far the lamp's light goes, and the
+// footage keeps its own.
+Backdrop WithKnownLight(Backdrop backdrop, const DepthMap& depth);
+
 // Of what was imaged.
 struct FootageLight {
   glm::dvec3 mean{0.2};    // of all of it
   glm::dvec3 bright{0.6};  // of its brightest fifth
+  double metered = 0.2;    // brightness as AutomaticGain measures it
 };
 
 // The panorama in blocks, some 96 along its longer side: enough for what is said of its light.
@@ -56,9 +61,10 @@ FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
 // point.
 inline constexpr double kLampRadius = 0.004;  // m
 
-// Camera gain at which the lit picture is as bright on average as the footage: an unhurried
-// camera's automatic gain, as a smooth function of where the scope is. Rays over the window, more
-// in its middle; without models. 1 where it sees nothing that was imaged.
+// Camera gain at which the lit picture is as bright as the footage, by the root mean square of the
+// light (by its mean, what is near would be white when the rest is far): an unhurried camera's
+// automatic gain, as a smooth function of where the scope is. Rays over the window, more in its
+// middle; without models. 1 where it sees nothing that was imaged.
 double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
                      const simulation::ScopeView& view, const simulation::ScopeOptics& optics,
                      double light_reach);

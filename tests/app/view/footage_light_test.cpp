@@ -57,6 +57,24 @@ TEST(FootageLight, GainOfAGreySphereIsTheClosedForm) {
   }
 }
 
+// Half of the window is 16 mm away, the other 50: 1.41 of the footage's brightness, where the plain
+// mean would give 1.81.
+TEST(FootageLight, WhatIsNearIsNotLostInWhiteWhenTheRestIsFar) {
+  const Backdrop backdrop = PlainBackdrop(400, 400);
+  DepthMap depth(400, 400, 0.0f);
+  for (int y = 200; y < 400; ++y)
+    for (int x = 0; x < 400; ++x) depth.at(x, y) = 0.034f;
+  const LightGrid grid = MakeLightGrid(Grey(400, 400, 150), depth);
+  const double reach = 0.0275;
+  const double gain = AutomaticGain(grid, MeasureLight(grid), backdrop,
+                                    simulation::ViewFromPose({0, 0, 0, 0}, 0.0), {1.5, {}}, reach);
+  const auto lamp = [&](double distance) {
+    return gain * reach * reach / (distance * distance + kLampRadius * kLampRadius);
+  };
+  // Half-way between the two; a row of rays lies on the edge.
+  EXPECT_LT(lamp(0.016), 1.6);
+}
+
 TEST(FootageLight, NothingImagedOrBlackNeedsNoGain) {
   const Backdrop backdrop = PlainBackdrop(64, 48);
   const auto view = simulation::ViewFromPose({0, 0, 0, 0.01}, 0.0);
@@ -154,11 +172,15 @@ TEST(FootageLight, GainGoesByWhatTheScenesOwnLensShows) {
       const double away = glm::distance(hit, view.tip);
       const double r = std::hypot(x - 200.0, y - 200.0) / 200.5;
       const double light = reach * reach / (away * away + kLampRadius * kLampRadius);
-      sum += (1.25 - r * r) * LinearFromSrgb(static_cast<std::uint8_t>(level(pixel->x))) * light;
+      const double lit = LinearFromSrgb(static_cast<std::uint8_t>(level(pixel->x))) * light;
+      sum += (1.25 - r * r) * lit * lit;
       total += 1.25 - r * r;
     }
   const FootageLight light = MeasureLight(grid);
-  const double expected = light.mean.g * total / sum;
+  double metered = 0;
+  for (int x = 0; x < 480; ++x)
+    metered += std::pow(LinearFromSrgb(static_cast<std::uint8_t>(level(x))), 2) / 480;
+  const double expected = std::sqrt(metered * total / sum);
   const double with = AutomaticGain(grid, light, backdrop, view, optics, reach);
   const double without =
       AutomaticGain(grid, light, backdrop, view, {optics.field_of_view, {}}, reach);

@@ -53,6 +53,7 @@ struct Disturbed {
   double Disturbances::*strength;
   double value;
 };
+void PrintTo(const Disturbed& disturbed, std::ostream* out) { *out << disturbed.name; }
 class DisturbedPicture : public testing::TestWithParam<Disturbed> {};
 
 TEST_P(DisturbedPicture, AnotherStrengthIsCaught) {

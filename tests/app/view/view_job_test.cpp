@@ -1,5 +1,7 @@
 // The job `view`, as a user runs it: with no display.
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh_io.h"
@@ -80,6 +82,64 @@ TEST_F(ViewJob, DisturbsAsAsked) {
   EXPECT_EQ(drawn("--disturb haze=0 --disturb-time 2"), clear);
 }
 
+// Without a depth map nothing says how far the lamp's light goes.
+TEST_F(ViewJob, WithoutADepthMapTheFootageKeepsItsOwnLight) {
+  const auto drawn = [&](const std::string& options) {
+    const std::string file = (folder_ / "l.png").string();
+    const ProgramResult run =
+        RunProgram("view " + scene_ + kPose + " --size 96 " + options + " -o " + file, kNoDisplay);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return ReadColourImage(file).rgb;
+  };
+  EXPECT_NE(drawn("--relight 1"), drawn("--relight 0"));
+  Scene scene = MakeViewScene().scene;
+  scene.backdrop.depth.clear();
+  WriteScene(folder_ / "scene.json", scene);
+  EXPECT_EQ(drawn("--relight 1"), drawn("--relight 0"));
+}
+
+// What other programs save as a picture: grey, 16 bits, with alpha, and one pixel of it.
+TEST_F(ViewJob, TakesEveryKindOfPanorama) {
+  const auto drawn = [&] {
+    const std::string file = (folder_ / "k.png").string();
+    const ProgramResult run =
+        RunProgram("view " + scene_ + kPose + " --plain --size 96 -o " + file, kNoDisplay);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return ReadColourImage(file).rgb;
+  };
+  const std::string file = (folder_ / "panorama.png").string();
+  const cv::Mat bgr = cv::imread(file, cv::IMREAD_COLOR);
+  const auto colours = drawn();
+  cv::Mat deep, clear, grey;
+  bgr.convertTo(deep, CV_16UC3, 257.0);
+  cv::imwrite(file, deep);
+  EXPECT_EQ(drawn(), colours) << "16 bits";
+  cv::cvtColor(bgr, clear, cv::COLOR_BGR2BGRA);
+  cv::insertChannel(cv::Mat(bgr.size(), CV_8UC1, cv::Scalar(99)), clear, 3);
+  cv::imwrite(file, clear);
+  EXPECT_EQ(drawn(), colours) << "alpha says nothing";
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  for (const bool is_deep : {false, true}) {
+    if (is_deep) grey.convertTo(grey, CV_16UC1, 257.0);
+    cv::imwrite(file, grey);
+    const auto greys = drawn();
+    int coloured = 0, seen = 0;
+    for (std::size_t i = 0; i < greys.size(); i += 3) {
+      coloured += greys[i] != greys[i + 1] || greys[i] != greys[i + 2];
+      seen += greys[i] > 0;
+    }
+    EXPECT_EQ(coloured, 0);
+    EXPECT_GT(seen, 4000);
+  }
+  Scene scene = MakeViewScene().scene;
+  scene.backdrop.depth.clear();
+  scene.backdrop.projection.centre_px = {0, 0};
+  WriteScene(folder_ / "scene.json", scene);
+  cv::imwrite(file, cv::Mat(1, 1, CV_8UC3, cv::Scalar(40, 80, 160)));
+  drawn();
+}
+
 TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
   const std::string output = (folder_ / "none.png").string();
   const auto refuse = [&](const std::string& arguments, int code, const std::string& word) {
@@ -109,6 +169,16 @@ TEST_F(ViewJob, WithoutAnyOpenGLItSaysSoInOneSentence) {
                  std::string(kNoDisplay) + " __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.err.find("no picture can be drawn"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST_F(ViewJob, WithAnOpenGLThatIsTooOldItSaysSoInOneSentence) {
+  const std::string view = "view " + scene_ + " -o " + (folder_ / "x.png").string();
+  const ProgramResult run = RunProgram(
+      view, std::string(kNoDisplay) + " LIBGL_ALWAYS_SOFTWARE=1 MESA_GL_VERSION_OVERRIDE=2.1");
+  if (run.exit_code == 0) GTEST_SKIP() << "NOT TESTED: this is not Mesa's OpenGL";
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("no OpenGL 3.2"), std::string::npos) << run.err;
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 

@@ -93,6 +93,22 @@ TEST(CheckJob, WarnsOfWhatIsDoubtfulAndHintsAtWhatIsMissing) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
 }
 
+TEST(CheckJob, SaysThatTheLampWaitsForADepthMap) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  const auto says = [&] {
+    WriteScene(folder / "scene.json", scene);
+    return test::RunProgram("check " + folder.path().string()).out.find("waits for a depth map") !=
+           std::string::npos;
+  };
+  scene.backdrop.relight = 0.5;
+  EXPECT_FALSE(says());
+  scene.backdrop.depth.clear();
+  EXPECT_TRUE(says());
+  scene.backdrop.relight = 0;
+  EXPECT_FALSE(says());
+}
+
 TEST(CheckJob, SaysWhatTheAuthorsCutsTakeAndWhichMiss) {
   test::TempFolder folder;
   Scene scene = WriteGoodScene(folder.path());
