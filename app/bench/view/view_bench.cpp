@@ -58,6 +58,8 @@ std::string TableOf(const ViewBench& bench) {
       "ends off: share of {} random pixels whose ray ends more than {:g} mm from where the ray "
       "tracer's does; others: those that do not;\ncolour off: share more than {:g}/255 off, where "
       "a picture has its footage's own colours; lines: of a grid, against the closed form.\n"
+      "The tracer's outlines are laid through the depth map's stairs as the picture's are; by the "
+      "map's stairs: against it as it is.\n"
       "wall: what a user waits; cpu: of all threads. p99 of fewer than 100 frames is the "
       "slowest.\n",
       bench.options.pixels, MmFromMetres(kSameDistance), kSameColour);
@@ -97,7 +99,7 @@ nlohmann::json JsonOf(const ViewBench& bench) {
 std::string PlotOf(const ViewBench& bench) {
   std::vector<PlotMark> marks;
   for (const ViewBenchRow& row : bench.rows)
-    if (row.traced)
+    if (row.traced && row.part != "stairs")
       marks.push_back({fmt::format("{} px, panorama {}", row.size, row.panorama), row.words,
                        kMilli * row.times.wall, 100 * row.traced->elsewhere,
                        row.relief == kUsualRelief ? 1.0 : 0.0});

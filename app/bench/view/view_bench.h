@@ -44,7 +44,7 @@ struct FrameTimes {
 };
 
 struct ViewBenchRow {
-  std::string part;   // "relief", "samples" or "scene"
+  std::string part;   // "relief", "stairs", "samples" or "scene"
   std::string words;  // "64 steps, cells of 8"
   int size = 0, panorama = 0;
   ReliefSearch relief;

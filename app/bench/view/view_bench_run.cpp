@@ -8,6 +8,7 @@
 #include "app/bench/quantile.h"
 #include "app/bench/view/view_bench.h"
 #include "app/bench/view/view_cases.h"
+#include "app/view/backdrop/relief_outlines.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/offscreen_context.h"
@@ -43,6 +44,13 @@ std::optional<TracedAgreement> Held(const TracedAgreement& agreement) {
 }
 std::optional<GridAgreement> Held(const GridAgreement& agreement) {
   return agreement.crossings > 0 ? std::optional(agreement) : std::nullopt;
+}
+
+// What the tracer is held against: the relief with its outlines laid smooth, as it is drawn, but of
+// every pixel. Its stairs, as they are, have rows of their own.
+LoadedScene WithSmoothOutlines(LoadedScene loaded) {
+  SmoothOutlines(loaded.depth, false);
+  return loaded;
 }
 
 class ViewBenchRun {
@@ -94,19 +102,20 @@ FrameTimes ViewBenchRun::TimeFrames(const std::string& words, F&& frame) {
 }
 
 void ViewBenchRun::MeasureRelief(int width, int size) {
-  const LoadedScene loaded = WavyJoint(width);
+  const LoadedScene loaded = WavyJoint(width), smooth = WithSmoothOutlines(loaded);
   view_.SetTissues({}, {});
   view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
   Picture plain = ViewOfWavyJoint();
   plain.plain = true;
   plain.samples = 2;
-  const std::vector<TracedPixel> traced = TracePixels(loaded, plain, size, options_.pixels);
+  const std::vector<TracedPixel> traced = TracePixels(smooth, plain, size, options_.pixels);
+  const std::vector<TracedPixel> stairs = TracePixels(loaded, plain, size, options_.pixels);
   for (const ReliefSearch& relief : kSearches) {
     plain.relief = relief;
     view_.Render(plain, size);
     const ColourImage colours = view_.ReadPixels();
-    const TracedAgreement agreement =
-        CompareWithTraced(traced, view_.ReadDistances(), size, &colours);
+    const std::vector<float> distances = view_.ReadDistances();
+    const TracedAgreement agreement = CompareWithTraced(traced, distances, size, &colours);
     const std::string words = relief.steps == 0
                                   ? std::string("bare sphere")
                                   : fmt::format("{} steps, cells of {}", relief.steps, relief.cell);
@@ -118,6 +127,17 @@ void ViewBenchRun::MeasureRelief(int width, int size) {
     });
     bench_.rows.push_back(
         {"relief", words, size, width, relief, picture.samples, 0, times, Held(agreement), {}});
+    if (relief == kUsualRelief)
+      bench_.rows.push_back({"stairs",
+                             "the same, by the map's stairs",
+                             size,
+                             width,
+                             relief,
+                             picture.samples,
+                             0,
+                             times,
+                             Held(CompareWithTraced(stairs, distances, size, &colours)),
+                             {}});
   }
 }
 
@@ -153,6 +173,7 @@ void ViewBenchRun::MeasureSamples(int size) {
 // The tissue moves in every frame; one instrument is held, the other lies there as a surface.
 void ViewBenchRun::MeasureScenes(int size) {
   LoadedScene loaded = WavyJoint(options_.panorama);
+  const LoadedScene smooth = WithSmoothOutlines(loaded);
   const InstrumentView held = ProbeInFront();
   // Drawn as far as its portal, which lies behind the lens.
   const SurfaceMesh probe =
@@ -192,7 +213,7 @@ void ViewBenchRun::MeasureScenes(int size) {
     const SurfaceMesh lies = Moved(lying, tissues[0].pose), moves = Moved(now, tissues[1].pose);
     const ReferenceMesh meshes[] = {{&probe}, {&lies}, {&moves}};
     const std::vector<TracedPixel> traced =
-        TracePixels(loaded, picture, size, options_.pixels, meshes);
+        TracePixels(smooth, picture, size, options_.pixels, meshes);
     bench_.rows.push_back({"scene",
                            words,
                            size,

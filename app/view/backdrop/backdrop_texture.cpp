@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view/backdrop/relief_outlines.h"
+
 namespace arthro::app {
 namespace {
 
@@ -126,17 +128,22 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
                 .texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
                              static_cast<std::size_t>(x))];
   };
+  DepthMap drawn(relief.width, relief.height);
   for (int y = 0; y < relief.height; ++y) {
     const int v =
         std::min(static_cast<int>((y + 0.5) * depth.height / relief.height), depth.height - 1);
-    for (int x = 0; x < relief.width; ++x) {
-      const float h = depth.at(
+    for (int x = 0; x < relief.width; ++x)
+      drawn.at(x, y) = depth.at(
           std::min(static_cast<int>((x + 0.5) * depth.width / relief.width), depth.width - 1), v);
+  }
+  SmoothOutlines(drawn, whole_turn);
+  for (int y = 0; y < relief.height; ++y)
+    for (int x = 0; x < relief.width; ++x) {
+      const float h = drawn.at(x, y);
       float* at = texel(x, y);
       at[0] = std::isfinite(h) ? h : 0.0f;
       at[3] = Bilinear(mask, (x + 0.5) / relief.width, (y + 0.5) / relief.height);
     }
-  }
   for (int y = 0; y < relief.height; ++y) {
     const int above = std::max(y - 1, 0), below = std::min(y + 1, relief.height - 1);
     for (int x = 0; x < relief.width; ++x) {

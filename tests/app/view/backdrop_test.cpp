@@ -10,6 +10,7 @@
 #include "app/bench/view/grid_picture.h"
 #include "app/bench/view/reference_tracer.h"
 #include "app/view/backdrop/backdrop_texture.h"
+#include "app/view/backdrop/relief_outlines.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
 
@@ -238,6 +239,12 @@ LoadedScene CliffScene(bool is_equirectangular) {
   return loaded;
 }
 
+// As it is drawn.
+DepthMap WithSmoothOutlines(DepthMap depth) {
+  app::SmoothOutlines(depth, false);
+  return depth;
+}
+
 struct ReliefAgreement {
   int compared = 0, elsewhere = 0;  // pixels; off by more than 0.1 mm
   int worst_colour = 0;             // of 255, of the others
@@ -280,12 +287,13 @@ TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
     const LoadedScene loaded = CliffScene(is_equirectangular);
     const Backdrop& backdrop = loaded.scene.backdrop;
     view_->SetBackdrop(loaded.panorama, loaded.depth, backdrop);
+    const DepthMap relief_drawn = WithSmoothOutlines(loaded.depth);
     for (const double angle : {0.0, 30.0, 70.0}) {
       Picture picture = PictureFromPose({0.05, -0.1, 0.7, 0.018}, RadiansFromDegrees(angle), 1.5);
       picture.plain = true;
       const int size = 96;
       const TracedPicture traced = TraceWindow(backdrop, loaded.panorama, picture.view,
-                                               picture.field_of_view, size, {}, &loaded.depth);
+                                               picture.field_of_view, size, {}, &relief_drawn);
       double share_before = 1;
       for (const app::ReliefSearch relief :
            {app::ReliefSearch{0, 1}, {16, 1}, {128, 1}, {1024, 1}, {64, 4}}) {
@@ -306,7 +314,7 @@ TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
           EXPECT_LT(share, 0.02);
           continue;
         }
-        EXPECT_LE(share, share_before);
+        EXPECT_LE(share, share_before + 5e-4);  // a crest through a few pixels
         share_before = share;
         if (relief.steps == 1024) {
           EXPECT_LT(share, 0.01);

@@ -1,0 +1,205 @@
+// Outlines of a depth map against the shapes that it was sampled from.
+#include "app/view/backdrop/relief_outlines.h"
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "app/bench/view/reference_tracer.h"
+#include "simulation/scene/image.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr int kSide = 160;
+constexpr float kNear = 0.02f, kFar = 0.005f;
+
+// How far a place lies inside what is near, texels.
+using Inside = std::function<double(double, double)>;
+
+DepthMap Sampled(const Inside& inside) {
+  DepthMap map(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) map.at(x, y) = inside(x, y) > 0 ? kNear : kFar;
+  return map;
+}
+
+double Bilinear(const DepthMap& map, double x, double y) {
+  const int i = static_cast<int>(x), j = static_cast<int>(y);
+  const double f = x - i, g = y - j;
+  return (1 - g) * ((1 - f) * map.at(i, j) + f * map.at(i + 1, j)) +
+         g * ((1 - f) * map.at(i, j + 1) + f * map.at(i + 1, j + 1));
+}
+
+// Where the map goes through half of the step, from the true outline along its normal: the spread
+// of that is the stair, texels.
+double StairOf(const DepthMap& map, const Inside& inside) {
+  double sum = 0, squares = 0;
+  int count = 0;
+  for (double y = 20; y < kSide - 20; y += 0.21)
+    for (double x = 20; x < kSide - 20; x += 0.37) {
+      const double here = inside(x, y);
+      if (std::abs(here) > 0.02) continue;
+      constexpr double kBeside = 1e-4;
+      const double u = (inside(x + kBeside, y) - here) / kBeside,
+                   v = (inside(x, y + kBeside) - here) / kBeside;
+      double t = -3;
+      while (t < 3 && Bilinear(map, x + u * t, y + v * t) < 0.5 * (kNear + kFar)) t += 0.005;
+      sum += t, squares += t * t, ++count;
+    }
+  EXPECT_GT(count, 5);
+  return std::sqrt(std::max(squares / count - sum * sum / count / count, 0.0));
+}
+
+Inside Line(double slope) {
+  return [=](double x, double y) {
+    return (slope * (x - 80.3) + (y - 80.2)) / std::hypot(1.0, slope);
+  };
+}
+Inside Disc(double radius) {
+  return [=](double x, double y) { return radius - std::hypot(x - 80.3, y - 79.6); };
+}
+
+// A uniform error of half a texel to either side has a spread of 0.29.
+TEST(ReliefOutlines, OfLinesAreStraightAndOfDiscsNotWorse) {
+  const auto stairs = [&](const char* name, const Inside& inside) {
+    const DepthMap map = Sampled(inside);
+    DepthMap smooth = map;
+    SmoothOutlines(smooth, false);
+    const std::pair<double, double> both = {StairOf(map, inside), StairOf(smooth, inside)};
+    std::printf("%s: %.3f texels before, %.3f after\n", name, both.first, both.second);
+    return both;
+  };
+  for (const double slope : {1 / 23.0, 1 / 7.0, 0.4, -0.4, 2.5, 11.0}) {
+    const auto [before, after] = stairs(("line of " + std::to_string(slope)).c_str(), Line(slope));
+    EXPECT_LT(after, 0.1);
+    EXPECT_LT(after, 0.5 * before);
+  }
+  for (const double radius : {5.3, 15.3, 60.3}) {
+    const auto [before, after] =
+        stairs(("disc of " + std::to_string(radius)).c_str(), Disc(radius));
+    EXPECT_LT(after, before);
+  }
+}
+
+TEST(ReliefOutlines, OnlyTexelsBesideOneChangeAndStayBetweenNearAndFar) {
+  const DepthMap map = Sampled(Disc(40));
+  DepthMap smooth = map;
+  SmoothOutlines(smooth, false);
+  int changed = 0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      EXPECT_GE(smooth.at(x, y), kFar);
+      EXPECT_LE(smooth.at(x, y), kNear);
+      if (smooth.at(x, y) == map.at(x, y)) continue;
+      ++changed;
+      EXPECT_LT(std::abs(Disc(40)(x, y)), 1.5) << x << " " << y;
+    }
+  EXPECT_GT(changed, 150);
+}
+
+TEST(ReliefOutlines, WhatIsSteepOrUnevenIsNoOutline) {
+  DepthMap map(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      map.at(x, y) = static_cast<float>(4e-4 * x + 2e-4 * y + 3e-5 * std::sin(0.7 * x * y));
+  DepthMap smooth = map;
+  SmoothOutlines(smooth, false);
+  EXPECT_EQ(smooth.relief, map.relief);
+}
+
+TEST(ReliefOutlines, OneTexelAndTheUnknownAreLeftAlone) {
+  for (const float value : {0.01f, std::numeric_limits<float>::quiet_NaN()}) {
+    DepthMap one(1, 1, value);
+    SmoothOutlines(one, false);
+    SmoothOutlines(one, true);
+    EXPECT_EQ(std::isnan(one.at(0, 0)), std::isnan(value));
+  }
+  const Inside inside = Line(0.3);
+  DepthMap map = Sampled(inside);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 60; x < 90; ++x)
+      if (inside(x, y) < 0) map.at(x, y) = std::numeric_limits<float>::quiet_NaN();
+  DepthMap smooth = map;
+  SmoothOutlines(smooth, false);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 62; x < 88; ++x) {
+      EXPECT_EQ(std::isnan(smooth.at(x, y)), std::isnan(map.at(x, y)));
+      if (!std::isnan(map.at(x, y))) {
+        EXPECT_EQ(smooth.at(x, y), map.at(x, y)) << "against the unknown there is no outline";
+      }
+    }
+}
+
+// A whole turn has no seam: turned and smoothed is smoothed and turned.
+TEST(ReliefOutlines, AWholeTurnHasNoSeam) {
+  const auto turned = [](const DepthMap& map, int by) {
+    DepthMap out = map;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) out.at((x + by) % kSide, y) = map.at(x, y);
+    return out;
+  };
+  const DepthMap map =
+      Sampled([](double x, double y) { return 80 + 9 * std::sin(0.0393 * x) - y; });
+  DepthMap smooth = map, other = turned(map, 61);
+  SmoothOutlines(smooth, true);
+  SmoothOutlines(other, true);
+  EXPECT_EQ(other.relief, turned(smooth, 61).relief);
+  DepthMap seam = turned(map, 61);
+  SmoothOutlines(seam, false);
+  EXPECT_NE(seam.relief, other.relief) << "without it there is one";
+}
+
+// What straightness costs: a ramp along a line is up to two texels wide, and one along a stair is
+// one. A cliff of 6 mm along a wave, seen from above it: how many rays end more than 0.1 mm from
+// where they meet the cliff itself, sampled sixteen times as finely.
+TEST(ReliefOutlines, CostHalfAsManyRaysAgainOnTheSlopeAtMost) {
+  constexpr int kWidth = 256, kHeight = 192, kFiner = 16, kRays = 160;
+  const auto cliff = [](double u, double v) {  // panorama pixels of the coarse map
+    return v + 0.2 * u > 118 + 14 * std::sin(u / 25) ? 0.012f : 0.006f;
+  };
+  const auto sampled = [&](int finer) {
+    DepthMap map(finer * kWidth, finer * kHeight);
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x)
+        map.at(x, y) = cliff((x + 0.5) / finer - 0.5, (y + 0.5) / finer - 0.5);
+    return map;
+  };
+  const auto backdrop_of = [](int finer) {
+    Backdrop backdrop;
+    backdrop.radius = 0.05;
+    backdrop.projection.focal_px = 107.5 * finer;
+    backdrop.projection.centre_px = {(finer * kWidth - 1) / 2.0, (finer * kHeight - 1) / 2.0};
+    return backdrop;
+  };
+  const DepthMap map = sampled(1), fine = sampled(kFiner);
+  DepthMap smooth = map;
+  SmoothOutlines(smooth, false);
+  int by_map = 0, by_smooth = 0, rays = 0;
+  for (const double angle : {0.0, 0.5, 1.2}) {
+    const auto view = simulation::ViewFromPose({0.25, 0.1, 3.0, 0.02}, angle);
+    for (int y = 0; y < kRays; ++y)
+      for (int x = 0; x < kRays; ++x) {
+        const auto ray = ReferenceRay(view, 1.5, kRays, {x, y});
+        if (!ray) continue;
+        const auto truth = ReferenceReliefHit(backdrop_of(kFiner), fine, view.tip, *ray);
+        const auto to = [&](const DepthMap& depth) {
+          return glm::distance(*ReferenceReliefHit(backdrop_of(1), depth, view.tip, *ray), *truth);
+        };
+        ++rays;
+        by_map += to(map) > 1e-4 ? 1 : 0;
+        by_smooth += to(smooth) > 1e-4 ? 1 : 0;
+      }
+  }
+  std::printf("%.2f %% of %d rays elsewhere by the map, %.2f %% by its smooth outlines\n",
+              100.0 * by_map / rays, rays, 100.0 * by_smooth / rays);
+  EXPECT_GT(by_map, rays / 100);
+  EXPECT_LT(by_smooth, 1.5 * by_map);
+}
+
+}  // namespace
+}  // namespace arthro::app
