@@ -69,8 +69,8 @@ float lampAt(float distance) {
 // What the instrument leaves of the lamp's light at a point (m, in the lens' frame: x right, y up,
 // -z along the view): its shadow, since the fibres that give light end beside the lens, with a half
 // shadow as wide as they are, and the dimness where it nearly touches. Of a rod, which tapers to
-// half its radius, and of what stands away from it. Needs: vec3 lampPlace, rodFrom, rodTo, headFrom, headTo;
-// float rodRadius, headRadius (0: there is none).
+// half its radius, and of what stands away from it. Needs: vec3 lampPlace, rodFrom, rodTo,
+// headFrom, headTo; float rodRadius, headRadius (0: there is none).
 inline constexpr const char* kRodShade = R"(
 float shadeOf(vec3 point, vec3 from, vec3 to, float radius, float taper) {
   // Nearest places of the way to the lamp and of the rod [Ericson 2005, 5.1.9].

@@ -5,8 +5,7 @@ namespace {
 
 bool IsFresh(const DeviceEvents& events) noexcept {
   // What is not a number is not fresh.
-  return events.has_sample && events.sample_age >= 0 &&
-         events.sample_age < kFreshFor - kClockGrain;
+  return events.has_sample && events.sample_age >= 0 && events.sample_age < kFreshFor - kClockGrain;
 }
 
 // A fault is ours or of what we were told; what breaks the link is a loss.

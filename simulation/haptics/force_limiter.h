@@ -26,7 +26,8 @@ struct LimiterOptions {
     v("max_hand_speed", max_hand_speed, Range{0.05, 10}, "m/s", "A faster hand gets no force.");
     v("ramp_time", ramp_time, Range{0, 5}, "s",
       "From no force to full force after arming or a fault.");
-    v("max_sample_age", max_sample_age, Range{0.001, 1}, "s", "A sample that is as old gets no force.");
+    v("max_sample_age", max_sample_age, Range{0.001, 1}, "s",
+      "A sample that is as old gets no force.");
     v("lost_after", lost_after, Range{0.001, 10}, "s",
       "With no new sample for this long a device is lost.");
   }

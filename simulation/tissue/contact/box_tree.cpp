@@ -9,7 +9,7 @@ namespace arthro::simulation {
 namespace {
 
 constexpr int kLeafSize = 12;  // fewer items: a further box costs more than it saves
-constexpr int kBits = 10;     // of a place along each axis
+constexpr int kBits = 10;      // of a place along each axis
 
 glm::dvec3 Centre(const Box3& box) { return box.low + box.high; }  // twice; only compared
 

@@ -146,7 +146,7 @@ TEST_P(EveryTissue, MeniscusIsHeldAtHornsAndRimAndFreeAtItsEdge) {
   const auto held_nodes = std::count(nodes.begin(), nodes.end(), 1);
   std::printf("held: %d of %d rim vertices, %d of %d of the inner half, %ld of %zu nodes\n",
               rim_held, rim, edge_held, edge, held_nodes, nodes.size());
-  EXPECT_GT(rim_held, rim / 3);  // its lower part, where the capsule is
+  EXPECT_GT(rim_held, rim / 3);    // its lower part, where the capsule is
   EXPECT_LT(edge_held, edge / 8);  // at the horns' roots only
   EXPECT_GT(held_nodes, 100);
   EXPECT_LT(held_nodes, static_cast<long>(nodes.size()) / 3);

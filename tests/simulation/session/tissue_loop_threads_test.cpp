@@ -1,7 +1,5 @@
 // Living tissue on a thread of its own: what the three sides of it may do at the same time. Run it
 // with the thread sanitizer too; on its own it sees only what tears or hangs.
-#include "simulation/session/tissue_loop.h"
-
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/session/tissue_loop.h"
 #include "tests/simulation/tissue/body/slab_body.h"
 
 namespace arthro::simulation {

@@ -18,8 +18,7 @@ CameraPrior::CameraPrior(const Pinhole& camera, const Normalisation& normalisati
 }
 
 bool CameraPrior::Evaluate(const Eigen::Matrix3d& place, const Eigen::Matrix3d& place0,
-                           Eigen::Vector2d* residual,
-                           Eigen::Matrix<double, 2, 8>* by_frame) const {
+                           Eigen::Vector2d* residual, Eigen::Matrix<double, 2, 8>* by_frame) const {
   const Eigen::Matrix3d frame_from_plane = place.inverse();
   const Eigen::Matrix3d g = ray_from_frame_ * frame_from_plane;
   if (!g.allFinite()) return false;

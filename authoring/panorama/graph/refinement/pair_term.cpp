@@ -97,8 +97,7 @@ bool PairTerm::Evaluate(const Eigen::Matrix3d& plane_from_a, const Eigen::Matrix
     const Eigen::Vector3d p = b_from_a * control_.col(k);
     if (!(p.z() * side > 1e-6 * p.norm())) return false;
     error.segment<2>(2 * k) = (p.head<2>() / p.z() - target_.col(k).head<2>()) * scale_;
-    if (by_a)
-      da.middleRows<2>(2 * k) = ChartDerivative(b_from_a0, control_.col(k), p) * scale_;
+    if (by_a) da.middleRows<2>(2 * k) = ChartDerivative(b_from_a0, control_.col(k), p) * scale_;
     // d inv(M_b) = -inv(M_b) dM_b inv(M_b)
     if (by_b) db.middleRows<2>(2 * k) = -ChartDerivative(b_from_b0, p, p) * scale_;
   }
@@ -123,7 +122,8 @@ Eigen::Matrix<double, 2, 8> ChartDerivative(const Eigen::Matrix3d& h, const Eige
   const Eigen::Matrix<double, 2, 3> m = projection * h;
   Eigen::Matrix<double, 2, 8> d;
   for (int row = 0; row < 3; ++row)
-    for (int col = 0; col < 3 && row * 3 + col < 8; ++col) d.col(row * 3 + col) = m.col(row) * y[col];
+    for (int col = 0; col < 3 && row * 3 + col < 8; ++col)
+      d.col(row * 3 + col) = m.col(row) * y[col];
   return d;
 }
 

@@ -65,9 +65,8 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
     const PairTerm term(pairs[i], normalisation, pair_floor_px);
     const Eigen::Matrix3d &a = places[at(term.a())], &b = places[at(term.b())];
     Vector8 whitened;
-    linear[i].is_valid =
-        weights[i] > 0 &&
-        term.Evaluate(a, b, a, b, &whitened, nullptr, &linear[i].by_a, &linear[i].by_b);
+    linear[i].is_valid = weights[i] > 0 && term.Evaluate(a, b, a, b, &whitened, nullptr,
+                                                         &linear[i].by_a, &linear[i].by_b);
     if (!linear[i].is_valid) continue;
     linear[i].by_a *= std::sqrt(weights[i]);
     linear[i].by_b *= std::sqrt(weights[i]);
@@ -136,9 +135,9 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
   }
   const Matrix8 gauge_inverse =
       (gauge_normal + 1e-12 * gauge_normal.trace() * Matrix8::Identity()).inverse();
-  gauge_rows *= gauge_inverse;                                  // B^T
-  const Eigen::MatrixXd solved = inverse.Solve(gauge_rows);     // inv(N) B^T = cov(x, g)
-  const Matrix8 gauge_cov = gauge_rows.transpose() * solved;    // cov(g)
+  gauge_rows *= gauge_inverse;                                // B^T
+  const Eigen::MatrixXd solved = inverse.Solve(gauge_rows);   // inv(N) B^T = cov(x, g)
+  const Matrix8 gauge_cov = gauge_rows.transpose() * solved;  // cov(g)
 
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (rows[i].by_frame.empty()) continue;
@@ -169,8 +168,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
     double used = 0;
     if (ra >= 0) used += (ja * inverse.Block<8>(ra, ra) * ja.transpose()).trace();
     if (rb >= 0) used += (jb * inverse.Block<8>(rb, rb) * jb.transpose()).trace();
-    if (ra >= 0 && rb >= 0)
-      used += 2 * (ja * inverse.Block<8>(ra, rb) * jb.transpose()).trace();
+    if (ra >= 0 && rb >= 0) used += 2 * (ja * inverse.Block<8>(ra, rb) * jb.transpose()).trace();
     result.pair_checked[i] = std::clamp(1.0 - used / 8.0, 0.0, 1.0);
   }
   return result;

@@ -168,7 +168,8 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
       EXPECT_LT(off, 0.02) << row;
     }
   }
-  EXPECT_EQ(parts, (std::map<std::string, int>{{"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 10}}));
+  EXPECT_EQ(parts, (std::map<std::string, int>{
+                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 10}}));
   EXPECT_EQ(sphere.size(), 3u);
   EXPECT_EQ(triangles, (std::set<int>{0, 392, 2048}));
   const std::string svg = ReadWholeFile(plot);

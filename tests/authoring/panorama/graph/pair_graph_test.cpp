@@ -35,7 +35,8 @@ TEST(CycleCheck, FalsePairsAreFoundAndTrueOnesKept) {
   const auto places = TruePlaces(40, true);
   std::vector<PairEstimate> pairs;
   for (int step = 1; step <= 3; ++step)
-    for (int i = 0; i < 40; ++i) pairs.push_back(NoisyPair(places, i, (i + step) % 40, 0.2, random));
+    for (int i = 0; i < 40; ++i)
+      pairs.push_back(NoisyPair(places, i, (i + step) % 40, 0.2, random));
   const std::vector<std::size_t> wrong{5, 23, 44, 70, 95, 110};
   for (const std::size_t i : wrong)
     pairs[i].b_from_a = cv::Matx33d(1, 0.02, 18, 0, 1, -12, 0, 0, 1) * pairs[i].b_from_a;

@@ -148,7 +148,7 @@ TEST(Uncertainty, CoversTheTrueErrorOf95PercentAndStaysUseful) {
   std::printf("covered %.1f %%, promised %.2f px for %.2f px\n", 100.0 * covered / all,
               promised / all, made / all);
   EXPECT_GE(covered, 0.95 * all);
-  EXPECT_LT(promised, 3.0 * made);     // a bound that says nothing is no use
+  EXPECT_LT(promised, 3.0 * made);  // a bound that says nothing is no use
 }
 
 TEST(Uncertainty, IsTheSameWhicheverFrameIsFixed) {
@@ -167,9 +167,8 @@ TEST(Uncertainty, SaysWhichPairsNothingChecks) {
   const auto places = TruePlaces(10, false);
   auto pairs = PairsOf(places, false, 0.3, random);
   // Frames 5 and 6 are joined by one pair alone.
-  std::erase_if(pairs, [](const PairEstimate& p) {
-    return p.b - p.a == 2 && (p.a == 4 || p.a == 5);
-  });
+  std::erase_if(pairs,
+                [](const PairEstimate& p) { return p.b - p.a == 2 && (p.a == 4 || p.a == 5); });
   const auto uncertainty = EstimateUncertainty(pairs, std::vector<double>(pairs.size(), 1.0),
                                                places, 0, NinePoints(), 0.05);
   const std::vector<bool> bridges = BridgesOf(10, pairs);
@@ -190,9 +189,8 @@ TEST(Refine, ThreeHundredFramesCostLittleEach) {
   const auto pairs = PairsOf(places, true, 0.3, random);
   const std::clock_t begin = std::clock();
   const Refined refined = RefineFromTree(pairs, 300, 0, {});
-  const auto uncertainty =
-      EstimateUncertainty(pairs, std::vector<double>(pairs.size(), 1.0), refined.plane_from_frame,
-                          0, NinePoints(), 0.05);
+  const auto uncertainty = EstimateUncertainty(pairs, std::vector<double>(pairs.size(), 1.0),
+                                               refined.plane_from_frame, 0, NinePoints(), 0.05);
   const double ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / 300;
   std::printf("%.2f ms a frame of 300\n", ms);
   EXPECT_LT(ms, 25.0);  // 5 ms is asked of a release build; a sanitizer may take several times it

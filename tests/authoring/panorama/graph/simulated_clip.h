@@ -128,8 +128,8 @@ inline std::vector<double> WorstErrors(const std::vector<cv::Matx33d>& estimated
       }
     const cv::Matx<double, 8, 1> x = normal.solve(right, cv::DECOMP_CHOLESKY);
     const cv::Matx33d scale(1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1);
-    plane = scale.inv() *
-            cv::Matx33d(1 + x(0), x(1), x(2), x(3), 1 + x(4), x(5), x(6), x(7), 1) * scale * plane;
+    plane = scale.inv() * cv::Matx33d(1 + x(0), x(1), x(2), x(3), 1 + x(4), x(5), x(6), x(7), 1) *
+            scale * plane;
   }
   std::vector<double> worst(truth.size(), 0);
   for (std::size_t i = 0; i < truth.size(); ++i)
