@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/core/options_json.h"
+#include "simulation/core/same_options.h"
 
 namespace arthro::app {
 namespace {
@@ -10,10 +10,6 @@ namespace {
 constexpr std::size_t kMostKept = 64;  // records, not maps
 
 }  // namespace
-
-bool SameOptions(const authoring::DepthOptions& a, const authoring::DepthOptions& b) {
-  return JsonFromOptions(a) == JsonFromOptions(b);
-}
 
 void DepthCache::Note(const authoring::Document& document) {
   std::erase_if(made_, [&](const Made& made) {

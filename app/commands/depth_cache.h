@@ -42,6 +42,4 @@ class DepthCache {
   std::vector<Made> made_;
 };
 
-bool SameOptions(const authoring::DepthOptions& a, const authoring::DepthOptions& b);
-
 }  // namespace arthro::app

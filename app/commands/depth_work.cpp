@@ -5,6 +5,7 @@
 
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_preview.h"
+#include "simulation/core/same_options.h"
 
 namespace arthro::app {
 namespace {

@@ -5,6 +5,7 @@
 #include "app/commands/depth_cache.h"
 #include "app/commands/same.h"
 #include "authoring/project/document_io.h"
+#include "simulation/core/same_options.h"
 
 namespace arthro::app {
 namespace {

@@ -78,23 +78,25 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const auto& depth = preview ? cache.preview : document.depth;
   const DepthMap bare;
   const DepthMap& relief = depth ? *depth : bare;
-  Backdrop wanted = WithKnownLight(document.scene.backdrop, relief);
-  if (state.shows_as_filmed && !state.practice) wanted.relight = 0;
-  const bool same_place = SameBackdrop(backdrop_, wanted);
+  const Backdrop& wanted = document.scene.backdrop;
+  const bool as_filmed = state.shows_as_filmed && !state.practice;
+  const bool same_place = SameBackdrop(backdrop_, wanted) && as_filmed == as_filmed_;
   const bool same_panorama = panorama == panorama_ && panorama;
   if (panorama == panorama_ && depth == depth_ && same_place) return;
   const bool same_depth = depth == depth_;
   panorama_ = panorama;
   depth_ = depth;
   backdrop_ = wanted;
+  as_filmed_ = as_filmed;
   changed_ = true;
   if (!panorama) return;
-  Backdrop shown = backdrop_;
+  Backdrop shown = WithKnownLight(backdrop_, relief);
+  if (as_filmed) shown.relight = 0;
   if (preview)
     shown.projection =
         Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
-  if (same_panorama && (same_place || scope_.SetGeometry(shown))) {
+  if (same_panorama && scope_.SetGeometry(shown)) {
     if (!same_depth) scope_.SetDepth(relief);
     overview_.SetRelief(relief, shown);
     return;

@@ -78,6 +78,7 @@ class Pictures {
   std::shared_ptr<const ColourImage> panorama_;
   std::shared_ptr<const DepthMap> depth_;
   Backdrop backdrop_;
+  bool as_filmed_ = false;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
   CutSkins cut_skins_;

@@ -45,7 +45,7 @@ bool ShowsTool(const Picture& picture) {
 }
 
 // What of the instrument shades: its rod, and the hook or the jaw that moves, as it touches.
-LensShade ShadeOf(const Picture& picture) {
+LensShade ShadeOf(const Picture& picture, const simulation::ToolShape& shape) {
   LensShade shade;
   shade.lamp = kLampAside * glm::dvec3(std::sin(picture.notch), std::cos(picture.notch), 0.0);
   if (!ShowsTool(picture)) return shade;
@@ -57,7 +57,6 @@ LensShade ShadeOf(const Picture& picture) {
   const InstrumentView& tool = *picture.instrument;
   shade.rod = {in_lens(tool.portal), in_lens(tool.proxy),
                tool.kind == simulation::ToolKind::kProbe ? kProbe : kOther};
-  const simulation::ToolShape shape = simulation::ShapeOf(tool.kind);
   const int head = tool.kind == simulation::ToolKind::kProbe ? 0
                    : shape.jaw.empty()                       ? -1
                                                              : shape.jaw.front();
@@ -86,6 +85,7 @@ struct ArthroscopicView::Parts {
   LensModel tool{LensModel::Look::kSteel}, moving{LensModel::Look::kSteel};
   simulation::ToolKind tool_kind = simulation::ToolKind::kNone;  // that these two are of
   ToolMesh tool_mesh;
+  simulation::ToolShape tool_shape;
   std::vector<std::unique_ptr<LensModel>> tissues;
   std::vector<std::size_t> vertex_counts;
   // Where each tissue lies, and the light about it, found when it is asked for.
@@ -100,6 +100,7 @@ struct ArthroscopicView::Parts {
   std::string notice;
   int size = 0;
 
+  void TakeTool(simulation::ToolKind kind);
   void ShowTool(const Picture& picture, const LensFrame& frame);
   const FootageLight& LightAbout(std::size_t tissue);
   void ForgetLight() {
@@ -119,6 +120,17 @@ const FootageLight& ArthroscopicView::Parts::LightAbout(std::size_t tissue) {
   return *place.about;
 }
 
+void ArthroscopicView::Parts::TakeTool(simulation::ToolKind kind) {
+  if (kind == tool_kind) return;
+  tool_kind = kind;
+  tool_mesh = MakeToolMesh(tool_kind);
+  tool_shape = simulation::ShapeOf(tool_kind);
+  tool.SetSurface(tool_mesh.body);
+  moving.SetSurface(tool_mesh.moving);
+  tool.SetEtched(tool_kind == simulation::ToolKind::kProbe);
+  moving.SetEtched(false);
+}
+
 void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& frame) {
   if (!ShowsTool(picture)) {
     tool.Show(false);
@@ -126,14 +138,6 @@ void ArthroscopicView::Parts::ShowTool(const Picture& picture, const LensFrame& 
     return;
   }
   const InstrumentView& instrument = *picture.instrument;
-  if (instrument.kind != tool_kind) {
-    tool_kind = instrument.kind;
-    tool_mesh = MakeToolMesh(tool_kind);
-    tool.SetSurface(tool_mesh.body);
-    moving.SetSurface(tool_mesh.moving);
-    tool.SetEtched(tool_kind == simulation::ToolKind::kProbe);
-    moving.SetEtched(false);
-  }
   const Pose pose = ProbePose(instrument.portal, instrument.proxy, instrument.roll);
   const Pose part = MovingPart(tool_mesh, instrument.opening, instrument.turn);
   tool.SetPose(pose);
@@ -253,7 +257,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   camera->SetClippingRange(kNearest, kFarthest);
 
   LensFrame frame;
-  frame.shade = ShadeOf(picture);
+  if (ShowsTool(picture)) p.TakeTool(picture.instrument->kind);
+  frame.shade = ShadeOf(picture, p.tool_shape);
   p.backdrop->SetPicture(picture, size, frame.shade);
   frame.gain = p.backdrop->gain();
   frame.relit = p.backdrop->relight();

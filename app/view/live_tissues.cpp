@@ -6,10 +6,12 @@ namespace arthro::app {
 namespace {
 
 // A body's own frame is its tissue's after the scale of the pose; the views' is before it.
-std::vector<glm::dvec3> Unscaled(std::vector<glm::dvec3> x, double scale) {
-  if (scale != 1.0)
-    for (glm::dvec3& p : x) p /= scale;
-  return x;
+std::span<const glm::dvec3> Unscaled(std::span<const glm::dvec3> x, double scale,
+                                     std::vector<glm::dvec3>& room) {
+  if (scale == 1.0) return x;
+  room.assign(x.begin(), x.end());
+  for (glm::dvec3& p : room) p /= scale;
+  return room;
 }
 
 }  // namespace
@@ -28,14 +30,14 @@ bool LiveTissues::Show(const simulation::WorldPicture& world, std::span<const Ti
     const bool is_other =
         shown.skin != body.skin && (shown.skin != nullptr || !body.skin->is_fresh.empty());
     if (is_other) {
-      const SurfaceMesh surface{Unscaled(body.skin->surface.vertices, scale),
-                                body.skin->surface.triangles};
+      const auto vertices = Unscaled(body.skin->surface.vertices, scale, unscaled_);
+      const SurfaceMesh surface{{vertices.begin(), vertices.end()}, body.skin->surface.triangles};
       scope.SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
       if (overview != nullptr)
         overview->SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
     }
     shown = {body.skin, body.shape};
-    const std::vector<glm::dvec3> positions = Unscaled(body.positions, scale);
+    const std::span<const glm::dvec3> positions = Unscaled(body.positions, scale, unscaled_);
     const bool moved = scope.SetTissueShape(body.tissue, positions, body.normals);
     if (overview != nullptr) overview->SetTissueShape(body.tissue, positions, body.normals);
     changed = changed || moved || is_other;

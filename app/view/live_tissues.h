@@ -29,6 +29,7 @@ class LiveTissues {
     std::uint64_t shape = 0;
   };
   std::vector<Shown> shown_;
+  std::vector<glm::dvec3> unscaled_;  // room
 };
 
 }  // namespace arthro::app

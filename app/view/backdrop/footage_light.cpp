@@ -218,8 +218,8 @@ FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
   std::vector<std::size_t> near;
   const double least = std::cos(angle);
   for (const std::size_t i : AllImaged(grid)) {
-    const glm::dvec2 block(static_cast<double>(i % static_cast<std::size_t>(grid.width)),
-                           static_cast<double>(i / static_cast<std::size_t>(grid.width)));
+    const int column = static_cast<int>(i) % grid.width, row = static_cast<int>(i) / grid.width;
+    const glm::dvec2 block(column, row);
     const glm::dvec3 d = DirectionFromPixel(projection, (block + 0.5) * grid.block_px - 0.5);
     if (glm::dot(d, direction) >= least) near.push_back(i);
   }

@@ -99,11 +99,12 @@ vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface) {
 }
 
 void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
-                     std::span<const glm::dvec3> given_normals) {
-  std::vector<glm::dvec3> normals(given_normals.begin(), given_normals.end());
+                     std::span<const glm::dvec3> normals) {
+  std::vector<glm::dvec3> own;
   if (normals.empty()) {
-    normals.resize(surface.vertices.size());
-    ComputeVertexNormals(surface.vertices, surface.triangles, normals);
+    own.resize(surface.vertices.size());
+    ComputeVertexNormals(surface.vertices, surface.triangles, own);
+    normals = own;
   }
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const glm::dvec3 &p = surface.vertices[i], &n = normals[i];

@@ -32,7 +32,7 @@ vtkSmartPointer<vtkTexture> MakePanoramaTexture(const ColourImage& panorama);
 vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface);
 // Normals are computed where none are given.
 void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
-                     std::span<const glm::dvec3> given_normals = {});
+                     std::span<const glm::dvec3> normals = {});
 
 // Vertices that are flagged in one colour, the others in another (sRGB); no flags: the actor's.
 void ColourVertices(vtkPolyData& data, const glm::dvec3& others, const glm::dvec3& flagged,

@@ -1,9 +1,12 @@
 #include "simulation/core/options.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "simulation/core/options_json.h"
 #include "simulation/core/part_visitor.h"
+#include "simulation/core/same_options.h"
 
 namespace arthro {
 namespace {
@@ -73,6 +76,24 @@ TEST(Options, PartsMayUseOneWord) {
   EXPECT_EQ(back.far.passes, 7);
   options.far.passes = 12;
   EXPECT_THROW(CheckOptions(options), Error);
+}
+
+TEST(Options, AreTheSameWhereEveryFieldIs) {
+  SampleOptions a, b;
+  EXPECT_TRUE(SameOptions(a, b));
+  const auto differ = [&](auto change) {
+    b = a;
+    change();
+    EXPECT_FALSE(SameOptions(a, b));
+    EXPECT_FALSE(SameOptions(b, a));
+  };
+  differ([&] { b.depth += 1e-12; });
+  differ([&] { b.passes = -3; });
+  differ([&] { b.mask = false; });
+  differ([&] { b.law = Law::kInverseSquare; });
+  differ([&] { b.angle = std::numeric_limits<double>::quiet_NaN(); });
+  a = b;
+  EXPECT_TRUE(SameOptions(a, b)) << "what is no number too";
 }
 
 TEST(Options, RefuseWithKeyAndRemedy) {
