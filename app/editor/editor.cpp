@@ -218,7 +218,7 @@ class Editor {
 
   bool Busy() const {
     return state_.jobs.busy() || state_.preview_jobs.busy() || state_.frame_jobs.busy() ||
-           state_.pivot_jobs.busy();
+           state_.pivot_jobs.busy() || (state_.film && state_.film->is_ending());
   }
 
   void Frame() {

@@ -64,7 +64,7 @@ set "File name" ")" + (temp / "mine.avi").string() +
 wait frames 20
 expect "Recording 00:00"
 key f2
-wait frames 60
+wait job
 expect not "Recording"
 expect "The film is in"
 expect "Force on the tissue"
@@ -81,7 +81,7 @@ TEST_F(ScreensWindow, APracticeIsRecordedAsPicturesByTheFlagAndByTheCommand) {
 wait job
 hold left 60
 key f2
-wait frames 60
+wait job
 expect "The pictures are in"
 key f2
 expect "frame-%04d.png in an empty folder"
@@ -89,7 +89,7 @@ set "File name" ")" + (by_command / "frame-%04d.png").string() +
                                                                                        R"("
 wait frames 20
 key f2
-wait frames 60
+wait job
 expect "The pictures are in"
 key f2
 set "File name" ")" + (by_command / "frame-%04d.png").string() +
