@@ -89,6 +89,10 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
 void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth) {
   ReliefTexture relief = MakeReliefTexture(panorama_size_, depth, wraps_);
   Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
+  if (backdrop_.relight > 0) {
+    const BroadSlopes broad = MakeBroadSlopes(relief, wraps_);
+    Fill(*slopes_, window, broad.width, broad.height, 2, VTK_FLOAT, broad.slopes.data());
+  }
   unsearched_ = std::move(relief);
   SetRelief(grid_, depth);
 }
@@ -193,11 +197,14 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_ALWAYS);
   panorama_->Activate();
+  if (is_relit) slopes_->Activate();
   if (has_cells) cells_.cells()->Activate();
   SetUniforms(*program);
+  if (is_relit) program->SetUniformi("broadSlopes", slopes_->GetTextureUnit());
   if (has_cells) program->SetUniformi("cells", cells_.cells()->GetTextureUnit());
   pass->Draw(size_);
   if (has_cells) cells_.cells()->Deactivate();
+  if (is_relit) slopes_->Deactivate();
   panorama_->Deactivate();
   if (has_relief) ceiling_->Deactivate();
   relief_->Deactivate();
@@ -265,7 +272,7 @@ void BackdropProp::ReleaseGraphicsResources(vtkWindow* window) {
     pass.reset();
   }
   cells_.ReleaseGraphicsResources(vtkOpenGLRenderWindow::SafeDownCast(window));
-  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), ceiling_.Get()})
+  for (vtkTextureObject* texture : {panorama_.Get(), relief_.Get(), ceiling_.Get(), slopes_.Get()})
     texture->ReleaseGraphicsResources(window);
   Superclass::ReleaseGraphicsResources(window);
 }

@@ -78,7 +78,7 @@ class BackdropProp : public vtkProp {
   LightGrid grid_;
   FootageLight light_;
   double gain_ = 1;
-  vtkNew<vtkTextureObject> panorama_, relief_, ceiling_;
+  vtkNew<vtkTextureObject> panorama_, relief_, ceiling_, slopes_;
   ReliefCells cells_;
   std::array<std::optional<ShaderPass>, 256> passes_;  // one a variant of the shader
 };

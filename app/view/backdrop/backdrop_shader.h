@@ -11,6 +11,7 @@ inline constexpr const char* kBackdropHead = R"(//VTK::System::Dec
 uniform sampler2D panorama;
 uniform sampler2D relief;         // m, its slopes along u and v, how well inside the imaged part
 uniform sampler2D reliefCeiling;  // m, of blocks of blockTexels
+uniform sampler2D broadSlopes;    // m along u and v, smooth
 uniform sampler2D corners, cells; // relief_cells.h
 steady vec3 tip;               // in radii of the sphere
 steady float clearance;        // 1 - |tip|^2, worked out in double
@@ -134,6 +135,9 @@ void main() {
   vec2 dx = vec2(dot(alongU, acrossX), dot(alongV, acrossX)),
        dy = vec2(dot(alongU, acrossY), dot(alongV, acrossY));
   
+#ifdef RELIT
+  vec2 broad = perRadius * textureLod(broadSlopes, uv, 0.0).rg;
+#endif
   float wall = 0.0;
 #if defined(RELIEF) && !defined(PLAIN)
   // What stands nearly along the way from the portal was hardly seen by the footage: what its texels
@@ -170,7 +174,7 @@ void main() {
 #endif
 #ifdef RELIT
   // A film of fluid over what the relief's slopes make of the surface.
-  vec3 normal = -normalize(normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0)));
+  vec3 normal = -normalize(normalize(x) + (imaged ? broad.x * alongU + broad.y * alongV : vec3(0.0)));
   vec3 toLamp = normalize(tip + perRadius * (lampPlace.x * rightAxis + lampPlace.y * upAxis) - x);
   float faces = mix(max(dot(normal, toLamp), 0.0), 0.8, wall), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
   float lamp = lampAt(distance);

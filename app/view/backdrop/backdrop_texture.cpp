@@ -206,6 +206,47 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
   return ceiling;
 }
 
+BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
+  constexpr int kBlocks = 512;
+  constexpr float kStep = 3e-4f;  // m a texel; a slope of so much counts half
+  const int block = (std::max(relief.width, relief.height) + kBlocks - 1) / kBlocks;
+  BroadSlopes broad;
+  broad.width = (relief.width + block - 1) / block;
+  broad.height = (relief.height + block - 1) / block;
+  const auto of = [&](int x, int y) {
+    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(broad.width) +
+                static_cast<std::size_t>(x));
+  };
+  std::vector<float> sums(of(0, broad.height), 0.0f);  // along u, along v, weight
+  for (int y = 0; y < relief.height; ++y)
+    for (int x = 0; x < relief.width; ++x) {
+      const float* at =
+          &relief.texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
+                              static_cast<std::size_t>(x))];
+      const float u = at[1] / static_cast<float>(relief.width),
+                  v = at[2] / static_cast<float>(relief.height);
+      const float weight = 1 / (1 + (u * u + v * v) / (kStep * kStep));
+      float* to = &sums[of(x / block, y / block)];
+      to[0] += weight * at[1], to[1] += weight * at[2], to[2] += weight;
+    }
+  broad.slopes.resize(2 * sums.size() / 3);
+  for (int y = 0; y < broad.height; ++y)
+    for (int x = 0; x < broad.width; ++x) {
+      float sum[3] = {};
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const int column = whole_turn ? (x + i + broad.width) % broad.width
+                                        : std::clamp(x + i, 0, broad.width - 1);
+          const float* from = &sums[of(column, std::clamp(y + j, 0, broad.height - 1))];
+          const auto share = static_cast<float>((2 - std::abs(i)) * (2 - std::abs(j)));
+          for (int c = 0; c < 3; ++c) sum[c] += share * from[c];
+        }
+      float* to = &broad.slopes[2 * of(x, y) / 3];
+      to[0] = sum[0] / sum[2], to[1] = sum[1] / sum[2];
+    }
+  return broad;
+}
+
 bool IsWholeTurn(const Projection& projection, int width) {
   return projection.type == ProjectionType::kEquirectangular &&
          std::abs(360.0 * projection.px_per_deg - width) < 1.0;

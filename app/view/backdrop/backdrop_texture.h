@@ -41,6 +41,16 @@ struct ReliefCeiling {
 };
 ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 
+// The slopes that light is thrown back by, over the same part of the sphere: means of block x block
+// texels and a little of those about them, some 512 along the longer side. A depth map made of
+// brightness has noise of a few tenths of a millimetre from texel to texel, which would glitter.
+// Steps between what is near and what is far count for little.
+struct BroadSlopes {
+  int width = 0, height = 0;
+  std::vector<float> slopes;  // two a block: along u and along v, as a ReliefTexture's
+};
+BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn);
+
 // Whether the panorama is a whole turn, so that its left edge meets its right.
 bool IsWholeTurn(const Projection& projection, int width);
 

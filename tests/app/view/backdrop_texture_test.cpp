@@ -1,0 +1,95 @@
+// The relief as it is uploaded.
+#include "app/view/backdrop/backdrop_texture.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace arthro::app {
+namespace {
+
+constexpr int kWidth = 1536, kHeight = 768;  // three texels a block of slopes
+
+ReliefTexture ReliefOf(const DepthMap& depth, bool whole_turn = false) {
+  return MakeReliefTexture({depth.width, depth.height}, depth, whole_turn);
+}
+
+// m a texel along u and along v, at a texel.
+glm::dvec2 SlopeAt(const BroadSlopes& broad, int x, int y) {
+  const int block = kWidth / broad.width;
+  const float* at = &broad.slopes[2 * (static_cast<std::size_t>(y / block) *
+                                           static_cast<std::size_t>(broad.width) +
+                                       static_cast<std::size_t>(x / block))];
+  return {at[0] / kWidth, at[1] / kHeight};
+}
+
+TEST(BroadSlopes, OfAPlaneAreItsOwnToTheEdge) {
+  DepthMap plane(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) plane.at(x, y) = static_cast<float>(8e-6 * x + 5e-6 * y);
+  const BroadSlopes broad = MakeBroadSlopes(ReliefOf(plane), false);
+  EXPECT_EQ(broad.width, 512);
+  EXPECT_EQ(broad.height, 256);
+  for (const int x : {0, 300, kWidth - 1})
+    for (const int y : {0, 300, kHeight - 1}) {
+      EXPECT_NEAR(SlopeAt(broad, x, y).x, 8e-6, 1e-8) << x << " " << y;
+      EXPECT_NEAR(SlopeAt(broad, x, y).y, 5e-6, 1e-8) << x << " " << y;
+    }
+}
+
+// Noise of one texel: some 60 count in a mean, and neighbours' differences cancel.
+TEST(BroadSlopes, TakeTheNoiseOfTexelsAway) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  DepthMap rough(kWidth, kHeight);
+  for (float& h : rough.relief) h = static_cast<float>(0.01 + noise(random));
+  const ReliefTexture relief = ReliefOf(rough);
+  const BroadSlopes broad = MakeBroadSlopes(relief, false);
+  double before = 0, after = 0;
+  int count = 0;
+  for (int y = 30; y < kHeight - 30; y += 3)
+    for (int x = 30; x < kWidth - 30; x += 3, ++count) {
+      const double own =
+          relief.texels[4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)) +
+                        1] /
+          kWidth;
+      before += own * own;
+      after += std::pow(SlopeAt(broad, x, y).x, 2);
+    }
+  before = std::sqrt(before / count), after = std::sqrt(after / count);
+  std::printf("slopes of noise: %.2g m a texel before, %.2g after\n", before, after);
+  EXPECT_NEAR(before, 1e-4 / std::sqrt(2.0), 1e-5);
+  EXPECT_LT(after, before / 8);
+}
+
+// A step of 5 mm in a plane: beside it the plane's own slope, on it nothing like the step's.
+TEST(BroadSlopes, AStepCountsForLittle) {
+  DepthMap cliff(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      cliff.at(x, y) = static_cast<float>((x < 700 ? 0.01 : 0.005) + 8e-6 * x);
+  const BroadSlopes broad = MakeBroadSlopes(ReliefOf(cliff), false);
+  for (const int x : {600, 690, 709, 800}) EXPECT_NEAR(SlopeAt(broad, x, 300).x, 8e-6, 1e-7) << x;
+  EXPECT_LT(std::abs(SlopeAt(broad, 700, 300).x), 1e-4);
+}
+
+TEST(BroadSlopes, AWholeTurnHasNoSeam) {
+  DepthMap wave(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      wave.at(x, y) = static_cast<float>(0.01 + 1e-3 * std::sin(2 * M_PI * x / kWidth));
+  const BroadSlopes broad = MakeBroadSlopes(ReliefOf(wave, true), true);
+  EXPECT_NEAR(SlopeAt(broad, 0, 300).x, SlopeAt(broad, kWidth - 1, 300).x, 1e-9);
+  EXPECT_NEAR(SlopeAt(broad, 0, 300).x, 2e-3 * M_PI / kWidth, 1e-8);
+}
+
+TEST(BroadSlopes, OfOneTexelAndOfNoDepthAreNone) {
+  EXPECT_EQ(MakeBroadSlopes(ReliefOf(DepthMap(1, 1, 0.01f)), true).slopes,
+            (std::vector<float>{0, 0}));
+  for (const float slope : MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false).slopes)
+    EXPECT_EQ(slope, 0.0f);
+}
+
+}  // namespace
+}  // namespace arthro::app
