@@ -24,7 +24,7 @@ struct Lines {
   float step(int along, int across) const {
     const float step = at(along, across + 1) - at(along, across);
     const float most = 0.5f * std::abs(step);
-    if (!(2 * most >= kLeastStep)) return 0;  // or unknown
+    if (!(2 * most >= kLeastStep && std::isfinite(most))) return 0;  // or unknown
     const float before = at(along, across) - at(along, across - 1);
     const float after = at(along, across + 2) - at(along, across + 1);
     return std::abs(before) < most && std::abs(after) < most ? step : 0;
