@@ -1,121 +1,153 @@
 #include "app/view/backdrop/relief_outlines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace arthro::app {
 namespace {
 
 constexpr float kLeastStep = 1.5e-4f;  // m, of a texel to the next; less shows no teeth
-constexpr int kLongest = 64;           // texels that a stair is followed to either side
 
-// A map as seen along an outline: `along` its texels and `across` them, which are columns and rows
-// or the other way round.
-struct Lines {
-  const DepthMap& map;
-  bool is_turned, wraps;
-  float at(int along, int across) const {
-    int x = is_turned ? across : along, y = is_turned ? along : across;
-    if (wraps) x = (x + map.width) % map.width;
-    return x < 0 || y < 0 || x >= map.width || y >= map.height ? NAN : map.at(x, y);
+// How much higher `b` is than `a`, where that is an outline, else 0: before and after it the relief
+// changes by less than half as much. What is not known is no outline.
+float StepOf(float before, float a, float b, float after) {
+  const float step = b - a, most = 0.5f * std::abs(step);
+  const bool is = 2 * most >= kLeastStep && std::isfinite(most) && std::abs(a - before) < most &&
+                  std::abs(after - b) < most;
+  return is ? step : 0.0f;
+}
+
+// The steps of a map across its rows, or across its columns: `along` goes where such an outline
+// goes, and the step of (along, across) is that from there to across + 1.
+struct Steps {
+  int along = 0, across = 0;
+  std::size_t to_next_along = 0, to_next_across = 0;  // texels
+  bool along_wraps = false, across_wraps = false;
+  std::vector<float> values;
+  std::vector<std::vector<int>> found = {};  // of each across: where along there is one, in order
+
+  std::size_t Texel(int i, int j) const {
+    if (along_wraps) i = (i + along) % along;
+    if (across_wraps) j = (j + across) % across;
+    return static_cast<std::size_t>(i) * to_next_along +
+           static_cast<std::size_t>(j) * to_next_across;
   }
-  // How much higher the texel after `across` is than that at it, where that is an outline; else 0.
-  float step(int along, int across) const {
-    const float step = at(along, across + 1) - at(along, across);
-    const float most = 0.5f * std::abs(step);
-    if (!(2 * most >= kLeastStep && std::isfinite(most))) return 0;  // or unknown
-    const float before = at(along, across) - at(along, across - 1);
-    const float after = at(along, across + 2) - at(along, across + 1);
-    return std::abs(before) < most && std::abs(after) < most ? step : 0;
+  float at(int i, int j) const {
+    const bool is_inside =
+        (along_wraps || (i >= 0 && i < along)) && (across_wraps || (j >= 0 && j < across));
+    return is_inside ? values[Texel(i, j)] : 0.0f;
   }
 };
 
-// Where a stair's tread ends to one side: after `length` texels, where the stair goes on `by`
-// texels across (0: it is not known where it goes).
-struct End {
-  int length = 1, by = 0;
-};
-End Follow(const Lines& lines, int along, int across, float step, int direction) {
-  const auto goes_on = [&](int i, int j) {
-    const float other = lines.step(i, j);
-    return other * step > 0 && std::abs(other) > 0.5f * std::abs(step);
-  };
-  End end;
-  for (; end.length <= kLongest; ++end.length) {
-    const int i = along + direction * end.length;
-    if (goes_on(i, across)) continue;
-    end.by = goes_on(i, across + 1) ? 1 : goes_on(i, across - 1) ? -1 : 0;
-    break;
-  }
-  return end;
-}
-
-// How far the outline lies after the middle of two texels with a step between them, and how long
-// the tread is on which they are.
-struct Outline {
-  double offset = 0, slope = 0;
-  int length = 0;
-};
-Outline FindOutline(const Lines& lines, int along, int across, float step) {
-  const End a = Follow(lines, along, across, step, -1), b = Follow(lines, along, across, step, 1);
-  // From the tread's one end to its other in texels, and where these two are on it.
-  const double length = a.length + b.length - 1, place = a.length - 0.5;
-  Outline outline;
-  outline.length = a.length + b.length - 1;
-  if (a.by != 0 && b.by == -a.by) {
-    outline.slope = b.by / length;
-    outline.offset = 0.5 * a.by + outline.slope * place;
-  } else if (a.by != 0 || b.by != 0) {
-    // A crest, or an end: from half a texel at the side where it goes on to none in the middle.
-    const double half = 0.5 * length;
-    const double from_middle = place / half - 1;
-    const int by = from_middle < 0 ? a.by : b.by;
-    outline.offset = 0.5 * by * from_middle * from_middle;
-    outline.slope = by * from_middle / half;
-  }
-  return outline;
-}
-
-// Whether one of the four beside a texel is a step away; that is all that most texels need.
-bool IsBesideAStep(const DepthMap& map, int x, int y, bool wraps) {
-  const float own = map.at(x, y);
-  const auto is_step = [&](int u, int v) { return std::abs(map.at(u, v) - own) >= kLeastStep; };
-  const int last = map.width - 1;
-  const int left = x > 0 ? x - 1 : wraps ? last : 0, right = x < last ? x + 1 : wraps ? 0 : last;
-  return is_step(left, y) || is_step(right, y) || is_step(x, std::max(y - 1, 0)) ||
-         is_step(x, std::min(y + 1, map.height - 1));
-}
-
-float Smoothed(const std::array<Lines, 2>& directions, int x, int y) {
-  float value = directions[0].map.at(x, y);
-  int longest = 0;
-  for (const Lines& lines : directions) {
-    const int along = lines.is_turned ? y : x, across = lines.is_turned ? x : y;
-    for (const int first : {across - 1, across}) {
-      const float step = lines.step(along, first);
-      if (step == 0) continue;
-      const Outline outline = FindOutline(lines, along, first, step);
-      if (outline.length <= longest) continue;
-      longest = outline.length;
-      const double beyond =
-          (across - (first + 0.5 + outline.offset)) / std::sqrt(1 + outline.slope * outline.slope);
-      const auto after = static_cast<float>(std::clamp(0.5 + beyond, 0.0, 1.0));  // share of it
-      value = (1 - after) * lines.at(along, first) + after * lines.at(along, first + 1);
+Steps StepsAcrossRows(const DepthMap& map, bool whole_turn) {
+  Steps steps{map.width, map.height, 1, static_cast<std::size_t>(map.width), whole_turn, false, {}};
+  steps.values.resize(map.relief.size(), 0.0f);
+  steps.found.resize(static_cast<std::size_t>(map.height));
+  for (int y = 1; y + 2 < map.height; ++y) {
+    const float* row = &map.relief[steps.Texel(0, y)];
+    const float *above = row - map.width, *below = row + map.width, *next = below + map.width;
+    float* to = &steps.values[steps.Texel(0, y)];
+    for (int x = 0; x < map.width; ++x) {
+      to[x] = StepOf(above[x], row[x], below[x], next[x]);
+      if (to[x] != 0) steps.found[static_cast<std::size_t>(y)].push_back(x);
     }
   }
-  return value;
+  return steps;
+}
+
+Steps StepsAcrossColumns(const DepthMap& map, bool whole_turn) {
+  const int width = map.width;
+  Steps steps{map.height, width, static_cast<std::size_t>(width), 1, false, whole_turn, {}};
+  steps.values.resize(map.relief.size(), 0.0f);
+  steps.found.resize(static_cast<std::size_t>(width));
+  for (int y = 0; y < map.height; ++y) {
+    const float* row = &map.relief[steps.Texel(y, 0)];
+    float* to = &steps.values[steps.Texel(y, 0)];
+    const auto take = [&](int x, float step) {
+      to[x] = step;
+      if (step != 0) steps.found[static_cast<std::size_t>(x)].push_back(y);
+    };
+    for (int x = 1; x + 2 < width; ++x) take(x, StepOf(row[x - 1], row[x], row[x + 1], row[x + 2]));
+    if (!whole_turn || width < 4) continue;
+    for (const int x : {0, width - 2, width - 1})
+      take(x, StepOf(row[(x + width - 1) % width], row[x], row[(x + 1) % width],
+                     row[(x + 2) % width]));
+  }
+  return steps;
+}
+
+bool AreOfOneOutline(float step, float other) {
+  return step * other > 0 && std::abs(other) > 0.5f * std::abs(step) &&
+         std::abs(step) > 0.5f * std::abs(other);
+}
+
+// What is laid through the stairs: the new relief, and how long the tread was that each texel has
+// it of, since a texel at a corner lies on two.
+struct Laid {
+  const DepthMap& stairs;
+  DepthMap& relief;
+  std::vector<int> lengths;
+};
+
+// A tread of `length` steps from `first` on.
+void LayTread(const Steps& steps, int first, int length, int across, Laid& laid) {
+  const auto goes_on = [&](int i, float from) {
+    return AreOfOneOutline(from, steps.at(i, across + 1))   ? 1
+           : AreOfOneOutline(from, steps.at(i, across - 1)) ? -1
+                                                            : 0;
+  };
+  const int before = goes_on(first - 1, steps.at(first, across));
+  const int after = goes_on(first + length, steps.at(first + length - 1, across));
+  const bool is_straight = before != 0 && after == -before;
+  for (int i = 0; i < length; ++i) {
+    // How far the outline lies after the middle of the step, and how it goes on from there.
+    const double place = (i + 0.5) / length, from_middle = 2 * place - 1;
+    const int by = from_middle < 0 ? before : after;
+    // Straight from half a texel to half a texel; a crest, or where it is not known how the stair
+    // goes on: to none in the middle.
+    const double offset =
+        is_straight ? after * (place - 0.5) : 0.5 * by * from_middle * from_middle;
+    const double slope = (is_straight ? after : 2 * by * from_middle) / static_cast<double>(length);
+    const std::size_t texels[] = {steps.Texel(first + i, across),
+                                  steps.Texel(first + i, across + 1)};
+    for (const int side : {0, 1}) {
+      if (laid.lengths[texels[side]] >= length) continue;
+      laid.lengths[texels[side]] = length;
+      const double beyond = (side - 0.5 - offset) / std::sqrt(1 + slope * slope);
+      const auto share = static_cast<float>(std::clamp(0.5 + beyond, 0.0, 1.0));
+      laid.relief.relief[texels[side]] =
+          (1 - share) * laid.stairs.relief[texels[0]] + share * laid.stairs.relief[texels[1]];
+    }
+  }
+}
+
+void LayTreads(const Steps& steps, Laid& laid) {
+  for (int j = 0; j < steps.across; ++j) {
+    const std::vector<int>& found = steps.found[static_cast<std::size_t>(j)];
+    const std::size_t count = found.size();
+    const auto joins = [&](int i) { return AreOfOneOutline(steps.at(i - 1, j), steps.at(i, j)); };
+    // Around a whole turn from where a tread begins.
+    std::size_t begin = 0;
+    while (steps.along_wraps && begin < count && joins(found[begin])) ++begin;
+    for (std::size_t done = 0; done < count;) {
+      const int first = found[(begin + done) % count];
+      int length = 1;
+      while (done + static_cast<std::size_t>(length) < count && joins(first + length)) ++length;
+      LayTread(steps, first, length, j, laid);
+      done += static_cast<std::size_t>(length);
+    }
+  }
 }
 
 }  // namespace
 
 void SmoothOutlines(DepthMap& relief, bool whole_turn) {
   const DepthMap stairs = relief;
-  const std::array<Lines, 2> directions = {Lines{stairs, false, whole_turn},
-                                           Lines{stairs, true, whole_turn}};
-  for (int y = 0; y < stairs.height; ++y)
-    for (int x = 0; x < stairs.width; ++x)
-      if (IsBesideAStep(stairs, x, y, whole_turn)) relief.at(x, y) = Smoothed(directions, x, y);
+  Laid laid{stairs, relief, std::vector<int>(stairs.relief.size(), 0)};
+  LayTreads(StepsAcrossRows(stairs, whole_turn), laid);
+  LayTreads(StepsAcrossColumns(stairs, whole_turn), laid);
 }
 
 }  // namespace arthro::app

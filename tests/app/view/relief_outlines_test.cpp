@@ -157,6 +157,10 @@ TEST(ReliefOutlines, AWholeTurnHasNoSeam) {
   DepthMap seam = turned(map, 61);
   SmoothOutlines(seam, false);
   EXPECT_NE(seam.relief, other.relief) << "without it there is one";
+  const DepthMap level = Sampled([](double, double y) { return 80.5 - y; });
+  DepthMap round = level;
+  SmoothOutlines(round, true);
+  EXPECT_EQ(round.relief, level.relief) << "a tread without an end has no stair";
 }
 
 // What straightness costs: a ramp along a line is up to two texels wide, and one along a stair is
