@@ -184,7 +184,8 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
     if (has_rod) source += std::string("#define ROD\n") + kRodShade;
     for (const char* part :
          {kDepthShader, kLightShader, kLampShader, kPanoramaFilter, kPanoramaPlace,
-          has_relief ? kReliefSearch : "", has_cells ? kReliefFromCells : "", kBackdropMain})
+          has_relief ? kReliefSides : "", has_relief ? kReliefSearch : "",
+          has_cells ? kReliefFromCells : "", kBackdropMain})
       source += part;
     pass.emplace(source, ShaderPass::Shape::kRound);
   }

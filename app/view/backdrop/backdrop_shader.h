@@ -100,7 +100,10 @@ void main() {
   vec2 uv;
   bool imaged;
   vec4 ground;  // there
-  float reach = meetReliefByCells(ray, sphere, x, uv, imaged, ground);
+  vec3 looks;
+  float reach = meetReliefByCells(ray, sphere, x, uv, imaged, ground, looks);
+  vec2 up = upwards(ground);
+  float here = ground.r;
 #else
 #ifdef RELIEF
   float reach = meetRelief(ray, b, sphere);
@@ -143,12 +146,24 @@ void main() {
   // What stands nearly along the way from the portal was hardly seen by the footage: what its texels
   // have is smeared along it. It is the side of what stands before it, so it is shown in that one's
   // mean colour, and dimly.
+#ifndef CELLS
+  vec2 up = upwards(ground);
+  float here = ground.r;
+  vec3 looks = perRadius * vec3(textureLod(relief, uv + up, 0.0).r, textureLod(relief, uv - up, 0.0).r,
+                                textureLod(relief, uv + 2.0 * up, 0.0).r);
+#endif
   float steep = imaged ? length(ground.g * alongU + ground.b * alongV) : 0.0;
-  wall = smoothstep(2.5, 6.0, steep);
-  dx += wall * 12.0 / texels * vec2(1.0, 0.0);
-  dy += wall * 12.0 / texels * vec2(0.0, 1.0);
-  vec2 uphill = ground.gb / texels;
-  uv += wall * 14.0 / texels * uphill / max(length(uphill), 1e-9);
+  float side = smoothstep(kSide, 6.0, steep);
+  float down = (looks.x - here) / max(looks.x - looks.y, 1e-6);
+  float way = max(length(up / vec2(length(alongU), length(alongV))), 1e-6);
+  // At its foot lies what is behind it.
+  float foot = step(0.95, down);
+  wall = max(side * smoothstep(0.1, 0.3, down), smoothstep(kSide, 6.0, (looks.z - looks.x) / way)) *
+         (1.0 - foot);
+  side *= 1.0 - foot;
+  dx += side * 12.0 / texels * vec2(1.0, 0.0);
+  dy += side * 12.0 / texels * vec2(0.0, 1.0);
+  uv += side * 14.0 / 2.2 * reliefTexels / texels * up;
 #endif
   vec3 colour = imaged ? panoramaColour(uv, dx * texels, dy * texels) : vec3(0.0);
 

@@ -37,9 +37,10 @@ void ReliefCells::Pass(vtkOpenGLRenderWindow* window, ShaderPass& pass, vtkTextu
 
 void ReliefCells::SetShaders(std::size_t variant, const std::string& head) {
   variant_ = variant;
-  find_corners_.emplace(head + kPanoramaPlace + kReliefSearch + kCornersMain,
+  find_corners_.emplace(head + kPanoramaPlace + kReliefSides + kReliefSearch + kCornersMain,
                         ShaderPass::Shape::kWhole);
-  join_corners_.emplace(head + kCellsMain, ShaderPass::Shape::kWhole);
+  join_corners_.emplace(head + kPanoramaPlace + kReliefSides + kCellsMain,
+                        ShaderPass::Shape::kWhole);
 }
 
 void ReliefCells::Draw(vtkOpenGLRenderWindow* window, int size, int cell,
@@ -47,7 +48,7 @@ void ReliefCells::Draw(vtkOpenGLRenderWindow* window, int size, int cell,
   const int across = (size + cell - 1) / cell;
   if (across != across_) {
     across_ = across;
-    Allocate(*corners_, window, across + 3, 1);
+    Allocate(*corners_, window, across + 3, 2);
     Allocate(*cells_, window, across, 4);
     framebuffer_->SetContext(window);
   }

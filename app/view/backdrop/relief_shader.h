@@ -40,6 +40,23 @@ bool isImaged(vec3 d, vec2 uv) {
 }
 )";
 
+// The side of a step from what is near to what is far. Steep are all texels that it touches, which
+// makes a stair of them; how far down it a place is goes as straight as its outline. So a place is
+// held against the relief a little above it, below it and further up, which `looks` are.
+inline constexpr const char* kReliefSides = R"(
+// Texture units from a place to the one above it.
+vec2 upwards(vec4 ground) {
+  vec2 uphill = ground.gb / reliefTexels;
+  return 2.2 / reliefTexels * uphill / max(length(uphill), 1e-9);
+}
+// As steep as a place is, but for what its projection stretches.
+float steepness(vec3 x, vec4 ground) {
+  float far = dot(x, x);
+  return length(ground.gb * scale) * fineness(x, far) * inversesqrt(far);
+}
+const float kSide = 2.5;  // of a slope
+)";
+
 // Nothing lies nearer to the portal than the relief's highest place; from that sphere out to the
 // bare one a ray passes a block of texels at once where the relief around does not reach it, and an
 // eighth of one where it may. Where it has gone behind the relief the place is closed in on.
@@ -90,8 +107,10 @@ float firstBehind(vec3 ray, float b, float near, float far) {
 float meetRelief(vec3 ray, float b, float sphere) {
   float inside = clearance + highest * (highest - 2.0);  // (1 - highest)^2 - |tip|^2
   float begins = sqrt(max(b * b + inside, 0.0)) - b;
-  // A lens among the relief looks from where it is.
-  return min(firstBehind(ray, b, inside >= 0.0 ? begins : 0.0, sphere), sphere);
+  // A little before, or rounding lets rays through a relief that is level at its highest. A lens
+  // among the relief looks from where it is.
+  float near = inside >= 0.0 ? max(begins - 2e-5, 0.0) : 0.0;
+  return min(firstBehind(ray, b, near, sphere), sphere);
 }
 )";
 
@@ -102,36 +121,43 @@ void main() {
   vec3 ray = rayOf((floor(gl_FragCoord.xy) - 1.0) * cellPixels / windowRadius - 1.0);
   float b = dot(tip, ray);
   float sphere = sqrt(max(b * b + clearance, 0.0)) - b;
-  gl_FragData[0] = vec4(meetRelief(ray, b, sphere), sphere, 0.0, 1.0);
+  float t = meetRelief(ray, b, sphere);
+  vec3 x = tip + t * ray;
+  gl_FragData[0] = vec4(t, steepness(x, textureLod(relief, panoramaPlace(x), 0.0) * perRadius), 0.0, 1.0);
 }
 )";
 
-// Second: where the relief runs smoothly through a cell, as it does on one side of it at least, its
-// four corners' distances; elsewhere -1 and from where to where each of its pixels has to search.
+// Second: where the relief runs smoothly through a cell, as it does on one side of it at least, and
+// is no side of a step, its four corners' distances; elsewhere -1 and from where to where each of
+// its pixels has to search.
 inline constexpr const char* kCellsMain = R"(
 float bendOf(float a, float b, float c, float d) {
   return min(abs(a - 2.0 * b + c), abs(b - 2.0 * c + d));
 }
 void main() {
-  float t[16];
+  float t[16], steepest = 0.0;
   for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i)
-      t[4 * j + i] = texelFetch(corners, ivec2(gl_FragCoord.xy) + ivec2(i, j), 0).r;
+    for (int i = 0; i < 4; ++i) {
+      vec2 corner = texelFetch(corners, ivec2(gl_FragCoord.xy) + ivec2(i, j), 0).rg;
+      t[4 * j + i] = corner.r;
+      steepest = max(steepest, corner.g);
+    }
   float bend = max(max(bendOf(t[4], t[5], t[6], t[7]), bendOf(t[8], t[9], t[10], t[11])),
                    max(bendOf(t[1], t[5], t[9], t[13]), bendOf(t[2], t[6], t[10], t[14])));
   float low = min(min(t[5], t[6]), min(t[9], t[10])), high = max(max(t[5], t[6]), max(t[9], t[10]));
-  float margin = 0.15 * (high - low);
-  gl_FragData[0] = bend <= smoothBend * low ? vec4(t[5], t[6], t[9], t[10])
+  float margin = max(0.15 * (high - low), smoothBend * low);
+  gl_FragData[0] = bend <= smoothBend * low && steepest < kSide ? vec4(t[5], t[6], t[9], t[10])
                                             : vec4(-1.0, max(low - margin, 0.0), high + margin, 0.0);
 }
 )";
 
 // A pixel's own place, from its cell. What no corner's ray has seen, thinner than a cell, may be
 // missed. One loop does all, and ends with what the last place has: most pixels go through it once,
-// with the one look at the relief that they need anyway. (The break is at the end since a processor
-// goes through a loop's body once more for a break at its beginning.)
+// with the one look at the relief that they need anyway; those on the side of a step, three times
+// more for the looks about it. (The break is at the end since a processor goes through a loop's
+// body once more for a break at its beginning.)
 inline constexpr const char* kReliefFromCells = R"(
-float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out bool imaged, out vec4 ground) {
+float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out bool imaged, out vec4 ground, out vec3 looks) {
   vec2 place = gl_FragCoord.xy / cellPixels;
   vec4 cell = texelFetch(cells, ivec2(place), 0);
   vec2 f = fract(place);
@@ -140,20 +166,29 @@ float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out boo
   float end = min(cell.z, sphere), range = end - cell.y;
   float pace = max(range / cellSteps, min(2.0 / texelsARadius(tip + t * ray, ray), 0.25 * range));
   float low = t, high = end, gapLow = -1e-3, gapHigh = 1e-3;
-  float left = searches ? cellSteps + 6.0 : 0.0, closed = 0.0;
+  float left = searches ? cellSteps + 6.0 : 0.0, closed = 0.0, asks = 0.0;
+  vec2 up = vec2(0.0);
+  looks = vec3(0.0);
   while (true) {
+    bool isLook = asks > 0.0;
     x = tip + t * ray;
-    uv = panoramaPlace(x);
+    vec2 there = panoramaPlace(x);
+    vec4 found = textureLod(relief, there + (asks > 2.5 ? 1.0 : asks > 1.5 ? -1.0 : 2.0) * up, 0.0) * vec4(vec3(perRadius), 1.0);
+    looks = isLook ? vec3(looks.yz, found.r) : looks;
+    uv = there;
+    ground = isLook ? ground : found;
     imaged = isImaged(x, uv);
-    ground = textureLod(relief, uv, 0.0) * vec4(vec3(perRadius), 1.0);
     float gap = (imaged ? ground.r : 0.0) - 1.0 + length(x);
     bool is = gap >= 0.0;
     high = is ? t : high, gapHigh = is ? gap : gapHigh;
     low = is ? low : t, gapLow = is ? gapLow : gap;
     closed += is || closed > 0.0 ? 1.0 : 0.0;
     left = closed > 4.0 || (closed == 0.0 && t >= end) ? 0.0 : left - 1.0;
-    if (left <= 0.0) break;
-    t = closed > 0.0 ? mix(low, high, clamp(gapLow / (gapLow - gapHigh), 0.05, 0.95)) : min(t + pace, end);
+    bool isThere = isLook || left <= 0.0;
+    asks = isLook ? asks - 1.0 : isThere && searches && steepness(x, ground) > 0.9 * kSide ? 3.0 : 0.0;
+    up = asks > 0.0 ? upwards(ground) : up;
+    if (isThere && asks <= 0.0) break;
+    t = isThere ? t : closed > 0.0 ? mix(low, high, clamp(gapLow / (gapLow - gapHigh), 0.05, 0.95)) : min(t + pace, end);
   }
   return t;
 }

@@ -12,25 +12,13 @@
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/srgb.h"
 #include "simulation/core/units.h"
+#include "tests/app/view/lit_scene.h"
 #include "tests/app/view/view_scene.h"
 
 namespace arthro::test {
 namespace {
 
 using namespace app;
-
-Backdrop PlainBackdrop(int width, int height) {
-  Backdrop backdrop;
-  backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
-  backdrop.projection.focal_px = 0.3 * width;
-  return backdrop;
-}
-
-ColourImage Grey(int width, int height, std::uint8_t level) {
-  ColourImage image(width, height);
-  std::fill(image.rgb.begin(), image.rgb.end(), level);
-  return image;
-}
 
 // From the portal all of a bare sphere is at D: what the lamp takes away the gain gives back.
 TEST(FootageLight, GainOfAGreySphereIsTheClosedForm) {
@@ -131,18 +119,6 @@ TEST(FootageLight, OfASideIsThatSides) {
   EXPECT_NEAR(left.mean.r, left.mean.g, 1e-6);
   // Behind the scope nothing was imaged: then it is that of all.
   EXPECT_EQ(MeasureLight(grid, backdrop.projection, {0, 0, -1}, 0.3).mean, MeasureLight(grid).mean);
-}
-
-// The axis stands aside by a quarter of the window's radius.
-Lens AsideLens() {
-  Lens lens;
-  lens.model = LensModel::kKannalaBrandt;
-  lens.width = 720, lens.height = 576;
-  lens.focal_px = 290;
-  lens.cx = 360 + 65, lens.cy = 288;
-  lens.k = {-0.09, 0.015, 0, 0};
-  lens.circle = {360, 288, 255};
-  return lens;
 }
 
 // A footage that grows darker from left to right, through a lens that stands aside: the gain by

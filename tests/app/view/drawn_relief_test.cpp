@@ -1,0 +1,122 @@
+// The relief as it is drawn from beside: the sides of steps, and what is level.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "app/bench/view/reference_tracer.h"
+#include "tests/app/view/lit_scene.h"
+#include "tests/app/view/view_scene.h"
+
+namespace arthro::test {
+namespace {
+
+using namespace app;
+
+constexpr int kTexels = 512;
+
+class DrawnRelief : public ViewTest {
+ protected:
+  // From 18 mm in, downwards.
+  DrawnRelief() {
+    const glm::dvec3 ahead = glm::normalize(glm::dvec3(0, 0.8, 0.6)), right(1, 0, 0);
+    picture_.field_of_view = 1.4;
+    picture_.view = {{0, 0, 0.018}, ahead, glm::cross(right, ahead), right};
+  }
+  Backdrop backdrop_ = PlainBackdrop(kTexels, kTexels);
+  Picture picture_;
+};
+
+// How far values are from the parabola that is nearest to them, rms.
+double OffParabola(const std::vector<glm::dvec2>& points) {
+  glm::dmat3 normal(0.0);
+  glm::dvec3 right(0.0);
+  for (const glm::dvec2& p : points) {
+    const glm::dvec3 basis(1, p.x, p.x * p.x);
+    normal += glm::outerProduct(basis, basis);
+    right += p.y * basis;
+  }
+  const glm::dvec3 fit = glm::inverse(normal) * right;
+  double squares = 0;
+  for (const glm::dvec2& p : points)
+    squares += std::pow(glm::dot(fit, glm::dvec3(1, p.x, p.x * p.x)) - p.y, 2);
+  return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+// A step of 8 mm along a line that falls by a texel in `run`, some 6 px of the picture each. On a
+// grey panorama its side is drawn darker; both of its edges are smooth lines in the picture.
+TEST_F(DrawnRelief, TheSideOfAStepBeginsAndEndsInALineAndNotInAStair) {
+  constexpr int kSize = 480;
+  const ColourImage grey = Grey(kTexels, kTexels, 150);
+  for (const double run : {2.0, 5.0, 9.0}) {
+    DepthMap depth(kTexels, kTexels);
+    for (int y = 0; y < kTexels; ++y)
+      for (int x = 0; x < kTexels; ++x)
+        depth.at(x, y) = y - kTexels / 2 > 40.2 + (x - kTexels / 2) / run ? 0.028f : 0.020f;
+    view_->SetBackdrop(grey, depth, backdrop_);
+    for (const ReliefSearch search : {ReliefSearch{256, 1}, kUsualRelief}) {
+      picture_.relief = search;
+      view_->Render(picture_, kSize);
+      const ColourImage drawn = view_->ReadPixels();
+      std::vector<glm::dvec2> edges[2];
+      for (int x = 140; x < 340; ++x) {
+        // From above and from below towards where the side is darkest, to half of the difference.
+        int darkest = 100;
+        for (int y = 100; y < 330; ++y)
+          if (drawn.at(x, y)[1] < drawn.at(x, darkest)[1]) darkest = y;
+        const double side = drawn.at(x, darkest)[1];
+        for (const int start : {darkest - 60, 330}) {
+          const int way = start < darkest ? 1 : -1;
+          const double level = 0.5 * (side + drawn.at(x, start)[1]);
+          int y = start;
+          while (y != darkest && drawn.at(x, y + way)[1] > level) y += way;
+          const double here = drawn.at(x, y)[1], next = drawn.at(x, y + way)[1];
+          edges[way > 0 ? 0 : 1].push_back(
+              {(x - 240) / 100.0, y + way * (here - level) / std::max(here - next, 1e-9)});
+        }
+      }
+      const double far = OffParabola(edges[0]), near = OffParabola(edges[1]);
+      std::printf("1:%g, cells of %d: off a smooth line by %.2f px at the foot, %.2f at the rim\n",
+                  run, search.cell, far, near);
+      EXPECT_LT(far, 1.5);
+      EXPECT_LT(near, 1.5);
+    }
+  }
+}
+
+// No ray slips through what is level at its highest.
+TEST_F(DrawnRelief, LevelIsDrawnWholeAndAtItsDistance) {
+  constexpr int kSize = 256;
+  const DepthMap depth(kTexels, kTexels, 0.028f);
+  view_->SetBackdrop(Grey(kTexels, kTexels, 150), depth, backdrop_);
+  for (const ReliefSearch search : {ReliefSearch{256, 1}, ReliefSearch{16, 1}, kUsualRelief}) {
+    picture_.relief = search;
+    view_->Render(picture_, kSize);
+    const std::vector<float> distances = view_->ReadDistances();
+    double worst = 0;
+    int compared = 0;
+    for (int y = 30; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const auto ray = ReferenceRay(picture_.view, picture_.field_of_view, kSize, {x, y});
+        if (!ray || std::hypot(x - 127.5, y - 127.5) > 126) continue;
+        const glm::dvec3 hit =
+            *ReferenceSphereHit(picture_.view.tip, *ray, backdrop_.radius - 0.028);
+        const auto pixel = ReferencePixel(backdrop_.projection, hit);
+        if (!pixel || pixel->x < 1 || pixel->y < 1 || pixel->x > 510 || pixel->y > 510) continue;
+        const double found = distances[static_cast<std::size_t>(y * kSize + x)];
+        worst = std::max(worst, std::abs(found - glm::distance(hit, picture_.view.tip)));
+        ++compared;
+      }
+    std::printf("%d steps, cells of %d: %d pixels, off by at most %.4f mm\n", search.steps,
+                search.cell, compared, 1e3 * worst);
+    EXPECT_GT(compared, 10000);
+    EXPECT_LT(worst, 0.02e-3);
+  }
+}
+
+}  // namespace
+}  // namespace arthro::test
