@@ -21,6 +21,7 @@
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/lens_model.h"
 #include "app/view/lens_shader.h"
+#include "app/view/srgb.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -33,7 +34,7 @@ constexpr double kTint = 0.6;
 
 // The lamp as the footage shows it: as bright as its brightest parts, and partly of their tint.
 glm::dvec3 LightOf(const glm::dvec3& bright) {
-  const double luma = glm::dot(bright, glm::dvec3(0.2126, 0.7152, 0.0722));
+  const double luma = Luma(bright);
   if (!(luma > 0.0)) return glm::dvec3(1.0);
   const double level = std::clamp(luma / kWhite, 0.25, 1.1);
   return level * (kTint * bright / luma + (1.0 - kTint));
@@ -95,6 +96,7 @@ struct ArthroscopicView::Parts {
     std::optional<FootageLight> about;
   };
   std::vector<Place> places;
+  MeteredModels metered;
   LensPass lens_pass;
   bool is_disturbed = false;  // the last frame, by that pass
   std::string notice;
@@ -103,6 +105,8 @@ struct ArthroscopicView::Parts {
   void TakeTool(simulation::ToolKind kind);
   void ShowTool(const Picture& picture, const LensFrame& frame);
   const FootageLight& LightAbout(std::size_t tissue);
+  glm::dvec3 LightColourAt(std::size_t tissue);
+  void MeterModels(const Picture& picture);
   void ForgetLight() {
     for (Place& place : places) place.about.reset();
   }
@@ -118,6 +122,19 @@ const FootageLight& ArthroscopicView::Parts::LightAbout(std::size_t tissue) {
     place.about = backdrop->LightAbout(far > 0 ? middle / far : glm::dvec3(0, 0, 1));
   }
   return *place.about;
+}
+
+// In the light of its own surroundings, half way, so that it does not look pasted on.
+glm::dvec3 ArthroscopicView::Parts::LightColourAt(std::size_t tissue) {
+  return 0.5 * (LightOf(backdrop->footage_light().bright) + LightOf(LightAbout(tissue).bright));
+}
+
+// Only where there is a gain to be found.
+void ArthroscopicView::Parts::MeterModels(const Picture& picture) {
+  metered.Begin(picture.view, {picture.field_of_view, picture.lens});
+  if (!(backdrop->relight() > 0) || picture.plain) return;
+  for (std::size_t i = 0; i < tissues.size(); ++i)
+    metered.Draw(tissues[i]->Metered(LightColourAt(i)));
 }
 
 void ArthroscopicView::Parts::TakeTool(simulation::ToolKind kind) {
@@ -259,7 +276,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   LensFrame frame;
   if (ShowsTool(picture)) p.TakeTool(picture.instrument->kind);
   frame.shade = ShadeOf(picture, p.tool_shape);
-  p.backdrop->SetPicture(picture, size, frame.shade);
+  p.MeterModels(picture);
+  p.backdrop->SetPicture(picture, size, frame.shade, p.metered);
   frame.gain = p.backdrop->gain();
   frame.relit = p.backdrop->relight();
   frame.field_of_view = picture.field_of_view;
@@ -270,11 +288,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   frame.surround = p.backdrop->footage_light().mean;
   p.ShowTool(picture, frame);
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
-    // In the light of its own surroundings, half way, so that it does not look pasted on.
-    const FootageLight& about = p.LightAbout(i);
-    frame.light_colour =
-        0.5 * (LightOf(p.backdrop->footage_light().bright) + LightOf(about.bright));
-    frame.surround = about.mean;
+    frame.light_colour = p.LightColourAt(i);
+    frame.surround = p.LightAbout(i).mean;
     p.tissues[i]->SetFrame(frame);
     p.tissues[i]->Show(!picture.plain);
   }

@@ -16,6 +16,7 @@
 #include <vtkUniforms.h>
 
 #include "app/view/lens_shader.h"
+#include "app/view/srgb.h"
 #include "app/view/steady_inputs.h"
 #include "simulation/scene/vertex_normals.h"
 
@@ -260,7 +261,8 @@ void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint
   points_->Modified();
   data_->Modified();
   // Of a closed surface the inside is never seen, and half the work is saved.
-  actor_->GetProperty()->SetBackfaceCulling(IsClosedAndOutward(surface) ? 1 : 0);
+  is_closed_ = IsClosedAndOutward(surface);
+  actor_->GetProperty()->SetBackfaceCulling(is_closed_ ? 1 : 0);
 }
 
 bool LensModel::SetShape(std::span<const glm::dvec3> positions,
@@ -288,6 +290,7 @@ bool LensModel::SetShape(std::span<const glm::dvec3> positions,
 }
 
 void LensModel::SetPose(const Pose& pose) {
+  pose_ = pose;
   const glm::dmat3 rotation = glm::mat3_cast(pose.quaternion);
   vtkNew<vtkMatrix4x4> matrix;
   for (int r = 0; r < 3; ++r) {
@@ -306,11 +309,23 @@ void LensModel::Set(const char* given_name, const glm::dvec3& value) {
   actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform3f(given_name, v);
 }
 
-void LensModel::SetColour(const glm::dvec3& linear_rgb) { Set("given_modelColour", linear_rgb); }
+void LensModel::SetColour(const glm::dvec3& linear_rgb) {
+  colour_ = linear_rgb;
+  Set("given_modelColour", linear_rgb);
+}
 
 void LensModel::SetLength(double length) { Set("given_rodLength", length); }
 
 void LensModel::SetEtched(bool is_etched) { Set("given_etchedRings", is_etched ? 1.0 : 0.0); }
+
+MeteredSurface LensModel::Metered(const glm::dvec3& light_colour) const {
+  const auto count = static_cast<std::size_t>(3 * points_->GetNumberOfPoints());
+  return {{static_cast<const float*>(points_->GetVoidPointer(0)), count},
+          triangles_,
+          is_closed_,
+          pose_,
+          Luma(colour_ * light_colour)};
+}
 
 void LensModel::SetFrame(const LensFrame& frame) {
   if (has_lens_ == simulation::IsEquisolid(frame.lens)) {

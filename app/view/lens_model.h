@@ -17,6 +17,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include "app/view/exposure/metered_models.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
@@ -69,6 +70,8 @@ class LensModel {
   void SetLength(double length);
   // Steel only: the probe's marks every 5 mm.
   void SetEtched(bool is_etched);
+  // As the camera's gain sees it in a light of this colour; valid until it changes.
+  MeteredSurface Metered(const glm::dvec3& light_colour) const;
 
  private:
   // Puts the shaders together.
@@ -78,6 +81,9 @@ class LensModel {
 
   Look look_;
   bool has_lens_ = false;  // other than the equisolid one
+  bool is_closed_ = false;
+  Pose pose_;
+  glm::dvec3 colour_{1.0};
   std::vector<std::array<int, 3>> triangles_;
   std::vector<glm::dvec3> normals_;
   vtkNew<vtkPoints> points_;

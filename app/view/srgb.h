@@ -1,8 +1,11 @@
-// Between stored bytes (sRGB) and linear light, both 0 to 1.
+// Between stored bytes (sRGB) and linear light, both 0 to 1; and how bright a colour is.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace arthro::app {
 
@@ -13,6 +16,11 @@ inline double LinearFromSrgb(std::uint8_t byte) {
 
 inline double SrgbFromLinear(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+// Of linear light [ITU-R BT.709].
+inline double Luma(const glm::dvec3& colour) {
+  return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
 }  // namespace arthro::app

@@ -16,6 +16,7 @@
 
 #include "app/view/backdrop/backdrop_shader.h"
 #include "app/view/backdrop/relief_shader.h"
+#include "app/view/exposure/automatic_gain.h"
 #include "app/view/lens_shader.h"
 #include "simulation/core/units.h"
 
@@ -134,14 +135,15 @@ FootageLight BackdropProp::LightAbout(const glm::dvec3& direction) const {
   return MeasureLight(grid_, backdrop_.projection, direction, kAround);
 }
 
-void BackdropProp::SetPicture(const Picture& picture, int size, const LensShade& shade) {
+void BackdropProp::SetPicture(const Picture& picture, int size, const LensShade& shade,
+                              const MeteredModels& models) {
   picture_ = picture;
   size_ = size;
   shade_ = shade;
   gain_ = 1;
   if (backdrop_.relight > 0 && !picture.plain && !grid_.blocks.empty())
     gain_ = AutomaticGain(grid_, light_, backdrop_, picture.view,
-                          {picture.field_of_view, picture.lens}, light_reach());
+                          {picture.field_of_view, picture.lens}, light_reach(), &models);
 }
 
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {

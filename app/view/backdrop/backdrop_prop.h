@@ -37,8 +37,9 @@ class BackdropProp : public vtkProp {
   // Another place for the panorama that is there; nothing is uploaded. False, and nothing done,
   // where it would begin or cease to be a whole turn.
   bool SetGeometry(const Backdrop& backdrop);
-  // `rod`: of the instrument, where one is shown.
-  void SetPicture(const Picture& picture, int size, const LensShade& shade);
+  // `shade`: of the instrument, where one is shown. `models`: what the gain sees of them.
+  void SetPicture(const Picture& picture, int size, const LensShade& shade,
+                  const MeteredModels& models);
 
   // As the models should take it.
   const FootageLight& footage_light() const { return light_; }

@@ -16,8 +16,6 @@ constexpr int kBlocks = 96;         // along the longer side
 constexpr double kWidth = 1.0 / 6;  // sigma of what counts as light, of the longer side
 constexpr double kMostGain = 3;
 
-double Luma(const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
-
 // Gaussian means of one line, each value with its weight.
 void Smooth(std::vector<double>& values, std::vector<double>& weights, std::size_t first,
             std::size_t stride, int count, double sigma) {
@@ -82,26 +80,6 @@ glm::dvec2 InBlocks(const LightGrid& grid, const glm::dvec2& pixel) {
   return (pixel + 0.5) / grid.block_px - 0.5;
 }
 
-struct Seen {
-  double luma = 0, share = 0, relief = 0;
-};
-Seen Look(const LightGrid& grid, const glm::dvec2& pixel) {
-  const glm::dvec2 place = glm::clamp(InBlocks(grid, pixel), glm::dvec2(0.0),
-                                      glm::dvec2(grid.width - 1, grid.height - 1));
-  const int x = static_cast<int>(place.x), y = static_cast<int>(place.y);
-  Seen seen;
-  for (int j = 0; j < 2; ++j)
-    for (int i = 0; i < 2; ++i) {
-      const auto& block =
-          grid.at(std::min(x + i, grid.width - 1), std::min(y + j, grid.height - 1));
-      const double weight = std::abs(1 - i - (place.x - x)) * std::abs(1 - j - (place.y - y));
-      seen.luma += weight * block.share * Luma(glm::dvec3(block.mean * block.gain));
-      seen.share += weight * block.share;
-      seen.relief += weight * block.relief;
-    }
-  return seen;
-}
-
 }  // namespace
 
 Backdrop WithKnownLight(Backdrop backdrop, const DepthMap& depth) {
@@ -159,6 +137,23 @@ void SetRelief(LightGrid& grid, const DepthMap& depth) {
                   static_cast<std::size_t>(x)]
           .relief = count > 0 ? sum / static_cast<float>(count) : 0.0f;
     }
+}
+
+GridLook Look(const LightGrid& grid, const glm::dvec2& pixel) {
+  const glm::dvec2 place = glm::clamp(InBlocks(grid, pixel), glm::dvec2(0.0),
+                                      glm::dvec2(grid.width - 1, grid.height - 1));
+  const int x = static_cast<int>(place.x), y = static_cast<int>(place.y);
+  GridLook seen;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      const auto& block =
+          grid.at(std::min(x + i, grid.width - 1), std::min(y + j, grid.height - 1));
+      const double weight = std::abs(1 - i - (place.x - x)) * std::abs(1 - j - (place.y - y));
+      seen.luma += weight * block.share * Luma(glm::dvec3(block.mean * block.gain));
+      seen.share += weight * block.share;
+      seen.relief += weight * block.relief;
+    }
+  return seen;
 }
 
 void EvenLight(LightGrid& grid, double share) {
@@ -224,38 +219,6 @@ FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
     if (glm::dot(d, direction) >= least) near.push_back(i);
   }
   return near.empty() ? MeasureLight(grid) : LightOfBlocks(grid, near);
-}
-
-double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
-                     const simulation::ScopeView& view, const simulation::ScopeOptics& optics,
-                     double light_reach) {
-  constexpr int kAcross = 15;  // rays
-  double sum = 0, total = 0;
-  for (int j = 0; j < kAcross; ++j)
-    for (int i = 0; i < kAcross; ++i) {
-      const glm::dvec2 place = (glm::dvec2(i, j) + 0.5) * (2.0 / kAcross) - 1.0;
-      if (glm::dot(place, place) > 1.0) continue;
-      const glm::dvec3 ray = simulation::RayThrough(optics, view, {place.x, -place.y});
-      const glm::dvec3 out = glm::normalize(simulation::SphereHit(view.tip, ray, backdrop.radius));
-      const auto pixel = PixelFromDirection(backdrop.projection, out);
-      if (!pixel) continue;
-      const double inside =
-          std::clamp(1.0 + std::min({pixel->x, pixel->y, grid.block_px.x * grid.width - pixel->x,
-                                     grid.block_px.y * grid.height - pixel->y}) /
-                               grid.block_px.x,
-                     0.0, 1.0);
-      const Seen seen = Look(grid, *pixel);
-      const double share = inside * seen.share;
-      if (!(share > 0)) continue;
-      const double distance = glm::length((backdrop.radius - seen.relief) * out - view.tip);
-      const double lit = seen.luma / seen.share * light_reach * light_reach /
-                         (distance * distance + kLampRadius * kLampRadius);
-      const double weight = share * (1.25 - glm::dot(place, place));  // more in the middle
-      sum += weight * lit * lit;
-      total += weight;
-    }
-  if (!(total > 0) || !(sum > 0) || !(footage.metered > 0)) return 1.0;
-  return std::clamp(footage.metered / std::sqrt(sum / total), 0.05, 12.0);
 }
 
 }  // namespace arthro::app

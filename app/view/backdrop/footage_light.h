@@ -4,11 +4,11 @@
 
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/image.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
@@ -20,7 +20,7 @@ Backdrop WithKnownLight(Backdrop backdrop, const DepthMap& depth);
 struct FootageLight {
   glm::dvec3 mean{0.2};    // of all of it
   glm::dvec3 bright{0.6};  // of its brightest fifth
-  double metered = 0.2;    // brightness as AutomaticGain measures it
+  double metered = 0.2;    // brightness as the automatic gain measures it
 };
 
 // The panorama in blocks, some 96 along its longer side: enough for what is said of its light.
@@ -44,6 +44,13 @@ LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth);
 // Another relief for the same panorama, of whose size it is; its colours stay what they are.
 void SetRelief(LightGrid& grid, const DepthMap& depth);
 
+// Between the blocks about a panorama pixel; beyond the edge as at it.
+struct GridLook {
+  double luma = 0;  // evened, times `share`
+  double share = 0, relief = 0;
+};
+GridLook Look(const LightGrid& grid, const glm::dvec2& pixel);
+
 // Sets the gains: the wide, smooth part of the brightness (a sixth of the picture's longer side)
 // goes towards its mean by `share`, 0 to 1, at most by a factor of 3. Retinex [Land & McCann 1971],
 // as footage says no more about its lamp.
@@ -60,13 +67,5 @@ FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
 // The lamp: light falls as reach² / (distance² + kLampRadius²), the fibres being a ring, not a
 // point.
 inline constexpr double kLampRadius = 0.004;  // m
-
-// Camera gain at which the lit picture is as bright as the footage, by the root mean square of the
-// light (by its mean, what is near would be white when the rest is far): an unhurried camera's
-// automatic gain, as a smooth function of where the scope is. Rays over the window, more in its
-// middle; without models. 1 where it sees nothing that was imaged.
-double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const Backdrop& backdrop,
-                     const simulation::ScopeView& view, const simulation::ScopeOptics& optics,
-                     double light_reach);
 
 }  // namespace arthro::app

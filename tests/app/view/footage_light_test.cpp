@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/bench/view/reference_tracer.h"
+#include "app/view/exposure/automatic_gain.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/srgb.h"
 #include "simulation/core/units.h"
@@ -19,61 +20,6 @@ namespace arthro::test {
 namespace {
 
 using namespace app;
-
-// From the portal all of a bare sphere is at D: what the lamp takes away the gain gives back.
-TEST(FootageLight, GainOfAGreySphereIsTheClosedForm) {
-  const Backdrop backdrop = PlainBackdrop(400, 400);
-  const LightGrid grid = MakeLightGrid(Grey(400, 400, 60), {});
-  const double reach = 0.0275;
-  const double expected = (0.05 * 0.05 + kLampRadius * kLampRadius) / (reach * reach);
-  const auto view = [](double depth) { return simulation::ViewFromPose({0, 0, 0, depth}, 0.0); };
-  EXPECT_NEAR(AutomaticGain(grid, MeasureLight(grid), backdrop, view(0.0), {1.5, {}}, reach),
-              expected, 1e-3 * expected);
-  // White and near, the picture is as bright as the footage still was: it does not blow out.
-  const LightGrid white = MakeLightGrid(Grey(400, 400, 250), {});
-  const double near =
-      AutomaticGain(white, MeasureLight(white), backdrop, view(0.044), {0.2, {}}, reach);
-  EXPECT_NEAR(near, (0.006 * 0.006 + kLampRadius * kLampRadius) / (reach * reach), 0.02 * near);
-  // Nearer it takes less gain, and goes there smoothly.
-  double before = expected;
-  for (double depth = 0.001; depth < 0.038; depth += 0.001) {
-    const double gain =
-        AutomaticGain(grid, MeasureLight(grid), backdrop, view(depth), {1.5, {}}, reach);
-    EXPECT_LT(gain, before);
-    EXPECT_GT(gain, 0.8 * before);
-    before = gain;
-  }
-}
-
-// Half of the window is 16 mm away, the other 50: 1.41 of the footage's brightness, where the plain
-// mean would give 1.81.
-TEST(FootageLight, WhatIsNearIsNotLostInWhiteWhenTheRestIsFar) {
-  const Backdrop backdrop = PlainBackdrop(400, 400);
-  DepthMap depth(400, 400, 0.0f);
-  for (int y = 200; y < 400; ++y)
-    for (int x = 0; x < 400; ++x) depth.at(x, y) = 0.034f;
-  const LightGrid grid = MakeLightGrid(Grey(400, 400, 150), depth);
-  const double reach = 0.0275;
-  const double gain = AutomaticGain(grid, MeasureLight(grid), backdrop,
-                                    simulation::ViewFromPose({0, 0, 0, 0}, 0.0), {1.5, {}}, reach);
-  const auto lamp = [&](double distance) {
-    return gain * reach * reach / (distance * distance + kLampRadius * kLampRadius);
-  };
-  // Half-way between the two; a row of rays lies on the edge.
-  EXPECT_LT(lamp(0.016), 1.6);
-}
-
-TEST(FootageLight, NothingImagedOrBlackNeedsNoGain) {
-  const Backdrop backdrop = PlainBackdrop(64, 48);
-  const auto view = simulation::ViewFromPose({0, 0, 0, 0.01}, 0.0);
-  const LightGrid nothing = MakeLightGrid(Grey(64, 48, 90), DepthMap(64, 48, NAN));
-  EXPECT_EQ(AutomaticGain(nothing, MeasureLight(nothing), backdrop, view, {1.5, {}}, 0.03), 1.0);
-  const LightGrid black = MakeLightGrid(Grey(64, 48, 0), {});
-  EXPECT_EQ(AutomaticGain(black, MeasureLight(black), backdrop, view, {1.5, {}}, 0.03), 1.0);
-  const LightGrid one = MakeLightGrid(Grey(1, 1, 90), {});
-  EXPECT_TRUE(std::isfinite(
-      AutomaticGain(one, MeasureLight(one), PlainBackdrop(1, 1), view, {1.5, {}}, 0.03)));
-}
 
 // Checks under a lamp that falls to a quarter from left to right.
 TEST(FootageLight, EveningTakesAWideFallAwayAndKeepsThePattern) {
@@ -119,51 +65,6 @@ TEST(FootageLight, OfASideIsThatSides) {
   EXPECT_NEAR(left.mean.r, left.mean.g, 1e-6);
   // Behind the scope nothing was imaged: then it is that of all.
   EXPECT_EQ(MeasureLight(grid, backdrop.projection, {0, 0, -1}, 0.3).mean, MeasureLight(grid).mean);
-}
-
-// A footage that grows darker from left to right, through a lens that stands aside: the gain by
-// every pixel of the window through the lens' own formulas. 15 rays across instead of 401, and
-// blocks of 5 px, are good to 1 %.
-TEST(FootageLight, GainGoesByWhatTheScenesOwnLensShows) {
-  const Backdrop backdrop = PlainBackdrop(480, 480);
-  ColourImage footage(480, 480);
-  const auto level = [](double x) { return std::lround(220 * std::exp(-x / 150)); };
-  for (int y = 0; y < 480; ++y)
-    for (int x = 0; x < 480; ++x)
-      for (int c = 0; c < 3; ++c) footage.at(x, y)[c] = static_cast<std::uint8_t>(level(x));
-  const LightGrid grid = MakeLightGrid(footage, {});
-  const Lens lens = AsideLens();
-  const simulation::ScopeOptics optics = simulation::OpticsOf({}, lens);
-  const auto view = simulation::ViewFromPose({0.1, 0, 0, 0.02}, 0.2);
-  const double reach = 0.0275;
-  constexpr int kAcross = 401;
-  double sum = 0, total = 0;
-  for (int y = 0; y < kAcross; ++y)
-    for (int x = 0; x < kAcross; ++x) {
-      const auto ray = ReferenceRay(view, optics.field_of_view, kAcross, {x, y}, &lens);
-      if (!ray) continue;
-      const glm::dvec3 hit = *ReferenceSphereHit(view.tip, *ray, backdrop.radius);
-      const auto pixel = ReferencePixel(backdrop.projection, hit);
-      if (!pixel || pixel->x < 0 || pixel->y < 0 || pixel->x > 479 || pixel->y > 479) continue;
-      const double away = glm::distance(hit, view.tip);
-      const double r = std::hypot(x - 200.0, y - 200.0) / 200.5;
-      const double light = reach * reach / (away * away + kLampRadius * kLampRadius);
-      const double lit = LinearFromSrgb(static_cast<std::uint8_t>(level(pixel->x))) * light;
-      sum += (1.25 - r * r) * lit * lit;
-      total += 1.25 - r * r;
-    }
-  const FootageLight light = MeasureLight(grid);
-  double metered = 0;
-  for (int x = 0; x < 480; ++x)
-    metered += std::pow(LinearFromSrgb(static_cast<std::uint8_t>(level(x))), 2) / 480;
-  const double expected = std::sqrt(metered * total / sum);
-  const double with = AutomaticGain(grid, light, backdrop, view, optics, reach);
-  const double without =
-      AutomaticGain(grid, light, backdrop, view, {optics.field_of_view, {}}, reach);
-  std::printf("gain %.4f by every pixel, %.4f through the lens, %.4f through an equisolid one\n",
-              expected, with, without);
-  EXPECT_NEAR(with, expected, 0.01 * expected);
-  EXPECT_GT(std::abs(without - expected), 0.1 * expected) << "an equisolid window is caught";
 }
 
 class LitView : public ViewTest, public testing::WithParamInterface<bool> {};
