@@ -157,7 +157,8 @@ void main() {
   float down = (looks.x - here) / max(looks.x - looks.y, 1e-6);
   float way = max(length(up / vec2(length(alongU), length(alongV))), 1e-6);
   // At its foot lies what is behind it.
-  float foot = step(0.95, down);
+  float top = max(looks.x, looks.z);
+  float foot = step(0.95, (top - here) / max(top - looks.y, 1e-6));
   wall = max(side * smoothstep(0.1, 0.3, down), smoothstep(kSide, 6.0, (looks.z - looks.x) / way)) *
          (1.0 - foot);
   side *= 1.0 - foot;

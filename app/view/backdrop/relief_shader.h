@@ -47,12 +47,12 @@ inline constexpr const char* kReliefSides = R"(
 // Texture units from a place to the one above it.
 vec2 upwards(vec4 ground) {
   vec2 uphill = ground.gb / reliefTexels;
-  return 2.2 / reliefTexels * uphill / max(length(uphill), 1e-9);
+  return uphill * (2.2 * inversesqrt(max(dot(uphill, uphill), 1e-18))) / reliefTexels;
 }
-// As steep as a place is, but for what its projection stretches.
-float steepness(vec3 x, vec4 ground) {
-  float far = dot(x, x);
-  return length(ground.gb * scale) * fineness(x, far) * inversesqrt(far);
+// Square of how steep a place is, but for what its projection stretches.
+float steepness2(vec3 x, vec4 ground) {
+  vec2 slope = ground.gb * scale;
+  return dot(slope, slope) / dot(x, x);
 }
 const float kSide = 2.5;  // of a slope
 )";
@@ -123,7 +123,7 @@ void main() {
   float sphere = sqrt(max(b * b + clearance, 0.0)) - b;
   float t = meetRelief(ray, b, sphere);
   vec3 x = tip + t * ray;
-  gl_FragData[0] = vec4(t, steepness(x, textureLod(relief, panoramaPlace(x), 0.0) * perRadius), 0.0, 1.0);
+  gl_FragData[0] = vec4(t, steepness2(x, textureLod(relief, panoramaPlace(x), 0.0) * perRadius), 0.0, 1.0);
 }
 )";
 
@@ -146,7 +146,7 @@ void main() {
                    max(bendOf(t[1], t[5], t[9], t[13]), bendOf(t[2], t[6], t[10], t[14])));
   float low = min(min(t[5], t[6]), min(t[9], t[10])), high = max(max(t[5], t[6]), max(t[9], t[10]));
   float margin = max(0.15 * (high - low), smoothBend * low);
-  gl_FragData[0] = bend <= smoothBend * low && steepest < kSide ? vec4(t[5], t[6], t[9], t[10])
+  gl_FragData[0] = bend <= smoothBend * low && steepest < kSide * kSide ? vec4(t[5], t[6], t[9], t[10])
                                             : vec4(-1.0, max(low - margin, 0.0), high + margin, 0.0);
 }
 )";
@@ -185,7 +185,7 @@ float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out boo
     closed += is || closed > 0.0 ? 1.0 : 0.0;
     left = closed > 4.0 || (closed == 0.0 && t >= end) ? 0.0 : left - 1.0;
     bool isThere = isLook || left <= 0.0;
-    asks = isLook ? asks - 1.0 : isThere && searches && steepness(x, ground) > 0.9 * kSide ? 3.0 : 0.0;
+    asks = isLook ? asks - 1.0 : isThere && searches && steepness2(x, ground) > 0.8 * kSide * kSide ? 3.0 : 0.0;
     up = asks > 0.0 ? upwards(ground) : up;
     if (isThere && asks <= 0.0) break;
     t = isThere ? t : closed > 0.0 ? mix(low, high, clamp(gapLow / (gapLow - gapHigh), 0.05, 0.95)) : min(t + pace, end);
