@@ -80,6 +80,18 @@ glm::dvec2 InBlocks(const LightGrid& grid, const glm::dvec2& pixel) {
   return (pixel + 0.5) / grid.block_px - 0.5;
 }
 
+// Calls take(block, weight) for the four about a panorama pixel.
+template <class Take>
+void BetweenBlocks(const LightGrid& grid, const glm::dvec2& pixel, Take&& take) {
+  const glm::dvec2 place = glm::clamp(InBlocks(grid, pixel), glm::dvec2(0.0),
+                                      glm::dvec2(grid.width - 1, grid.height - 1));
+  const int x = static_cast<int>(place.x), y = static_cast<int>(place.y);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i)
+      take(grid.at(std::min(x + i, grid.width - 1), std::min(y + j, grid.height - 1)),
+           std::abs(1 - i - (place.x - x)) * std::abs(1 - j - (place.y - y)));
+}
+
 }  // namespace
 
 Backdrop WithKnownLight(Backdrop backdrop, const DepthMap& depth) {
@@ -126,6 +138,7 @@ LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth) {
 
 void SetRelief(LightGrid& grid, const DepthMap& depth) {
   const int block = static_cast<int>(grid.block_px.x), step = std::max(1, block / 8);
+  grid.has_relief = false;
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) {
       float sum = 0;
@@ -133,26 +146,28 @@ void SetRelief(LightGrid& grid, const DepthMap& depth) {
       for (int v = y * block; v < std::min((y + 1) * block, depth.height); v += step)
         for (int u = x * block; u < std::min((x + 1) * block, depth.width); u += step)
           if (const float h = depth.at(u, v); std::isfinite(h)) sum += h, ++count;
+      const float relief = count > 0 ? sum / static_cast<float>(count) : 0.0f;
       grid.blocks[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
                   static_cast<std::size_t>(x)]
-          .relief = count > 0 ? sum / static_cast<float>(count) : 0.0f;
+          .relief = relief;
+      grid.has_relief = grid.has_relief || relief != 0;
     }
 }
 
+double ReliefAt(const LightGrid& grid, const glm::dvec2& pixel) {
+  double relief = 0;
+  BetweenBlocks(grid, pixel, [&](const LightGrid::Block& block, double weight) {
+    relief += weight * block.relief;
+  });
+  return relief;
+}
+
 GridLook Look(const LightGrid& grid, const glm::dvec2& pixel) {
-  const glm::dvec2 place = glm::clamp(InBlocks(grid, pixel), glm::dvec2(0.0),
-                                      glm::dvec2(grid.width - 1, grid.height - 1));
-  const int x = static_cast<int>(place.x), y = static_cast<int>(place.y);
   GridLook seen;
-  for (int j = 0; j < 2; ++j)
-    for (int i = 0; i < 2; ++i) {
-      const auto& block =
-          grid.at(std::min(x + i, grid.width - 1), std::min(y + j, grid.height - 1));
-      const double weight = std::abs(1 - i - (place.x - x)) * std::abs(1 - j - (place.y - y));
-      seen.luma += weight * block.share * Luma(glm::dvec3(block.mean * block.gain));
-      seen.share += weight * block.share;
-      seen.relief += weight * block.relief;
-    }
+  BetweenBlocks(grid, pixel, [&](const LightGrid::Block& block, double weight) {
+    seen.luma += weight * block.share * Luma(glm::dvec3(block.mean * block.gain));
+    seen.share += weight * block.share;
+  });
   return seen;
 }
 

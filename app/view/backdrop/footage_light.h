@@ -35,6 +35,7 @@ struct LightGrid {
   glm::dvec2 block_px{1.0};  // panorama pixels a block
   std::vector<Block> blocks;
   double even = 0;  // share of the light's unevenness that the gains take away
+  bool has_relief = false;
   const Block& at(int x, int y) const {
     return blocks[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                   static_cast<std::size_t>(x)];
@@ -44,10 +45,11 @@ LightGrid MakeLightGrid(const ColourImage& panorama, const DepthMap& depth);
 // Another relief for the same panorama, of whose size it is; its colours stay what they are.
 void SetRelief(LightGrid& grid, const DepthMap& depth);
 
-// Between the blocks about a panorama pixel; beyond the edge as at it.
+// Between the blocks about a panorama pixel; beyond the edge as at it. Relief alone is quicker.
+double ReliefAt(const LightGrid& grid, const glm::dvec2& pixel);
 struct GridLook {
   double luma = 0;  // evened, times `share`
-  double share = 0, relief = 0;
+  double share = 0;
 };
 GridLook Look(const LightGrid& grid, const glm::dvec2& pixel);
 

@@ -77,10 +77,13 @@ float texelsARadius(vec3 x, vec3 ray) {
   float turn = length(cross(x, ray)) / far;
   return max(turn * fineness(x, far) * max(abs(scale.x) * reliefTexels.x, abs(scale.y) * reliefTexels.y), 1.0);
 }
-// The first crossing from `near` to `far`; beyond `far` where there is none.
-float firstBehind(vec3 ray, float b, float near, float far) {
+// The first crossing from `near` to `far`; beyond `far` where there is none. Nothing stands before
+// `near` if isClear, so that what is behind there has only just come to be (by rounding, where the
+// relief is level at its highest).
+float firstBehind(vec3 ray, float b, float near, float far, bool isClear) {
   float least = (far - near) / reliefSteps;
   float low = near, high = near, gapLow = behind(tip + near * ray), gapHigh = gapLow;
+  bool isMet = isClear && gapLow >= 0.0;
   for (float i = 0.0; i < reliefSteps; i += 1.0) {
     low = high;
     gapLow = gapHigh;
@@ -94,6 +97,7 @@ float firstBehind(vec3 ray, float b, float near, float far) {
     gapHigh = behind(tip + high * ray);
     if ((gapHigh >= 0.0 && gapLow < 0.0) || high >= far) break;
   }
+  if (isMet) return near;
   if (!(gapHigh >= 0.0 && gapLow < 0.0)) return 2.0 * far;
   for (int k = 0; k < 5; ++k) {
     float at = mix(low, high, clamp(gapLow / (gapLow - gapHigh), 0.05, 0.95));
@@ -107,10 +111,9 @@ float firstBehind(vec3 ray, float b, float near, float far) {
 float meetRelief(vec3 ray, float b, float sphere) {
   float inside = clearance + highest * (highest - 2.0);  // (1 - highest)^2 - |tip|^2
   float begins = sqrt(max(b * b + inside, 0.0)) - b;
-  // A little before, or rounding lets rays through a relief that is level at its highest. A lens
-  // among the relief looks from where it is.
-  float near = inside >= 0.0 ? max(begins - 2e-5, 0.0) : 0.0;
-  return min(firstBehind(ray, b, near, sphere), sphere);
+  // A lens among the relief looks from where it is.
+  bool isClear = inside >= 0.0;
+  return min(firstBehind(ray, b, isClear ? begins : 0.0, sphere, isClear), sphere);
 }
 )";
 

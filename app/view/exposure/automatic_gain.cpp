@@ -53,11 +53,8 @@ struct RayLight {
 
 class Meter {
  public:
-  Meter(const LightGrid& grid, const Backdrop& backdrop, double light_reach, bool has_relief)
-      : grid_(grid),
-        backdrop_(backdrop),
-        reach2_(light_reach * light_reach),
-        has_relief_(has_relief) {}
+  Meter(const LightGrid& grid, const Backdrop& backdrop, double light_reach)
+      : grid_(grid), backdrop_(backdrop), reach2_(light_reach * light_reach) {}
 
   double Lamp(double distance) const {
     return reach2_ / (distance * distance + kLampRadius * kLampRadius);
@@ -72,7 +69,7 @@ class Meter {
       const double share = double(k) / kSteps;
       of.way[k] = end * share * std::sqrt(share);  // closer together near the lens
       const bool is_end = k == kSteps;
-      const double depth = has_relief_ ? Depth(tip + of.way[k] * ray) : is_end ? 0.0 : before;
+      const double depth = grid_.has_relief ? Depth(tip + of.way[k] * ray) : is_end ? 0.0 : before;
       deepest = std::max(deepest, depth);
       // Half way through where the relief is met.
       const double met = std::clamp(0.5 + deepest / soft, 0.0, 1.0);
@@ -96,7 +93,7 @@ class Meter {
     double relief = 0;
     if (const auto pixel =
             away > 0 ? PixelFromDirection(backdrop_.projection, x / away) : std::nullopt)
-      relief = Inside(grid_, *pixel) * Look(grid_, *pixel).relief;
+      relief = Inside(grid_, *pixel) * ReliefAt(grid_, *pixel);
     return away - (backdrop_.radius - relief);
   }
 
@@ -114,7 +111,6 @@ class Meter {
   const LightGrid& grid_;
   const Backdrop& backdrop_;
   double reach2_;
-  bool has_relief_;
 };
 
 }  // namespace
@@ -124,9 +120,7 @@ double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const B
                      double light_reach, const MeteredModels* models) {
   if (grid.blocks.empty()) return 1.0;
   const bool has_models = models != nullptr && !models->empty();
-  const Meter meter(grid, backdrop, light_reach,
-                    std::any_of(grid.blocks.begin(), grid.blocks.end(),
-                                [](const auto& block) { return block.relief != 0; }));
+  const Meter meter(grid, backdrop, light_reach);
   RayLight met;
   Light sum;
   for (int j = 0; j < kAcross; ++j)
