@@ -4,26 +4,35 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace arthro {
 
+// Who may read a new file. kShared: whoever the process's umask allows. kPrivate: its owner alone
+// (mode 0600), for what identifies a person: logs, films, records.
+// A file that is replaced keeps its own mode in either case.
+enum class Access { kShared, kPrivate };
+
 // Lets `write` fill a file beside `target` (same extension, so that writers which look at it work),
 // then puts it in place. Throws Error(kFile) that says why: missing folder, no permission, disk
-// full.
+// full. A symbolic link stays, and the file that it names is replaced. A read-only file is refused.
 void WriteAtomically(const std::filesystem::path& target,
-                     const std::function<void(const std::filesystem::path& beside)>& write);
+                     const std::function<void(const std::filesystem::path& beside)>& write,
+                     Access access = Access::kShared);
 
 // The same for bytes already in memory. "-" writes to standard output.
-void WriteAtomically(const std::filesystem::path& target, std::string_view bytes);
+void WriteAtomically(const std::filesystem::path& target, std::string_view bytes,
+                     Access access = Access::kShared);
 
 // A file that takes long to fill, such as a film: fill beside(), then put it in place. One that is
 // dropped before is removed.
 class PartialFile {
  public:
-  // Throws Error(kFile) where the folder is missing or `target` is something else than a file.
-  explicit PartialFile(std::filesystem::path target);
+  // Creates beside(), empty. Throws Error(kFile) where the folder is missing, or where `target` is
+  // read-only or something else than a file.
+  explicit PartialFile(std::filesystem::path target, Access access = Access::kShared);
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
@@ -34,7 +43,8 @@ class PartialFile {
   void PutInPlace();
 
  private:
-  std::filesystem::path target_, beside_;
+  std::filesystem::path target_, place_, beside_;  // place_: target_ with its links followed
+  std::optional<unsigned> mode_;                   // to be set at the end; none: as the umask says
   bool is_in_place_ = false;
 };
 

@@ -70,6 +70,91 @@ TEST(AtomicFile, WritesIntoAPipeAndDoesNotReplaceIt) {
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
+unsigned ModeOf(const std::filesystem::path& file) {
+  struct stat found {};
+  return ::stat(file.c_str(), &found) == 0 ? found.st_mode & 0777 : 0;
+}
+
+TEST(AtomicFile, APrivateFileIsItsOwnersAlone) {
+  const test::TempFolder folder;
+  const mode_t before = ::umask(0);
+  WriteAtomically(folder / "private.bin", "text", Access::kPrivate);
+  WriteAtomically(folder / "shared.bin", "text");
+  ::umask(before);
+  EXPECT_EQ(ModeOf(folder / "private.bin"), 0600u);
+  EXPECT_EQ(ModeOf(folder / "shared.bin"), 0666u);
+}
+
+TEST(AtomicFile, AnUnfinishedPrivateFileIsPrivateToo) {
+  const test::TempFolder folder;
+  const mode_t before = ::umask(0);
+  const PartialFile file(folder / "film.mp4", Access::kPrivate);
+  ::umask(before);
+  EXPECT_EQ(ModeOf(file.beside()), 0600u);
+}
+
+TEST(AtomicFile, AReplacedFileKeepsItsMode) {
+  const test::TempFolder folder;
+  for (const unsigned mode : {0600u, 0640u, 0755u}) {
+    WriteAtomically(folder / "a.txt", "first");
+    ASSERT_EQ(::chmod((folder / "a.txt").c_str(), mode), 0);
+    WriteAtomically(folder / "a.txt", "second");
+    EXPECT_EQ(ModeOf(folder / "a.txt"), mode);
+    WriteAtomically(folder / "a.txt", "third", Access::kPrivate);
+    EXPECT_EQ(ModeOf(folder / "a.txt"), mode);
+  }
+  // A writer that replaces the file that it was given.
+  ASSERT_EQ(::chmod((folder / "a.txt").c_str(), 0600), 0);
+  WriteAtomically(folder / "a.txt", [](const std::filesystem::path& beside) {
+    std::filesystem::remove(beside);
+    std::ofstream(beside) << "fourth";
+  });
+  EXPECT_EQ(ModeOf(folder / "a.txt"), 0600u);
+}
+
+TEST(AtomicFile, AReadOnlyFileIsRefused) {
+  const test::TempFolder folder;
+  WriteAtomically(folder / "a.txt", "first");
+  ASSERT_EQ(::chmod((folder / "a.txt").c_str(), 0444), 0);
+  try {
+    WriteAtomically(folder / "a.txt", "second");
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(error.sentence().find("read-only"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "first");
+  EXPECT_EQ(ModeOf(folder / "a.txt"), 0444u);
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+}
+
+TEST(AtomicFile, ASymbolicLinkIsWrittenThrough) {
+  const test::TempFolder folder;
+  std::filesystem::create_directory(folder / "store");
+  WriteAtomically(folder / "store/real.txt", "first");
+  ASSERT_EQ(::chmod((folder / "store/real.txt").c_str(), 0600), 0);
+  std::filesystem::create_symlink("store/real.txt", folder / "second");
+  std::filesystem::create_symlink(folder / "second", folder / "a.txt");
+  WriteAtomically(folder / "a.txt", "second");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.txt"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "second"));
+  EXPECT_EQ(ReadWholeFile(folder / "store/real.txt"), "second");
+  EXPECT_EQ(ModeOf(folder / "store/real.txt"), 0600u);
+  EXPECT_EQ(FilesIn(folder / "store"), 1);
+  // A link to a file that does not exist yet, and one that names itself.
+  std::filesystem::create_symlink("store/new.txt", folder / "new");
+  WriteAtomically(folder / "new", "text");
+  EXPECT_EQ(ReadWholeFile(folder / "store/new.txt"), "text");
+  std::filesystem::create_symlink("loop", folder / "loop");
+  EXPECT_THROW(WriteAtomically(folder / "loop", "text"), Error);
+}
+
+TEST(AtomicFile, TakesANameAsLongAsTheFileSystemAllows) {
+  const test::TempFolder folder;
+  const std::string name = std::string(250, 'a') + ".json";
+  WriteAtomically(folder / name, "text");
+  EXPECT_EQ(ReadWholeFile(folder / name), "text");
+}
+
 TEST(AtomicFile, NamesAMissingFolder) {
   test::TempFolder folder;
   try {
