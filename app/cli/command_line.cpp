@@ -3,11 +3,14 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/jobs.h"
 #include "app/editor/editor.h"
+#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -52,6 +55,11 @@ int RunCommandLine(int argc, char** argv) {
     return program.exit(error) == 0 ? kDone : kUsage;
   } catch (const std::bad_alloc&) {
     return Refuse("there is not enough memory for this; use a smaller picture or mesh");
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) == 0) return Refuse(error.what());
+    return Refuse(
+        ("standard output could not be written to its end: " + WhyNotWritten(error.code().value()))
+            .c_str());
   } catch (const std::exception& error) {  // Error's what() is a whole sentence
     return Refuse(error.what());
   }

@@ -26,6 +26,8 @@ void CheckOutputs(const std::vector<fs::path>& outputs, const std::vector<fs::pa
     std::error_code ignored;
     if (fs::is_directory(output, ignored))
       throw Error(Code::kFile, "this is a folder; give the name of a file", output);
+    if (fs::exists(output, ignored) && !fs::is_regular_file(output, ignored))
+      continue;  // a device or a pipe is written as it is
     for (const fs::path& input : inputs)
       if (!input.empty() && IsSameFile(output, input))
         throw Error(Code::kBadArgument,

@@ -102,6 +102,29 @@ void WriteFiles(const fs::path& folder, const Phantom& phantom, const FootageWri
   WriteScene(folder / "scene.json", SceneOf(phantom));
 }
 
+// The name that stands beside `folder` while it is written or replaced.
+fs::path Beside(const fs::path& folder, const char* what) {
+  fs::path path = folder;
+  path.replace_filename(fmt::format(".{}.{}.{}", folder.filename().string(), ::getpid(), what));
+  return path;
+}
+
+// Makes what WritePhantom will make, and takes it back.
+void RequireRoomBeside(const fs::path& folder) {
+  std::error_code fault;
+  const fs::path trial = Beside(folder, "partial");
+  if (!folder.empty() && fs::create_directory(trial, fault)) {
+    fs::remove(trial, fault);
+    return;
+  }
+  throw Error(Code::kFile,
+              fmt::format("no folder can be made here: {}; name another place with -o",
+                          folder.empty() ? "the name is empty"
+                          : fault        ? WhyNotWritten(fault.value())
+                                         : "its temporary name is taken"),
+              folder);
+}
+
 }  // namespace
 
 void RequirePhantomFolder(const fs::path& wanted) {
@@ -110,7 +133,7 @@ void RequirePhantomFolder(const fs::path& wanted) {
   const fs::path parent = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
   if (!fs::is_directory(parent, error))
     throw Error(Code::kFile, "the folder it should lie in does not exist; make it first", folder);
-  if (!fs::exists(fs::symlink_status(folder, error))) return;
+  if (!fs::exists(fs::symlink_status(folder, error))) return RequireRoomBeside(folder);
   if (!fs::is_directory(folder, error))
     throw Error(Code::kFile, "is a file, and a phantom is a folder; name another place with -o",
                 folder);
@@ -127,17 +150,13 @@ void RequirePhantomFolder(const fs::path& wanted) {
                 "holds files that are not a phantom's, and nothing is overwritten; name a new "
                 "folder with -o",
                 folder);
+  RequireRoomBeside(folder);
 }
 
 void WritePhantom(const fs::path& wanted, const Phantom& phantom, const FootageWriter& footage) {
   RequirePhantomFolder(wanted);
   const fs::path folder = Plain(wanted);
-  const auto beside = [&](const char* what) {
-    fs::path path = folder;
-    path.replace_filename(fmt::format(".{}.{}.{}", folder.filename().string(), ::getpid(), what));
-    return path;
-  };
-  const fs::path partial = beside("partial"), old = beside("old");
+  const fs::path partial = Beside(folder, "partial"), old = Beside(folder, "old");
   std::error_code ignored;
   try {
     fs::create_directory(partial);

@@ -16,6 +16,7 @@
 #include "authoring/tissue/surface_thicken.h"
 #include "authoring/tissue/tetgen_worker.h"
 #include "simulation/core/error.h"
+#include "simulation/core/leftovers.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/units.h"
 
@@ -47,13 +48,7 @@ double MsSince(Clock::time_point start) {
 // A folder for one run of the mesher.
 class WorkFolder {
  public:
-  WorkFolder() {
-    std::error_code fault;
-    std::string name = (fs::temp_directory_path(fault) / "arthroscene_XXXXXX").string();
-    if (fault || ::mkdtemp(name.data()) == nullptr)
-      throw Error(Code::kFile, "a temporary folder could not be made; set TMPDIR", name);
-    path_ = name;
-  }
+  WorkFolder() : path_(MakeTemporaryFolder()) {}
   ~WorkFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);

@@ -15,6 +15,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/leftovers.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro {
@@ -213,6 +214,7 @@ void PackScene(const fs::path& scene, const fs::path& archive) {
                   archive);
     static_cast<void>(zip.release());  // closing has freed it
   });
+  RemoveLeftovers(archive.has_parent_path() ? archive.parent_path() : ".");
 }
 
 void UnpackScene(const fs::path& archive, const fs::path& folder, const ArchiveLimits& limits) {
@@ -224,13 +226,7 @@ void UnpackScene(const fs::path& archive, const fs::path& folder, const ArchiveL
     UnpackEntry(zip.get(), entry, folder / entry.name, archive);
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "arthroscene-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw Error(Code::kFile,
-                fmt::format("no temporary folder could be made: {}", std::strerror(errno)), name);
-  path_ = name;
-}
+TemporaryFolder::TemporaryFolder() : path_(MakeTemporaryFolder()) {}
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;

@@ -7,6 +7,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/leftovers.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json_text.h"
@@ -154,6 +155,7 @@ void WriteScene(const fs::path& scene_json, const Scene& scene) {
   SceneFromJson(json::parse(text), faults);  // also catches NaN, which JSON has no word for
   ThrowFirst(faults, scene_json);
   WriteAtomically(scene_json, text);
+  RemoveLeftovers(scene_json.has_parent_path() ? scene_json.parent_path() : ".");
 }
 
 }  // namespace arthro

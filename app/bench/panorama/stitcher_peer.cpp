@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <sys/resource.h>
 
 #include <fmt/format.h>
@@ -97,6 +98,8 @@ void Work(const fs::path& folder, PeerMode mode) {
     }
   }
   out << "status " << WordsOf(status) << '\n';
+  out.close();
+  if (!out) throw std::runtime_error("the result was not written to its end");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -57,13 +58,18 @@ void AddDepthJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "depth", "Estimate the relief of a panorama from its brightness: bright is near.");
   const auto own = std::make_shared<DepthJob>();
-  job->add_option("PANORAMA", own->panorama, "Picture: PNG, JPEG or TIFF")->required();
-  job->add_option("-o,--output", own->output,
-                  "32-bit float TIFF of the same size, in metres; - for standard output")
+  const auto files = JobFiles::Of(*job);
+  files->Input(job->add_option("PANORAMA", own->panorama, "Picture: PNG, JPEG or TIFF"))
+      ->required();
+  files
+      ->Output(job->add_option("-o,--output", own->output,
+                               "32-bit float TIFF of the same size, in metres; - for standard "
+                               "output"),
+               kDepthMapFile)
       ->required();
   AddOptionsFile(*job, own->options);
   AddOptions(*job, own->options);
-  job->callback([own] { Run(*own); });
+  files->Run([own] { Run(*own); });
 }
 
 }  // namespace arthro::app

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -85,18 +86,25 @@ void AddLensJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "lens", "Calibrate the scope's lens from pictures of a line grid, chessboard or dot grid.");
   const auto own = std::make_shared<LensJob>();
-  job->add_option(
-         "GRID_IMAGE", own->pictures,
-         "Raw pictures of the flat target; best six, tilted to all sides, filling the window")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("GRID_IMAGE", own->pictures,
+                              "Raw pictures of the flat target; best six, tilted to all sides, "
+                              "filling the window"))
       ->required();
   job->add_option("--spacing-mm", own->spacing_mm,
                   "From line to line, corner to corner or dot to dot, in mm")
       ->required()
       ->check(CLI::Range(1e-3, 1e4));
-  job->add_option("-o,--output", own->output, "lens.json to write; - for standard output")
+  files
+      ->Output(
+          job->add_option("-o,--output", own->output, "lens.json to write; - for standard output"),
+          {"a lens file", FileForm::kJson, "arthroscene.lens/"})
       ->required();
-  job->add_option("--report", own->report,
-                  "All numbers as JSON, also when the lens is refused; - for standard output");
+  files->Output(job->add_option("--report", own->report,
+                                "All numbers as JSON, also when the lens is refused; - for "
+                                "standard output"),
+                {"a report", FileForm::kJson, "arthroscene.lens_report/"});
   AddOptions(*job, own->calibrate);
   AddOptions(*job, own->detect);
   job->footer(
@@ -105,7 +113,7 @@ void AddLensJob(CLI::App& program) {
       "an estimate of the error at the rim. The verdict is good, doubtful (written, with the "
       "reason) "
       "or refused (nothing written, exit code 1).");
-  job->callback([own] { Run(*own); });
+  files->Run([own] { Run(*own); });
 }
 
 }  // namespace arthro::app

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -45,8 +46,13 @@ void WriteScene(const fs::path& folder, const fs::path& panorama,
   const authoring::PinholeView& view = report.panorama;
   document.scene.backdrop.projection = {
       ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px, {}};
-  document.depth = std::make_shared<const DepthMap>(authoring::DepthFromColour(
-      *document.panorama, document.depth_options, nullptr, {{}, progress.stop}));
+  try {
+    document.depth = std::make_shared<const DepthMap>(authoring::DepthFromColour(
+        *document.panorama, document.depth_options, nullptr, {{}, progress.stop}));
+  } catch (const Error& error) {
+    if (error.code() != Code::kCancelled) throw;
+    throw Error(Code::kCancelled, "stopped; the panorama was written, and no scene", panorama);
+  }
   authoring::SaveDocument(document, folder);
 }
 
@@ -94,22 +100,33 @@ void AddPanoramaJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "panorama", "Join the frames of a clip into one panorama, with a report of every frame.");
   const auto own = std::make_shared<PanoramaJob>();
-  job->add_option("FOOTAGE", own->request.footage,
-                  "A video, a folder of pictures, or a pattern such as frames/%04d.png")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("FOOTAGE", own->request.footage,
+                              "A video, a folder of pictures, or a pattern such as "
+                              "frames/%04d.png"),
+              InputKind::kFootage)
       ->required();
-  job->add_option("--lens", own->lens,
-                  "Lens file of `arthroscene lens`; without it the pictures are taken as they are");
-  job->add_option("-o,--output", own->output,
-                  "PNG, with what was imaged as alpha, or JPEG; - for standard output")
+  files->Input(job->add_option("--lens", own->lens,
+                               "Lens file of `arthroscene lens`; without it the pictures are taken "
+                               "as they are"));
+  files
+      ->OutputPieces(
+          job->add_option("-o,--output", own->output,
+                          "PNG, with what was imaged as alpha, or JPEG; - for standard output"),
+          kPictureFile)
       ->required();
-  job->add_option("--report", own->report, "JSON: where each frame lies, or why it does not");
-  job->add_option("--scene", own->scene,
-                  "Also write a scene of it into this folder, to edit and to practise in");
+  files->Output(
+      job->add_option("--report", own->report, "JSON: where each frame lies, or why it does not"),
+      {"a report", FileForm::kJson, "arthroscene.panorama/"});
+  files->OutputScene(
+      job->add_option("--scene", own->scene,
+                      "Also write a scene of it into this folder, to edit and to practise in"));
   job->add_option("--leave-out", own->excluded, "Frames that are not to be used, by their number")
       ->delimiter(',');
   AddOptionsFile(*job, own->request.options);
   AddOptions(*job, own->request.options);
-  job->callback([own, job] {
+  files->Run([own, job] {
     // Whoever names a detector wants it used; on its own, pairs are aligned without one.
     if (job->count("--detector") > 0 && job->count("--method") == 0)
       own->request.options.registration.method = authoring::PairMethod::kFeaturesThenDirect;

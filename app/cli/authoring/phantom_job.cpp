@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -24,10 +25,13 @@ void AddPhantomJob(CLI::App& program) {
   const auto request = std::make_shared<Request>();
   AddOptions(*job, request->options);
   AddOptions(*job, request->footage);
-  job->add_option("-o,--output", request->folder,
-                  "Folder to write; new, empty, or an earlier phantom, which is replaced")
+  const auto files = JobFiles::Of(*job, false);
+  files
+      ->OutputFolder(
+          job->add_option("-o,--output", request->folder,
+                          "Folder to write; new, empty, or an earlier phantom, which is replaced"))
       ->required();
-  job->callback([request] {
+  files->Run([request] {
     authoring::RequirePhantomFolder(request->folder);
     const Progress progress = TerminalProgress();
     const authoring::Phantom phantom = authoring::MakePhantom(request->options, progress);

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
@@ -164,21 +165,29 @@ void AddTetrahedralizeJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "tetrahedralize", "Fill a closed surface with tetrahedra, so that it can be deformed.");
   const auto arguments = std::make_shared<Arguments>();
-  job->add_option("SURFACE", arguments->surface, "Closed surface: .stl, .obj, .ply, .off or .vtp")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SURFACE", arguments->surface,
+                              "Closed surface: .stl, .obj, .ply, .off or .vtp"))
       ->required();
   job->add_option("--unit", arguments->unit, "Unit of the file, which itself does not say")
       ->required()
       ->check(CLI::IsMember({"m", "cm", "mm", "um", "in"}));
-  job->add_option("-o,--output", arguments->output, "Mesh in metres, .vtu; - is standard output")
+  files
+      ->Output(job->add_option("-o,--output", arguments->output,
+                               "Mesh in metres, .vtu; - is standard output"),
+               kVolumeFile)
       ->required();
-  job->add_option("--report", arguments->report, "Counts, quality, repairs and times, as JSON");
+  files->Output(
+      job->add_option("--report", arguments->report, "Counts, quality, repairs and times, as JSON"),
+      {"a report", FileForm::kJson, "arthroscene.tetrahedralize/"});
   AddOptions(*job, arguments->options);
   AddBalls(*job, "--fine-at", arguments->options.fine_at,
            "Where the mesh is finer, in the surface's own frame, mm; may be given again. How fine: "
            "--fine-edge-mm, or what the budget allows")
       ->group("Options");
   AddBudget(*job, *arguments);
-  job->callback([arguments] { RunJob(*arguments); });
+  files->Run([arguments] { RunJob(*arguments); });
 
   CLI::App* worker = program.add_subcommand("tetgen-worker", "Started by tetrahedralize.");
   worker->group("");  // not in the help

@@ -14,10 +14,10 @@
 #include "app/bench/panorama/stitcher_peer.h"
 #include "app/bench/tissue/tissue_bench.h"
 #include "app/bench/view/view_bench.h"
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
-#include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 
 namespace arthro::app {
@@ -35,7 +35,6 @@ void Run(const BenchArguments<Options>& job, Measure measure) {
   if (job.json == "-" && job.plot == "-")
     throw Error(Code::kBadArgument,
                 "table and plot cannot both go to standard output; give one of them a file");
-  CheckOutputs({job.json, job.plot}, {});
   const auto bench = measure(job.options, TerminalProgress());
   if (!job.json.empty()) WriteAtomically(job.json, JsonOf(bench).dump(2) + "\n");
   if (!job.plot.empty()) WriteAtomically(job.plot, PlotOf(bench));
@@ -46,10 +45,13 @@ template <class Options, class Measure>
 void AddBench(CLI::App& bench, const char* name, const char* help, Measure measure) {
   CLI::App* job = bench.add_subcommand(name, help);
   const auto own = std::make_shared<BenchArguments<Options>>();
-  job->add_option("--json", own->json, "Write the rows as JSON; - for standard output");
-  job->add_option("--plot", own->plot, "Write an SVG of error over time");
+  const auto files = JobFiles::Of(*job);
+  files->Output(
+      job->add_option("--json", own->json, "Write the rows as JSON; - for standard output"),
+      {"a table", FileForm::kJson, "arthroscene.bench."});
+  files->Output(job->add_option("--plot", own->plot, "Write an SVG of error over time"), kPlotFile);
   AddOptions(*job, own->options);
-  job->callback([own, measure] { Run(*own, measure); });
+  files->Run([own, measure] { Run(*own, measure); });
 }
 
 // The other half of the peer: OpenCV's stitcher in a process of its own.

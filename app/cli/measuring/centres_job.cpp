@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/commands/figure/centres_figure.h"
 #include "simulation/core/atomic_file.h"
@@ -58,8 +59,12 @@ void AddCentresJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "centres",
       "Panorama pixels at the centre of the view while the scope is rotated at several depths");
-  job->add_option("SCENE", arguments->scene,
-                  "Scene folder or scene.json; its pictures are not read without --picture")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SCENE", arguments->scene,
+                              "Scene folder or scene.json; its pictures are not read without "
+                              "--picture"),
+              InputKind::kScene)
       ->required();
   job->add_option("--view-angle-deg", arguments->view_angle_deg,
                   "Angle between rod and view; the scene's own where not given")
@@ -79,11 +84,15 @@ void AddCentresJob(CLI::App& program) {
                   "Rolls in a full turn, from 0 degrees on")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  job->add_option("-o,--output", arguments->output, "Table to write; - is standard output")
+  files
+      ->Output(
+          job->add_option("-o,--output", arguments->output, "Table to write; - is standard output"),
+          {"a table of centres", FileForm::kTable, "insertion,roll_deg,u_px,v_px"})
       ->required();
-  job->add_option("--picture", arguments->picture,
-                  "Picture to write: the centres on the panorama, a line each depth, a cross where "
-                  "the rod points");
+  files->Output(job->add_option("--picture", arguments->picture,
+                                "Picture to write: the centres on the panorama, a line each depth, "
+                                "a cross where the rod points"),
+                kPictureFile);
   job->add_flag("--on-grid", arguments->on_grid,
                 "The picture has a regular grid of the panorama's size in its place");
   job->footer(
@@ -91,7 +100,7 @@ void AddCentresJob(CLI::App& program) {
       "u "
       "and v are empty where the panorama has no pixel, which is said on stderr; pixels beyond the "
       "panorama's edge are numbers all the same.");
-  job->callback([arguments] { RunCentresJob(*arguments); });
+  files->Run([arguments] { RunCentresJob(*arguments); });
 }
 
 }  // namespace arthro::app

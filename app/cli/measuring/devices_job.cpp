@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/measuring/device_words.h"
-#include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/device/live/device_survey.h"
@@ -189,10 +189,7 @@ class Lister {
   std::string text_;
 };
 
-void List(HidBus& bus, const DevicesArguments& arguments) {
-  CheckOutputs({arguments.json, arguments.log}, {});
-  Lister(bus, arguments).Run();
-}
+void List(HidBus& bus, const DevicesArguments& arguments) { Lister(bus, arguments).Run(); }
 
 void CheckModel(const std::string& model) {
   if (model.empty() || WoodenModelNamed(model) != nullptr) return;
@@ -218,12 +215,18 @@ void AddDevicesJob(CLI::App& program) {
       job->add_option("--openhaptics", own->openhaptics,
                       "A Touch or its kin, by the name that its maker's setup tool gave it; "
                       "without this the tool's default is looked for");
-  auto* json = job->add_option("--json", own->json, "Write the list as JSON; - is standard output");
+  const auto files = JobFiles::Of(*job);
+  auto* json = files->Output(
+      job->add_option("--json", own->json, "Write the list as JSON; - is standard output"),
+      {"a list of devices", FileForm::kJson, "arthroscene.devices/"});
   watch->excludes(tries);
   watch->excludes(json);
   watch->excludes(names);
-  job->add_option("--log", own->log,
-                  "Write each report of the self-test, and what was made of it, to this file")
+  files
+      ->Output(job->add_option(
+                   "--log", own->log,
+                   "Write each report of the self-test, and what was made of it, to this file"),
+               kLogFile)
       ->needs(tries);
   job->add_option("--seconds", own->seconds, "How long to watch, or to listen to each device")
       ->check(CLI::Range(0.1, 3600.0));
@@ -234,8 +237,9 @@ void AddDevicesJob(CLI::App& program) {
   job->footer(
       "Serial numbers are what a rig file names its devices by. A device that may not be opened "
       "needs the rule 70-arthroscene.rules in /etc/udev/rules.d.");
-  job->callback([own] {
+  files->Run([own, files] {
     CheckModel(own->model);
+    files->EmptyLog(own->log);
     const auto bus = MachineHidBus();
     own->watches ? Watch(*bus, *own) : List(*bus, *own);
   });

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
@@ -58,12 +59,17 @@ void AddPivotJob(CLI::App& program) {
   auto arguments = std::make_shared<PivotArguments>();
   CLI::App* job = program.add_subcommand(
       "pivot", "Find the incision in a device's frame from presses at several handle positions");
-  job->add_option(
-         "POSES", arguments->poses,
-         "Table hip_x,hip_y,hip_z,tip_x,tip_y,tip_z with that header, in metres, one press "
-         "a row")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option(
+          "POSES", arguments->poses,
+          "Table hip_x,hip_y,hip_z,tip_x,tip_y,tip_z with that header, in metres, one press "
+          "a row"))
       ->required();
-  job->add_option("-o,--output", arguments->output, "pivot.json to write; - is standard output")
+  files
+      ->Output(job->add_option("-o,--output", arguments->output,
+                               "pivot.json to write; - is standard output"),
+               {"a pivot", FileForm::kJson, "arthroscene.pivot/"})
       ->required();
   job->add_option("--swing", arguments->swing,
                   "POSES is a TRACE.csv instead, in which this hand kept swinging its rod through "
@@ -80,7 +86,7 @@ void AddPivotJob(CLI::App& program) {
       "too_narrow). sigma is the predicted rms error in metres. Swing the rod by 30 degrees or "
       "more; "
       "the paper's two presses will do where the rig's noise is as stated, more presses show it.");
-  job->callback([arguments] { RunPivotJob(*arguments); });
+  files->Run([arguments] { RunPivotJob(*arguments); });
 }
 
 }  // namespace arthro::app

@@ -8,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
-#include "app/cli/output_check.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
@@ -34,14 +34,13 @@ void CheckOutput(const SolveArguments& arguments) {
   if (arguments.vtu == "-" && arguments.output == "-")
     throw Error(Code::kBadArgument,
                 "result and mesh cannot both go to standard output; give one of them a file");
-  CheckOutputs({arguments.output, arguments.vtu}, {arguments.tissue_case});
 }
 
-void RunSolveJob(const SolveArguments& arguments) {
+void RunSolveJob(const SolveArguments& arguments, const JobFiles& files) {
   CheckOutput(arguments);
   const Progress progress = TerminalProgress();
   simulation::TissueCase tissue_case = simulation::ReadCase(arguments.tissue_case);
-  CheckOutputs({arguments.output, arguments.vtu}, {tissue_case.mesh_file});
+  files.RefuseToOverwrite({tissue_case.mesh_file});
   for (const std::string& message : tissue_case.messages) fmt::print(stderr, "note: {}\n", message);
   const simulation::CaseResult result = simulation::RunCase(tissue_case, progress);
   WriteAtomically(arguments.output, simulation::JsonFromResult(result));
@@ -64,12 +63,18 @@ void AddSolveJob(CLI::App& program) {
   const auto arguments = std::make_shared<SolveArguments>();
   CLI::App* job = program.add_subcommand(
       "solve", "Deform a body of tetrahedra: its equilibrium, or its motion, under given loads.");
-  job->add_option("CASE", arguments->tissue_case,
-                  "CASE.json: mesh, material and what holds, moves and loads it")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("CASE", arguments->tissue_case,
+                              "CASE.json: mesh, material and what holds, moves and loads it"))
       ->required();
-  job->add_option("-o,--output", arguments->output, "result.json to write; - is standard output")
+  files
+      ->Output(job->add_option("-o,--output", arguments->output,
+                               "result.json to write; - is standard output"),
+               {"a result", FileForm::kJson, "arthroscene.solve/"})
       ->required();
-  job->add_option("--vtu", arguments->vtu, "The deformed mesh, .vtu, in metres");
+  files->Output(job->add_option("--vtu", arguments->vtu, "The deformed mesh, .vtu, in metres"),
+                kVolumeFile);
   job->footer(
       "CASE.json, in SI units:\n"
       "  {\"mesh\": \"x.vtu\", \"order\": 1|2,\n"
@@ -86,7 +91,7 @@ void AddSolveJob(CLI::App& program) {
       "the factor\n"
       "1/sqrt(1 + (w dt)^2) a step. What does not converge to the tolerance ends with exit code "
       "1.");
-  job->callback([arguments] { RunSolveJob(*arguments); });
+  files->Run([arguments, files] { RunSolveJob(*arguments, *files); });
 }
 
 }  // namespace arthro::app

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/practice/living_tissues_of.h"
@@ -20,6 +21,7 @@
 #include "app/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/partial_folder.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/session/replay.h"
@@ -86,10 +88,11 @@ std::string ContactName(int contact, const Scene& scene) {
 }
 
 void Run(const DemoJob& job) {
+  const Progress progress = TerminalProgress();
+  PartialFolder folder(job.folder);
   const fs::path demo = ResourceFolder() / "demo";
   const LoadedScene loaded = LoadScene(demo);
   const auto trace = simulation::ReadTrace(demo / "trace.csv");
-  const Progress progress = TerminalProgress();
   simulation::ReplayReport report;
   if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
   Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
@@ -99,12 +102,6 @@ void Run(const DemoJob& job) {
         moments.Watch(t, snapshot, kind, world);
       });
 
-  std::error_code fault;
-  fs::create_directories(job.folder, fault);
-  if (fault)
-    throw Error(Code::kFile,
-                "this folder could not be made: " + fault.message() + "; choose another",
-                job.folder);
   StillPictures pictures(loaded);
   const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
   auto json = nlohmann::json::parse(simulation::ReportText(report, loaded.scene));
@@ -119,15 +116,16 @@ void Run(const DemoJob& job) {
     // Upright, as surgeons hold it.
     const Picture picture =
         PictureOf(moment.snapshot, moment.kind, loaded.scene, optics, {.is_upright = true});
-    WriteColourImage(job.folder / name, pictures.Draw(picture, job.size));
+    WriteColourImage(folder.beside() / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},
                                 {"t", moment.t},
                                 {"contact", ContactName(instrument.contact, loaded.scene)},
                                 {"force", glm::length(instrument.tip_force)}});
   }
-  WriteAtomically(job.folder / "forces.csv", simulation::ForcesText(rows, loaded.scene));
-  WriteAtomically(job.folder / "report.json", json.dump(2) + "\n");
+  WriteAtomically(folder.beside() / "forces.csv", simulation::ForcesText(rows, loaded.scene));
+  WriteAtomically(folder.beside() / "report.json", json.dump(2) + "\n");
+  folder.PutInPlace();
   std::printf(
       "Played %.1f s of practice on \"%s\". In %s:\n  picture_01.png … picture_%02d.png\n"
       "  forces.csv\n  report.json\n",
@@ -141,7 +139,12 @@ void AddDemoJob(CLI::App& program) {
   auto job = std::make_shared<DemoJob>();
   CLI::App* command = program.add_subcommand(
       "demo", "Play the demo scene without a window: pictures, forces and a report");
-  command->add_option("-o,--output", job->folder, "Folder for what is written")
+  const auto files = JobFiles::Of(*command);
+  files
+      ->OutputFolder(command->add_option("-o,--output", job->folder, "Folder for what is written"),
+                     {{"picture_[0-9]+[.]png", kPictureFile},
+                      {"forces[.]csv", kForcesFile},
+                      {"report[.]json", kReplayReportFile}})
       ->capture_default_str();
   command->add_option("--pictures", job->pictures, "How many moments are shown")
       ->check(CLI::Range(1, 99))
@@ -149,7 +152,7 @@ void AddDemoJob(CLI::App& program) {
   command->add_option("--size", job->size, "Width and height of a picture, px")
       ->check(CLI::Range(64, 4096))
       ->capture_default_str();
-  command->callback([job] { Run(*job); });
+  files->Run([job] { Run(*job); });
 }
 
 }  // namespace arthro::app

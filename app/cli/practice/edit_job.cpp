@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/output_check.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"
 
@@ -40,15 +40,17 @@ struct HandFlags {
   bool is_zero_force = false;
 };
 
-void AddHandFlags(CLI::App& job, HandFlags& flags) {
-  job.add_option("--rig", flags.rig,
-                 "Rig file: which device holds the scope and which the instrument");
-  job.add_option("--hands", flags.hands,
-                 "Instead of devices: TRACE.csv or a device log plays recorded hands, plant is a "
-                 "simulated device; with --rig on the mounts of that rig")
+void AddHandFlags(CLI::App& job, HandFlags& flags, JobFiles& files) {
+  files.Input(job.add_option("--rig", flags.rig,
+                             "Rig file: which device holds the scope and which the instrument"));
+  files
+      .Input(job.add_option("--hands", flags.hands,
+                            "Instead of devices: TRACE.csv or a device log plays recorded hands, "
+                            "plant is a simulated device; with --rig on the mounts of that rig"))
       ->type_name("TRACE|plant");
-  job.add_option("--log", flags.log,
-                 "Write all that the hands say and are told there; replay plays it");
+  files.Output(job.add_option("--log", flags.log,
+                              "Write all that the hands say and are told there; replay plays it"),
+               kLogFile);
   job.add_flag("--zero-force", flags.is_zero_force,
                "Show forces and give the devices none; 0 ends it");
 }
@@ -57,10 +59,11 @@ struct ScreenFlags {
   std::string layout{WordOf(FrameShape::kSquare)}, film, head{"scope"};
 };
 
-void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
-  job.add_option("--record", flags.film,
-                 "Record the scope's picture there from the beginning: .mp4, .mkv or .avi, or as "
-                 "pictures into an empty or new FOLDER/, FOLDER/frame-%04d.png");
+void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, JobFiles& files) {
+  files.OutputFilm(job.add_option(
+      "--record", flags.film,
+      "Record the scope's picture there from the beginning: .mp4, .mkv or .avi, or as "
+      "pictures into an empty or new FOLDER/, FOLDER/frame-%04d.png"));
   job.add_option("--layout", flags.layout,
                  "Of films and the trainee's screen: square, 4:3 or 16:9 with black beside it")
       ->capture_default_str();
@@ -87,21 +90,19 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options) {
 }
 
 // A rig or trace that cannot be used is told before there is a window.
-void Open(EditorOptions options, const HandFlags& flags, const ScreenFlags& screens = {}) {
+void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
+          const ScreenFlags& screens = {}) {
   options.frame_shape = FrameShapeOf(screens.layout);
   options.head = simulation::CameraHeadOf(screens.head);
-  bool is_pictures = false;
   if (!screens.film.empty()) {
     options.film = screens.film;
     CheckFilm(*options.film, {.shape = options.frame_shape});
-    is_pictures = PictureNamesOf(*options.film).has_value();
   }
   options.hands = ReadHands(flags.rig, flags.hands);
   if (!options.hands.notice.empty())
     std::fprintf(stderr, "warning: %s\n", options.hands.notice.c_str());
   options.hands.log = flags.log;
-  CheckOutputs({flags.log, is_pictures ? "" : screens.film},
-               {flags.rig, flags.hands, options.scene.value_or("")});
+  files.EmptyLog(flags.log);
   options.hands.is_zero_force = flags.is_zero_force;
   RunEditor(options);
 }
@@ -111,13 +112,16 @@ void Open(EditorOptions options, const HandFlags& flags, const ScreenFlags& scre
 void AddEditJob(CLI::App& program) {
   const auto options = std::make_shared<EditorOptions>();
   CLI::App* job = program.add_subcommand("edit", "Open the editor");
-  job->add_option("scene", options->scene,
-                  "Scene folder or scene.json; without one, the demo scene")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("scene", options->scene,
+                              "Scene folder or scene.json; without one, the demo scene"),
+              InputKind::kScene)
       ->type_name("SCENE");
   const auto hands = std::make_shared<HandFlags>();
-  AddHandFlags(*job, *hands);
+  AddHandFlags(*job, *hands, *files);
   AddWindowFlags(*job, *options);
-  job->callback([options, hands] { Open(*options, *hands); });
+  files->Run([options, hands, files] { Open(*options, *hands, *files); });
 }
 
 void AddPractiseJob(CLI::App& program) {
@@ -125,15 +129,18 @@ void AddPractiseJob(CLI::App& program) {
   options->practice = true;
   CLI::App* job = program.add_subcommand("practise", "Practise in a scene");
   job->alias("practice");
-  job->add_option("scene", options->scene, "Scene folder or scene.json")
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("scene", options->scene, "Scene folder or scene.json"),
+              InputKind::kScene)
       ->type_name("SCENE")
       ->required();
   const auto hands = std::make_shared<HandFlags>();
-  AddHandFlags(*job, *hands);
+  AddHandFlags(*job, *hands, *files);
   const auto screens = std::make_shared<ScreenFlags>();
-  AddScreenFlags(*job, *screens, *options);
+  AddScreenFlags(*job, *screens, *options, *files);
   AddWindowFlags(*job, *options);
-  job->callback([options, hands, screens] { Open(*options, *hands, *screens); });
+  files->Run([options, hands, screens, files] { Open(*options, *hands, *files, *screens); });
 }
 
 }  // namespace arthro::app

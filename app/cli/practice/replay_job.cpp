@@ -9,14 +9,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
-#include "app/cli/output_check.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
 #include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
+#include "simulation/core/partial_folder.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/session/replay.h"
@@ -34,28 +35,8 @@ struct ReplayJob {
   std::string layout{WordOf(FrameShape::kSquare)}, head{"upright"};
 };
 
-// What a replay reads of a scene.
-std::vector<fs::path> FilesOf(const LoadedScene& loaded) {
-  std::vector<fs::path> files{SceneFile(loaded.folder)};
-  const auto add = [&](const fs::path& name) {
-    if (!name.empty()) files.push_back(loaded.folder / name);
-  };
-  const Scene& scene = loaded.scene;
-  add(scene.backdrop.panorama);
-  add(scene.backdrop.depth);
-  add(scene.scope.lens);
-  for (const Tissue& tissue : scene.tissues) {
-    add(tissue.surface);
-    add(tissue.mesh);
-  }
-  return files;
-}
-
 void Run(const ReplayJob& job) {
   CheckOptions(job.options);
-  const std::vector<fs::path> outputs{job.forces, job.report, job.video};
-  CheckOutputs(outputs, {job.trace, job.scene});
-  if (!job.pictures.empty()) CheckOutputFolder(job.pictures, outputs);
   const FrameShape shape = FrameShapeOf(job.layout);
   const simulation::CameraHead head = simulation::CameraHeadOf(job.head);
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
@@ -64,8 +45,9 @@ void Run(const ReplayJob& job) {
   const std::vector<simulation::TraceRow> trace = simulation::ReadTraceOrLog(job.trace, notice);
   if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
-  CheckOutputs(outputs, FilesOf(loaded));
 
+  const Progress progress = TerminalProgress();
+  std::optional<PartialFolder> folder;
   std::optional<ReplayPictures> pictures;
   std::optional<VideoFile> video;
   if (!job.pictures.empty() || !job.video.empty())
@@ -74,7 +56,8 @@ void Run(const ReplayJob& job) {
     form.shape = shape;
     pictures->AddRow(form, std::move(take));
   };
-  if (!job.pictures.empty()) add(job.of_pictures, IntoFolder(job.pictures));
+  if (!job.pictures.empty())
+    add(job.of_pictures, IntoFolder(folder.emplace(job.pictures).beside()));
   if (!job.video.empty()) {
     video.emplace(job.video, video_size, job.of_video.rate);
     add(job.of_video, [&](const ColourImage& picture) { video->Add(picture); });
@@ -85,9 +68,10 @@ void Run(const ReplayJob& job) {
       pictures->Watch(t, snapshot, kind, world);
     };
   simulation::ReplayReport report;
-  const auto forces = simulation::Replay(loaded, trace, job.options, TerminalProgress(), &report,
+  const auto forces = simulation::Replay(loaded, trace, job.options, progress, &report,
                                          LivingTissuesOf(loaded), LayersOf(loaded), watch);
   if (video) video->Finish();
+  if (folder) folder->PutInPlace();
   WriteAtomically(job.forces, simulation::ForcesText(forces, loaded.scene));
   if (!job.report.empty())
     WriteAtomically(job.report, simulation::ReportText(report, loaded.scene));
@@ -99,22 +83,36 @@ void AddReplayJob(CLI::App& program) {
   auto job = std::make_shared<ReplayJob>();
   CLI::App* command = program.add_subcommand(
       "replay", "Play recorded hands in a scene, on a fixed clock, and write the forces");
-  command->add_option("SCENE", job->scene, "Scene folder or scene.json")->required();
-  command->add_option("TRACE", job->trace, "Recorded devices: TRACE.csv or a device log")
+  const auto files = JobFiles::Of(*command);
+  files
+      ->Input(command->add_option("SCENE", job->scene, "Scene folder or scene.json"),
+              InputKind::kScene)
       ->required();
-  command->add_option("-o,--output", job->forces, "forces.csv; - writes to standard output")
+  files
+      ->Input(
+          command->add_option("TRACE", job->trace, "Recorded devices: TRACE.csv or a device log"))
       ->required();
-  command->add_option("--report", job->report, "Report as JSON: peaks, contacts, faults, times");
-  command->add_option("--pictures", job->pictures,
-                      "Folder for what the scope saw: frame_00000.png and on");
+  files
+      ->Output(command->add_option("-o,--output", job->forces,
+                                   "forces.csv; - writes to standard output"),
+               kForcesFile)
+      ->required();
+  files->Output(command->add_option("--report", job->report,
+                                    "Report as JSON: peaks, contacts, faults, times"),
+                kReplayReportFile);
+  files->OutputFolder(command->add_option("--pictures", job->pictures,
+                                          "Folder for what the scope saw: frame_00000.png and on"),
+                      {{"frame_[0-9]{5,}[.]png", kPictureFile}});
   command->add_option("--size", job->of_pictures.size, "Height of a picture, px")
       ->check(CLI::Range(StillPictures::kMinSize, StillPictures::kMaxSize))
       ->capture_default_str();
   command->add_option("--rate", job->of_pictures.rate, "Pictures a second")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
-  command->add_option("--video", job->video,
-                      "Film of what the scope saw: .mp4 or .mkv (H.264), .avi (Motion JPEG)");
+  files->Output(
+      command->add_option("--video", job->video,
+                          "Film of what the scope saw: .mp4 or .mkv (H.264), .avi (Motion JPEG)"),
+      kFilmFile);
   command->add_option("--video-size", job->of_video.size, "Height of the film, px, even")
       ->capture_default_str();
   command->add_option("--fps", job->of_video.rate, "Pictures of the film a second")
@@ -131,7 +129,7 @@ void AddReplayJob(CLI::App& program) {
       ->type_name("upright|scope")
       ->capture_default_str();
   AddOptions(*command, job->options, "Force");
-  command->callback([job] { Run(*job); });
+  files->Run([job] { Run(*job); });
 }
 
 }  // namespace arthro::app

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "simulation/core/error.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -28,11 +27,6 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
 }
 
 ReplayPictures::Take IntoFolder(const std::filesystem::path& folder) {
-  std::error_code fault;
-  std::filesystem::create_directories(folder, fault);
-  if (fault)
-    throw Error(Code::kFile,
-                "this folder could not be made: " + fault.message() + "; choose another", folder);
   return [folder, count = 0](const ColourImage& picture) mutable {
     WriteColourImage(folder / fmt::format("frame_{:05}.png", count++), picture);
   };

@@ -55,7 +55,7 @@ class ReplayPictures {
   std::vector<Row> rows_;
 };
 
-// Makes the folder, and writes frame_00000.png and on. Throws Error(kFile).
+// Writes frame_00000.png and on into a folder that exists. Throws Error(kFile).
 ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
 // What the view shows of a moment.

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
@@ -94,7 +95,11 @@ void RunViewJob(const ViewArguments& arguments) {
 void AddViewJob(CLI::App& program) {
   auto arguments = std::make_shared<ViewArguments>();
   CLI::App* job = program.add_subcommand("view", "One picture through the arthroscope");
-  job->add_option("SCENE", arguments->scene, "Scene folder or scene.json")->required();
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SCENE", arguments->scene, "Scene folder or scene.json"),
+              InputKind::kScene)
+      ->required();
   job->add_option("--latitude-deg", arguments->latitude_deg, "Rod's direction, up")
       ->check(CLI::Range(-90.0, 90.0))
       ->capture_default_str();
@@ -143,12 +148,15 @@ void AddViewJob(CLI::App& program) {
          "Cells of so many pixels share one search, and each pixel closes in from there; "
          "1: every pixel searches. Where not given 8, and 1 with --relief-steps or --plain")
       ->check(CLI::Range(1, 64));
-  job->add_option("-o,--output", arguments->output, "Picture to write, by its ending: .png, .tif…")
+  files
+      ->Output(job->add_option("-o,--output", arguments->output,
+                               "Picture to write, by its ending: .png, .tif…"),
+               kPictureFile)
       ->required();
   job->footer(
       "No display is needed. The window's centre is the picture's; outside it is black. A ray at "
       "angle t from the view's axis lands sin(t/2) / sin(fov/4) window radii from the centre.");
-  job->callback([arguments] { RunViewJob(*arguments); });
+  files->Run([arguments] { RunViewJob(*arguments); });
 }
 
 }  // namespace arthro::app

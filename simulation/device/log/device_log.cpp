@@ -15,6 +15,20 @@ namespace {
 constexpr std::size_t kBlock = 1 << 16;  // bytes; a fuller one is written at once
 static_assert(kBlock + kLargestRecord < kLargestBlock);
 
+// A descriptor, or -1 and errno. What identifies a person is its owner's alone, so a new file is
+// private. Devices and pipes are opened as they are; a file with content is kept.
+int Open(const std::filesystem::path& file) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC;
+  constexpr mode_t kPrivate = 0600;
+  const int created = ::open(file.c_str(), kFlags | O_EXCL, kPrivate);
+  if (created >= 0 || errno != EEXIST) return created;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored) &&
+      std::filesystem::file_size(file, ignored) > 0)
+    throw Error(Code::kFile, "this file exists and would be lost; name another one", file);
+  return ::open(file.c_str(), kFlags | O_TRUNC, kPrivate);
+}
+
 }  // namespace
 
 void LogChannel::Push(const LogRecord& record) noexcept {
@@ -27,7 +41,7 @@ DeviceLog::DeviceLog(const std::filesystem::path& file, std::vector<LogSource> s
                      const DeviceLogOptions& options)
     : file_(file), options_(options) {
   payload_.reserve(kBlock + kLargestRecord);
-  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  descriptor_ = Open(file);
   error_ = descriptor_ < 0 ? errno : 0;
   if (error_ == 0) Write(LogHead(sources));
   if (error_ != 0) {

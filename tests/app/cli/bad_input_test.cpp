@@ -52,7 +52,7 @@ void ReplaceIn(const fs::path& file, const std::string& from, const std::string&
 void ExpectRefusal(const std::string& arguments, const std::string& word, const fs::path& output,
                    const std::string& environment = "") {
   WriteAtomically(output, kOldBytes);
-  const ProgramResult result = RunProgram(arguments, environment);
+  const ProgramResult result = RunProgram(arguments + " --overwrite", environment);
   EXPECT_EQ(result.exit_code, 1) << arguments << "\n" << result.err;
   EXPECT_NE(result.err.find(word), std::string::npos)
       << "wanted \"" << word << "\" in: " << result.err;
@@ -221,8 +221,8 @@ TEST(BadInput, DiskThatFillsUpLeavesTheOldFile) {
   WriteColourImage(folder / "a.png", Picture(1200, 900));
   WriteAtomically(folder / "d.tiff", kOldBytes);
   const std::string line = "(ulimit -f 8; trap '' XFSZ; " ARTHRO_PROGRAM " depth " +
-                           (folder / "a.png").string() + " -o " + (folder / "d.tiff").string() +
-                           ") 2> " + (folder / "err").string();
+                           (folder / "a.png").string() + " --overwrite -o " +
+                           (folder / "d.tiff").string() + ") 2> " + (folder / "err").string();
   const int status = std::system(line.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
   EXPECT_NE(ReadWholeFile(folder / "err").find("d.tiff"), std::string::npos);

@@ -68,7 +68,7 @@ TEST_F(DepthJob, RefusesInOneSentenceAndLeavesTheOldFile) {
   WriteAtomically(folder_ / "bad.json", "{\"gama\": 2}");
   WriteAtomically(folder_ / "broken.json", "{");
   const auto refused = [&](const std::string& flags, int code, const std::string& says) {
-    const auto result = Run(flags);
+    const auto result = Run("--overwrite " + flags);
     EXPECT_EQ(result.exit_code, code) << flags << result.err;
     EXPECT_NE(result.err.find(says), std::string::npos) << flags << "\n" << result.err;
     EXPECT_EQ(ReadWholeFile(folder_ / "d.tiff"), "old") << flags;

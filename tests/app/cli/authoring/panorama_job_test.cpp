@@ -52,7 +52,7 @@ TEST_F(PanoramaJob, RefusesInOneSentenceAndLeavesTheOldFile) {
   TinyClip().WriteAll(folder_ / "one", TinyClip::Arc(1));
   const auto refused = [&](const std::string& footage, const std::string& flags, int code,
                            const std::string& says) {
-    const auto result = Run(footage, flags);
+    const auto result = Run(footage, "--overwrite " + flags);
     EXPECT_EQ(result.exit_code, code) << flags << result.err;
     EXPECT_NE(result.err.find(says), std::string::npos) << flags << "\n" << result.err;
     EXPECT_EQ(result.out, "") << flags;
@@ -74,8 +74,9 @@ TEST_F(PanoramaJob, RefusesInOneSentenceAndLeavesTheOldFile) {
 TEST_F(PanoramaJob, AFullDiskLeavesTheOldFileAndNoRest) {
   WriteAtomically(folder_ / "p.png", "old");
   const std::string line = "(ulimit -f 8; trap '' XFSZ; " ARTHRO_PROGRAM " panorama " +
-                           (folder_ / "clip").string() + " -o " + (folder_ / "p.png").string() +
-                           ") > /dev/null 2> " + (folder_ / "err").string();
+                           (folder_ / "clip").string() + " --overwrite -o " +
+                           (folder_ / "p.png").string() + ") > /dev/null 2> " +
+                           (folder_ / "err").string();
   const int status = std::system(line.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
   EXPECT_NE(ReadWholeFile(folder_ / "err").find("free some space"), std::string::npos)

@@ -141,7 +141,7 @@ TEST(TetrahedralizeJob, FaultySurfacesAreRefusedInOneSentenceAndLeaveTheOldMesh)
   const Surfaces surfaces;
   WriteAtomically(surfaces.Path("out.vtu"), "the old mesh");
   const auto refused = [&](const std::string& name, const std::string& more = "--unit mm") {
-    const auto result = surfaces.Fill(name, more);
+    const auto result = surfaces.Fill(name, more + " --overwrite");
     EXPECT_EQ(result.exit_code, 1) << name;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_SAYS(result.err, name);

@@ -121,7 +121,8 @@ TEST(ReplayJob, AFilmLastsAsLongAsTheTraceAndHoldsThePictures) {
   std::printf("worst frame %.1f dB\n", worst);
 
   const std::string bytes = ReadWholeFile(film);
-  ASSERT_EQ(play("--video " + film.string() + " --video-size 180 --fps 24 --layout 4:3").exit_code,
+  ASSERT_EQ(play("--overwrite --video " + film.string() + " --video-size 180 --fps 24 --layout 4:3")
+                .exit_code,
             0);
   EXPECT_TRUE(ReadWholeFile(film) == bytes) << "the same trace gave another film";
 }

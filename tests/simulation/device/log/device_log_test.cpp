@@ -1,8 +1,11 @@
 #include "simulation/device/log/device_log.h"
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -135,6 +138,42 @@ void ExpectRefused(const std::filesystem::path& file, const std::string& why) {
 
 TEST(DeviceLog, AFullDiskIsRefusedAtTheBeginning) {
   ExpectRefused("/dev/full", "the disk is full; free some space");
+}
+
+TEST(DeviceLog, AFileWithContentIsKept) {
+  test::TempFolder folder;
+  WriteAtomically(folder / "a.log", "a scene");
+  ExpectRefused(folder / "a.log", "exists");
+  EXPECT_EQ(ReadWholeFile(folder / "a.log"), "a scene");
+  std::filesystem::resize_file(folder / "a.log", 0);
+  { DeviceLog log(folder / "a.log", kPlant); }
+  EXPECT_EQ(ReadDeviceLog(folder / "a.log").torn, "");
+}
+
+TEST(DeviceLog, SaysThatItWasCutShortByAFileSizeLimit) {
+  test::TempFolder folder;
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  DeviceLog log(folder / "a.log", kPlant);
+  LogChannel& channel = log.AddChannel();
+  for (int i = 0; i < 1000; ++i) channel.Push({});
+  const rlimit small{1024, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(log.Close(), Error);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, ignored);
+  EXPECT_FALSE(ReadDeviceLog(folder / "a.log").torn.empty());
+}
+
+TEST(DeviceLog, IsItsOwnersAlone) {
+  test::TempFolder folder;
+  const mode_t before = ::umask(0);
+  { DeviceLog log(folder / "a.log", kPlant); }
+  ::umask(before);
+  struct stat found {};
+  ASSERT_EQ(::stat((folder / "a.log").c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777, 0600u);
 }
 
 TEST(DeviceLog, AFolderThatIsNotThereIsRefused) {

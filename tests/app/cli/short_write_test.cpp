@@ -1,0 +1,182 @@
+// A write that falls short ends the job with exit 1 and one sentence, never with a cut file.
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/scene/lens_io.h"
+#include "tests/authoring/panorama/tiny_clip.h"
+#include "tests/support/run_program.h"
+#include "tests/support/shapes.h"
+#include "tests/support/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ShortWrite : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    WriteSmallScene(At("S"));
+    WriteColourImage(At("g.png"), KneePicture(400, 300));
+    TinyClip().WriteAll(At("F"), TinyClip::Arc(3));
+    Lens lens;
+    lens.width = 96;
+    lens.height = 64;
+    lens.focal_px = 60;
+    lens.cx = 47.5;
+    lens.cy = 31.5;
+    lens.circle = {47.5, 31.5, 30};
+    lens.field_of_view = *FieldOfViewOf(lens);
+    WriteLens(At("lens.json"), lens);
+    fs::create_directory(At("R"));
+    for (const char* name : {"1.png", "2.png"})
+      WriteColourImage(At("R") + "/" + name, KneePicture(96, 64));
+    WriteAtomically(At("po.csv"),
+                    "hip_x,hip_y,hip_z,tip_x,tip_y,tip_z\n"
+                    "0.041,0.02,-0.016,-0.011,0.02,0.177\n-0.021,0.02,-0.016,0.031,0.02,0.177\n");
+    std::string trace = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n";
+    for (int i = 0; i < 100; ++i)
+      trace += std::to_string(0.01 * i) + ",scope,0,0,-0.18,1,0,0,0,0\n";
+    WriteAtomically(At("t.csv"), trace);
+    WriteSurface(At("s.obj"), Box({0, 0, 0}, {10, 10, 10}));
+    WriteAtomically(At("case.json"), R"({"mesh": "m.vtu", "order": 1,
+        "material": {"model": "corotated", "young_modulus": 1e6, "poisson_ratio": 0.3,
+                     "density": 1100}, "fixed": [{"set": "all", "axes": "xyz"}]})");
+    TetMesh tetrahedron;
+    tetrahedron.rest_positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
+    tetrahedron.elements = {0, 1, 2, 3};
+    tetrahedron.sets["all"] = {1, 1, 1, 1};
+    WriteTetMesh(At("m.vtu"), tetrahedron);
+    fs::create_directory(At("out"));
+  }
+
+  std::string At(const std::string& name) const { return (folder_ / name).string(); }
+  std::string Whole(const std::string& arguments) const {
+    return std::regex_replace(arguments, std::regex("@"), folder_.path().string() + "/");
+  }
+  // `line` with PROGRAM for the program, by a shell.
+  ProgramResult Shell(const std::string& line) const {
+    const std::string whole =
+        "(" + std::regex_replace(Whole(line), std::regex("PROGRAM"), std::string(ARTHRO_PROGRAM)) +
+        ") >/dev/null 2>" + At("err") + " </dev/null";
+    const int status = std::system(whole.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), "",
+            ReadWholeFile(At("err"))};
+  }
+  static void ExpectOneSentence(const ProgramResult& run, const std::string& line) {
+    EXPECT_EQ(run.exit_code, 1) << line << "\n" << run.err;
+    std::string sentences;
+    std::istringstream lines(run.err);
+    for (std::string text; std::getline(lines, text);)
+      if (!text.starts_with("warning: ") && !text.starts_with("note: ")) sentences += text + "\n";
+    EXPECT_TRUE(sentences.starts_with("arthroscene: ")) << line << "\n" << run.err;
+    EXPECT_EQ(std::count(sentences.begin(), sentences.end(), '\n'), 1) << line << "\n" << run.err;
+  }
+
+  TempFolder folder_;
+};
+
+// A block of `ulimit -f` is 512 bytes in this shell; what is written is larger. The signal of a
+// limit that is passed is left as it was.
+TEST_F(ShortWrite, AFileSizeLimitEndsEachJobWithOneSentenceAndNoFile) {
+  for (const std::string job : {
+           "4 PROGRAM centres @S --roll-steps 500 -o @out/c.csv",
+           "4 PROGRAM centres @S -o @out/c.csv --picture @out/c.png",
+           "4 PROGRAM depth @g.png -o @out/d.tiff",
+           "1 PROGRAM lens @g.png --spacing-mm 1 -o @out/l.json --report @out/r.json",
+           "4 PROGRAM panorama @F -o @out/p.png --overwrite",
+           "4 PROGRAM phantom --seed 1 --size S --footage-frames 0 -o @out/knee",
+           "1 PROGRAM pivot @po.csv -o @out/pivot.json",
+           "4 PROGRAM rectify @R --lens @lens.json -o @out/frames",
+           "4 PROGRAM replay @S @t.csv -o @out/f.csv",
+           "2 PROGRAM replay @S @t.csv -o @out/f.csv --pictures @out/frames --size 64",
+           "1 PROGRAM solve @case.json -o @out/r.json",
+           "1 PROGRAM solve @case.json -o - --vtu @out/r.vtu >/dev/null",
+           "1 PROGRAM tetrahedralize @s.obj --unit mm -o @out/t.vtu",
+           "4 PROGRAM view @S --size 64 -o @out/v.png",
+           "1 PROGRAM devices --json @out/devices.json",
+       }) {
+    ExpectOneSentence(
+        Shell("ulimit -f " + std::regex_replace(job, std::regex(" PROGRAM"), "; PROGRAM")), job);
+    for (const auto& entry : fs::recursive_directory_iterator(At("out")))
+      ADD_FAILURE() << job << " left " << entry.path();
+  }
+}
+
+TEST_F(ShortWrite, AFileSizeLimitLeavesTheEarlierResult) {
+  ASSERT_EQ(RunProgram(Whole("depth @g.png -o @out/d.tiff")).exit_code, 0);
+  const std::string before = ReadWholeFile(At("out/d.tiff"));
+  ExpectOneSentence(Shell("ulimit -f 4; PROGRAM depth @g.png --gamma 1.5 -o @out/d.tiff"), "depth");
+  EXPECT_TRUE(ReadWholeFile(At("out/d.tiff")) == before);
+}
+
+// Also of what is printed for a person.
+TEST_F(ShortWrite, AFullStandardOutputIsToldByExitOne) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "SKIPPED: no /dev/full here";
+  for (const std::string job : {
+           "centres @S -o -",
+           "depth @g.png -o -",
+           "devices --json -",
+           "panorama @F -o -",
+           "pivot @po.csv -o -",
+           "replay @S @t.csv -o -",
+           "solve @case.json -o -",
+           "tetrahedralize @s.obj --unit mm -o -",
+           "view @S --size 64 -o -",
+           "depth @g.png -o @out/d.tiff",
+           "devices",
+           "check @S",
+           "replay --help",
+           "--help-all",
+           "--version",
+       })
+    ExpectOneSentence(Shell("PROGRAM " + job + " >/dev/full"), job);
+}
+
+TEST_F(ShortWrite, AClosedPipeIsToldByExitOne) {
+  for (const std::string job : {"centres @S --roll-steps 10000 -o -", "depth @g.png -o -"}) {
+    const ProgramResult run =
+        Shell("{ PROGRAM " + job + "; echo $? >@code; } | true; read code <@code; exit $code");
+    ExpectOneSentence(run, job);
+  }
+}
+
+// As when the terminal is closed.
+TEST_F(ShortWrite, AHangUpEndsAJobWithNothingLeft) {
+  for (const std::string signal : {"HUP", "INT", "TERM"}) {
+    const ProgramResult run = Shell(
+        "PROGRAM demo -o @out/demo >/dev/null & job=$!; i=0;"
+        "until ls -A @out | grep -q partial || [ $i -ge 600 ]; do sleep 0.1; i=$((i+1)); done;"
+        "kill -" +
+        signal + " $job; wait $job");
+    ExpectOneSentence(run, signal);
+    EXPECT_NE(run.err.find("stopped; nothing was written"), std::string::npos) << run.err;
+    for (const auto& entry : fs::recursive_directory_iterator(At("out")))
+      ADD_FAILURE() << signal << " left " << entry.path();
+  }
+}
+
+TEST_F(ShortWrite, AReplayThatIsStoppedLeavesNoPicture) {
+  std::string trace = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n";
+  for (int i = 0; i < 1000; ++i) trace += std::to_string(i) + ",scope,0,0,-0.18,1,0,0,0,0\n";
+  WriteAtomically(At("long.csv"), trace);
+  const ProgramResult run = Shell(
+      "PROGRAM replay @S @long.csv -o @out/f.csv --pictures @out/frames --size 64 & job=$!; i=0;"
+      "until ls -A @out/.frames*/frame_00001.png || [ $i -ge 600 ]; do sleep 0.1; i=$((i+1)); done"
+      " >/dev/null 2>&1; kill -TERM $job; wait $job");
+  ExpectOneSentence(run, "replay");
+  EXPECT_NE(run.err.find("stopped; nothing was written"), std::string::npos) << run.err;
+  for (const auto& entry : fs::recursive_directory_iterator(At("out")))
+    ADD_FAILURE() << "left " << entry.path();
+}
+
+}  // namespace
+}  // namespace arthro::test
