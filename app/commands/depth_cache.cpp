@@ -12,6 +12,7 @@ constexpr std::size_t kMostKept = 64;  // records, not maps
 }  // namespace
 
 void DepthCache::Note(const authoring::Document& document) {
+  if (document.is_depth_imported) return;  // it was made from nothing that is known here
   std::erase_if(made_, [&](const Made& made) {
     const auto panorama = made.panorama.lock();
     return !panorama ||
@@ -23,6 +24,7 @@ void DepthCache::Note(const authoring::Document& document) {
 }
 
 void DepthCache::Refuse(const authoring::Document& document, const std::string& reason) {
+  if (document.is_depth_imported) return;
   Note(document);
   made_.back().problem = reason;
 }
@@ -36,7 +38,7 @@ std::string DepthCache::ProblemOf(const authoring::Document& document) const {
 }
 
 bool DepthCache::IsStale(const authoring::Document& document) const {
-  if (!document.panorama) return false;
+  if (!document.panorama || document.is_depth_imported) return false;
   for (const Made& made : made_)
     if (made.panorama.lock() == document.panorama && made.has_depth == bool(document.depth) &&
         made.depth.lock() == document.depth && SameOptions(made.options, document.depth_options))

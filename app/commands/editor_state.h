@@ -49,6 +49,11 @@ struct GuardDialog {
   std::string action;  // "open another scene"
   std::function<void(EditorState&)> then;
 };
+// Before a scene is replaced that another program or window has changed since it was read here.
+struct ChangedOnDiskDialog {
+  std::filesystem::path place;
+  std::function<void(EditorState&)> then;
+};
 struct BrowseDialog {
   std::string title, accept_words;
   FileBrowserModel model;
@@ -65,8 +70,8 @@ struct HelpDialog {};
 struct PracticeEndedDialog {
   double seconds = 0;
 };
-using Dialog = std::variant<ErrorDialog, GuardDialog, BrowseDialog, UnitDialog, HelpDialog,
-                            PracticeEndedDialog>;
+using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,
+                            HelpDialog, PracticeEndedDialog>;
 
 // A hand's incision that is being found, in the practice that runs.
 struct PivotCalibrating {
@@ -82,6 +87,12 @@ struct TraineeScreen {
   bool is_wanted = false;
   int monitor = 0;    // from 1; 0: one that the window is not on
   std::string words;  // what was not as it was asked for; empty: nothing
+};
+
+// The scene as this window has last read or written it.
+struct SceneOnDisk {
+  std::filesystem::path place;  // folder or archive; empty: none
+  std::string fingerprint;      // of scene.json or the archive (core/fingerprint.h)
 };
 
 struct EditorState {
@@ -104,6 +115,7 @@ struct EditorState {
   // The session that runs: a practice, or the author's poke; null: none.
   const Practice* live() const { return practice ? &*practice : poke ? &*poke : nullptr; }
 
+  SceneOnDisk on_disk;
   int document_number = 0;  // grows when another document is begun
   Step step = Step::kPanorama;
   int tissue = -1;  // chosen one, -1 none

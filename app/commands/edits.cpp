@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/commands/depth_cache.h"
+#include "app/commands/footage/footage_optics.h"
 #include "app/commands/same.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/same_options.h"
@@ -55,30 +56,62 @@ void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string
        [&](auto& next) { next.scene.backdrop = backdrop; });
 }
 
+namespace {
+
+void PutPanorama(authoring::Document& document, const std::shared_ptr<const ColourImage>& panorama,
+                 const std::optional<Projection>& projection) {
+  const bool same_size = document.panorama && document.panorama->width == panorama->width &&
+                         document.panorama->height == panorama->height;
+  const bool keeps_depth = document.is_depth_imported && same_size && !projection;
+  if (projection)
+    document.scene.backdrop.projection = *projection;
+  else if (!same_size)
+    document.scene.backdrop.projection =
+        authoring::GuessProjection(panorama->width, panorama->height);
+  document.panorama = panorama;
+  document.scene.backdrop.panorama = "panorama.png";
+  if (keeps_depth) return;
+  document.scene.backdrop.depth = "depth.tiff";
+  document.depth = nullptr;
+  document.is_depth_imported = false;
+}
+
+}  // namespace
+
 void SetPanorama(EditorState& state, const std::string& name,
                  const std::shared_ptr<const ColourImage>& panorama,
                  const std::optional<Projection>& projection) {
-  Edit(state, name, "", [&](authoring::Document& next) {
-    const bool same_size = next.panorama && next.panorama->width == panorama->width &&
-                           next.panorama->height == panorama->height;
-    if (projection)
-      next.scene.backdrop.projection = *projection;
-    else if (!same_size)
-      next.scene.backdrop.projection =
-          authoring::GuessProjection(panorama->width, panorama->height);
-    next.panorama = panorama;
-    next.scene.backdrop.panorama = "panorama.png";
-    next.scene.backdrop.depth = "depth.tiff";
-    next.depth = nullptr;
+  Edit(state, name, "", [&](auto& next) { PutPanorama(next, panorama, projection); });
+}
+
+void SetPanorama(EditorState& state, const std::string& name,
+                 const std::shared_ptr<const ColourImage>& panorama, const Projection& projection,
+                 const Lens& lens, bool is_lens_guessed) {
+  Edit(state, name, "", [&](auto& next) {
+    PutPanorama(next, panorama, projection);
+    TakeFootageLens(next, lens, is_lens_guessed);
   });
 }
 
 void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
                      const std::string& what) {
   if (SameOptions(options, state.document().depth_options)) return;
+  if (state.document().is_depth_imported) {
+    state.message = "The imported depth map is kept. Make one from the picture to change it.";
+    return;
+  }
   Edit(state, "Depth: " + what, Key("depth", what), [&](auto& next) {
     next.depth_options = options;
     // What was made before for these options is taken up again at once.
+    if (auto made = state.depth_cache.Find(next)) next.depth = made;
+  });
+}
+
+void MakeDepth(EditorState& state) {
+  const authoring::Document& document = state.document();
+  if (!document.panorama || !document.is_depth_imported) return;
+  Edit(state, "Replace the imported depth map", "", [&](auto& next) {
+    next.is_depth_imported = false;
     if (auto made = state.depth_cache.Find(next)) next.depth = made;
   });
 }

@@ -21,12 +21,19 @@ void SetTitle(EditorState& state, const std::string& title);
 void SetAuthor(EditorState& state, const std::string& author);
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what);
 // Another picture as the backdrop, its depth to be made anew. No projection: the one there is stays
-// when the size is the same, else it is guessed.
+// when the size is the same, else it is guessed; an imported depth map of that size stays, too.
 void SetPanorama(EditorState& state, const std::string& name,
                  const std::shared_ptr<const ColourImage>& panorama,
                  const std::optional<Projection>& projection = std::nullopt);
+// The same with what a clip was put together to, seen through the lens that it was filmed with.
+void SetPanorama(EditorState& state, const std::string& name,
+                 const std::shared_ptr<const ColourImage>& panorama, const Projection& projection,
+                 const Lens& lens, bool is_lens_guessed);
+// Nothing happens while the depth map is an imported one: MakeDepth says that it may be replaced.
 void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
                      const std::string& what);
+// Puts a depth map that is made from the picture in the place of the imported one.
+void MakeDepth(EditorState& state);
 void SetIncisionSpacing(EditorState& state, double spacing);  // m
 void SetViewAngle(EditorState& state, double view_angle);     // rad; in practice the session's
 void SetFieldOfView(EditorState& state, double field_of_view);

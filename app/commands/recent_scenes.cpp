@@ -40,7 +40,7 @@ void RecentScenes::Add(const fs::path& scene) {
   for (const auto& path : scenes_) json["scenes"].push_back(path.string());
   try {
     fs::create_directories(file_.parent_path());
-    WriteAtomically(file_, json.dump(2) + "\n");
+    WriteAtomically(file_, json.dump(2) + "\n", Access::kPrivate);  // whose scenes: names
   } catch (const std::exception&) {
     // Not worth interrupting an author.
   }

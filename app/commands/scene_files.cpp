@@ -9,9 +9,12 @@
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
+#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {
@@ -45,7 +48,26 @@ Document NewDocument() {
   return document;
 }
 
-void StartDocument(EditorState& state, Document document, bool saved) {
+SceneOnDisk NoteOnDisk(const fs::path& scene) {
+  // A save writes the folder's scene.json, so that is what counts, whichever file was opened.
+  const fs::path file = SceneFile(scene);
+  if (!IsArchive(file) && file.filename() != "scene.json") return {};
+  const std::string mark = authoring::FingerprintOfFile(file);
+  if (mark.empty()) return {};
+  const fs::path place = fs::absolute(file);
+  return {IsArchive(file) ? place : place.parent_path(), mark};
+}
+
+bool HasChangedOnDisk(const EditorState& state, const fs::path& place) {
+  std::error_code ignored;
+  const fs::path file = IsArchive(place) ? place : place / "scene.json";
+  if (!fs::exists(file, ignored)) return false;
+  return state.on_disk.place.empty() || !fs::equivalent(state.on_disk.place, place, ignored) ||
+         NoteOnDisk(place).fingerprint != state.on_disk.fingerprint;
+}
+
+void StartDocument(EditorState& state, Document document, bool saved, SceneOnDisk on_disk) {
+  state.on_disk = std::move(on_disk);
   state.history = authoring::History(std::move(document));
   if (saved) state.history.MarkSaved();
   state.depth_cache.Note(state.document());
@@ -61,8 +83,10 @@ void OpenScene(EditorState& state, const fs::path& scene) {
   state.jobs.Start(
       "Open " + scene.filename().string(),
       [scene](const Progress&) {
-        return [scene, document = authoring::OpenDocument(scene)](EditorState& now) {
-          StartDocument(now, document, true);
+        // Noted before it is read: a change in between is found when the scene is saved.
+        const SceneOnDisk on_disk = NoteOnDisk(scene);
+        return [scene, on_disk, document = authoring::OpenDocument(scene)](EditorState& now) {
+          StartDocument(now, document, true, on_disk);
           now.recent.Add(scene);
           now.message = "Opened " + scene.string();
         };
@@ -72,13 +96,26 @@ void OpenScene(EditorState& state, const fs::path& scene) {
 
 namespace {
 
-void SaveInto(EditorState& state, const fs::path& folder, std::function<void(EditorState&)> then) {
-  WhenDepthIsReady(state, [folder, then = std::move(then)](EditorState& ready) {
+enum class IfChanged { kAsk, kReplace };
+
+void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
+              std::function<void(EditorState&)> then) {
+  WhenDepthIsReady(state, [folder, if_changed, then = std::move(then)](EditorState& ready) {
+    const bool is_changed = HasChangedOnDisk(ready, folder);
+    if (is_changed && if_changed == IfChanged::kAsk) {
+      ready.dialogs.push_back(ChangedOnDiskDialog{folder, then});
+      return;
+    }
+    authoring::SaveOptions options;
+    options.needed_files = ready.history.FilesOnlyOnDisk();
+    options.keeps_all_files = is_changed;
     ready.jobs.Start(
         "Save " + folder.filename().string(),
-        [folder, then, document = ready.document()](const Progress&) {
-          return [then, saved = authoring::SaveDocument(document, folder)](EditorState& now) {
+        [folder, options, then, document = ready.document()](const Progress&) {
+          const Document saved = authoring::SaveDocument(document, folder, options);
+          return [then, saved, on_disk = NoteOnDisk(saved.folder)](EditorState& now) {
             now.history.MarkSaved(saved);
+            now.on_disk = on_disk;
             now.depth_cache.Note(saved);
             now.recent.Add(saved.folder);
             now.message = "Saved in " + saved.folder.string();
@@ -94,7 +131,12 @@ void SaveInto(EditorState& state, const fs::path& folder, std::function<void(Edi
 void SaveScene(EditorState& state, std::function<void(EditorState&)> then) {
   const fs::path folder = state.document().folder;
   if (folder.empty()) return SaveSceneAs(state, std::move(then));
-  SaveInto(state, folder, std::move(then));
+  SaveInto(state, folder, IfChanged::kAsk, std::move(then));
+}
+
+void ReplaceChangedScene(EditorState& state, std::function<void(EditorState&)> then) {
+  const fs::path folder = state.document().folder;
+  if (!folder.empty()) SaveInto(state, folder, IfChanged::kReplace, std::move(then));
 }
 
 void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then) {
@@ -105,7 +147,7 @@ void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then) {
       state, BrowseFor::kSaveFolder, "Save the scene as a folder, or as a file NAME.arthro", "Save",
       {},
       [then = std::move(then)](EditorState& now, const fs::path& folder) {
-        SaveInto(now, folder, then);
+        SaveInto(now, folder, IfChanged::kReplace, then);  // the browser has asked
       },
       name);
 }

@@ -16,10 +16,21 @@ authoring::Document NewDocument();
 void OpenScene(EditorState& state, const std::filesystem::path& scene);
 
 // Makes `document` the one that is worked on, with a new history; `saved`: as it is on disk.
-void StartDocument(EditorState& state, authoring::Document document, bool saved);
+// `on_disk`: as NoteOnDisk gave it before the document was read; without it, saving over a scene
+// that is there asks first.
+void StartDocument(EditorState& state, authoring::Document document, bool saved,
+                   SceneOnDisk on_disk = {});
 
-// Where it was opened from, or asks where. `then` runs once it is saved.
+// What lies at `scene` now: a scene's folder, its scene.json or an archive.
+SceneOnDisk NoteOnDisk(const std::filesystem::path& scene);
+// There is a scene at `place`, and it is not the one that this window has last read or written.
+bool HasChangedOnDisk(const EditorState& state, const std::filesystem::path& place);
+
+// Where it was opened from, or asks where. Asks first when that was changed by others meanwhile.
+// `then` runs once it is saved.
 void SaveScene(EditorState& state, std::function<void(EditorState&)> then = {});
+// The same without asking: what others changed is lost.
+void ReplaceChangedScene(EditorState& state, std::function<void(EditorState&)> then = {});
 void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then = {});
 
 // A picture becomes the backdrop; its projection is kept if the size is that of the old one.

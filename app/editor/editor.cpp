@@ -162,7 +162,8 @@ class Editor {
 
   void Begin() {
     if (options_.scene) {
-      StartDocument(state_, authoring::OpenDocument(*options_.scene), true);
+      const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
+      StartDocument(state_, authoring::OpenDocument(*options_.scene), true, on_disk);
     } else if (const auto demo = ResourceFolder() / "demo";
                std::filesystem::exists(demo / "scene.json")) {
       // The demo scene is a start for one's own: saving asks where.

@@ -54,6 +54,25 @@ void Draw(Ui& ui, EditorState& state, GuardDialog& dialog) {
   if (discard) Guarded(state, "Discard", [&] { taken.then(state); });
 }
 
+void Draw(Ui& ui, EditorState& state, ChangedOnDiskDialog& dialog) {
+  Heading(ui, "The scene was changed on disk");
+  Gap(ui, 2);
+  Text(ui, fmt::format("Another window or program has changed {} since it was read here. Saving "
+                       "replaces those changes.",
+                       dialog.place.string()));
+  Gap(ui);
+  const ImVec2 size = {ui.Px(120), 0};
+  const bool save_as = Button(ui, "Save as…", true, size, "Keep both: save this one elsewhere.");
+  ImGui::SameLine();
+  const bool replace = Button(ui, "Replace it", true, size, "What others changed is lost.");
+  ImGui::SameLine();
+  const bool cancel = Button(ui, "Cancel", true, size) || EscapePressed();
+  if (!save_as && !replace && !cancel) return;
+  const ChangedOnDiskDialog taken = Take<ChangedOnDiskDialog>(state);
+  if (save_as) Guarded(state, "Save", [&] { SaveSceneAs(state, taken.then); });
+  if (replace) Guarded(state, "Save", [&] { ReplaceChangedScene(state, taken.then); });
+}
+
 void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   Heading(ui, "Which unit is the surface in?");
   Gap(ui, 2);

@@ -1,26 +1,41 @@
 #include "authoring/project/asset_writer.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/fingerprint.h"
 
 namespace arthro::authoring {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool SameBytes(const fs::path& a, const fs::path& b) {
-  std::error_code fault;
-  if (fs::file_size(a, fault) != fs::file_size(b, fault) || fault) return false;
-  return ReadWholeFile(a) == ReadWholeFile(b);
+bool IsTaken(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(file, ignored));
+}
+
+// "depth.tiff", "depth-2.tiff", "depth-3.tiff"…
+fs::path Numbered(const fs::path& name, int number) {
+  fs::path numbered = name;
+  if (number > 1)
+    numbered.replace_filename(
+        fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string()));
+  return numbered;
 }
 
 }  // namespace
 
-AssetWriter::AssetWriter(const fs::path& folder) : folder_(folder) { MakeFolder(folder); }
+AssetWriter::AssetWriter(const fs::path& folder, WrittenFiles known)
+    : folder_(folder), files_(std::move(known)), was_noted_(HasUnfinishedSave(folder)) {
+  MakeFolder(folder);
+}
 
 AssetWriter::~AssetWriter() {
+  if (is_noted_ && !was_noted_) RemoveUnfinishedSave(folder_);
   std::error_code ignored;
   for (auto path = made_.rbegin(); path != made_.rend(); ++path) fs::remove(*path, ignored);
 }
@@ -38,39 +53,37 @@ void AssetWriter::MakeFolder(const fs::path& folder) {
               folder);
 }
 
-fs::path AssetWriter::NameFor(const fs::path& name,
-                              const std::function<bool(const fs::path&)>& is_same, bool& is_there) {
-  // Folders inside the scene, one after the other, so that each can be taken away again.
-  fs::path inside = folder_;
-  for (const fs::path& part : name.parent_path()) MakeFolder(inside /= part);
-  for (int number = 1;; ++number) {
-    fs::path candidate = name;
-    if (number > 1)
-      candidate.replace_filename(
-          fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string()));
-    std::error_code ignored;
-    const bool is_taken = fs::exists(fs::symlink_status(folder_ / candidate, ignored));
-    is_there = is_taken && is_same(folder_ / candidate);
-    if (!is_taken || is_there) return candidate;
-  }
+void AssetWriter::NoteUnfinished() {
+  WriteUnfinishedSave(folder_, files_);
+  is_noted_ = true;
 }
 
-fs::path AssetWriter::Copy(const fs::path& source, const fs::path& name) {
-  const auto is_same = [&](const fs::path& there) {
-    std::error_code ignored;
-    return fs::equivalent(source, there, ignored) || SameBytes(source, there);
-  };
-  return Write(name, is_same,
-               [&](const fs::path& target) { WriteAtomically(target, ReadWholeFile(source)); });
+void AssetWriter::Keep() {
+  made_.clear();
+  is_noted_ = false;
 }
 
 fs::path AssetWriter::Write(const fs::path& name,
-                            const std::function<bool(const fs::path&)>& is_same,
                             const std::function<void(const fs::path&)>& write) {
-  bool is_there = false;
-  const fs::path free_name = NameFor(name, is_same, is_there);
-  if (is_there) return free_name;
-  write(folder_ / free_name);
+  // Folders inside the scene, one after the other, so that each can be removed again.
+  fs::path inside = folder_;
+  for (const fs::path& part : name.parent_path()) MakeFolder(inside /= part);
+  int number = 1;
+  while (IsTaken(folder_ / Numbered(name, number))) ++number;
+  const fs::path free_name = Numbered(name, number);
+  PartialFile partial(folder_ / free_name);
+  write(partial.beside());
+  const std::string mark = FingerprintOf(ReadWholeFile(partial.beside()));
+  for (int taken = 1; taken < number; ++taken)
+    if (FingerprintOfFile(folder_ / Numbered(name, taken)) == mark) return Numbered(name, taken);
+
+  // Noted first: a save that is cut short between the two leaves no file that nobody knows.
+  files_[free_name.generic_string()] = mark;
+  NoteUnfinished();
+  if (IsTaken(folder_ / free_name))
+    throw Error(Code::kFile, "another program has just made a file of this name; save again",
+                folder_ / free_name);
+  partial.PutInPlace();
   made_.push_back(folder_ / free_name);
   return free_name;
 }

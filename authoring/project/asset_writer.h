@@ -1,39 +1,45 @@
 // Puts the assets of one save into a scene's folder without ever changing a file that is there, and
-// takes them away again unless the save comes to its end.
+// removes them again unless the save comes to its end.
 #pragma once
 
 #include <filesystem>
 #include <functional>
-#include <set>
 #include <vector>
+
+#include "authoring/project/written_files.h"
 
 namespace arthro::authoring {
 
 class AssetWriter {
  public:
-  explicit AssetWriter(const std::filesystem::path& folder);
+  // `known`: files that earlier saves of this scene wrote; the list of an unfinished save holds
+  // them too, so that none is forgotten.
+  AssetWriter(const std::filesystem::path& folder, WrittenFiles known);
   ~AssetWriter();  // removes what was made, unless Keep was called
   AssetWriter(const AssetWriter&) = delete;
   AssetWriter& operator=(const AssetWriter&) = delete;
 
-  // Each returns the name, relative to the folder, under which the asset now lies: the one given,
-  // or a free one beside it when another file has that name.
-  std::filesystem::path Copy(const std::filesystem::path& source,
-                             const std::filesystem::path& name);
+  // Returns the name, relative to the folder, under which the asset now lies: the one given, or the
+  // first free one after it ("depth-2.tiff") when another file has that name. A file with the very
+  // same bytes is taken as it is.
   std::filesystem::path Write(const std::filesystem::path& name,
-                              const std::function<bool(const std::filesystem::path&)>& is_same,
                               const std::function<void(const std::filesystem::path&)>& write);
 
-  void Keep() { made_.clear(); }
+  // Known files and new ones.
+  const WrittenFiles& files() const { return files_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  // Notes on disk that `files` may have to be removed, should the save be cut short now.
+  void NoteUnfinished();
+  void Keep();
 
  private:
-  std::filesystem::path NameFor(const std::filesystem::path& name,
-                                const std::function<bool(const std::filesystem::path&)>& is_same,
-                                bool& is_there);
   void MakeFolder(const std::filesystem::path& folder);
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;  // files and folders, in the order they were made
+  WrittenFiles files_;
+  bool is_noted_ = false;   // on disk, by this save
+  bool was_noted_ = false;  // on disk, by a save that was cut short
 };
 
 }  // namespace arthro::authoring

@@ -24,13 +24,15 @@ namespace arthro::authoring {
 struct AssetFile {
   std::filesystem::path file;  // absolute
   std::weak_ptr<const void> part;
+  std::string fingerprint;  // of the file (core/fingerprint.h); empty: not known
 };
 
 struct Document {
   Scene scene;
   DepthOptions depth_options;
-  std::shared_ptr<const ColourImage> panorama;               // never null once there is a picture
-  std::shared_ptr<const DepthMap> depth;                     // null: a bare sphere
+  std::shared_ptr<const ColourImage> panorama;  // never null once there is a picture
+  std::shared_ptr<const DepthMap> depth;        // null: a bare sphere
+  bool is_depth_imported = false;               // brought along, not made from panorama and options
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces;  // one a tissue, own frame, m
   std::optional<Lens> lens;                                  // of the scope; nothing: equisolid
   // Where it is saved: a scene's folder or an .arthro archive; empty until it is.

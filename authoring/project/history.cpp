@@ -71,6 +71,14 @@ void History::MarkSaved(Document saved) {
   MarkSaved();
 }
 
+std::set<std::filesystem::path> History::FilesOnlyOnDisk() const {
+  std::set<std::filesystem::path> files;
+  for (const Step& step : steps_)
+    for (const auto& [name, asset] : step.document.files)
+      if (asset.part.expired()) files.insert(asset.file.lexically_normal());
+  return files;
+}
+
 std::size_t History::MemoryUsed() const {
   std::set<const void*> seen;
   std::size_t bytes = 0;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,9 @@ class History {
   void MarkSaved();
   void MarkSaved(Document saved);
   bool IsSaved() const { return steps_[position_].id == saved_id_; }
+
+  // Files that some step needs and that no step holds in memory: tetrahedra, lenses.
+  std::set<std::filesystem::path> FilesOnlyOnDisk() const;
 
   // Bytes of the big parts of all steps, each part once.
   std::size_t MemoryUsed() const;

@@ -16,6 +16,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/leftovers.h"
+#include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro {
@@ -187,6 +188,14 @@ std::vector<std::string> FilesOf(const fs::path& scene) {
   return files;
 }
 
+// Reads every file that the scene names as what the scene takes it for, so that no other file is
+// carried along under its name.
+void RequireWhole(const fs::path& scene) {
+  const LoadedScene loaded = LoadScene(scene);
+  for (const Tissue& tissue : loaded.scene.tissues)
+    if (!tissue.mesh.empty()) ReadTetMesh(loaded.folder / tissue.mesh);
+}
+
 }  // namespace
 
 bool IsArchive(const fs::path& file) { return file.extension() == ".arthro"; }
@@ -202,7 +211,9 @@ void PackScene(const fs::path& scene, const fs::path& archive) {
           Code::kBadScene,
           fmt::format("\"{}\" is not in the scene's folder, so the scene is not complete", name),
           file);
+    RequireInFolder(folder, name);
   }
+  RequireWhole(scene);
   WriteAtomically(archive, [&](const fs::path& beside) {
     Archive zip = Open(beside, ZIP_CREATE | ZIP_TRUNCATE, archive);
     for (const std::string& name : files)

@@ -18,7 +18,8 @@ bool IsArchive(const std::filesystem::path& file);  // by its extension
 
 // scene.json and the files that it names, and nothing else that lies in the folder. Atomic; the
 // same scene gives the same bytes. Throws Error(kBadScene) for a scene that cannot be read or is
-// not complete.
+// not complete, for a file that is not what the scene takes it for, and for a link that leaves the
+// folder.
 void PackScene(const std::filesystem::path& scene, const std::filesystem::path& archive);
 
 // Into `folder`, which must be there and empty. Throws Error(kBadScene) for anything but a sound

@@ -58,6 +58,20 @@ fs::path SceneFile(const fs::path& scene) {
   return fs::is_directory(scene, ignored) ? scene / "scene.json" : scene;
 }
 
+void RequireInFolder(const fs::path& folder, const fs::path& name) {
+  std::error_code fault;
+  const fs::path inside = fs::canonical(folder, fault);
+  const fs::path file = fault ? fs::path() : fs::canonical(folder / name, fault);
+  if (fault) return;  // not there, which whoever reads it says better
+  if (std::mismatch(inside.begin(), inside.end(), file.begin(), file.end()).first == inside.end())
+    return;
+  throw Error(Code::kBadScene,
+              fmt::format("\"{}\" is a link to a file outside the scene's folder, which a copy of "
+                          "the scene does not follow; put the file itself there",
+                          name.generic_string()),
+              folder);
+}
+
 Scene ReadScene(const fs::path& scene) {
   if (IsArchive(scene)) {
     const TemporaryFolder folder;

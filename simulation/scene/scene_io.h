@@ -44,6 +44,10 @@ LoadedScene LoadScene(const std::filesystem::path& scene, std::vector<std::strin
 // the file is touched.
 void WriteScene(const std::filesystem::path& scene_json, const Scene& scene);
 
+// Throws Error(kBadScene) where `name` is a link, or lies behind one, that leaves the folder: a copy
+// of the scene would carry a file that has nothing to do with it.
+void RequireInFolder(const std::filesystem::path& folder, const std::filesystem::path& name);
+
 // The scene.json that a folder or a file name stands for.
 std::filesystem::path SceneFile(const std::filesystem::path& scene);
 

@@ -12,6 +12,7 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
+#include "app/commands/footage/footage_optics.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
@@ -46,6 +47,7 @@ void WriteScene(const fs::path& folder, const fs::path& panorama,
   const authoring::PinholeView& view = report.panorama;
   document.scene.backdrop.projection = {
       ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px, {}};
+  TakeFootageLens(document, report.lens, report.is_lens_guessed);
   try {
     document.depth = std::make_shared<const DepthMap>(authoring::DepthFromColour(
         *document.panorama, document.depth_options, nullptr, {{}, progress.stop}));

@@ -129,7 +129,8 @@ void UseMadePanorama(EditorState& state) {
   const MadePanorama& made = *state.footage->made;
   state.step = Step::kDepth;
   if (state.document().panorama == made.picture) return;  // it is the backdrop already
-  SetPanorama(state, "Use the panorama of " + state.footage->name, made.picture, made.projection);
+  SetPanorama(state, "Use the panorama of " + state.footage->name, made.picture, made.projection,
+              made.report.lens, made.report.is_lens_guessed);
 }
 
 }  // namespace arthro::app

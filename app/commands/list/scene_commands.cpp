@@ -115,6 +115,16 @@ constexpr Command kCommands[] = {
        Browse(state, BrowseFor::kOpenFile, "Read a panorama's report", "Read",
               {{"Reports", {".json"}}, {"All files", {}}}, ReadPanoramaReport);
      }},
+    {"make-depth",
+     "Make depth from the picture",
+     "Replace the imported depth map by one that is made from the picture. Undo brings it back.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) {
+       return Idle(state) && HasPicture(state) && state.document().is_depth_imported;
+     },
+     MakeDepth},
     {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
     {"undo",
      "Undo",

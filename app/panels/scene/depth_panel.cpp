@@ -1,4 +1,8 @@
 // Step 2: how the panorama's brightness becomes relief.
+#include <cfloat>
+
+#include <imgui.h>
+
 #include "app/commands/command_list.h"
 #include "app/commands/depth_work.h"
 #include "app/commands/edits.h"
@@ -13,15 +17,26 @@ void DepthPanel(Ui& ui, EditorState& state) {
     QuietText(ui, "Depth is made from a panorama; import one first.");
     return;
   }
+  const bool is_imported = document.is_depth_imported;
+  if (is_imported) {
+    Text(ui, "This scene has a depth map that was imported, not made from its picture.");
+    QuietText(ui,
+              "It is kept as it is, so the settings below do nothing. Replace it by a map that is "
+              "made from the picture to use them; Undo brings the imported one back.");
+    CommandButton(ui, state, "make-depth", {-FLT_MIN, 0});
+    Gap(ui);
+  }
   authoring::DepthOptions options = document.depth_options;
+  ImGui::BeginDisabled(is_imported);
   const auto panel = OptionsPanel(ui, options);
+  ImGui::EndDisabled();
   if (!panel.changed_field.empty()) SetDepthOptions(state, options, panel.changed_field);
   if (panel.held) state.dragging = true;
   if (panel.released) EndDrag(state);
   const std::string problem = state.depth_cache.ProblemOf(state.document());
   if (!problem.empty()) ColouredText(ui, problem, kWarning);
   Gap(ui);
-  if (Button(ui, "Back to the defaults", true, {-1, 0})) {
+  if (Button(ui, "Back to the defaults", !is_imported, {-1, 0})) {
     SetDepthOptions(state, {}, "back to the defaults");
     EndDrag(state);
   }

@@ -48,6 +48,24 @@ class Commands : public testing::Test {
     Settle(state);
     ASSERT_TRUE(state.dialogs.empty());
   }
+  // With a depth map that was made from the picture; the scene's own is an imported one.
+  void OpenAndMakeDepth() {
+    Open();
+    app::Run(state, "make-depth");
+    Settle(state);
+    app::Run(state, "save");
+    Settle(state);
+    OpenScene(state, temp / "knee");
+    Settle(state);
+    ASSERT_FALSE(state.document().is_depth_imported);
+    ASSERT_FALSE(state.history.CanUndo());
+  }
+  // As another window would, behind the back of this one.
+  void SaveElsewhere(const std::string& title) {
+    Scene scene = ReadScene(temp / "knee");
+    scene.title = title;
+    WriteScene(temp / "knee/scene.json", scene);
+  }
   test::TempFolder temp;
   EditorState state{NewDocument()};
 };
@@ -132,7 +150,7 @@ TEST_F(Commands, AnEditThatChangesNothingIsNoStep) {
 }
 
 TEST_F(Commands, DepthFollowsItsOptionsAndBothAreUndoneAtOnce) {
-  Open();
+  OpenAndMakeDepth();
   const auto before = state.document().depth;
   authoring::DepthOptions options = state.document().depth_options;
   options.near_relief = 0.008;
@@ -156,7 +174,7 @@ TEST_F(Commands, DepthFollowsItsOptionsAndBothAreUndoneAtOnce) {
 }
 
 TEST_F(Commands, WhileASliderIsHeldOnlyAPreviewIsMade) {
-  Open();
+  OpenAndMakeDepth();
   const auto before = state.document().depth;
   authoring::DepthOptions options = state.document().depth_options;
   state.dragging = true;
@@ -178,7 +196,7 @@ TEST_F(Commands, WhileASliderIsHeldOnlyAPreviewIsMade) {
 }
 
 TEST_F(Commands, OptionsThatContradictEachOtherAreToldAndKeepTheDepth) {
-  Open();
+  OpenAndMakeDepth();
   const auto before = state.document().depth;
   authoring::DepthOptions options = state.document().depth_options;
   options.low_percentile = 60;
@@ -194,7 +212,7 @@ TEST_F(Commands, OptionsThatContradictEachOtherAreToldAndKeepTheDepth) {
 }
 
 TEST_F(Commands, SavingWaitsForTheDepthOfTheOptions) {
-  Open();
+  OpenAndMakeDepth();
   authoring::DepthOptions options = state.document().depth_options;
   options.near_relief = 0.004;
   SetDepthOptions(state, options, "Near relief");
@@ -206,6 +224,131 @@ TEST_F(Commands, SavingWaitsForTheDepthOfTheOptions) {
   for (const float h : saved.depth.relief)
     if (h > nearest) nearest = h;
   EXPECT_NEAR(nearest, 0.004, 1e-6);
+}
+
+TEST_F(Commands, AnImportedDepthMapIsReplacedOnlyWhenThatIsAskedForAndIsUndone) {
+  Open();
+  const auto imported = state.document().depth;
+  ASSERT_TRUE(state.document().is_depth_imported);
+  authoring::DepthOptions options = state.document().depth_options;
+  options.near_relief = 0.008;
+  SetDepthOptions(state, options, "Near relief");
+  EndDrag(state);
+  Settle(state);
+  EXPECT_EQ(state.document().depth, imported);
+  EXPECT_FALSE(state.history.CanUndo());
+  EXPECT_NE(state.message.find("imported depth map is kept"), std::string::npos);
+
+  app::Run(state, "make-depth");
+  Settle(state);
+  EXPECT_NE(state.document().depth, imported);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, imported);
+  EXPECT_FALSE(state.history.CanUndo()) << "one step";
+  app::Run(state, "redo");
+  Settle(state);
+  SetDepthOptions(state, options, "Near relief");
+  Settle(state);
+  app::Run(state, "undo");
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, imported);
+}
+
+TEST_F(Commands, AnImportedDepthMapStaysImportedInASavedScene) {
+  Open();
+  SetTitle(state, "Other");
+  app::Run(state, "save");
+  Settle(state);
+  OpenScene(state, temp / "knee");
+  Settle(state);
+  EXPECT_TRUE(state.document().is_depth_imported);
+  // One that a person puts in the place of a made one is imported as well.
+  app::Run(state, "make-depth");
+  Settle(state);
+  app::Run(state, "save");
+  Settle(state);
+  const fs::path map = temp / "knee" / state.document().scene.backdrop.depth;
+  WriteDepthMap(map, DepthMap(400, 300, 0.002f));
+  OpenScene(state, temp / "knee");
+  Settle(state);
+  EXPECT_TRUE(state.document().is_depth_imported);
+}
+
+TEST_F(Commands, AnotherPictureOfTheSameSizeKeepsAnImportedDepthMap) {
+  Open();
+  const auto imported = state.document().depth;
+  WriteColourImage(temp / "same.png", test::KneePicture(400, 300, 5.0));
+  ImportPanorama(state, temp / "same.png");
+  Settle(state);
+  EXPECT_EQ(state.document().depth, imported);
+  WriteColourImage(temp / "other.png", test::KneePicture(200, 100));
+  ImportPanorama(state, temp / "other.png");
+  Settle(state);
+  EXPECT_EQ(state.document().depth->width, 200);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, imported);
+}
+
+TEST_F(Commands, SavingOverASceneThatOthersChangedAsksFirst) {
+  Open();
+  SetIncisionSpacing(state, 0.01);
+  SaveElsewhere("theirs");
+  app::Run(state, "save");
+  Settle(state);
+  EXPECT_EQ(ReadScene(temp / "knee").title, "theirs");
+  EXPECT_FALSE(state.history.IsSaved());
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  ASSERT_TRUE(std::holds_alternative<ChangedOnDiskDialog>(state.dialogs.back()));
+  state.dialogs.clear();
+
+  bool went_on = false;
+  ReplaceChangedScene(state, [&](EditorState&) { went_on = true; });
+  Settle(state);
+  EXPECT_EQ(ReadScene(temp / "knee").title, "Small knee");
+  EXPECT_TRUE(went_on);
+  EXPECT_TRUE(state.history.IsSaved());
+  // What this window has written is no surprise to it.
+  SetIncisionSpacing(state, 0.02);
+  app::Run(state, "save");
+  Settle(state);
+  EXPECT_TRUE(state.dialogs.empty());
+  EXPECT_TRUE(state.history.IsSaved());
+}
+
+TEST_F(Commands, SavingASceneThatWasOnlyTouchedOrWasRemovedAsksNothing) {
+  Open();
+  SetIncisionSpacing(state, 0.01);
+  fs::last_write_time(temp / "knee/scene.json", fs::file_time_type::clock::now());
+  app::Run(state, "save");
+  Settle(state);
+  EXPECT_TRUE(state.dialogs.empty());
+  EXPECT_TRUE(state.history.IsSaved());
+  fs::remove(temp / "knee/scene.json");
+  SetIncisionSpacing(state, 0.02);
+  app::Run(state, "save");
+  Settle(state);
+  EXPECT_TRUE(state.dialogs.empty());
+  EXPECT_TRUE(state.history.IsSaved());
+}
+
+TEST_F(Commands, ASecondSceneFileIsNotSavedOverTheFirst) {
+  test::WriteSmallScene(temp / "knee");
+  fs::copy_file(temp / "knee/scene.json", temp / "knee/variant.json");
+  OpenScene(state, temp / "knee/variant.json");
+  Settle(state);
+  SetTitle(state, "variant");
+  app::Run(state, "save");
+  Settle(state);
+  EXPECT_EQ(ReadScene(temp / "knee").title, "Small knee");
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<ChangedOnDiskDialog>(state.dialogs.back()));
+}
+
+TEST_F(Commands, TheListOfRecentScenesIsItsOwnersAlone) {
+  RecentScenes recent(temp / "config/recent.json");
+  recent.Add(temp / "knee");
+  const auto rights = fs::status(temp / "config/recent.json").permissions();
+  EXPECT_EQ(rights & fs::perms(0077), fs::perms::none);
 }
 
 TEST_F(Commands, APanoramaBecomesTheBackdropWithADepthMapOfItsOwn) {

@@ -2,6 +2,7 @@
 // fails or is stopped, and its result as the backdrop. The runs here are made up; what the real one
 // finds is tested with authoring/panorama.
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <mutex>
 #include <thread>
@@ -9,11 +10,15 @@
 #include <gtest/gtest.h>
 
 #include "app/commands/command_list.h"
+#include "app/commands/footage/footage_optics.h"
 #include "app/commands/footage/footage_words.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/scene_files.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/units.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/lens_io.h"
+#include "simulation/scene/scene_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -212,6 +217,53 @@ TEST_F(Footage, TheResultBecomesTheBackdropInOneStepThatIsUndone) {
   EXPECT_EQ(state.history.Position(), steps) << "it is the backdrop already";
   app::Run(state, "undo");
   EXPECT_FALSE(state.document().panorama);
+}
+
+// A lens of 75 degrees from edge to edge of its round window.
+Lens LensOf75Degrees() {
+  Lens lens;
+  lens.width = 720, lens.height = 576;
+  lens.cx = 360, lens.cy = 288;
+  lens.circle = {360, 288, 250};
+  lens.field_of_view = RadiansFromDegrees(75);
+  lens.focal_px = 250 / (2 * std::sin(lens.field_of_view / 4));
+  return lens;
+}
+
+TEST_F(Footage, TheScopeOfTheSceneSeesAsWideAsTheClipsLens) {
+  state.makers.run = [](PanoramaSession& session, const PanoramaRequest& request,
+                        const PanoramaObserver& observer, const Progress& progress) {
+    PanoramaResult result = MadeUpRun(session, request, observer, progress);
+    result.report.lens = LensOf75Degrees();
+    return result;
+  };
+  OpenClip();
+  RunIt();
+  app::Run(state, "use-panorama");
+  EXPECT_NEAR(state.document().scene.scope.field_of_view, RadiansFromDegrees(75), 1e-12);
+  EXPECT_EQ(state.document().lens, LensOf75Degrees());
+  authoring::SaveDocument(state.document(), temp / "scene");
+  const LoadedScene saved = LoadScene(temp / "scene");
+  ASSERT_TRUE(saved.lens);
+  EXPECT_NEAR(saved.lens->field_of_view, RadiansFromDegrees(75), 1e-9);
+  EXPECT_EQ(saved.lens->circle, LensOf75Degrees().circle);
+  EXPECT_NEAR(saved.scene.scope.field_of_view, RadiansFromDegrees(75), 1e-9);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().scene.scope.field_of_view, ScopeSpec().field_of_view);
+  EXPECT_FALSE(state.document().lens);
+}
+
+TEST_F(Footage, AGuessedLensGivesItsFieldOfViewAndTakesNoKnownLensAway) {
+  authoring::Document document = NewDocument();
+  TakeFootageLens(document, LensOf75Degrees(), true);
+  EXPECT_NEAR(document.scene.scope.field_of_view, RadiansFromDegrees(75), 1e-12);
+  EXPECT_FALSE(document.lens) << "a guess is no lens file";
+  Lens known = LensOf75Degrees();
+  known.field_of_view = RadiansFromDegrees(70);
+  TakeFootageLens(document, known, false);
+  TakeFootageLens(document, LensOf75Degrees(), true);
+  EXPECT_EQ(document.lens, known);
+  EXPECT_NEAR(document.scene.scope.field_of_view, RadiansFromDegrees(70), 1e-12);
 }
 
 TEST_F(Footage, AFailedRunIsOneSentenceAndWhatWasMadeStays) {

@@ -83,6 +83,9 @@ expect disabled Undo
 TEST_F(EditorWindow, DepthIsMadeAnewWhenASliderIsLetGo) {
   Drive(R"(
 click Depth
+expect "was imported"
+click "Make depth from the picture"
+wait job
 set "Near relief" 15
 wait job
 expect value "Near relief" "15.0 mm"

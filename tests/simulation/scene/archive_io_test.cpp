@@ -178,5 +178,50 @@ TEST(ArchiveIo, AnIncompleteSceneIsNotPackedAndTheOldArchiveStays) {
   EXPECT_EQ(ReadWholeFile(folder / "s.arthro"), "old");
 }
 
+std::string FaultOfPacking(const fs::path& scene, const fs::path& archive) {
+  try {
+    PackScene(scene, archive);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ArchiveIo, ALinkOutOfTheScenesFolderIsNotFollowed) {
+  test::TempFolder folder;
+  fs::create_directory(folder / "scene");
+  WriteSmallScene(folder / "scene");
+  fs::rename(folder / "scene/m.ply", folder / "secret.ply");
+  fs::create_symlink(folder / "secret.ply", folder / "scene/m.ply");
+  EXPECT_NE(FaultOfPacking(folder / "scene", folder / "s.arthro").find("link to a file outside"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "s.arthro"));
+  // Nor one of a folder on the way.
+  fs::remove(folder / "scene/m.ply");
+  fs::rename(folder / "secret.ply", folder / "scene/m.ply");
+  fs::rename(folder / "scene/pictures", folder / "elsewhere");
+  fs::create_directory_symlink(folder / "elsewhere", folder / "scene/pictures");
+  EXPECT_NE(FaultOfPacking(folder / "scene", folder / "s.arthro").find("link to a file outside"),
+            std::string::npos);
+  // A link that stays inside is a file like any other.
+  fs::remove(folder / "scene/pictures");
+  fs::rename(folder / "elsewhere", folder / "scene/pictures");
+  fs::rename(folder / "scene/m.ply", folder / "scene/real.ply");
+  fs::create_symlink("real.ply", folder / "scene/m.ply");
+  EXPECT_EQ(FaultOfPacking(folder / "scene", folder / "s.arthro"), "");
+}
+
+TEST(ArchiveIo, AFileThatIsNotWhatTheSceneTakesItForIsNotPacked) {
+  test::TempFolder folder;
+  fs::create_directory(folder / "scene");
+  WriteSmallScene(folder / "scene");
+  Scene scene = ReadScene(folder / "scene");
+  scene.tissues[0].mesh = "m.vtu";
+  WriteScene(folder / "scene/scene.json", scene);
+  WriteAtomically(folder / "scene/m.vtu", "-----BEGIN OPENSSH PRIVATE KEY-----");
+  EXPECT_NE(FaultOfPacking(folder / "scene", folder / "s.arthro").find("m.vtu"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "s.arthro"));
+}
+
 }  // namespace
 }  // namespace arthro

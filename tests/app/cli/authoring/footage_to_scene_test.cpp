@@ -80,6 +80,12 @@ TEST(FootageToScene, ThePhantomsClipBecomesAScene) {
   const auto scene = nlohmann::json::parse(ReadWholeFile(mine + "/scene.json"));
   EXPECT_NEAR(scene.at("backdrop").at("projection").at("focal_px").get<double>(),
               report.at("panorama").at("focal_px").get<double>(), 1e-6);
+  // The scope of the scene sees through the lens of the clip.
+  const auto own_lens = nlohmann::json::parse(ReadWholeFile(mine + "/lens.json"));
+  EXPECT_EQ(scene.at("scope").at("lens"), "lens.json");
+  EXPECT_EQ(own_lens.at("fov_deg"), report.at("lens").at("fov_deg"));
+  EXPECT_NEAR(scene.at("scope").at("field_of_view_deg").get<double>(),
+              own_lens.at("fov_deg").get<double>(), 1e-6);
 }
 
 }  // namespace

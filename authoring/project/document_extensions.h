@@ -1,0 +1,19 @@
+// What this program itself keeps at the top of scene.json, beside the values of the scene.
+#pragma once
+
+#include <string>
+
+#include "simulation/scene/image.h"
+
+namespace arthro::authoring {
+
+// How the depth map is made, for the next time the scene is opened here.
+inline constexpr const char* kDepthOptionsKey = "x-depth-options";
+// Fingerprint of the depth map that was made with those options. A map that does not have it was
+// brought along by a person.
+inline constexpr const char* kDepthMadeKey = "x-depth-made";
+
+// As JSON text: of width, height and relief, however the file packs them.
+std::string DepthFingerprint(const DepthMap& depth);
+
+}  // namespace arthro::authoring

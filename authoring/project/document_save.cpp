@@ -1,0 +1,346 @@
+// Writing a document as a scene (document_io.h).
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "authoring/project/asset_writer.h"
+#include "authoring/project/document_extensions.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/fingerprint.h"
+#include "simulation/core/options_json.h"
+#include "simulation/scene/archive_io.h"
+#include "simulation/scene/clean_picture.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/lens_io.h"
+#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/scene_io.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string LowerExtension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return extension;
+}
+
+bool IsOneOf(const std::string& word, std::initializer_list<const char*> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// A file name from a person's words: "Medial meniscus" gives "medial-meniscus".
+std::string FileNameOf(const std::string& words) {
+  std::string name;
+  for (const unsigned char letter : words) {
+    if (std::isalnum(letter))
+      name += static_cast<char>(std::tolower(letter));
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  }
+  while (!name.empty() && name.back() == '-') name.pop_back();
+  return name.empty() ? "tissue" : name;
+}
+
+// "depth-2.tiff" gives "depth.tiff", so that saving again and again does not lengthen the name.
+fs::path WithoutNumber(const fs::path& name) {
+  std::string stem = name.stem().string();
+  const std::size_t dash = stem.rfind('-');
+  const bool is_numbered = dash != stem.npos && dash > 0 && dash + 1 < stem.size() &&
+                           stem.find_first_not_of("0123456789", dash + 1) == stem.npos;
+  if (!is_numbered) return name;
+  fs::path base = name;
+  return base.replace_filename(stem.substr(0, dash) + name.extension().string());
+}
+
+bool IsSamePlace(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return !a.empty() && fs::equivalent(a, b, ignored);
+}
+
+// Does the file hold what is in memory? One that cannot be read does not.
+template <class Part, class Read, class Compare>
+bool Holds(const fs::path& file, const Part& part, const Read& read, const Compare& is_equal) {
+  try {
+    return is_equal(read(file), part);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool HoldsPanorama(const fs::path& file, const ColourImage& panorama) {
+  return Holds(file, panorama, ReadColourImage, [](const auto& a, const auto& b) {
+    return a.width == b.width && a.height == b.height && a.rgb == b.rgb;
+  });
+}
+
+bool HoldsDepth(const fs::path& file, const DepthMap& depth) {
+  return Holds(file, depth, ReadDepthMap, [](const auto& a, const auto& b) {
+    return a.width == b.width && a.height == b.height &&
+           std::memcmp(a.relief.data(), b.relief.data(), a.relief.size() * sizeof(float)) == 0;
+  });
+}
+
+bool HoldsSurface(const fs::path& file, const SurfaceMesh& surface) {
+  const auto read = [](const fs::path& path) { return ReadSurface(path, 1.0); };
+  return Holds(file, surface, read, [](const auto& a, const auto& b) {
+    return a.vertices == b.vertices && a.triangles == b.triangles;
+  });
+}
+
+// The picture's file without metadata; nothing where it has to be written anew from its pixels: in
+// other formats, and where metadata say how the pixels are turned.
+std::optional<std::string> CleanCopy(const fs::path& source, const ColourImage& panorama) {
+  if (source.empty()) return std::nullopt;
+  const std::optional<std::string> clean = PictureWithoutMetadata(ReadWholeFile(source));
+  if (!clean) return std::nullopt;
+  const TemporaryFolder folder;
+  WriteAtomically(folder.path() / "clean", *clean);
+  if (!HoldsPanorama(folder.path() / "clean", panorama)) return std::nullopt;
+  return clean;
+}
+
+class Saving {
+ public:
+  // `place`: the folder, or the archive that `folder` will be packed into.
+  Saving(const Document& document, const fs::path& folder, const fs::path& place,
+         const SaveOptions& options)
+      : before_(document),
+        after_(document),
+        folder_(folder),
+        options_(options),
+        is_in_place_(IsSamePlace(document.folder, folder)),
+        is_copy_(!IsSamePlace(document.folder, place)),
+        writer_(folder, KnownFiles()) {}
+
+  Document Run() {
+    after_.folder = folder_;
+    after_.files.clear();
+    SavePanorama();
+    SaveDepth();
+    for (std::size_t i = 0; i < after_.scene.tissues.size(); ++i) SaveTissue(i);
+    SaveLens();
+    const WrittenFiles unused = SortWrittenFiles();
+    SaveExtensions();
+    if (!unused.empty()) writer_.NoteUnfinished();
+    WriteScene(folder_ / "scene.json", after_.scene);
+    writer_.Keep();
+    // The new scene is in place: what it does not name any more may go.
+    std::error_code ignored;
+    for (const auto& [name, mark] : unused)
+      if (FingerprintOfFile(folder_ / name) == mark) fs::remove(folder_ / name, ignored);
+    RemoveUnfinishedSave(folder_);
+    return after_;
+  }
+
+ private:
+  WrittenFiles KnownFiles() const {
+    if (!is_in_place_ || options_.keeps_all_files) return {};
+    RemoveLeftovers(folder_, options_.needed_files);
+    return WrittenFilesOf(folder_);
+  }
+
+  // The file that this part was read from or written to, or nothing.
+  fs::path SourceOf(const fs::path& name, const std::shared_ptr<const void>& part) const {
+    const auto entry = before_.files.find(name.generic_string());
+    std::error_code ignored;
+    if (name.empty() || entry == before_.files.end() || entry->second.part.lock() != part ||
+        !fs::is_regular_file(entry->second.file, ignored))
+      return {};
+    if (!before_.folder.empty() && !IsArchive(before_.folder) &&
+        IsSamePlace(before_.folder / name, entry->second.file) && is_copy_)
+      RequireInFolder(before_.folder, name);
+    return entry->second.file;
+  }
+
+  // The part lies in the folder already, unchanged since it was read or written.
+  bool IsThere(const fs::path& name, const std::shared_ptr<const void>& part) const {
+    const fs::path source = SourceOf(name, part);
+    if (source.empty() || !IsSamePlace(source, folder_ / name)) return false;
+    const std::string& mark = before_.files.at(name.generic_string()).fingerprint;
+    return !mark.empty() && mark == FingerprintOf(ReadWholeFile(source));
+  }
+
+  void Note(const fs::path& name, const std::shared_ptr<const void>& part) {
+    const auto written = writer_.files().find(name.generic_string());
+    after_.files[name.generic_string()] = {fs::absolute(folder_ / name), part,
+                                           written != writer_.files().end()
+                                               ? written->second
+                                               : FingerprintOf(ReadWholeFile(folder_ / name))};
+  }
+
+  // The name to write a part under: its own, or that of the part which it takes the place of.
+  fs::path FreshName(const fs::path& name, const fs::path& usual,
+                     const std::shared_ptr<const void>& part) const {
+    if (name.empty()) return usual;
+    const auto entry = before_.files.find(name.generic_string());
+    const bool is_same_part = entry != before_.files.end() && entry->second.part.lock() == part;
+    return is_same_part ? name : WithoutNumber(name);
+  }
+
+  // Leaves `name` where the part lies under it, else has `write` give it a new one.
+  template <class Part, class Holds, class WritePart>
+  void SavePart(fs::path& name, const std::shared_ptr<const Part>& part, const Holds& holds,
+                const WritePart& write) {
+    const bool is_there =
+        IsThere(name, part) || (is_in_place_ && !name.empty() && holds(folder_ / name, *part));
+    if (!is_there) name = write();
+    Note(name, part);
+  }
+
+  void SavePanorama() {
+    if (!after_.panorama || after_.panorama->empty())
+      throw Error(Code::kBadScene,
+                  "there is no panorama yet, so there is no scene to save; "
+                  "import one first");
+    fs::path& name = after_.scene.backdrop.panorama;
+    const ColourImage& panorama = *after_.panorama;
+    SavePart(name, after_.panorama, HoldsPanorama, [&] {
+      fs::path fresh = FreshName(name, "panorama.png", after_.panorama);
+      if (const auto clean = CleanCopy(SourceOf(name, after_.panorama), panorama))
+        return writer_.Write(fresh, [&](const fs::path& to) { WriteAtomically(to, *clean); });
+      // Written from memory it must lose nothing, so not as JPEG.
+      if (!IsOneOf(LowerExtension(fresh), {".png", ".tif", ".tiff", ".bmp"}))
+        fresh.replace_extension(".png");
+      return writer_.Write(fresh, [&](const fs::path& to) { WriteColourImage(to, panorama); });
+    });
+  }
+
+  void SaveDepth() {
+    fs::path& name = after_.scene.backdrop.depth;
+    if (!after_.depth || after_.depth->empty()) {
+      name.clear();
+      return;
+    }
+    RequireSameSize(*after_.panorama, *after_.depth, folder_ / name);
+    SavePart(name, after_.depth, HoldsDepth, [&] {
+      fs::path fresh = FreshName(name, "depth.tiff", after_.depth);
+      if (!IsOneOf(fresh.extension().string(), {".tif", ".tiff"})) fresh.replace_extension(".tiff");
+      SourceOf(name, after_.depth);  // refuses a link that leaves the folder
+      return writer_.Write(fresh, [&](const fs::path& to) { WriteDepthMap(to, *after_.depth); });
+    });
+  }
+
+  void SaveTissue(std::size_t i) {
+    Tissue& tissue = after_.scene.tissues[i];
+    if (i >= after_.surfaces.size() || !after_.surfaces[i])
+      throw Error(Code::kBadScene, fmt::format("tissue \"{}\" has no surface; import it again or "
+                                               "remove the tissue",
+                                               tissue.name));
+    const auto& surface = after_.surfaces[i];
+    SavePart(tissue.surface, surface, HoldsSurface, [&] {
+      fs::path fresh = FreshName(tissue.surface, FileNameOf(tissue.name) + ".ply", surface);
+      // STL rounds to 32 bits and OFF and VTP are read only, so memory is written as PLY.
+      if (!IsOneOf(LowerExtension(fresh), {".ply", ".obj"})) fresh.replace_extension(".ply");
+      SourceOf(tissue.surface, surface);  // refuses a link that leaves the folder
+      return writer_.Write(fresh, [&](const fs::path& to) { WriteSurface(to, *surface); });
+    });
+    if (!tissue.mesh.empty())
+      SaveFromFile(
+          fmt::format("tissues[{}].mesh", i), tissue.mesh,
+          [](const fs::path& source) { return ReadTetMesh(source); }, WriteTetMesh);
+  }
+
+  void SaveLens() {
+    fs::path& name = after_.scene.scope.lens;
+    if (name.empty()) return;
+    if (!after_.lens) return SaveFromFile("scope.lens", name, ReadLens, WriteLens);
+    if (!IsThere(name, nullptr)) {
+      SourceOf(name, nullptr);  // refuses a link that leaves the folder
+      const fs::path fresh = FreshName(name, "lens.json", nullptr);
+      name = writer_.Write(fresh, [&](const fs::path& to) { WriteLens(to, *after_.lens); });
+    }
+    Note(name, nullptr);
+  }
+
+  // Assets that are not in memory lie where `files` says, or in the folder of the document. A copy
+  // is read and written anew, so that it holds what the asset is and nothing else.
+  template <class Read, class WritePart>
+  void SaveFromFile(const std::string& key, fs::path& name, const Read& read,
+                    const WritePart& write) {
+    fs::path source = SourceOf(name, nullptr);
+    std::error_code ignored;
+    if (source.empty() && !before_.folder.empty()) {
+      source = before_.folder / name;
+      if (is_copy_ && fs::is_regular_file(source, ignored)) RequireInFolder(before_.folder, name);
+    }
+    if (source.empty() || !fs::is_regular_file(source, ignored))
+      throw Error(Code::kBadScene,
+                  fmt::format("{} names \"{}\", which can no longer be found; make "
+                              "it again or remove it",
+                              key, name.generic_string()));
+    if (!IsSamePlace(source, folder_ / name)) {
+      const auto part = read(source);
+      name = writer_.Write(name, [&](const fs::path& to) { write(to, part); });
+    }
+    Note(name, nullptr);
+  }
+
+  // Puts into `written_` what this scene goes on to answer for; returns what may be removed.
+  WrittenFiles SortWrittenFiles() {
+    WrittenFiles unused;
+    for (const auto& [name, mark] : writer_.files()) {
+      if (FingerprintOfFile(folder_ / name) != mark) continue;  // gone, or somebody else's by now
+      const bool is_kept =
+          after_.files.contains(name) ||
+          options_.needed_files.contains(fs::absolute(folder_ / name).lexically_normal()) ||
+          IsNamedByAnotherFile(folder_, name);
+      (is_kept ? written_ : unused)[name] = mark;
+    }
+    return unused;
+  }
+
+  void SaveExtensions() {
+    auto& extensions = after_.scene.extensions;
+    // What other tools keep in this scene stays here; a copy that is handed on does not carry it.
+    if (is_copy_) extensions.clear();
+    extensions[kDepthOptionsKey] = JsonFromOptions(after_.depth_options).dump();
+    extensions.erase(kDepthMadeKey);
+    if (after_.depth && !after_.depth->empty() && !after_.is_depth_imported)
+      extensions[kDepthMadeKey] = DepthFingerprint(*after_.depth);
+    extensions.erase(kWrittenFilesKey);
+    if (!written_.empty()) extensions[kWrittenFilesKey] = JsonFromWrittenFiles(written_);
+  }
+
+  const Document& before_;
+  Document after_;
+  fs::path folder_;
+  const SaveOptions& options_;
+  bool is_in_place_, is_copy_;
+  AssetWriter writer_;
+  WrittenFiles written_;
+};
+
+}  // namespace
+
+std::string DepthFingerprint(const DepthMap& depth) {
+  const std::string_view bytes(reinterpret_cast<const char*>(depth.relief.data()),
+                               depth.relief.size() * sizeof(float));
+  return nlohmann::json(fmt::format("{}x{}-{}", depth.width, depth.height, FingerprintOf(bytes)))
+      .dump();
+}
+
+Document SaveDocument(const Document& document, const fs::path& folder,
+                      const SaveOptions& options) {
+  if (!IsArchive(folder)) {
+    Document saved = Saving(document, folder, folder, options).Run();
+    saved.unpacked = nullptr;
+    return saved;
+  }
+  // Beside the archive rather than in it lie the files that the next save copies from.
+  const auto unpacked = std::make_shared<const TemporaryFolder>();
+  Document saved = Saving(document, unpacked->path(), folder, options).Run();
+  PackScene(unpacked->path(), folder);
+  saved.folder = folder;
+  saved.unpacked = unpacked;
+  return saved;
+}
+
+}  // namespace arthro::authoring
