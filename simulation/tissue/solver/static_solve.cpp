@@ -23,7 +23,8 @@ constexpr int kMostIterations = 2000;  // conjugate-gradient iterations a Newton
 }  // namespace
 
 // Newton's method to the whole load; where that fails, over equilibria under growing parts of load
-// and lead, whose step halves on failure and doubles on success.
+// and lead, whose step halves on failure and doubles on success. An equilibrium with inverted
+// elements counts as a failure; where no other is found it is returned with `converged` false.
 StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dvec3> load,
                                        std::span<const ContactPoint> contacts,
                                        std::span<const glm::dvec3> target, double tolerance,
@@ -59,8 +60,10 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     total.residual = one.residual;
     total.inverted = one.inverted;
     total.energy = one.energy;
+    // Balanced forces alone do not suffice: elements that are inside out make a shape that the load
+    // cannot lead to.
     total.converged =
-        one.is_finite &&
+        one.is_finite && one.inverted == 0 &&
         (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
     total.is_finite = one.is_finite;
     total.used_fallback = total.used_fallback || one.used_fallback;
@@ -84,6 +87,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
         step *= 2;
       } else {
         state.x = good;
+        body.is_recovering = body.has_given_up = false;
         step /= 2;
       }
     }
@@ -105,7 +109,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     goal.patience = kNewtonRecovery;
     if (!is_done) is_done = attempt(1, 0, true);
   }
-  if (!is_done && !(total.residual < kNearlyThere)) {
+  if (!is_done && (total.inverted > 0 || !(total.residual < kNearlyThere))) {
     const StepReport whole = total;
     const std::vector<glm::dvec3> whole_x = state.x;
     // The nearer of the two is what there is.
