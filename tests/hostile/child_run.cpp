@@ -75,7 +75,7 @@ ChildRun RunChild(const ChildCommand& command,
       run.was_too_long = true;
       ::kill(-child, SIGKILL);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(while_running ? 1 : 4));
+    std::this_thread::sleep_for(std::chrono::microseconds(while_running ? 200 : 4000));
   }
   // Its own children end with it.
   ::kill(-child, SIGKILL);

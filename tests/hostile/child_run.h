@@ -29,8 +29,8 @@ struct ChildRun {
   std::string out, err;
 };
 
-// `while_running` is called every few milliseconds with the child's process group and the seconds
-// since the start.
+// `while_running` is called several times per millisecond with the child's process group and the
+// seconds since the start.
 ChildRun RunChild(const ChildCommand& command,
                   const std::function<void(int group, double seconds)>& while_running = {});
 

@@ -45,6 +45,8 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   NewtonGoal goal{tolerance, kNewtonWhole, std::max(kMostIterations, body.options.max_iterations),
                   true};
 
+  std::vector<glm::dvec3> inverted_x;  // an equilibrium with inverted elements, or empty
+  StepReport inverted;
   const auto attempt = [&](double share, double from, bool is_last) {
     problem.load_share = share;
     // The part of the way that is left of where the fixed axes are now.
@@ -60,13 +62,18 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     total.residual = one.residual;
     total.inverted = one.inverted;
     total.energy = one.energy;
-    // Balanced forces alone do not suffice: elements that are inside out make a shape that the load
-    // cannot lead to.
-    total.converged =
-        one.is_finite && one.inverted == 0 &&
-        (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
     total.is_finite = one.is_finite;
     total.used_fallback = total.used_fallback || one.used_fallback;
+    const bool is_balanced =
+        one.is_finite &&
+        (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
+    // Balanced forces alone do not suffice: a shape with elements inside out is not valid. It is
+    // kept, to be returned where no other equilibrium is found.
+    total.converged = is_balanced && one.inverted == 0;
+    if (is_balanced && one.inverted > 0 && is_last && inverted_x.empty()) {
+      inverted_x = state.x;
+      inverted = total;
+    }
     return total.converged;
   };
   const auto from_start = [&] {
@@ -117,6 +124,12 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
       state.x = whole_x;
       total = whole;
     }
+  }
+  if (!total.converged && !inverted_x.empty()) {
+    inverted.newton = total.newton;
+    inverted.iterations = total.iterations;
+    state.x = inverted_x;
+    total = inverted;
   }
   problem.load_share = problem.target_share = 1;
   if (!AllFinite(state.x)) {
