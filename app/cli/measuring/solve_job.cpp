@@ -49,6 +49,13 @@ void RunSolveJob(const SolveArguments& arguments, const JobFiles& files) {
     WriteTetMesh(arguments.vtu, tissue_case.mesh);
   }
   // The record is kept in either case, so that what was reached can be looked at.
+  if (result.inverted_elements > 0)
+    throw Error(Code::kBadData,
+                fmt::format("{} of {} elements are turned inside out, so that the result is not a "
+                            "shape that the body can take; reduce the loads and displacements, or "
+                            "refine the mesh where it is pressed",
+                            result.inverted_elements, tissue_case.mesh.ElementCount()),
+                arguments.tissue_case);
   if (!result.converged)
     throw Error(Code::kBadData,
                 fmt::format("did not converge: the residual is {:.2g}, asked was {:.2g}; load it "
@@ -89,8 +96,9 @@ void AddSolveJob(CLI::App& program) {
       "from\n"
       "the first step on; it is implicit Euler, which damps: a mode of angular frequency w loses "
       "the factor\n"
-      "1/sqrt(1 + (w dt)^2) a step. What does not converge to the tolerance ends with exit code "
-      "1.");
+      "1/sqrt(1 + (w dt)^2) a step. A result that does not converge to the tolerance, or that has "
+      "elements\n"
+      "inside out, is written with \"converged\": false and ends with exit code 1.");
   files->Run([arguments, files] { RunSolveJob(*arguments, *files); });
 }
 

@@ -62,14 +62,14 @@ struct CaseMoment {
 };
 
 struct CaseResult {
-  bool converged = false;
+  bool converged = false;     // to the tolerance, and no element is inverted
   double residual = 0;        // relative; of a dynamic case the largest of its steps
   int iterations = 0;         // Newton's
   int linear_iterations = 0;  // of conjugate gradients
   double wall_ms = 0;         // factoring included, reading and writing not
   SetResults sets;
   double energy = 0;  // J, elastic
-  int inverted_elements = 0;
+  int inverted_elements = 0;  // of a dynamic case the largest of its steps
   bool used_fallback = false;       // elements were inverted on the way
   std::vector<CaseMoment> history;  // dynamic: one a step
   std::vector<glm::dvec3> x;        // m, the nodes in the end; not in the file

@@ -80,9 +80,9 @@ CaseResult RunCase(const TissueCase& c, const Progress& progress) {
     result.iterations += report.newton;
     result.linear_iterations += report.iterations;
     result.energy = report.energy;
-    result.inverted_elements = report.inverted;
+    result.inverted_elements = std::max(result.inverted_elements, report.inverted);
     result.used_fallback = result.used_fallback || report.used_fallback;
-    return report.converged && report.is_finite;
+    return report.converged && report.is_finite && report.inverted == 0;
   };
   if (!c.is_dynamic) {
     progress.Step("solving", 0.1);

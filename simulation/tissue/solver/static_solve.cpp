@@ -23,7 +23,8 @@ constexpr int kMostIterations = 2000;  // conjugate-gradient iterations a Newton
 }  // namespace
 
 // Newton's method to the whole load; where that fails, over equilibria under growing parts of load
-// and lead, whose step halves on failure and doubles on success.
+// and lead, whose step halves on failure and doubles on success. An equilibrium with inverted
+// elements counts as a failure; where no other is found it is returned with `converged` false.
 StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dvec3> load,
                                        std::span<const ContactPoint> contacts,
                                        std::span<const glm::dvec3> target, double tolerance,
@@ -44,6 +45,8 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   NewtonGoal goal{tolerance, kNewtonWhole, std::max(kMostIterations, body.options.max_iterations),
                   true};
 
+  std::vector<glm::dvec3> inverted_x;  // an equilibrium with inverted elements, or empty
+  StepReport inverted;
   const auto attempt = [&](double share, double from, bool is_last) {
     problem.load_share = share;
     // The part of the way that is left of where the fixed axes are now.
@@ -59,11 +62,18 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     total.residual = one.residual;
     total.inverted = one.inverted;
     total.energy = one.energy;
-    total.converged =
-        one.is_finite &&
-        (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
     total.is_finite = one.is_finite;
     total.used_fallback = total.used_fallback || one.used_fallback;
+    const bool is_balanced =
+        one.is_finite &&
+        (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
+    // Balanced forces alone do not suffice: a shape with elements inside out is not valid. It is
+    // kept, to be returned where no other equilibrium is found.
+    total.converged = is_balanced && one.inverted == 0;
+    if (is_balanced && one.inverted > 0 && is_last && inverted_x.empty()) {
+      inverted_x = state.x;
+      inverted = total;
+    }
     return total.converged;
   };
   const auto from_start = [&] {
@@ -84,6 +94,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
         step *= 2;
       } else {
         state.x = good;
+        body.is_recovering = body.has_given_up = false;
         step /= 2;
       }
     }
@@ -105,7 +116,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     goal.patience = kNewtonRecovery;
     if (!is_done) is_done = attempt(1, 0, true);
   }
-  if (!is_done && !(total.residual < kNearlyThere)) {
+  if (!is_done && (total.inverted > 0 || !(total.residual < kNearlyThere))) {
     const StepReport whole = total;
     const std::vector<glm::dvec3> whole_x = state.x;
     // The nearer of the two is what there is.
@@ -113,6 +124,12 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
       state.x = whole_x;
       total = whole;
     }
+  }
+  if (!total.converged && !inverted_x.empty()) {
+    inverted.newton = total.newton;
+    inverted.iterations = total.iterations;
+    state.x = inverted_x;
+    total = inverted;
   }
   problem.load_share = problem.target_share = 1;
   if (!AllFinite(state.x)) {

@@ -50,7 +50,7 @@ class CalibrateIncision : public testing::Test {
   }
   // Until all work is done.
   void Settle() {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
     do {
       Frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -88,7 +88,7 @@ class Footage : public testing::Test {
 
   // What the window's loop does between frames, until nothing is under way.
   void Settle() {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
     do {
       FinishWork(state);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -300,7 +300,7 @@ TEST_F(Footage, StopEndsTheRunAndKeepsWhatWasMade) {
   };
   state.footage->next_stage = "register";
   app::Run(state, "run-footage");
-  for (int i = 0; i < 200 && StatusOf(*state.footage, 0) == FrameStatus::kPlaced; ++i) {
+  for (int i = 0; i < 24000 && StatusOf(*state.footage, 0) == FrameStatus::kPlaced; ++i) {
     FinishWork(state);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }

@@ -147,9 +147,9 @@ class PractisedHands : public testing::Test {
     hands->Look();
     practice->Advance(kFrame, hands.get());
   }
-  // Frames until it is so, ten seconds of this machine at most.
+  // Frames until it is so, at least five minutes: a bound against a hang.
   bool FramesUntil(const std::function<bool()>& is_so) {
-    for (int i = 0; i < 2000 && !is_so(); ++i) {
+    for (int i = 0; i < 60000 && !is_so(); ++i) {
       if (practice) Frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }

@@ -102,16 +102,16 @@ class PractisedTouch : public testing::Test {
     hands->Look();
     if (practice) practice->Advance(kFrame, hands.get());
   }
-  // Ten seconds of this machine at most.
+  // At least five minutes: a bound against a hang.
   bool FramesUntil(const std::function<bool()>& is_so) {
-    for (int i = 0; i < 2000 && !is_so(); ++i) {
+    for (int i = 0; i < 60000 && !is_so(); ++i) {
       Frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return is_so();
   }
   bool Until(const std::function<bool()>& is_so) {
-    for (int i = 0; i < 10000 && !is_so(); ++i)
+    for (int i = 0; i < 300000 && !is_so(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return is_so();
   }

@@ -22,16 +22,19 @@ int WithDesktop(const std::filesystem::path& scene, const std::string& actions) 
       << ARTHRO_PROGRAM " edit " << scene.string() << " --timing 2>" << (folder / "log").string()
       << " &\n"
       << "PROGRAM=$!\n"
-      << "for i in $(seq 300); do grep -q 'first picture' " << (folder / "log").string()
+      << "for i in $(seq 6000); do grep -q 'first picture' " << (folder / "log").string()
       << " && break; sleep 0.1; done\n"
-      << "W=$(timeout 20 xdotool search --sync --name Arthroscene | head -1)\n"
+      << "W=$(timeout 600 xdotool search --sync --name Arthroscene | head -1)\n"
       << "[ -n \"$W\" ] || { kill $PROGRAM; exit 97; }\n"
       << "click() { xdotool mousemove --window $W $1 $2; sleep 0.15; xdotool click 1; "
          "sleep 0.3; }\n"
+      << "saved() { for i in $(seq 3000); do [ " << scene.string() << "/scene.json -nt "
+      << file.string() << " ] && break; sleep 0.2; done; sleep 1; }\n"
       << "xdotool windowfocus $W; sleep 0.5\n"
       << actions << "\nwait $PROGRAM\n";
   const int status = std::system(
-      ("timeout 120 xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' sh " + file.string()).c_str());
+      ("timeout 1500 xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' sh " + file.string())
+          .c_str());
   return WEXITSTATUS(status);
 }
 
@@ -54,7 +57,7 @@ xdotool keydown ctrl; sleep 0.15; click 160 284; xdotool keyup ctrl; sleep 0.3
 xdotool key ctrl+a; sleep 0.2
 xdotool type --delay 60 12; sleep 0.3
 xdotool key Return; sleep 0.3
-xdotool key ctrl+s; sleep 2
+xdotool key ctrl+s; saved
 xdotool key ctrl+q
 )");
   EXPECT_EQ(exit_code, 0);
@@ -69,7 +72,7 @@ for x in 50 200 50 200 50 200; do xdotool mousemove --window $W $x 378; xdotool 
 sleep 1
 xdotool key ctrl+z; sleep 0.3
 xdotool key ctrl+z; sleep 0.3
-xdotool key ctrl+s; sleep 2
+xdotool key ctrl+s; saved
 xdotool key ctrl+q
 )");
   EXPECT_EQ(exit_code, 0);

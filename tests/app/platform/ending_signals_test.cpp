@@ -41,7 +41,7 @@ TEST(EndingSignalsDeathTest, ASecondOneEndsItAtOnce) {
         ::kill(::getpid(), SIGTERM);
         while (!signals.HasCome()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         ::kill(::getpid(), SIGTERM);
-        std::this_thread::sleep_for(std::chrono::seconds(30));
+        std::this_thread::sleep_for(std::chrono::minutes(10));
         std::_Exit(1);
       },
       testing::KilledBySignal(SIGTERM), "");

@@ -37,11 +37,11 @@ bool IsFinite(const WorldPicture& picture) {
   return true;
 }
 
-// Ticks as fast as a thread may, until `is_done` or ten seconds have gone: a bound against a hang,
+// Ticks as fast as a thread may, until `is_done` or five minutes have gone: a bound against a hang,
 // not a time to keep.
 template <class Done>
 bool TickUntil(TissueLoop& loop, const Instrumentation& hand, Done&& is_done) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
   while (std::chrono::steady_clock::now() < end) {
     loop.Tick(hand, kTick);
     if (is_done()) return true;

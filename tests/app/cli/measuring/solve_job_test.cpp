@@ -150,6 +150,26 @@ TEST(SolveJob, OverwritesNothingThatItReadsAndNoResultWithAnother) {
   EXPECT_EQ(ReadWholeFile(folder / "case.json"), tissue_case);
 }
 
+// What was reached is kept, but nobody takes it for an answer.
+TEST(SolveJob, AResultWithElementsInsideOutIsWrittenAsNotConvergedAndRefused) {
+  for (const char* mode : {"static", "dynamic"}) {
+    SolveRun run;
+    auto crushed = BarCase();
+    crushed["mode"] = mode;
+    crushed["material"]["model"] = "corotated";
+    crushed["material"]["poisson_ratio"] = 0;
+    crushed["body_force"] = {-1e10, 3e9, 2e9};
+    if (crushed["mode"] == "dynamic") crushed["dt"] = 0.01, crushed["steps"] = 3;
+    Solve(run, crushed);
+    EXPECT_EQ(run.program.exit_code, 1) << mode;
+    EXPECT_NE(run.program.err.find("of 24 elements are turned inside out"), std::string::npos)
+        << run.program.err;
+    EXPECT_EQ(std::count(run.program.err.begin(), run.program.err.end(), '\n'), 1);
+    EXPECT_EQ(run.json["converged"], false) << mode;
+    EXPECT_GT(run.json["inverted_elements"], 0) << mode;
+  }
+}
+
 TEST(SolveJob, AReferenceCaseAsAUserRunsIt) {
   ARTHRO_REQUIRE_SHARED(folder, "reference/tissue");
   const TempFolder temp;

@@ -133,7 +133,7 @@ TEST(HidapiLink, OneThreadReadsWhileAnotherWrites) {
   usb.OnWrite("/dev/fake0", [&](const Bytes& report) { usb.Send("/dev/fake0", report); });
   int written = 0;
   for (int i = 0; i < 50; ++i) written += link->Write(Bytes{0, 1}) == 2;
-  for (int i = 0; i < 2000 && read < 50; ++i)
+  for (int i = 0; i < 300000 && read < 50; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   is_over = true;
   reader.join();

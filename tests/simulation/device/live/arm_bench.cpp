@@ -14,7 +14,7 @@ std::atomic<double> bench_now{100};
 using namespace simulation;
 
 bool WaitUntil(const std::function<bool()>& is_true) {
-  for (int i = 0; i < 50000; ++i) {
+  for (int i = 0; i < 1500000; ++i) {
     if (is_true()) return true;
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }

@@ -109,7 +109,7 @@ TEST(DeviceLog, WithoutHasteNothingIsDroppedAndAllIsThereBeforeTheEnd) {
     if (i % 128 == 127) {
       // The log is given its time.
       const auto size = std::filesystem::file_size(folder / "a.log");
-      for (int j = 0; j < 10000 && std::filesystem::file_size(folder / "a.log") == size; ++j)
+      for (int j = 0; j < 300000 && std::filesystem::file_size(folder / "a.log") == size; ++j)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
