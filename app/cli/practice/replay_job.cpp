@@ -15,6 +15,7 @@
 #include "app/cli/output_check.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
+#include "app/recording/unfinished_film.h"
 #include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_replay.h"
@@ -53,6 +54,9 @@ std::vector<fs::path> FilesOf(const LoadedScene& loaded) {
 
 void Run(const ReplayJob& job) {
   CheckOptions(job.options);
+  if (!job.video.empty())
+    for (const std::string& sentence : FinishFilmsIn(job.video.parent_path(), job.video))
+      fmt::print(stderr, "arthroscene: {}\n", sentence);
   const std::vector<fs::path> outputs{job.forces, job.report, job.video};
   CheckOutputs(outputs, {job.trace, job.scene});
   if (!job.pictures.empty()) CheckOutputFolder(job.pictures, outputs);
