@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "simulation/core/crash_stack.h"
+
 namespace arthro::app {
 
 Jobs::~Jobs() {
@@ -23,6 +25,7 @@ void Jobs::Start(const std::string& words, Work work, bool blocks_editing) {
     stage_.clear();
   }
   thread_ = std::thread([this, work = std::move(work)] {
+    const CrashStack crash_stack;
     Progress progress;
     progress.stop = &stop_;
     progress.report = [this](std::string_view stage, double done) {

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -30,6 +31,7 @@
 #include "app/platform/picture_window.h"
 #include "app/platform/script_runner.h"
 #include "app/platform/window.h"
+#include "app/recording/unfinished_film.h"
 #include "app/resource_folder.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
@@ -187,7 +189,7 @@ class Editor {
     if (options_.practice)
       BeginPractice();
     else
-      state_.message = "F1 or ? shows all keys.";
+      state_.message = options_.notice.empty() ? "F1 or ? shows all keys." : options_.notice;
   }
 
   void BeginPractice() {
@@ -360,7 +362,11 @@ class Editor {
     if (!will_draw_) return;
     if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
       unsettled_ = 2;
-    if (state_.film && state_.practice) pictures_.Record(*state_.film, FilmSeconds(state_));
+    if (state_.film && state_.practice) {
+      if (std::exchange(noted_film_, state_.film.get()) != state_.film.get())
+        NoteRecordingFolder(state_.film->file().parent_path());
+      pictures_.Record(*state_.film, FilmSeconds(state_));
+    }
     if (state_.practice && !state_.shows_outside) return;
     if (pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
                                static_cast<int>(layout.overview.height)) &&
@@ -381,6 +387,7 @@ class Editor {
   int frames_ = 0, unsettled_ = 3;
   std::map<std::string, std::vector<double>> frame_seconds_;  // of drawn frames, by mark
   bool picture_focused_ = true, will_draw_ = true;
+  const LiveFilm* noted_film_ = nullptr;  // the folder of which is remembered
 };
 
 }  // namespace

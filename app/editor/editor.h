@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/commands/devices/hands.h"
 #include "app/recording/frame_shape.h"
@@ -19,6 +20,7 @@ struct EditorOptions {
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;
   std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
+  std::string notice;                 // what was found at the start; empty: nothing
   // For tests.
   std::optional<std::filesystem::path> script;
   int width = 1280, height = 800;

@@ -1,34 +1,29 @@
 #include "app/platform/ending_signals.h"
 
-#include <csignal>
 #include <pthread.h>
 #include <utility>
 
 namespace arthro::app {
-namespace {
-
-sigset_t Ending() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
-  return signals;
-}
-
-}  // namespace
 
 EndingSignals::EndingSignals(std::function<void()> wake) : wake_(std::move(wake)) {
+  sigemptyset(&signals_);
+  for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;
+    sigaddset(&signals_, signal);
+    wake_up_ = signal;
+  }
+  if (wake_up_ == 0) return;
   // Blocked everywhere, they wait for the one thread that asks for them.
-  const sigset_t signals = Ending();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   thread_ = std::thread([this] {
-    const sigset_t mine = Ending();
     for (;;) {
       int signal = 0;
-      sigwait(&mine, &signal);
+      sigwait(&signals_, &signal);
       if (stop_) return;
       if (came_.exchange(signal) != 0) {
-        std::signal(signal, SIG_DFL);
-        pthread_sigmask(SIG_UNBLOCK, &mine, nullptr);
+        // Acts as if it had never been blocked: a handler that releases devices still runs.
+        pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
         raise(signal);
       }
       wake_();
@@ -37,15 +32,12 @@ EndingSignals::EndingSignals(std::function<void()> wake) : wake_(std::move(wake)
 }
 
 EndingSignals::~EndingSignals() {
+  if (wake_up_ == 0) return;
   stop_ = true;
-  pthread_kill(thread_.native_handle(), SIGHUP);  // wakes it
+  pthread_kill(thread_.native_handle(), wake_up_);
   thread_.join();
-  const sigset_t signals = Ending();
-  pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
-  if (const int signal = came_.load(); signal != 0) {
-    std::signal(signal, SIG_DFL);
-    raise(signal);
-  }
+  pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+  if (const int signal = came_.load(); signal != 0) raise(signal);
 }
 
 }  // namespace arthro::app

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "simulation/core/crash_stack.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -105,6 +106,7 @@ void LiveFilm::Write() {
 }
 
 void LiveFilm::Encode() noexcept {
+  const CrashStack crash_stack;
   std::string fault;
   try {
     Write();

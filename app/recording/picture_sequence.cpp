@@ -22,9 +22,10 @@ constexpr const char* kMark =
     "These pictures are of a recording that goes on, or that was cut short: the last one may not "
     "be whole, and some may be missing after it.\n";
 
-// Not flushed to the disk one by one, which a film's pace would not bear.
+// Not flushed to the disk one by one, which a film's pace would not bear. For its owner alone.
 void WriteBytes(const fs::path& file, std::string_view bytes) {
-  std::FILE* stream = std::fopen(file.c_str(), "wb");
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  std::FILE* stream = descriptor >= 0 ? ::fdopen(descriptor, "wb") : nullptr;
   bool is_whole =
       stream != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
   int error = errno;

@@ -1,17 +1,14 @@
 #include "app/recording/video_file.h"
 
-#include <cctype>
 #include <cerrno>
-#include <cmath>
 #include <fcntl.h>
 #include <string>
 #include <unistd.h>
 #include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
+#include "app/recording/unfinished_film.h"
 #include "authoring/footage/quiet_decoders.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -21,72 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Measured at 512 px, ms a picture on one slow core: H.264 7, MJPEG 6. WebM is left out: OpenCV
-// writes it with a complaint on stderr, and VP8 takes 17 ms, VP9 75.
-struct Ending {
-  const char* ending;
-  const char* fourcc;
-};
-constexpr Ending kEndings[] = {{".mp4", "avc1"}, {".mkv", "H264"}, {".avi", "MJPG"}};
-
 // Room is looked for after so many pictures; below it the film is given up while it can be told.
 constexpr int kLookEvery = 30;
 constexpr std::uintmax_t kLeastRoom = 1 << 20;  // bytes
 
-const Ending* EndingOf(const fs::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const Ending& known : kEndings)
-    if (ending == known.ending) return &known;
-  return nullptr;
-}
-
-// Writers of video do not say that they could not write, let alone why; but what hindered them
-// hinders a few bytes more, which are taken back. Empty: nothing does.
-std::string WhyNoMore(const fs::path& beside) {
-  const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT, 0666);
-  if (descriptor < 0) return WhyNotWritten(errno);
-  int error = 0;
-  const off_t end = ::lseek(descriptor, 0, SEEK_END);
-  const std::string bytes(1 << 16, '\0');
-  for (std::size_t done = 0; done < bytes.size() && error == 0;) {
-    const ssize_t wrote = ::write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (wrote < 0)
-      error = errno;
-    else
-      done += static_cast<std::size_t>(wrote);
-  }
-  if (::ftruncate(descriptor, end) != 0 && error == 0) error = errno;
-  ::close(descriptor);
-  return error != 0 ? WhyNotWritten(error) : "";
-}
-
-// Says what of the film is not as it was written; empty: it is whole. Packets are counted, not
-// decoded. A container's own count is written last of all, so it tells of everything before it.
-std::string FaultOf(const fs::path& beside, int count, VideoSize size) {
-  try {
-    cv::VideoCapture film(fs::absolute(beside).string(), cv::CAP_FFMPEG);
-    if (!film.isOpened()) return "it cannot be opened";
-    const int width = static_cast<int>(film.get(cv::CAP_PROP_FRAME_WIDTH)),
-              height = static_cast<int>(film.get(cv::CAP_PROP_FRAME_HEIGHT));
-    if (width != size.width || height != size.height)
-      return fmt::format("its pictures are {}x{}", width, height);
-    const double told = film.get(cv::CAP_PROP_FRAME_COUNT);
-    film.set(cv::CAP_PROP_FORMAT, -1);
-    int found = 0;
-    while (film.grab()) ++found;
-    if (found != count || !(std::abs(told - count) <= 1.0))
-      return fmt::format("only {} of its {} pictures are there", found, count);
-  } catch (const cv::Exception&) {
-    return "it cannot be read";
-  }
-  return "";
-}
-
 }  // namespace
 
 void CheckVideo(const fs::path& file, VideoSize size, double rate) {
-  if (EndingOf(file) == nullptr)
+  if (!FilmFormatOf(file))
     throw Error(Code::kBadArgument,
                 "the ending of a film says its format; name it .mp4, .mkv or .avi", file);
   for (const int side : {size.width, size.height})
@@ -104,18 +43,34 @@ void CheckVideo(const fs::path& file, VideoSize size, double rate) {
 }
 
 struct VideoFile::Parts {
-  PartialFile file;  // first: the writer closes it before it is removed
+  UnfinishedFilm file;  // first: the stream writes to it
   VideoSize size;
+  double rate;
   int count = 0;
-  cv::VideoWriter writer;
-  cv::Mat bgr;
+  FilmStream stream;
 
-  Parts(const fs::path& target, VideoSize of_size) : file(target), size(of_size) {}
-  [[noreturn]] void Fail(const std::string& what) const {
-    const std::string why = WhyNoMore(file.beside());
+  Parts(const fs::path& target, VideoSize of_size, double of_rate)
+      : file(target),
+        size(of_size),
+        rate(of_rate),
+        stream(file.descriptor(), *FilmFormatOf(target), of_size, of_rate) {}
+  // Keeps what is whole.
+  [[noreturn]] void Fail(const std::string& what, int error) {
+    const std::string why =
+        error != 0 ? WhyNotWritten(error) : "the encoder failed; try another ending";
+    if (stream.whole_pictures() == 0)
+      throw Error(Code::kFile, fmt::format("this film was not written ({}): {}", what, why),
+                  file.target());
+    std::string where = fmt::format("{}, which the next start of this program puts in place",
+                                    file.beside().string());
+    try {
+      where = file.PutWholeInPlace(stream.whole_bytes()).string();
+    } catch (const Error&) {  // it stays there
+    }
     throw Error(Code::kFile,
-                fmt::format("this film was not written ({}): {}", what,
-                            why.empty() ? "the encoder failed; try another ending" : why),
+                fmt::format("this film was not written to its end ({}): {}; its first {:.1f} s are "
+                            "in {}",
+                            what, why, stream.whole_pictures() / rate, where),
                 file.target());
   }
 };
@@ -123,17 +78,9 @@ struct VideoFile::Parts {
 VideoFile::VideoFile(const fs::path& file, VideoSize size, double rate) {
   CheckVideo(file, size, rate);
   authoring::QuietDecoders();
-  parts_ = std::make_unique<Parts>(file, size);
-  const char* code = EndingOf(file)->fourcc;
-  bool is_open = false;
-  try {
-    // FFmpeg only: others would begin a camera's or a network's pipeline.
-    is_open = parts_->writer.open(fs::absolute(parts_->file.beside()).string(), cv::CAP_FFMPEG,
-                                  cv::VideoWriter::fourcc(code[0], code[1], code[2], code[3]), rate,
-                                  {size.width, size.height});
-  } catch (const cv::Exception&) {
-  }
-  if (!is_open) parts_->Fail("it could not be begun");
+  parts_ = std::make_unique<Parts>(file, size, rate);
+  if (const FilmResult result = parts_->stream.Begin(); !result.is_good)
+    parts_->Fail("it could not be begun", result.error);
 }
 
 VideoFile::~VideoFile() = default;
@@ -153,29 +100,44 @@ void VideoFile::Add(const ColourImage& picture) {
     std::error_code unknown;
     const fs::space_info room = fs::space(p.file.beside(), unknown);
     if (!unknown && room.available < kLeastRoom)
-      p.Fail(fmt::format("there is no room after {} pictures", p.count));
+      p.Fail(fmt::format("there is no room after {} pictures", p.count), ENOSPC);
   }
-  // OpenCV takes no const data, and does not write to it.
-  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
-                    const_cast<std::uint8_t*>(picture.rgb.data()));
-  cv::cvtColor(rgb, p.bgr, cv::COLOR_RGB2BGR);
-  try {
-    p.writer.write(p.bgr);
-  } catch (const cv::Exception&) {
-    p.Fail(fmt::format("picture {} could not be encoded", p.count));
-  }
+  if (const FilmResult result = p.stream.Add(picture); !result.is_good)
+    p.Fail(fmt::format("picture {} could not be written", p.count), result.error);
   ++p.count;
 }
 
 void VideoFile::Finish() {
   Parts& p = *parts_;
-  p.writer.release();
   if (p.count == 0)
     throw Error(Code::kFile, "this film has no picture, so it was not written", p.file.target());
-  if (!WhyNoMore(p.file.beside()).empty()) p.Fail("its end may be missing");
-  if (const std::string fault = FaultOf(p.file.beside(), p.count, p.size); !fault.empty())
-    p.Fail(fault);
-  p.file.PutInPlace();
+  if (const FilmResult result = p.stream.End(); !result.is_good)
+    p.Fail("its end is missing", result.error);
+  const FilmFormat format = *FilmFormatOf(p.file.target());
+  std::string fault;
+  int error = 0;
+  {
+    PartialFile whole(p.file.target(), Access::kPrivate);
+    const int to = ::open(whole.beside().c_str(), O_RDWR | O_CLOEXEC);
+    if (to < 0) {
+      fault = "its index is missing", error = errno;
+    } else {
+      int copied = 0;
+      const FilmResult result = CopyFilm(p.file.descriptor(), format, to, copied);
+      const auto content = ReadFilmContent(to, format);
+      ::close(to);
+      if (!result.is_good)
+        fault = "its index is missing", error = result.error;
+      else if (!content || content->pictures != p.count || content->size.width != p.size.width ||
+               content->size.height != p.size.height)
+        fault = fmt::format("only {} of its {} pictures are there", copied, p.count), error = EIO;
+    }
+    if (fault.empty()) {
+      whole.PutInPlace();
+      return p.file.Remove();
+    }
+  }
+  p.Fail(fault, error);
 }
 
 }  // namespace arthro::app

@@ -1,20 +1,17 @@
-// A film on disk, filled picture by picture at a constant rate. It stands under a name of its own
-// beside its file until it is whole and was read back, so that an older film is kept when anything
-// fails. By its ending: .mp4 and .mkv hold H.264, .avi Motion JPEG, both of OpenCV's videoio. A
-// decoded picture differs from the one that was given, mostly in colour at sharp edges, which both
-// keep at half the resolution.
+// A film on disk, filled picture by picture at a constant rate. While it is recorded it stands
+// beside its file, whole up to the last half second (unfinished_film.h). An older film is replaced
+// only by one that is whole and was read back. By its ending: .mp4 and .mkv hold H.264, .avi Motion
+// JPEG. A decoded picture differs from the one that was given, mostly in colour at sharp edges,
+// which both keep at half the resolution. Only its owner may read it.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 
+#include "app/recording/film_stream.h"
 #include "simulation/scene/image.h"
 
 namespace arthro::app {
-
-struct VideoSize {
-  int width = 0, height = 0;  // px, both even
-};
 
 constexpr int kMinVideoSize = 16, kMaxVideoSize = 4096;   // px a side
 constexpr double kMinVideoRate = 1, kMaxVideoRate = 240;  // pictures a second
@@ -32,13 +29,14 @@ class VideoFile {
   VideoFile(VideoFile&&) noexcept;
   VideoFile& operator=(VideoFile&&) noexcept;
 
-  // Throws Error(kBadArgument) for a picture of another size, Error(kFile) where there is no room
-  // left on the disk.
+  // Throws Error(kBadArgument) for a picture of another size. Throws Error(kFile) where it cannot
+  // be written: what was whole by then is put in place, but never over another file, and the
+  // sentence says where.
   void Add(const ColourImage& picture);
   int count() const;
 
-  // Closes it, reads it back and puts it in place. Throws Error(kFile): nothing was added, or not
-  // all of it is on the disk.
+  // Closes it, reads it back and puts it in place. Throws Error(kFile): nothing was added, or as
+  // Add.
   void Finish();
 
  private:

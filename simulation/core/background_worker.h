@@ -5,6 +5,8 @@
 #include <semaphore>
 #include <thread>
 
+#include "simulation/core/crash_stack.h"
+
 namespace arthro {
 
 class BackgroundWorker {
@@ -41,6 +43,7 @@ class BackgroundWorker {
 
  private:
   void Run() noexcept {
+    const CrashStack crash_stack;
     for (;;) {
       start_.acquire();
       if (work_ == nullptr) return;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 
+#include "simulation/core/crash_stack.h"
 #include "simulation/session/device_options.h"
 
 namespace arthro::simulation {
@@ -100,6 +101,7 @@ void ServoLoop::Stop() {
 }
 
 void ServoLoop::Run() noexcept {
+  const CrashStack crash_stack;
   report_.has_priority = options_.wants_priority && TakePriority();
   ApplyOptions();
   double due = SteadyNow();

@@ -9,6 +9,7 @@
 #include "app/cli/jobs.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"
+#include "app/recording/unfinished_film.h"
 
 namespace arthro::app {
 namespace {
@@ -92,6 +93,10 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, J
 // A rig or trace that cannot be used is told before there is a window.
 void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
           const ScreenFlags& screens = {}) {
+  for (const std::string& sentence : FinishFilmsEverywhere(screens.film)) {
+    std::fprintf(stderr, "arthroscene: %s\n", sentence.c_str());
+    options.notice = sentence;
+  }
   options.frame_shape = FrameShapeOf(screens.layout);
   options.head = simulation::CameraHeadOf(screens.head);
   if (!screens.film.empty()) {

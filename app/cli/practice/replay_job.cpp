@@ -15,6 +15,7 @@
 #include "app/cli/options_cli.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
+#include "app/recording/unfinished_film.h"
 #include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/partial_folder.h"
@@ -37,6 +38,9 @@ struct ReplayJob {
 
 void Run(const ReplayJob& job) {
   CheckOptions(job.options);
+  if (!job.video.empty())
+    for (const std::string& sentence : FinishFilmsIn(job.video.parent_path(), job.video))
+      fmt::print(stderr, "arthroscene: {}\n", sentence);
   const FrameShape shape = FrameShapeOf(job.layout);
   const simulation::CameraHead head = simulation::CameraHeadOf(job.head);
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};

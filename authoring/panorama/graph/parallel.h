@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "simulation/core/crash_stack.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {
@@ -36,7 +37,11 @@ void ForEachIndex(int count, int threads, const Progress& progress, std::string_
   };
   {
     std::vector<std::jthread> others;
-    for (int i = 1; i < threads && i < count; ++i) others.emplace_back([&] { work(false); });
+    for (int i = 1; i < threads && i < count; ++i)
+      others.emplace_back([&] {
+        const CrashStack crash_stack;
+        work(false);
+      });
     work(true);
   }
   if (fault) std::rethrow_exception(fault);

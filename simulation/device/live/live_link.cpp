@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <ctime>
 #include <pthread.h>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "simulation/core/crash_stack.h"
 #include "simulation/device/live/arrival.h"
 
 namespace arthro::simulation {
@@ -48,6 +50,25 @@ bool WaitFor(sem_t& semaphore, double seconds) noexcept {
   }
 }
 
+// Blocks what is sent to the process while the link's threads are made, which inherit the mask: a
+// handler that waits for the writer must not interrupt the writer itself.
+class BlockSignals {
+ public:
+  BlockSignals() noexcept {
+    sigset_t all;
+    sigfillset(&all);
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS})
+      sigdelset(&all, fault);
+    pthread_sigmask(SIG_BLOCK, &all, &before_);
+  }
+  ~BlockSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  BlockSignals(const BlockSignals&) = delete;
+  BlockSignals& operator=(const BlockSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 }  // namespace
 
 double SteadySeconds() noexcept {
@@ -67,6 +88,7 @@ LiveLink::LiveLink(HidBus& bus, const DeviceWish& wish, const LiveOptions& optio
   }
   sem_init(&wake_, 0, 0);
   sem_init(&stopped_, 0, 0);
+  const BlockSignals blocked;
   writer_ = std::thread([this] { WriteLoop(); });
   reader_ = std::thread([this] { ReadLoop(); });
 }
@@ -115,6 +137,7 @@ bool LiveLink::Pause(double seconds) noexcept {
 }
 
 void LiveLink::ReadLoop() noexcept {
+  const CrashStack crash_stack;
   if (HasForce(caps_)) AskForRealTime();
   while (!stop_) {
     bool is_open = false;
@@ -269,6 +292,7 @@ void LiveLink::Close() noexcept {
 }
 
 void LiveLink::WriteLoop() noexcept {
+  const CrashStack crash_stack;
   if (HasForce(caps_)) AskForRealTime();
   const bool has_feedback = caps_.feedback != Feedback::kNone;
   while (!stop_) {

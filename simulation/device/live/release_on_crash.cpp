@@ -11,16 +11,30 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array kFaults{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS};
+// Signals whose default action ends no process, and those that cannot be handled.
+constexpr std::array kEndNothing{SIGKILL,  SIGSTOP, SIGCHLD, SIGCONT, SIGURG,
+                                 SIGWINCH, SIGTSTP, SIGTTIN, SIGTTOU};
 constexpr long kForWriters = 20'000'000;  // ns; ten times what a report takes
 
 std::array<std::atomic<Releasable*>, ReleaseOnCrash::kMost> to_release{};
 static_assert(std::atomic<Releasable*>::is_always_lock_free);
-std::array<struct sigaction, kSignals.size()> actions_before{};
 
+// By the signal's number; of those that are handled.
+std::array<struct sigaction, NSIG> actions_before{};
+std::array<bool, NSIG> is_handled{};
+
+void LetGoAndDie(int signal);
+
+// Keeps what was installed since by others.
 void RestoreActions() noexcept {
-  for (std::size_t i = 0; i < kSignals.size(); ++i)
-    sigaction(kSignals[i], &actions_before[i], nullptr);
+  for (std::size_t i = 1; i < is_handled.size(); ++i) {
+    if (!is_handled[i]) continue;
+    struct sigaction now {};
+    const int signal = static_cast<int>(i);
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == LetGoAndDie)
+      sigaction(signal, &actions_before[i], nullptr);
+  }
 }
 
 // These call only what a handler may call.
@@ -33,10 +47,24 @@ void LetGo() {
   }
 }
 
+// A signal in another thread meanwhile waits for the writers too, since the actions are restored
+// last. A fault of this function ends the process at once, since all signals are blocked.
 void LetGoAndDie(int signal) {
-  RestoreActions();
   LetGo();
+  RestoreActions();
+  sigset_t own;
+  sigemptyset(&own);
+  sigaddset(&own, signal);
   raise(signal);
+  pthread_sigmask(SIG_UNBLOCK, &own, nullptr);
+}
+
+bool MustHandle(int signal) {
+  if (std::ranges::find(kEndNothing, signal) != kEndNothing.end()) return false;
+  if (std::ranges::find(kFaults, signal) != kFaults.end()) return true;
+  struct sigaction now {};
+  return sigaction(signal, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
+         now.sa_handler == SIG_DFL;
 }
 
 }  // namespace
@@ -47,15 +75,19 @@ ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices)
     to_release[i] = devices_[i].get();
   struct sigaction action {};
   action.sa_handler = LetGoAndDie;
-  action.sa_flags = SA_NODEFER;  // what is raised at its end must not wait
-  sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < kSignals.size(); ++i)
-    sigaction(kSignals[i], &action, &actions_before[i]);
+  action.sa_flags = SA_ONSTACK;
+  sigfillset(&action.sa_mask);
+  for (int signal = 1; signal < NSIG; ++signal) {
+    const auto i = static_cast<std::size_t>(signal);
+    // The C library keeps two of them for itself and refuses those.
+    is_handled[i] = MustHandle(signal) && sigaction(signal, &action, &actions_before[i]) == 0;
+  }
   [[maybe_unused]] static const int registered = std::atexit(LetGo);
 }
 
 ReleaseOnCrash::~ReleaseOnCrash() {
   RestoreActions();
+  is_handled.fill(false);
   for (auto& device : to_release) device = nullptr;
 }
 

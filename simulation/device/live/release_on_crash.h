@@ -1,19 +1,24 @@
-// A program that dies of its own fault lets go of its devices first: while this lives, SIGSEGV,
-// SIGBUS, SIGFPE, SIGILL and SIGABRT (std::terminate with it) make who writes to them say zero,
-// then do what they did before; so does exit, which Xlib calls where it loses its screen. Where the
-// writer itself is what died the firmware's watchdog is left, as it is when the system goes down.
+// Tells devices to let go before a signal ends the program. While this lives, every signal whose
+// default action ends a process makes the devices' writers send zero force. Then the signal acts as
+// it did before: the process ends, with a core file where the signal leaves one.
+// Faults (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS) are always handled, stack
+// overflow included in threads that have a CrashStack. Other signals are left alone where the
+// program ignores or handles them. exit() releases too, which Xlib calls when it loses its display.
+// SIGKILL, SIGSTOP and a fault of the writer itself are left to the firmware's watchdog.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "simulation/core/crash_stack.h"
 #include "simulation/device/releasable.h"
 
 namespace arthro::simulation {
 
 class ReleaseOnCrash {
  public:
-  // One at a time, since a signal handler can reach nothing but what is the process's own.
+  // One at a time, since a signal handler can reach nothing but what is the process's own. The
+  // thread that makes it gets a CrashStack.
   explicit ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices);
   ~ReleaseOnCrash();
   ReleaseOnCrash(const ReleaseOnCrash&) = delete;
@@ -22,6 +27,7 @@ class ReleaseOnCrash {
   static constexpr int kMost = 4;  // two roles and pedals, and one to spare
 
  private:
+  CrashStack stack_;
   std::vector<std::shared_ptr<Releasable>> devices_;
 };
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "simulation/core/atomic_file.h"
+#include "simulation/core/crash_stack.h"
 #include "simulation/core/error.h"
 #include "simulation/device/log/log_format.h"
 
@@ -84,6 +85,7 @@ long DeviceLog::dropped() const {
 }
 
 void DeviceLog::Run() {
+  const CrashStack crash_stack;
   const auto pause = std::chrono::duration<double>(options_.write_every);
   std::unique_lock lock(mutex_);
   do {

@@ -29,7 +29,7 @@ void HeedOne(int signal) {
 
 TEST(EndingSignalsDeathTest, ASignalIsHeededThenEndsTheProgramAsItWouldHave) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP})
     EXPECT_EXIT(HeedOne(signal), testing::KilledBySignal(signal), "put away");
 }
 
@@ -45,6 +45,38 @@ TEST(EndingSignalsDeathTest, ASecondOneEndsItAtOnce) {
         std::_Exit(1);
       },
       testing::KilledBySignal(SIGTERM), "");
+}
+
+// Devices let go in a handler that is installed meanwhile.
+TEST(EndingSignalsDeathTest, ASecondOneRunsTheHandlerThatWasInstalledMeanwhile) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        const EndingSignals signals([] {});
+        std::signal(SIGTERM, [](int) { std::_Exit(7); });
+        ::kill(::getpid(), SIGTERM);
+        while (!signals.HasCome()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ::kill(::getpid(), SIGTERM);
+        std::this_thread::sleep_for(std::chrono::seconds(30));
+        std::_Exit(1);
+      },
+      testing::ExitedWithCode(7), "");
+}
+
+TEST(EndingSignalsDeathTest, OneThatTheProgramWasStartedToIgnoreStaysIgnored) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        std::signal(SIGHUP, SIG_IGN);
+        {
+          const EndingSignals signals([] {});
+          ::kill(::getpid(), SIGHUP);
+          std::this_thread::sleep_for(std::chrono::milliseconds(50));
+          if (signals.HasCome()) std::_Exit(1);
+        }
+        std::_Exit(8);
+      },
+      testing::ExitedWithCode(8), "");
 }
 
 TEST(EndingSignals, WithoutOneNothingHappens) {

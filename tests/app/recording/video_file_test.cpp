@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <sched.h>
 #include <sys/resource.h>
 
 #include <gtest/gtest.h>
@@ -88,14 +89,45 @@ TEST_P(Films, TheSamePicturesGiveTheSameBytes) {
     of = ReadWholeFile(file);
   }
   EXPECT_GT(bytes[0].size(), 1000u);
-  // Matroska gives each file a random number of its own.
-  if (std::string(GetParam()) == ".mkv")
-    EXPECT_EQ(bytes[0].size(), bytes[1].size());
-  else
-    EXPECT_TRUE(bytes[0] == bytes[1]);
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+// As high as a film that is encoded in several slices.
+TEST_P(Films, HaveTheSameBytesOnOneCoreAndOnAll) {
+  const test::TempFolder folder;
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++i)
+    if (CPU_ISSET(i, &all)) CPU_SET(i, &one);
+  std::string bytes[2];
+  for (const bool is_one : {true, false}) {
+    ASSERT_EQ(sched_setaffinity(0, sizeof one, is_one ? &one : &all), 0);
+    const auto file = folder / (std::string("film") + GetParam());
+    VideoFile film(file, {640, 720}, 30.0);
+    for (int i = 0; i < 4; ++i) film.Add(test::KneePicture(640, 720, 6.0 + i));
+    film.Finish();
+    bytes[is_one] = ReadWholeFile(file);
+  }
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+TEST_P(Films, MayBeReadByTheirOwnerAlone) {
+  const test::TempFolder folder;
+  const auto file = folder / (std::string("film") + GetParam());
+  const auto mode = [](const std::filesystem::path& of) {
+    return static_cast<int>(std::filesystem::status(of).permissions());
+  };
+  VideoFile film(file, kSize, 30.0);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_EQ(mode(entry.path()), 0600) << entry.path();
+  film.Add(Frame(0));
+  film.Finish();
+  EXPECT_EQ(mode(file), 0600);
 }
 
 // RLIMIT_FSIZE stands in for a disk that fills up, from nothing on it to all but the last byte.
+// What was whole by then is kept beside the old film.
 TEST_P(Films, ADiskThatFillsUpIsToldAndLeavesTheOldFilm) {
   const test::TempFolder folder;
   const auto file = folder / (std::string("film") + GetParam());
@@ -120,9 +152,43 @@ TEST_P(Films, ADiskThatFillsUpIsToldAndLeavesTheOldFilm) {
     EXPECT_NE(said.find("this film was not written"), std::string::npos) << room << ": " << said;
     EXPECT_NE(said.find(why), std::string::npos) << room << ": " << said;
     EXPECT_TRUE(ReadWholeFile(file) == "an older film") << room;
-    EXPECT_EQ(FilesIn(folder.path()), 1) << room;
+    const auto kept = folder / (std::string("film-recovered") + GetParam());
+    const bool is_kept = std::filesystem::exists(kept);
+    EXPECT_EQ(FilesIn(folder.path()), is_kept ? 2 : 1) << room;
+    if (!is_kept) continue;
+    EXPECT_NE(said.find("its first 0.4 s are in " + kept.string()), std::string::npos) << said;
+    EXPECT_EQ(test::ReadFilm(kept).frames.size(), 12u) << room;
+    std::filesystem::remove(kept);
   }
   std::signal(SIGXFSZ, handler);
+}
+
+TEST_P(Films, ThatADiskCutsShortKeepWhatWasWhole) {
+  const test::TempFolder folder;
+  const auto file = folder / (std::string("film") + GetParam());
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &usual), 0);
+  int count = 0;
+  const std::string said = SentenceOf([&] {
+    VideoFile film(file, kSize, 20.0);
+    rlimit small = usual;
+    small.rlim_cur = 120'000;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    for (; count < 2000; ++count) film.Add(Frame(count % 26));
+  });
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &usual), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(said.find("this film was not written to its end"), std::string::npos) << said;
+  EXPECT_NE(said.find("no more may be written here"), std::string::npos) << said;
+  EXPECT_NE(said.find("s are in " + file.string()), std::string::npos) << said;
+  EXPECT_EQ(FilesIn(folder.path()), 1);
+  const auto frames = test::ReadFilm(file).frames;
+  // Half a second is 10 pictures.
+  EXPECT_GE(static_cast<int>(frames.size()), count - 10);
+  EXPECT_GT(frames.size(), 0u);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    EXPECT_GT(test::LumaPsnr(frames[i], Frame(static_cast<int>(i) % 26)), 33.0) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Endings, Films, testing::Values(".mp4", ".mkv", ".avi"),

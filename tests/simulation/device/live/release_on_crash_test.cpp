@@ -1,0 +1,145 @@
+// Every way in which a signal can end a program lets go of its devices first.
+#include "simulation/device/live/release_on_crash.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "simulation/core/background_worker.h"
+
+namespace arthro::simulation {
+namespace {
+
+constexpr const char* kReleased = "RELEASED";
+
+// Its writer is a thread of its own, as that of a real one, and outlives it.
+std::atomic<bool> asked{false};
+class FakeDevice final : public Releasable {
+ public:
+  FakeDevice() {
+    std::thread([] {
+      while (!asked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (::write(STDERR_FILENO, kReleased, 8) != 8) std::_Exit(3);
+      for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+    }).detach();
+  }
+  void Release() noexcept override { asked = true; }
+};
+
+// No optimiser may turn it into a loop, nor foresee that it does not end.
+int Overflow(volatile int* depth) {
+  volatile char frame[4096];
+  frame[0] = static_cast<char>(*depth);
+  *depth = *depth + 1;
+  return *depth == -1 ? 0 : Overflow(depth) + frame[0];
+}
+
+void OverflowNow() {
+  volatile int depth = 0;
+  Overflow(&depth);
+}
+
+[[noreturn]] void WaitForDeath() {
+  std::this_thread::sleep_for(std::chrono::seconds(60));
+  std::_Exit(9);
+}
+
+class ReleaseOnCrashDeathTest : public testing::Test {
+ protected:
+  ReleaseOnCrashDeathTest() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+  ~ReleaseOnCrashDeathTest() override { GTEST_FLAG_SET(death_test_style, "fast"); }
+};
+
+class EverySignalDeathTest : public ReleaseOnCrashDeathTest,
+                             public testing::WithParamInterface<int> {};
+
+// Sent from outside, as by a shell, and raised by a thread that has nothing to do with devices.
+TEST_P(EverySignalDeathTest, ReleasesThenEndsTheProgramAsItWouldHave) {
+  const int signal = GetParam();
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
+        ::kill(::getpid(), signal);
+        WaitForDeath();
+      },
+      testing::KilledBySignal(signal), kReleased);
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
+        std::thread([signal] { ::raise(signal); }).join();
+        WaitForDeath();
+      },
+      testing::KilledBySignal(signal), kReleased);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, EverySignalDeathTest,
+                         testing::Values(SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGTRAP, SIGABRT, SIGBUS,
+                                         SIGFPE, SIGUSR1, SIGSEGV, SIGUSR2, SIGPIPE, SIGALRM,
+                                         SIGTERM, SIGXCPU, SIGXFSZ, SIGVTALRM, SIGSYS),
+                         [](const auto& one) {
+                           return std::string("SIG") + sigabbrev_np(one.param);
+                         });
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(ReleaseOnCrashDeathTest, AStackOverflowOfTheMainThreadReleases) {
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
+        OverflowNow();
+      },
+      testing::KilledBySignal(SIGSEGV), kReleased);
+}
+
+TEST_F(ReleaseOnCrashDeathTest, AStackOverflowOfAWorkerReleases) {
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
+        BackgroundWorker worker(true);
+        worker.Start([](void*) noexcept { OverflowNow(); }, nullptr);
+        WaitForDeath();
+      },
+      testing::KilledBySignal(SIGSEGV), kReleased);
+}
+#endif
+
+TEST_F(ReleaseOnCrashDeathTest, ASecondSignalMeanwhileDoesNotCutTheReleaseShort) {
+  EXPECT_EXIT(
+      {
+        const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
+        std::thread([] { ::raise(SIGSEGV); }).detach();
+        ::kill(::getpid(), SIGTERM);
+        ::kill(::getpid(), SIGINT);
+        WaitForDeath();
+      },
+      [](int status) { return WIFSIGNALED(status); }, kReleased);
+}
+
+TEST_F(ReleaseOnCrashDeathTest, SignalsThatTheProgramIgnoresOrHandlesStayItsOwn) {
+  EXPECT_EXIT(
+      {
+        std::signal(SIGPIPE, SIG_IGN);
+        static volatile std::sig_atomic_t handled = 0;
+        std::signal(SIGUSR1, [](int) { handled = 1; });
+        {
+          const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
+          ::raise(SIGPIPE);
+          ::raise(SIGUSR1);
+          // What is installed later stays when the guard goes.
+          std::signal(SIGUSR2, SIG_IGN);
+        }
+        ::raise(SIGUSR2);
+        struct sigaction now {};
+        sigaction(SIGTERM, nullptr, &now);
+        std::_Exit(handled && now.sa_handler == SIG_DFL ? 5 : 6);
+      },
+      testing::ExitedWithCode(5), "^$");
+}
+
+}  // namespace
+}  // namespace arthro::simulation
