@@ -42,7 +42,8 @@ void RunSolveJob(const SolveArguments& arguments) {
   const Progress progress = TerminalProgress();
   simulation::TissueCase tissue_case = simulation::ReadCase(arguments.tissue_case);
   CheckOutputs({arguments.output, arguments.vtu}, {tissue_case.mesh_file});
-  for (const std::string& message : tissue_case.messages) fmt::print(stderr, "note: {}\n", message);
+  for (const std::string& message : tissue_case.messages)
+    fmt::print(stderr, "note: {}\n", PrintableLine(message));
   const simulation::CaseResult result = simulation::RunCase(tissue_case, progress);
   WriteAtomically(arguments.output, simulation::JsonFromResult(result));
   if (!arguments.vtu.empty()) {

@@ -20,6 +20,7 @@
 #include "app/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/session/replay.h"
@@ -107,7 +108,7 @@ void Run(const DemoJob& job) {
                 job.folder);
   StillPictures pictures(loaded);
   const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
-  auto json = nlohmann::json::parse(simulation::ReportText(report, loaded.scene));
+  auto json = ParseJson(simulation::ReportText(report, loaded.scene), Code::kBadData);
   json["pictures"] = nlohmann::json::array();
   LiveTissues tissues;
   const std::size_t count = moments.all().size();
