@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <string>
 #include <system_error>
 
@@ -18,8 +17,8 @@ namespace {
 
 constexpr int kDone = 0, kRefused = 1, kUsage = 2;
 
-int Refuse(const char* sentence) {
-  std::fprintf(stderr, "arthroscene: %s\n", sentence);
+int Refuse(const std::exception& fault) {
+  std::fprintf(stderr, "arthroscene: %s\n", PrintableLine(DescribeFault(fault)).c_str());
   return kRefused;
 }
 
@@ -53,15 +52,12 @@ int RunCommandLine(int argc, char** argv) {
     if (program.get_subcommands().empty()) RunEditor({});
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? kDone : kUsage;
-  } catch (const std::bad_alloc&) {
-    return Refuse("there is not enough memory for this; use a smaller picture or mesh");
-  } catch (const std::system_error& error) {
-    if (std::ferror(stdout) == 0) return Refuse(error.what());
-    return Refuse(
-        ("standard output could not be written to its end: " + WhyNotWritten(error.code().value()))
-            .c_str());
-  } catch (const std::exception& error) {  // Error's what() is a whole sentence
-    return Refuse(error.what());
+  } catch (const std::system_error& fault) {
+    if (std::ferror(stdout) == 0) return Refuse(fault);
+    return Refuse(Error(Code::kFile, "standard output could not be written to its end: " +
+                                         WhyNotWritten(fault.code().value())));
+  } catch (const std::exception& fault) {
+    return Refuse(fault);
   }
   return kDone;
 }

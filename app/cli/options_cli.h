@@ -12,9 +12,9 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/core/options.h"
 #include "simulation/core/options_json.h"
-#include "simulation/scene/json_text.h"
 
 namespace arthro::app {
 

@@ -54,9 +54,8 @@ void Guarded(EditorState& state, const std::string& title, const std::function<v
       state.message = "Stopped.";
     else
       state.dialogs.push_back(ErrorDialog{title, error.what()});
-  } catch (const std::bad_alloc&) {
-    state.dialogs.push_back(
-        ErrorDialog{title, "There is not enough memory for this; use a smaller picture or mesh."});
+  } catch (const std::exception& fault) {
+    state.dialogs.push_back(ErrorDialog{title, DescribeFault(fault)});
   }
 }
 

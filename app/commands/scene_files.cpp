@@ -12,6 +12,7 @@
 #include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
@@ -164,13 +165,7 @@ void ImportPanorama(EditorState& state, const fs::path& picture) {
 }
 
 void ReadPanoramaReport(EditorState& state, const fs::path& report) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(ReadWholeFile(report));
-  } catch (const nlohmann::json::exception&) {
-    throw Error(Code::kBadData, "this is not a report in JSON; choose the report of a panorama",
-                report);
-  }
+  const nlohmann::json json = ParseJson(ReadWholeFile(report), Code::kBadData, report);
   const nlohmann::json part = json.is_object() ? json.value("panorama", nlohmann::json()) : json;
   if (!part.is_object())
     throw Error(Code::kBadData, "there is no \"panorama\" in it; choose the report of a panorama",

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+#include <opencv2/videoio/registry.hpp>
 
 #include "authoring/footage/picture_list.h"
 #include "authoring/footage/quiet_decoders.h"
@@ -20,15 +21,17 @@ namespace fs = std::filesystem;
 
 constexpr double kMostFrames = 1e7;  // more is a broken header
 
-// File backends only: a name must never open a camera or a network address.
+// File backends only: a name must never open a camera or a network address. OpenCV's own reader of
+// AVI prints what it meets on stderr and knows nothing that FFmpeg does not, so it is asked only
+// where there is no FFmpeg.
 cv::VideoCapture OpenVideo(const fs::path& file) {
   QuietDecoders();
-  for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
-    try {
-      cv::VideoCapture video(fs::absolute(file).string(), backend);
-      if (video.isOpened()) return video;
-    } catch (const cv::Exception&) {  // this backend is missing or does not know the format
-    }
+  const int backend =
+      cv::videoio_registry::hasBackend(cv::CAP_FFMPEG) ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG;
+  try {
+    cv::VideoCapture video(fs::absolute(file).string(), backend);
+    if (video.isOpened()) return video;
+  } catch (const cv::Exception&) {  // does not know the format
   }
   throw Error(Code::kBadImage,
               "this video cannot be opened: it is cut off, empty or in a format that is not known; "

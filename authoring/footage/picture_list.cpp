@@ -94,9 +94,8 @@ bool IsPictureName(const fs::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<std::string_view, 12> kEndings = {".png",  ".jpg", ".jpeg", ".tif",
-                                                         ".tiff", ".bmp", ".webp", ".pgm",
-                                                         ".ppm",  ".pnm", ".jp2",  ".dib"};
+  constexpr std::array<std::string_view, 11> kEndings = {
+      ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm", ".pnm", ".dib"};
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 

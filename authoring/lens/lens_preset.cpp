@@ -8,8 +8,8 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/scene/json_object_reader.h"
-#include "simulation/scene/json_text.h"
 
 namespace arthro::authoring {
 

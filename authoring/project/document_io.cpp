@@ -10,6 +10,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
+#include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/archive_io.h"
@@ -90,7 +91,7 @@ Document OpenDocument(const fs::path& file) {
   const auto options = document.scene.extensions.find(kDepthOptionsKey);
   if (options != document.scene.extensions.end()) try {
       document.depth_options =
-          OptionsFromJson<DepthOptions>(nlohmann::json::parse(options->second));
+          OptionsFromJson<DepthOptions>(ParseJson(options->second, Code::kBadData));
     } catch (const Error&) {
       document.depth_options = {};
     }

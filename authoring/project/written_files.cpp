@@ -7,7 +7,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/scene/json_text.h"
+#include "simulation/core/json_text.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro::authoring {

@@ -4,9 +4,11 @@
 // Error.
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace arthro {
 
@@ -24,11 +26,8 @@ enum class Code {
 
 class Error : public std::runtime_error {
  public:
-  Error(Code code, const std::string& sentence, std::filesystem::path file = {})
-      : std::runtime_error(file.empty() ? sentence : file.string() + ": " + sentence),
-        code_(code),
-        sentence_(sentence),
-        file_(std::move(file)) {}
+  // Sentence and file are made printable (below), since both may hold text of a stranger's file.
+  Error(Code code, std::string_view sentence, std::filesystem::path file = {});
 
   Code code() const { return code_; }
   const std::string& sentence() const { return sentence_; }
@@ -39,5 +38,12 @@ class Error : public std::runtime_error {
   std::string sentence_;
   std::filesystem::path file_;
 };
+
+// One line that a terminal shows as it is: control and direction characters are written as \x1b or
+// \u202e, bytes that are not UTF-8 become U+FFFD, names in quotes are cut after 80 characters.
+std::string PrintableLine(std::string_view text);
+
+// One sentence for any exception: what() of an Error, our own words for all others.
+std::string DescribeFault(const std::exception& fault);
 
 }  // namespace arthro

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <string>
@@ -33,24 +32,40 @@ struct CloseEntry {
   void operator()(zip_file_t* entry) const { zip_fclose(entry); }
 };
 
+// Of a zip that cannot be opened.
+std::string WhyNotOpened(int code) {
+  if (code == ZIP_ER_NOZIP) return "it is no zip file";
+  if (code == ZIP_ER_MEMORY) return "there is not enough memory";
+  if (code == ZIP_ER_OPEN || code == ZIP_ER_NOENT) return "it may not be read";
+  return "it is damaged or cut off";
+}
+
 Archive Open(const fs::path& file, int flags, const fs::path& named) {
   int code = 0;
   Archive archive(zip_open(file.c_str(), flags, &code));
   if (archive) return archive;
-  zip_error_t fault;
-  zip_error_init_with_code(&fault, code);
-  const std::string why = zip_error_strerror(&fault);
-  zip_error_fini(&fault);
   throw Error(Code::kBadScene,
               fmt::format("this is not a scene archive that can be opened: {}; copy or export it "
                           "again",
-                          why),
+                          WhyNotOpened(code)),
               named);
 }
 
 // Throws unless `name` is a plain relative path that stays inside whatever folder it is put in.
 void RequireInside(const std::string& name, const fs::path& archive) {
+  // What file systems take; far more than a scene's files are called.
+  constexpr std::size_t kLongestName = 255, kLongestPath = 1024;  // bytes
   const fs::path path(name);
+  const bool is_too_long = name.size() > kLongestPath ||
+                           std::any_of(path.begin(), path.end(), [&](const fs::path& part) {
+                             return part.native().size() > kLongestName;
+                           });
+  if (is_too_long)
+    throw Error(Code::kBadScene,
+                fmt::format("a file in this archive has a name of {} letters (\"{}\"), which no "
+                            "scene needs; give it a shorter one and pack it again",
+                            name.size(), name),
+                archive);
   const bool climbs = std::any_of(path.begin(), path.end(),
                                   [](const fs::path& part) { return part == ".." || part == "."; });
   const bool has_odd_letter = std::any_of(name.begin(), name.end(), [](unsigned char letter) {
@@ -91,6 +106,9 @@ std::vector<Entry> EntriesOf(zip_t* zip, const fs::path& archive, const ArchiveL
       throw Error(Code::kBadScene, "this archive is damaged; copy or export it again", archive);
     const std::string name = stat.name;
     RequireInside(name, archive);
+    // As stored: names without an encoding are converted, which turns control bytes into pictures.
+    if (const char* const raw = zip_get_name(zip, index, ZIP_FL_ENC_RAW))
+      RequireInside(raw, archive);
     zip_uint8_t system = 0;
     zip_uint32_t attributes = 0;
     zip_file_get_external_attributes(zip, index, 0, &system, &attributes);
@@ -129,7 +147,7 @@ void UnpackEntry(zip_t* zip, const Entry& entry, const fs::path& target, const f
   };
   std::error_code fault;
   fs::create_directories(target.parent_path(), fault);
-  if (fault || fs::exists(target)) damaged();  // a file and a folder of one name
+  if (fault || fs::exists(target, fault) || fault) damaged();  // a file and a folder of one name
   const std::unique_ptr<zip_file_t, CloseEntry> source(zip_fopen_index(zip, entry.index, 0));
   if (!source) damaged();
   std::ofstream stream(target, std::ios::binary);
@@ -151,7 +169,8 @@ void UnpackEntry(zip_t* zip, const Entry& entry, const fs::path& target, const f
 
 void AddFile(zip_t* zip, const fs::path& source, const std::string& name, const fs::path& archive) {
   const auto refuse = [&] {
-    throw Error(Code::kFile, fmt::format("\"{}\" could not be packed: {}", name, zip_strerror(zip)),
+    throw Error(Code::kFile,
+                fmt::format("\"{}\" could not be packed; check that it may be read", name),
                 archive);
   };
   zip_source_t* bytes = zip_source_file(zip, source.c_str(), 0, -1);
@@ -219,10 +238,10 @@ void PackScene(const fs::path& scene, const fs::path& archive) {
     for (const std::string& name : files)
       AddFile(zip.get(), name == "scene.json" ? file : folder / name, name, archive);
     if (zip_close(zip.get()) != 0)
-      throw Error(Code::kFile,
-                  fmt::format("could not be written: {}; free some space or choose another place",
-                              zip_strerror(zip.get())),
-                  archive);
+      throw Error(
+          Code::kFile,
+          "could not be written: " + WhyNotWritten(zip_error_code_system(zip_get_error(zip.get()))),
+          archive);
     static_cast<void>(zip.release());  // closing has freed it
   });
   RemoveLeftovers(archive.has_parent_path() ? archive.parent_path() : ".");
@@ -235,6 +254,13 @@ void UnpackScene(const fs::path& archive, const fs::path& folder, const ArchiveL
   const Archive zip = Open(archive, ZIP_RDONLY | ZIP_CHECKCONS, archive);
   for (const Entry& entry : EntriesOf(zip.get(), archive, limits))
     UnpackEntry(zip.get(), entry, folder / entry.name, archive);
+}
+
+Error NamedByArchive(const Error& fault, const fs::path& folder, const fs::path& archive) {
+  if (fault.file().empty()) return Error(fault.code(), fault.what(), archive);
+  const fs::path inside = fault.file().lexically_relative(folder);
+  if (inside.empty() || *inside.begin() == "..") return fault;
+  return Error(fault.code(), inside.string() + ": " + fault.sentence(), archive);
 }
 
 TemporaryFolder::TemporaryFolder() : path_(MakeTemporaryFolder()) {}

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "simulation/core/error.h"
+
 namespace arthro {
 
 struct ArchiveLimits {
@@ -26,6 +28,11 @@ void PackScene(const std::filesystem::path& scene, const std::filesystem::path& 
 // archive of plain files; what was unpacked until then is left for the owner of the folder.
 void UnpackScene(const std::filesystem::path& archive, const std::filesystem::path& folder,
                  const ArchiveLimits& limits = {});
+
+// The same fault, with the archive in place of the folder that it was unpacked into, which is soon
+// gone: "s.arthro: scene.json: …".
+Error NamedByArchive(const Error& fault, const std::filesystem::path& folder,
+                     const std::filesystem::path& archive);
 
 // A folder of its own under the system's temporary one, removed with the last owner.
 class TemporaryFolder {

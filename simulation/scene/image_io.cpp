@@ -1,7 +1,10 @@
 #include "simulation/scene/image_io.h"
 
+#include <cmath>
 #include <cstring>
+#include <iostream>
 #include <memory>
+#include <mutex>
 #include <sstream>
 #include <tiffio.h>
 #include <tiffio.hxx>
@@ -14,49 +17,17 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/formats/picture_formats.h"
 
 namespace arthro {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Largest picture that is taken, in pixels: 16k x 16k. More is a broken header or a mistake.
-constexpr std::size_t kMaxPixels = std::size_t{1} << 28;
+// A joint is centimetres wide; more are millimetres that are called metres, or a broken file.
+constexpr float kMostRelief = 2;  // m, as all lengths of scene.json
 
-// OpenCV fills what is missing of a truncated file with grey and says nothing, so the end marks of
-// the two common formats are looked at here. Trailing bytes after a JPEG's end mark are allowed.
-bool IsTruncated(const std::string& bytes) {
-  using namespace std::string_view_literals;
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv))
-    return bytes.find("IEND\xae\x42\x60\x82"sv) == bytes.npos;
-  if (bytes.starts_with("\xff\xd8"sv)) return bytes.rfind("\xff\xd9"sv) == bytes.npos;
-  return false;
-}
-
-// OpenCV prints its own words about numbers that it does not take, and a depth map of whole numbers
-// is a common slip.
-void RefuseNumbersOfATiff(const std::string& bytes, const fs::path& file) {
-  using namespace std::string_view_literals;
-  if (!bytes.starts_with("II*\0"sv) && !bytes.starts_with("MM\0*"sv)) return;
-  TIFFSetErrorHandler(nullptr);
-  TIFFSetWarningHandler(nullptr);
-  std::istringstream stream(bytes);
-  const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(TIFFStreamOpen("picture", &stream), TIFFClose);
-  if (!tiff) return;  // the decoder says so
-  std::uint16_t bits = 0, format = 0;
-  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_BITSPERSAMPLE, &bits);
-  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLEFORMAT, &format);
-  const bool is_float = format == SAMPLEFORMAT_IEEEFP;
-  if (is_float ? bits == 32 : bits <= 16) return;
-  throw Error(Code::kBadImage,
-              fmt::format("this TIFF holds {} of {} bits; save a picture with 8 or 16 bits and a "
-                          "depth map as 32-bit float",
-                          is_float ? "floats" : "whole numbers", bits),
-              file);
-}
-
-cv::Mat Decode(const fs::path& file, int flags) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+std::string BytesOf(const fs::path& file) {
   std::string bytes;
   try {
     bytes = ReadWholeFile(file);
@@ -65,25 +36,50 @@ cv::Mat Decode(const fs::path& file, int flags) {
   }
   if (bytes.empty())
     throw Error(Code::kBadImage, "this picture is empty (0 bytes); export it again", file);
-  if (IsTruncated(bytes))
-    throw Error(Code::kBadImage, "this picture is cut off before its end; copy or export it again",
-                file);
-  RefuseNumbersOfATiff(bytes, file);
-  cv::Mat mat;
-  try {
-    mat = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, bytes.data()), flags);
-  } catch (const cv::Exception&) {
-    mat.release();
+  return bytes;
+}
+
+// OpenCV prints what it catches on std::cerr, which nothing here writes to.
+class QuietErrorStream {
+ public:
+  QuietErrorStream() : lock_(Mutex()) { std::cerr.setstate(std::ios::badbit); }
+  ~QuietErrorStream() { std::cerr.clear(); }
+  QuietErrorStream(const QuietErrorStream&) = delete;
+  QuietErrorStream& operator=(const QuietErrorStream&) = delete;
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
   }
-  if (mat.empty())
-    throw Error(Code::kBadImage,
-                "this file is not a picture that can be read; use PNG, JPEG or TIFF", file);
-  if (mat.total() > kMaxPixels)
-    throw Error(Code::kBadImage,
-                fmt::format("this picture is {} x {} pixels; at most 16384 x 16384 can be used",
-                            mat.cols, mat.rows),
-                file);
-  return mat;
+  const std::lock_guard<std::mutex> lock_;
+};
+
+// The formats that are rarely used. `bytes` have a head that was checked.
+ColourImage DecodeWithOpenCv(const std::string& bytes, const fs::path& file) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const QuietErrorStream quiet;
+  cv::Mat bgr;
+  try {
+    bgr = cv::imdecode(
+        cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
+        cv::IMREAD_COLOR);
+  } catch (const cv::Exception&) {
+    bgr.release();
+  }
+  if (bgr.empty()) RefuseDamagedPicture(file);
+  RequireSize(static_cast<std::uint64_t>(bgr.cols), static_cast<std::uint64_t>(bgr.rows), file);
+  ColourImage image(bgr.cols, bgr.rows);
+  for (int y = 0; y < bgr.rows; ++y) {
+    const unsigned char* from = bgr.ptr<unsigned char>(y);
+    std::uint8_t* to = image.at(0, y);
+    for (int x = 0; x < bgr.cols; ++x, from += 3, to += 3) {
+      to[0] = from[2];
+      to[1] = from[1];
+      to[2] = from[0];
+    }
+  }
+  return image;
 }
 
 cv::Mat BgrOf(const ColourImage& image) {
@@ -122,18 +118,27 @@ void Encode(const fs::path& file, const cv::Mat& mat, const std::vector<int>& pa
 }  // namespace
 
 ColourImage ReadColourImage(const fs::path& file) {
-  const cv::Mat bgr = Decode(file, cv::IMREAD_COLOR);
-  ColourImage image(bgr.cols, bgr.rows);
-  for (int y = 0; y < bgr.rows; ++y) {
-    const unsigned char* from = bgr.ptr<unsigned char>(y);
-    std::uint8_t* to = image.at(0, y);
-    for (int x = 0; x < bgr.cols; ++x, from += 3, to += 3) {
-      to[0] = from[2];
-      to[1] = from[1];
-      to[2] = from[0];
-    }
+  const std::string bytes = BytesOf(file);
+  switch (FormatOf(bytes)) {
+    case PictureFormat::kPng:
+      return DecodePng(bytes, file);
+    case PictureFormat::kJpeg:
+      return DecodeJpeg(bytes, file);
+    case PictureFormat::kTiff:
+      return DecodeTiff(bytes, file);
+    case PictureFormat::kBmp:
+      CheckBmp(bytes, file);
+      return DecodeWithOpenCv(bytes, file);
+    case PictureFormat::kPnm:
+      CheckPnm(bytes, file);
+      return DecodeWithOpenCv(bytes, file);
+    case PictureFormat::kWebp:  // at most 16383 x 16383 by its format
+      return DecodeWithOpenCv(bytes, file);
+    case PictureFormat::kUnknown:
+      break;
   }
-  return image;
+  throw Error(Code::kBadImage, "this file is not a picture that can be read; use PNG, JPEG or TIFF",
+              file);
 }
 
 void WriteColourImage(const fs::path& file, const ColourImage& image) {
@@ -153,16 +158,28 @@ std::string PngFromColourImage(const ColourImage& image) {
 }
 
 DepthMap ReadDepthMap(const fs::path& file) {
-  const cv::Mat mat = Decode(file, cv::IMREAD_UNCHANGED);
-  if (mat.type() != CV_32FC1)
+  const std::string bytes = BytesOf(file);
+  const PictureFormat format = FormatOf(bytes);
+  if (format == PictureFormat::kUnknown)
+    throw Error(Code::kBadImage,
+                "this file is not a picture that can be read; a depth map is a one-channel 32-bit "
+                "float TIFF",
+                file);
+  if (format != PictureFormat::kTiff)
     throw Error(Code::kBadImage,
                 "a depth map must be a one-channel 32-bit float TIFF in metres; make one with "
                 "`arthroscene depth`",
                 file);
-  DepthMap depth(mat.cols, mat.rows);
-  for (int y = 0; y < mat.rows; ++y)
-    std::memcpy(&depth.at(0, y), mat.ptr<float>(y),
-                static_cast<std::size_t>(mat.cols) * sizeof(float));
+  DepthMap depth = DecodeDepthTiff(bytes, file);
+  for (std::size_t i = 0; i < depth.relief.size(); ++i) {
+    if (std::isnan(depth.relief[i]) || std::abs(depth.relief[i]) <= kMostRelief) continue;
+    const auto width = static_cast<std::size_t>(depth.width);
+    throw Error(Code::kBadImage,
+                fmt::format("the depth at column {}, row {} is {:g} m, and no joint is that deep; "
+                            "depths are in metres, and NaN where nothing was imaged",
+                            i % width, i / width, depth.relief[i]),
+                file);
+  }
   return depth;
 }
 

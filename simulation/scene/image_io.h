@@ -9,8 +9,9 @@
 
 namespace arthro {
 
-// PNG, JPEG, TIFF, BMP… as 8-bit RGB: grey is spread over the channels, 16 bit is scaled down,
-// alpha is dropped. Throws Error(kBadImage) for a missing, truncated or unreadable file.
+// PNG, JPEG, TIFF, BMP, WebP or PNM as 8-bit RGB: grey is spread over the channels, 16 bit is
+// scaled down, alpha is dropped. Throws Error(kBadImage) for a missing, cut off, damaged or
+// unreadable file, and for more than 16k x 16k pixels before they are decoded.
 ColourImage ReadColourImage(const std::filesystem::path& file);
 
 // Format by extension; written atomically. JPEG at quality 95.
@@ -19,7 +20,8 @@ void WriteColourImage(const std::filesystem::path& file, const ColourImage& imag
 // The bytes of a PNG file, packed quickly rather than well.
 std::string PngFromColourImage(const ColourImage& image);
 
-// One-channel 32-bit float TIFF, metres. Throws Error(kBadImage) for anything else.
+// One-channel 32-bit float TIFF, metres. Throws Error(kBadImage) for anything else, and for depths
+// that are infinite or beyond 2 m.
 DepthMap ReadDepthMap(const std::filesystem::path& file);
 void WriteDepthMap(const std::filesystem::path& file, const DepthMap& depth);
 

@@ -9,9 +9,9 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json_object_reader.h"
-#include "simulation/scene/json_text.h"
 
 namespace arthro {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/json_text.h"
+#include "simulation/core/json_text.h"
 #include "simulation/scene/scene_limits.h"
 
 namespace arthro {
@@ -172,7 +172,7 @@ RigFile ReadRig(const std::filesystem::path& file) { return ParseRig(ReadWholeFi
 std::string RigTextWith(const RigPivots& pivots, const std::string& text,
                         const std::filesystem::path& file) {
   ParseRig(text, file);
-  auto json = nlohmann::ordered_json::parse(text);
+  auto json = ParseOrderedJson(text, Code::kBadData, file);
   const auto put = [&](const char* role, const std::optional<glm::dvec3>& pivot) {
     if (!pivot) return;
     if (!json.contains(role))

@@ -10,6 +10,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/archive_io.h"
 #include "simulation/scene/held_nodes.h"
 #include "simulation/scene/mesh_io.h"
 
@@ -266,6 +267,10 @@ SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what,
   std::vector<std::string> errors;
   LoadedScene loaded = LoadScene(scene, errors);
   SceneFindings findings = CheckScene(loaded, is_layer);
+  const auto named = [&](const Error& error) -> std::string {
+    return loaded.archive.empty() ? error.what()
+                                  : NamedByArchive(error, loaded.folder, loaded.archive).what();
+  };
   for (const Tissue& tissue : loaded.scene.tissues) {
     std::error_code ignored;
     const std::filesystem::path file = loaded.folder / tissue.mesh;
@@ -277,11 +282,11 @@ SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what,
                                            tissue.name, mesh.ElementCount(), mesh.order,
                                            mesh.rest_positions.size()));
       for (const std::string& message : report.messages)
-        findings.warnings.push_back(fmt::format("{}: {}", file.string(), message));
+        findings.warnings.push_back(named(Error(Code::kBadMesh, message, file)));
       LookAtPins(tissue, mesh, findings);
       LookAtProbed(tissue, mesh, findings);
     } catch (const Error& error) {
-      errors.push_back(error.what());
+      errors.push_back(named(error));
     }
   }
   findings.errors.insert(findings.errors.begin(), errors.begin(), errors.end());

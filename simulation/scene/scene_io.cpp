@@ -7,10 +7,10 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/core/leftovers.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/json_text.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_json.h"
@@ -76,7 +76,11 @@ Scene ReadScene(const fs::path& scene) {
   if (IsArchive(scene)) {
     const TemporaryFolder folder;
     UnpackScene(scene, folder.path());
-    return ReadScene(folder.path());
+    try {
+      return ReadScene(folder.path());
+    } catch (const Error& error) {
+      throw NamedByArchive(error, folder.path(), scene);
+    }
   }
   std::vector<JsonFault> faults;
   Scene values = ReadSceneFile(SceneFile(scene), faults);
@@ -84,35 +88,31 @@ Scene ReadScene(const fs::path& scene) {
   return values;
 }
 
-LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
-  if (IsArchive(scene)) {
-    LoadedScene loaded;
-    try {
-      const auto folder = std::make_shared<const TemporaryFolder>();
-      UnpackScene(scene, folder->path());
-      loaded = LoadScene(folder->path(), faults);
-      loaded.unpacked = folder;
-    } catch (const Error& error) {
-      faults.push_back(error.what());
-    }
-    return loaded;
-  }
+namespace {
+
+// `archive`: what the folder was unpacked from, for messages; or empty.
+LoadedScene LoadFolder(const fs::path& scene, const fs::path& archive,
+                       std::vector<std::string>& faults) {
   LoadedScene loaded;
+  loaded.archive = archive;
   const fs::path file = SceneFile(scene);
   loaded.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const auto keep = [&](const Error& error) {
+    faults.push_back(archive.empty() ? error.what()
+                                     : NamedByArchive(error, loaded.folder, archive).what());
+  };
   // Each part on its own, so that one bad file does not hide the next.
   const auto attempt = [&](const auto& part) {
     try {
       part();
     } catch (const Error& error) {
-      faults.push_back(error.what());
+      keep(error);
     }
   };
   attempt([&] {
     std::vector<JsonFault> json_faults;
     loaded.scene = ReadSceneFile(file, json_faults);
-    for (const JsonFault& fault : json_faults)
-      faults.push_back(file.string() + ": " + fault.sentence);
+    for (const JsonFault& fault : json_faults) keep(Error(Code::kBadScene, fault.sentence, file));
   });
   const auto named = [&](const std::string& key, const fs::path& name, const auto& read) {
     if (name.empty()) return;
@@ -146,6 +146,22 @@ LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
   return loaded;
 }
 
+}  // namespace
+
+LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
+  if (!IsArchive(scene)) return LoadFolder(scene, {}, faults);
+  LoadedScene loaded;
+  try {
+    const auto folder = std::make_shared<const TemporaryFolder>();
+    UnpackScene(scene, folder->path());
+    loaded = LoadFolder(folder->path(), scene, faults);
+    loaded.unpacked = folder;
+  } catch (const Error& error) {
+    faults.push_back(error.what());
+  }
+  return loaded;
+}
+
 LoadedScene LoadScene(const fs::path& scene) {
   std::vector<std::string> faults;
   LoadedScene loaded = LoadScene(scene, faults);
@@ -166,7 +182,8 @@ void WriteScene(const fs::path& scene_json, const Scene& scene) {
                 scene_json);
   }
   std::vector<JsonFault> faults;
-  SceneFromJson(json::parse(text), faults);  // also catches NaN, which JSON has no word for
+  SceneFromJson(ParseJson(text, Code::kBadScene, scene_json),
+                faults);  // also catches NaN, which JSON has no word for
   ThrowFirst(faults, scene_json);
   WriteAtomically(scene_json, text);
   RemoveLeftovers(scene_json.has_parent_path() ? scene_json.parent_path() : ".");

@@ -25,7 +25,8 @@ struct LoadedScene {
   std::vector<SurfaceMesh> surfaces;  // one a tissue, in its own frame, m
   // Holds the folder that an archive was unpacked into, for as long as its files may be read.
   std::shared_ptr<const void> unpacked;
-  std::optional<Lens> lens;  // of the scope; nothing: equisolid
+  std::filesystem::path archive;  // that was unpacked, for messages (NamedByArchive); or empty
+  std::optional<Lens> lens;       // of the scope; nothing: equisolid
 };
 
 // The values alone, checked. Older versions are brought up to date in memory; a newer one is

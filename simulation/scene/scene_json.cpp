@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "simulation/core/json_text.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/scene_limits.h"
 #include "simulation/scene/scene_migration.h"
@@ -343,7 +344,8 @@ ordered_json JsonFromScene(const Scene& scene) {
     PutText(own, "text", task.text);
     json["tasks"].push_back(own);
   }
-  for (const auto& [key, text] : scene.extensions) json[key] = ordered_json::parse(text);
+  for (const auto& [key, text] : scene.extensions)
+    json[key] = ParseOrderedJson(text, Code::kBadScene);
   return json;
 }
 

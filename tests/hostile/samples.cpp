@@ -64,7 +64,7 @@ constexpr int kTraceRows = 20;
 }  // namespace
 
 Samples::Samples(fs::path folder) : folder_(std::move(folder)) {
-  for (const char* name : {"in", "out", "tmp", "bin", "share/arthroscene"})
+  for (const char* name : {"in", "out", "tmp", "home", "bin", "share/arthroscene"})
     fs::create_directories(folder_ / name);
   fs::copy_file(ARTHRO_PROGRAM, folder_ / "bin/arthroscene", fs::copy_options::overwrite_existing);
   // Beside the copy, the program's own files, so that presets can be damaged too.
@@ -84,7 +84,7 @@ ChildCommand Samples::CommandOf(const std::vector<std::string>& arguments) const
   command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
   command.folder = in();
   command.scratch = folder_;
-  command.environment = {"TMPDIR=" + tmp().string(), "HOME=" + (folder_ / "tmp").string(),
+  command.environment = {"TMPDIR=" + tmp().string(), "HOME=" + (folder_ / "home").string(),
                          "LANG=C.UTF-8", "OPENBLAS_NUM_THREADS=1"};
   return command;
 }

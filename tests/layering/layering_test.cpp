@@ -130,6 +130,26 @@ TEST(Layering, EveryIncludeFollowsTheTable) {
   for (const auto& fault : FaultsOf(includes)) ADD_FAILURE() << fault;
 }
 
+// ParseJson limits the depth, so that no file overflows the stack; no other reader is allowed.
+TEST(Layering, JsonIsParsedInOnePlaceOnly) {
+  const fs::path root = ARTHRO_SOURCE_DIR;
+  int found = 0;
+  for (const char* top : {"app", "authoring", "simulation"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      std::ifstream stream(entry.path());
+      const std::string text((std::istreambuf_iterator<char>(stream)), {});
+      const bool parses =
+          text.find("json::parse(") != text.npos || text.find("json::sax_parse(") != text.npos;
+      const std::string file = fs::relative(entry.path(), root).string();
+      if (file == "simulation/core/json_text.cpp")
+        found += parses;
+      else
+        EXPECT_FALSE(parses) << file << " parses JSON by itself; use ParseJson";
+    }
+  EXPECT_EQ(found, 1);
+}
+
 TEST(Layering, ScanCatchesForbiddenIncludes) {
   const std::vector<Include> forbidden = {
       {"simulation/scope/a.h", "simulation/haptics/b.h"},

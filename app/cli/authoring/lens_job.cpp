@@ -77,7 +77,7 @@ void Run(const LensJob& job) {
   WriteLens(job.output, calibration.lens);
   if (calibration.verdict == authoring::LensVerdict::kDoubtful)
     for (const std::string& sentence : calibration.sentences)
-      fmt::print(stderr, "warning: {}\n", sentence);
+      fmt::print(stderr, "warning: {}\n", PrintableLine(sentence));
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ void Run(PanoramaJob job) {
   if (!job.scene.empty()) WriteScene(job.scene, job.output, report, progress);
   progress.Step("done", 1.0);
 
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : report.warnings)
+    fmt::print(stderr, "warning: {}\n", PrintableLine(warning));
   if (job.output == "-" || job.report == "-") return;  // standard output holds one of them
   fmt::print("{}: {} x {} px, {}; expected error {:.2f} px on average, {:.2f} px at most\n",
              job.output, result.picture.width, result.picture.height, report.summary,

@@ -56,7 +56,8 @@ void Run(const RectifyJob& job) {
     progress.Step("rectifying",
                   total > 0 ? std::min(1.0, static_cast<double>(footage.index()) / total) : 0);
     if (raw.empty()) {
-      fmt::print(stderr, "warning: {}: {}\n", footage.NameOf(footage.index()), footage.fault());
+      fmt::print(stderr, "warning: {}\n",
+                 PrintableLine(footage.NameOf(footage.index()) + ": " + footage.fault()));
       ++passed_over;
       continue;
     }

@@ -41,7 +41,8 @@ void RunSolveJob(const SolveArguments& arguments, const JobFiles& files) {
   const Progress progress = TerminalProgress();
   simulation::TissueCase tissue_case = simulation::ReadCase(arguments.tissue_case);
   files.RefuseToOverwrite({tissue_case.mesh_file});
-  for (const std::string& message : tissue_case.messages) fmt::print(stderr, "note: {}\n", message);
+  for (const std::string& message : tissue_case.messages)
+    fmt::print(stderr, "note: {}\n", PrintableLine(message));
   const simulation::CaseResult result = simulation::RunCase(tissue_case, progress);
   WriteAtomically(arguments.output, simulation::JsonFromResult(result));
   if (!arguments.vtu.empty()) {

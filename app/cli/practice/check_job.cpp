@@ -19,7 +19,7 @@ namespace arthro::app {
 namespace {
 
 void Print(std::FILE* stream, const char* word, const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) fmt::print(stream, "{}{}\n", word, line);
+  for (const std::string& line : lines) fmt::print(stream, "{}{}\n", word, PrintableLine(line));
 }
 
 void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {

@@ -21,6 +21,7 @@
 #include "app/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/core/partial_folder.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
@@ -104,7 +105,7 @@ void Run(const DemoJob& job) {
 
   StillPictures pictures(loaded);
   const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
-  auto json = nlohmann::json::parse(simulation::ReportText(report, loaded.scene));
+  auto json = ParseJson(simulation::ReportText(report, loaded.scene), Code::kBadData);
   json["pictures"] = nlohmann::json::array();
   LiveTissues tissues;
   const std::size_t count = moments.all().size();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/resource_folder.h"
+#include "simulation/core/error.h"
+#include "simulation/scene/archive_io.h"
 
 namespace arthro::app {
 
@@ -12,11 +14,18 @@ std::vector<simulation::TissuePreset> ShippedTissuePresets() {
 
 std::vector<simulation::BodySpec> LivingTissuesOf(const LoadedScene& loaded) {
   std::vector<std::string> messages;
-  auto bodies = simulation::LivingTissues(
-      loaded.scene, loaded.surfaces,
-      [&loaded](const std::filesystem::path& name) { return loaded.folder / name; },
-      ShippedTissuePresets(), &messages);
-  for (const std::string& message : messages) fmt::print(stderr, "note: {}\n", message);
+  std::vector<simulation::BodySpec> bodies;
+  try {
+    bodies = simulation::LivingTissues(
+        loaded.scene, loaded.surfaces,
+        [&loaded](const std::filesystem::path& name) { return loaded.folder / name; },
+        ShippedTissuePresets(), &messages);
+  } catch (const Error& error) {
+    if (loaded.archive.empty()) throw;
+    throw NamedByArchive(error, loaded.folder, loaded.archive);
+  }
+  for (const std::string& message : messages)
+    fmt::print(stderr, "note: {}\n", PrintableLine(message));
   return bodies;
 }
 

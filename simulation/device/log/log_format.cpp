@@ -13,6 +13,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/json_text.h"
 #include "simulation/device/trace_io.h"
 
 namespace arthro::simulation {
@@ -150,7 +151,7 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
 
 std::vector<LogSource> SourcesIn(std::string_view text) {
   std::vector<LogSource> sources;
-  const auto json = nlohmann::json::parse(text);
+  const auto json = ParseJson(text, Code::kBadData);
   for (const auto& each : json.at("sources")) {
     LogSource& source = sources.emplace_back();
     each.at("family").get_to(source.family);
@@ -334,7 +335,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
     if (!has_sources) {
       try {
         log.sources = SourcesIn(payload);
-      } catch (const nlohmann::json::exception&) {
+      } catch (const std::exception&) {  // no JSON, or JSON of another form
         refuse("the head of this device log cannot be; record it again");
       }
       has_sources = true;

@@ -1,17 +1,16 @@
-// VTP surfaces and VTU volumes, through VTK's XML reader and writer. The one file of mesh_io that
-// sees VTK.
+// VTP surfaces and VTU volumes: read by VtkXmlFile, written by VTK's writer.
 #include <algorithm>
-#include <array>
+#include <cstdint>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -19,17 +18,15 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/formats/polygon_soup.h"
+#include "simulation/scene/formats/vtk_xml_file.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/tet_check.h"
 
@@ -38,10 +35,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Faults that VTK has named on this thread since reading began; null while nothing is read.
-thread_local int* faults_of_reading = nullptr;
+thread_local bool is_reading = false;
 
-// VTK says its errors to one window of the whole process. This one takes those of a thread that is
+// VTK says its errors to one window of the whole process. This one drops those of a thread that is
 // reading, and hands all others on to the window that was there before.
 class ReadingOutput : public vtkOutputWindow {
  public:
@@ -49,16 +45,16 @@ class ReadingOutput : public vtkOutputWindow {
   vtkTypeMacro(ReadingOutput, vtkOutputWindow);
 
   void DisplayText(const char* text) override {
-    if (!faults_of_reading) next_->DisplayText(text);
+    if (!is_reading) next_->DisplayText(text);
   }
   void DisplayErrorText(const char* text) override {
-    faults_of_reading ? void(++*faults_of_reading) : next_->DisplayErrorText(text);
+    if (!is_reading) next_->DisplayErrorText(text);
   }
   void DisplayWarningText(const char* text) override {
-    faults_of_reading ? void(++*faults_of_reading) : next_->DisplayWarningText(text);
+    if (!is_reading) next_->DisplayWarningText(text);
   }
   void DisplayGenericWarningText(const char* text) override {
-    faults_of_reading ? void(++*faults_of_reading) : next_->DisplayGenericWarningText(text);
+    if (!is_reading) next_->DisplayGenericWarningText(text);
   }
 
  private:
@@ -66,80 +62,112 @@ class ReadingOutput : public vtkOutputWindow {
 };
 vtkStandardNewMacro(ReadingOutput);
 
-// Runs a reader over bytes in memory; false when VTK found any fault.
-bool Run(vtkXMLReader* reader, std::string_view bytes) {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    vtkLogger::SetStderrVerbosity(
-        vtkLogger::VERBOSITY_OFF);  // it prints before the window is asked
-    vtkOutputWindow::SetInstance(vtkNew<ReadingOutput>());
-  });
-  int faults = 0;
-  struct Listening {
-    explicit Listening(int* count) { faults_of_reading = count; }
-    ~Listening() { faults_of_reading = nullptr; }
-  } listening(&faults);
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(std::string(bytes));
-  reader->Update();
-  return faults == 0 && reader->GetErrorCode() == 0;
-}
-
-[[noreturn]] void RefuseDamaged(const char* kind, const fs::path& file) {
-  throw Error(Code::kBadMesh,
-              fmt::format("this is not a whole {} file: it is damaged, cut off or something else; "
-                          "copy or export it again",
-                          kind),
-              file);
-}
-
-void AppendPoints(vtkPoints* points, std::vector<glm::dvec3>& to) {
-  const vtkIdType count = points ? points->GetNumberOfPoints() : 0;
-  to.reserve(static_cast<std::size_t>(count));
-  for (vtkIdType i = 0; i < count; ++i) {
-    double p[3];
-    points->GetPoint(i, p);
-    to.emplace_back(p[0], p[1], p[2]);
+// While it lives, what VTK says on this thread goes nowhere.
+struct VtkSilence {
+  VtkSilence() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+      vtkLogger::SetStderrVerbosity(
+          vtkLogger::VERBOSITY_OFF);  // it prints before the window is asked
+      vtkOutputWindow::SetInstance(vtkNew<ReadingOutput>());
+    });
+    is_reading = true;
   }
+  ~VtkSilence() { is_reading = false; }
+  VtkSilence(const VtkSilence&) = delete;
+  VtkSilence& operator=(const VtkSilence&) = delete;
+};
+
+std::string NameOfCellType(std::int64_t type) {
+  if (type < 0 || type > VTK_NUMBER_OF_CELL_TYPES) return fmt::format("cell of type {}", type);
+  return vtkCellTypes::GetClassNameFromTypeId(static_cast<int>(type));
 }
 
-// A cell's corners; VTK's reader checks the offsets but not where the corners point.
-std::span<const vtkIdType> CellPoints(vtkCellArray* cells, vtkIdType cell, vtkIdType point_count,
-                                      const fs::path& file) {
-  vtkIdType size = 0;
-  const vtkIdType* ids = nullptr;
-  cells->GetCellAtId(cell, size, ids);
-  for (vtkIdType i = 0; i < size; ++i)
-    if (ids[i] < 0 || ids[i] >= point_count)
-      throw Error(Code::kBadMesh,
-                  fmt::format("cell {} names point {} but there are only {}; the file is damaged, "
-                              "export it again",
-                              cell, ids[i], point_count),
-                  file);
-  return {ids, static_cast<std::size_t>(size)};
+// Behind those of the pieces before.
+void AppendPoints(VtkXmlFile& xml, const VtkXmlPiece& piece, std::vector<glm::dvec3>& to) {
+  const std::size_t count = piece.Count("NumberOfPoints");
+  if (count == 0) return;
+  const VtkXmlArray* points = piece.Find("Points", "");
+  if (!points || points->components != 3) xml.RefuseDamaged();
+  const std::vector<double> values = xml.Numbers(*points, 3 * count);
+  to.reserve(to.size() + count);
+  for (std::size_t i = 0; i < count; ++i)
+    to.emplace_back(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+}
+
+// Corners of the cells of one group of a piece, as indices into its points.
+struct CellCorners {
+  std::vector<std::int64_t> corners, ends;  // ends: one past the last corner of each cell
+
+  std::size_t size() const { return ends.size(); }
+  std::span<const std::int64_t> operator[](std::size_t cell) const {
+    const std::size_t begin = cell == 0 ? 0 : static_cast<std::size_t>(ends[cell - 1]);
+    return std::span(corners).subspan(begin, static_cast<std::size_t>(ends[cell]) - begin);
+  }
+};
+
+CellCorners CellsOf(VtkXmlFile& xml, const VtkXmlPiece& piece, std::string_view group,
+                    std::size_t count, const fs::path& file) {
+  CellCorners cells;
+  if (count == 0) return cells;
+  const VtkXmlArray* corners = piece.Find(group, "connectivity");
+  const VtkXmlArray* ends = piece.Find(group, "offsets");
+  if (!corners || !ends) xml.RefuseDamaged();
+  cells.ends = xml.Integers(*ends, count);
+  if (cells.ends.front() < 0 || !std::ranges::is_sorted(cells.ends)) xml.RefuseDamaged();
+  cells.corners = xml.Integers(*corners, static_cast<std::size_t>(cells.ends.back()));
+  const auto points = static_cast<std::int64_t>(piece.Count("NumberOfPoints"));
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::int64_t corner : cells[i])
+      if (corner < 0 || corner >= points)
+        throw Error(Code::kBadMesh,
+                    fmt::format("cell {} names point {} but there are only {}; the file is "
+                                "damaged, export it again",
+                                i, corner, points),
+                    file);
+  return cells;
+}
+
+// The point arrays of a piece that hold nothing but 0 and 1.
+void AppendSets(VtkXmlFile& xml, const VtkXmlPiece& piece, std::size_t points_before,
+                std::map<std::string, std::vector<std::uint8_t>>& sets) {
+  const auto group = piece.arrays.find("PointData");
+  if (group == piece.arrays.end()) return;
+  for (const VtkXmlArray& array : group->second) {
+    if (array.name.empty() || array.components != 1 || array.type == "String") continue;
+    const std::vector<double> values = xml.Numbers(array, piece.Count("NumberOfPoints"));
+    if (!std::ranges::all_of(values, [](double value) { return value == 0.0 || value == 1.0; }))
+      continue;
+    std::vector<std::uint8_t>& flags = sets[array.name];
+    flags.resize(points_before);
+    for (const double value : values) flags.push_back(value == 1.0);
+  }
 }
 
 }  // namespace
 
 PolygonSoup ParseVtp(std::string_view bytes, const fs::path& file) {
-  vtkNew<vtkXMLPolyDataReader> reader;
-  if (!Run(reader, bytes)) RefuseDamaged("VTP", file);
-  vtkPolyData* data = reader->GetOutput();
+  const VtkSilence silence;
+  VtkXmlFile xml(bytes, "PolyData", file);
   PolygonSoup soup;
-  AppendPoints(data->GetPoints(), soup.points);
-  const vtkIdType count = data->GetNumberOfPoints();
-  for (vtkIdType i = 0; i < data->GetPolys()->GetNumberOfCells(); ++i) {
-    for (const vtkIdType id : CellPoints(data->GetPolys(), i, count, file))
-      soup.corners.push_back(static_cast<int>(id));
-    soup.ClosePolygon();
-  }
-  for (vtkIdType i = 0; i < data->GetStrips()->GetNumberOfCells(); ++i) {
-    const auto strip = CellPoints(data->GetStrips(), i, count, file);
-    for (std::size_t k = 0; k + 2 < strip.size(); ++k) {  // every other one is listed backwards
-      const std::array<std::size_t, 3> order = {k, k + 1 + k % 2, k + 2 - k % 2};
-      for (const std::size_t corner : order)
-        soup.corners.push_back(static_cast<int>(strip[corner]));
+  for (const VtkXmlPiece& piece : xml.pieces()) {
+    const auto first = static_cast<std::int64_t>(soup.points.size());
+    AppendPoints(xml, piece, soup.points);
+    const auto push = [&](std::int64_t corner) {
+      soup.corners.push_back(static_cast<int>(first + corner));
+    };
+    const CellCorners polygons = CellsOf(xml, piece, "Polys", piece.Count("NumberOfPolys"), file);
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      for (const std::int64_t corner : polygons[i]) push(corner);
       soup.ClosePolygon();
+    }
+    const CellCorners strips = CellsOf(xml, piece, "Strips", piece.Count("NumberOfStrips"), file);
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const auto strip = strips[i];
+      for (std::size_t k = 0; k + 2 < strip.size(); ++k) {  // every other one is listed backwards
+        for (const std::size_t corner : {k, k + 1 + k % 2, k + 2 - k % 2}) push(strip[corner]);
+        soup.ClosePolygon();
+      }
     }
   }
   return soup;
@@ -160,54 +188,50 @@ TetMesh ReadTetMesh(const fs::path& file, TetReadReport* report) {
                 file);
   if (bytes.empty())
     throw Error(Code::kBadMesh, "this volume is empty (0 bytes); export it again", file);
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!Run(reader, bytes)) RefuseDamaged("VTU", file);
-  vtkUnstructuredGrid* grid = reader->GetOutput();
-  const vtkIdType cells = grid->GetNumberOfCells(), points = grid->GetNumberOfPoints();
-  if (cells == 0)
+  const VtkSilence silence;
+  VtkXmlFile xml(bytes, "UnstructuredGrid", file);
+
+  // All cells of one kind, four or ten nodes each.
+  TetMesh mesh;
+  std::optional<std::int64_t> kind;
+  std::int64_t cell = 0;
+  for (const VtkXmlPiece& piece : xml.pieces()) {
+    const std::size_t first = mesh.rest_positions.size(), count = piece.Count("NumberOfCells");
+    AppendPoints(xml, piece, mesh.rest_positions);
+    AppendSets(xml, piece, first, mesh.sets);
+    if (count == 0) continue;
+    const VtkXmlArray* types_of = piece.Find("Cells", "types");
+    if (!types_of) xml.RefuseDamaged();
+    const std::vector<std::int64_t> types = xml.Integers(*types_of, count);
+    const CellCorners cells = CellsOf(xml, piece, "Cells", count, file);
+    for (std::size_t i = 0; i < count; ++i, ++cell) {
+      if (types[i] != VTK_TETRA && types[i] != VTK_QUADRATIC_TETRA)
+        throw Error(Code::kBadMesh,
+                    fmt::format("cell {} is a {}; only tetrahedra of 4 or 10 nodes can be used",
+                                cell, NameOfCellType(types[i])),
+                    file);
+      if (!kind) kind = types[i];
+      if (types[i] != *kind)
+        throw Error(Code::kBadMesh,
+                    fmt::format("cell {} has another number of nodes than cell 0; linear and "
+                                "quadratic tetrahedra cannot be mixed",
+                                cell),
+                    file);
+      mesh.order = *kind == VTK_QUADRATIC_TETRA ? 2 : 1;
+      const auto corners = cells[i];
+      if (static_cast<int>(corners.size()) != mesh.NodesPerElement()) xml.RefuseDamaged();
+      for (const std::int64_t corner : corners)
+        mesh.elements.push_back(static_cast<int>(static_cast<std::int64_t>(first) + corner));
+    }
+  }
+  if (!kind)
     throw Error(Code::kBadMesh,
                 "there is no tetrahedron in this file; make it again with `arthroscene "
                 "tetrahedralize`",
                 file);
-
-  // All cells of one kind, four or ten nodes each.
-  TetMesh mesh;
-  const int type = grid->GetCellType(0);
-  mesh.order = type == VTK_QUADRATIC_TETRA ? 2 : 1;
-  for (vtkIdType i = 0; i < cells; ++i) {
-    if (grid->GetCellType(i) != VTK_TETRA && grid->GetCellType(i) != VTK_QUADRATIC_TETRA)
-      throw Error(Code::kBadMesh,
-                  fmt::format("cell {} is a {}; only tetrahedra of 4 or 10 nodes can be used", i,
-                              vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(i))),
-                  file);
-    if (grid->GetCellType(i) != type)
-      throw Error(Code::kBadMesh,
-                  fmt::format("cell {} has another number of nodes than cell 0; linear and "
-                              "quadratic tetrahedra cannot be mixed",
-                              i),
-                  file);
-    const auto ids = CellPoints(grid->GetCells(), i, points, file);
-    if (static_cast<int>(ids.size()) != mesh.NodesPerElement()) RefuseDamaged("VTU", file);
-    for (const vtkIdType id : ids) mesh.elements.push_back(static_cast<int>(id));
-  }
-  AppendPoints(grid->GetPoints(), mesh.rest_positions);
-
-  // Point arrays that hold nothing but 0 and 1 are sets.
-  vtkPointData* data = grid->GetPointData();
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
-    vtkDataArray* array = data->GetArray(i);
-    if (!array || !array->GetName() || array->GetNumberOfComponents() != 1 ||
-        array->GetNumberOfTuples() != points)
-      continue;
-    std::vector<std::uint8_t> flags(static_cast<std::size_t>(points));
-    bool is_set = true;
-    for (vtkIdType k = 0; k < points && is_set; ++k) {
-      const double value = array->GetComponent(k, 0);
-      is_set = value == 0.0 || value == 1.0;
-      flags[static_cast<std::size_t>(k)] = value == 1.0;
-    }
-    if (is_set) mesh.sets[array->GetName()] = std::move(flags);
-  }
+  // A set of only some pieces is no set of the whole.
+  std::erase_if(mesh.sets,
+                [&](const auto& set) { return set.second.size() != mesh.rest_positions.size(); });
   TetReadReport changed;
   CheckAndRepair(mesh, file, &changed);
   if (report) *report = std::move(changed);

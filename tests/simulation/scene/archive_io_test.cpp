@@ -128,6 +128,53 @@ TEST(ArchiveIo, NothingGetsOutOfItsFolder) {
   EXPECT_NE(FaultOfUnpacking(folder / "l.arthro").find("link"), std::string::npos);
 }
 
+TEST(ArchiveIo, NamesThatNoFileSystemTakesAreRefusedInOneShortSentence) {
+  test::TempFolder folder;
+  for (const std::size_t letters : {256u, 60000u}) {
+    WriteZip(folder / "n.arthro", {{"scene.json", "{}"}, {std::string(letters, 'n'), "x"}});
+    const std::string fault = FaultOfUnpacking(folder / "n.arthro");
+    EXPECT_NE(fault.find(std::to_string(letters) + " letters"), std::string::npos) << fault;
+    EXPECT_LT(fault.size(), 400u);
+  }
+  std::string deep = "a";
+  for (int i = 0; i < 1000; ++i) deep += "/a";
+  WriteZip(folder / "d.arthro", {{"scene.json", "{}"}, {deep, "x"}});
+  EXPECT_NE(FaultOfUnpacking(folder / "d.arthro").find("2001 letters"), std::string::npos);
+}
+
+// The folder that it was unpacked into is gone when the sentence is read.
+TEST(ArchiveIo, FaultsInsideNameTheArchiveAndTheFileInIt) {
+  test::TempFolder folder;
+  const fs::path archive = folder / "s.arthro";
+  const auto faults = [&] {
+    std::vector<std::string> all;
+    LoadScene(archive, all);
+    try {
+      ReadScene(archive);
+    } catch (const Error& error) {
+      all.push_back(error.what());
+    }
+    return all;
+  };
+  for (const auto& entries : std::vector<std::vector<Entry>>{
+           {{"scene.json", "{\"schema\": 7}"}},
+           {{"scene.json", std::string(100000, '[')}},
+           {{"scene.json", R"({"schema": "arthroscene.scene/1", "backdrop": {"radius": 0.05,
+                            "panorama": "p.png"}})"},
+            {"p.png", "no picture"}}}) {
+    WriteZip(archive, entries);
+    const auto all = faults();
+    ASSERT_FALSE(all.empty());
+    for (const std::string& fault : all) {
+      EXPECT_TRUE(fault.starts_with(archive.string() + ": ")) << fault;
+      EXPECT_NE(fault.find(fault.find("picture") == fault.npos ? "scene.json: " : "p.png: "),
+                std::string::npos)
+          << fault;
+      EXPECT_EQ(fault.find("/arthroscene-"), std::string::npos) << fault;
+    }
+  }
+}
+
 TEST(ArchiveIo, AnArchiveThatWouldFillTheDiskIsRefusedBeforeItDoes) {
   test::TempFolder folder;
   WriteZip(folder / "b.arthro", {{"scene.json", "{}"}, {"zeros", std::string(5 << 20, '\0')}});

@@ -1,0 +1,42 @@
+// Pictures from the bytes of a whole file. Size and kind of numbers are read from the head and
+// held against kMaxPixels before pixels are decoded, and a picture that is damaged inside is
+// refused: decoders would say their own words on stderr and leave the rest grey.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "simulation/scene/image.h"
+
+namespace arthro {
+
+// Largest picture that is taken: 16k x 16k. More is a broken head or a mistake.
+inline constexpr std::size_t kMaxPixels = std::size_t{1} << 28;
+
+enum class PictureFormat { kUnknown, kPng, kJpeg, kTiff, kBmp, kWebp, kPnm };
+
+// By the first bytes, never by the name.
+PictureFormat FormatOf(std::string_view bytes);
+
+// All below throw Error(kBadImage); `file` is for the sentence only.
+void RequireSize(std::uint64_t width, std::uint64_t height, const std::filesystem::path& file);
+[[noreturn]] void RefuseCutOff(const std::filesystem::path& file);
+[[noreturn]] void RefuseDamagedPicture(const std::filesystem::path& file);
+
+// 8-bit RGB: grey is spread, 16 bit scaled down, alpha dropped, EXIF orientation applied.
+ColourImage DecodePng(std::string_view bytes, const std::filesystem::path& file);
+ColourImage DecodeJpeg(std::string_view bytes, const std::filesystem::path& file);
+ColourImage DecodeTiff(std::string_view bytes, const std::filesystem::path& file);
+// One channel of 32-bit floats.
+DepthMap DecodeDepthTiff(std::string_view bytes, const std::filesystem::path& file);
+
+// Only the head of the formats that OpenCV decodes: size, and bytes enough for it.
+void CheckBmp(std::string_view bytes, const std::filesystem::path& file);
+void CheckPnm(std::string_view bytes, const std::filesystem::path& file);
+
+// Turns the picture upright by the orientation (1 to 8) that EXIF data holds, or leaves it.
+void ApplyExifOrientation(std::string_view exif, ColourImage& image);
+
+}  // namespace arthro

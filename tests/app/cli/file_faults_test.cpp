@@ -1,0 +1,218 @@
+// Files that once crashed the program, made it hang or took all memory: each gets one sentence on
+// stderr and exit 1, in under 2 s of processor time and 1 GB of memory.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/scene/image_io.h"
+#include "tests/support/run_measured.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro {
+namespace {
+
+namespace fs = std::filesystem;
+using test::MeasuredRun;
+using test::RunMeasured;
+using test::TempFolder;
+using Words = std::vector<std::string>;
+
+constexpr double kMostSeconds = 2;  // of the processor, so that other processes do not count
+constexpr double kMostMegabytes = 1024;
+
+// Words of libraries, which say nothing to a surgeon.
+const char* const kForeign[] = {"libpng",           "imdecode",   "OpenCV",    "json.exception",
+                                "filesystem error", "vector::",   "basic_",    "std::",
+                                "Corrupt JPEG",     "Unexpected", "terminate", "what()",
+                                "Generic Warning",  "ERROR: In",  "TIFFRead",  "Assertion"};
+
+// One sentence and exit 1, whatever the job.
+std::string RefusalOf(const Words& arguments, const Words& environment = {}) {
+  const MeasuredRun run = RunMeasured(arguments, environment);
+  const std::string line = fmt::format("{}", fmt::join(arguments, " "));
+  EXPECT_EQ(run.exit_code, 1) << line << "\n" << run.err;
+  EXPECT_TRUE(run.err.starts_with("arthroscene: ")) << line << "\n" << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << line << "\n" << run.err;
+  for (const char* const word : kForeign)
+    EXPECT_EQ(run.err.find(word), run.err.npos) << line << "\n" << run.err;
+  const bool has_control = std::any_of(run.err.begin(), run.err.end(),
+                                       [](unsigned char c) { return c < 0x20 && c != '\n'; });
+  EXPECT_FALSE(has_control) << line << "\n" << run.err;
+  EXPECT_LT(run.err.size(), 1500u) << line << "\n" << run.err;
+  EXPECT_LT(run.cpu_seconds, kMostSeconds) << line << "\n" << run.err;
+  EXPECT_LT(run.megabytes, kMostMegabytes) << line << "\n" << run.err;
+  return run.err;
+}
+
+TEST(FileFaults, VolumesThatBrokeTheSolverAreRefused) {
+  ARTHRO_REQUIRE_SHARED(faults, "faults/vtk");
+  TempFolder folder;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(faults)) {
+    const std::string name = entry.path().filename().string();
+    if (!fs::exists(entry.path() / "case.json")) continue;
+    const std::string said = RefusalOf(
+        {"solve", (entry.path() / "case.json").string(), "-o", (folder / "r.json").string()});
+    EXPECT_NE(said.find("block.vtu"), said.npos) << said;
+    ++count;
+  }
+  EXPECT_GE(count, 9);
+  EXPECT_FALSE(fs::exists(folder / "r.json"));
+}
+
+TEST(FileFaults, ASceneWithABrokenVolumeIsRefusedByEveryJob) {
+  ARTHRO_REQUIRE_SHARED(scene, "faults/vtk/scene_NumberOfCells_-1");
+  TempFolder folder;
+  const std::string said = RefusalOf({"replay", scene.string(), (scene / "trace.csv").string(),
+                                      "-o", (folder / "f.csv").string()});
+  EXPECT_NE(said.find("NumberOfCells is \"-1\""), said.npos) << said;
+  const MeasuredRun check = RunMeasured({"check", scene.string()});
+  EXPECT_EQ(check.exit_code, 1) << check.err;
+  EXPECT_NE(check.err.find("NumberOfCells is \"-1\""), check.err.npos) << check.err;
+}
+
+TEST(FileFaults, DamagedXmlOfAFuzzerIsRefusedOrRead) {
+  ARTHRO_REQUIRE_SHARED(faults, "faults/ipf");
+  TempFolder folder;
+  RefusalOf({"tetrahedralize", (faults / "vtp.7/in.vtp").string(), "--unit", "m", "-o",
+             (folder / "o.vtu").string()});
+  ARTHRO_REQUIRE_SHARED(solve, "faults/vtk/vtu_types_as_Bit/case.json");
+  fs::copy_file(solve, folder / "case.json");
+  fs::copy_file(faults / "vtu.7/in.vtu", folder / "block.vtu");
+  RefusalOf({"solve", (folder / "case.json").string(), "-o", (folder / "r.json").string()});
+}
+
+TEST(FileFaults, ArchivesThatBrokeReadingAreRefusedByTheirOwnName) {
+  ARTHRO_REQUIRE_SHARED(faults, "faults/archive");
+  TempFolder folder;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(faults)) {
+    const std::string archive = entry.path().string();
+    const bool has_no_temporary = entry.path().stem() == "TMPDIR_missing";
+    const std::string said =
+        RefusalOf({"centres", archive, "--view-angle-deg", "30", "--insertion-mm", "5", "-o",
+                   (folder / "c.csv").string()},
+                  {"TMPDIR=" + (has_no_temporary ? "/nonexistent" : folder.path().string())});
+    EXPECT_NE(said.find(has_no_temporary ? "TMPDIR" : archive), said.npos) << said;
+    EXPECT_EQ(said.find(folder.path().string() + "/arthroscene-"), said.npos) << said;
+    ++count;
+  }
+  EXPECT_GE(count, 7);
+  for (const auto& left : fs::directory_iterator(folder.path()))
+    ADD_FAILURE() << "left behind: " << left.path();
+}
+
+// --- made here, so that they are tried on every machine ---
+
+ColourImage Picture(int width, int height) {
+  ColourImage image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y)[c] = static_cast<std::uint8_t>(128 + 100 * std::sin(0.1 * x + 0.07 * y + c));
+  return image;
+}
+
+std::string Nested(int depth) {
+  return std::string(static_cast<std::size_t>(depth), '[') +
+         std::string(static_cast<std::size_t>(depth), ']');
+}
+
+constexpr int kDeep = 200'000;
+
+TEST(FileFaults, DeeplyNestedJsonIsRefusedByEveryReader) {
+  TempFolder folder;
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  WriteAtomically(folder / "scene.json",
+                  R"({"schema": "arthroscene.scene/1", "x-a": )" + Nested(kDeep) + "}");
+  WriteAtomically(folder / "deep.json", Nested(kDeep));
+  WriteAtomically(folder / "keys.json",
+                  R"({"schema": "arthroscene.lens/1", "x-a": )" + Nested(kDeep) + "}");
+  WriteColourImage(folder / "p.png", Picture(64, 48));
+  const std::string deep = at("deep.json");
+  for (const Words& job :
+       {Words{"centres", folder.path().string(), "--view-angle-deg", "30", "--insertion-mm", "5",
+              "-o", at("c.csv")},
+        Words{"view", folder.path().string(), "-o", at("v.png")},
+        Words{"solve", deep, "-o", at("r.json")},
+        Words{"depth", at("p.png"), "--options", deep, "-o", at("d.tiff")},
+        Words{"panorama", at("p.png"), "--lens", at("keys.json"), "-o", at("o.png")},
+        Words{"practise", folder.path().string(), "--rig", deep}}) {
+    const std::string said = RefusalOf(job, {"DISPLAY="});
+    EXPECT_NE(said.find("nested"), said.npos) << said;
+  }
+}
+
+// A head of 60000 x 60000 pixels before the data of a small one.
+TEST(FileFaults, PicturesTooLargeAreRefusedBeforeTheyAreDecoded) {
+  TempFolder folder;
+  const auto big = [](std::uint32_t number) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+    return bytes;
+  };
+  WriteColourImage(folder / "p.png", Picture(64, 48));
+  std::string bytes = ReadWholeFile(folder / "p.png");
+  bytes.replace(16, 8, big(60000) + big(60000));  // behind the signature, IHDR's width and height
+  bytes.replace(29, 4, big(0x0fb0e215));          // the checksum of that head
+  WriteAtomically(folder / "p.png", bytes);
+  const std::string said =
+      RefusalOf({"depth", (folder / "p.png").string(), "-o", (folder / "d.tiff").string()});
+  EXPECT_NE(said.find("60000 x 60000"), said.npos) << said;
+}
+
+TEST(FileFaults, DamagedPicturesAreRefusedAndNeverHalfGrey) {
+  TempFolder folder;
+  for (const char* const ending : {"png", "jpg", "tiff", "bmp", "webp", "ppm"}) {
+    const fs::path file = folder / (std::string("a.") + ending);
+    WriteColourImage(file, Picture(160, 120));
+    std::string bytes = ReadWholeFile(file);
+    if (std::string(ending) == "bmp" || std::string(ending) == "ppm")
+      bytes.resize(bytes.size() / 2);  // no more than a cut can be seen in bare pixels
+    else
+      for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i)
+        bytes[i] = i % 2 ? '\0' : '\xff';  // no code of JPEG's either
+    WriteAtomically(file, bytes);
+    const std::string said =
+        RefusalOf({"depth", file.string(), "-o", (folder / "d.tiff").string()});
+    EXPECT_TRUE(said.find("damaged inside") != said.npos || said.find("cut off") != said.npos)
+        << said;
+    EXPECT_FALSE(fs::exists(folder / "d.tiff"));
+  }
+}
+
+TEST(FileFaults, NamesAndTextOfFilesNeverReachTheTerminalRaw) {
+  TempFolder folder;
+  const std::string esc = "\x1b]0;title\x07\n\x1b[2J";
+  WriteAtomically(folder / ("a" + esc + ".png"), "no picture");
+  RefusalOf(
+      {"depth", (folder / ("a" + esc + ".png")).string(), "-o", (folder / "d.tiff").string()});
+  WriteAtomically(folder / "rig.json",
+                  R"({"schema": ")" + std::string(4 << 20, 'x') + R"(", "title": "\u001b[2J"})");
+  RefusalOf({"practise", folder.path().string(), "--rig", (folder / "rig.json").string()},
+            {"DISPLAY="});
+  WriteAtomically(folder / "case.json", R"({"mode": "\u001b[2J\n\n", "mesh": "\u009b2J"})");
+  RefusalOf({"solve", (folder / "case.json").string(), "-o", (folder / "r.json").string()});
+}
+
+TEST(FileFaults, VideosThatAreNoneAreRefusedInOurWords) {
+  TempFolder folder;
+  // Heads of AVI, which OpenCV's own reader would talk about.
+  for (const std::string& bytes : {std::string("RIFF\x20\0\0\0AVI LIXT\x10\0\0\0hdrlavih", 28),
+                                   std::string("RIFF\xff\xff\0\0AVI ", 12),
+                                   std::string("this is a letter"), std::string(4096, '\0')}) {
+    WriteAtomically(folder / "v.avi", bytes);
+    RefusalOf({"panorama", (folder / "v.avi").string(), "-o", (folder / "o.png").string()});
+  }
+}
+
+}  // namespace
+}  // namespace arthro
