@@ -8,6 +8,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 
 namespace arthro::app {
 namespace {
@@ -21,7 +22,7 @@ RecentScenes::RecentScenes(fs::path file) : file_(std::move(file)) {
   std::error_code ignored;
   if (file_.empty() || !fs::exists(file_, ignored)) return;
   try {
-    const auto json = nlohmann::json::parse(ReadWholeFile(file_));
+    const auto json = nlohmann::json::parse(ReadWholeFile(file_, kMostJsonBytes));
     for (const auto& scene : json.at("scenes")) scenes_.emplace_back(scene.get<std::string>());
   } catch (const std::exception&) {
     scenes_.clear();

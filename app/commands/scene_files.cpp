@@ -11,6 +11,7 @@
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -124,7 +125,7 @@ void ImportPanorama(EditorState& state, const fs::path& picture) {
 void ReadPanoramaReport(EditorState& state, const fs::path& report) {
   nlohmann::json json;
   try {
-    json = nlohmann::json::parse(ReadWholeFile(report));
+    json = nlohmann::json::parse(ReadWholeFile(report, kMostJsonBytes));
   } catch (const nlohmann::json::exception&) {
     throw Error(Code::kBadData, "this is not a report in JSON; choose the report of a panorama",
                 report);

@@ -10,7 +10,9 @@
 
 #include "authoring/footage/picture_list.h"
 #include "authoring/footage/quiet_decoders.h"
+#include "authoring/footage/video_container.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::authoring {
@@ -22,6 +24,7 @@ constexpr double kMostFrames = 1e7;  // more is a broken header
 
 // File backends only: a name must never open a camera or a network address.
 cv::VideoCapture OpenVideo(const fs::path& file) {
+  RequireVideoContainer(file);
   QuietDecoders();
   for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
     try {
@@ -114,6 +117,7 @@ Footage Footage::Open(const fs::path& path) {
   if (fs::is_directory(path, ignored)) {
     source->pictures = PicturesIn(path);
   } else if (fs::exists(path, ignored)) {
+    RequireRegularFile(path);
     if (fs::file_size(path, ignored) == 0)
       throw Error(Code::kBadImage, "this file is empty (0 bytes); copy or export it again", path);
     if (IsPictureName(path)) source->pictures = {path};
