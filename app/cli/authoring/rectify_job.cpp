@@ -9,6 +9,7 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"
@@ -111,9 +112,8 @@ void AddRectifyJob(CLI::App& program) {
   job->add_option("--lens", own->lens, "lens.json of the camera, at the footage's size")
       ->required();
   job->add_option("-o,--output", own->output, "Folder to write; new or empty")->required();
-  job->add_option("--scale", own->scale, "Of the rectified frames; below 1 pixels are averaged")
-      ->check(CLI::Range(1.0 / 16, 2.0))
-      ->capture_default_str();
+  AddNumber(*job, "--scale", own->scale, {1.0 / 16, 2.0}, "",
+            "Of the rectified frames; below 1 pixels are averaged");
   AddOptions(*job, own->options);
   job->callback([own] { Run(*own); });
 }

@@ -15,6 +15,7 @@
 
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
 #include "app/resource_folder.h"
@@ -143,12 +144,8 @@ void AddDemoJob(CLI::App& program) {
       "demo", "Play the demo scene without a window: pictures, forces and a report");
   command->add_option("-o,--output", job->folder, "Folder for what is written")
       ->capture_default_str();
-  command->add_option("--pictures", job->pictures, "How many moments are shown")
-      ->check(CLI::Range(1, 99))
-      ->capture_default_str();
-  command->add_option("--size", job->size, "Width and height of a picture, px")
-      ->check(CLI::Range(64, 4096))
-      ->capture_default_str();
+  AddNumber(*command, "--pictures", job->pictures, {1, 99}, "", "How many moments are shown");
+  AddNumber(*command, "--size", job->size, {64, 4096}, "px", "Width and height of a picture");
   command->callback([job] { Run(*job); });
 }
 
