@@ -30,23 +30,7 @@ int RunCommandLine(int argc, char** argv) {
   program.set_help_all_flag("--help-all", "Help of every job");
   program.footer("`arthroscene JOB --help` says what a job takes.");
   program.require_subcommand(0, 1);
-  AddBenchJob(program);
-  AddCentresJob(program);
-  AddCheckJob(program);
-  AddDemoJob(program);
-  AddDepthJob(program);
-  AddDevicesJob(program);
-  AddEditJob(program);
-  AddLensJob(program);
-  AddPanoramaJob(program);
-  AddPhantomJob(program);
-  AddPivotJob(program);
-  AddPractiseJob(program);
-  AddRectifyJob(program);
-  AddReplayJob(program);
-  AddSolveJob(program);
-  AddTetrahedralizeJob(program);
-  AddViewJob(program);
+  AddEveryJob(program);
   try {
     program.parse(argc, argv);
     if (program.get_subcommands().empty()) RunEditor({});

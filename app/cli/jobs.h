@@ -8,6 +8,9 @@ class App;
 
 namespace arthro::app {
 
+// All of the jobs below, in the order in which the help lists them. Wrong use is said in one line.
+void AddEveryJob(CLI::App& program);
+
 void AddBenchJob(CLI::App& program);
 void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);

@@ -10,13 +10,24 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "simulation/core/atomic_file.h"
+#include "app/cli/number_flags.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options.h"
 #include "simulation/core/options_json.h"
 
 namespace arthro::app {
+
+// "m" and "rad" as the flags' own units.
+inline std::string UnitShown(std::string_view unit) {
+  if (unit == "m") return "mm";
+  if (unit == "rad") return "degrees";
+  return std::string(unit);
+}
+
+// A limit that a change of unit took a rounding error to, without it: 18, not 18.000000000000004.
+inline double Shown(double limit) { return std::stod(fmt::format("{:.12g}", limit)); }
 
 struct CliVisitor {
   CLI::App& job;
@@ -51,21 +62,20 @@ struct CliVisitor {
       // --flag or --flag=false
       job.add_flag(flag, field, text)->default_str(field ? "true" : "false")->group(group);
     } else if constexpr (std::is_same_v<T, double>) {
+      static_assert(std::is_same_v<R, Range>, "a number has a range");
       const double factor = border.factor;
-      auto* option = job.add_option_function<double>(
-          flag,
-          [target, factor, flag](double shown) {
-            if (!std::isfinite(shown)) throw CLI::ValidationError(flag, "must be a finite number");
-            *target = shown / factor;
-          },
-          text);
-      if constexpr (std::is_same_v<R, Range>)
-        option->check(CLI::Range(range.min * factor, range.max * factor));
-      option->default_str(fmt::format("{:g}", field * factor))->group(group);
+      AddNumberOption(job, flag,
+                      {{Shown(range.min * factor), Shown(range.max * factor)}, UnitShown(unit)},
+                      text, [target, factor](double shown) { *target = shown / factor; })
+          ->default_str(fmt::format("{:g}", field * factor))
+          ->group(group);
+    } else if constexpr (std::is_same_v<T, int>) {
+      Range whole = kAnyWholeNumber;
+      if constexpr (std::is_same_v<R, Range>) whole = range;
+      AddNumber(job, flag, field, whole, unit, text)->group(group);
     } else {
-      auto* option = job.add_option(flag, field, text)->capture_default_str()->group(group);
-      if constexpr (std::is_same_v<R, Range> && std::is_arithmetic_v<T>)
-        option->check(CLI::Range(static_cast<T>(range.min), static_cast<T>(range.max)));
+      static_assert(std::is_same_v<T, std::string>);
+      job.add_option(flag, field, text)->capture_default_str()->group(group);
     }
   }
 };
@@ -84,8 +94,8 @@ void AddOptionsFile(CLI::App& job, Options& options) {
   job.add_option_function<std::string>(
          "--options",
          [&options](const std::string& file) {
-           options = OptionsFromJson<Options>(ParseJson(ReadWholeFile(file), Code::kBadData, file),
-                                              file, options);
+           options = OptionsFromJson<Options>(
+               ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file), file, options);
          },
          "JSON file with options; flags win over it")
       ->trigger_on_parse();

@@ -8,6 +8,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 
 namespace arthro::app {
@@ -22,7 +23,7 @@ RecentScenes::RecentScenes(fs::path file) : file_(std::move(file)) {
   std::error_code ignored;
   if (file_.empty() || !fs::exists(file_, ignored)) return;
   try {
-    const auto json = ParseJson(ReadWholeFile(file_), Code::kBadData, file_);
+    const auto json = ParseJson(ReadWholeFile(file_, kMostJsonBytes), Code::kBadData, file_);
     for (const auto& scene : json.at("scenes")) scenes_.emplace_back(scene.get<std::string>());
   } catch (const std::exception&) {
     scenes_.clear();

@@ -12,6 +12,7 @@
 #include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
@@ -165,7 +166,8 @@ void ImportPanorama(EditorState& state, const fs::path& picture) {
 }
 
 void ReadPanoramaReport(EditorState& state, const fs::path& report) {
-  const nlohmann::json json = ParseJson(ReadWholeFile(report), Code::kBadData, report);
+  const nlohmann::json json =
+      ParseJson(ReadWholeFile(report, kMostJsonBytes), Code::kBadData, report);
   const nlohmann::json part = json.is_object() ? json.value("panorama", nlohmann::json()) : json;
   if (!part.is_object())
     throw Error(Code::kBadData, "there is no \"panorama\" in it; choose the report of a panorama",

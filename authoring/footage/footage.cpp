@@ -11,7 +11,9 @@
 
 #include "authoring/footage/picture_list.h"
 #include "authoring/footage/quiet_decoders.h"
+#include "authoring/footage/video_container.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::authoring {
@@ -25,6 +27,7 @@ constexpr double kMostFrames = 1e7;  // more is a broken header
 // AVI prints what it meets on stderr and knows nothing that FFmpeg does not, so it is asked only
 // where there is no FFmpeg.
 cv::VideoCapture OpenVideo(const fs::path& file) {
+  RequireVideoContainer(file);
   QuietDecoders();
   const int backend =
       cv::videoio_registry::hasBackend(cv::CAP_FFMPEG) ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG;
@@ -117,6 +120,7 @@ Footage Footage::Open(const fs::path& path) {
   if (fs::is_directory(path, ignored)) {
     source->pictures = PicturesIn(path);
   } else if (fs::exists(path, ignored)) {
+    RequireRegularFile(path);
     if (fs::file_size(path, ignored) == 0)
       throw Error(Code::kBadImage, "this file is empty (0 bytes); copy or export it again", path);
     if (IsPictureName(path)) source->pictures = {path};

@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/scene/json_object_reader.h"
 
 namespace arthro::authoring {
 
 LensPreset ReadLensPreset(const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(ReadWholeFile(file), Code::kBadData, file);
+  const nlohmann::json json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
   if (!json.is_object())
     throw Error(Code::kBadData, "a lens preset must be a JSON object {…}; mend or remove it", file);
   std::vector<JsonFault> faults;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/tissue/fine_places.h"
+#include "authoring/tissue/time_limit.h"
 #include "simulation/core/error.h"
 
 namespace arthro::authoring {
@@ -82,7 +83,7 @@ std::string BudgetWords(const MeshBudget& budget) {
 
 TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& source,
                                const MeshWish& wish, TetrahedralizeReport* report,
-                               const Progress& progress, const std::filesystem::path& program) {
+                               const Progress& whole, const std::filesystem::path& program) {
   TetrahedralizeReport own_report;
   TetrahedralizeReport& result = report ? *report : own_report;
   TetrahedralizeOptions options;
@@ -90,14 +91,18 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
   options.keep_surface = true;
   options.min_dihedral = 0;  // that is the triangles' matter here
   options.time_limit = wish.time_limit;
+  options.begun = wish.begun.value_or(TimeLimit::Clock::now());
   options.memory_limit = wish.memory_limit;
   const int wanted = std::clamp(wish.elements, kFewestElements, kMostBudgetElements);
 
+  const TimeLimit limit(options.time_limit, *options.begun);
+  const Progress progress = limit.Watch(whole, source.file, surface.triangles.size());
+
   // What the author drew is checked and told of before it is made coarse.
-  RepairedSurface repaired = RepairSurface(surface, {});
+  RepairedSurface repaired = RepairSurface(surface, {}, progress);
   SurfaceSource repaired_source = source;
   repaired_source.triangle_in_file = repaired.source_triangle;
-  const SurfaceCheck check = CheckSurface(repaired.surface);
+  const SurfaceCheck check = CheckSurface(repaired.surface, progress);
   RequireTissueSize(check, repaired_source);
   RequireMeshable(check, repaired_source);
 
@@ -113,12 +118,12 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
     SurfaceMesh coarse = repaired.surface;
     TetrahedralizeReport attempt;
     attempt.reading = result.reading;
-    attempt.simplification = SimplifyEvenly(coarse, static_cast<int>(triangles), weight);
-    if (CheckSurface(coarse).self_intersections.count > 0) {
+    attempt.simplification = SimplifyEvenly(coarse, static_cast<int>(triangles), weight, progress);
+    if (CheckSurface(coarse, progress).self_intersections.count > 0) {
       triangles = fewest = 1.08 * triangles;  // so few run through one another
       continue;
     }
-    TetMesh mesh = Tetrahedralize(coarse, source, options, &attempt, progress, program);
+    TetMesh mesh = Tetrahedralize(coarse, source, options, &attempt, whole, program);
     const double off = std::abs(std::log(static_cast<double>(attempt.elements) / wanted));
     const bool is_whole =
         attempt.simplification.triangles_after == attempt.simplification.triangles_before;
@@ -139,7 +144,7 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
                 "deforms; fill it with `arthroscene tetrahedralize` and a longer edge",
                 source.file);
   result.repairs = repaired.repairs;
-  PullMiddles(best, repaired.surface);
+  PullMiddles(best, repaired.surface, progress);
   result.quality = MeasureTets(best);
   result.volume_error = std::abs(result.quality.curved_volume - check.volume) / check.volume;
   return best;

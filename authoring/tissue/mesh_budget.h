@@ -30,11 +30,12 @@ const MeshBudget& BudgetOf(MeshSize size);
 std::string BudgetWords(const MeshBudget& budget);
 
 struct MeshWish {
-  int elements = 300;         // quadratic; about so many are made
-  std::vector<Ball> fixed;    // where the tissue is held (scene.h)
-  std::vector<Ball> probed;   // where it is probed
-  double time_limit = 120.0;  // s, of the mesher, and memory_limit, MB
-  double memory_limit = 2048.0;
+  int elements = 300;                                          // quadratic; about so many are made
+  std::vector<Ball> fixed;                                     // where the tissue is held (scene.h)
+  std::vector<Ball> probed;                                    // where it is probed
+  double time_limit = 120.0;                                   // s, of the whole job
+  double memory_limit = 2048.0;                                // MB, of the mesher
+  std::optional<std::chrono::steady_clock::time_point> begun;  // not given: at the call
 };
 inline constexpr int kFewestElements = 20, kMostBudgetElements = 20000;
 

@@ -10,7 +10,7 @@
 
 namespace arthro::authoring {
 
-PulledMiddles PullMiddles(TetMesh& mesh, const SurfaceMesh& fine) {
+PulledMiddles PullMiddles(TetMesh& mesh, const SurfaceMesh& fine, const Progress& progress) {
   PulledMiddles result;
   if (mesh.order != 2) return result;
   const std::vector<std::uint8_t> is_outside = SurfaceNodes(mesh);
@@ -33,6 +33,8 @@ PulledMiddles PullMiddles(TetMesh& mesh, const SurfaceMesh& fine) {
   std::vector<Middle> middles;
   for (std::size_t node = 0; node < elements.size(); ++node)
     if (!elements[node].empty() && is_outside[node]) {
+      progress.Step("curving the elements",
+                    static_cast<double>(node) / static_cast<double>(elements.size()));
       const glm::dvec3 straight = mesh.rest_positions[node];
       middles.push_back({node, straight, NearestOnSurface(straight, fine) - straight});
     }

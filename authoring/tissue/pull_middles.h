@@ -2,6 +2,7 @@
 // corners were taken from, so that few elements keep its shape and volume. m.
 #pragma once
 
+#include "simulation/core/progress.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scene/tet_mesh.h"
 
@@ -16,6 +17,6 @@ struct PulledMiddles {
 };
 
 // Of an order-2 mesh with straight edges.
-PulledMiddles PullMiddles(TetMesh& mesh, const SurfaceMesh& fine);
+PulledMiddles PullMiddles(TetMesh& mesh, const SurfaceMesh& fine, const Progress& progress = {});
 
 }  // namespace arthro::authoring

@@ -11,6 +11,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "authoring/tissue/time_limit.h"
+
 // Of TetGen only Shewchuk's predicates are used here; the mesher itself runs in a process of its
 // own.
 #define TETLIBRARY
@@ -148,8 +150,12 @@ class BoxTree {
 
   // Pairs of leaves whose boxes meet, each once.
   template <class F>
-  void ForEachPair(F&& visit) const {
-    for (const int t : triangles_) Query(0, t, visit);
+  void ForEachPair(const Progress& progress, F&& visit) const {
+    StageSteps steps(progress, "looking for self-intersections", triangles_.size());
+    for (const int t : triangles_) {
+      steps.Next();
+      Query(0, t, visit);
+    }
   }
 
  private:
@@ -204,7 +210,8 @@ class BoxTree {
 
 }  // namespace
 
-std::vector<IntersectingPair> FindSelfIntersections(const SurfaceMesh& surface, int most) {
+std::vector<IntersectingPair> FindSelfIntersections(const SurfaceMesh& surface, int most,
+                                                    const Progress& progress) {
   // The predicates keep their rounding constants in the library; without its static filter they
   // depend on nothing else.
   static std::once_flag once;
@@ -217,7 +224,7 @@ std::vector<IntersectingPair> FindSelfIntersections(const SurfaceMesh& surface, 
     if (glm::cross(y - x, z - x) != Point(0.0)) with_area.push_back(t);
   }
   std::vector<IntersectingPair> pairs;
-  BoxTree(surface, std::move(with_area)).ForEachPair([&](int s, int t) {
+  BoxTree(surface, std::move(with_area)).ForEachPair(progress, [&](int s, int t) {
     if (static_cast<int>(pairs.size()) < most && Intersect(surface, s, t)) pairs.push_back({s, t});
   });
   std::sort(pairs.begin(), pairs.end(), [](const auto& p, const auto& q) {

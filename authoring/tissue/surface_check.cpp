@@ -12,6 +12,7 @@
 
 #include "authoring/tissue/self_intersection.h"
 #include "authoring/tissue/surface_topology.h"
+#include "authoring/tissue/time_limit.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 
@@ -23,6 +24,7 @@ namespace {
 constexpr double kSmallestTissue = 1e-3, kLargestTissue = 0.3;  // m
 // Twice the area over the longest side squared; a triangle below this is a line.
 constexpr double kNoArea = 1e-12;
+constexpr const char* kCheckStage = "checking the surface";
 constexpr double kTinyComponent = 1e-3;  // of the largest component's volume
 
 glm::dvec3 Centre(const SurfaceMesh& surface, int t) {
@@ -30,9 +32,11 @@ glm::dvec3 Centre(const SurfaceMesh& surface, int t) {
   return (surface.vertices[a] + surface.vertices[b] + surface.vertices[c]) / 3.0;
 }
 
-void CheckTriangles(const SurfaceMesh& surface, SurfaceCheck& check) {
+void CheckTriangles(const SurfaceMesh& surface, SurfaceCheck& check, const Progress& progress) {
+  StageSteps steps(progress, kCheckStage, surface.triangles.size());
   std::map<std::array<int, 3>, int> first;
   for (int t = 0; t < check.triangles; ++t) {
+    steps.Next();
     auto corners = surface.triangles[t];
     const glm::dvec3 &x = surface.vertices[corners[0]], &y = surface.vertices[corners[1]],
                      &z = surface.vertices[corners[2]];
@@ -108,7 +112,7 @@ double WindingNumber(const std::vector<glm::dvec3>& vertices, const Component& c
 }
 
 void CheckComponents(const SurfaceMesh& surface, const std::vector<int>& component_of,
-                     SurfaceCheck& check) {
+                     SurfaceCheck& check, const Progress& progress) {
   std::vector<Component> components(static_cast<std::size_t>(check.components));
   for (int t = 0; t < check.triangles; ++t) {
     Component& component = components[component_of[t]];
@@ -127,6 +131,7 @@ void CheckComponents(const SurfaceMesh& surface, const std::vector<int>& compone
     largest = std::max(largest, std::abs(component.volume));
   }
   for (const Component& component : components) {
+    progress.Step(kCheckStage, 1.0);
     const int t = component.first_triangle;
     const glm::dvec3 x = surface.vertices[surface.triangles[t][0]];
     if (component.volume < 0) check.inward.Add(x, t);
@@ -163,7 +168,7 @@ std::string Counted(int count, const char* one, const char* many) {
 
 double SurfaceCheck::Diagonal() const { return glm::distance(low, high); }
 
-SurfaceCheck CheckSurface(const SurfaceMesh& surface) {
+SurfaceCheck CheckSurface(const SurfaceMesh& surface, const Progress& progress) {
   SurfaceCheck check;
   check.vertices = static_cast<int>(surface.vertices.size());
   check.triangles = static_cast<int>(surface.triangles.size());
@@ -175,13 +180,15 @@ SurfaceCheck CheckSurface(const SurfaceMesh& surface) {
   check.volume = SignedVolume(surface.vertices, surface.triangles);
   const auto uses = SortedEdgeUses(surface);
   const auto component_of = ComponentOfTriangles(surface, uses, &check.components);
-  CheckTriangles(surface, check);
+  CheckTriangles(surface, check, progress);
+  progress.Step(kCheckStage, 0.5);
   CheckEdges(surface, uses, check);
+  progress.Step(kCheckStage, 0.8);
   CheckVertices(surface, uses, check);
   if (!check.IsClosedManifold()) return check;
-  for (const IntersectingPair& pair : FindSelfIntersections(surface))
+  for (const IntersectingPair& pair : FindSelfIntersections(surface, kMostPairs, progress))
     check.self_intersections.Add(PlaceOf(surface, pair), pair.first, pair.second);
-  if (check.flipped.count == 0) CheckComponents(surface, component_of, check);
+  if (check.flipped.count == 0) CheckComponents(surface, component_of, check, progress);
   return check;
 }
 

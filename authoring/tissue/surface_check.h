@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "simulation/core/progress.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::authoring {
@@ -50,7 +51,7 @@ struct SurfaceCheck {
 };
 
 // Self-intersections and cavities are looked for only in a closed manifold.
-SurfaceCheck CheckSurface(const SurfaceMesh& surface);
+SurfaceCheck CheckSurface(const SurfaceMesh& surface, const Progress& progress = {});
 
 // Where a surface comes from, so that a refusal can say where the fault is in the user's terms.
 struct SurfaceSource {

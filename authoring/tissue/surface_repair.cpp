@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/tissue/surface_topology.h"
+#include "authoring/tissue/time_limit.h"
 
 namespace arthro::authoring {
 namespace {
@@ -19,6 +20,7 @@ using Triangle = std::array<int, 3>;
 
 // Twice the area over the longest side squared; a triangle below this is a line.
 constexpr double kNoArea = 1e-12;
+constexpr const char* kRepairStage = "repairing the surface";
 
 bool RepeatsACorner(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
@@ -39,7 +41,7 @@ int KeepTriangles(RepairedSurface& mended, F&& keep) {
 
 // A vertex goes to the first one before it that is nearer than the tolerance; looked up in cells of
 // that size.
-int Weld(SurfaceMesh& surface) {
+int Weld(SurfaceMesh& surface, const Progress& progress) {
   if (surface.vertices.empty()) return 0;
   glm::dvec3 low = surface.vertices[0], high = low;
   for (const glm::dvec3& x : surface.vertices) low = glm::min(low, x), high = glm::max(high, x);
@@ -49,10 +51,12 @@ int Weld(SurfaceMesh& surface) {
   std::map<Cell, std::vector<int>> cells;
   std::vector<int> target(surface.vertices.size());
   int welded = 0;
+  StageSteps steps(progress, kRepairStage, surface.vertices.size());
   for (int i = 0; i < static_cast<int>(surface.vertices.size()); ++i) {
     const glm::dvec3 x = surface.vertices[i], at = (x - low) / tolerance;
     const Cell cell = {std::llround(at.x), std::llround(at.y), std::llround(at.z)};
     target[i] = i;
+    steps.Next();
     for (long long dx = -1; dx <= 1; ++dx)
       for (long long dy = -1; dy <= 1; ++dy)
         for (long long dz = -1; dz <= 1; ++dz) {
@@ -72,9 +76,11 @@ int Weld(SurfaceMesh& surface) {
   return welded;
 }
 
-int DropDuplicates(RepairedSurface& mended) {
+int DropDuplicates(RepairedSurface& mended, const Progress& progress) {
   std::set<Triangle> seen;
+  StageSteps steps(progress, kRepairStage, mended.surface.triangles.size());
   return KeepTriangles(mended, [&](int t) {
+    steps.Next();
     Triangle corners = mended.surface.triangles[t];
     std::sort(corners.begin(), corners.end());
     return seen.insert(corners).second;
@@ -90,15 +96,17 @@ bool HasNoArea(const SurfaceMesh& surface, const Triangle& triangle) {
 
 // A triangle without area has a corner b on its side ac. The neighbour over that side, acd, becomes
 // abd and bcd: the same surface, without the line. One pass; several lines in a row take several.
-int FlattenOnce(SurfaceMesh& surface) {
+int FlattenOnce(SurfaceMesh& surface, const Progress& progress) {
   std::vector<int> lines;
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
     if (HasNoArea(surface, surface.triangles[t])) lines.push_back(t);
   if (lines.empty()) return 0;
 
   std::map<std::pair<int, int>, int> triangle_left_of;  // of a directed side; -1 when not unique
+  StageSteps steps(progress, kRepairStage, surface.triangles.size());
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) {
+      if (i == 0) steps.Next();
       const std::pair side{surface.triangles[t][i], surface.triangles[t][(i + 1) % 3]};
       if (const auto [entry, is_new] = triangle_left_of.try_emplace(side, t); !is_new)
         entry->second = -1;
@@ -158,9 +166,11 @@ std::vector<std::vector<int>> OpenLoops(const SurfaceMesh& surface) {
 }
 
 // Fills a loop by cutting off, again and again, the corner with the shortest cut.
-int FillHoles(RepairedSurface& mended, int most_sides) {
+int FillHoles(RepairedSurface& mended, int most_sides, const Progress& progress) {
   int filled = 0;
+  StageSteps steps(progress, kRepairStage, 0);
   for (std::vector<int> loop : OpenLoops(mended.surface)) {
+    steps.Next();
     if (static_cast<int>(loop.size()) > most_sides) continue;
     while (loop.size() >= 3) {
       const std::size_t n = loop.size();
@@ -266,23 +276,28 @@ int DropUnreferenced(SurfaceMesh& surface) {
 
 }  // namespace
 
-RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOptions& options) {
+RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOptions& options,
+                              const Progress& progress) {
   RepairedSurface mended{surface, {}, {}};
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
     mended.source_triangle.push_back(t);
   SurfaceRepairs& repairs = mended.repairs;
 
-  repairs.welded_vertices = Weld(mended.surface);
+  repairs.welded_vertices = Weld(mended.surface, progress);
   repairs.collapsed_triangles =
       KeepTriangles(mended, [&](int t) { return !RepeatsACorner(mended.surface.triangles[t]); });
-  repairs.duplicate_triangles = DropDuplicates(mended);
+  repairs.duplicate_triangles = DropDuplicates(mended, progress);
+  progress.Step(kRepairStage, 0.5);
   repairs.reoriented_triangles = OrientConsistently(mended.surface, SortedEdgeUses(mended.surface));
   for (int pass = 0; pass < 10; ++pass) {
-    const int flattened = FlattenOnce(mended.surface);
+    progress.Step(kRepairStage, 0.8);
+    const int flattened = FlattenOnce(mended.surface, progress);
     repairs.flattened_triangles += flattened;
     if (flattened == 0) break;
   }
-  if (options.fill_holes > 0) repairs.filled_holes = FillHoles(mended, options.fill_holes);
+  if (options.fill_holes > 0)
+    repairs.filled_holes = FillHoles(mended, options.fill_holes, progress);
+  progress.Step(kRepairStage, 0.9);
   SettleComponents(mended, options.drop_below_share);
   // Welded vertices are gone from every triangle as well; they are counted once.
   repairs.unreferenced_vertices = DropUnreferenced(mended.surface) - repairs.welded_vertices;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "simulation/core/progress.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::authoring {
@@ -41,6 +42,7 @@ struct RepairedSurface {
 
 inline constexpr double kWeldShare = 1e-6;  // of the bounding box's diagonal
 
-RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOptions& options);
+RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOptions& options,
+                              const Progress& progress = {});
 
 }  // namespace arthro::authoring

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -11,8 +12,11 @@
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Tools/Decimater/Observer.hh>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "authoring/tissue/time_limit.h"
 
 namespace arthro::authoring {
 namespace {
@@ -48,6 +52,33 @@ glm::dvec3 NearestOnTriangle(const glm::dvec3& x, const glm::dvec3& a, const glm
   return nearest;
 }
 
+constexpr const char* kStage = "simplifying the surface";
+
+// Tells of the collapses of a decimater, and ends it when the job should stop.
+class CollapseSteps : public OpenMesh::Decimater::Observer {
+ public:
+  CollapseSteps(const Progress& progress, std::size_t all)
+      : Observer(kEvery), progress_(progress), all_(all) {}
+
+  void notify(std::size_t collapses) override {
+    try {
+      progress_.Step(kStage, std::min(1.0, static_cast<double>(collapses) / all_));
+    } catch (...) {
+      stopped_ = std::current_exception();
+    }
+  }
+  bool abort() const override { return stopped_ != nullptr; }
+  void ThrowIfStopped() const {
+    if (stopped_) std::rethrow_exception(stopped_);
+  }
+
+ private:
+  static constexpr std::size_t kEvery = 4096;
+  const Progress& progress_;
+  std::size_t all_;
+  std::exception_ptr stopped_;
+};
+
 // Quadric error with a share of the edge's own length, weighted by place.
 class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
  public:
@@ -80,10 +111,12 @@ namespace {
 
 // `prepare` adds the module that orders the edges.
 template <class Prepare>
-Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Prepare& prepare) {
+Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Progress& progress,
+                        const Prepare& prepare) {
   Simplification result;
   result.triangles_before = result.triangles_after = static_cast<int>(surface.triangles.size());
   if (result.triangles_before <= most_triangles) return result;
+  progress.Step(kStage, 0.0);
 
   Mesh mesh;
   OpenMesh::VPropHandleT<int> source;
@@ -94,8 +127,11 @@ Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Prepare&
     const auto vertex = mesh.add_vertex({x.x, x.y, x.z});
     mesh.property(source, vertex) = static_cast<int>(i);
   }
-  for (const auto& [a, b, c] : surface.triangles)
+  StageSteps faces(progress, kStage, surface.triangles.size());
+  for (const auto& [a, b, c] : surface.triangles) {
+    faces.Next();
     mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
+  }
   mesh.request_face_normals();
   mesh.update_face_normals();
 
@@ -105,7 +141,10 @@ Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Prepare&
   decimater.add(no_folds);
   decimater.module(no_folds).set_max_normal_deviation(kMostTurn);
   decimater.initialize();
+  CollapseSteps collapses(progress, surface.vertices.size());
+  decimater.set_observer(&collapses);
   decimater.decimate_to_faces(0, static_cast<std::size_t>(most_triangles));
+  collapses.ThrowIfStopped();
   mesh.garbage_collection();
 
   SurfaceMesh simple;
@@ -120,11 +159,14 @@ Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Prepare&
     for (const auto vertex : mesh.fv_range(face)) triangle[corner++] = vertex.idx();
     simple.triangles.push_back(triangle);
   }
-  for (std::size_t i = 0; i < surface.vertices.size(); ++i)
+  StageSteps distances(progress, kStage, surface.vertices.size());
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    distances.Next();
     if (!stays[i])
       result.largest_distance = std::max(
           result.largest_distance,
           glm::distance(surface.vertices[i], NearestOnSurface(surface.vertices[i], simple)));
+  }
   result.triangles_after = static_cast<int>(simple.triangles.size());
   surface = std::move(simple);
   return result;
@@ -132,18 +174,19 @@ Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Prepare&
 
 }  // namespace
 
-Simplification SimplifySurface(SurfaceMesh& surface, int most_triangles) {
+Simplification SimplifySurface(SurfaceMesh& surface, int most_triangles, const Progress& progress) {
   OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
-  return Simplify(surface, most_triangles, [&](auto& decimater) {
+  return Simplify(surface, most_triangles, progress, [&](auto& decimater) {
     decimater.add(quadric);
     decimater.module(quadric).unset_max_err();
   });
 }
 
 Simplification SimplifyEvenly(SurfaceMesh& surface, int most_triangles,
-                              const std::function<double(const glm::dvec3&)>& weight) {
+                              const std::function<double(const glm::dvec3&)>& weight,
+                              const Progress& progress) {
   EvenQuadric::Handle quadric;
-  return Simplify(surface, most_triangles, [&](auto& decimater) {
+  return Simplify(surface, most_triangles, progress, [&](auto& decimater) {
     decimater.add(quadric);
     decimater.module(quadric).unset_max_err();
     decimater.module(quadric).weight = &weight;

@@ -15,6 +15,7 @@
 #include "authoring/tissue/fine_places.h"
 #include "authoring/tissue/surface_thicken.h"
 #include "authoring/tissue/tetgen_worker.h"
+#include "authoring/tissue/time_limit.h"
 #include "simulation/core/error.h"
 #include "simulation/core/leftovers.h"
 #include "simulation/core/options_json.h"
@@ -92,6 +93,7 @@ struct Run {
   const SurfaceSource& source;
   const TetrahedralizeOptions& options;
   const Progress& progress;
+  const TimeLimit& limit;
   const fs::path& program;
   TetrahedralizeReport& report;
 };
@@ -110,20 +112,20 @@ std::optional<TetMesh> RunTetgen(const Run& run, const std::string& switches, do
   for (const Ball& place : run.options.fine_at)
     job.fine.push_back({place.centre * scale, place.radius * scale, run.options.fine_edge * scale});
   job.memory_limit = run.options.memory_limit * 1024 * 1024;
-  job.time_limit = run.options.time_limit;
+  job.time_limit = run.limit.Left();
   for (const glm::dvec3& x : run.surface.vertices) job.points.push_back(x * scale);
   job.triangles = run.surface.triangles;
   WorkFolder folder;
   WriteTetgenJob(folder.path(), job);
   const ChildResult result = RunChild(run.program, {"tetgen-worker", folder.path().string()},
-                                      run.options.time_limit, run.progress);
+                                      run.limit.Left(), run.progress);
   const std::string said = Say(result);
   run.report.attempts.push_back({switches, said});
   if (said == "TetGen did not finish in time")
     throw Error(Code::kBadMesh,
                 fmt::format("{} ({:g} s); use a larger --max-edge-mm, a surface of fewer triangles "
                             "(this one has {}), or a longer --time-limit",
-                            said, run.options.time_limit, run.surface.triangles.size()),
+                            said, run.limit.seconds(), run.surface.triangles.size()),
                 run.source.file);
   if (said == "TetGen ran out of memory")
     throw Error(
@@ -191,15 +193,55 @@ void RequireFinePlaces(const SurfaceMesh& surface, double volume, const SurfaceS
 }
 
 void Simplify(SurfaceMesh& surface, const SurfaceSource& source,
-              const TetrahedralizeOptions& options, TetrahedralizeReport& report) {
-  report.simplification = SimplifySurface(surface, options.max_triangles);
-  report.surface = CheckSurface(surface);
+              const TetrahedralizeOptions& options, TetrahedralizeReport& report,
+              const Progress& progress) {
+  report.simplification = SimplifySurface(surface, options.max_triangles, progress);
+  report.surface = CheckSurface(surface, progress);
   if (!report.surface.IsClosedManifold() || report.surface.self_intersections.count > 0)
     throw Error(Code::kBadMesh,
                 fmt::format("with {} triangles this surface would run through itself; use a larger "
                             "--max-triangles",
                             report.simplification.triangles_after),
                 source.file);
+}
+
+// An edge that is longer than it was asked to be.
+struct LongEdge {
+  const char* where;
+  double length, asked;  // m
+
+  std::string Words() const {
+    return fmt::format("the longest edge{} is {:.4g} mm, more than the {:g} mm asked for", where,
+                       MmFromMetres(length), MmFromMetres(asked));
+  }
+};
+
+std::vector<LongEdge> TooLongEdges(const Run& run) {
+  const TetrahedralizeOptions& options = run.options;
+  const TetrahedralizeReport& report = run.report;
+  std::vector<LongEdge> edges;
+  if (options.max_edge > 0 && report.quality.longest_edge > options.max_edge)
+    edges.push_back({"", report.quality.longest_edge, options.max_edge});
+  if (options.fine_edge > 0 && report.longest_fine_edge > options.fine_edge)
+    edges.push_back({" in a place of --fine-at", report.longest_fine_edge, options.fine_edge});
+  return edges;
+}
+
+// A mesh that is coarser than asked for is not what a solver's error was chosen by. With
+// keep_surface the surface's own edges were asked for as well, and win.
+void RequireEdges(const Run& run) {
+  if (run.options.keep_surface) return;
+  const std::vector<LongEdge> edges = TooLongEdges(run);
+  if (edges.empty()) return;
+  const std::string& first = run.report.attempts.front().result;
+  throw Error(
+      Code::kBadMesh,
+      fmt::format(
+          "{}{}; remesh the surface with more even triangles, ask for a longer "
+          "edge, or take the surface's own with --keep-surface",
+          edges.front().Words(),
+          first == "done" ? "" : ", since no node could be added on the surface (" + first + ")"),
+      run.source.file);
 }
 
 void Warn(const Run& run) {
@@ -225,38 +267,34 @@ void Warn(const Run& run) {
                     DegreesFromRadians(quality.min_dihedral)));
   if (quality.worst_relative_volume < kSliverVolume)
     warn("there are nearly flat elements; remesh the surface with more even triangles");
-  if (run.options.max_edge > 0 && quality.longest_edge > run.options.max_edge)
-    warn(fmt::format("the longest edge is {:.4g} mm, more than the {:g} mm asked for",
-                     MmFromMetres(quality.longest_edge), MmFromMetres(run.options.max_edge)));
-  if (report.longest_fine_edge > run.options.fine_edge)
-    warn(
-        fmt::format("the longest edge in a place of --fine-at is {:.4g} mm, more than the {:g} mm "
-                    "asked for",
-                    MmFromMetres(report.longest_fine_edge), MmFromMetres(run.options.fine_edge)));
+  for (const LongEdge& edge : TooLongEdges(run)) warn(edge.Words());
 }
 
 }  // namespace
 
 TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
                        const TetrahedralizeOptions& options, TetrahedralizeReport* report,
-                       const Progress& progress, const fs::path& program) {
+                       const Progress& whole, const fs::path& program) {
   TetrahedralizeReport own_report;
   TetrahedralizeReport& result = report ? *report : own_report;
   CheckOptions(options);
+  const TimeLimit limit(options.time_limit, options.begun.value_or(Clock::now()));
+  const Progress progress = limit.Watch(whole, source.file, surface.triangles.size());
 
   // Size first: with a wrong unit every other sentence would be misleading.
   progress.Step("checking the surface", 0.0);
   const auto check_start = Clock::now();
-  RepairedSurface repaired = RepairSurface(surface, {options.fill_holes, options.drop_below});
+  RepairedSurface repaired =
+      RepairSurface(surface, {options.fill_holes, options.drop_below}, progress);
   if (options.thickness != 0)
     result.thickened_parts = ThickenOpenParts(repaired, options.thickness);
   SurfaceSource repaired_source = source;
   repaired_source.triangle_in_file = repaired.source_triangle;
   result.repairs = repaired.repairs;
-  result.surface = CheckSurface(repaired.surface);
+  result.surface = CheckSurface(repaired.surface, progress);
   RequireTissueSize(result.surface, repaired_source);
   RequireMeshable(result.surface, repaired_source);
-  if (options.max_triangles > 0) Simplify(repaired.surface, source, options, result);
+  if (options.max_triangles > 0) Simplify(repaired.surface, source, options, result, progress);
   RefuseTooMany(result.surface.volume, options.max_edge, "--max-edge-mm", source);
   RequireFinePlaces(repaired.surface, result.surface.volume, source, options);
   result.check_ms = MsSince(check_start);
@@ -264,7 +302,7 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   // TetGen's last smoothing can stretch an edge a little past the limit; then once more, tighter.
   progress.Step("filling it with tetrahedra", 0.1);
   const auto mesh_start = Clock::now();
-  const Run run{repaired.surface, source, options, progress, program, result};
+  const Run run{repaired.surface, source, options, progress, limit, program, result};
   TetMesh mesh;
   double max_edge = options.max_edge;
   for (int pass = 0; pass < kMostEdgePasses; ++pass) {
@@ -295,6 +333,7 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
                             "{:.2g}); remesh the surface with more even triangles",
                             result.quality.inverted, result.volume_error),
                 source.file);
+  RequireEdges(run);
   Warn(run);
   progress.Step("done", 1.0);
   return mesh;

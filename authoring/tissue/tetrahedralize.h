@@ -2,8 +2,10 @@
 // fill the rest in a process of its own, and measure what came out. Metres.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,8 @@ struct TetrahedralizeOptions {
   int fill_holes = 0;
   double drop_below = 0.0;
   double time_limit = 120.0;
+  // When the time began to run; not given: when Tetrahedralize is called.
+  std::optional<std::chrono::steady_clock::time_point> begun;
   double memory_limit = 2048.0;
   template <class V>
   void Visit(V&& v) {
@@ -64,7 +68,8 @@ struct TetrahedralizeOptions {
       "Holes of at most so many sides are closed; 0: an open surface is refused.");
     v("drop_below", drop_below, Range{0.0, 0.5}, "",
       "Separate parts with a smaller share of the whole volume are dropped.");
-    v("time_limit", time_limit, Range{0.01, 86400.0}, "s", "The mesher is ended after this.");
+    v("time_limit", time_limit, Range{0.01, 86400.0}, "s",
+      "The whole job is ended after this, reading and checking the surface included.");
     v("memory_limit", memory_limit, Range{1.0, 1048576.0}, "MB",
       "The mesher may use so much memory.");
   }

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
-#include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -159,20 +157,6 @@ void WriteAtomically(const fs::path& target, std::string_view bytes, Access acce
   }
   WriteAtomically(
       target, [&](const fs::path& beside) { WriteBytes(beside, bytes, target); }, access);
-}
-
-std::string ReadWholeFile(const fs::path& file) {
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored))
-    throw Error(Code::kFile, "this is a folder; give the name of a file", file);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw Error(Code::kFile,
-                fmt::format("could not be opened: {}; check the name", std::strerror(errno)), file);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (stream.bad()) throw Error(Code::kFile, "could not be read to its end", file);
-  return std::move(bytes).str();
 }
 
 }  // namespace arthro

@@ -9,6 +9,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 
 namespace arthro::simulation {
 namespace {
@@ -129,7 +130,7 @@ std::vector<TraceRow> ParseTrace(std::string_view text, const std::filesystem::p
 }
 
 std::vector<TraceRow> ReadTrace(const std::filesystem::path& file) {
-  return ParseTrace(ReadWholeFile(file), file);
+  return ParseTrace(ReadWholeFile(file, kMostTableBytes), file);
 }
 
 std::string TraceText(std::span<const TraceRow> rows) {

@@ -9,6 +9,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json_object_reader.h"
@@ -149,7 +150,9 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
   throw Error(Code::kBadData, sentence, file);
 }
 
-Lens ReadLens(const std::filesystem::path& file) { return LensFromJson(ReadWholeFile(file), file); }
+Lens ReadLens(const std::filesystem::path& file) {
+  return LensFromJson(ReadWholeFile(file, kMostJsonBytes), file);
+}
 
 std::string JsonFromLens(const Lens& lens) {
   nlohmann::ordered_json json;

@@ -8,6 +8,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/scene/scene_limits.h"
 
@@ -167,7 +168,9 @@ RigFile ParseRig(const std::string& text, const std::filesystem::path& file) {
   return rig;
 }
 
-RigFile ReadRig(const std::filesystem::path& file) { return ParseRig(ReadWholeFile(file), file); }
+RigFile ReadRig(const std::filesystem::path& file) {
+  return ParseRig(ReadWholeFile(file, kMostJsonBytes), file);
+}
 
 std::string RigTextWith(const RigPivots& pivots, const std::string& text,
                         const std::filesystem::path& file) {
@@ -189,7 +192,7 @@ std::string RigTextWith(const RigPivots& pivots, const std::string& text,
 
 void WriteRigWith(const RigPivots& pivots, const std::filesystem::path& from,
                   const std::filesystem::path& to) {
-  WriteAtomically(to, RigTextWith(pivots, ReadWholeFile(from), from));
+  WriteAtomically(to, RigTextWith(pivots, ReadWholeFile(from, kMostJsonBytes), from));
 }
 
 }  // namespace arthro

@@ -7,6 +7,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/leftovers.h"
 #include "simulation/scene/archive_io.h"
@@ -28,7 +29,7 @@ constexpr std::size_t kMaxBytes = 16u << 20;
 json ParseScene(const fs::path& file) {
   std::string text;
   try {
-    text = ReadWholeFile(file);
+    text = ReadWholeFile(file, kMostJsonBytes);
   } catch (const Error& error) {
     throw Error(Code::kBadScene, error.sentence(), file);
   }

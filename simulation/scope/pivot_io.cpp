@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 
 namespace arthro::simulation {
 namespace {
@@ -47,7 +47,7 @@ class PressTable {
   explicit PressTable(const std::filesystem::path& file) : file_(file) {}
 
   std::vector<PivotPress> Read() {
-    const std::string text = ReadWholeFile(file_);
+    const std::string text = ReadWholeFile(file_, kMostTableBytes);
     std::string_view rest = text;
     if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // as spreadsheets write it
     bool has_header = false;

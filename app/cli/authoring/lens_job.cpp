@@ -11,6 +11,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "authoring/footage/find_circle.h"
 #include "authoring/lens/calibrate_lens.h"
@@ -92,10 +93,10 @@ void AddLensJob(CLI::App& program) {
                               "Raw pictures of the flat target; best six, tilted to all sides, "
                               "filling the window"))
       ->required();
-  job->add_option("--spacing-mm", own->spacing_mm,
-                  "From line to line, corner to corner or dot to dot, in mm")
-      ->required()
-      ->check(CLI::Range(1e-3, 1e4));
+  AddNumberOption(*job, "--spacing-mm", {{1e-3, 1e4}, "mm"},
+                  "From line to line, corner to corner or dot to dot",
+                  [own](double spacing) { own->spacing_mm = spacing; })
+      ->required();
   files
       ->Output(
           job->add_option("-o,--output", own->output, "lens.json to write; - for standard output"),

@@ -11,6 +11,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "app/commands/footage/footage_optics.h"
 #include "authoring/depth/depth_filter.h"
@@ -125,8 +126,8 @@ void AddPanoramaJob(CLI::App& program) {
   files->OutputScene(
       job->add_option("--scene", own->scene,
                       "Also write a scene of it into this folder, to edit and to practise in"));
-  job->add_option("--leave-out", own->excluded, "Frames that are not to be used, by their number")
-      ->delimiter(',');
+  AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
+             "Frames that are not to be used, by their numbers between commas");
   AddOptionsFile(*job, own->request.options);
   AddOptions(*job, own->request.options);
   files->Run([own, job] {

@@ -10,6 +10,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"
@@ -99,9 +100,8 @@ void AddRectifyJob(CLI::App& program) {
       ->OutputFolder(job->add_option("-o,--output", own->output, "Folder to write; new or empty"),
                      {{"[0-9]{6,}[.]png", kPictureFile}})
       ->required();
-  job->add_option("--scale", own->scale, "Of the rectified frames; below 1 pixels are averaged")
-      ->check(CLI::Range(1.0 / 16, 2.0))
-      ->capture_default_str();
+  AddNumber(*job, "--scale", own->scale, {1.0 / 16, 2.0}, "",
+            "Of the rectified frames; below 1 pixels are averaged");
   AddOptions(*job, own->options);
   files->Run([own, files] {
     own->overwrites = files->overwrites();

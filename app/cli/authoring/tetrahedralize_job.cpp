@@ -1,7 +1,7 @@
 // arthroscene tetrahedralize SURFACE --unit mm -o tissue.vtu: a closed surface becomes a volume
 // that can be deformed. The hidden job tetgen-worker is the other half: TetGen in a process of its
 // own.
-#include <cmath>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +15,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "authoring/tissue/mesh_budget.h"
 #include "authoring/tissue/tetgen_worker.h"
@@ -36,14 +37,8 @@ struct Arguments {
 
 // "X,Y,Z,R" in mm.
 Ball BallFromWords(const std::string& flag, const std::string& words) {
-  std::vector<double> mm;
-  bool is_good = true;
-  for (const std::string& word : CLI::detail::split(words, ',')) {
-    double value = 0;
-    is_good = is_good && CLI::detail::lexical_cast(word, value) && std::isfinite(value);
-    mm.push_back(value);
-  }
-  if (!is_good || mm.size() != 4 || !(mm[3] > 0))
+  const std::vector<double> mm = NumbersFromWord(flag, words, {{-1e4, 1e4}, "mm"});
+  if (mm.size() != 4 || !(mm[3] > 0))
     throw CLI::ValidationError(
         flag, fmt::format("{} is not X,Y,Z,R: a centre and a radius of more than 0, in mm", words));
   return {kMetrePerMillimetre * glm::dvec3(mm[0], mm[1], mm[2]), MetresFromMm(mm[3])};
@@ -88,11 +83,13 @@ TetMesh Fill(const Arguments& arguments, const SurfaceMesh& surface,
   wish.fixed = arguments.held;
   wish.probed = options.fine_at;
   wish.time_limit = options.time_limit;
+  wish.begun = options.begun;
   wish.memory_limit = options.memory_limit;
   return authoring::TetrahedralizeToBudget(surface, source, wish, &report, progress);
 }
 
-void RunJob(const Arguments& arguments) {
+void RunJob(Arguments arguments) {
+  arguments.options.begun = std::chrono::steady_clock::now();
   CheckOutput(arguments);
   const Progress progress = TerminalProgress();
   const authoring::SurfaceSource source{
@@ -144,8 +141,10 @@ void AddBudget(CLI::App& job, Arguments& arguments) {
                             ->check(CLI::IsMember(names))
                             ->group(kGroup);
   CLI::Option* elements =
-      job.add_option("--elements", arguments.elements, "The same, by the number itself")
-          ->check(CLI::Range(authoring::kFewestElements, authoring::kMostBudgetElements))
+      AddNumberOption(job, "--elements",
+                      {{authoring::kFewestElements, authoring::kMostBudgetElements}, "", true},
+                      "The same, by the number itself",
+                      [&arguments](double count) { arguments.elements = static_cast<int>(count); })
           ->group(kGroup);
   elements->excludes(budget);
   AddBalls(job, "--held-at", arguments.held,

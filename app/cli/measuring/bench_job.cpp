@@ -17,6 +17,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
 
@@ -65,8 +66,8 @@ void AddWorker(CLI::App& program) {
   const auto own = std::make_shared<Arguments>();
   worker->add_option("FOLDER", own->folder)->required();
   worker->add_option("MODE", own->mode)->required();
-  worker->add_option("SECONDS", own->cpu_limit)->required();
-  worker->add_option("BYTES", own->memory_limit)->required();
+  AddNumber(*worker, "SECONDS", own->cpu_limit, {0.0, 1e6}, "s", "")->required();
+  AddNumber(*worker, "BYTES", own->memory_limit, {0.0, 1e15}, "", "")->required();
   worker->callback([own] {
     std::_Exit(RunStitcherWorker(own->folder,
                                  own->mode == "scans" ? PeerMode::kScans : PeerMode::kPanorama,

@@ -10,6 +10,7 @@
 
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/commands/figure/centres_figure.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -66,24 +67,17 @@ void AddCentresJob(CLI::App& program) {
                               "--picture"),
               InputKind::kScene)
       ->required();
-  job->add_option("--view-angle-deg", arguments->view_angle_deg,
-                  "Angle between rod and view; the scene's own where not given")
-      ->check(CLI::Range(0.0, 90.0));
-  job->add_option(
-         "--insertion-mm", arguments->choice.insertion_mm,
-         "Depths of the tip beyond the portal, comma-separated, 0 to the backdrop's radius")
-      ->delimiter(',')
-      ->capture_default_str();
-  job->add_option("--latitude-deg", arguments->choice.latitude_deg, "Rod's direction, up")
-      ->check(CLI::Range(-90.0, 90.0))
-      ->capture_default_str();
-  job->add_option("--longitude-deg", arguments->choice.longitude_deg, "Rod's direction, right")
-      ->check(CLI::Range(-180.0, 180.0))
-      ->capture_default_str();
-  job->add_option("--roll-steps", arguments->choice.roll_steps,
-                  "Rolls in a full turn, from 0 degrees on")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg, {0.0, 90.0}, "degrees",
+            "Angle between rod and view; the scene's own where not given");
+  AddNumbers(*job, "--insertion-mm", arguments->choice.insertion_mm, {-1000.0, 1000.0}, "mm",
+             "Depths of the tip beyond the portal, 0 to the backdrop's radius: a list between "
+             "commas, decimals with a point, so 1,5 is two depths and 1.5 is one");
+  AddNumber(*job, "--latitude-deg", arguments->choice.latitude_deg, {-90.0, 90.0}, "degrees",
+            "Rod's direction, up");
+  AddNumber(*job, "--longitude-deg", arguments->choice.longitude_deg, {-180.0, 180.0}, "degrees",
+            "Rod's direction, right");
+  AddNumber(*job, "--roll-steps", arguments->choice.roll_steps, {1, 1000000}, "",
+            "Rolls in a full turn, from 0 degrees on");
   files
       ->Output(
           job->add_option("-o,--output", arguments->output, "Table to write; - is standard output"),

@@ -17,6 +17,7 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/measuring/device_words.h"
+#include "app/cli/number_flags.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/device/live/device_survey.h"
@@ -228,8 +229,9 @@ void AddDevicesJob(CLI::App& program) {
                    "Write each report of the self-test, and what was made of it, to this file"),
                kLogFile)
       ->needs(tries);
-  job->add_option("--seconds", own->seconds, "How long to watch, or to listen to each device")
-      ->check(CLI::Range(0.1, 3600.0));
+  AddNumberOption(*job, "--seconds", {{0.1, 3600.0}, "s"},
+                  "How long to watch, or to listen to each device",
+                  [own](double seconds) { own->seconds = seconds; });
   job->add_option(
       "--model", own->model,
       "Arm of a WoodenHaptics, which its USB numbers do not tell: woodenhaptics_2015 or "

@@ -9,6 +9,7 @@
 
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -75,9 +76,8 @@ void AddPivotJob(CLI::App& program) {
                   "POSES is a TRACE.csv instead, in which this hand kept swinging its rod through "
                   "the incision; a pose is taken each millimetre, and what slipped is left out")
       ->check(CLI::IsMember({"scope", "instrument"}));
-  job->add_option("--rod-length-mm", arguments->rod_length_mm, "With --swing: hand to tip")
-      ->check(CLI::Range(10.0, 1000.0))
-      ->capture_default_str();
+  AddNumber(*job, "--rod-length-mm", arguments->rod_length_mm, {10.0, 1000.0}, "mm",
+            "With --swing: hand to tip");
   AddOptions(*job, arguments->options);
   job->footer(
       "status is ok, too_few, too_narrow, inconsistent or outside_rod; all but ok end with exit "

@@ -16,6 +16,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
 #include "app/resource_folder.h"
@@ -147,12 +148,8 @@ void AddDemoJob(CLI::App& program) {
                       {"forces[.]csv", kForcesFile},
                       {"report[.]json", kReplayReportFile}})
       ->capture_default_str();
-  command->add_option("--pictures", job->pictures, "How many moments are shown")
-      ->check(CLI::Range(1, 99))
-      ->capture_default_str();
-  command->add_option("--size", job->size, "Width and height of a picture, px")
-      ->check(CLI::Range(64, 4096))
-      ->capture_default_str();
+  AddNumber(*command, "--pictures", job->pictures, {1, 99}, "", "How many moments are shown");
+  AddNumber(*command, "--size", job->size, {64, 4096}, "px", "Width and height of a picture");
   files->Run([job] { Run(*job); });
 }
 

@@ -2,11 +2,13 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include <CLI/CLI.hpp>
 
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"
 #include "app/recording/unfinished_film.h"
@@ -21,16 +23,16 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
   job.add_option_function<std::string>(
          "--size",
          [&options](const std::string& size) {
-           if (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
-               options.width < 1 || options.height < 1)
-             throw CLI::ValidationError("--size", "write it as 1280x800");
+           std::tie(options.width, options.height) = SizeFromWord("--size", size, {1, 16384});
          },
          "Size of the window, such as 1280x800")
       ->group(kHidden);
-  job.add_option("--scale", options.scale, "Content scale instead of the screen's")
-      ->check(CLI::Range(1.0, 4.0))
+  AddNumber(job, "--scale", options.scale, {1.0, 4.0}, "", "Content scale instead of the screen's")
       ->group(kHidden);
-  job.add_option("--frames", options.frames, "Quit after so many frames")->group(kHidden);
+  AddNumberOption(job, "--frames", {{1, kAnyWholeNumber.max}, "", true},
+                  "Quit after so many frames",
+                  [&options](double frames) { options.frames = static_cast<int>(frames); })
+      ->group(kHidden);
   job.add_flag("--hidden", options.hidden, "Never show the window")->group(kHidden);
   job.add_flag("--timing", options.timing, "Say when the first picture stood")->group(kHidden);
 }
@@ -79,10 +81,9 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, J
          [&options](const std::string& monitor) {
            options.trainee_screen = 0;
            // CLI11 gives "true" where there is no value.
-           if (monitor.empty() || monitor == "true") return;
-           if (std::sscanf(monitor.c_str(), "%d", &*options.trainee_screen) != 1 ||
-               *options.trainee_screen < 1)
-             throw CLI::ValidationError("--trainee-screen", "monitors are counted from 1");
+           if (monitor == "true") return;
+           options.trainee_screen =
+               static_cast<int>(NumberFromWord("--trainee-screen", monitor, {{1, 64}, "", true}));
          },
          "Show the scope's picture alone on monitor N, counted from 1; without N on one that the "
          "window is not on")

@@ -12,6 +12,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
@@ -107,20 +108,18 @@ void AddReplayJob(CLI::App& program) {
   files->OutputFolder(command->add_option("--pictures", job->pictures,
                                           "Folder for what the scope saw: frame_00000.png and on"),
                       {{"frame_[0-9]{5,}[.]png", kPictureFile}});
-  command->add_option("--size", job->of_pictures.size, "Height of a picture, px")
-      ->check(CLI::Range(StillPictures::kMinSize, StillPictures::kMaxSize))
-      ->capture_default_str();
-  command->add_option("--rate", job->of_pictures.rate, "Pictures a second")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
+  AddNumber(*command, "--size", job->of_pictures.size,
+            {StillPictures::kMinSize, StillPictures::kMaxSize}, "px", "Height of a picture");
+  AddNumber(*command, "--rate", job->of_pictures.rate, {0.1, 1000.0}, "per second",
+            "Pictures per second");
   files->Output(
       command->add_option("--video", job->video,
                           "Film of what the scope saw: .mp4 or .mkv (H.264), .avi (Motion JPEG)"),
       kFilmFile);
-  command->add_option("--video-size", job->of_video.size, "Height of the film, px, even")
-      ->capture_default_str();
-  command->add_option("--fps", job->of_video.rate, "Pictures of the film a second")
-      ->capture_default_str();
+  AddNumber(*command, "--video-size", job->of_video.size, {kMinVideoSize, kMaxVideoSize}, "px",
+            "Height of the film, even");
+  AddNumber(*command, "--fps", job->of_video.rate, {kMinVideoRate, kMaxVideoRate}, "per second",
+            "Pictures of the film per second");
   command
       ->add_option("--layout", job->layout,
                    "Of both: square, or the round picture in the middle of a black frame, 4:3 "

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
 #include "simulation/scene/json_object_reader.h"
@@ -31,7 +31,7 @@ struct FibreAxisFinder {
 }  // namespace
 
 TissuePreset ReadTissuePreset(const std::filesystem::path& file) {
-  nlohmann::json json = ParseJson(ReadWholeFile(file), Code::kBadData, file);
+  nlohmann::json json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
   if (!json.is_object())
     throw Error(Code::kBadData, "a tissue preset must be a JSON object {…}; mend or remove it",
                 file);

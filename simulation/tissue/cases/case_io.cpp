@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
 #include "simulation/scene/json_object_reader.h"
@@ -29,7 +29,7 @@ class CaseReader {
   explicit CaseReader(const std::filesystem::path& file) : file_(file) {}
 
   TissueCase Read() {
-    nlohmann::json json = ParseJson(ReadWholeFile(file_), Code::kBadData, file_);
+    nlohmann::json json = ParseJson(ReadWholeFile(file_, kMostJsonBytes), Code::kBadData, file_);
     if (!json.is_object()) throw Error(Code::kBadData, "a case must be a JSON object {…}", file_);
     // The material reads itself, by its own list of fields.
     ReadMaterial(json);

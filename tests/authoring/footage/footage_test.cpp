@@ -11,6 +11,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "authoring/footage/picture_list.h"
+#include "authoring/footage/video_container.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "tests/support/shared_data.h"
@@ -189,6 +190,40 @@ TEST(Footage, RefusesInOneSentenceWhatIsNoFootage) {
   EXPECT_NE(SentenceOf(folder.path()).find("none of its pictures"), std::string::npos);
   EXPECT_NE(SentenceOf(folder / "broken.png").find("broken.png"), std::string::npos);
   EXPECT_NE(SentenceOf("").find("no such file"), std::string::npos);
+}
+
+// The decoder would open what the list names, so it is stopped before.
+TEST(Footage, AListOfOtherFilesIsRefusedWhateverItIsCalled) {
+  const test::TempFolder folder;
+  WriteVideo(folder / "clip.avi", 20);
+  const std::string clip = (folder / "clip.avi").string();
+  for (const std::string& list :
+       {"#EXTM3U\n#EXT-X-TARGETDURATION:9\n#EXTINF:9,\n" + clip + "\n#EXT-X-ENDLIST\n",
+        "ffconcat version 1.0\nfile '" + clip + "'\n",
+        std::string("v=0\nc=IN IP4 127.0.0.1\nm=video 9 RTP/AVP 96\n"),
+        std::string("<?xml version=\"1.0\"?><MPD xmlns=\"urn:mpeg:dash:schema:mpd:2011\"/>")})
+    for (const char* name : {"list.mp4", "list.m3u8", "list.avi"}) {
+      WriteAtomically(folder / name, list);
+      EXPECT_NE(SentenceOf(folder / name).find("names other files"), std::string::npos)
+          << SentenceOf(folder / name);
+    }
+}
+
+TEST(Footage, KnowsContainersByTheirFirstBytes) {
+  using namespace std::string_view_literals;
+  for (const auto bytes :
+       {"\0\0\0\x20"
+        "ftypisom"sv,
+        "\x1a\x45\xdf\xa3\x01"sv, "RIFF\x10\0\0\0AVI LIST"sv, "\0\0\x01\xba"sv, "OggS\0"sv})
+    EXPECT_TRUE(IsVideoContainer(bytes));
+  std::string transport(4 * 188, '\0'), recorder(4 * 192, '\0');
+  for (std::size_t i = 0; i < 4; ++i) transport[188 * i] = recorder[192 * i + 4] = 'G';
+  EXPECT_TRUE(IsVideoContainer(transport));
+  EXPECT_TRUE(IsVideoContainer(recorder));
+  for (const auto bytes : {""sv, "G"sv, "RIFF"sv, "RIFF\x10\0\0\0WAVE"sv, "#EXTM3U"sv, "hello"sv})
+    EXPECT_FALSE(IsVideoContainer(bytes));
+  transport[188] = 'H';
+  EXPECT_FALSE(IsVideoContainer(transport));
 }
 
 TEST(Footage, DecodersKeepQuiet) {

@@ -76,6 +76,22 @@ TEST(TetgenProcess, EndlessWorkIsEndedAtItsLimit) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(10));
 }
 
+// The script ends the first way, in which edges can be kept short, and passes on the others.
+TEST(TetgenProcess, KilledFromOutsideNeverGivesACoarserMeshThanAskedFor) {
+  test::TempFolder folder;
+  const fs::path mesher =
+      Script(folder, "grep -qa pq \"$2/job.bin\" && kill -KILL $$\nexec " ARTHRO_PROGRAM " \"$@\"");
+  TetrahedralizeOptions options;
+  options.max_edge = 4e-3;
+  const std::string sentence = FillWith(mesher, options).sentence;
+  EXPECT_SAYS(sentence, "more than the 4 mm asked for");
+  EXPECT_SAYS(sentence, "TetGen crashed (Killed)");
+  // Where no edge was asked for, or the surface's own are, the other way is as good.
+  EXPECT_EQ(FillWith(mesher).sentence, "");
+  options.keep_surface = true;
+  EXPECT_EQ(FillWith(mesher, options).sentence, "");
+}
+
 TEST(TetgenProcess, StopEndsItAtOnce) {
   test::TempFolder folder;
   std::atomic<bool> stop{false};

@@ -198,8 +198,10 @@ TEST(CentresJob, WhatCannotBeIsRefused) {
   };
   EXPECT_EQ(run(folder.path().string() + " --insertion-mm 50.1"), 1);
   EXPECT_EQ(run(folder.path().string() + " --insertion-mm=-1"), 1);
-  EXPECT_EQ(run(folder.path().string() + " --insertion-mm nan"), 1);
-  EXPECT_EQ(run(folder.path().string() + " --latitude-deg nan"), 1);
+  EXPECT_EQ(run(folder.path().string() + " --insertion-mm nan"), 2);
+  EXPECT_EQ(run(folder.path().string() + " --insertion-mm 1,,5"), 2);
+  EXPECT_EQ(run(folder.path().string() + " --insertion-mm '1;5'"), 2);
+  EXPECT_EQ(run(folder.path().string() + " --latitude-deg nan"), 2);
   EXPECT_EQ(run((folder / "nothing").string()), 1);
   EXPECT_EQ(run(folder.path().string() + " --view-angle-deg 120"), 2);
   EXPECT_EQ(run(folder.path().string() + " --roll-steps 0"), 2);

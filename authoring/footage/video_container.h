@@ -1,0 +1,19 @@
+// Is a file a video by its first bytes? Playlists (HLS, DASH, concat, SDP) name other files or
+// addresses, which the decoder would open whatever the playlist itself is called.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace arthro::authoring {
+
+inline constexpr std::size_t kContainerBytes = 1024;  // as many as IsVideoContainer looks at
+
+// `beginning`: the file's first kContainerBytes, or all of it where it is shorter.
+bool IsVideoContainer(std::string_view beginning);
+
+// Throws Error(kBadImage) for a file that is no video, and Error(kFile) for one that is no regular
+// file. Call it before a video library opens the file by its name.
+void RequireVideoContainer(const std::filesystem::path& file);
+
+}  // namespace arthro::authoring

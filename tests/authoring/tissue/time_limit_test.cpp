@@ -1,0 +1,112 @@
+// The time limit covers the stages before and after the mesher as well.
+#include "authoring/tissue/time_limit.h"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedralize.h"
+#include "simulation/core/error.h"
+#include "tests/support/shapes.h"
+
+namespace arthro::authoring {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// 131,072 triangles: seconds of checking and simplifying before the mesher begins.
+const SurfaceMesh& LargeSurface() {
+  static const SurfaceMesh sphere = test::Sphere({0, 0, 0}, 0.01, 7);
+  return sphere;
+}
+
+struct Outcome {
+  std::string sentence;
+  std::set<std::string> stages;
+  double seconds = 0;
+};
+
+template <class Work>
+Outcome Watch(const Work& work, const std::atomic<bool>* stop = nullptr) {
+  Outcome outcome;
+  Progress progress;
+  progress.stop = stop;
+  progress.report = [&](std::string_view stage, double) { outcome.stages.emplace(stage); };
+  const auto start = Clock::now();
+  try {
+    work(progress);
+  } catch (const Error& error) {
+    outcome.sentence = error.sentence();
+  }
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return outcome;
+}
+
+Outcome FillToBudget(double time_limit, std::optional<Clock::time_point> begun = {}) {
+  MeshWish wish;
+  wish.time_limit = time_limit;
+  wish.begun = begun;
+  return Watch([&](const Progress& progress) {
+    TetrahedralizeToBudget(LargeSurface(), {}, wish, nullptr, progress, ARTHRO_PROGRAM);
+  });
+}
+
+TEST(TimeLimit, EndsABudgetInTheStagesOfTheSurface) {
+  LargeSurface();
+  const Outcome outcome = FillToBudget(0.2);
+  EXPECT_NE(outcome.sentence.find("did not finish in time (0.2 s)"), std::string::npos)
+      << outcome.sentence;
+  EXPECT_NE(outcome.sentence.find("131072"), std::string::npos) << outcome.sentence;
+  // Ten busy processes beside it; without a limit it takes most of a minute on an idle machine.
+  EXPECT_LT(outcome.seconds, 20.0);
+}
+
+TEST(TimeLimit, RunsFromWhenTheJobBegan) {
+  const Outcome outcome = FillToBudget(5.0, Clock::now() - std::chrono::seconds(6));
+  EXPECT_NE(outcome.sentence.find("did not finish in time (5 s)"), std::string::npos)
+      << outcome.sentence;
+}
+
+TEST(TimeLimit, EndsTheStagesBeforeTheMesher) {
+  TetrahedralizeOptions options;
+  options.max_triangles = 400;
+  options.time_limit = 0.2;
+  const Outcome outcome = Watch([&](const Progress& progress) {
+    Tetrahedralize(LargeSurface(), {}, options, nullptr, progress, ARTHRO_PROGRAM);
+  });
+  EXPECT_NE(outcome.sentence.find("did not finish in time (0.2 s)"), std::string::npos)
+      << outcome.sentence;
+}
+
+TEST(TimeLimit, LongStagesTellOfThemselvesAndStopWhenAsked) {
+  const SurfaceMesh sphere = test::Sphere({0, 0, 0}, 0.01, 6);
+  const Outcome outcome = Watch([&](const Progress& progress) {
+    SurfaceMesh simple = RepairSurface(sphere, {}, progress).surface;
+    CheckSurface(simple, progress);
+    SimplifySurface(simple, 500, progress);
+  });
+  EXPECT_EQ(outcome.sentence, "");
+  EXPECT_EQ(outcome.stages,
+            (std::set<std::string>{"checking the surface", "looking for self-intersections",
+                                   "repairing the surface", "simplifying the surface"}));
+  const std::atomic<bool> stop = true;
+  SurfaceMesh copy = sphere;
+  for (const auto& work : {std::function<void(const Progress&)>([&](const Progress& progress) {
+                             RepairSurface(sphere, {}, progress);
+                           }),
+                           std::function<void(const Progress&)>(
+                               [&](const Progress& progress) { CheckSurface(sphere, progress); }),
+                           std::function<void(const Progress&)>([&](const Progress& progress) {
+                             SimplifySurface(copy, 500, progress);
+                           })})
+    EXPECT_NE(Watch(work, &stop).sentence.find("stopped"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace arthro::authoring
