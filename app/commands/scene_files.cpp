@@ -9,9 +9,9 @@
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "authoring/project/document_io.h"
-#include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/fingerprint.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/scene/archive_io.h"
@@ -54,8 +54,9 @@ SceneOnDisk NoteOnDisk(const fs::path& scene) {
   // A save writes the folder's scene.json, so that is what counts, whichever file was opened.
   const fs::path file = SceneFile(scene);
   if (!IsArchive(file) && file.filename() != "scene.json") return {};
-  const std::string mark = authoring::FingerprintOfFile(file);
-  if (mark.empty()) return {};
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return {};
+  const std::string mark = FingerprintOf(ReadWholeFile(file));
   const fs::path place = fs::absolute(file);
   return {IsArchive(file) ? place : place.parent_path(), mark};
 }

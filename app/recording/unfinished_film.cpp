@@ -195,11 +195,18 @@ UnfinishedFilm::UnfinishedFilm(const fs::path& target) : target_(target) {
                                  ::getpid(), kWord, target.extension().string());
   // One of a dead process with this number.
   if (const auto name = ParseName(beside_.filename())) FinishOne(beside_, *name, target);
-  descriptor_ = ::open(beside_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-  if (descriptor_ < 0 && errno == EEXIST)
-    throw Error(Code::kFile, "a film is being recorded there already; name another file", target);
-  if (descriptor_ < 0) Refuse(errno, target);
-  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  // Another program may find it before it is locked, and remove it as one that holds nothing.
+  for (bool is_there = false; !is_there;) {
+    descriptor_ = ::open(beside_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    if (descriptor_ < 0 && errno == EEXIST)
+      throw Error(Code::kFile, "a film is being recorded there already; name another file", target);
+    if (descriptor_ < 0) Refuse(errno, target);
+    while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+    struct stat status {};
+    is_there = ::fstat(descriptor_, &status) != 0 || status.st_nlink > 0;
+    if (!is_there) ::close(descriptor_);
+  }
 }
 
 UnfinishedFilm::~UnfinishedFilm() {

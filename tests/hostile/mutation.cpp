@@ -64,7 +64,7 @@ class Mutator {
   void Once() {
     if (bytes_.empty()) return;
     const std::uint64_t choice = Below(100);
-    if (format_ == FileFormat::kJson && choice < 40) return JsonValue();
+    if (format_ == FileFormat::kJson && choice < 40 && !is_deep_) return JsonValue();
     if (IsText()) {
       if (choice < 60) return Number();
       if (choice < 68) return SwapTokens();
@@ -205,6 +205,7 @@ class Mutator {
   }
 
   void Nest() {
+    is_deep_ = true;
     const auto numbers = Numbers();
     std::string open, close;
     if (format_ == FileFormat::kXml) {
@@ -330,6 +331,7 @@ class Mutator {
   FileFormat format_;
   std::mt19937_64 random_;
   std::string what_;
+  bool is_deep_ = false;  // the JSON library's tree is recursive, so that such a text is left alone
 };
 
 }  // namespace
