@@ -18,8 +18,9 @@ struct EditorOptions {
   std::optional<std::filesystem::path> film;   // of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;
-  std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
+  std::optional<int> trainee_screen;              // monitor, from 1; 0: another one
   // For tests.
+  std::optional<std::filesystem::path> recovery;  // folder of copies; none: the user's
   std::optional<std::filesystem::path> script;
   int width = 1280, height = 800;
   std::optional<double> scale;

@@ -29,6 +29,8 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
   job.add_option("--scale", options.scale, "Content scale instead of the screen's")
       ->check(CLI::Range(1.0, 4.0))
       ->group(kHidden);
+  job.add_option("--recovery", options.recovery, "Folder of the copies of unsaved work")
+      ->group(kHidden);
   job.add_option("--frames", options.frames, "Quit after so many frames")->group(kHidden);
   job.add_flag("--hidden", options.hidden, "Never show the window")->group(kHidden);
   job.add_flag("--timing", options.timing, "Say when the first picture stood")->group(kHidden);
