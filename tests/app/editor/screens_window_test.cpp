@@ -138,11 +138,11 @@ TEST_F(ScreensWindow, ARecordedPracticeNeverShowsABlackPicture) {
   };
   std::vector<Shot> shots;
   const auto shoot = [&](const std::string& name) {
-    for (const auto& [width, height] : {std::pair(1280, 800), std::pair(1000, 1000)}) {
+    for (const auto& [width, height] : {std::pair(900, 600), std::pair(760, 700)}) {
       const auto file = temp / (std::to_string(shots.size()) + ".png");
-      // The controls take 370 px on the right.
-      const int middle = (width - 370) / 2;
-      shots.push_back({file, cv::Rect(middle - 100, height / 2 - 100, 200, 200)});
+      // The controls take 0.4 of the width on the right.
+      const int middle = width * 3 / 10;
+      shots.push_back({file, cv::Rect(middle - 60, height / 2 - 60, 120, 120)});
       script += "resize " + std::to_string(width) + " " + std::to_string(height) +
                 "\nwait frames 4\nshot " + file.string() + "\n";
       const auto trainee = temp / (std::to_string(shots.size()) + ".png");
