@@ -70,8 +70,14 @@ struct HelpDialog {};
 struct PracticeEndedDialog {
   double seconds = 0;
 };
+// A copy of unsaved work was left by a program that ended (recovery/recovery_copy.h).
+struct RecoveryDialog {
+  std::string title, when;
+  std::filesystem::path folder;  // of its document; empty: it was never saved
+  std::function<void(EditorState&)> restore, discard;
+};
 using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,
-                            HelpDialog, PracticeEndedDialog>;
+                            HelpDialog, PracticeEndedDialog, RecoveryDialog>;
 
 // A hand's incision that is being found, in the practice that runs.
 struct PivotCalibrating {

@@ -19,6 +19,7 @@
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
 #include "app/commands/hand_motion.h"
+#include "app/commands/recovery/recovery_copy.h"
 #include "app/commands/scene_files.h"
 #include "app/commands/screens/film.h"
 #include "app/commands/start_practice.h"
@@ -31,6 +32,7 @@
 #include "app/platform/picture_window.h"
 #include "app/platform/script_runner.h"
 #include "app/platform/window.h"
+#include "app/platform/x_display.h"
 #include "app/recording/unfinished_film.h"
 #include "app/resource_folder.h"
 #include "authoring/project/document_io.h"
@@ -59,6 +61,24 @@ double ProcessAge() {
   double now = 0;
   uptime >> now;
   return now - std::stod(field) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+// Every command's keys but those that end the program, and the keys of lists and fields.
+std::vector<CrawlKeys> KeysOfCrawl() {
+  std::vector<CrawlKeys> all;
+  for (const Command& command : AllCommands())
+    for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
+      if (shortcut.key == 0 || command.id == std::string_view("quit")) continue;
+      std::vector<int> keys;
+      if (shortcut.ctrl) keys.push_back(GLFW_KEY_LEFT_CONTROL);
+      if (shortcut.shift) keys.push_back(GLFW_KEY_LEFT_SHIFT);
+      keys.push_back(shortcut.key);
+      all.push_back({WordsOf(shortcut), std::move(keys)});
+    }
+  for (const char* name : {"escape", "escape", "enter", "tab", "space", "left", "right", "up",
+                           "down", "pageup", "pagedown", "home", "end", "delete", "backspace"})
+    all.push_back({name, KeysFromWords(name)});
+  return all;
 }
 
 // Keys that call a command. None while text is typed (but function keys) or a dialog is open.
@@ -113,29 +133,44 @@ class Editor {
         window_(WindowFrom(options)),
         pictures_(options.script.has_value()),
         state_(NewDocument(), Window::WakeUp,
-               options.script ? std::filesystem::path() : RecentScenesFile()) {
-    if (options.script)
+               options.script ? std::filesystem::path() : RecentScenesFile()),
+        recovery_(FolderOfCopies(options), Window::WakeUp) {
+    if (options.script) {
       script_.emplace(ParseScript(ReadWholeFile(*options.script), *options.script),
                       window_.scale());
+      script_->SetCrawlKeys(KeysOfCrawl());
+    }
     Begin();
   }
 
   void Run() {
     while (!state_.quit) {
       Wait();
-      if (signals_.HasCome()) return;
+      if (signals_.HasCome()) {
+        recovery_.WriteNow(state_);  // nobody was asked
+        return;
+      }
       Frame();
-      if (options_.frames > 0 && frames_ >= options_.frames) return;
+      if (options_.frames > 0 && frames_ >= options_.frames) break;
       if (!script_ || script_->state() == ScriptState::kRunning) continue;
       if (script_->state() == ScriptState::kFailed)
         throw Error(Code::kBadData, script_->failure(), *options_.script);
-      return;
+      break;
     }
-    if (script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
+    recovery_.Remove();
+    if (state_.quit && script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
       throw Error(
           Code::kBadData,
           fmt::format("the window closed before line {} of the script", script_->line_number()),
           *options_.script);
+  }
+
+  // The display is gone: nothing may draw. Returns the end of a sentence.
+  std::string EndWithoutDisplay() {
+    const bool is_kept = recovery_.WriteNow(state_);
+    End();
+    return is_kept ? "; the unsaved work is kept, and is offered at the next start"
+                   : "; start the program again on a display that works";
   }
 
   void End() {
@@ -153,6 +188,13 @@ class Editor {
     window.scale = options.scale;
     if (options.script) window.fixed_step = kFrame;  // the same frames whatever the machine's speed
     return window;
+  }
+
+  // Scripts and single frames leave nothing behind, unless they are told where.
+  static std::filesystem::path FolderOfCopies(const EditorOptions& options) {
+    if (options.practice) return {};
+    if (options.recovery) return *options.recovery;
+    return options.script || options.frames > 0 ? std::filesystem::path() : RecoveryFolder();
   }
 
   // Waits until it is written.
@@ -190,6 +232,7 @@ class Editor {
       BeginPractice();
     else
       state_.message = options_.notice.empty() ? "F1 or ? shows all keys." : options_.notice;
+    recovery_.Offer(state_);
   }
 
   void BeginPractice() {
@@ -214,10 +257,12 @@ class Editor {
                (state_.shows_devices && state_.hands->HasDevices())) {
       window_.WaitEvents(0.1);
     } else {
-      window_.WaitEvents(10.0);
+      window_.WaitEvents(std::clamp(recovery_.SecondsUntilDue(Now()), 0.05, 10.0));
     }
     if (!window_.input().empty()) last_event_ = Clock::now();
   }
+
+  static double Now() { return Seconds(Clock::now().time_since_epoch()).count(); }
 
   bool Busy() const {
     return state_.jobs.busy() || state_.preview_jobs.busy() || state_.frame_jobs.busy() ||
@@ -237,6 +282,7 @@ class Editor {
     if (state_.practice && state_.dialogs.empty())
       state_.practice->Advance(step, state_.hands.get());
     KeepPivotFresh(state_);
+    recovery_.Follow(state_, Now());
     if (state_.poke && state_.dialogs.empty()) state_.poke->Advance(step);
     window_.SetTitle(TitleOf(state_));
     window_.SetFullScreen(state_.full_screen);
@@ -381,6 +427,7 @@ class Editor {
   std::optional<PictureWindow> trainee_screen_;
   FootageTextures footage_textures_;
   EditorState state_;
+  RecoveryCopy recovery_;  // ends before the state that it writes
   WidgetRegistry widgets_;
   std::optional<ScriptRunner> script_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
@@ -395,6 +442,7 @@ class Editor {
 void RunEditor(const EditorOptions& options) {
   const EndingSignals signals(Window::WakeUp);  // ends last: it may end the program
   Editor editor(options, signals);
+  const DisplayRescue rescue([&editor] { return editor.EndWithoutDisplay(); });
   editor.Run();
   editor.End();
 }

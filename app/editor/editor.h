@@ -22,6 +22,7 @@ struct EditorOptions {
   std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
   std::string notice;                 // what was found at the start; empty: nothing
   // For tests.
+  std::optional<std::filesystem::path> recovery;  // folder of copies; none: the user's
   std::optional<std::filesystem::path> script;
   int width = 1280, height = 800;
   std::optional<double> scale;

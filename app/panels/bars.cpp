@@ -18,6 +18,15 @@ constexpr float kPracticeWidth = 370;
 constexpr float kOutsideShare = 0.34f;   // in practice, of the picture's area
 constexpr float kOverviewShare = 0.38f;  // of the width beside the controls
 
+// ImGui takes a size of 0 for "as large as the content", and textures need a pixel.
+Area AtLeastAPixel(const Area& area) {
+  return {area.x, area.y, std::max(area.width, 1.0f), std::max(area.height, 1.0f)};
+}
+Layout AtLeastAPixel(const Layout& layout) {
+  return {AtLeastAPixel(layout.top), AtLeastAPixel(layout.side), AtLeastAPixel(layout.picture),
+          AtLeastAPixel(layout.overview), AtLeastAPixel(layout.status)};
+}
+
 }  // namespace
 
 Layout EditorLayout(float width, float height, float scale) {
@@ -26,11 +35,11 @@ Layout EditorLayout(float width, float height, float scale) {
   const float middle = std::max(1.0f, height - top - status);
   const float overview = std::floor(kOverviewShare * (width - side));
   const float gap = std::max(1.0f, std::floor(scale));  // between the pictures
-  return {{0, 0, width, top},
-          {0, top, side, middle},
-          {side, top, width - side - overview - gap, middle},
-          {width - overview, top, overview, middle},
-          {0, height - status, width, status}};
+  return AtLeastAPixel(Layout{{0, 0, width, top},
+                              {0, top, side, middle},
+                              {side, top, width - side - overview - gap, middle},
+                              {width - overview, top, overview, middle},
+                              {0, height - status, width, status}});
 }
 
 Layout PracticeLayout(float width, float height, float scale) {
@@ -42,7 +51,7 @@ Layout PracticeLayout(float width, float height, float scale) {
   const float outside = std::floor(kOutsideShare * std::min(width - side, height)),
               edge = 8 * scale;
   layout.overview = {edge, height - 0.75f * outside - edge, outside, 0.75f * outside};
-  return layout;
+  return AtLeastAPixel(layout);
 }
 
 bool CommandButton(Ui& ui, EditorState& state, std::string_view id, const ImVec2& size) {

@@ -79,7 +79,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   if (dialog.asks_folder_name) {
     ImGui::SetNextItemWidth(ui.Px(300));
     ImGui::InputTextWithHint("##new folder", "Name of the new folder", &dialog.new_folder);
-    RecordItem(ui, "New folder's name", true, dialog.new_folder);
+    RecordItem(ui, "New folder's name", true, dialog.new_folder, WidgetKind::kText);
     const bool typed = ImGui::IsItemDeactivated() && enter;
     ImGui::SameLine();
     if (Button(ui, "Make it") || typed) {
@@ -103,15 +103,20 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   const float filter = model.filters().size() > 1 ? ui.Px(150) : 0;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - filter - (filter > 0 ? ui.Px(8) : 0));
   ImGui::InputTextWithHint("##name", "Name", &model.file_name);
-  RecordItem(ui, "File name", true, model.file_name);
+  RecordItem(ui, "File name", true, model.file_name, WidgetKind::kText);
   if (ImGui::IsItemDeactivated() && enter) accept = true;
   if (filter > 0) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(filter);
-    if (ImGui::BeginCombo("##filter", model.filters()[model.filter()].words.c_str())) {
-      for (std::size_t i = 0; i < model.filters().size(); ++i)
+    const std::string& shown = model.filters()[model.filter()].words;
+    const bool open = ImGui::BeginCombo("##filter", shown.c_str());
+    RecordItem(ui, "Kind of file", true, shown, WidgetKind::kCombo);
+    if (open) {
+      for (std::size_t i = 0; i < model.filters().size(); ++i) {
         if (ImGui::Selectable(model.filters()[i].words.c_str(), i == model.filter()))
           model.SetFilter(i);
+        RecordItem(ui, model.filters()[i].words);
+      }
       ImGui::EndCombo();
     }
   }

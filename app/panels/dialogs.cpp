@@ -109,6 +109,26 @@ void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {
   if (quit) state.quit = true;
 }
 
+void Draw(Ui& ui, EditorState& state, RecoveryDialog& dialog) {
+  Heading(ui, "Unsaved work was found");
+  Gap(ui, 2);
+  Text(ui, fmt::format("\"{}\" had unsaved changes when the program ended. The copy is of {}.",
+                       dialog.title, dialog.when));
+  if (!dialog.folder.empty()) QuietText(ui, "Scene: " + dialog.folder.string());
+  Gap(ui);
+  const ImVec2 size = {ui.Px(120), 0};
+  const bool restore = Button(ui, "Restore it", true, size) || EnterPressed();
+  ImGui::SameLine();
+  const bool later =
+      Button(ui, "Later", true, size, "Asks again at the next start.") || EscapePressed();
+  ImGui::SameLine();
+  const bool discard = Button(ui, "Discard it", true, size, "Deletes the copy.");
+  if (!restore && !later && !discard) return;
+  const RecoveryDialog taken = Take<RecoveryDialog>(state);
+  if (restore) Guarded(state, "Restore", [&] { taken.restore(state); });
+  if (discard) taken.discard(state);
+}
+
 void Draw(Ui& ui, EditorState& state, HelpDialog&) {
   HelpWindow(ui, state);
   if (Button(ui, "Close", true, {ui.Px(110), 0}) || EnterPressed() || EscapePressed())
@@ -144,8 +164,12 @@ void Dialogs(Ui& ui, EditorState& state) {
   if (!ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
   const WindowSize size = working ? WindowSize{} : SizeOf(state.dialogs.back());
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float width = std::min(ui.Px(size.width), screen.x - ui.Px(24));
-  const float height = size.height > 0 ? std::min(ui.Px(size.height), screen.y - ui.Px(24)) : 0;
+  // 0 means as large as the content.
+  const auto fitted = [&](double wanted, float of_screen) {
+    return std::max(1.0f, std::min(ui.Px(wanted), of_screen - ui.Px(24)));
+  };
+  const float width = fitted(size.width, screen.x);
+  const float height = size.height > 0 ? fitted(size.height, screen.y) : 0;
   ImGui::SetNextWindowSize({width, height}, ImGuiCond_Always);
   ImGui::SetNextWindowPos({0.5f * screen.x, 0.45f * screen.y}, ImGuiCond_Always, {0.5f, 0.45f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.Px(18), ui.Px(16)});

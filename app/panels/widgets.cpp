@@ -1,6 +1,7 @@
 #include "app/panels/widgets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <imgui_internal.h>
@@ -8,6 +9,9 @@
 
 namespace arthro::app {
 namespace {
+
+// A slider is at most some thousand pixels wide, and ImGui aborts on half the range of int.
+constexpr long long kMostSliderValues = 1'000'000;
 
 // ImGui's own identity of a widget: hidden behind "##" where the label is drawn elsewhere.
 std::string Hidden(const std::string& name) { return "##" + name; }
@@ -52,7 +56,8 @@ class NumberHidden {
 
 }  // namespace
 
-void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string& value) {
+void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string& value,
+                WidgetKind kind) {
   // The part inside the window's clip rectangle is what can be pointed at.
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const ImRect clip = ImGui::GetCurrentWindow()->ClipRect;
@@ -63,7 +68,16 @@ void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string
   record.visible = record.x1 > record.x0 && record.y1 > record.y0;
   record.enabled = enabled;
   record.value = value;
+  record.kind = kind;
+  const ImGuiWindow* const modal = ImGui::GetTopMostPopupModal();
+  record.reachable =
+      modal == nullptr ||
+      ImGui::IsWindowWithinBeginStackOf(ImGui::GetCurrentWindow(), const_cast<ImGuiWindow*>(modal));
   ui.widgets.Record(std::move(record));
+}
+
+bool HitArea(const char* id, const ImVec2& size, ImGuiButtonFlags flags) {
+  return ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}, flags);
 }
 
 void Tooltip(Ui& ui, const char* text) {
@@ -123,9 +137,9 @@ Change Slider(Ui& ui, const std::string& name, double& value, double min, double
     changed = ImGui::SliderScalar(Hidden(name).c_str(), ImGuiDataType_Double, &shown, &min, &max,
                                   format, ImGuiSliderFlags_AlwaysClamp);
   }
-  const Change change = ChangeOfLastItem(changed && shown != value);
+  const Change change = ChangeOfLastItem(changed && std::isfinite(shown) && shown != value);
   if (change.changed) value = shown;
-  RecordItem(ui, name, true, Formatted(format, shown));
+  RecordItem(ui, name, true, Formatted(format, shown), WidgetKind::kSlider);
   Tooltip(ui, tooltip);
   return change;
 }
@@ -135,11 +149,15 @@ Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, 
   Label(ui, name);
   char text[64];
   std::snprintf(text, sizeof text, format, value);
-  ValueOverSlider(text);
+  const bool is_typed = static_cast<long long>(max) - min > kMostSliderValues;
+  if (!is_typed) ValueOverSlider(text);
   ImGui::SetNextItemWidth(-FLT_MIN);
   int shown = value;
   bool changed = false;
-  {
+  if (is_typed) {
+    changed = ImGui::InputInt(Hidden(name).c_str(), &shown, 1, 100);
+    shown = std::clamp(shown, min, max);
+  } else {
     const NumberHidden hidden(Hidden(name));
     changed = ImGui::SliderInt(Hidden(name).c_str(), &shown, min, max, format,
                                ImGuiSliderFlags_AlwaysClamp);
@@ -147,7 +165,7 @@ Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, 
   const Change change = ChangeOfLastItem(changed && shown != value);
   if (change.changed) value = shown;
   std::snprintf(text, sizeof text, format, shown);
-  RecordItem(ui, name, true, text);
+  RecordItem(ui, name, true, text, WidgetKind::kSlider);
   Tooltip(ui, tooltip);
   return change;
 }
@@ -158,9 +176,9 @@ Change NumberField(Ui& ui, const std::string& name, double& value, double step, 
   const bool changed =
       ImGui::DragScalar(Hidden(name).c_str(), ImGuiDataType_Double, &shown,
                         static_cast<float>(step), &min, &max, format, ImGuiSliderFlags_AlwaysClamp);
-  const Change change = ChangeOfLastItem(changed && shown != value);
+  const Change change = ChangeOfLastItem(changed && std::isfinite(shown) && shown != value);
   if (change.changed) value = shown;
-  RecordItem(ui, name, true, Formatted(format, shown));
+  RecordItem(ui, name, true, Formatted(format, shown), WidgetKind::kSlider);
   Tooltip(ui, tooltip);
   return change;
 }
@@ -172,7 +190,7 @@ bool TextField(Ui& ui, const std::string& name, std::string& value, const char* 
   std::string typed = value;
   ImGui::InputTextWithHint(Hidden(name).c_str(), hint, &typed);
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  RecordItem(ui, name, true, typed);
+  RecordItem(ui, name, true, typed, WidgetKind::kText);
   if (done) value = typed;
   return done;
 }
@@ -186,7 +204,7 @@ bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::
                                 : "";
   bool changed = false;
   const bool open = ImGui::BeginCombo(Hidden(name).c_str(), shown.c_str());
-  RecordItem(ui, name, true, shown);
+  RecordItem(ui, name, true, shown, WidgetKind::kCombo);
   Tooltip(ui, tooltip);
   if (open) {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
@@ -238,7 +256,7 @@ void MarkedBar(Ui& ui, const std::string& name, double filled, unsigned colour, 
   if (mark > 0)
     draw->AddLine({at(mark), corner.y}, {at(mark), corner.y + height}, kBright, ui.Px(2));
   ImGui::Dummy({width, height});
-  RecordItem(ui, name, true, value);
+  RecordItem(ui, name, true, value, WidgetKind::kShown);
 }
 
 void QuietText(Ui& ui, const std::string& text) { ColouredText(ui, text, kQuiet); }

@@ -22,8 +22,11 @@ struct Ui {
 };
 
 // Records ImGui's last item.
-void RecordItem(Ui& ui, const std::string& name, bool enabled = true,
-                const std::string& value = "");
+void RecordItem(Ui& ui, const std::string& name, bool enabled = true, const std::string& value = "",
+                WidgetKind kind = WidgetKind::kButton);
+
+// An area that takes the mouse; at least 1 px wide and high, since ImGui aborts on less.
+bool HitArea(const char* id, const ImVec2& size, ImGuiButtonFlags flags = 0);
 
 bool Button(Ui& ui, const std::string& name, bool enabled = true, const ImVec2& size = {0, 0},
             const char* tooltip = nullptr);
@@ -44,6 +47,7 @@ struct Change {
 // the range. `format` as printf takes it, with the unit.
 Change Slider(Ui& ui, const std::string& name, double& value, double min, double max,
               const char* format, const char* tooltip = nullptr);
+// A field that is typed into where the range has more values than a slider can set.
 Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, const char* format,
                  const char* tooltip = nullptr);
 // A number field that is dragged or typed into, `width` wide; label on its left if it has room.

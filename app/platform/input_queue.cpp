@@ -35,6 +35,7 @@ struct Fits {
     return Note(!seen.button, seen.character);  // a key and the text it makes go together
   }
   bool operator()(const FilesDropped&) { return true; }
+  bool operator()(const SizeAsked&) { return true; }
   bool operator()(const FocusLost&) {
     return Note(!seen.button && !seen.key && !seen.character, seen.key);
   }

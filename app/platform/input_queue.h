@@ -32,11 +32,15 @@ struct CharacterTyped {
 struct FilesDropped {
   std::vector<std::filesystem::path> files;
 };
+// Of a script: the window's new size, in window coordinates.
+struct SizeAsked {
+  int width = 0, height = 0;
+};
 struct FocusLost {};       // every held key and button counts as released
 struct CloseRequested {};  // the window's close button
 
 using InputEvent = std::variant<PointerMoved, ButtonChanged, WheelTurned, KeyChanged,
-                                CharacterTyped, FilesDropped, FocusLost, CloseRequested>;
+                                CharacterTyped, FilesDropped, SizeAsked, FocusLost, CloseRequested>;
 
 class InputQueue {
  public:

@@ -99,6 +99,12 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     line.verb = ScriptVerb::kWheel;
     line.name = words[1];
     line.y = number_at(2);
+  } else if (verb == "resize" || verb == "crawl") {
+    want(3, verb == "resize" ? "resize WIDTH HEIGHT" : "crawl SEED ACTIONS");
+    line.verb = verb == "resize" ? ScriptVerb::kResize : ScriptVerb::kCrawl;
+    line.x = number_at(1), line.y = number_at(2);
+    if (!(line.x >= 1 && line.y >= 1 && line.x <= 1e6 && line.y <= 1e6))
+      Refuse(number, fmt::format("write two numbers from 1 to 1000000 after {}", verb), file);
   } else if (verb == "key" || verb == "hold") {
     want(verb == "key" ? 2 : 3, verb == "key" ? "key ctrl+s" : "hold KEY FRAMES");
     line.verb = verb == "key" ? ScriptVerb::kKey : ScriptVerb::kHold;

@@ -6,7 +6,7 @@
 //   wait frames N · wait job · shot FILE.png · shot-trainee FILE.png
 //   mark NAME (what --timing counts the frames from here on under; "" ends it)
 //   expect TEXT · expect not TEXT · expect value NAME TEXT · expect enabled|disabled NAME
-//   drop FILE · close · quit
+//   drop FILE · resize WIDTH HEIGHT · crawl SEED ACTIONS (crawler.h) · close · quit
 // A name or text with blanks stands in double quotes; # begins a comment. Pure: no window.
 #pragma once
 
@@ -39,6 +39,8 @@ enum class ScriptVerb {
   kExpectEnabled,
   kExpectDisabled,
   kDrop,
+  kResize,
+  kCrawl,
   kClose,
   kQuit
 };
@@ -47,7 +49,7 @@ struct ScriptLine {
   int number = 0;  // in the file, from 1
   ScriptVerb verb = ScriptVerb::kQuit;
   std::string name, text;  // of an item; typed, expected or a file
-  double x = 0, y = 0;     // drag, click from the middle, wheel (y), frames (x)
+  double x = 0, y = 0;  // drag, click from the middle, wheel (y), frames (x), size, seed and steps
   bool right_button = false;
 };
 

@@ -1,7 +1,10 @@
 #include "app/platform/script_runner.h"
 
-#include <GLFW/glfw3.h>
+#include <cstdio>
+
 #include <fmt/format.h>
+
+#include "app/platform/script_input.h"
 
 namespace arthro::app {
 namespace {
@@ -10,47 +13,7 @@ namespace {
 constexpr int kSettleFrames = 3;
 constexpr auto kJobLimit = std::chrono::seconds(120);
 constexpr int kDragSteps = 4;
-
-// UTF-8 to code points; a malformed byte becomes U+FFFD.
-std::u32string CodePoints(const std::string& text) {
-  std::u32string points;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const int length = lead < 0x80         ? 1
-                       : (lead >> 5) == 6  ? 2
-                       : (lead >> 4) == 14 ? 3
-                       : (lead >> 3) == 30 ? 4
-                                           : 0;
-    if (length == 0 || i + static_cast<std::size_t>(length) > text.size()) {
-      points += U'\uFFFD';
-      ++i;
-      continue;
-    }
-    char32_t point = length == 1 ? lead : lead & (0x7F >> length);
-    for (int k = 1; k < length; ++k)
-      point =
-          (point << 6) | (static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]) & 0x3F);
-    points += point;
-    i += static_cast<std::size_t>(length);
-  }
-  return points;
-}
-
-void PushText(const std::string& text, InputQueue& input) {
-  for (const char32_t point : CodePoints(text)) input.Push(CharacterTyped{point});
-}
-
-void PushKeys(const std::vector<int>& keys, bool down, InputQueue& input) {
-  if (down)
-    for (const int key : keys) input.Push(KeyChanged{key, true});
-  else
-    for (auto key = keys.rbegin(); key != keys.rend(); ++key) input.Push(KeyChanged{*key, false});
-}
-
-void PushClick(int button, InputQueue& input) {
-  input.Push(ButtonChanged{button, true});
-  input.Push(ButtonChanged{button, false});
-}
+constexpr double kCrawlLimit = 60;  // s between two actions of a crawl
 
 }  // namespace
 
@@ -74,9 +37,30 @@ ScriptState ScriptRunner::AfterFrame(const WidgetRegistry& widgets, bool busy, I
     frames_to_wait_ = kSettleFrames;
     return state_;
   }
+  if (crawler_) {
+    Crawl(widgets, input);
+    return state_;
+  }
   if (next_ == lines_.size()) return state_ = ScriptState::kFinished;
   Run(lines_[next_], widgets, busy, input, save_picture);
   return state_;
+}
+
+void ScriptRunner::Crawl(const WidgetRegistry& widgets, InputQueue& input) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - crawled_at_).count();
+  if (crawl_steps_done_ > 0 && seconds > kCrawlLimit)
+    return Fail(lines_[next_ - 1], fmt::format("no answer for {:.0f} s", seconds));
+  crawled_at_ = now;
+  if (crawl_steps_done_ == crawl_steps_) {
+    std::fprintf(stderr, "crawl: %d actions, %d of them different\n", crawl_steps_done_,
+                 crawler_->distinct_actions());
+    crawler_.reset();
+    return;
+  }
+  // Told before it is done: the last line is what a crash came from.
+  std::fprintf(stderr, "crawl %d: %s\n", ++crawl_steps_done_,
+               crawler_->Act(widgets, input).c_str());
 }
 
 void ScriptRunner::Fail(const ScriptLine& line, const std::string& sentence) {
@@ -151,28 +135,19 @@ void ScriptRunner::Run(const ScriptLine& line, const WidgetRegistry& widgets, bo
       break;
     case ScriptVerb::kDrag: {
       const int button = line.right_button ? 1 : 0;
-      const double x = (target->x0 + target->x1) / 2, y = (target->y0 + target->y1) / 2;
-      input.Push(ButtonChanged{button, true});
-      for (int step = 1; step <= kDragSteps; ++step) {
-        const double share = static_cast<double>(step) / kDragSteps;
-        input.Push(PointerMoved{x + share * line.x * scale_, y + share * line.y * scale_});
-      }
-      input.Push(ButtonChanged{button, false});
+      const glm::dvec2 from = {(target->x0 + target->x1) / 2, (target->y0 + target->y1) / 2};
+      std::vector<glm::dvec2> way;
+      for (int step = 1; step <= kDragSteps; ++step)
+        way.push_back(from +
+                      scale_ * static_cast<double>(step) / kDragSteps * glm::dvec2(line.x, line.y));
+      PushDrag(button, from, way, input);
       break;
     }
     case ScriptVerb::kWheel:
       input.Push(WheelTurned{0, line.y});
       break;
     case ScriptVerb::kSet:
-      // A slider becomes a text field on Ctrl+click, its text selected.
-      input.Push(KeyChanged{GLFW_KEY_LEFT_CONTROL, true});
-      PushClick(0, input);
-      input.Push(KeyChanged{GLFW_KEY_A, true});
-      input.Push(KeyChanged{GLFW_KEY_A, false});
-      input.Push(KeyChanged{GLFW_KEY_LEFT_CONTROL, false});
-      PushText(line.text, input);
-      input.Push(KeyChanged{GLFW_KEY_ENTER, true});
-      input.Push(KeyChanged{GLFW_KEY_ENTER, false});
+      PushTyped(line.text, input);
       break;
     case ScriptVerb::kType:
       PushText(line.text, input);
@@ -219,6 +194,16 @@ void ScriptRunner::Run(const ScriptLine& line, const WidgetRegistry& widgets, bo
       break;
     case ScriptVerb::kDrop:
       input.Push(FilesDropped{{line.text}});
+      break;
+    case ScriptVerb::kResize:
+      input.Push(SizeAsked{static_cast<int>(line.x), static_cast<int>(line.y)});
+      break;
+    case ScriptVerb::kCrawl:
+      crawler_.emplace(CrawlOptions{static_cast<unsigned>(line.x), crawl_keys_});
+      crawl_steps_ = static_cast<int>(line.y);
+      crawl_steps_done_ = 0;
+      std::fprintf(stderr, "crawl: seed %u, %d actions\n", static_cast<unsigned>(line.x),
+                   crawl_steps_);
       break;
     case ScriptVerb::kClose:
       input.Push(CloseRequested{});

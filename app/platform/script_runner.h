@@ -5,9 +5,11 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/platform/crawler.h"
 #include "app/platform/input_queue.h"
 #include "app/platform/script.h"
 #include "app/platform/widget_registry.h"
@@ -33,11 +35,14 @@ class ScriptRunner {
   int line_number() const;                                 // that runs next, or the last
   bool at_end() const { return next_ == lines_.size(); }
   const std::string& mark() const { return mark_; }
+  // Keys that a crawl presses.
+  void SetCrawlKeys(std::vector<CrawlKeys> keys) { crawl_keys_ = std::move(keys); }
 
  private:
   void Run(const ScriptLine& line, const WidgetRegistry& widgets, bool busy, InputQueue& input,
            const SavePicture& save_picture);
   const WidgetRecord* Target(const ScriptLine& line, const WidgetRegistry& widgets);
+  void Crawl(const WidgetRegistry& widgets, InputQueue& input);
   void Fail(const ScriptLine& line, const std::string& sentence);
 
   std::vector<ScriptLine> lines_;
@@ -48,6 +53,10 @@ class ScriptRunner {
   std::chrono::steady_clock::time_point waiting_since_{};
   ScriptState state_ = ScriptState::kRunning;
   std::string failure_, mark_;
+  std::vector<CrawlKeys> crawl_keys_;
+  std::optional<Crawler> crawler_;  // while a crawl runs
+  int crawl_steps_ = 0, crawl_steps_done_ = 0;
+  std::chrono::steady_clock::time_point crawled_at_{};
 };
 
 }  // namespace arthro::app

@@ -9,12 +9,24 @@
 
 namespace arthro::app {
 
+// What can be done to an item.
+enum class WidgetKind {
+  kButton,   // clicked: buttons, boxes, entries of lists, headers
+  kSlider,   // dragged, and typed into after Ctrl+click
+  kText,     // typed into
+  kCombo,    // opens a list of entries
+  kPicture,  // dragged over and scrolled
+  kShown     // only looked at
+};
+
 struct WidgetRecord {
   std::string name;
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // the part that is not clipped away
   bool visible = false;                   // any of it is on screen
   bool enabled = true;
   std::string value = {};  // as shown, of items that have one
+  WidgetKind kind = WidgetKind::kButton;
+  bool reachable = true;  // no dialog lies over it
 };
 
 class WidgetRegistry {

@@ -10,6 +10,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "app/platform/x_display.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
@@ -101,6 +102,8 @@ struct WindowCallbacks {
 };
 
 Window::Window(const WindowOptions& options) : options_(options) {
+  RemoveStaleWindowManagerMark();
+  EndWhenDisplayIsLost();
   if (!glfwInit())
     throw Error(
         Code::kDisplay,
@@ -225,6 +228,8 @@ void Window::Feed(const InputEvent& event, FrameNews& news) {
     io.AddInputCharacter(typed->character);
   } else if (const auto* dropped = std::get_if<FilesDropped>(&event)) {
     news.dropped.insert(news.dropped.end(), dropped->files.begin(), dropped->files.end());
+  } else if (const auto* size = std::get_if<SizeAsked>(&event)) {
+    glfwSetWindowSize(window_, size->width, size->height);
   } else if (std::holds_alternative<FocusLost>(event)) {
     release_all();
   } else if (std::holds_alternative<CloseRequested>(event)) {

@@ -48,6 +48,8 @@ class History {
   // The current document is on disk. `saved` replaces it where saving changed where its files lie.
   void MarkSaved();
   void MarkSaved(Document saved);
+  // Differs for each state of the document, and is the same again after undo and redo.
+  long long StateId() const { return steps_[position_].id; }
   bool IsSaved() const { return steps_[position_].id == saved_id_; }
 
   // Files that some step needs and that no step holds in memory: tetrahedra, lenses.

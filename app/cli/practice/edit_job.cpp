@@ -33,6 +33,8 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
                   "Quit after so many frames",
                   [&options](double frames) { options.frames = static_cast<int>(frames); })
       ->group(kHidden);
+  job.add_option("--recovery", options.recovery, "Folder of the copies of unsaved work")
+      ->group(kHidden);
   job.add_flag("--hidden", options.hidden, "Never show the window")->group(kHidden);
   job.add_flag("--timing", options.timing, "Say when the first picture stood")->group(kHidden);
 }

@@ -58,7 +58,7 @@ void DrawCell(Ui& ui, EditorState& state, int frame, const ImVec2& low, const Ce
 
   Thumb(board.thumbs[static_cast<std::size_t>(frame)], low, cell, texture, is_out);
   ImGui::SetCursorScreenPos(low);
-  if (ImGui::InvisibleButton("thumb", {cell.width, cell.thumb_height})) SelectFrame(state, frame);
+  if (HitArea("thumb", {cell.width, cell.thumb_height})) SelectFrame(state, frame);
   RecordItem(ui, fmt::format("Frame {}", frame), true, WordOf(status));
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
     SetFrameIncluded(state, frame, is_out);
@@ -102,7 +102,7 @@ void FrameStrip(Ui& ui, EditorState& state, const Area& area, const TextureOf& t
   ImGui::SetCursorScreenPos({area.x, area.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::SetNextWindowContentSize({total, 0});
-  ImGui::BeginChild("strip", {area.width, area.height}, false,
+  ImGui::BeginChild("strip", {std::max(area.width, 1.0f), std::max(area.height, 1.0f)}, false,
                     ImGuiWindowFlags_AlwaysHorizontalScrollbar |
                         ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
                         ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoNavFocus);
@@ -158,8 +158,8 @@ void FrameLine(Ui& ui, EditorState& state, const Area& area) {
     draw->AddRectFilled({x - ui.Px(2), area.y + ui.Px(1)}, {x + ui.Px(2), bottom}, kAccent);
   }
   ImGui::SetCursorScreenPos({left, area.y});
-  ImGui::InvisibleButton("All frames", {width, area.height});
-  RecordItem(ui, "All frames");
+  HitArea("All frames", {width, area.height});
+  RecordItem(ui, "All frames", true, "", WidgetKind::kPicture);
   if (ImGui::IsItemActive()) {
     const float share = (ImGui::GetIO().MousePos.x - left) / width;
     const int frame =

@@ -94,10 +94,11 @@ void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf&
   ImGui::GetWindowDrawList()->AddRectFilled(
       {area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
   ImGui::SetCursorScreenPos({area.x, area.y});
-  ImGui::InvisibleButton("Large picture", {area.width, area.height});
+  HitArea("Large picture", {area.width, area.height});
   RecordItem(
       ui, "Large picture", true,
-      showing.picture ? fmt::format("{}x{}", showing.picture->width, showing.picture->height) : "");
+      showing.picture ? fmt::format("{}x{}", showing.picture->width, showing.picture->height) : "",
+      WidgetKind::kPicture);
   if (!showing.picture) return InTheMiddle(ui, area, WordsOfNothing(state));
 
   // Two side by side, or one.

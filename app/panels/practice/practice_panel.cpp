@@ -82,7 +82,7 @@ void ForceBar(Ui& ui, double force, double peak) {
   if (peak > 0)
     draw->AddLine({at(peak), corner.y}, {at(peak), corner.y + height}, 0xFFFFFFFF, ui.Px(2));
   ImGui::Dummy({width, height});
-  RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force));
+  RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force), WidgetKind::kShown);
 }
 
 // Only the regions that something was taken of.

@@ -72,10 +72,10 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
 OverviewInput Overview(Ui& ui, const Area& area, unsigned texture) {
   OverviewInput input;
   ImGui::SetCursorScreenPos({area.x, area.y});
-  ImGui::InvisibleButton("Overview", {area.width, area.height},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
-  RecordItem(ui, "Overview");
+  HitArea("Overview", {area.width, area.height},
+          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+              ImGuiButtonFlags_MouseButtonMiddle);
+  RecordItem(ui, "Overview", true, "", WidgetKind::kPicture);
   const ImGuiIO& io = ImGui::GetIO();
   input.hovered = ImGui::IsItemHovered();
   input.owned = ImGui::IsItemActive();
@@ -112,9 +112,9 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
   PictureInput input;
   ImGui::SetCursorScreenPos(low);
-  ImGui::InvisibleButton("Picture", {edge, edge},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
-  RecordItem(ui, "Picture");
+  HitArea("Picture", {edge, edge},
+          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  RecordItem(ui, "Picture", true, "", WidgetKind::kPicture);
   input.hovered = ImGui::IsItemHovered();
   input.focused = ImGui::IsWindowFocused();
   const ImGuiIO& io = ImGui::GetIO();

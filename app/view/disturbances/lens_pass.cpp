@@ -99,6 +99,9 @@ void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, i
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
   target.framebuffer->Bind();
+  // Attaches the new storage: VTK skips a texture object that is attached already, although its
+  // OpenGL texture was made anew.
+  target.framebuffer->RemoveColorAttachment(0);
   target.framebuffer->AddColorAttachment(0, &texture);
   target.framebuffer->ActivateDrawBuffer(0);
   state->vtkglViewport(0, 0, size, size);

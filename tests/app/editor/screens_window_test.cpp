@@ -2,6 +2,9 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -110,6 +113,76 @@ expect "this folder is not empty"
   EXPECT_NE(first.rgb, last.rgb) << "the scope swung";
   EXPECT_EQ(last.at(100, 360)[0], 0) << "black beside the picture";
   EXPECT_TRUE(std::filesystem::exists(by_command / "frame-0000.png"));
+}
+
+// Of the pixels of `area`; 0 is black.
+double MeanOf(const ColourImage& picture, const cv::Rect& area) {
+  double sum = 0;
+  for (int y = area.y; y < area.y + area.height; ++y)
+    for (int x = area.x; x < area.x + area.width; ++x)
+      for (int c = 0; c < 3; ++c) sum += picture.at(x, y)[c];
+  return sum / (3.0 * area.width * area.height);
+}
+
+// Each disturbance alone and some at once, while a film is recorded, the window is resized, the
+// view from outside and the trainee's screen come and go. The scene's own mean is 60 and more in
+// the middle of the picture; a strong disturbance leaves a third of it.
+TEST_F(ScreensWindow, ARecordedPracticeNeverShowsABlackPicture) {
+  const std::vector<std::string> switches = {"Bleeding",  "Bubbles",  "Debris",     "Fogged lens",
+                                             "Near blur", "Far blur", "Overexposed"};
+  std::string script = "wait job\nkey f2\nset \"File name\" \"" + (temp / "film.avi").string() +
+                       "\"\nwait frames 3\nexpect \"Recording 00:00\"\nkey f3\n";
+  struct Shot {
+    std::filesystem::path file;
+    cv::Rect picture;
+  };
+  std::vector<Shot> shots;
+  const auto shoot = [&](const std::string& name) {
+    for (const auto& [width, height] : {std::pair(900, 600), std::pair(760, 700)}) {
+      const auto file = temp / (std::to_string(shots.size()) + ".png");
+      // The controls take 0.4 of the width on the right.
+      const int middle = width * 3 / 10;
+      shots.push_back({file, cv::Rect(middle - 60, height / 2 - 60, 120, 120)});
+      script += "resize " + std::to_string(width) + " " + std::to_string(height) +
+                "\nwait frames 4\nshot " + file.string() + "\n";
+      const auto trainee = temp / (std::to_string(shots.size()) + ".png");
+      if (name == "Fogged lens") {
+        script += "shot-trainee " + trainee.string() + "\n";
+        shots.push_back({trainee, cv::Rect(380, 260, 200, 200)});
+      }
+    }
+  };
+  for (const std::string& name : switches) {
+    script += "click \"" + name + "\"\nexpect value \"" + name + "\" on\n";
+    if (name == "Fogged lens") script += "key f12\nkey o\nwait frames 4\n";
+    shoot(name);
+    script += "click \"" + name + "\"\n";
+    if (name == "Fogged lens") script += "key f12\nkey o\n";
+  }
+  script += "click Bleeding\nclick Bubbles\nclick Debris\nclick \"Near blur\"\n";
+  shoot("all");
+  script += "click \"Clear view\"\n";
+  shoot("clear");
+  script += "key f2\nwait job\nclick \"Hide disturbances\"\nexpect \"The film is in\"\n";
+  const auto result = RunWindow("practise --layout 4:3 " + scene.string(), script, "1600x1200x24");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+
+  double darkest_shot = 255, darkest_frame = 255;
+  for (const Shot& shot : shots) {
+    const double mean = MeanOf(ReadColourImage(shot.file), shot.picture);
+    EXPECT_GT(mean, 15.0) << shot.file.filename();
+    darkest_shot = std::min(darkest_shot, mean);
+  }
+  const test::Film film = test::ReadFilm(temp / "film.avi");
+  EXPECT_GE(film.frames.size(), 20u);
+  for (std::size_t i = 0; i < film.frames.size(); ++i) {
+    const cv::Scalar mean = cv::mean(film.frames[i](cv::Rect(380, 260, 200, 200)));
+    const double grey = (mean[0] + mean[1] + mean[2]) / 3;
+    EXPECT_GT(grey, 15.0) << "frame " << i;
+    darkest_frame = std::min(darkest_frame, grey);
+  }
+  std::printf("%zu pictures, the darkest of mean %.1f; %zu frames, the darkest of mean %.1f\n",
+              shots.size(), darkest_shot, film.frames.size(), darkest_frame);
 }
 
 TEST_F(ScreensWindow, AFilmThatCannotBeIsRefusedBeforeThereIsAWindow) {

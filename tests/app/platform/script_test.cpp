@@ -1,9 +1,13 @@
 // Scripts that drive the window (app/platform/script.h, script_runner.h).
 #include "app/platform/script.h"
 
+#include <algorithm>
+#include <map>
+
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "app/platform/crawler.h"
 #include "app/platform/script_runner.h"
 #include "simulation/core/error.h"
 
@@ -124,6 +128,68 @@ TEST(Script, FramesAreMarkedFromTheLineOn) {
   EXPECT_GE(marked, 5);
   EXPECT_LT(marked, 15) << "and the frames in which a line settles";
   EXPECT_EQ(runner.mark(), "");
+}
+
+WidgetRecord Shown(const std::string& name, WidgetKind kind) {
+  WidgetRecord record;
+  record.name = name, record.kind = kind;
+  record.x1 = record.y1 = 10;
+  record.visible = true;
+  return record;
+}
+
+TEST(Crawler, UsesEveryReachableItemBeforeItUsesOneAgain) {
+  WidgetRegistry widgets;
+  for (const char* name : {"Save", "Open", "New", "Undo", "Redo"})
+    widgets.Record(Shown(name, WidgetKind::kButton));
+  widgets.Record(Shown("Quit", WidgetKind::kButton));
+  WidgetRecord hidden = Shown("Below a dialog", WidgetKind::kButton);
+  hidden.reachable = false;
+  widgets.Record(hidden);
+  WidgetRecord disabled = Shown("Disabled", WidgetKind::kSlider);
+  disabled.enabled = false;
+  widgets.Record(disabled);
+  Crawler crawler(CrawlOptions{3, {}});
+  std::map<std::string, int> clicks;
+  for (int i = 0; i < 60; ++i) {
+    InputQueue input;
+    const std::string words = crawler.Act(widgets, input);
+    EXPECT_FALSE(input.empty()) << words;
+    if (words.starts_with("click ")) ++clicks[words.substr(6)];
+  }
+  ASSERT_EQ(clicks.size(), 5u);
+  int least = 1000, most = 0;
+  for (const auto& [name, count] : clicks)
+    least = std::min(least, count), most = std::max(most, count);
+  EXPECT_LE(most - least, 1);
+}
+
+TEST(Crawler, ASeedGivesTheSameActionsAndMovesASliderToBothEndsFirst) {
+  WidgetRegistry widgets;
+  widgets.Record(Shown("Near relief", WidgetKind::kSlider));
+  widgets.Record(Shown("Title", WidgetKind::kText));
+  widgets.Record(Shown("Picture", WidgetKind::kPicture));
+  const auto actions = [&](unsigned seed) {
+    Crawler crawler(CrawlOptions{seed, {{"ctrl+z", {GLFW_KEY_LEFT_CONTROL, GLFW_KEY_Z}}}});
+    std::vector<std::string> words;
+    for (int i = 0; i < 100; ++i) {
+      InputQueue input;
+      words.push_back(crawler.Act(widgets, input));
+    }
+    return words;
+  };
+  const auto words = actions(1);
+  EXPECT_EQ(words, actions(1));
+  EXPECT_NE(words, actions(2));
+  const auto at = [&](const std::string& text) {
+    return std::find(words.begin(), words.end(), text) - words.begin();
+  };
+  const auto drag = at("drag Near relief to both ends"),
+             typed = at("type -1e30 and 1e30 into Near relief"),
+             nonsense = at("type \"nan\" into Near relief");
+  EXPECT_LT(drag, typed);
+  EXPECT_LT(typed, nonsense);
+  EXPECT_LT(nonsense, 100);
 }
 
 }  // namespace

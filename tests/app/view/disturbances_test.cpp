@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <numeric>
+
+#include <GL/gl.h>
 
 #include "app/view/disturbances/drifting_bits.h"
 #include "simulation/core/units.h"
@@ -83,6 +86,35 @@ TEST_F(DisturbedView, WithNothingOnIsTheSameBytesAndTexture) {
   picture_.plain = true;
   const ColourImage plain = Draw({});
   for (const Disturbances& one : EachAt(1.0)) EXPECT_EQ(Draw(one).rgb, plain.rgb);
+}
+
+// Reads the texture that a window shows; ReadPixels reads the framebuffer that was drawn into.
+ColourImage ReadTexture(unsigned id, int size) {
+  ColourImage upside_down(size, size), picture(size, size);
+  glBindTexture(GL_TEXTURE_2D, id);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, upside_down.rgb.data());
+  glBindTexture(GL_TEXTURE_2D, 0);
+  for (int y = 0; y < size; ++y)
+    std::copy_n(upside_down.at(0, size - 1 - y), 3 * size, picture.at(0, y));
+  return picture;
+}
+
+TEST_F(DisturbedView, TheShownTextureHoldsThePictureAtEverySizeOneAfterTheOther) {
+  ShowJoint();
+  std::vector<Disturbances> cases = EachAt(1.0);
+  cases.emplace_back();
+  for (double Disturbances::*field :
+       {&Disturbances::haze, &Disturbances::bubbles, &Disturbances::fog, &Disturbances::near_blur})
+    cases.back().*field = 0.5;
+  for (const Disturbances& one : cases)
+    for (const int size : {256, 192, 320, 256, 16, 256}) {
+      const ColourImage picture = Draw(one, size);
+      EXPECT_EQ(ReadTexture(view_->TextureId(), size).rgb, picture.rgb) << size;
+      const double mean =
+          std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / picture.rgb.size();
+      EXPECT_GT(mean, 10.0) << "black at " << size;
+    }
 }
 
 TEST_F(DisturbedView, IsAFunctionOfSeedAndTime) {

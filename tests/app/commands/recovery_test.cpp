@@ -1,0 +1,151 @@
+// The copy of unsaved work (app/commands/recovery): when it is written, and when it goes.
+#include <chrono>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "app/commands/edits.h"
+#include "app/commands/recovery/recovery_copy.h"
+#include "app/commands/scene_files.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/units.h"
+#include "tests/support/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Recovery : public testing::Test {
+ protected:
+  Recovery() { StartDocument(state, authoring::OpenDocument(scene), true); }
+  // The write that is under way, if any, is over.
+  void FollowUntilWritten(RecoveryCopy& copy, double now) {
+    copy.Follow(state, now);
+    for (int i = 0; i < 2000 && Copies() == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  int Copies() const {
+    int count = 0;
+    std::error_code ignored;
+    for (const auto& session : fs::directory_iterator(folder, ignored))
+      count += fs::exists(session.path() / "scene.arthro");
+    return count;
+  }
+  test::TempFolder temp;
+  fs::path scene = test::WriteSmallScene(temp / "knee"), folder = temp / "state" / "recovery";
+  EditorState state{NewDocument()};
+};
+
+TEST_F(Recovery, IsWrittenSomeSecondsAfterTheLastChangeAndNotBefore) {
+  RecoveryCopy copy(folder);
+  copy.Follow(state, 0);
+  EXPECT_EQ(copy.SecondsUntilDue(0), std::numeric_limits<double>::infinity());
+  SetIncisionSpacing(state, -0.02);
+  copy.Follow(state, 1.0);
+  EXPECT_NEAR(copy.SecondsUntilDue(1.5), RecoveryCopy::kAfterChange - 0.5, 1e-9);
+  SetIncisionSpacing(state, -0.021);
+  copy.Follow(state, 3.5);
+  copy.Follow(state, 5.0);
+  EXPECT_EQ(Copies(), 0);
+  FollowUntilWritten(copy, 6.6);
+  EXPECT_EQ(Copies(), 1);
+}
+
+TEST_F(Recovery, IsWrittenWhileChangesGoOn) {
+  RecoveryCopy copy(folder);
+  double now = 0;
+  for (; now <= RecoveryCopy::kAtLeastEvery; now += 1.0) {
+    SetIncisionSpacing(state, 0.02 + 1e-4 * now);
+    copy.Follow(state, now);
+  }
+  FollowUntilWritten(copy, now);
+  EXPECT_EQ(Copies(), 1);
+}
+
+TEST_F(Recovery, GoesWhenAllIsSavedUndoneOrDiscarded) {
+  {
+    RecoveryCopy copy(folder);
+    SetIncisionSpacing(state, -0.02);
+    EXPECT_TRUE(copy.WriteNow(state));
+    EXPECT_EQ(Copies(), 1);
+    state.history.Undo();
+    copy.Follow(state, 100);
+    EXPECT_EQ(Copies(), 0);
+    state.history.Redo();
+    EXPECT_TRUE(copy.WriteNow(state));
+    state.history.MarkSaved();
+    copy.Follow(state, 200);
+    EXPECT_EQ(Copies(), 0);
+    SetIncisionSpacing(state, -0.03);
+    EXPECT_TRUE(copy.WriteNow(state));
+    copy.Remove();
+    EXPECT_EQ(Copies(), 0);
+    EXPECT_TRUE(copy.WriteNow(state));
+  }
+  EXPECT_EQ(Copies(), 1) << "an end that nobody asked for";
+}
+
+TEST_F(Recovery, GivesBackEveryUnsavedValueAndIsNotOfferedTwice) {
+  {
+    RecoveryCopy copy(folder);
+    SetIncisionSpacing(state, -0.02);
+    ASSERT_TRUE(copy.WriteNow(state));
+  }
+  RecoveryCopy copy(folder), other(folder);
+  EditorState next{NewDocument()};
+  copy.Offer(next);
+  ASSERT_EQ(next.dialogs.size(), 1u);
+  auto dialog = std::get<RecoveryDialog>(next.dialogs.back());
+  EXPECT_EQ(dialog.title, "Small knee");
+  EXPECT_EQ(dialog.folder, scene);
+  EditorState second{NewDocument()};
+  other.Offer(second);
+  EXPECT_TRUE(second.dialogs.empty()) << "another window has it";
+
+  next.dialogs.clear();
+  dialog.restore(next);
+  EXPECT_DOUBLE_EQ(next.document().scene.portals.incision_spacing, -0.02);
+  EXPECT_EQ(next.document().folder, scene);
+  EXPECT_FALSE(next.history.IsSaved());
+  EXPECT_EQ(Copies(), 1) << "kept until it is saved";
+  next.history.MarkSaved();
+  copy.Follow(next, 1);
+  EXPECT_EQ(Copies(), 0);
+}
+
+TEST_F(Recovery, OfASceneThatChangedOnDiskSinceIsSavedElsewhere) {
+  {
+    RecoveryCopy copy(folder);
+    SetIncisionSpacing(state, -0.02);
+    ASSERT_TRUE(copy.WriteNow(state));
+  }
+  fs::last_write_time(scene / "scene.json",
+                      fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  RecoveryCopy copy(folder);
+  EditorState next{NewDocument()};
+  copy.Offer(next);
+  ASSERT_EQ(next.dialogs.size(), 1u);
+  std::get<RecoveryDialog>(next.dialogs.back()).restore(next);
+  EXPECT_EQ(next.document().folder, fs::path());
+}
+
+TEST_F(Recovery, AFolderThatCannotBeWrittenIsToldAndStopsNothing) {
+  { std::ofstream(temp / "state") << "a file"; }
+  RecoveryCopy copy(folder);
+  SetIncisionSpacing(state, -0.02);
+  EXPECT_FALSE(copy.WriteNow(state));
+  copy.Follow(state, 0);
+  copy.Follow(state, 100);
+  for (int i = 0; i < 1000 && state.message.find("no recovery copy") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    copy.Follow(state, 100);
+  }
+  EXPECT_NE(state.message.find("no recovery copy"), std::string::npos) << state.message;
+}
+
+}  // namespace
+}  // namespace arthro::app
