@@ -21,9 +21,6 @@ struct FileKind {
   const char* words;  // "a depth map"
   FileForm form = FileForm::kPicture;
   const char* mark = "";
-
-  // Whether the content says which job wrote it, as a table's columns do and a picture does not.
-  bool IsTelling() const { return form == FileForm::kTable || form == FileForm::kJson; }
 };
 
 // An empty file is of every kind but kUnique: nothing is lost with it. False where `file` cannot be

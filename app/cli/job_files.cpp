@@ -71,14 +71,6 @@ std::vector<fs::path> FilesOfFootage(const fs::path& footage) {
   return {footage};
 }
 
-bool IsIn(const fs::path& file, const fs::path& folder) {
-  std::error_code ignored;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(FolderOf(file)), ignored),
-                 above = fs::weakly_canonical(fs::absolute(folder), ignored);
-  const auto [rest, end] = std::mismatch(above.begin(), above.end(), whole.begin(), whole.end());
-  return rest == above.end();
-}
-
 // "name-2.png" and on for "name.png", as a regular expression.
 std::string PieceNames(const fs::path& file) {
   const auto plain = [](const std::string& text) {
@@ -153,7 +145,6 @@ JobFiles::Inputs JobFiles::AllInputs() const {
     for (const fs::path& path : PathsOf(*input.option)) {
       if (input.kind == InputKind::kScene) {
         add(FilesOfScene(path));
-        if (!IsArchive(path)) all.scene_folders.push_back(FolderOf(SceneFile(path)));
       } else if (input.kind == InputKind::kFootage) {
         add(FilesOfFootage(path));
         if (fs::is_directory(path, ignored)) all.footage_folders.push_back(path);
@@ -226,10 +217,6 @@ void JobFiles::CheckFile(const fs::path& file, const FileKind& kind, const Input
                     fmt::format("this file exists, and {} is not written over it", kind.words));
   if (!IsOfKind(file, kind))
     RefuseToReplace(file, fmt::format("this file exists and is not {} of this job", kind.words));
-  if (!kind.IsTelling() && fs::file_size(file, ignored) > 0)
-    for (const fs::path& folder : inputs.scene_folders)
-      if (IsIn(file, folder))
-        RefuseToReplace(file, "this file exists in the folder of the scene that is read");
 }
 
 void JobFiles::CheckFolder(const fs::path& folder, const NamedKinds& all,

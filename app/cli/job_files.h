@@ -86,7 +86,7 @@ class JobFiles : public std::enable_shared_from_this<JobFiles> {
     NamedKinds names;
   };
   struct Inputs {
-    std::vector<std::filesystem::path> files, scene_folders, footage_folders;
+    std::vector<std::filesystem::path> files, footage_folders;
   };
 
   explicit JobFiles(CLI::App& job) : job_(job) {}

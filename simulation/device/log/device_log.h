@@ -43,7 +43,7 @@ class LogChannel {
 
 class DeviceLog {
  public:
-  // Overwrites. Throws Error(kFile) where it cannot be written.
+  // Refuses a file that has content. Throws Error(kFile), also where it cannot be written.
   DeviceLog(const std::filesystem::path& file, std::vector<LogSource> sources,
             const DeviceLogOptions& options = {});
   ~DeviceLog();

@@ -154,11 +154,6 @@ TEST_F(JobFiles, APieceOrPictureThatIsAnInputIsRefused) {
                 "is read by the job");
 }
 
-TEST_F(JobFiles, APictureInTheFolderOfTheSceneWantsOverwrite) {
-  fs::copy_file(At("g.png"), At("S/earlier.png"));
-  ExpectRefused("view @S -o @S/earlier.png", "earlier.png", "--overwrite");
-}
-
 // Flags that help shows as OUTPUT, with a command for each, in which a foreign file stands where
 // the job would write. A job that is missing here fails the next test.
 const std::map<std::string, std::string> kOutputs = {

@@ -177,10 +177,10 @@ TEST(ReplayJob, AFilmThatCannotBeIsRefusedBeforeAnythingIsPlayed) {
   TempFolder folder;
   const auto scene = WriteSmallScene(folder / "knee");
   const auto trace = WriteSwing(folder / "swing.csv");
-  const auto refusal = [&](const std::string& flags) {
+  const auto refusal = [&](const std::string& flags, int code = 1) {
     const ProgramResult run = RunProgram("replay " + scene.string() + " " + trace.string() +
                                          " -o " + (folder / "f.csv").string() + " " + flags);
-    EXPECT_EQ(run.exit_code, 1) << flags;
+    EXPECT_EQ(run.exit_code, code) << flags;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "f.csv")) << flags;
     return run.err;
@@ -190,8 +190,9 @@ TEST(ReplayJob, AFilmThatCannotBeIsRefusedBeforeAnythingIsPlayed) {
   EXPECT_NE(refusal("--video " + (folder / "no" / "film.mp4").string()).find("does not exist"),
             std::string::npos);
   EXPECT_NE(refusal(film + ".mp4 --video-size 181").find("even"), std::string::npos);
-  EXPECT_NE(refusal(film + ".mp4 --video-size 0").find("even"), std::string::npos);
-  EXPECT_NE(refusal(film + ".mp4 --fps 0").find("pictures a second"), std::string::npos);
+  // Outside a flag's range is wrong use.
+  EXPECT_NE(refusal(film + ".mp4 --video-size 0", 2).find("from 16 to 4096 px"), std::string::npos);
+  EXPECT_NE(refusal(film + ".mp4 --fps 0", 2).find("from 1 to 240 per second"), std::string::npos);
   EXPECT_NE(refusal(film + ".mp4 --layout 5:4").find("square, 4:3 or 16:9"), std::string::npos);
   EXPECT_NE(refusal("--video " + trace.string()).find("would overwrite it"), std::string::npos);
 }
