@@ -106,10 +106,16 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   scope_shape_ = ScopeShape();
   for (std::size_t kind = 0; kind < shapes_.size(); ++kind)
     shapes_[kind] = ShapeOf(static_cast<ToolKind>(kind));
-  SetInstrument(scene.instruments.empty() ? kind_ : ToolKindOf(scene.instruments.front().kind));
+  if (!scene.instruments.empty()) kind_ = ToolKindOf(scene.instruments.front().kind);
 }
 
-void Session::SetInstrument(ToolKind kind) noexcept { kind_ = kind; }
+void Session::SetInstrument(ToolKind kind) noexcept {
+  if (kind == kind_) return;
+  kind_ = kind;
+  if (!instrument_.contact.has_started) return;  // it has yet to enter
+  instrument_.is_remounted = true;
+  instrument_.entry = 0.0;
+}
 
 void Session::SetIncisionSpacing(double spacing) noexcept {
   if (spacing == spacing_) return;
@@ -299,6 +305,10 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       state.layer_depth = layers.depth;
       to_hand.force = contact.force;
       to_hand.stiffness = stiffness / (options_.contact.stiffness * give);
+      // Of rigid surfaces alone the stored energy is known: that of a spring that the fade softens.
+      to_hand.is_elastic = pull.force == glm::dvec3(0.0);
+      if (to_hand.is_elastic && tool.contact.share > 0)
+        to_hand.stiffness *= tool.contact.share * tool.contact.hold;
       to_hand.lever = lever;
     } else {
       fault = Fault::kNotFinite;
@@ -317,7 +327,11 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
   }
   state.proxy_in_portal =
       tool.contact.has_started ? tool.contact.proxy.position : state.tip_in_portal;
-  state.tip_force = contact.force;
+  state.tip_force = tool.entry * contact.force;
+  if (tool.entry < 1.0)
+    tool.entry = options_.limiter.ramp_time > 0.0
+                     ? std::min(1.0, tool.entry + dt / options_.limiter.ramp_time)
+                     : 1.0;
   state.hand_force = limited.force;
   state.contact = contact.contact;
   state.penetration = contact.penetration;
