@@ -33,11 +33,11 @@ void LetGoIfCaught(const Surroundings& surroundings, double radius, const glm::d
   if (!is_caught && !(state.caught > kCaughtFor)) state.caught = 0.0;
   const double left = std::clamp(1.0 - (state.caught - kCaughtFor) / kLetGo, 0.0, 1.0);
   state.hold = left * left;
-  if (left > 0.0) return;
+  state.was_let_go = !(left > 0.0);
+  if (!state.was_let_go) return;
   state.proxy = Proxy{};
   state.proxy.position = tip;
   state.caught = 0.0;
-  state.hold = 1.0;
 }
 
 // Where the proxy is drawn to: under itself as far as friction holds it, else to the edge of the
@@ -128,9 +128,9 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
     const double travel = glm::length(held - state.held) + 2.0 * surroundings.field.pixel_size();
     MoveProxy(surroundings, radius, goal, travel, state.contact < 0, state.proxy);
   }
-  // What lives holds the tip by a force of its own.
-  if (is_pulled)
-    state.caught = 0.0, state.hold = 1.0;
+  // Tissue holds the tip by a force of its own.
+  if (is_pulled && !tissue.is_free)
+    state.caught = 0.0, state.hold = 1.0, state.was_let_go = false;
   else
     LetGoIfCaught(surroundings, radius, portal, tip, dt, state);
   if (state.proxy.position == tip) goal = tip;
@@ -144,6 +144,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
     result.penetration = glm::length(shift);
     result.force = stiffness * shift +
                    Viscosity(options, stiffness, state.velocity, tissue.normal, 1.0, tissue.depth);
+    result.force *= state.hold;
   }
   // What holds the proxy away from there, and how hard. Friction drew it aside from the goal.
   const auto leave = [&state]() noexcept {

@@ -56,6 +56,7 @@ struct ContactState {
   int contact = -1;
   // Of a proxy that is caught: for how long it was, s, and what is left of its force, 1 to 0.
   double caught = 0, hold = 1;
+  bool was_let_go = false;  // in the last tick: it is at its tip, and nothing holds it
 };
 
 // What tissue that is not among the surroundings does.
@@ -65,6 +66,7 @@ struct TissuePull {
   // What is viscous while the tip approaches it, as a surface; zero: nothing is.
   glm::dvec3 normal{0.0};  // unit
   double depth = 0;        // m
+  bool is_free = false;    // a tool that came straight from its portal would not be held by it
 };
 
 struct ContactForce {

@@ -40,6 +40,9 @@ double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept
   return stiffness > 0 ? glm::dot(force, force) / stiffness : 0.0;
 }
 
+// Beyond what a tool bends soft tissue by.
+constexpr double kHeldFromAfar = 5e-3;  // m
+
 // Jaws close and open in this time, so that what they bite is between them.
 constexpr double kJawTime = 0.15;  // s
 
@@ -296,9 +299,23 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
         pull.normal = glm::normalize(layers.force);
         pull.depth = glm::length(tool.layer_push) + layers.depth;
         give = std::max(give, pull.depth / glm::length(layers.force));
+        // A tool that is held from far off: would the layers hold it, had it just come in?
+        if (glm::distance(tool.contact.proxy.position, tip) > kHeldFromAfar &&
+            pull.force == layers.force) {
+          const auto let_be = std::exchange(tool.let_be, std::nullopt);
+          const glm::dvec3 layer_push = tool.layer_push;
+          pull.is_free =
+              FeelLayers(tool, portal, tip, options_.contact.stiffness, state).tissue < 0;
+          tool.let_be = let_be;
+          tool.layer_push = layer_push;
+        }
       }
       contact = TickContact({*field_, meshes_, instead_}, options_.contact, stiffness, portal, tip,
                             dt, tool.contact, pull);
+      if (tool.contact.was_let_go) {
+        tool.let_be.reset();
+        tool.layer_push = tool.beside = glm::dvec3(0.0);
+      }
       if (layers.tissue >= 0) contact.penetration += layers.depth;
       state.is_layer_deep = layers.is_deep;
       state.layer = layers.tissue;
