@@ -315,6 +315,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       if (tool.contact.was_let_go) {
         tool.let_be.reset();
         tool.layer_push = tool.beside = glm::dvec3(0.0);
+        contact = ContactForce{};
       }
       if (layers.tissue >= 0) contact.penetration += layers.depth;
       state.is_layer_deep = layers.is_deep;
