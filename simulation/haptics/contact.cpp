@@ -18,6 +18,28 @@ constexpr double kKink = 0.2;  // pixels
 // force takes this long.
 constexpr double kFadeIn = 0.010;  // s
 
+// A tool may hook behind an edge and pull. At this distance the coupling of 500 N/m pulls with 4 N,
+// more than any device of its stiffness gives.
+constexpr double kFarOff = 8e-3;      // m
+constexpr double kCaughtFor = 0.050;  // s; a hand that turns round does not stay for so long
+constexpr double kLetGo = 0.100;      // s
+
+// What is left of the force of a proxy that is caught. At 0 it is at its tip again.
+void LetGoIfCaught(const Surroundings& surroundings, double radius, const glm::dvec3& portal,
+                   const glm::dvec3& tip, double dt, ContactState& state) noexcept {
+  const bool is_caught = glm::length(state.proxy.position - tip) > kFarOff &&
+                         IsWayFree(surroundings, radius, portal, tip);
+  state.caught = is_caught ? state.caught + dt : std::max(0.0, state.caught - dt);
+  if (!is_caught && !(state.caught > kCaughtFor)) state.caught = 0.0;
+  const double left = std::clamp(1.0 - (state.caught - kCaughtFor) / kLetGo, 0.0, 1.0);
+  state.hold = left * left;
+  state.was_let_go = !(left > 0.0);
+  if (!state.was_let_go) return;
+  state.proxy = Proxy{};
+  state.proxy.position = tip;
+  state.caught = 0.0;
+}
+
 // Where the proxy is drawn to: under itself as far as friction holds it, else to the edge of the
 // friction cone. True: it sticks.
 bool Grip(const ContactOptions& options, const ContactState& state, const glm::dvec3& tip,
@@ -106,6 +128,12 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
     const double travel = glm::length(held - state.held) + 2.0 * surroundings.field.pixel_size();
     MoveProxy(surroundings, radius, goal, travel, state.contact < 0, state.proxy);
   }
+  // Tissue holds the tip by a force of its own.
+  if (is_pulled && !tissue.is_free)
+    state.caught = 0.0, state.hold = 1.0, state.was_let_go = false;
+  else
+    LetGoIfCaught(surroundings, radius, portal, tip, dt, state);
+  if (state.proxy.position == tip) goal = tip;
   state.tip = tip;
   state.held = held;
 
@@ -116,6 +144,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
     result.penetration = glm::length(shift);
     result.force = stiffness * shift +
                    Viscosity(options, stiffness, state.velocity, tissue.normal, 1.0, tissue.depth);
+    result.force *= state.hold;
   }
   // What holds the proxy away from there, and how hard. Friction drew it aside from the goal.
   const auto leave = [&state]() noexcept {
@@ -129,7 +158,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
   const double depth = glm::length(push);
   if (!(depth > 0.0)) return leave(), result;
   state.normal = planes.count > 0 ? push / depth : glm::dvec3(0.0);
-  const glm::dvec3 of_surfaces = stiffness * state.share * (push + (goal - held));
+  const glm::dvec3 of_surfaces = stiffness * state.share * state.hold * (push + (goal - held));
   if (!is_pulled) {
     result.contact = state.contact;
     result.penetration = depth;

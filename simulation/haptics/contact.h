@@ -6,6 +6,9 @@
 // not the tip but the place where that force meets the spring, tip + F/k. The backdrop holds the
 // proxy out of itself, and k (proxy − tip) is the force of both: nothing is counted twice. The
 // proxy moves by no more than the tip and two pixels a tick, so k times that bounds each step.
+// A proxy can slip behind an edge while its tip goes through the surface, and stay there when the
+// tip comes back. It is let go where the rod from the portal to the tip crosses no surface, and the
+// proxy is further from the tip than any device holds: its force then falls to zero within 0.15 s.
 // Portal frame, m, N, s; noexcept, allocates nothing [notes on haptics, 4.2].
 #pragma once
 
@@ -51,6 +54,9 @@ struct ContactState {
   glm::dvec3 normal{0.0};
   double share = 0;
   int contact = -1;
+  // Of a proxy that is caught: for how long it was, s, and what is left of its force, 1 to 0.
+  double caught = 0, hold = 1;
+  bool was_let_go = false;  // in the last tick: it is at its tip, and nothing holds it
 };
 
 // What tissue that is not among the surroundings does.
@@ -60,6 +66,7 @@ struct TissuePull {
   // What is viscous while the tip approaches it, as a surface; zero: nothing is.
   glm::dvec3 normal{0.0};  // unit
   double depth = 0;        // m
+  bool is_free = false;    // a tool that came straight from its portal would not be held by it
 };
 
 struct ContactForce {

@@ -15,23 +15,31 @@ LimitedForce ForceToHand(const OutputOptions& options, const TipForce& tip, doub
     fault = Fault::kNotFinite;
   if (fault == Fault::kNone && tip.push == HandPush::kNo) fault = Fault::kNotArmed;
 
+  LimiterOptions limiter = options.limiter;
+  limiter.max_force = ThermalClamp(options.thermal, limiter.max_force, state.thermal);
   glm::dvec3 force = bare;
   if (fault != Fault::kNone) {
     state.guard = PassivityState{};
   } else {
     // The lever changes forces by its gain and stiffnesses by its square, energies not at all: the
-    // spring at the hand is the one that holds as much.
+    // spring at the hand is the one that holds as much. What fades holds less.
     const double at_tip = glm::dot(tip.force, tip.force), at_hand = glm::dot(bare, bare);
     const double stiffness = at_tip > 0 ? tip.stiffness * (at_hand / at_tip) : tip.stiffness;
-    force = GuardPassivity(options.passivity, bare, tip.hand, stiffness, dt, state.guard);
+    if (tip.is_elastic) {
+      const HandSpring spring{tip.lever.fade > 0 ? stiffness / tip.lever.fade : 0.0,
+                              limiter.max_force};
+      force = BoundByCredit(options.passivity, force, tip.hand, spring, state.limiter.ramp < 1.0,
+                            dt, state.guard);
+    } else {
+      state.guard.has_credit = false;
+    }
+    force = GuardPassivity(options.passivity, force, tip.hand, stiffness, dt, state.guard);
   }
 
   LimitedForce sent;
   if (fault == Fault::kNone && tip.push == HandPush::kPause) {
     state.limiter.held = glm::dvec3(0.0);
   } else {
-    LimiterOptions limiter = options.limiter;
-    limiter.max_force = ThermalClamp(options.thermal, limiter.max_force, state.thermal);
     sent = LimitForce(limiter, force, tip.hand_speed, fault, dt, state.limiter);
   }
   NoteSent(sent.force, state.guard);

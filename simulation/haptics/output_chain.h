@@ -32,6 +32,7 @@ struct TipForce {
   double hand_speed = 0;       // m/s
   Fault fault = Fault::kNone;  // what went wrong before
   HandPush push = HandPush::kYes;
+  bool is_elastic = false;  // of springs alone: what they give back is bounded by what was paid
 };
 
 struct OutputState {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double kRounding = 1e-6;  // of a count
 constexpr double kForgiving = 0.1;  // s, three swings of a hand that is thrown
+// Above the damper's one, so that a spring is softened only where the damper was too weak.
+constexpr double kCreditAllowances = 2.0;
 
 // What the motors did since the last tick.
 const glm::dvec3& Acting(const PassivityOptions& options, const PassivityState& state) noexcept {
@@ -28,7 +31,55 @@ glm::dvec3 WithPlay(const glm::dvec3& off, double play) noexcept {
   return way;
 }
 
+// Share of a spring of this force that holds no more than `energy`.
+double ShareFor(const HandSpring& spring, double force, double energy) noexcept {
+  const double stretch = force / spring.stiffness;
+  if (!(energy > 0)) return 0;
+  // The softer spring is still clamped, or it is not.
+  if (energy > 0.5 * spring.max_force * stretch)
+    return 0.5 * spring.max_force * spring.max_force /
+           (spring.stiffness * (spring.max_force * stretch - energy));
+  return 2.0 * energy / (force * stretch);
+}
+
 }  // namespace
+
+double HandSpring::EnergyOf(double force) const noexcept {
+  if (!(stiffness > 0)) return 0;
+  const double stretch = force / stiffness;
+  return force <= max_force ? 0.5 * force * stretch
+                            : max_force * (stretch - 0.5 * max_force / stiffness);
+}
+
+glm::dvec3 BoundByCredit(const PassivityOptions& options, const glm::dvec3& force,
+                         const glm::dvec3& hand, const HandSpring& spring, bool is_paid, double dt,
+                         PassivityState& state) noexcept {
+  const double size = glm::length(force);
+  const double way2 = glm::dot(hand - state.paid_at, hand - state.paid_at);
+  const double held = spring.EnergyOf(size);
+  if (!std::isfinite(way2) || !std::isfinite(held) || !(dt > 0) || !(options.max_damping > 0) ||
+      (size > 0 && !(spring.stiffness > 0))) {
+    state.has_credit = false;
+    return force;
+  }
+  if (!std::exchange(state.has_credit, true)) {
+    state.paid_at = hand;
+    state.credit = held;
+    return force;
+  }
+  const glm::dvec3 way = WithPlay(hand - state.paid_at, options.quantum);
+  state.paid_at += way;
+  state.credit -= glm::dot(Acting(options, state), way);
+  // More than the spring holds was rubbed or damped away.
+  state.credit = is_paid ? held : std::min(state.credit, held);
+  if (!(size > 0)) {
+    state.credit *= kForgiving / (kForgiving + dt);
+    return force;
+  }
+  const double energy = state.credit + kCreditAllowances * options.allowance;
+  if (!(energy < held)) return force;
+  return ShareFor(spring, size, energy) * force;
+}
 
 glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& force,
                           const glm::dvec3& hand, double stiffness, double dt,

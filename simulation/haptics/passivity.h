@@ -6,6 +6,8 @@
 // the hand goes is not: one count in a tick of 1 ms looks like 55 mm/s, at rest on the edge of two
 // as in a slow stroke. The damper sees motion with a play of one count, and a single count spread
 // over the time since the last.
+// A damper is too weak for slow hands. The second part, BoundByCredit, is independent of speed: the
+// rendered spring may promise no more energy than the hand has paid for since it touched.
 #pragma once
 
 #include <array>
@@ -43,7 +45,29 @@ struct PassivityState {
   double energy = 0;       // J, taken from the hand and not given back
   glm::dvec3 played{0.0};  // where the hand is, with play
   double still = 0;        // s, that this has not moved
+  // Of BoundByCredit.
+  bool has_credit = false;
+  double credit = 0;        // J, paid by the hand and not given back; at most what the spring holds
+  glm::dvec3 paid_at{0.0};  // where the hand is, with play
 };
+
+// The spring that a hand feels: its stiffness, and the force at which it is clamped.
+struct HandSpring {
+  double stiffness = 0;  // N/m
+  double max_force = 0;  // N
+  // J, that it gives back on the straight way out, where `force` is its force without the clamp.
+  double EnergyOf(double force) const noexcept;
+};
+
+// `force` on the hand at `hand`, or less of it: so much that the spring gives back no more than the
+// hand has paid, and twice the allowance. A clamp, a fade at the edge of a map, a lever that turns
+// and normals of a coarse map make a force that is no gradient of an energy; a slow closed cycle
+// can gain from each of them. The spring is softened, not the clamp lowered: a hand that is deep
+// feels the full clamp until what it paid is used up. Unchanged where nothing is owed. With
+// `is_paid` the spring is taken as paid for, as while a force ramps after arming.
+glm::dvec3 BoundByCredit(const PassivityOptions& options, const glm::dvec3& force,
+                         const glm::dvec3& hand, const HandSpring& spring, bool is_paid, double dt,
+                         PassivityState& state) noexcept;
 
 // `force` on the hand at `hand`, of a surface of `stiffness`; what it is with the guard's damper.
 // Energy that rubbing took is no licence to swing: no more is kept than the surface's spring holds.

@@ -219,6 +219,19 @@ bool IsFree(const Surroundings& surroundings, double radius, const Proxy& proxy)
   return true;
 }
 
+bool IsWayFree(const Surroundings& surroundings, double radius, const glm::dvec3& from,
+               const glm::dvec3& to) noexcept {
+  Proxy copy;
+  Mover mover(surroundings, radius, copy);
+  // Most tips that are far from their proxy are below the backdrop: one query tells.
+  const FieldQuery query = mover.Query(to);
+  if (query.weight > 0.0 && query.clearance < radius) return false;
+  SweepHit hit;
+  Plane plane;
+  if (mover.SweepMeshes(from, to, hit, plane)) return false;
+  return surroundings.field.empty() || mover.March(from, to) >= 1.0;
+}
+
 PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
                   Proxy& proxy) noexcept {
   Mover mover(surroundings, radius, proxy);

@@ -40,6 +40,11 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
 // tissue that is a function.
 bool IsFree(const Surroundings& surroundings, double radius, const Proxy& proxy) noexcept;
 
+// True where a ball that comes straight from `from` reaches `to` and touches nothing on the way.
+// From a tool's portal this is the rod itself: what crosses no surface is held by none.
+bool IsWayFree(const Surroundings& surroundings, double radius, const glm::dvec3& from,
+               const glm::dvec3& to) noexcept;
+
 // The planes that hold the proxy where it is when it is drawn to `goal`.
 PlaneSet PlanesAt(const Surroundings& surroundings, double radius, const glm::dvec3& goal,
                   Proxy& proxy) noexcept;

@@ -40,6 +40,9 @@ double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept
   return stiffness > 0 ? glm::dot(force, force) / stiffness : 0.0;
 }
 
+// Beyond what a tool bends soft tissue by.
+constexpr double kHeldFromAfar = 5e-3;  // m
+
 // Jaws close and open in this time, so that what they bite is between them.
 constexpr double kJawTime = 0.15;  // s
 
@@ -106,10 +109,16 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   scope_shape_ = ScopeShape();
   for (std::size_t kind = 0; kind < shapes_.size(); ++kind)
     shapes_[kind] = ShapeOf(static_cast<ToolKind>(kind));
-  SetInstrument(scene.instruments.empty() ? kind_ : ToolKindOf(scene.instruments.front().kind));
+  if (!scene.instruments.empty()) kind_ = ToolKindOf(scene.instruments.front().kind);
 }
 
-void Session::SetInstrument(ToolKind kind) noexcept { kind_ = kind; }
+void Session::SetInstrument(ToolKind kind) noexcept {
+  if (kind == kind_) return;
+  kind_ = kind;
+  if (!instrument_.contact.has_started) return;  // it has yet to enter
+  instrument_.is_remounted = true;
+  instrument_.entry = 0.0;
+}
 
 void Session::SetIncisionSpacing(double spacing) noexcept {
   if (spacing == spacing_) return;
@@ -290,15 +299,34 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
         pull.normal = glm::normalize(layers.force);
         pull.depth = glm::length(tool.layer_push) + layers.depth;
         give = std::max(give, pull.depth / glm::length(layers.force));
+        // A tool that is held from far off: would the layers hold it, had it just come in?
+        if (glm::distance(tool.contact.proxy.position, tip) > kHeldFromAfar &&
+            pull.force == layers.force) {
+          const auto let_be = std::exchange(tool.let_be, std::nullopt);
+          const glm::dvec3 layer_push = tool.layer_push;
+          pull.is_free =
+              FeelLayers(tool, portal, tip, options_.contact.stiffness, state).tissue < 0;
+          tool.let_be = let_be;
+          tool.layer_push = layer_push;
+        }
       }
       contact = TickContact({*field_, meshes_, instead_}, options_.contact, stiffness, portal, tip,
                             dt, tool.contact, pull);
+      if (tool.contact.was_let_go) {
+        tool.let_be.reset();
+        tool.layer_push = tool.beside = glm::dvec3(0.0);
+        contact = ContactForce{};
+      }
       if (layers.tissue >= 0) contact.penetration += layers.depth;
       state.is_layer_deep = layers.is_deep;
       state.layer = layers.tissue;
       state.layer_depth = layers.depth;
       to_hand.force = contact.force;
       to_hand.stiffness = stiffness / (options_.contact.stiffness * give);
+      // Of rigid surfaces alone the stored energy is known: that of a spring that the fade softens.
+      to_hand.is_elastic = pull.force == glm::dvec3(0.0);
+      if (to_hand.is_elastic && tool.contact.share > 0)
+        to_hand.stiffness *= tool.contact.share * tool.contact.hold;
       to_hand.lever = lever;
     } else {
       fault = Fault::kNotFinite;
@@ -317,7 +345,11 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
   }
   state.proxy_in_portal =
       tool.contact.has_started ? tool.contact.proxy.position : state.tip_in_portal;
-  state.tip_force = contact.force;
+  state.tip_force = tool.entry * contact.force;
+  if (tool.entry < 1.0)
+    tool.entry = options_.limiter.ramp_time > 0.0
+                     ? std::min(1.0, tool.entry + dt / options_.limiter.ramp_time)
+                     : 1.0;
   state.hand_force = limited.force;
   state.contact = contact.contact;
   state.penetration = contact.penetration;

@@ -75,7 +75,9 @@ class Session {
   const WorldPicture* tissues() noexcept { return tissues_ ? &tissues_->Read() : nullptr; }
   bool HasNewTissues() const noexcept { return tissues_ && tissues_->HasNew(); }
   void ResetTissues();  // whole and at rest again; not on the servo path
-  // The instrument in the hand, between ticks.
+  // The instrument in the hand, between ticks. Another one enters anew, and its force rises from
+  // zero within the ramp of the limiter, on the tip as on the hand: no force of the one before, nor
+  // of a shape that appears inside tissue, is given or recorded.
   void SetInstrument(ToolKind kind) noexcept;
   ToolKind instrument() const noexcept { return kind_; }
 
@@ -108,6 +110,7 @@ class Session {
     OutputState output;
     HandPush push = HandPush::kYes;
     bool is_remounted = false;  // since the last tick
+    double entry = 1;           // of its force on the tip: 0 to 1 after it was changed for another
     bool has_sample = false;
     DeviceSample last;      // the newest one
     double age = 0;         // s since it came

@@ -72,6 +72,15 @@ std::string TableOf(const HapticsBench& bench) {
       "in and out again: {:.3f} mJ given at most, {:.3f} mJ without the guard\n",
       hands.escaped, hands.tried, kMilli * hands.most_energy, kMilli * hands.cycle_energy,
       kMilli * hands.cycle_energy_unguarded);
+
+  table += fmt::format(
+      "\n# slow closed cycles of the hand, 20 to 150 mm/s: energy gained between two moments "
+      "without a force\n{:<40}{:>8}{:>10}{:>12}{:>9}{:>11}\n",
+      "ground", "cycles", "most mJ", "in cycle", "mm/s", "N in 1 ms");
+  for (const EnergyRow& row : bench.energy)
+    table +=
+        fmt::format("{:<40}{:>8}{:>10.3f}{:>12}{:>9.0f}{:>11.3f}\n", row.ground, row.cycles,
+                    kMilli * row.cycle.gain, row.worst, kMilli * row.cycle.speed, row.largest_rise);
   return table;
 }
 
@@ -109,6 +118,14 @@ nlohmann::json JsonOf(const HapticsBench& bench) {
                          {"delay_ticks", row.delay},
                          {"measured", row.measured},
                          {"rule", row.rule}});
+  nlohmann::json energy = nlohmann::json::array();
+  for (const EnergyRow& row : bench.energy)
+    energy.push_back({{"ground", row.ground},
+                      {"cycles", row.cycles},
+                      {"gain", row.cycle.gain},
+                      {"worst_cycle", row.worst},
+                      {"speed", row.cycle.speed},
+                      {"largest_rise", row.largest_rise}});
   return {{"schema", "arthroscene.bench.haptics/1"},
           {"machine", MachineWords()},
           {"options", JsonFromOptions(bench.options)},
@@ -116,6 +133,7 @@ nlohmann::json JsonOf(const HapticsBench& bench) {
           {"forces", forces},
           {"bridges", bridges},
           {"stability", stability},
+          {"energy", energy},
           {"hands",
            {{"tried", bench.hands.tried},
             {"escaped", bench.hands.escaped},

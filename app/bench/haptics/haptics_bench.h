@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/bench/haptics/energy_cycles.h"
 #include "app/bench/haptics/force_cases.h"
 #include "app/bench/haptics/servo_times.h"
 #include "app/bench/haptics/tissue_bridge.h"
@@ -21,11 +22,14 @@ struct HapticsBenchOptions {
   int ticks = 20000;
   int rounds = 5;
   int hands = 10000;
+  int cycles = 10000;
   template <class V>
   void Visit(V&& v) {
     v("ticks", ticks, Range{10, 60000}, "", "Servo ticks of 1 ms that are timed a round.");
     v("rounds", rounds, Range{1, 1000}, "", "How often the same ticks are timed.");
     v("hands", hands, Range{0, 10000000}, "", "Simulated hands that press against a wall.");
+    v("cycles", cycles, Range{0, 10000000}, "",
+      "Slow closed cycles over rigid backdrops whose energy is summed.");
   }
 };
 
@@ -58,6 +62,7 @@ struct HapticsBench {
   std::vector<BridgeRow> bridges;
   std::vector<StabilityRow> stability;
   HandsRow hands;
+  std::vector<EnergyRow> energy;  // by ground
 };
 
 // The parts of it, beside MeasureServo and MeasureBridges.

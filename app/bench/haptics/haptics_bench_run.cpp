@@ -103,6 +103,7 @@ HapticsBench RunHapticsBench(const HapticsBenchOptions& options, const Progress&
   bench.bridges = MeasureBridges(options.rounds);
   bench.stability = MeasureStability(progress);
   bench.hands = MeasureHands(options.hands, progress);
+  bench.energy = MeasureEnergy(options.cycles, progress);
   return bench;
 }
 

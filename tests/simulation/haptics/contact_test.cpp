@@ -310,6 +310,63 @@ TEST(Contact, HardCase10EightBitStaircaseDoesNotBuzz) {
   EXPECT_LT(std::sqrt(above / 2), 0.05 * dc);
 }
 
+// A plate of 2 mm. The tip goes past its edge, through under it and back through the plate.
+Felt DrawnThroughAPlate(double from_z, double to_z, int still) {
+  const DepthField nothing;
+  const std::vector<SurfaceBvh> meshes{
+      SurfaceBvh(test::Box({-0.01, -0.01, 0.040}, {0.01, 0.01, 0.042}), {})};
+  const double step = 5e-5;  // m in a tick: 50 mm/s
+  std::vector<glm::dvec3> path{{0.014, 0, 0.02}};
+  const auto lead = [&](const glm::dvec3& to) {
+    const glm::dvec3 from = path.back();
+    const int ticks = static_cast<int>(std::ceil(glm::distance(from, to) / step));
+    for (int i = 1; i <= ticks; ++i) path.push_back(glm::mix(from, to, 1.0 * i / ticks));
+  };
+  lead({0.014, 0, from_z});
+  lead({0, 0, from_z});
+  lead({0, 0, to_z});
+  for (int i = 0; i < still; ++i) path.push_back(path.back());
+  return Lead({nothing, meshes}, Bare(), static_cast<int>(path.size()),
+              [&](int i) { return path[static_cast<std::size_t>(i)]; });
+}
+
+TEST(Contact, AProxyCaughtBehindAnEdgeIsLetGoWhereTheRodIsFree) {
+  const Felt run = DrawnThroughAPlate(0.045, 0.020, 0);
+  double furthest = 0, largest_fall = 0;
+  for (std::size_t i = 1; i < run.contact.size(); ++i) {
+    furthest = std::max(furthest, glm::distance(run.proxy[i], run.tip[i]));
+    largest_fall = std::max(
+        largest_fall, glm::length(run.contact[i - 1].force) - glm::length(run.contact[i].force));
+  }
+  std::printf("caught: %.1f mm at most, the force falls by %.3f N in a tick\n", 1e3 * furthest,
+              largest_fall);
+  EXPECT_GT(furthest, 8e-3) << "else it was not caught";
+  // 8 mm, and what 50 mm/s go in 0.15 s.
+  EXPECT_LT(furthest, 8e-3 + 7.5e-3 + 1e-4);
+  EXPECT_LT(largest_fall, 0.2);
+  EXPECT_EQ(run.contact.back().force, glm::dvec3(0.0));
+  EXPECT_EQ(run.proxy.back(), run.tip.back());
+}
+
+TEST(Contact, AToolThatHooksBehindAnEdgeIsHeld) {
+  const Felt run = DrawnThroughAPlate(0.045, 0.0355, 2000);  // 6.5 mm above its underside
+  EXPECT_NEAR(run.contact.back().force.z, kStiffness * 0.0065, 0.01);
+}
+
+// Drawn 15 mm up, but under a second plate, through which no rod comes.
+TEST(Contact, AProxyIsNotLetGoThroughASurface) {
+  const DepthField nothing;
+  const std::vector<SurfaceBvh> meshes{
+      SurfaceBvh(test::Box({-0.01, -0.01, 0.040}, {0.01, 0.01, 0.042}), {}),
+      SurfaceBvh(test::Box({-0.01, -0.01, 0.015}, {0.01, 0.01, 0.016}), {})};
+  const Felt run = Lead({nothing, meshes}, Bare(), 3000, [](int i) {
+    if (i < 100) return glm::dvec3(0.02, 0, 0.045);
+    if (i < 200) return glm::dvec3(2e-4 * (200 - i), 0, 0.045);
+    return glm::dvec3(0, 0, 0.045 - 0.018 * std::min(1.0, (i - 200) / 500.0));
+  });
+  EXPECT_NEAR(run.contact.back().force.z, kStiffness * 0.015, 0.01);
+}
+
 TEST(Contact, EmptySurroundingsAreFree) {
   ContactState state;
   const DepthField nothing;

@@ -379,6 +379,36 @@ TEST(LiveTissue, HardCase13ThatFallsSilentFades) {
   EXPECT_EQ(hands.Tick(70).instrument.tip_force, glm::dvec3(0.0));
 }
 
+// The tip stays 4 mm under the backdrop while the instrument is changed.
+TEST(Session, AnotherInstrumentEntersAnewAndItsForceRisesFromZero) {
+  Hands hands(MakeScene(true, false));
+  hands.instrument.Set({0, -0.5, 0, 0.04});
+  hands.Tick(700);  // armed, in free space
+  const glm::dvec3 tip(0, 0, 0.05);
+  hands.Lead(tip, 400);
+  const double before = glm::length(hands.Tick(200).instrument.tip_force);
+  ASSERT_NEAR(before, 2.0, 0.01);
+  hands.session.SetInstrument(hands.session.instrument());
+  EXPECT_NEAR(glm::length(hands.Tick().instrument.tip_force), before, 1e-6) << "the same one";
+  for (const ToolKind kind : {ToolKind::kShaver, ToolKind::kPunch, ToolKind::kProbe}) {
+    hands.session.SetInstrument(kind);
+    double last_tip = 0, last_hand = 0;
+    const double ramp = hands.session.options().limiter.ramp_time;
+    for (int i = 0; i < 600; ++i) {
+      const ToolState& tool = hands.Tick().instrument;
+      const double at_tip = glm::length(tool.tip_force), in_hand = glm::length(tool.hand_force);
+      // A fifth more: its proxy comes straight from the portal and slides to the nearest point.
+      ASSERT_LE(at_tip, 1.2 * before * std::min(1.0, i * kTick / ramp) + 1e-6) << i;
+      ASSERT_LE(at_tip - last_tip, 1.2 * before * kTick / ramp) << i;
+      ASSERT_LE(in_hand - last_hand, 0.02) << i;
+      last_tip = at_tip;
+      last_hand = in_hand;
+    }
+    EXPECT_NEAR(last_tip, before, 1e-3) << "as the one before, once it is ramped";
+    EXPECT_GT(last_hand, 0.5);
+  }
+}
+
 TEST(ServoTick, AllocatesNothing) {
   LoadedScene loaded = MakeScene();
   loaded.surfaces[0] = test::Sphere({0, 0, 0}, 0.005, 5);
