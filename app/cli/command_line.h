@@ -1,5 +1,5 @@
 // The command line: parses, runs one job, turns faults into one sentence on stderr and an exit code
-// (0 done, 1 refused, 2 usage; design §5).
+// (0 done, 1 refused, 2 usage) [method.md, Command line].
 #pragma once
 
 namespace arthro::app {

@@ -35,7 +35,8 @@ void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then = {}
 
 // A picture becomes the backdrop; its projection is kept if the size is that of the old one.
 void ImportPanorama(EditorState& state, const std::filesystem::path& picture);
-// A panorama report says where the middle is and how many pixels a radian (design §5).
+// A panorama report says where the middle is and how many pixels a radian [method.md, File
+// formats].
 void ReadPanoramaReport(EditorState& state, const std::filesystem::path& report);
 
 // A file that was dropped on the window: a scene, a picture, footage or a surface, by its name.

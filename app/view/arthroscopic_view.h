@@ -1,6 +1,6 @@
-// What the arthroscope shows: the panorama through the exact geometry of design §4, with tissues
-// and an instrument in it, in a round window. Draws in whatever OpenGL context is current (3.2 core
-// or later) into its own texture. Portal frame, m, rad.
+// What the arthroscope shows: the panorama through the exact geometry [method.md, Oblique view],
+// with tissues and an instrument in it, in a round window. Draws in whatever OpenGL context is
+// current (3.2 core or later) into its own texture. Portal frame, m, rad.
 //
 // The backdrop is exact for every pixel. Models are warped vertex by vertex with the same equisolid
 // lens, so a straight edge is drawn as a chord: its error grows with the square of its angle

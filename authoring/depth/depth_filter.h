@@ -1,13 +1,13 @@
-// Relief from brightness [paper 3.4]: a light at the scope makes near tissue bright, so a grey with
-// little red is normalised to the depth range of the scene and cleaned by a median. An ordering of
-// what is nearer, not a measurement: dark tissue reads as far, pale as near.
+// Relief from brightness [paper, 3.4]: a light at the scope makes near tissue bright, so a grey
+// with little red is normalised to the depth range of the scene and cleaned by a median. An
+// ordering of what is nearer, not a measurement: dark tissue reads as far, pale as near.
 //
-// In: a panorama, 8-bit colour. Out: the relief h of design §4, m, larger is nearer the scope, NaN
-// where nothing was imaged. Steps: grey by weights; surround and rim masked; glints filled; median;
-// percentiles to [far, near] through the law. The paper normalises before its median; the two
-// commute, and this way noise does not set the range, and the range is filled exactly.
-// The other estimators (light_falloff.h) find a relative distance, whose percentiles become the
-// range in the same way.
+// In: a panorama, 8-bit colour. Out: the relief h [method.md, Backdrop], m, larger is nearer the
+// scope, NaN where nothing was imaged. Steps: grey by weights; surround and rim masked; glints
+// filled; median; percentiles to [far, near] through the law. The paper normalises before its
+// median; the two commute, and this way noise does not set the range, and the range is filled
+// exactly. The other estimators (light_falloff.h) find a relative distance, whose percentiles
+// become the range in the same way.
 #pragma once
 
 #include "authoring/depth/depth_options.h"

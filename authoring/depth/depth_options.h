@@ -1,4 +1,4 @@
-// How a panorama's brightness becomes relief [paper 3.4].
+// How a panorama's brightness becomes relief [paper, 3.4].
 #pragma once
 
 #include "simulation/core/options.h"
@@ -7,7 +7,7 @@ namespace arthro::authoring {
 
 // What stands between brightness and distance. All of them rank what is nearer; none measures.
 enum class DepthEstimator {
-  kPaper,             // grey with little red, median, law [paper 3.4]
+  kPaper,             // grey with little red, median, law [paper, 3.4]
   kInverseSquareRed,  // red, which blood hides least, tissue colour divided out, 1/sqrt(I)
   kShading,           // the same, and slopes away from the light taken into account
 };

@@ -1,6 +1,7 @@
 // Distance from the light that comes back, for a light at the scope: brightness = albedo × cosine /
-// distance² [notes: near-light shading]. An estimate that ranks what is nearer, not a measurement
-// of shape: tissue colour, light that bounces and what composition did to the light remain in it.
+// distance² [method.md, Depth from brightness]. An estimate that ranks what is nearer, not a
+// measurement of shape: tissue colour, light that bounces and what composition did to the light
+// remain in it.
 //
 // On a single rectified frame the law holds as written. A panorama has had its light evened out:
 // each frame's falloff over its mean plane was divided away, so slow depth is gone, and what is

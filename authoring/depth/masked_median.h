@@ -1,4 +1,4 @@
-// Median over the imaged pixels of a square window [paper 3.4, second pass]. Pixels of the surround
+// Median over the imaged pixels of a square window [paper, 3.4]. Pixels of the surround
 // and beyond the picture's edge do not count, so that the rim is not dragged into the dark. Of an
 // even number of values the lower of the two middle ones is taken, so every result is a value of
 // the picture.

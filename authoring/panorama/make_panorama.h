@@ -1,4 +1,4 @@
-// Footage to panorama [paper 3.1]: reads, evens out the light, finds how the frames lie to each
+// Footage to panorama [paper, 3.1]: reads, evens out the light, finds how the frames lie to each
 // other, composes. Each stage's product is kept, so that a window can change an option or leave a
 // frame out and only what depends on it is done again.
 //

@@ -1,5 +1,6 @@
 // What became of a clip: the panorama's geometry and, for every frame of the footage, where it lies
-// or why it does not. Plain types, so that a window can show it. File: report_io.h (design §5).
+// or why it does not. Plain types, so that a window can show it. File: report_io.h [method.md, File
+// formats].
 #pragma once
 
 #include <array>

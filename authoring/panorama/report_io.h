@@ -1,4 +1,4 @@
-// A panorama and its report as files. The report is design §5's JSON, by
+// A panorama and its report as files. The report is JSON [method.md, File formats], by
 // resources/schemas/panorama-1.schema.json; with `panorama` in it a scene knows its projection.
 #pragma once
 

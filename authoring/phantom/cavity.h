@@ -1,6 +1,7 @@
 // The shape of a digital knee: the front of the medial compartment of a right knee, seen through
 // the anterolateral portal. Every surface is a closed formula, so that its depth is known exactly.
-// Portal frame, m (design §3: +z into the joint, +x to the viewer's right and medial, +y down).
+// Portal frame, m [method.md, Frames]: (+z into the joint, +x to the viewer's right and medial, +y
+// down).
 //
 //   condyle                    an ellipsoid
 //   plateau                    a height field z = H(x, y) in its own frame (x medial, y posterior,

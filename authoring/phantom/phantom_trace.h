@@ -1,7 +1,7 @@
 // The hand motions of a short session in the phantom: the scope goes in, looks round and rolls; the
 // instrument comes in, probes condyle, plateau and meniscus, lifts the meniscus' free edge on its
-// hook, lets it go, and leaves. As both devices would report it (TRACE.csv of design §5), for rigs
-// with the pivot at the device's origin, portal axes and rods of 0.2 m.
+// hook, lets it go, and leaves. As both devices would report it (TRACE.csv [method.md, File
+// formats]), for rigs with the pivot at the device's origin, portal axes and rods of 0.2 m.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// In which state a device is, and why [notes on haptics, 3]:
+// In which state a device is, and why [method.md, Output chain]:
 //   absent → opening → homing → ready (no force) → armed; fault and lost on the way, both without
 //   force.
 // Arming needs a fresh sample and a dead-man that was seen released since the device last was not

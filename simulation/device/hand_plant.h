@@ -1,5 +1,5 @@
-// A force device with a hand on it, as a plant to try a servo on [notes on haptics, 7]: on each
-// axis
+// A force device with a hand on it, as a plant to try a servo on [devices.md, Simulated hand]: on
+// each axis
 //   (m_d + m_h) a = k_h (x_intent − x) − (b_d + b_h) v − f_c sgn(v) + F,
 // F what the device was commanded `delay` ticks ago, clamped to its peak. Integrated in steps of at
 // most 20 µs; what is read is quantised as its encoders do. Device frame, m, N, kg, s. Same inputs,

@@ -1,4 +1,4 @@
-// Recorded hands as TRACE.csv (design §5): one row a sample, in the order of time.
+// Recorded hands as TRACE.csv [method.md, File formats]: one row a sample, in the order of time.
 //   t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons
 // s, `scope`|`instrument`, m and unit quaternion in the device frame, bit field. Numbers are
 // written with the fewest digits that read back to the same bits.

@@ -9,7 +9,7 @@
 // A proxy can slip behind an edge while its tip goes through the surface, and stay there when the
 // tip comes back. It is let go where the rod from the portal to the tip crosses no surface, and the
 // proxy is further from the tip than any device holds: its force then falls to zero within 0.15 s.
-// Portal frame, m, N, s; noexcept, allocates nothing [notes on haptics, 4.2].
+// Portal frame, m, N, s; noexcept, allocates nothing [method.md, Backdrop force].
 #pragma once
 
 #include "simulation/core/options.h"
@@ -19,7 +19,7 @@ namespace arthro::simulation {
 
 struct ContactOptions {
   // Bound 781 N/m with one tick of delay, b = 0.2 + 1 Ns/m and nobody holding the device
-  // (notes 4.5).
+  // [method.md, Stability].
   double stiffness = 500.0;
   double damping = 1.0;
   // Two quanta of a Touch-class device (0.055 mm): damping that begins at once would rattle.

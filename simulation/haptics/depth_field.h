@@ -1,5 +1,5 @@
-// The backdrop as something to touch [paper 3.4; design §4]: the sphere of radius D about the scope
-// portal with the depth map h as relief. Free space is inside:
+// The backdrop as something to touch [paper, 3.4; method.md, Backdrop]: the sphere of radius D
+// about the scope portal with the depth map h as relief. Free space is inside:
 //   c(x) = (D − h(π(x))) − |x| > 0,   ∇c = −(h_u ∇u + h_v ∇v) − x/|x|,
 //   clearance = c/|∇c| (distance to first order),   normal = ∇c/|∇c| (into free space)
 // Built once: relief smoothed by a binomial filter over imaged pixels only, central differences
@@ -22,8 +22,8 @@ struct DepthFieldOptions {
   // A pass blurs by σ² = ½ px². Two take away noise of single pixels and keep the normal of relief
   // with slopes of 1 over 0.05 mm pixels within 0.1°.
   int smoothing_passes = 2;
-  // A map in steps, as from 8-bit depth, needs more: the force jumps at each step otherwise (notes
-  // on haptics, 4.1).
+  // A map in steps, as from 8-bit depth, needs more: the force jumps at each step otherwise
+  // [method.md, Backdrop force].
   int quantised_passes = 24;
   double fade_px = 8.0;  // wide enough that K·1 mm fades by less than 0.1 N a pixel
   template <class V>

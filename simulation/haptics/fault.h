@@ -1,5 +1,5 @@
 // Why a device is given no force. A fault is a value in the snapshot: the servo path throws and
-// logs nothing [design §2, threads].
+// logs nothing [method.md, Threads].
 #pragma once
 
 namespace arthro::simulation {

@@ -1,4 +1,4 @@
-// The last stage on every way to a device, with or without hardware [notes on haptics, section 3].
+// The last stage on every way to a device, with or without hardware [method.md, Output chain].
 // In this order: not a number → zero and a fault · length clamped, direction kept · rise limited,
 // fall free · hand too fast → zero · ramp after arming. After a fault the ramp starts again. N, s,
 // m/s; noexcept, allocates nothing.

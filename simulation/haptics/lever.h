@@ -1,4 +1,4 @@
-// The rod about the incision is a lever [notes on haptics, 4.3]: with u the unit vector from pivot
+// The rod about the incision is a lever [method.md, Lever]: with u the unit vector from pivot
 // to hand, r its length and L the rod's, tip − pivot = (r − L) u and
 //   J = d tip/d hand = u uᵀ + (1 − L/r)(I − u uᵀ),   F_hand = Jᵀ F_tip.
 // Across the rod a force grows by |1 − L/r| and a stiffness by its square, so limits of the device

@@ -1,8 +1,8 @@
 // From the force on a tip to what a hand is given, the one way that every force takes, with or
-// without hardware [notes on haptics, 3]. In this order: not a number → zero and a fault · lever ·
-// passivity guard · clamp, lower while the motors are warm · rise · speed guard · ramp. Before it
-// stands the virtual coupling (contact.h), behind it the conversion to a device's own numbers, that
-// saturates. Any one frame; m, N, s; noexcept, allocates nothing.
+// without hardware [method.md, Output chain]. In this order: not a number → zero and a fault ·
+// lever · passivity guard · clamp, lower while the motors are warm · rise · speed guard · ramp.
+// Before it stands the virtual coupling (contact.h), behind it the conversion to a device's own
+// numbers, that saturates. Any one frame; m, N, s; noexcept, allocates nothing.
 #pragma once
 
 #include "simulation/haptics/force_limiter.h"

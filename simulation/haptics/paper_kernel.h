@@ -1,4 +1,4 @@
-// The paper's backdrop force as it stands, kept as a baseline to measure against [paper 3.4]: the
+// The paper's backdrop force as it stands, kept as a baseline to measure against [paper, 3.4]: the
 // depth of the nearest pixel and its eight neighbours (Sobel) give height and normal,
 // F = K · penetration · normal. Depth as imported, not smoothed. Portal frame, m.
 #pragma once

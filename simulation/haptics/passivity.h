@@ -1,5 +1,5 @@
 // A guard that lets the rendered surface give back no more energy than it took: time-domain
-// passivity [Hannaford & Ryu 2002; notes on haptics, 4.5]. A sampled spring gives a hand some
+// passivity [Hannaford & Ryu 2002; method.md, Stability]. A sampled spring gives a hand some
 // energy at every touch, since it answers a tick late; what it has given too much is taken out by a
 // damper that works only then, while something is touched. At the hand, device frame; m, N, N/m, J,
 // s. noexcept, allocates nothing. What is owed is reckoned from every count of the device; how fast
@@ -22,7 +22,7 @@ namespace arthro::simulation {
 struct PassivityOptions {
   double max_damping = 30.0;
   double allowance = 2e-4;
-  int delay = 0;  // with one that is left out, 1.7 mJ go unseen in a tap (notes 9: 1 mJ)
+  int delay = 0;  // with one that is left out, 1.7 mJ go unseen in a tap (goal: 1 mJ)
   double quantum = 0;
   template <class V>
   void Visit(V&& v) {

@@ -1,5 +1,5 @@
 // A few planes that bound free space near a proxy, and the point of free space nearest to a goal:
-// the god-object of Zilles and Salisbury [IROS 1995] with its constraint forces. m.
+// the god-object of Zilles and Salisbury [Zilles & Salisbury 1995] with its constraint forces. m.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
 // The proxy: the place where the tip would be if surfaces could not be entered. One proxy for the
 // backdrop and all meshes together, in the intersection of their free spaces, so nothing is counted
-// twice and nothing steps where one ends in front of the other [paper 3.4; Zilles-Salisbury 1995,
-// Ruspini 1997]. It moves to the nearest free point by descent only: along the backdrop in steps of
-// one pixel that are re-projected and taken only if they come nearer to the tip, along meshes by
-// sweeps. It therefore neither pops through a cliff nor tunnels. Portal frame, m; noexcept,
-// allocates nothing.
+// twice and nothing steps where one ends in front of the other [paper, 3.4; Zilles & Salisbury
+// 1995; Ruspini et al. 1997]. It moves to the nearest free point by descent only: along the
+// backdrop in steps of one pixel that are re-projected and taken only if they come nearer to the
+// tip, along meshes by sweeps. It therefore neither pops through a cliff nor tunnels. Portal frame,
+// m; noexcept, allocates nothing.
 #pragma once
 
 #include <span>

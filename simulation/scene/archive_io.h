@@ -1,6 +1,6 @@
 // A scene as one file to carry about: a zip archive named .arthro with scene.json at its top
-// (design §6). Archives come from strangers, so nothing in one can reach outside the folder that it
-// is unpacked into, fill the disk, or leave anything behind that is no plain file.
+// [method.md, Scene]. Archives come from strangers, so nothing in one can reach outside the folder
+// that it is unpacked into, fill the disk, or leave anything behind that is no plain file.
 #pragma once
 
 #include <cstdint>

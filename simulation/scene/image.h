@@ -23,8 +23,8 @@ struct ColourImage {
   }
 };
 
-// The relief h of the backdrop (design §4), in metres: 0 on the sphere, larger is nearer the
-// portal, NaN where nothing was imaged.
+// The relief h of the backdrop [method.md, Backdrop], in metres: 0 on the sphere, larger is nearer
+// the portal, NaN where nothing was imaged.
 struct DepthMap {
   int width = 0, height = 0;
   std::vector<float> relief;

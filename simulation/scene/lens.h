@@ -6,7 +6,7 @@
 //   double_sphere   r = f sin θ / (α d + (1 - α)(ξ + cos θ)),       [Usenko et al. 2018]
 //                   d² = sin²θ + (ξ + cos θ)², k0 = ξ in (-1, 1], k1 = α in [0, 1]
 //   pinhole         r = f tan θ
-// Files: lens_io.h (design §5, lens.json).
+// Files: lens_io.h [method.md, File formats].
 #pragma once
 
 #include <array>

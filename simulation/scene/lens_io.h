@@ -1,4 +1,4 @@
-// Lenses from and to files (design §5, lens.json):
+// Lenses from and to files [method.md, File formats]:
 //   {schema, model, width, height, focal_px, cx, cy, aspect, k, fov_deg, circle:{cx, cy, r},
 //   rms_px}
 // Angles in degrees, all else in px. `schema`, `aspect`, `k`, `fov_deg`, `circle` and `rms_px` may

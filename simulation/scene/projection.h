@@ -1,7 +1,7 @@
-// Where a direction seen from the scope portal lies in the panorama (design §4). Picture, force and
-// authoring use this one model. Directions are in the portal frame (+z into the joint, +x right, +y
-// down) and need not be unit; pixels have their origin at the centre of the top-left pixel, x
-// right, y down.
+// Where a direction seen from the scope portal lies in the panorama [method.md, Projection].
+// Picture, force and authoring use this one model. Directions are in the portal frame (+z into the
+// joint, +x right, +y down) and need not be unit; pixels have their origin at the centre of the
+// top-left pixel, x right, y down.
 //   gnomonic         u = c_x + f x/z,  v = c_y + f y/z            (what a homography mosaic is)
 //   equirectangular  u = c_x + k λ,    v = c_y - k φ,  degrees;   λ = atan2(x, z),  φ = -asin(y)
 #pragma once

@@ -1,6 +1,7 @@
-// The scene: all that a practice session needs, as plain values (design §6). Lengths in metres,
-// angles in radians, positions in the portal frame unless a name says otherwise. Paths are relative
-// to the scene's folder. Read, written and checked by scene_io.h; nothing here touches a file.
+// The scene: all that a practice session needs, as plain values [method.md, Scene]. Lengths in
+// metres, angles in radians, positions in the portal frame unless a name says otherwise. Paths are
+// relative to the scene's folder. Read, written and checked by scene_io.h; nothing here touches a
+// file.
 #pragma once
 
 #include <filesystem>
@@ -80,7 +81,7 @@ struct Tissue {
   std::vector<Cut> cuts;                // made before anybody touches it
   std::vector<Region> regions;          // of the first that holds it, what is taken is told
   bool is_cuttable = true;              // instruments may take of it
-  bool is_implicit = false;             // touched as a sampled function [paper 3.4]; no mesh then
+  bool is_implicit = false;             // touched as a sampled function [paper, 3.4]; no mesh then
   glm::dvec3 colour{0.93, 0.90, 0.84};  // linear RGB
   AssetRights rights;
 };

@@ -1,7 +1,7 @@
-// Scenes from and to files (design §6). A scene is a folder with scene.json and the files it names
-// by relative path, all in metres. Wherever a scene is asked for, the folder, its scene.json or an
-// .arthro archive (archive_io.h) may be given. Faults are Error(kBadScene) that names the file, the
-// key and the remedy.
+// Scenes from and to files [method.md, Scene]. A scene is a folder with scene.json and the files it
+// names by relative path, all in metres. Wherever a scene is asked for, the folder, its scene.json
+// or an .arthro archive (archive_io.h) may be given. Faults are Error(kBadScene) that names the
+// file, the key and the remedy.
 #pragma once
 
 #include <filesystem>
@@ -45,8 +45,8 @@ LoadedScene LoadScene(const std::filesystem::path& scene, std::vector<std::strin
 // the file is touched.
 void WriteScene(const std::filesystem::path& scene_json, const Scene& scene);
 
-// Throws Error(kBadScene) where `name` is a link, or lies behind one, that leaves the folder: a copy
-// of the scene would carry a file that has nothing to do with it.
+// Throws Error(kBadScene) where `name` is a link, or lies behind one, that leaves the folder: a
+// copy of the scene would carry a file that has nothing to do with it.
 void RequireInFolder(const std::filesystem::path& folder, const std::filesystem::path& name);
 
 // The scene.json that a folder or a file name stands for.

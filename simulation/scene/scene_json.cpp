@@ -159,7 +159,7 @@ void ReadTissue(Reader& reader, Tissue& tissue) {
     reader.Fault("implicit", "is true of a tissue that has a mesh; leave out one of the two");
   reader.Point("colour", tissue.colour, kShare);
   ReadRights(reader, tissue.rights);
-  // forces.csv tells contacts by these two words (design §5), one to a cell.
+  // forces.csv tells contacts by these two words [method.md, File formats], one to a cell.
   if (tissue.name == "none" || tissue.name == "backdrop")
     reader.Fault("name", "is a word that force records use for something else; choose another");
   if (tissue.name.find_first_of(",\"\n\r") != std::string::npos)

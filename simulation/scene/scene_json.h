@@ -1,6 +1,6 @@
-// Every key of scene.json, version 1 (design §6; resources/schemas/scene-1.schema.json says the
-// same to other tools). Lengths in m, angles in rad in memory and in degrees under keys that end in
-// _deg.
+// Every key of scene.json, version 1 [method.md, Scene] (resources/schemas/scene-1.schema.json says
+// the same to other tools). Lengths in m, angles in rad in memory and in degrees under keys that
+// end in _deg.
 #pragma once
 
 #include <string>

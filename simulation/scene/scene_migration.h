@@ -1,5 +1,5 @@
-// Versions of scene.json ("schema": "arthroscene.scene/N"; design §6). An older file is brought to
-// the newest version step by step before it is read; a newer one is refused by its name.
+// Versions of scene.json ("schema": "arthroscene.scene/N") [method.md, Scene]. An older file is
+// brought to the newest version step by step before it is read; a newer one is refused by its name.
 #pragma once
 
 #include <filesystem>

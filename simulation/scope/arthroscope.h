@@ -1,5 +1,5 @@
-// The oblique arthroscope over a backdrop sphere, exactly [design §4; paper 3.3]. Portal frame, m,
-// rad.
+// The oblique arthroscope over a backdrop sphere, exactly [method.md, Oblique view; paper, 3.3].
+// Portal frame, m, rad.
 //   t = cos γ·north + sin γ·east,  v = cos α·u + sin α·t,  up = cos α·t − sin α·u,  right = v × up
 //   β(ρ) = α − asin((ρ/D)·sin α): angular distance of the view axis' hit from the rod's direction
 #pragma once

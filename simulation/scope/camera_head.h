@@ -1,7 +1,7 @@
-// How the camera's head is held on the scope's eyepiece [design §4]: as in the paper it turns with
-// the scope, or the other hand holds it upright while the scope turns in it; in either it can be
-// turned on. With κ = 0 the picture's up is the rod's north, carried from the rod's direction to
-// the view's along the shortest arc. rad, up towards right.
+// How the camera's head is held on the scope's eyepiece [method.md, Oblique view]: as in the paper
+// it turns with the scope, or the other hand holds it upright while the scope turns in it; in
+// either it can be turned on. With κ = 0 the picture's up is the rod's north, carried from the
+// rod's direction to the view's along the shortest arc. rad, up towards right.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Where the incision lies in a device's frame, from presses of its button at several handle
-// positions [paper 3.2: two presses; here any number, by weighted least squares]. A press gives the
+// positions [paper, 3.2]; any number of presses, by weighted least squares. A press gives the
 // line of the rod; the pivot is the point nearest to all lines. Device frame, m, rad.
 //   M = I − u uᵀ,  A = Σ w M,  p = A⁻¹ Σ w M a;   two lines: the middle of their common
 //   perpendicular

@@ -1,4 +1,5 @@
-// Presses from a table and a calibration as JSON (design §5: POSES.csv and pivot.json). Metres.
+// Presses from a table and a calibration as JSON (POSES.csv and pivot.json) [method.md, File
+// formats]. Metres.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 // Poses for a pivot calibration from a hand that keeps swinging a rod through the incision, out of
-// its device's samples at whatever rate [notes on haptics, 6]. Samples of one pose share the error
-// of their encoders and count as one, or the calibration would believe itself too well: a sample is
-// kept when the hand has moved on by `step` since the one before. Where there are too many, each
-// other one goes and the step doubles. Device frame, m.
+// its device's samples at whatever rate [method.md, Pivot calibration]. Samples of one pose share
+// the error of their encoders and count as one, or the calibration would believe itself too well: a
+// sample is kept when the hand has moved on by `step` since the one before. Where there are too
+// many, each other one goes and the step doubles. Device frame, m.
 #pragma once
 
 #include <span>

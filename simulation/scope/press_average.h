@@ -1,6 +1,6 @@
 // One press of a pivot calibration: no hand is quite still and no sensor quite sharp, so what
 // arrives in a tenth of a second is averaged, and refused, in words, where the hand moved the while
-// [notes on haptics, 6]. Device frame, m, s.
+// [method.md, Pivot calibration]. Device frame, m, s.
 #pragma once
 
 #include <optional>

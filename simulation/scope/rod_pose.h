@@ -1,6 +1,6 @@
-// Pose of a rod held at a fixed pivot, as angles on the sphere about it [paper 3.2; design §4].
-// Angles in rad; depth ρ is the signed distance from pivot to tip along the rod, m, positive in the
-// joint.
+// Pose of a rod held at a fixed pivot, as angles on the sphere about it [paper, 3.2; method.md, Rod
+// pose]. Angles in rad; depth ρ is the signed distance from pivot to tip along the rod, m, positive
+// in the joint.
 //   u = (cos φ sin λ, −sin φ, cos φ cos λ): the rod's direction from hand to tip, in its portal's
 //   frame
 #pragma once

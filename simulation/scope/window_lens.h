@@ -1,7 +1,7 @@
 // The scope's own lens in the round window, as a shader can take it: how its radii differ from the
-// equisolid ones [design §4] of the same field of view. Radii are in those of the window; q =
-// sin(θ/2) / sin(fov/4) is the equisolid one, r the lens', both from the optical axis, and the
-// window is the lens' own circle, about whose centre the axis may lie aside.
+// equisolid ones [method.md, Oblique view] of the same field of view. Radii are in those of the
+// window; q = sin(θ/2) / sin(fov/4) is the equisolid one, r the lens', both from the optical axis,
+// and the window is the lens' own circle, about whose centre the axis may lie aside.
 //   q = r · inward(r²),  r = q · outward(q²)
 #pragma once
 

@@ -1,6 +1,6 @@
-// What a device can bear and show, as the options of a session that feels through it [notes on
-// haptics, 3 and 4.5]. It only ever lowers, and makes the guard look further back, so that several
-// devices may be asked one after the other. N, N/m, s.
+// What a device can bear and show, as the options of a session that feels through it [method.md,
+// Output chain; method.md, Stability]. It only ever lowers, and makes the guard look further back,
+// so that several devices may be asked one after the other. N, N/m, s.
 #pragma once
 
 #include "simulation/device/device_caps.h"

@@ -1,4 +1,4 @@
-// An implicit-function tissue [paper 3.4] as the servo bumps into it. Portal frame, m.
+// An implicit-function tissue [paper, 3.4] as the servo bumps into it. Portal frame, m.
 #pragma once
 
 #include <memory>

@@ -65,8 +65,8 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
                              ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
                              std::vector<LayerSpec> layers = {}, const ReplayWatch& watch = {});
 
-// forces.csv of design §5: contact none|backdrop|tissue name, fault none|…; a tool over no pixel
-// has u_px and v_px nan.
+// forces.csv [method.md, File formats]: contact none|backdrop|tissue name, fault none|…; a tool
+// over no pixel has u_px and v_px nan.
 std::string ForcesText(const std::vector<ForceRow>& rows, const Scene& scene);
 
 // JSON, "arthroscene.replay/1".

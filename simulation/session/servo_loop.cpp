@@ -24,7 +24,7 @@ constexpr std::size_t Index(DeviceRole role) noexcept { return static_cast<std::
 constexpr double kReportEvery = 0.1;  // s
 
 // Without priority, until it is known how late this machine is: a tick in fifty comes a whole one
-// late under load [notes on haptics, 5].
+// late under load [method.md, Threads].
 constexpr double kUnknownLateness = 1.0;  // periods
 constexpr long kKnownAfter = 1000;        // ticks
 

@@ -1,5 +1,5 @@
 // The servo: reads both devices, ticks the session, commands their forces, at 1 kHz on a thread of
-// its own, 250 Hz where no device has force [notes on haptics, 3 and 5; design §2, threads]. Its
+// its own, 250 Hz where no device has force [method.md, Output chain; method.md, Threads]. Its
 // clock is absolute: ticks that were missed are left out, and the next one is told the true time.
 // While it runs the session is its own; what somebody wishes and what came of it go through newest
 // values. However it ends, the last thing that a device hears is no force. In zero-force mode what

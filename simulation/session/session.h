@@ -1,7 +1,8 @@
 // A practice session: two hands in, poses, contacts and forces out, one servo tick at a time
-// [paper 3.2, 3.4; design §1, §2]. It draws nothing and has no threads: a servo thread calls Tick
-// at 1 kHz where there is a force device, the window calls it in 1 ms steps where there is none.
-// Both tools go the same way: rod pose, contact of the tip, output chain. Portal frame, m, N, s.
+// [paper, 3.2, 3.4; method.md, Threads]. It draws nothing and has no threads: a servo thread calls
+// Tick at 1 kHz where there is a force device, the window calls it in 1 ms steps where there is
+// none. Both tools go the same way: rod pose, contact of the tip, output chain. Portal frame, m, N,
+// s.
 #pragma once
 
 #include <array>

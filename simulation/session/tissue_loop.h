@@ -1,4 +1,4 @@
-// The living tissues beside the servo [design §2, threads]: at display rate they take the newest
+// The living tissues beside the servo [method.md, Threads]: at display rate they take the newest
 // pose of the instrument and leave what the servo needs to feel them by, and what the picture
 // shows. On a thread of their own, or inline on the servo's clock where the same bytes must come
 // out every time (replay, tests). The servo's side is noexcept and never waits for the tissue.

@@ -1,8 +1,8 @@
-// Ten minutes of random probing, lifting, biting and shaving of a meniscus [notes on deformables,
-// hard case 21], twice from one seed: every step finite, no step lost, memory flat from minute to
-// minute, and the second run, which makes its factors on the stepping thread, gives the same bits
-// as the first, which makes them on another. Fails (exit 1) where one of these does not hold; times
-// are printed only. `--seed N` for another session, `--minutes N` for a longer one.
+// Ten minutes of random probing, lifting, biting and shaving of a meniscus [FEM-21], twice from one
+// seed: every step finite, no step lost, memory flat from minute to minute, and the second run,
+// which makes its factors on the stepping thread, gives the same bits as the first, which makes
+// them on another. Fails (exit 1) where one of these does not hold; times are printed only. `--seed
+// N` for another session, `--minutes N` for a longer one.
 #include <algorithm>
 #include <bit>
 #include <cmath>

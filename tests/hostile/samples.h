@@ -29,7 +29,8 @@ struct SampleTarget {
 
 class Samples {
  public:
-  // Makes in/, out/, tmp/, home/, bin/ and share/ in `folder`. Throws where a sample cannot be made.
+  // Makes in/, out/, tmp/, home/, bin/ and share/ in `folder`. Throws where a sample cannot be
+  // made.
   explicit Samples(std::filesystem::path folder);
 
   const std::vector<SampleTarget>& targets() const { return targets_; }

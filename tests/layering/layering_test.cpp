@@ -1,5 +1,5 @@
-// Who may include whom (design §2). Linking cannot catch a header that is merely included, so every
-// #include of every source is read and held against the table below.
+// Who may include whom (CONTRIBUTING.md). Linking cannot catch a header that is merely included, so
+// every #include of every source is read and held against the table below.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -14,8 +14,8 @@ namespace arthro::test {
 
 inline constexpr int kTile = 16;               // px
 inline constexpr int kOff = 8;                 // of 255, in any channel
-inline constexpr double kMinTileSsim = 0.95;   // design §7
-inline constexpr double kMaxShareOff = 0.002;  // design §7
+inline constexpr double kMinTileSsim = 0.95;   // [method.md, Picture tests]
+inline constexpr double kMaxShareOff = 0.002;  // [method.md, Picture tests]
 
 struct PictureDifference {
   bool comparable = false;  // of one size

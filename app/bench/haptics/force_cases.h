@@ -1,6 +1,6 @@
 // How far the force on a tip is from a closed form: strokes under surfaces that are known exactly,
 // felt by the paper's kernel, by our proxy over a depth map, and by it over triangles. Friction and
-// viscosity are off: they are not part of the reference. Targets: notes on haptics, section 9.
+// viscosity are off: they are not part of the reference. Targets: [benchmarks.md, Haptics].
 // Portal frame, m, N.
 #pragma once
 

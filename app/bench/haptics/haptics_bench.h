@@ -1,7 +1,7 @@
 // Speed against error of touch: what the servo's tick costs, stage by stage; how far its force is
 // from closed forms, beside the paper's kernel, and from a tissue's between two steps of it; where
 // a sampled wall begins to swing, beside the rule K = (b + B)/(T/2 + t_d); and whether simulated
-// hands come to rest on it. All but the times is the same in every run. [notes on haptics, 4, 9]
+// hands come to rest on it. All but the times is the same in every run. [benchmarks.md, Haptics]
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // How far the force that the servo makes of a tissue between two steps of it is from the tissue's
 // own: a tip strokes in and out of a tissue whose force is a closed form, of which the servo is
 // told a few times a second, one step late. Ours (simulation/tissue/contact/coupling.h) beside the
-// three that others use. [notes on haptics, 4.4] N, m, s.
+// three that others use. [method.md, Tissue coupling] N, m, s.
 #pragma once
 
 #include <array>

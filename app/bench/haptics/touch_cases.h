@@ -1,7 +1,7 @@
 // Simulated hands on a sampled wall: where it begins to swing, whether random hands come to rest on
-// it, what energy it gives them [notes on haptics, 4.5 and 9]. The wall is the program's own
-// contact and output chain on a bare sphere so large that it is flat; one tick a period, on the
-// plant's clock. m, N, s.
+// it, what energy it gives them [method.md, Stability; benchmarks.md, Haptics]. The wall is the
+// program's own contact and output chain on a bare sphere so large that it is flat; one tick a
+// period, on the plant's clock. m, N, s.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace {
 
 using simulation::Law;
 
-// Values for the stable neo-Hookean and the corotated law [notes on deformables, 2]. The
+// Values for the stable neo-Hookean and the corotated law [benchmarks.md, Tissue references]. The
 // displacement of the meniscus is that of its inner edge: a point, so the same on every mesh.
 constexpr TissueCase kCases[] = {
     {"meniscus_load",

@@ -1,7 +1,6 @@
 // Tissue problems whose continuum answer is known: what a body is made of, how it is held and
-// loaded, what is watched, and the value that finer and finer quadratic hexahedra tend to [notes on
-// deformables, 2: own solver, extrapolated over three to four refinements, cross-checked with
-// CalculiX to 1e-6]. SI.
+// loaded, what is watched, and the value that finer and finer quadratic hexahedra tend to
+// [benchmarks.md, Tissue references]. SI.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,8 @@
 // The bodies on which tissue is measured, made in code at any resolution: a cantilever beam, Cook's
-// membrane with a thickness, a bonded block, and a meniscus as a crescent wedge [notes on
-// deformables, 2]. Each is a grid of hexahedra cut in six tetrahedra about the diagonal, and a map
-// from the grid's parameters into space: middle nodes of T10 lie where the map puts the middle of
-// the parameters, so on the true curved boundary. Own frame, m.
+// membrane with a thickness, a bonded block, and a meniscus as a crescent wedge [benchmarks.md,
+// Tissue references]. Each is a grid of hexahedra cut in six tetrahedra about the diagonal, and a
+// map from the grid's parameters into space: middle nodes of T10 lie where the map puts the middle
+// of the parameters, so on the true curved boundary. Own frame, m.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
-// What the arthroscope must show, by an independent double-precision ray tracer of design §4 with
-// no GL: ray -> sphere of radius D about the portal -> panorama pixel -> bilinear colour. Portal
-// frame, m, rad; pixels from the centre of the top-left one. Tests and `bench view` hold the
-// renderer against it, so it shares nothing with what it judges: nothing of app/view, of its
-// shaders or of OpenGL is included here (tests/layering checks it), and no function of
+// What the arthroscope must show, by an independent double-precision ray tracer [method.md, Oblique
+// view] with no GL: ray -> sphere of radius D about the portal -> panorama pixel -> bilinear
+// colour. Portal frame, m, rad; pixels from the centre of the top-left one. Tests and `bench view`
+// hold the renderer against it, so it shares nothing with what it judges: nothing of app/view, of
+// its shaders or of OpenGL is included here (tests/layering checks it), and no function of
 // simulation/scope is called, of which only the type of a view is used. The view is a product of
 // rotations, the sphere is met by foot and half chord, the lens is Lambert's equal-area form, so
 // that an error in one derivation shows against the other.
@@ -75,8 +75,8 @@ struct TracedRay {
   glm::dvec3 colour{0.0};  // bytes, 0 to 255
 };
 
-// Unit rays from one tip. Without a depth map only the sphere is traced (design §4), which is what
-// a plain picture shows.
+// Unit rays from one tip. Without a depth map only the sphere is traced [method.md, Oblique view],
+// which is what a plain picture shows.
 std::vector<TracedRay> TraceRays(const Backdrop& backdrop, const ColourImage& panorama,
                                  const glm::dvec3& tip, std::span<const glm::dvec3> rays,
                                  std::span<const ReferenceMesh> meshes = {},

@@ -1,4 +1,4 @@
-// arthroscene depth PANORAMA -o depth.tiff: relief from brightness [paper 3.4].
+// arthroscene depth PANORAMA -o depth.tiff: relief from brightness [paper, 3.4].
 #include <cstdio>
 #include <memory>
 #include <string>

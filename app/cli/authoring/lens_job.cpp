@@ -1,4 +1,4 @@
-// arthroscene lens GRID_IMAGE... --spacing-mm S -o lens.json (design §5).
+// arthroscene lens GRID_IMAGE... --spacing-mm S -o lens.json [method.md, Command line].
 #include <cstdio>
 #include <filesystem>
 #include <memory>

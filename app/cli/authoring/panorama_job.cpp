@@ -1,4 +1,4 @@
-// arthroscene panorama FOOTAGE -o pano.png: a clip becomes one picture [paper 3.1].
+// arthroscene panorama FOOTAGE -o pano.png: a clip becomes one picture [paper, 3.1].
 #include <cstdio>
 #include <filesystem>
 #include <memory>

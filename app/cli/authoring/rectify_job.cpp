@@ -1,4 +1,5 @@
-// arthroscene rectify FOOTAGE --lens lens.json -o DIR (design §5): the fisheye taken out of frames.
+// arthroscene rectify FOOTAGE --lens lens.json -o DIR [method.md, Command line]: the fisheye taken
+// out of frames.
 #include <algorithm>
 #include <filesystem>
 #include <memory>

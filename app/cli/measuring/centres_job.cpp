@@ -1,6 +1,6 @@
-// arthroscene centres SCENE (design §5): the pixels at the centre of the view as the scope is
-// rotated about its axis at several depths of insertion, the paper's validation figure [paper 3.3,
-// Fig. 7] as numbers and as a picture.
+// arthroscene centres SCENE [method.md, Command line]: the pixels at the centre of the view as the
+// scope is rotated about its axis at several depths of insertion, the paper's validation figure
+// [paper, 3.3, Fig. 7] as numbers and as a picture.
 #include <filesystem>
 #include <memory>
 #include <optional>

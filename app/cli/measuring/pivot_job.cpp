@@ -1,5 +1,5 @@
-// arthroscene pivot POSES.csv -o pivot.json (design §5): where the incision lies in a device's
-// frame, from presses or, with --swing, from a recorded hand that kept swinging.
+// arthroscene pivot POSES.csv -o pivot.json [method.md, Command line]: where the incision lies in a
+// device's frame, from presses or, with --swing, from a recorded hand that kept swinging.
 #include <filesystem>
 #include <memory>
 #include <string>

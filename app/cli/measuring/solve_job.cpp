@@ -1,5 +1,5 @@
-// arthroscene solve CASE.json -o result.json (design §5): a deformable body's equilibrium or its
-// motion, on its own.
+// arthroscene solve CASE.json -o result.json [method.md, Command line]: a deformable body's
+// equilibrium or its motion, on its own.
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -1,4 +1,5 @@
-// arthroscene view SCENE (design §5): one picture through the arthroscope, with no window.
+// arthroscene view SCENE [method.md, Command line]: one picture through the arthroscope, with no
+// window.
 #include <filesystem>
 #include <memory>
 #include <optional>

@@ -1,4 +1,4 @@
-// The paper's validation figure as numbers [paper 3.3, Fig. 7]: the pixels at the centre of the
+// The paper's validation figure as numbers [paper, 3.3, Fig. 7]: the pixels at the centre of the
 // view as the scope is rotated about its axis, at several depths of insertion. Pixels of the
 // panorama; rad, m. One function for the job and for the window.
 #pragma once

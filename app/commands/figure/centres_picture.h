@@ -1,4 +1,4 @@
-// The paper's validation figure [paper 3.3, Fig. 7]: where the centre of the view lies in the
+// The paper's validation figure [paper, 3.3, Fig. 7]: where the centre of the view lies in the
 // panorama as the scope is rotated about its axis, a closed line for each depth of insertion, on
 // the panorama or on a regular grid of its size. Pixels of the panorama.
 #pragma once

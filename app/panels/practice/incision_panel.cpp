@@ -18,7 +18,7 @@ using simulation::PivotCalibration;
 using simulation::PivotSource;
 using simulation::PivotStatus;
 
-constexpr double kEnough = 30 * kRadianPerDegree;  // [notes on haptics, 6]
+constexpr double kEnough = 30 * kRadianPerDegree;  // [method.md, Pivot calibration]
 constexpr double kFullBar = 60 * kRadianPerDegree;
 constexpr double kButton = 44;  // px; a thumb hits it
 

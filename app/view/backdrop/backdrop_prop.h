@@ -1,6 +1,6 @@
 // The panorama behind everything: a full-screen quad whose every pixel follows its own ray to the
-// sphere about the portal and from there into the panorama [design §4], and which writes the relief
-// into the depth buffer for the models to be held against.
+// sphere about the portal and from there into the panorama [method.md, Oblique view], and which
+// writes the relief into the depth buffer for the models to be held against.
 #pragma once
 
 #include <array>

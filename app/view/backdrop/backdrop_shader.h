@@ -1,5 +1,5 @@
 // GLSL of the backdrop: a pixel's ray to the sphere about the portal, or before it to the relief
-// (relief_shader.h), and from there into the panorama [design §4]. Put together in
+// (relief_shader.h), and from there into the panorama [method.md, Oblique view]. Put together in
 // backdrop_prop.cpp, with EQUIRECTANGULAR, RELIEF, CELLS defined or not: a processor goes both ways
 // of every if.
 #pragma once

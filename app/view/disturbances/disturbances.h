@@ -1,8 +1,8 @@
 // What comes between an arthroscope and a clear picture, for training: bleeding, turbid fluid, air
 // bubbles, loose fibrous tissue and what is too close are what obscures the view in real
-// procedures [Tuijthof, Sierevelt & van Dijk 2007, Disturbances in the arthroscopic view defined
-// with video analysis]; a fogged, ill-focused or overexposed camera joins them. Strengths 0 (none)
-// to 1. All that moves is a function of seed and time alone: same values, same bytes.
+// procedures [Tuijthof, Sierevelt & van Dijk 2007]; a fogged, ill-focused or overexposed camera
+// joins them. Strengths 0 (none) to 1. All that moves is a function of seed and time alone: same
+// values, same bytes.
 #pragma once
 
 #include <string>

@@ -5,9 +5,9 @@
 //
 // As the real ones are made: probes of 3 to 5 mm with a blunt hook and marks to measure by, hand
 // instruments of 2.7 and 3.4 mm with jaws of about 2 mm [AORN instrument guide]; basket forceps
-// whose moving tooth comes down into an open frame [US 5 389 104]; shavers as a tube in a tube, a
-// toothed window in each, here of 4.5 mm [Gu et al. 2022, The design of a novel arthroscopy
-// shaver]. The grasper's lower jaw stands still.
+// whose moving tooth comes down into an open frame (US patent 5 389 104); shavers as a tube in a
+// tube, a toothed window in each, here of 4.5 mm [Gu et al. 2022]. The grasper's lower jaw stands
+// still.
 #pragma once
 
 #include "simulation/scene/surface_mesh.h"

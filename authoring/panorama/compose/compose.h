@@ -1,4 +1,4 @@
-// Placed frames to one panorama, in two sequential passes over the footage [paper 3.1;
+// Placed frames to one panorama, in two sequential passes over the footage [paper, 3.1;
 // Brown & Lowe 2007]. Panorama pixels: origin at the centre of the top-left pixel,
 // x right, y down; colours RGB.
 //

@@ -1,6 +1,6 @@
 // Registration: where every frame of a clip lies in one plane. Features first, as the paper has it,
 // each pair then refined and verified by all of its pixels; pairs without features are aligned
-// directly; loops by prediction; then all frames at once. [paper 3.1]
+// directly; loops by prediction; then all frames at once. [paper, 3.1]
 #pragma once
 
 #include <string>

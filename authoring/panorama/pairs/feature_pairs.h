@@ -1,5 +1,5 @@
-// A pair of frames held together by the points that they share [paper 3.1]: matches by look, agreed
-// by RANSAC, refined; with how well that pins the pair down.
+// A pair of frames held together by the points that they share [paper, 3.1]: matches by look,
+// agreed by RANSAC, refined; with how well that pins the pair down.
 #pragma once
 
 #include <optional>

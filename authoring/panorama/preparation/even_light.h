@@ -1,6 +1,6 @@
 // Takes the light out of a frame. A frontal light falls off smoothly and its camera encodes it by
 // a power law, so in the logarithm light and exposure are a smooth sum and gamma is a factor: what
-// a local mean and a local gain remove [paper 3.1: Single Scale Retinex].
+// a local mean and a local gain remove [paper, 3.1].
 // Pictures are working ones (working_frame.h); masks are CV_8UC1, 255 where a pixel counts.
 #pragma once
 

@@ -1,5 +1,6 @@
-// Turns a rectified colour frame into what is matched [paper 3.1]: one grey without light, vignette
-// and exposure, its contrast raised as far as the noise lets it, and a mask of the tissue in it.
+// Turns a rectified colour frame into what is matched [paper, 3.1]: one grey without light,
+// vignette and exposure, its contrast raised as far as the noise lets it, and a mask of the tissue
+// in it.
 #pragma once
 
 #include <opencv2/core.hpp>

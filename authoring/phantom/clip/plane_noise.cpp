@@ -13,7 +13,7 @@ namespace {
 constexpr int kQuantiles = 4096;
 constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
-// Inverse of the normal distribution's integral [Acklam's middle and tail formulas].
+// Inverse of the normal distribution's integral [Acklam 2003].
 double Quantile(double p) {
   const auto tail = [](double q) {
     return (((((-7.784894002430293e-03 * q - 3.223964580411365e-01) * q - 2.400758277161838) * q -

@@ -1,7 +1,7 @@
-// Razer Hydra: two hands with position and orientation in one report at 250 Hz [notes on haptics,
-// 1.1; layout from the public driver]. A hand: int16 position in mm at 0, 2, 4 of its part, int16
-// quaternion w, x, y, z over 32768 at 6 to 12, 7 bits of buttons at 14, int16 stick at 15 and 17,
-// byte of the trigger at 19; the parts begin at 8 and 30. Frame of the base: m.
+// Razer Hydra: two hands with position and orientation in one report at 250 Hz [devices.md, Report
+// layouts]. A hand: int16 position in mm at 0, 2, 4 of its part, int16 quaternion w, x, y, z over
+// 32768 at 6 to 12, 7 bits of buttons at 14, int16 stick at 15 and 17, byte of the trigger at 19;
+// the parts begin at 8 and 30. Frame of the base: m.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// The SpaceMouse family: six axes pushed and turned, and buttons [notes on haptics, 1.1]. Reports
-// begin with their ID: 1 = int16 x, y, z, or on newer ones all six; 2 = int16 rx, ry, rz; 3 = bits
-// of buttons; others (battery) say nothing to us. Axes go to ±350 counts and are told apart by
-// length, never by product.
+// The SpaceMouse family: six axes pushed and turned, and buttons [devices.md, Report layouts].
+// Reports begin with their ID: 1 = int16 x, y, z, or on newer ones all six; 2 = int16 rx, ry, rz; 3
+// = bits of buttons; others (battery) say nothing to us. Axes go to ±350 counts and are told apart
+// by length, never by product.
 #pragma once
 
 #include <array>

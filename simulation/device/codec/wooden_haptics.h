@@ -1,8 +1,8 @@
-// WoodenHaptics, and Polhem version 1: what the board says and takes, and the arm between [notes on
-// haptics, 1.1; layouts from the published firmware]. Input 14 bytes (RawHID boards pad to 64):
-// int16 encoder a to f, int16 info (bit 0: calibration button). Output: report ID 0 and 14 bytes:
-// int16 current a, b, c in mA, int16 command, int16 attribute 0 to 2. Little-endian. Device frame
-// (origin in the middle of the workspace, z up), m, N, A, rad.
+// WoodenHaptics, and Polhem version 1: what the board says and takes, and the arm between
+// [devices.md, Report layouts]. Input 14 bytes (RawHID boards pad to 64): int16 encoder a to f,
+// int16 info (bit 0: calibration button). Output: report ID 0 and 14 bytes: int16 current a, b, c
+// in mA, int16 command, int16 attribute 0 to 2. Little-endian. Device frame (origin in the middle
+// of the workspace, z up), m, N, A, rad.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// The arms that speak as WoodenHaptics does: their measures as published with their software [notes
-// on haptics, 1.1]. Polhem from version 2 on has a linkage whose kinematics are not public: it is
-// refused by name, since a wrong geometry would push the wrong way.
+// The arms that speak as WoodenHaptics does: their measures as published with their software
+// [devices.md, Report layouts]. Polhem from version 2 on has a linkage whose kinematics are not
+// public: it is refused by name, since a wrong geometry would push the wrong way.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // An open line to one HID device: reports in and out, as bytes. Of a link one thread may read while
 // one other writes; all else is one call at a time, and it is closed when neither is under way
-// [notes on haptics, 1.2].
+// [devices.md, hidapi].
 #pragma once
 
 #include <memory>

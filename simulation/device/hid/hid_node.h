@@ -1,5 +1,5 @@
 // What is plugged in, and which of it we know: by vendor, product and usage, since one vendor's
-// numbers are on mice and keyboards too [notes on haptics, 1].
+// numbers are on mice and keyboards too [devices.md, Families].
 #pragma once
 
 #include <cstdint>

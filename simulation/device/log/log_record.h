@@ -1,6 +1,6 @@
 // What a device log holds: who was plugged in, each report as it came with what the driver made of
-// it, each tick of the servo with what was commanded [notes on haptics, 7]. Device frame, m, N, s;
-// times on the clock of live devices.
+// it, each tick of the servo with what was commanded [devices.md, Simulated hand]. Device frame, m,
+// N, s; times on the clock of live devices.
 #pragma once
 
 #include <array>

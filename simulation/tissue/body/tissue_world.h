@@ -1,6 +1,6 @@
-// All living tissues of a scene and the tools among them, one step at a time [design §1: tissue
-// loop]. No clock and no threads of its own but one, on request, that makes factors anew; with it
-// or without, the same inputs give the same bits. Portal frame, m, s, N.
+// All living tissues of a scene and the tools among them, one step at a time [method.md, Threads].
+// No clock and no threads of its own but one, on request, that makes factors anew; with it or
+// without, the same inputs give the same bits. Portal frame, m, s, N.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// CASE.json and result.json of the job `solve` (design §5): one body, what holds, moves and loads
-// it, and what became of it. SI, the mesh's own frame. A set is a 0/1 point array of the VTU; a
-// mid-edge node is in it when both ends are; a load spreads over the surface triangles whose
-// corners are all in the set.
+// CASE.json and result.json of the job `solve` [method.md, File formats]: one body, what holds,
+// moves and loads it, and what became of it. SI, the mesh's own frame. A set is a 0/1 point array
+// of the VTU; a mid-edge node is in it when both ends are; a load spreads over the surface
+// triangles whose corners are all in the set.
 #pragma once
 
 #include <cstdint>
@@ -68,8 +68,8 @@ struct CaseResult {
   int linear_iterations = 0;  // of conjugate gradients
   double wall_ms = 0;         // factoring included, reading and writing not
   SetResults sets;
-  double energy = 0;  // J, elastic
-  int inverted_elements = 0;  // of a dynamic case the largest of its steps
+  double energy = 0;                // J, elastic
+  int inverted_elements = 0;        // of a dynamic case the largest of its steps
   bool used_fallback = false;       // elements were inverted on the way
   std::vector<CaseMoment> history;  // dynamic: one a step
   std::vector<glm::dvec3> x;        // m, the nodes in the end; not in the file

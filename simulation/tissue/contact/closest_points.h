@@ -1,5 +1,5 @@
 // Closest points of simple shapes, exact for faces, edges and corners, degenerate shapes included
-// [Ericson, Real-Time Collision Detection, 5.1]. m; noexcept, allocates nothing.
+// [Ericson 2005, 5.1]. m; noexcept, allocates nothing.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ constexpr double kLongestHold = 0.02;  // m
 // The skin's bend is known so far around the touch; a tool that is further off in a frame has left.
 constexpr double kBendReach = 2.5e-3;  // m
 
-constexpr double kSilence = 0.1, kFade = 0.05;  // s [notes on haptics, 3: watchdogs]
+constexpr double kSilence = 0.1, kFade = 0.05;  // s [method.md, Tissue coupling]
 
 bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 

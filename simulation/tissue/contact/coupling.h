@@ -4,10 +4,9 @@
 // it is below the skin as that is where nothing presses it, and which way that skin faces there.
 //   d = tip − tip₀, s its part across n;  depth x = δ − n·d + ½ sᵀ C s
 //   push P = P₀ (x/δ)^p along n − C s, none where x ≤ 0; K = p P₀/δ is the tissue's condensed
-//   stiffness in series with the tool's own spring h [notes on deformables, 4d], and no push grows
-//   faster than h
-//   rub T = T₀ − h d across P, at most μ |P| long: the hand's spring h pulls until the tool slips
-//   F(tip) = Σ P + T
+//   stiffness in series with the tool's own spring h [method.md, Tissue coupling], and no push
+//   grows faster than h rub T = T₀ − h d across P, at most μ |P| long: the hand's spring h pulls
+//   until the tool slips F(tip) = Σ P + T
 // A plain value that goes through LatestValue. Portal frame, m, N. All of it is noexcept, allocates
 // nothing and takes a fixed time.
 #pragma once

@@ -1,6 +1,6 @@
 // The preconditioner: a Cholesky factor of the body as it was some time ago, turned node by node to
 // where the body is now: P⁻¹ = Q A₀⁻¹ Qᵀ with Q the rotation of each node's neighbourhood since
-// then [notes on deformables, 4: four iterations where the unturned one needs eleven]. Through
+// then [method.md, Deformable tissue]. Through
 // `parent` it serves a body that has been cut since.
 #pragma once
 

@@ -106,9 +106,9 @@ glm::dvec3 Circumferential(const glm::dvec3& x) {
   return radius > 0 ? glm::dvec3(-x.y, x.x, 0) / radius : glm::dvec3(0, 1, 0);
 }
 
-// Part of the element's mass [Hinton, Rock, Zienkiewicz 1976: the diagonal of the consistent
-// matrix, scaled]. The four-point rule is too low for N², so its sums are scaled to the exact ones
-// of a straight element; what it still says is which node a point is nearest to.
+// Part of the element's mass [Hinton, Rock & Zienkiewicz 1976]: the scaled diagonal of the
+// consistent matrix. The four-point rule is too low for N², so its sums are scaled to the exact
+// ones of a straight element; what it still says is which node a point is nearest to.
 double LumpShare(int order, const TetShape& shape, int a) {
   if (order == 1) return 0.25;
   constexpr double kCorner = 1.0 / 70, kMiddle = 8.0 / 105;  // ∫N²dV / V

@@ -1,6 +1,6 @@
 // Shape functions of T4 and T10 (VTK's node order) and of their faces, with the quadrature points
-// that this program uses: one for T4, four for T10 [Zienkiewicz & Taylor]. Points of the reference
-// tetrahedron are given by barycentric coordinates.
+// that this program uses: one for T4, four for T10 [Zienkiewicz & Taylor 2000]. Points of the
+// reference tetrahedron are given by barycentric coordinates.
 #pragma once
 
 #include <array>

@@ -54,7 +54,7 @@ glm::dvec3 PushOn(const ContactPoint& contact, const glm::dvec3& point,
                   const glm::dvec3& p) noexcept;
 
 // With friction under the given push: μλ f(|u|), f = s²/ε − s³/3ε² up to ε, then s − ε/3, the slip
-// u across the push as it was given [Li et al. 2020, IPC, eq. 14: C¹; lagged force and frame].
+// u across the push as it was given [Li et al. 2020, eq. 14]: C¹; lagged force and frame.
 ContactSpring SpringAt(const ContactPoint& contact, const glm::dvec3& point, const glm::dvec3& p,
                        const glm::dvec3& pressing) noexcept;
 

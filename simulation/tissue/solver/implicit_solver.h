@@ -1,7 +1,7 @@
 // One deformable body through time: implicit Euler (or its static limit) by Newton's method with
 // line search. Each linear system is solved by conjugate gradients on the true tangent,
-// preconditioned with a stale sparse Cholesky factor that is rotated node by node [notes on
-// deformables, 1, 4]. Where the true tangent is not positive the projected one is used. Where
+// preconditioned with a stale sparse Cholesky factor that is rotated node by node [method.md,
+// Deformable tissue]. Where the true tangent is not positive the projected one is used. Where
 // elements are inverted, far from balance, a corotated law of its own, until none is; where more
 // than a fifth are, from the rest shape laid on what holds the body (shape_recovery.cpp). Implicit
 // Euler damps: a mode of angular frequency w loses the factor 1/sqrt(1 + (w dt)²) a step. Mesh's

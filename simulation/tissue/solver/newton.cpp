@@ -14,7 +14,8 @@ namespace {
 constexpr double kFarFromRest = 0.2;
 constexpr int kFollowingIterations = 300;
 constexpr double kAsleep = 1e-4;  // of the tolerance: a step that begins there has nothing to do
-// A direction far from balance need not be exact: a tenth of what is left [Eisenstat & Walker].
+// A direction far from balance need not be exact: a tenth of what is left [Eisenstat & Walker
+// 1996].
 constexpr double kForcing = 0.1;
 // Nor, in energy, nearer than this: what the residual asks for besides is met on the way.
 constexpr double kEnergy = 0.03;
@@ -146,8 +147,8 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     for (std::size_t i = 0; i < x.size(); ++i) direction[i] += lead[i];
 }
 
-// Goes along `direction` as far as the potential falls [Armijo]. The whole step is evaluated with
-// its tangent, since it is nearly always taken. False: nowhere.
+// Goes along `direction` as far as the potential falls [Armijo 1966]. The whole step is evaluated
+// with its tangent, since it is nearly always taken. False: nowhere.
 bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& problem, Law law,
                                        Tangent tangent) {
   constexpr double kArmijo = 1e-4;

@@ -13,8 +13,8 @@
 // with nu = 0,
 //   Ψ = μ ‖F − R‖²,
 // whose tangent is nowhere larger than 2μ ∫ ∇N·∇N, the same for every shape: with that fixed matrix
-// each iteration lowers the energy without a line search [Bouaziz et al. 2014: local and global
-// step]. The tissue's own law takes over then.
+// each iteration lowers the energy without a line search [Bouaziz et al. 2014]: local and global
+// step. The tissue's own law takes over then.
 
 namespace arthro::simulation {
 namespace {

@@ -1,4 +1,4 @@
-// The command line is a contract (design §5): help, usage errors and exit codes.
+// The command line is a contract [method.md, Command line]: help, usage errors and exit codes.
 #include <algorithm>
 #include <array>
 #include <string>

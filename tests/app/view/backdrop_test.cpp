@@ -1,4 +1,4 @@
-// The backdrop against the closed form of design §4.
+// The backdrop against the closed form [method.md, Oblique view].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

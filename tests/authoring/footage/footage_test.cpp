@@ -95,7 +95,7 @@ TEST(Footage, PatternTakesWhatPrintfWouldWrite) {
             std::string::npos);
 }
 
-// Hard case 13.
+// PAN-13.
 TEST(Footage, GreyAlphaAnd16BitBecomeRgb) {
   const test::TempFolder folder;
   WritePicture(folder / "1.png", 90, CV_8UC1);
@@ -116,7 +116,7 @@ TEST(Footage, GreyAlphaAnd16BitBecomeRgb) {
   }
 }
 
-// Hard case 13.
+// PAN-13.
 TEST(Footage, AnUnreadableFrameIsNamedAndTheOthersCome) {
   const test::TempFolder folder;
   WritePicture(folder / "1.png", 10);
@@ -160,7 +160,7 @@ TEST(Footage, VideoComesAsRgbAndTwice) {
   }
 }
 
-// Hard case 13.
+// PAN-13.
 TEST(Footage, ATruncatedVideoGivesItsBeginningOrASentence) {
   const test::TempFolder folder;
   WriteVideo(folder / "clip.avi", 40);

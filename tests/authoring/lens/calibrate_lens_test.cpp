@@ -133,7 +133,7 @@ TEST(CalibrateLens, WrongModelIsFlaggedOnStereographicData) {
       << calibration.sentences.front();
 }
 
-// Hard case 12: flagged, and the estimate covers the truth, facing the lens or tilted.
+// LENS-03: flagged, and the estimate covers the truth, facing the lens or tilted.
 TEST(CalibrateLens, HardCase12OneViewSaysWhatItLeavesOpen) {
   const std::vector<TargetView> all = Views(Truth(), 6, 0.1, 4);
   for (const TargetView& view : all) {

@@ -119,7 +119,7 @@ TEST(MakePanorama, BlackBarsDoNotReachThePanorama) {
   EXPECT_EQ(dark, 0);
 }
 
-// Hard cases 2 and 13.
+// PAN-02, PAN-13.
 TEST(MakePanorama, EveryFrameThatIsNotUsedSaysWhy) {
   const test::TempFolder folder;
   const TinyClip clip;
@@ -148,7 +148,7 @@ TEST(MakePanorama, EveryFrameThatIsNotUsedSaysWhy) {
       << report.summary;
 }
 
-// Hard case 13 and what else gives no panorama.
+// PAN-13 and what else gives no panorama.
 TEST(MakePanorama, RefusesInOneSentence) {
   const test::TempFolder folder;
   const TinyClip clip;
@@ -189,7 +189,7 @@ TEST(MakePanorama, RefusesInOneSentence) {
   EXPECT_NE(SentenceOf(request).find("every"), std::string::npos);
 }
 
-// Hard case 13: two frames are the least that there can be.
+// PAN-13: two frames are the least that there can be.
 TEST(MakePanorama, TwoFramesAreEnough) {
   const test::TempFolder folder;
   const auto views = TinyClip::Arc(2);
@@ -199,7 +199,7 @@ TEST(MakePanorama, TwoFramesAreEnough) {
   EXPECT_LT(PairError(report, views, 1, 0), 0.5);
 }
 
-// Hard case 3: what does not join is told and drawn on its own, never merged.
+// PAN-03: what does not join is told and drawn on its own, never merged.
 TEST(MakePanorama, PiecesThatDoNotJoinAreReported) {
   const test::TempFolder folder;
   const TinyClip here(1), there(2);
@@ -280,7 +280,7 @@ TEST(MakePanorama, OnlyWhatChangedIsDoneAgain) {
   EXPECT_FALSE(session.PictureOf(-1, FrameStage::kEvenLight));
 }
 
-// Hard case 20.
+// PAN-20.
 TEST(MakePanorama, StopsWithinHalfASecondInEveryStage) {
   const test::TempFolder folder;
   TinyClip().WriteAll(folder.path(), TinyClip::Arc(6));

@@ -88,7 +88,7 @@ TEST(PanoramaReport, FollowsItsSchema) {
   EXPECT_NE(FaultOf(json.dump()), "");
 }
 
-// The keys that other tools and the editor read (design §5).
+// The keys that other tools and the editor read [method.md, Command line].
 TEST(PanoramaReport, HasTheKeysOfTheContract) {
   const auto json = nlohmann::json::parse(JsonFromReport(SampleReport()));
   EXPECT_EQ(json.at("schema"), "arthroscene.panorama/1");

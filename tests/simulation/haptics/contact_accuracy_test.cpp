@@ -1,5 +1,5 @@
-// The force against closed forms, with the paper's kernel beside it. Targets: notes on haptics,
-// section 9.
+// The force against closed forms, with the paper's kernel beside it. Targets: [benchmarks.md,
+// Haptics].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

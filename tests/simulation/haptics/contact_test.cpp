@@ -1,5 +1,5 @@
-// Contact on hard ground: cliffs, holes, borders, silhouettes, wedges, friction. Numbers of hard
-// cases are those of the notes on haptics, section 10.
+// Contact on hard ground: cliffs, holes, borders, silhouettes, wedges, friction. Hard cases: HAP in
+// resources/doc/hard-cases.md.
 #include "simulation/haptics/contact.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ Felt Lead(const Surroundings& around, const ContactOptions& options, int ticks, 
   return run;
 }
 
-// Hard case 9. The floor is at 49 mm; from x = 12.8 mm on it stands 5 mm nearer, in one pixel.
+// HAP-09. The floor is at 49 mm; from x = 12.8 mm on it stands 5 mm nearer, in one pixel.
 class Cliff : public testing::TestWithParam<int> {};
 
 TEST_P(Cliff, HardCase9NoPopThroughBelowTwoHundredMillimetresASecond) {
@@ -200,7 +200,7 @@ TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
   EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kPixel));
 }
 
-// Hard case 8: another depth map while in contact, 3 mm nearer.
+// HAP-08: another depth map while in contact, 3 mm nearer.
 TEST(Contact, HardCase8SwappedDepthMapDoesNotThrowTheProxy) {
   const AnalyticRelief low = Flat(0.004), high = Flat(0.007);
   const DepthField before(low.backdrop, low.Float()), after(high.backdrop, high.Float());
@@ -216,7 +216,7 @@ TEST(Contact, HardCase8SwappedDepthMapDoesNotThrowTheProxy) {
   EXPECT_NEAR(last.z, 0.043, 1e-6) << "it has climbed to the new surface";
 }
 
-// Hard case 23: a held tip that trembles within the friction cone.
+// HAP-23: a held tip that trembles within the friction cone.
 TEST(Contact, HardCase23FrictionHoldsWithoutDrift) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   const DepthField field(relief.backdrop, relief.Float());
@@ -239,7 +239,7 @@ TEST(Contact, HardCase23FrictionHoldsWithoutDrift) {
   EXPECT_LT(glm::length(state.proxy.position - held), 1e-5);
 }
 
-// Hard case 23, the other half: 0.1 mm/s for 60 s.
+// HAP-23, the other half: 0.1 mm/s for 60 s.
 TEST(Contact, HardCase23SlowStrokeStaysWithinTheFrictionCone) {
   const AnalyticRelief relief = Flat(0.004);
   const DepthField field(relief.backdrop, relief.Float());
@@ -287,7 +287,7 @@ TEST(Contact, ViscosityResistsApproachOnlyAndNeverPulls) {
   EXPECT_NEAR(most, 0.05, 0.01) << "b·v = 1 Ns/m · 50 mm/s";
 }
 
-// Hard case 10: an 8-bit staircase stroked at 20 mm/s.
+// HAP-10: an 8-bit staircase stroked at 20 mm/s.
 TEST(Contact, HardCase10EightBitStaircaseDoesNotBuzz) {
   const AnalyticRelief ramp = AnalyticRelief::Make(
       ProjectionType::kGnomonic, [](glm::dvec2 p) { return 0.003 + 2e-6 * (p.x - 511.5); });

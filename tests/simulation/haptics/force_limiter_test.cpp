@@ -21,7 +21,7 @@ LimitedForce Settle(const LimiterOptions& options, const glm::dvec3& force, Limi
   return limited;
 }
 
-// Notes, hard case 6.
+// HAP-06.
 TEST(ForceLimiter, HugeForceKeepsItsDirection) {
   const LimiterOptions options;
   const glm::dvec3 direction = glm::normalize(glm::dvec3(3, -4, 12));
@@ -95,7 +95,7 @@ TEST(ForceLimiter, ForceThatTurnsRoundStartsFromZero) {
   EXPECT_NEAR(turned.force.x, -0.3, 1e-12);
 }
 
-// Notes, hard case 7: armed inside tissue.
+// HAP-07: armed inside tissue.
 TEST(ForceLimiter, ForceRampsAfterArming) {
   const LimiterOptions options;
   LimiterState state;

@@ -51,7 +51,7 @@ TEST(Lever, StiffnessAtTheHandStaysBelowTheDevices) {
   }
 }
 
-// Notes, hard case 15.
+// HAP-15.
 TEST(Lever, IsFiniteAndFadesAtTheIncision) {
   const LeverOptions options;
   for (double r : {0.0, 1e-300, 1e-12, 1e-3, 0.005}) {

@@ -1,5 +1,5 @@
-// The chain as a whole, stage by stage and in its order. Numbers of hard cases are those of the
-// notes on haptics, section 10.
+// The chain as a whole, stage by stage and in its order. Hard cases: HAP in
+// resources/doc/hard-cases.md.
 #include "simulation/haptics/output_chain.h"
 
 #include <cmath>

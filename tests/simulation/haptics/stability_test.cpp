@@ -1,5 +1,5 @@
 // Where a sampled wall swings, against the rule; and that hands come to rest on ours. Targets:
-// notes on haptics, section 9. All on the plant's clock.
+// [benchmarks.md, Haptics]. All on the plant's clock.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

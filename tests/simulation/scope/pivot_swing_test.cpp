@@ -1,5 +1,5 @@
-// A hand that keeps swinging the rod through an incision whose place is known. The hard cases are
-// numbered as in the notes on haptics.
+// A hand that keeps swinging the rod through an incision whose place is known. Hard cases: HAP in
+// resources/doc/hard-cases.md.
 #include "simulation/scope/pivot_swing.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The hard cases are numbered as in the notes on haptics.
+// Hard cases: HAP in resources/doc/hard-cases.md.
 #include "simulation/scope/rod_pose.h"
 
 #include <cmath>

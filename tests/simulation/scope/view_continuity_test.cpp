@@ -1,5 +1,5 @@
 // What the picture promises of a hand that moves by a tenth of a degree, as a device delivers it:
-// hand and handle, not angles. Hard case 21 of the notes on haptics.
+// hand and handle, not angles. VIEW-01.
 //
 // The rod's direction u and the handle's mark laid flat against it, t, are all that the view is
 // made of: north, east and the angles between cancel. So where rod and handle turn as one body, by

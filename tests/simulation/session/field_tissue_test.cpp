@@ -1,4 +1,4 @@
-// Claims about tissue that is a function [paper 3.4], touched by the servo's own proxy.
+// Claims about tissue that is a function [paper, 3.4], touched by the servo's own proxy.
 #include <algorithm>
 #include <array>
 #include <cmath>

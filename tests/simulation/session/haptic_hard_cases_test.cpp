@@ -1,4 +1,4 @@
-// Hard cases of the notes on haptics, section 10, through the whole way from a device to its force:
+// Hard cases HAP of resources/doc/hard-cases.md, through the whole way from a device to its force:
 // session, contact, lever, output chain, and where a hand is pushed a simulated device that
 // somebody holds. Their parts are tested where they live.
 #include <algorithm>

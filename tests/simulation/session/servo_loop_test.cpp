@@ -1,5 +1,5 @@
 // The servo with plants for devices, ticked by hand on the plants' clock; one test lets its thread
-// run. Numbers of hard cases are those of the notes on haptics, section 10.
+// run. Hard cases: HAP in resources/doc/hard-cases.md.
 #include "simulation/session/servo_loop.h"
 
 #include <algorithm>

@@ -296,7 +296,7 @@ TEST(LiveTissue, IsLeftOutOfTheRigidSurfaces) {
   EXPECT_EQ(hands.Lead({0.0115, 0, 0.0368}, 3000).instrument.contact, 1);
 }
 
-// Hard case 16: what a tissue says that is not a number is a fault, and the session goes on.
+// HAP-16: what a tissue says that is not a number is a fault, and the session goes on.
 TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);

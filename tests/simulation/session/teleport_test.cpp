@@ -1,4 +1,4 @@
-// Hard case 9 of the notes on deformables, as a hand feels it: the instrument is 5 mm deep in
+// FEM-09, as a hand feels it: the instrument is 5 mm deep in
 // living tissue from one step to the next. The tissue's own half is in tissue/body/probing_test.
 #include <algorithm>
 #include <array>

@@ -35,7 +35,7 @@ TEST(HapticsBench, WhatIsComputedIsTheSameTwice) {
             bench[0].at("hands").at("cycle_energy_unguarded"));
 }
 
-// Bounds: notes on haptics, section 9, float and 8 bit. Triangles have none there: 20 000 over 30
+// Bounds: [benchmarks.md, Haptics], float and 8 bit. Triangles have none there: 20 000 over 30
 // to 60 mm have edges of 0.3 to 0.6 mm, so a surface of curvature 1/(40 mm) turns by up to a degree
 // from one to the next, half of it either way from the middle.
 TEST(HapticsBench, OurForceIsNearTheClosedFormAndNearerThanThePapers) {

@@ -57,7 +57,7 @@ PressedLayer LayerFor(double contact_radius, double depth) {
     layer.fixed.push_back(axes);
   }
 
-  // Six points a triangle of the top [Strang & Fix, degree 4], each with its share of a bed that
+  // Six points a triangle of the top [Strang & Fix 1973], each with its share of a bed that
   // gives way by about 1e-3 of the depth.
   constexpr int kFaces[4][6] = {
       {0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 8, 7}, {0, 2, 3, 6, 9, 7}, {1, 2, 3, 5, 9, 8}};

@@ -60,7 +60,7 @@ TEST(FootageToScene, ThePhantomsClipBecomesAScene) {
   RecordProperty("worst_px", std::to_string(worst));
   EXPECT_LT(worst, 1.5);  // as asked of easy clips at twice this size
 
-  // A lens file 4 % off: said, and put right where that is asked for (hard case 10).
+  // A lens file 4 % off: said, and put right where that is asked for (LENS-01).
   auto lens = nlohmann::json::parse(ReadWholeFile(knee + "/lens.json"));
   const double focal = lens.at("focal_px");
   lens["focal_px"] = 1.04 * focal;

@@ -42,7 +42,7 @@ TEST_F(PanoramaJob, WritesPictureAndReport) {
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
 }
 
-// Hard case 13 and every wrong flag: one sentence, exit 1 or 2, and the old file stays.
+// PAN-13 and every wrong flag: one sentence, exit 1 or 2, and the old file stays.
 TEST_F(PanoramaJob, RefusesInOneSentenceAndLeavesTheOldFile) {
   WriteAtomically(folder_ / "p.png", "old");
   WriteAtomically(folder_ / "bad.json", "{\"evry\": 2}");
@@ -70,7 +70,7 @@ TEST_F(PanoramaJob, RefusesInOneSentenceAndLeavesTheOldFile) {
   EXPECT_EQ(test::RunProgram("panorama").exit_code, 2);
 }
 
-// Hard case 20: a full disk.
+// PAN-20: a full disk.
 TEST_F(PanoramaJob, AFullDiskLeavesTheOldFileAndNoRest) {
   WriteAtomically(folder_ / "p.png", "old");
   const std::string line = "(ulimit -f 8; trap '' XFSZ; " ARTHRO_PROGRAM " panorama " +

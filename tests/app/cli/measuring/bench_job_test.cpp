@@ -82,8 +82,9 @@ TEST(BenchJob, HoldsTissueAgainstTheContinuum) {
 TEST(BenchJob, HoldsTouchAgainstClosedFormsAndTheRule) {
   test::TempFolder folder;
   const std::string json = (folder / "h.json").string(), plot = (folder / "h.svg").string();
-  const auto result = test::RunProgram("bench haptics --ticks 200 --rounds 1 --hands 5 --cycles 10 --json " +
-                                       json + " --plot " + plot);
+  const auto result =
+      test::RunProgram("bench haptics --ticks 200 --rounds 1 --hands 5 --cycles 10 --json " + json +
+                       " --plot " + plot);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   for (const char* words : {"paper 3x3", "(b + B)/(T/2 + t_d)", "random hands"})
     EXPECT_NE(result.out.find(words), std::string::npos) << words;

@@ -58,7 +58,7 @@ std::vector<Centre> ReadCentres(const std::string& text) {
   return centres;
 }
 
-// The closed form of design §4 once more: the centre lies at the angular distance
+// The closed form [method.md, Oblique view] once more: the centre lies at the angular distance
 // β = α − asin(ρ/D sin α) from the rod's direction, at the bearing γ from north towards east. By
 // spherical trigonometry: sin φ' = sin φ cos β + cos φ sin β cos γ,
 // λ' = λ + atan2(sin β sin γ, cos φ cos β − sin φ sin β cos γ).

@@ -1,4 +1,4 @@
-// Hard cases by number, 1 to 9: what tissue, water and the surgeon do to a clip. Limits are those
+// Hard cases PAN-01 to PAN-08: what tissue, water and the surgeon do to a clip. Limits are those
 // asked of 800 x 640 footage (case_run.h); the numbers reached are printed.
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Hard cases by number, 10 to 18: what the lens, the camera and the path do to a clip.
+// Hard cases PAN-09 to PAN-18, LENS-01: what the lens, the camera and the path do to a clip.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

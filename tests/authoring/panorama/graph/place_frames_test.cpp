@@ -100,7 +100,7 @@ TEST(PlaceFrames, LoopsWithRefinementBeatEitherStageBefore) {
   EXPECT_LT(all, 0.5 * loops);
 }
 
-// Hard case 6: a strip that never comes back. 30 frames over 3000 px.
+// PAN-06: a strip that never comes back. 30 frames over 3000 px.
 TEST(PlaceFrames, AStripDriftsLessThanSixPixelsOver3000) {
   const Simulation clip(TruePlaces(30, false));
   for (const double error : ErrorsOf(Place(clip), clip, 0)) EXPECT_LT(error, 6.0);
@@ -132,7 +132,7 @@ TEST(PlaceFrames, BlurredFramesAreNamedAndStepped) {
   }
 }
 
-// Hard case 3 without overlap: two pieces, each right in itself.
+// PAN-03 without overlap: two pieces, each right in itself.
 TEST(PlaceFrames, AJumpWithoutOverlapGivesTwoPieces) {
   auto places = TruePlaces(28, false, 70);
   for (std::size_t i = 12; i < places.size(); ++i)

@@ -88,7 +88,7 @@ TEST(Refine, DoesNotDependOnTheFrameThatStaysFixed) {
   }
 }
 
-// Hard case 19: the same clip in other units.
+// PAN-19: the same clip in other units.
 TEST(Refine, ScaleOfTheCoordinatesDoesNotMatter) {
   std::mt19937 random(5);
   const auto places = TruePlaces(20, true);
@@ -182,7 +182,7 @@ TEST(Uncertainty, SaysWhichPairsNothingChecks) {
   }
 }
 
-// Hard case 9: the cost of a frame does not grow with the clip.
+// PAN-09: the cost of a frame does not grow with the clip.
 TEST(Refine, ThreeHundredFramesCostLittleEach) {
   std::mt19937 random(10);
   const auto places = TruePlaces(300, true, 45);

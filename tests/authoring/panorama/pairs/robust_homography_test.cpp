@@ -79,7 +79,7 @@ TEST(RobustHomography, PerspectiveOnlyWhereItPays) {
 }
 
 TEST(RobustHomography, PointsAlongOneVesselAreRefused) {
-  // Hard case 15: a band 4 px wide says nothing of what lies off it.
+  // PAN-15: a band 4 px wide says nothing of what lies off it.
   cv::RNG random(9);
   std::vector<cv::Point2d> a, b;
   for (int i = 0; i < 80; ++i) {
@@ -103,7 +103,7 @@ TEST(RobustHomography, ChanceDoesNotPassForAgreement) {
 }
 
 TEST(RobustHomography, TheUnitDoesNotMatter) {
-  // Hard case 19: coordinates times 1e-3 and 1e3 give the same map, to 1e-3 px.
+  // PAN-19: coordinates times 1e-3 and 1e3 give the same map, to 1e-3 px.
   const Matches m = MakeMatches(Perspective(), 60, 60, 3);
   const RobustHomography reference = FindHomography(m.a, m.b, kReach, {});
   ASSERT_TRUE(reference.is_found);

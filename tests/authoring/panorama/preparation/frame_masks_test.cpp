@@ -76,7 +76,7 @@ TEST(FrameMasks, AnInstrumentIsFoundAndPaleTissueIsNot) {
 }
 
 TEST(FrameMasks, TextAndDirtThatStayWhileTissueMovesAreMarks) {
-  // Hard case 14. The marks are grown by 3 px, so they cover the text and its edges.
+  // PAN-14. The marks are grown by 3 px, so they cover the text and its edges.
   cv::Mat marks;
   const ClipLook look = LookAtClip(16, 13.0, true, &marks);
   ASSERT_FALSE(look.static_marks.empty());
@@ -94,7 +94,7 @@ TEST(FrameMasks, AClipWithoutMarksHasNone) {
 }
 
 TEST(FrameMasks, AStillClipKeepsItsTexture) {
-  // Hard case 5: of ten frames of one pose everything survives the mean.
+  // PAN-05: of ten frames of one pose everything survives the mean.
   cv::Mat marks;
   const ClipLook look = LookAtClip(10, 0.0, false, &marks);
   EXPECT_TRUE(look.static_marks.empty());

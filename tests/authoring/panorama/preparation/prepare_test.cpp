@@ -58,7 +58,7 @@ TEST(Preparation, FlatTissueUnderStrongFalloffIsFlatUpToTheRim) {
 }
 
 TEST(Preparation, ExposureAndGammaDoNotShow) {
-  // Hard case 17: a step of 4 in exposure, gamma 1.6 to 2.4. The same texture must come out; what
+  // PAN-17: a step of 4 in exposure, gamma 1.6 to 2.4. The same texture must come out; what
   // differs is rounding in the darker frame. Unprepared, the means alone differ by 60 grey levels.
   test::FrameLook bright;
   bright.exposure = 0.8;

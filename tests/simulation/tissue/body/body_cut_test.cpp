@@ -192,7 +192,7 @@ TEST(BodyCut, TissueThatMayNotBeCutIsLeftAlone) {
   EXPECT_EQ(body.cut_report().cuts, 0);
 }
 
-// Hard case 22, with the preconditioner handed on from cut to cut.
+// FEM-22, with the preconditioner handed on from cut to cut.
 TEST(HardCase22, CutsWhileTouchedStaySound) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
@@ -222,7 +222,7 @@ TEST(HardCase22, CutsWhileTouchedStaySound) {
   EXPECT_LE(most, 60);
 }
 
-// Hard case 22 where the tissue rests on something: what is nearly shaved away lies on it too.
+// FEM-22 where the tissue rests on something: what is nearly shaved away lies on it too.
 TEST(HardCase22, AShaverOnTissueThatLiesOnBoneAsksForFewIterations) {
   const BodySpec spec = test::MeniscusBody();
   DeformableBody body(spec, {});

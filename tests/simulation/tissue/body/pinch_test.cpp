@@ -1,4 +1,4 @@
-// Two tools on one tissue at once: hard case 10 of the notes on deformables, section 7.
+// Two tools on one tissue at once: FEM-10.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,4 @@
-// Tools pressed into tissue that is solved: hard cases of the notes on deformables, section 7, by
-// number.
+// Tools pressed into tissue that is solved: hard cases FEM of resources/doc/hard-cases.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,7 +131,7 @@ void MoveTo(Slab::Tool& tool, const Slab::Tool& place) {
 
 class Teleport : public testing::TestWithParam<bool> {};
 
-// Hard case 9. A probe that was just above the tissue is 5 mm deep at the next step; or it was
+// FEM-09. A probe that was just above the tissue is 5 mm deep at the next step; or it was
 // nowhere before (its device came back), and nothing is known of its way.
 TEST_P(Teleport, HardCase9FiveMillimetresIntoTheTissueAreResolvedInFiveFrames) {
   // 12 mm thick: up is the shortest way out.
@@ -172,7 +171,7 @@ TEST_P(Teleport, HardCase9FiveMillimetresIntoTheTissueAreResolvedInFiveFrames) {
 
 INSTANTIATE_TEST_SUITE_P(SeenBeforeAndFromNowhere, Teleport, testing::Values(true, false));
 
-// Hard case 9, all over the mesh: on nodes, between them, along and across its lines.
+// FEM-09, all over the mesh: on nodes, between them, along and across its lines.
 TEST(Probing, HardCase9AProbeFromNowhereIsOutInFiveFramesWhereverItAppears) {
   constexpr double kSettled = 1.9;  // N, of all of them after a second, to 2 % [measured above]
   Slab slab(0.012, {8, 8, 6}, [](const glm::dvec3& x) { return x.z < -0.0119; });
@@ -196,7 +195,7 @@ TEST(Probing, HardCase9AProbeFromNowhereIsOutInFiveFramesWhereverItAppears) {
   EXPECT_LE(hardest, 2.0 * kSettled);
 }
 
-// Hard case 16: no frame is lost, the tissue stays, the next good pose is felt.
+// FEM-16: no frame is lost, the tissue stays, the next good pose is felt.
 TEST(Probing, HardCase16APoseThatIsNotANumberLeavesTheTissueAsItIs) {
   Slab slab(0.006, {8, 8, 4}, OnTheGround);
   std::vector<Slab::Tool> tool{ProbeAt(-0.001)};

@@ -199,7 +199,7 @@ TEST(SkinContact, AnEdgeIsNotMissed) {
   EXPECT_LT(off, 0.25 * kRadius / 3 + kBetween);
 }
 
-// Hard case 9, its geometry: a tool that appears 5 mm deep is pushed out the shortest way.
+// FEM-09, its geometry: a tool that appears 5 mm deep is pushed out the shortest way.
 TEST(SkinContact, HardCase9ATeleportedToolFindsTheShortestWayOut) {
   const Slab slab(0.012);
   const Capsule rod{{0.001, 0.0003, -0.005}, {0.001, 0.0003, 0.02}, kRadius};
@@ -352,7 +352,7 @@ TEST(SkinContact, PressedFromTwoSidesBothHold) {
   EXPECT_LT(std::abs(force.z), 0.05 * up) << "they hold one another";
 }
 
-// Hard case 16: a pose that is not a number touches nothing.
+// FEM-16: a pose that is not a number touches nothing.
 TEST(SkinContact, HardCase16APoseThatIsNotANumberIsLeftOut) {
   const Slab slab;
   const double nan = std::numeric_limits<double>::quiet_NaN();

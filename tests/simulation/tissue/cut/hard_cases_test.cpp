@@ -1,4 +1,4 @@
-// Hard cases 13 to 15 of the notes on deformable tissue, as far as they are geometry, and cuts
+// FEM-13 to FEM-15, as far as they are geometry, and cuts
 // without end.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Hard cases by number [notes on deformables, 7]: those that the solver alone answers for. Starts
+// Hard cases FEM-01 to FEM-20: those that the solver alone answers for. Starts
 // from which bodies must recover, bad elements, bad materials, long steps, bad numbers.
 #include <cmath>
 #include <limits>
@@ -154,7 +154,8 @@ TEST(HardCase5, SliversChangeAFrameByLessThanOnePercent) {
 }
 
 TEST(HardCase6, NearlyIncompressibleStaysAccurateAndConverges) {
-  // Continuum answers [notes, 2]; Cook's tip hardly depends on nu any more, so 0.49's serves 0.499.
+  // Continuum answers [benchmarks.md, Tissue references]; Cook's tip hardly depends on nu any more,
+  // so 0.49's serves 0.499.
   struct Row {
     double nu, cook, block;
   };

@@ -85,7 +85,7 @@ TEST(ImplicitSolver, AStepLoadIsWithinFivePercentAfterOneFrame) {
         name, five, five_ms, one, one_ms, error, most_iterations);
     EXPECT_LE(five, 3) << name;  // T10, softer, rings once by 5.4 % in the second frame
     EXPECT_LE(one, 4) << name;
-    EXPECT_LE(error, 1e-4) << name;  // final solver error at most 0.01 % [notes, 8]
+    EXPECT_LE(error, 1e-4) << name;  // final solver error at most 0.01 % [benchmarks.md, Goals]
     EXPECT_LE(most_iterations, 20) << name;
   }
 }
@@ -239,7 +239,7 @@ TEST_P(ToolStiffness, IsHowItsForceGrows) {
   if (!GetParam()) {
     EXPECT_LE(off / size, kTolerance * kTolerance * 500 / size);
   }
-  EXPECT_LE(off / size, 2e-2);  // the servo's force is to be within 2 % [notes, 8, target 6]
+  EXPECT_LE(off / size, 2e-2);  // the servo's force is to be within 2 % [benchmarks.md, Goals]
   EXPECT_EQ(solver.ToolStiffness(1, kTolerance), glm::dmat3(0.0));  // nobody's
 
   // A step on, what was found here is only where the search begins.

@@ -1,0 +1,161 @@
+// Reads every bracketed citation in the sources and every link in the documents, and fails when its
+// target does not exist. Targets are headings of resources/doc/*.md, rows of references.md,
+// sections of the publication, and labels of hard-cases.md.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = ARTHRO_SOURCE_DIR;
+const fs::path kDocuments = kRoot / "resources/doc";
+
+std::string TextOf(const fs::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+struct Targets {
+  std::set<std::string> headings;  // "method.md, Oblique view"
+  std::set<std::string> works;     // "Hartley 1997"
+  std::set<std::string> labels;    // "PAN-01"
+};
+
+// The first cell of every row of a table. Formatting is left as it is.
+std::set<std::string> FirstCells(const std::string& text) {
+  std::set<std::string> cells;
+  std::istringstream lines(text);
+  const std::regex row(R"(^\| ([^|]+?) \|)");
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);)
+    if (std::regex_search(line, match, row)) cells.insert(match[1]);
+  return cells;
+}
+
+Targets TargetsOf(const fs::path& documents) {
+  Targets targets;
+  for (const auto& entry : fs::directory_iterator(documents)) {
+    std::istringstream lines(TextOf(entry.path()));
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("## "))
+        targets.headings.insert(entry.path().filename().string() + ", " + line.substr(3));
+  }
+  targets.works = FirstCells(TextOf(documents / "references.md"));
+  targets.labels = FirstCells(TextOf(documents / "hard-cases.md"));
+  return targets;
+}
+
+// The comments of one source; lines that follow one another are one comment.
+std::vector<std::string> CommentsOf(const std::string& source) {
+  std::vector<std::string> comments;
+  std::istringstream lines(source);
+  bool is_open = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find("//");
+    if (begin == std::string::npos || (begin > 0 && line[begin - 1] == ':')) {
+      is_open = false;
+      continue;
+    }
+    std::size_t text = begin + 2;
+    while (text < line.size() && line[text] == ' ') ++text;
+    if (!is_open) comments.emplace_back();
+    comments.back() += (comments.back().empty() ? "" : " ") + line.substr(text);
+    is_open = true;
+  }
+  return comments;
+}
+
+// The citations within one comment: every part between brackets and semicolons that begins with the
+// name of a document, with "paper", or with an author and a year.
+std::vector<std::string> CitationsOf(const std::string& comment) {
+  static const std::regex bracket(R"(\[([^\]\[]+)\])");
+  static const std::regex form(
+      R"(^(paper\b|design\b|notes?\b|[a-z-]+\.md\b|[A-Z][^,;]*( & | et al\.|, )?.*\b(1[89]|20)\d\d\b))");
+  std::vector<std::string> citations;
+  for (std::sregex_iterator found(comment.begin(), comment.end(), bracket), end; found != end;
+       ++found) {
+    std::istringstream parts((*found)[1].str());
+    for (std::string part; std::getline(parts, part, ';');) {
+      part.erase(0, part.find_first_not_of(' '));
+      if (std::regex_search(part, form)) citations.push_back(part);
+    }
+  }
+  return citations;
+}
+
+bool Exists(const std::string& citation, const Targets& targets) {
+  static const std::regex paper(R"(^paper, 3\.[1-4](, 3\.[1-4])*(, Fig\. 7)?$)");
+  static const std::regex work(R"(^(.*?\b(1[89]|20)\d\d)\b)");
+  if (std::regex_search(citation, paper)) return true;
+  if (targets.headings.contains(citation)) return true;
+  std::smatch match;
+  return std::regex_search(citation, match, work) && targets.works.contains(match[1]);
+}
+
+std::vector<std::string> FaultsOf(const std::string& source, const Targets& targets) {
+  static const std::regex label(R"(\b(PAN|LENS|FEM|HAP|VIEW|FILE)-\d+\b)");
+  static const std::regex retired(R"((design §|[Hh]ard case \d|notes on (haptics|deform)))");
+  std::vector<std::string> faults;
+  for (const std::string& comment : CommentsOf(source)) {
+    for (const std::string& citation : CitationsOf(comment))
+      if (!Exists(citation, targets)) faults.push_back("[" + citation + "]");
+    for (std::sregex_iterator found(comment.begin(), comment.end(), label), end; found != end;
+         ++found)
+      if (!targets.labels.contains(found->str())) faults.push_back(found->str());
+    std::smatch match;
+    if (std::regex_search(comment, match, retired)) faults.push_back(match.str() + "…");
+  }
+  return faults;
+}
+
+TEST(Citations, EachTargetExists) {
+  const Targets targets = TargetsOf(kDocuments);
+  std::size_t count = 0;
+  for (const char* top : {"app", "authoring", "simulation", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp" && extension != ".inc") continue;
+      const std::string source = TextOf(entry.path());
+      for (const std::string& comment : CommentsOf(source)) count += CitationsOf(comment).size();
+      if (entry.path().filename() == "citations_test.cpp") continue;
+      for (const std::string& fault : FaultsOf(source, targets))
+        ADD_FAILURE() << fs::relative(entry.path(), kRoot).string() << ": " << fault
+                      << " has no target in resources/doc";
+    }
+  EXPECT_GT(count, 80u) << "the scan found too few citations to mean anything";
+}
+
+TEST(Citations, ScanCatchesDanglingOnes) {
+  const Targets targets = TargetsOf(kDocuments);
+  EXPECT_EQ(
+      FaultsOf("// a [method.md, Oblique view]\n// b [Hartley 1997, eq. 3; paper, 3.1]\n", targets),
+      std::vector<std::string>{});
+  for (const char* dangling :
+       {"// [method.md, No such heading]", "// [Nobody 1999]", "// [paper 3.4]", "// [design §4]",
+        "// see PAN-77", "// Hard case 13.", "// [notes on\n// haptics, 3]", "// [paper, 3.9]"})
+    EXPECT_EQ(FaultsOf(dangling, targets).empty(), false) << dangling;
+}
+
+TEST(Documents, RelativeLinksResolve) {
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  std::vector<fs::path> pages = {kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::directory_iterator(kDocuments)) pages.push_back(entry.path());
+  for (const fs::path& page : pages) {
+    const std::string text = TextOf(page);
+    for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found)
+      EXPECT_TRUE(fs::exists(page.parent_path() / (*found)[1].str()))
+          << page.filename() << " links " << (*found)[1];
+  }
+}
+
+}  // namespace
