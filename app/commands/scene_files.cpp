@@ -8,6 +8,7 @@
 #include "app/commands/depth_work.h"
 #include "app/commands/edits.h"
 #include "app/commands/footage/footage_work.h"
+#include "app/resource_folder.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -82,13 +83,22 @@ void StartDocument(EditorState& state, Document document, bool saved, SceneOnDis
   ++state.document_number;
 }
 
+Document OpenSceneDocument(const fs::path& scene) {
+  Document document = authoring::OpenDocument(scene);
+  std::error_code ignored;
+  const fs::path within =
+      fs::canonical(scene, ignored).lexically_relative(fs::canonical(ResourceFolder(), ignored));
+  if (!within.empty() && *within.begin() != "..") document.folder.clear();
+  return document;
+}
+
 void OpenScene(EditorState& state, const fs::path& scene) {
   state.jobs.Start(
       "Open " + scene.filename().string(),
       [scene](const Progress&) {
         // Noted before it is read: a change in between is found when the scene is saved.
         const SceneOnDisk on_disk = NoteOnDisk(scene);
-        return [scene, on_disk, document = authoring::OpenDocument(scene)](EditorState& now) {
+        return [scene, on_disk, document = OpenSceneDocument(scene)](EditorState& now) {
           StartDocument(now, document, true, on_disk);
           now.recent.Add(scene);
           now.message = "Opened " + scene.string();

@@ -21,12 +21,16 @@ void OpenScene(EditorState& state, const std::filesystem::path& scene);
 void StartDocument(EditorState& state, authoring::Document document, bool saved,
                    SceneOnDisk on_disk = {});
 
-// What lies at `scene` now: a scene's folder, its scene.json or an archive.
+// Notes what lies at `scene` now: a scene's folder, its scene.json or an archive.
 SceneOnDisk NoteOnDisk(const std::filesystem::path& scene);
+
+// The scene as a document to edit. One of the program's own resources, such as the demo, has no
+// folder: saving it asks where. Throws Error as authoring::OpenDocument.
+authoring::Document OpenSceneDocument(const std::filesystem::path& scene);
 // There is a scene at `place`, and it is not the one that this window has last read or written.
 bool HasChangedOnDisk(const EditorState& state, const std::filesystem::path& place);
 
-// Where it was opened from, or asks where. Asks first when that was changed by others meanwhile.
+// Saves where it was opened from, or asks where. Asks first when others changed that meanwhile.
 // `then` runs once it is saved.
 void SaveScene(EditorState& state, std::function<void(EditorState&)> then = {});
 // The same without asking: what others changed is lost.

@@ -207,13 +207,10 @@ class Editor {
   void Begin() {
     if (options_.scene) {
       const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
-      StartDocument(state_, authoring::OpenDocument(*options_.scene), true, on_disk);
+      StartDocument(state_, OpenSceneDocument(*options_.scene), true, on_disk);
     } else if (const auto demo = ResourceFolder() / "demo";
                std::filesystem::exists(demo / "scene.json")) {
-      // The demo scene is a start for one's own: saving asks where.
-      authoring::Document document = authoring::OpenDocument(demo);
-      document.folder.clear();
-      StartDocument(state_, std::move(document), true);
+      StartDocument(state_, OpenSceneDocument(demo), true);
     }
     state_.practice_only = options_.practice;
     state_.hands = std::make_unique<Hands>(options_.hands);
@@ -222,8 +219,9 @@ class Editor {
     state_.rig_preset_folder = ResourceFolder() / "presets" / "rigs";
     LoadTissuePresets(state_);
     if (options_.script) state_.pace = simulation::TissuePace::kInline;
-    if (!options_.practice && !state_.document().folder.empty())
-      state_.recent.Add(state_.document().folder);
+    if (!options_.practice && options_.scene)
+      state_.recent.Add(state_.document().folder.empty() ? *options_.scene
+                                                         : state_.document().folder);
     state_.frame_shape = options_.frame_shape;
     state_.head = options_.head;
     state_.trainee_screen = {options_.trainee_screen.has_value(),

@@ -84,7 +84,8 @@ void RecoveryCopy::Restore(EditorState& state, RecoverySession session) {
   const bool is_as_it_was = is_there && changed <= fs::last_write_time(session.copy(), error);
   document.folder = is_as_it_was ? about.folder : fs::path();
   const std::string when = WordsOfTime(session.time_of_copy());
-  StartDocument(state, std::move(document), false);
+  StartDocument(state, std::move(document), false,
+                is_as_it_was ? NoteOnDisk(about.folder) : SceneOnDisk{});
   // The old copy protects the document until the next one replaces it.
   session_.Remove();
   session_ = std::move(session);

@@ -38,7 +38,7 @@ class RecoveryCopy {
 
  private:
   void Start(const EditorState& state);
-  // What the write under way came to; waits for it.
+  // Waits for the write under way and takes its result.
   void Collect(EditorState* state);
   void Restore(EditorState& state, RecoverySession session);
 

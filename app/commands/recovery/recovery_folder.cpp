@@ -12,6 +12,8 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
+#include "simulation/core/json_text.h"
 
 namespace arthro::app {
 namespace {
@@ -109,7 +111,8 @@ void RecoverySession::Remove() {
 RecoverySession::About RecoverySession::ReadAbout() const {
   About about;
   try {
-    const auto json = nlohmann::json::parse(ReadWholeFile(folder_ / "about.json"));
+    const fs::path file = folder_ / "about.json";
+    const auto json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
     about.title = json.at("title").get<std::string>();
     about.folder = json.at("folder").get<std::string>();
   } catch (const std::exception&) {
@@ -122,8 +125,8 @@ void RecoverySession::WriteAbout(const About& about) const {
   const fs::path file = folder_ / "about.json";
   const nlohmann::json json = {
       {"schema", kSchema}, {"title", about.title}, {"folder", about.folder.string()}};
-  WriteAtomically(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  WriteAtomically(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
+                  Access::kPrivate);
 }
 
 }  // namespace arthro::app

@@ -60,7 +60,7 @@ class Commands : public testing::Test {
     ASSERT_FALSE(state.document().is_depth_imported);
     ASSERT_FALSE(state.history.CanUndo());
   }
-  // As another window would, behind the back of this one.
+  // Saves as another window would, unknown to this one.
   void SaveElsewhere(const std::string& title) {
     Scene scene = ReadScene(temp / "knee");
     scene.title = title;
@@ -289,6 +289,13 @@ TEST_F(Commands, AnotherPictureOfTheSameSizeKeepsAnImportedDepthMap) {
   EXPECT_EQ(state.document().depth, imported);
 }
 
+TEST_F(Commands, TheProgramsOwnDemoIsNeverSavedInPlace) {
+  OpenScene(state, fs::path(ARTHRO_SOURCE_DIR) / "resources/demo");
+  Settle(state);
+  EXPECT_FALSE(state.document().scene.title.empty());
+  EXPECT_TRUE(state.document().folder.empty());
+}
+
 TEST_F(Commands, SavingOverASceneThatOthersChangedAsksFirst) {
   Open();
   SetIncisionSpacing(state, 0.01);
@@ -307,7 +314,7 @@ TEST_F(Commands, SavingOverASceneThatOthersChangedAsksFirst) {
   EXPECT_EQ(ReadScene(temp / "knee").title, "Small knee");
   EXPECT_TRUE(went_on);
   EXPECT_TRUE(state.history.IsSaved());
-  // What this window has written is no surprise to it.
+  // This window knows what it has written itself.
   SetIncisionSpacing(state, 0.02);
   app::Run(state, "save");
   Settle(state);
