@@ -1,5 +1,5 @@
-// What kind of result an existing file is, judged by its content and never by its name, so that a
-// job replaces its own earlier result and nothing else.
+// Kind of result that an existing file holds, judged by its content and never by its name, so that
+// a job replaces its own earlier result and nothing else.
 #pragma once
 
 #include <filesystem>

@@ -7,19 +7,16 @@
 #include <fmt/format.h>
 
 #include "app/cli/output_check.h"
-#include "authoring/footage/picture_list.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/leftovers.h"
-#include "simulation/scene/archive_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-// What was given, or else the option's default.
+// Returns the given value, or else the option's default.
 std::vector<fs::path> PathsOf(const CLI::Option& option) {
   std::vector<fs::path> paths;
   for (const std::string& text : option.results()) paths.emplace_back(text);
@@ -31,44 +28,10 @@ std::vector<fs::path> PathsOf(const CLI::Option& option) {
   return paths;
 }
 
-// That a file or a folder lies in; of "out" and "out/" alike.
+// Returns the folder in which a file or a folder lies; "out" and "out/" give the same.
 fs::path FolderOf(const fs::path& path) {
   const fs::path plain = path.filename().empty() ? path.parent_path() : path;
   return plain.has_parent_path() ? plain.parent_path() : fs::path(".");
-}
-
-// scene.json and what it names. A scene that cannot be read names nothing; the job says so itself.
-std::vector<fs::path> FilesOfScene(const fs::path& scene) {
-  std::vector<fs::path> files{SceneFile(scene)};
-  if (IsArchive(scene)) return files;
-  try {
-    const Scene values = ReadScene(scene);
-    const fs::path folder = FolderOf(files.front());
-    const auto add = [&](const fs::path& name) {
-      if (!name.empty()) files.push_back(folder / name);
-    };
-    add(values.backdrop.panorama);
-    add(values.backdrop.depth);
-    add(values.scope.lens);
-    for (const Tissue& tissue : values.tissues) {
-      add(tissue.surface);
-      add(tissue.mesh);
-    }
-  } catch (const std::exception&) {
-  }
-  return files;
-}
-
-std::vector<fs::path> FilesOfFootage(const fs::path& footage) {
-  std::error_code ignored;
-  try {
-    if (fs::is_directory(footage, ignored)) return authoring::PicturesIn(footage);
-    if (!fs::exists(footage, ignored) && footage.filename().string().find('%') != std::string::npos)
-      return authoring::PicturesOf(footage);
-  } catch (const Error&) {  // no picture there; the job says so itself
-    return {};
-  }
-  return {footage};
 }
 
 // "name-2.png" and on for "name.png", as a regular expression.
@@ -95,7 +58,7 @@ std::shared_ptr<JobFiles> JobFiles::Of(CLI::App& job, bool has_overwrite) {
   return files;
 }
 
-CLI::Option* JobFiles::Input(CLI::Option* option, InputKind kind) {
+CLI::Option* JobFiles::Input(CLI::Option* option, const InputKind& kind) {
   inputs_.push_back({option, kind});
   return option->type_name("INPUT");
 }
@@ -120,7 +83,8 @@ CLI::Option* JobFiles::OutputFolder(CLI::Option* option, NamedKinds names) {
   return option->type_name("OUTPUT");
 }
 
-CLI::Option* JobFiles::OutputScene(CLI::Option* option) {
+CLI::Option* JobFiles::OutputScene(CLI::Option* option, FileOfScene file_of) {
+  scene_file_of_ = file_of;
   outputs_.push_back({option, OutputForm::kScene, {}, {}});
   return option->type_name("OUTPUT");
 }
@@ -143,14 +107,9 @@ JobFiles::Inputs JobFiles::AllInputs() const {
   std::error_code ignored;
   for (const NamedInput& input : inputs_)
     for (const fs::path& path : PathsOf(*input.option)) {
-      if (input.kind == InputKind::kScene) {
-        add(FilesOfScene(path));
-      } else if (input.kind == InputKind::kFootage) {
-        add(FilesOfFootage(path));
-        if (fs::is_directory(path, ignored)) all.footage_folders.push_back(path);
-      } else {
-        add({path});
-      }
+      add(input.kind.files_of != nullptr ? input.kind.files_of(path) : std::vector{path});
+      if (input.kind.takes != nullptr && fs::is_directory(path, ignored))
+        all.folders.push_back({path, input.kind.takes});
     }
   return all;
 }
@@ -201,12 +160,12 @@ void JobFiles::Check() const {
     }
 }
 
-// Of a file whose name is no input's.
+// Checks a file that is not an input.
 void JobFiles::CheckFile(const fs::path& file, const FileKind& kind, const Inputs& inputs) const {
   std::error_code ignored;
   if (kind.form == FileForm::kPicture)
-    for (const fs::path& folder : inputs.footage_folders)
-      if (fs::equivalent(FolderOf(file), folder, ignored) && authoring::IsPictureName(file))
+    for (const auto& [folder, takes] : inputs.folders)
+      if (fs::equivalent(FolderOf(file), folder, ignored) && takes(file))
         throw Error(Code::kBadArgument,
                     "a picture in the folder of the footage would be taken for a frame; name "
                     "another folder",
@@ -233,8 +192,8 @@ void JobFiles::CheckFolder(const fs::path& folder, const NamedKinds& all,
 
 void JobFiles::CheckScene(const fs::path& scene) const {
   std::error_code ignored;
-  if (!overwrites_ && fs::exists(SceneFile(scene), ignored))
-    RefuseToReplace(SceneFile(scene), "this scene exists");
+  const fs::path file = scene_file_of_(scene);
+  if (!overwrites_ && fs::exists(file, ignored)) RefuseToReplace(file, "this scene exists");
 }
 
 }  // namespace arthro::app

@@ -27,11 +27,11 @@ class Option;
 
 namespace arthro::app {
 
-// What an input stands for beside itself.
-enum class InputKind {
-  kFile,
-  kScene,    // scene.json and every file that it names; or an archive
-  kFootage,  // every frame of a folder or pattern; or a video
+// Files that an input stands for beside itself; input_files.h has the kinds.
+struct InputKind {
+  std::vector<std::filesystem::path> (*files_of)(const std::filesystem::path&) = nullptr;
+  // True where a new picture of this name in the input's folder would become part of the input.
+  bool (*takes)(const std::filesystem::path&) = nullptr;
 };
 
 inline constexpr FileKind kPictureFile{"a picture", FileForm::kPicture};
@@ -49,7 +49,7 @@ class JobFiles : public std::enable_shared_from_this<JobFiles> {
   // each of its outputs.
   static std::shared_ptr<JobFiles> Of(CLI::App& job, bool has_overwrite = true);
 
-  CLI::Option* Input(CLI::Option* option, InputKind kind = InputKind::kFile);
+  CLI::Option* Input(CLI::Option* option, const InputKind& kind = {});
   // One file. "-" is standard output and never checked.
   CLI::Option* Output(CLI::Option* option, const FileKind& kind);
   // The same, with "name-2.png" and on beside "name.png".
@@ -60,8 +60,9 @@ class JobFiles : public std::enable_shared_from_this<JobFiles> {
   // their kinds. Without any, the job has a rule of its own for a folder that exists.
   using NamedKinds = std::vector<std::pair<std::string, FileKind>>;
   CLI::Option* OutputFolder(CLI::Option* option, NamedKinds names = {});
-  // A scene, as a folder or an archive.
-  CLI::Option* OutputScene(CLI::Option* option);
+  // A scene, as a folder or an archive. `file_of` gives its file, as SceneFile.
+  using FileOfScene = std::filesystem::path (*)(const std::filesystem::path&);
+  CLI::Option* OutputScene(CLI::Option* option, FileOfScene file_of);
 
   // Sets the job's callback: the check, then `run`.
   void Run(std::function<void()> run);
@@ -86,7 +87,8 @@ class JobFiles : public std::enable_shared_from_this<JobFiles> {
     NamedKinds names;
   };
   struct Inputs {
-    std::vector<std::filesystem::path> files, footage_folders;
+    std::vector<std::filesystem::path> files;
+    std::vector<std::pair<std::filesystem::path, bool (*)(const std::filesystem::path&)>> folders;
   };
 
   explicit JobFiles(CLI::App& job) : job_(job) {}
@@ -102,6 +104,7 @@ class JobFiles : public std::enable_shared_from_this<JobFiles> {
   CLI::App& job_;
   std::vector<NamedInput> inputs_;
   std::vector<NamedOutput> outputs_;
+  FileOfScene scene_file_of_ = nullptr;
   bool overwrites_ = false;
 };
 

@@ -7,7 +7,7 @@
 namespace arthro::app {
 namespace {
 
-// As a person typed it, but short and without control characters.
+// The typed word, shortened and without control characters.
 std::string Quoted(std::string_view word) {
   constexpr std::size_t kMostShown = 40;
   std::string shown;

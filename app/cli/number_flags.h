@@ -18,7 +18,7 @@
 
 namespace arthro::app {
 
-// What a flag takes. The unit is the flag's own, such as "mm".
+// Values that a flag takes. The unit is the flag's own, such as "mm".
 struct NumberRule {
   Range range;
   std::string unit;

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
@@ -20,6 +21,7 @@
 #include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/lens_io.h"
+#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {
@@ -109,7 +111,7 @@ void AddPanoramaJob(CLI::App& program) {
       ->Input(job->add_option("FOOTAGE", own->request.footage,
                               "A video, a folder of pictures, or a pattern such as "
                               "frames/%04d.png"),
-              InputKind::kFootage)
+              kFootageInput)
       ->required();
   files->Input(job->add_option("--lens", own->lens,
                                "Lens file of `arthroscene lens`; without it the pictures are taken "
@@ -125,7 +127,8 @@ void AddPanoramaJob(CLI::App& program) {
       {"a report", FileForm::kJson, "arthroscene.panorama/"});
   files->OutputScene(
       job->add_option("--scene", own->scene,
-                      "Also write a scene of it into this folder, to edit and to practise in"));
+                      "Also write a scene of it into this folder, to edit and to practise in"),
+      SceneFile);
   AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
              "Frames that are not to be used, by their numbers between commas");
   AddOptionsFile(*job, own->request.options);

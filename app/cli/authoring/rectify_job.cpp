@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
@@ -91,7 +92,7 @@ void AddRectifyJob(CLI::App& program) {
   files
       ->Input(job->add_option("FOOTAGE", own->footage,
                               "Video, folder of pictures or pattern (frames/%04d.png)"),
-              InputKind::kFootage)
+              kFootageInput)
       ->required();
   files
       ->Input(

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
@@ -65,7 +66,7 @@ void AddCentresJob(CLI::App& program) {
       ->Input(job->add_option("SCENE", arguments->scene,
                               "Scene folder or scene.json; its pictures are not read without "
                               "--picture"),
-              InputKind::kScene)
+              kSceneInput)
       ->required();
   AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg, {0.0, 90.0}, "degrees",
             "Angle between rod and view; the scene's own where not given");

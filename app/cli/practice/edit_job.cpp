@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
@@ -82,8 +83,8 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, J
          "--trainee-screen",
          [&options](const std::string& monitor) {
            options.trainee_screen = 0;
-           // CLI11 gives "true" where there is no value.
-           if (monitor == "true") return;
+           // CLI11 gives "true" or nothing where there is no value.
+           if (monitor.empty() || monitor == "true") return;
            options.trainee_screen =
                static_cast<int>(NumberFromWord("--trainee-screen", monitor, {{1, 64}, "", true}));
          },
@@ -124,7 +125,7 @@ void AddEditJob(CLI::App& program) {
   files
       ->Input(job->add_option("scene", options->scene,
                               "Scene folder or scene.json; without one, the demo scene"),
-              InputKind::kScene)
+              kSceneInput)
       ->type_name("SCENE");
   const auto hands = std::make_shared<HandFlags>();
   AddHandFlags(*job, *hands, *files);
@@ -138,9 +139,7 @@ void AddPractiseJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand("practise", "Practise in a scene");
   job->alias("practice");
   const auto files = JobFiles::Of(*job);
-  files
-      ->Input(job->add_option("scene", options->scene, "Scene folder or scene.json"),
-              InputKind::kScene)
+  files->Input(job->add_option("scene", options->scene, "Scene folder or scene.json"), kSceneInput)
       ->type_name("SCENE")
       ->required();
   const auto hands = std::make_shared<HandFlags>();

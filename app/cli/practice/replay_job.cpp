@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
@@ -89,9 +90,7 @@ void AddReplayJob(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "replay", "Play recorded hands in a scene, on a fixed clock, and write the forces");
   const auto files = JobFiles::Of(*command);
-  files
-      ->Input(command->add_option("SCENE", job->scene, "Scene folder or scene.json"),
-              InputKind::kScene)
+  files->Input(command->add_option("SCENE", job->scene, "Scene folder or scene.json"), kSceneInput)
       ->required();
   files
       ->Input(

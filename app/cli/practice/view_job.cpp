@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
@@ -86,8 +87,7 @@ void AddViewJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand("view", "One picture through the arthroscope");
   const auto files = JobFiles::Of(*job);
   files
-      ->Input(job->add_option("SCENE", arguments->scene, "Scene folder or scene.json"),
-              InputKind::kScene)
+      ->Input(job->add_option("SCENE", arguments->scene, "Scene folder or scene.json"), kSceneInput)
       ->required();
   AddNumber(*job, "--latitude-deg", arguments->latitude_deg, {-90.0, 90.0}, "degrees",
             "Rod's direction, up");

@@ -149,16 +149,16 @@ TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
     EXPECT_FALSE(std::filesystem::exists(output)) << arguments;
   };
   refuse(scene_ + " --insertion-mm 60", 1, "50.0 mm");
-  refuse(scene_ + " --roll-deg nan", 1, "--roll-deg");
-  refuse(scene_ + " --insertion-mm nan", 1, "insert");
-  refuse(scene_ + " --relight nan", 1, "--relight");
+  refuse(scene_ + " --roll-deg nan", 2, "--roll-deg");
+  refuse(scene_ + " --insertion-mm nan", 2, "insert");
+  refuse(scene_ + " --relight nan", 2, "--relight");
   refuse(scene_ + " --relight 1.5", 2, "--relight");
   refuse(scene_ + " --view-angle-deg 120", 2, "view-angle-deg");
   refuse(scene_ + " --disturb smoke=1", 1, "there are haze, bubbles, debris, fog");
   refuse(scene_ + " --disturb haze=7", 1, "between 0 and 1");
   refuse(scene_ + " --disturb haze=nan", 1, "between 0 and 1");
   refuse(scene_ + " --disturb haze=-1", 1, "between 0 and 1");
-  refuse(scene_ + " --disturb haze=1 --disturb-time nan", 1, "seconds");
+  refuse(scene_ + " --disturb haze=1 --disturb-time nan", 2, "--disturb-time");
   refuse(scene_ + " --size 0", 2, "size");
   refuse((folder_ / "absent").string(), 1, "absent");
 }

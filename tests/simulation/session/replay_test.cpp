@@ -244,11 +244,11 @@ TEST_F(ReplayJob, RefusesABadTraceWithItsLineAndWritesNothing) {
                                    "0,scope,0,0,-0.17,1,0,0,0,0\n"
                                    "0.001,scope,nan,0,-0.17,1,0,0,0,0\n"));
   WriteAtomically(folder_ / "f.csv", std::string_view("before"));
-  const auto result = Run(Path("bad.csv") + " -o " + Path("f.csv"));
+  const auto result = Run(Path("bad.csv") + " --overwrite -o " + Path("f.csv"));
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("bad.csv: line 3: hip_x"), std::string::npos) << result.err;
   EXPECT_EQ(ReadWholeFile(folder_ / "f.csv"), "before");
-  EXPECT_EQ(Run(Path("missing.csv") + " -o " + Path("f.csv")).exit_code, 1);
+  EXPECT_EQ(Run(Path("missing.csv") + " --overwrite -o " + Path("f.csv")).exit_code, 1);
   EXPECT_EQ(Run(Path("trace.csv")).exit_code, 2) << "-o is required";
   const std::string trace = ReadWholeFile(folder_ / "trace.csv");
   EXPECT_EQ(Run(Path("trace.csv") + " -o " + Path("trace.csv")).exit_code, 1);
