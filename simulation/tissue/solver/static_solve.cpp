@@ -67,9 +67,10 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     const bool is_balanced =
         one.is_finite &&
         (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
-    // Balanced forces alone do not suffice: a shape with elements inside out is not valid. It is
-    // kept, to be returned where no other equilibrium is found.
-    total.converged = is_balanced && one.inverted == 0;
+    // Balanced forces alone do not suffice at the whole load: a shape with elements inside out is
+    // not valid. It is kept, to be returned where no other equilibrium is found. On the way there
+    // it may be passed.
+    total.converged = is_balanced && (one.inverted == 0 || !is_last);
     if (is_balanced && one.inverted > 0 && is_last && inverted_x.empty()) {
       inverted_x = state.x;
       inverted = total;
