@@ -32,7 +32,7 @@ struct CloseEntry {
   void operator()(zip_file_t* entry) const { zip_fclose(entry); }
 };
 
-// Of a zip that cannot be opened.
+// Reason why a zip cannot be opened.
 std::string WhyNotOpened(int code) {
   if (code == ZIP_ER_NOZIP) return "it is no zip file";
   if (code == ZIP_ER_MEMORY) return "there is not enough memory";
@@ -53,7 +53,7 @@ Archive Open(const fs::path& file, int flags, const fs::path& named) {
 
 // Throws unless `name` is a plain relative path that stays inside whatever folder it is put in.
 void RequireInside(const std::string& name, const fs::path& archive) {
-  // What file systems take; far more than a scene's files are called.
+  // Longest name that file systems take, in bytes.
   constexpr std::size_t kLongestName = 255, kLongestPath = 1024;  // bytes
   const fs::path path(name);
   const bool is_too_long = name.size() > kLongestPath ||
@@ -106,7 +106,7 @@ std::vector<Entry> EntriesOf(zip_t* zip, const fs::path& archive, const ArchiveL
       throw Error(Code::kBadScene, "this archive is damaged; copy or export it again", archive);
     const std::string name = stat.name;
     RequireInside(name, archive);
-    // As stored: names without an encoding are converted, which turns control bytes into pictures.
+    // Reads names as stored: libzip's conversion turns control bytes into pictures.
     if (const char* const raw = zip_get_name(zip, index, ZIP_FL_ENC_RAW))
       RequireInside(raw, archive);
     zip_uint8_t system = 0;

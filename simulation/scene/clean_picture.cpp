@@ -54,7 +54,7 @@ void AppendSegment(std::string& to, char marker, std::string_view data) {
   to += data;
 }
 
-// What is kept of an application's segment: the few bytes that say how colours are coded.
+// Part of an application's segment that is kept: the few bytes that say how colours are coded.
 void AppendApplication(std::string& to, std::uint8_t marker, std::string_view data) {
   constexpr std::size_t kJfifBytes = 14, kAdobeBytes = 12;
   if (marker == 0xe0 && data.starts_with("JFIF\0"sv) && data.size() >= kJfifBytes) {

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A joint is centimetres wide; more are millimetres that are called metres, or a broken file.
-constexpr float kMostRelief = 2;  // m, as all lengths of scene.json
+constexpr float kMostRelief = 10;  // m; a map in millimetres by mistake is warned of by `check`
 
 std::string BytesOf(const fs::path& file) {
   std::string bytes;

@@ -21,7 +21,7 @@ void WriteColourImage(const std::filesystem::path& file, const ColourImage& imag
 std::string PngFromColourImage(const ColourImage& image);
 
 // One-channel 32-bit float TIFF, metres. Throws Error(kBadImage) for anything else, and for depths
-// that are infinite or beyond 2 m.
+// that are infinite or beyond 10 m.
 DepthMap ReadDepthMap(const std::filesystem::path& file);
 void WriteDepthMap(const std::filesystem::path& file, const DepthMap& depth);
 

@@ -39,7 +39,7 @@ JpegReading& ReadingOf(j_common_ptr jpeg) { return *static_cast<JpegReading*>(jp
 void OnMessage(j_common_ptr jpeg, int level) {
   if (level >= 0) return;  // a trace
   const int code = jpeg->err->msg_code;
-  // What leaves the pixels as they are. Cameras write a few bytes before the end mark.
+  // Warnings that leave the pixels as they are. Cameras write a few bytes before the end mark.
   constexpr int kEndMark = 0xd9, kFewBytes = 8;
   const bool is_harmless = code == JWRN_ADOBE_XFORM || code == JWRN_BOGUS_ICC ||
                            (code == JWRN_EXTRANEOUS_DATA && jpeg->err->msg_parm.i[0] <= kFewBytes &&

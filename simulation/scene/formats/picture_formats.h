@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxPixels = std::size_t{1} << 28;
 
 enum class PictureFormat { kUnknown, kPng, kJpeg, kTiff, kBmp, kWebp, kPnm };
 
-// By the first bytes, never by the name.
+// Judged by the first bytes, never by the name.
 PictureFormat FormatOf(std::string_view bytes);
 
 // All below throw Error(kBadImage); `file` is for the sentence only.

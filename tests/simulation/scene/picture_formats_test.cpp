@@ -25,7 +25,7 @@
 namespace arthro {
 namespace {
 
-// Of any type of OpenCV's, smooth enough for JPEG.
+// A picture of any OpenCV type, smooth enough for JPEG.
 cv::Mat Picture(int type, int width = 61, int height = 43) {
   cv::Mat mat(height, width, type);
   const double white = CV_MAT_DEPTH(type) == CV_16U ? 65535 : 255;
@@ -228,7 +228,7 @@ TEST(PictureFormats, RandomDamageOfEveryFormatIsReadOrRefusedWithoutAWord) {
 
 TEST(DepthMapFiles, DepthsBeyondAnyJointAreRefusedWithTheirPlace) {
   test::TempFolder folder;
-  for (const float depth : {1e30f, std::numeric_limits<float>::infinity(), -3.0f}) {
+  for (const float depth : {1e30f, std::numeric_limits<float>::infinity(), -30.0f}) {
     DepthMap map(8, 6, 0.01f);
     map.at(3, 2) = depth;
     map.at(4, 2) = std::numeric_limits<float>::quiet_NaN();  // nothing was imaged: no fault
