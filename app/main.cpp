@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   const int result = arthro::app::RunCommandLine(argc, argv);
-  // What was printed is part of the result.
+  // Printed text is part of the result.
   errno = 0;
   if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || result != 0) return result;
   std::fprintf(stderr, "arthroscene: standard output could not be written to its end: %s\n",

@@ -18,7 +18,7 @@ constexpr double kFar = 4000;  // px; past both ends of any slider
 constexpr const char* kBelowLeast = "-1e30";
 constexpr const char* kAboveMost = "1e30";
 
-// What is no number, or too long a one.
+// Words that are not numbers, or too long.
 const std::vector<std::string>& NumbersToType() {
   static const std::vector<std::string> texts = {
       "nan", "-inf", "99999999999999999999", "", "1e999", "%s%n", "0x7f", "abc"};
@@ -131,7 +131,7 @@ std::vector<Crawler::Action> Crawler::ActionsOf(const WidgetRegistry& widgets) c
   return actions;
 }
 
-// Of the item that was used least, the action that was used least, the first ones first.
+// Chooses the least used action of the least used item; the first one wins a tie.
 const Crawler::Action& Crawler::LeastUsed(const std::vector<Action>& actions) {
   const auto count_of = [&](const std::string& key) {
     const auto found = counts_.find(key);

@@ -32,7 +32,7 @@ struct CharacterTyped {
 struct FilesDropped {
   std::vector<std::filesystem::path> files;
 };
-// Of a script: the window's new size, in window coordinates.
+// New size of the window, in window coordinates; from scripts only.
 struct SizeAsked {
   int width = 0, height = 0;
 };

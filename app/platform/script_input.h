@@ -1,4 +1,4 @@
-// What a hand does, as events of the input queue: clicks, drags, keys and typed text.
+// Clicks, drags, keys and typed text as events of the input queue.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace arthro::app {
 
-// Where the pointer is.
+// Position of the pointer.
 void PushClick(int button, InputQueue& input);
 // Pressed at `from`, moved along `way`, released at its end; window coordinates.
 void PushDrag(int button, const glm::dvec2& from, const std::vector<glm::dvec2>& way,

@@ -9,7 +9,7 @@
 
 namespace arthro::app {
 
-// What can be done to an item.
+// Actions that an item takes.
 enum class WidgetKind {
   kButton,   // clicked: buttons, boxes, entries of lists, headers
   kSlider,   // dragged, and typed into after Ctrl+click

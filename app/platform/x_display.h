@@ -1,5 +1,5 @@
-// What Xlib and GLFW 3.3 leave to the program: a window manager's mark that outlived it, and an X
-// server that goes away while the window is open.
+// Duties that Xlib and GLFW 3.3 leave to the program: a window manager's mark that outlived it, and
+// an X server that goes away while the window is open.
 #pragma once
 
 #include <functional>

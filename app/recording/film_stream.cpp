@@ -205,7 +205,7 @@ class Demuxer {
 
   bool IsFilm() const { return stream_ != nullptr; }
   const AVCodecParameters& parameters() const { return *stream_->codecpar; }
-  // Of the container, or else of how long its first picture stands.
+  // The container's rate, or else that of its first picture's duration.
   AVRational Rate() const {
     if (stream_->avg_frame_rate.num > 0) return stream_->avg_frame_rate;
     AVRational rate{25, 1};

@@ -20,10 +20,10 @@ struct VideoSize {
 
 enum class FilmFormat { kMp4, kMatroska, kAvi };
 
-// By the ending, in any case of letters: .mp4, .mkv (H.264), .avi (Motion JPEG).
+// The ending selects the format, in any case of letters: .mp4, .mkv (H.264), .avi (Motion JPEG).
 std::optional<FilmFormat> FilmFormatOf(const std::filesystem::path& file);
 
-// What became of a film's bytes. `error` is an errno; 0 with is_good false: the codec failed.
+// Result of writing a film's bytes. `error` is an errno; 0 with is_good false: the codec failed.
 struct FilmResult {
   bool is_good = true;
   int error = 0;

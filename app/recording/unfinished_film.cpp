@@ -46,7 +46,7 @@ struct RecordingName {
   pid_t process = 0;
 };
 
-// Of .STEM.PID.recording.EXT, where the STEM may hold points.
+// Parts of .STEM.PID.recording.EXT; the STEM may hold points.
 std::optional<RecordingName> ParseName(const fs::path& file) {
   const std::string ending = file.extension().string();
   std::string rest = file.stem().string();

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Of a format: these bytes at this place.
+// Signature of a format: these bytes at this place.
 struct Mark {
   std::size_t at;
   std::string_view bytes;

@@ -1,4 +1,4 @@
-// What this program itself keeps at the top of scene.json, beside the values of the scene.
+// Keys that this program itself keeps at the top of scene.json, beside the values of the scene.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ inline constexpr const char* kDepthOptionsKey = "x-depth-options";
 // brought along by a person.
 inline constexpr const char* kDepthMadeKey = "x-depth-made";
 
-// As JSON text: of width, height and relief, however the file packs them.
+// Fingerprint as JSON text, over width, height and relief, however the file packs them.
 std::string DepthFingerprint(const DepthMap& depth);
 
 }  // namespace arthro::authoring

@@ -299,7 +299,7 @@ class Saving {
 
   void SaveExtensions() {
     auto& extensions = after_.scene.extensions;
-    // What other tools keep in this scene stays here; a copy that is handed on does not carry it.
+    // Keys of other tools stay in this scene; a copy that is handed on does not carry them.
     if (is_copy_) extensions.clear();
     extensions[kDepthOptionsKey] = JsonFromOptions(after_.depth_options).dump();
     extensions.erase(kDepthMadeKey);

@@ -1,4 +1,4 @@
-// Which files of a scene's folder this program wrote for that scene, so that a save may remove the
+// List of the files that this program wrote into a scene's folder, so that a save may remove the
 // ones that are no longer used, and no others. scene.json keeps the list under "x-files-written";
 // while a save is under way a hidden file beside it keeps the list of what may have to be removed.
 #pragma once

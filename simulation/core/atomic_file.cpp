@@ -46,7 +46,7 @@ fs::path WithoutLinks(fs::path path, const fs::path& target) {
 std::optional<unsigned> ModeOf(const fs::path& place, const fs::path& target) {
   struct stat found {};
   if (::stat(place.c_str(), &found) != 0) return std::nullopt;
-  // By its bits, since access() tells the superuser that all may be written.
+  // Tests the mode bits, since access() tells the superuser that all may be written.
   if ((found.st_mode & S_IWUSR) == 0 || ::access(place.c_str(), W_OK) != 0)
     throw Error(Code::kFile, "this file is read-only; make it writable first or name another file",
                 target);

@@ -10,7 +10,7 @@
 
 namespace arthro {
 
-// Who may read a new file. kShared: whoever the process's umask allows. kPrivate: its owner alone
+// Readers of a new file. kShared: whoever the process's umask allows. kPrivate: its owner alone
 // (mode 0600), for what identifies a person: logs, films, records.
 // A file that is replaced keeps its own mode in either case.
 enum class Access { kShared, kPrivate };

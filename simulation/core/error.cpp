@@ -81,7 +81,7 @@ std::u32string Shortened(std::u32string_view part, std::size_t longest) {
   return std::u32string(part.substr(0, longest - 1)) + U'…';
 }
 
-// Where the quoted text that begins behind `open` ends; npos where nothing closes it.
+// Returns the end of the quoted text that begins behind `open`; npos where nothing closes it.
 std::size_t CloseOf(std::u32string_view line, std::size_t open) {
   for (std::size_t at = open + 1; at < line.size(); ++at) {
     if (line[at] == U'\\' && at + 1 < line.size() &&

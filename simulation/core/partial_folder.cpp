@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of "out", "out/" and "./out" alike.
+// "out", "out/" and "./out" give the same.
 fs::path Plain(const fs::path& folder) {
   fs::path plain = fs::absolute(folder).lexically_normal();
   return plain.has_filename() ? plain : plain.parent_path();

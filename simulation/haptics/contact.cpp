@@ -24,7 +24,7 @@ constexpr double kFarOff = 8e-3;      // m
 constexpr double kCaughtFor = 0.050;  // s; a hand that turns round does not stay for so long
 constexpr double kLetGo = 0.100;      // s
 
-// What is left of the force of a proxy that is caught. At 0 it is at its tip again.
+// Reduces the force of a proxy that is caught. At 0 the proxy is at its tip again.
 void LetGoIfCaught(const Surroundings& surroundings, double radius, const glm::dvec3& portal,
                    const glm::dvec3& tip, double dt, ContactState& state) noexcept {
   const bool is_caught = glm::length(state.proxy.position - tip) > kFarOff &&

@@ -54,7 +54,7 @@ struct ContactState {
   glm::dvec3 normal{0.0};
   double share = 0;
   int contact = -1;
-  // Of a proxy that is caught: for how long it was, s, and what is left of its force, 1 to 0.
+  // A caught proxy: for how long it was, s, and the share that is left of its force, 1 to 0.
   double caught = 0, hold = 1;
   bool was_let_go = false;  // in the last tick: it is at its tip, and nothing holds it
 };

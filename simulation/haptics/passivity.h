@@ -45,7 +45,7 @@ struct PassivityState {
   double energy = 0;       // J, taken from the hand and not given back
   glm::dvec3 played{0.0};  // where the hand is, with play
   double still = 0;        // s, that this has not moved
-  // Of BoundByCredit.
+  // Used by BoundByCredit.
   bool has_credit = false;
   double credit = 0;        // J, paid by the hand and not given back; at most what the spring holds
   glm::dvec3 paid_at{0.0};  // where the hand is, with play

@@ -323,7 +323,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       state.layer_depth = layers.depth;
       to_hand.force = contact.force;
       to_hand.stiffness = stiffness / (options_.contact.stiffness * give);
-      // Of rigid surfaces alone the stored energy is known: that of a spring that the fade softens.
+      // Rigid surfaces alone store a known energy: that of a spring that the fade softens.
       to_hand.is_elastic = pull.force == glm::dvec3(0.0);
       if (to_hand.is_elastic && tool.contact.share > 0)
         to_hand.stiffness *= tool.contact.share * tool.contact.hold;

@@ -18,7 +18,8 @@ struct ToolState {
   glm::dvec3 proxy_in_portal{0.0};  // where the surfaces let it be: draw the tool here
   // Where living tissue has the hand: the tip, moved by what the backdrop alone pushes.
   glm::dvec3 tissue_tip_in_portal{0.0};
-  // Of the surfaces on the tip, as modelled: no limit, and no ramp but that of a new instrument.
+  // Force of the surfaces on the tip, as modelled: no limit, and no ramp but that of a new
+  // instrument.
   glm::dvec3 tip_force{0.0};
   glm::dvec3 hand_force{0.0};  // what the device is told, after the lever and the limits
   int contact = kNoContact;    // of the surface that carries most of the force

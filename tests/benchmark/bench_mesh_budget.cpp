@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr double kForce = 0.2, kSpread = 1e-3;  // N, m
 constexpr int kReferenceElements = 6500;
-// Of each budget, so that the luck of one mesh does not say what a size is worth. --quick makes
+// Meshes per budget, so that the luck of one mesh does not say what a size is worth. --quick makes
 // one.
 constexpr std::array<double, 5> kSizes = {0.9, 0.95, 1.0, 1.05, 1.1};
 constexpr std::array<double, 1> kQuickSizes = {1.0};

@@ -1,4 +1,4 @@
-// What a run of the program must never show, whatever its input was.
+// Faults that a run of the program must never show, whatever its input was.
 #pragma once
 
 #include <string>

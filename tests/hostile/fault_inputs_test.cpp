@@ -27,9 +27,9 @@ std::vector<fs::path> FilesNamed(const fs::path& folder, const std::string& endi
   return files;
 }
 
-void ExpectRefusal(const std::vector<std::string>& arguments) {
+void ExpectRefusal(const std::vector<std::string>& arguments, bool has_temporary_folder = true) {
   const TempFolder folder;
-  fs::create_directories(folder / "tmp");
+  if (has_temporary_folder) fs::create_directories(folder / "tmp");
   ChildCommand command;
   command.arguments = {ARTHRO_PROGRAM};
   command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
@@ -42,7 +42,8 @@ void ExpectRefusal(const std::vector<std::string>& arguments) {
   EXPECT_EQ(run.exit_code, 1) << line << "\n" << Printable(run.err);
   for (const std::string& complaint : RunComplaints(run, kLimits))
     ADD_FAILURE() << line << ": " << complaint << "\n" << Printable(run.err);
-  EXPECT_TRUE(fs::is_empty(folder / "tmp")) << line << " leaves a temporary file";
+  EXPECT_TRUE(!has_temporary_folder || fs::is_empty(folder / "tmp"))
+      << line << " leaves a temporary file";
 }
 
 TEST(FaultInputs, CasesThatTurnElementsInsideOutAreRefused) {
@@ -78,7 +79,9 @@ TEST(FaultInputs, ArchivesWithDeepJsonOrFalseNamesAreRefused) {
   ARTHRO_REQUIRE_SHARED(folder, "faults/archive");
   const auto archives = FilesNamed(folder, ".arthro");
   EXPECT_GE(archives.size(), 6u);
-  for (const fs::path& file : archives) ExpectRefusal({"check", file});
+  // The archive of this name is sound: it is refused where there is nowhere to unpack it.
+  for (const fs::path& file : archives)
+    ExpectRefusal({"check", file}, file.stem() != "TMPDIR_missing");
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ class Kills {
     return run;
   }
 
-  // What the job makes when nothing disturbs it, before and after.
+  // Results of the undisturbed job, before and after.
   const Known& KnownOf(const WritingJob& job) {
     const std::string line = fmt::format("{}", fmt::join(job.arguments, " "));
     if (known_.contains(line)) return known_.at(line);
@@ -259,7 +259,7 @@ class Kills {
     if (name.find("partial") != std::string::npos) return false;
     for (const std::string& output : job.outputs)
       if (name == output || (output.ends_with('/') && name.starts_with(output))) return true;
-    // What was filmed until then.
+    // The film until then.
     return job.is_film && name.starts_with("film-recovered");
   }
 
@@ -306,7 +306,7 @@ class Kills {
     return !fs::is_empty(samples_.tmp());
   }
 
-  // As if some hours had passed: what is young may belong to a process that is not to be seen.
+  // Sets the time back by some hours: a young file may belong to a process of another machine.
   static void MakeOld(const fs::path& folder) {
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       fs::last_write_time(entry.path(), fs::file_time_type::clock::now() - std::chrono::hours(3));

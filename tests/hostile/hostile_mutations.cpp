@@ -71,7 +71,7 @@ class Mutations {
   }
 
  private:
-  // What each job makes of the sample as it is; the outputs stand there before later runs.
+  // Runs each job on the sample as it is; the outputs stand there before later runs.
   void RunUndamaged() {
     for (const SampleTarget& target : targets_)
       for (const SampleJob& job : target.jobs) {

@@ -20,7 +20,7 @@ constexpr long kForWriters = 20'000'000;  // ns; ten times what a report takes
 std::array<std::atomic<Releasable*>, ReleaseOnCrash::kMost> to_release{};
 static_assert(std::atomic<Releasable*>::is_always_lock_free);
 
-// By the signal's number; of those that are handled.
+// Indexed by the signal's number; set for those that are handled.
 std::array<struct sigaction, NSIG> actions_before{};
 std::array<bool, NSIG> is_handled{};
 

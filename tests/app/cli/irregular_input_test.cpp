@@ -1,5 +1,5 @@
-// What is no regular file is refused wherever a job reads one: a pipe would be waited for for ever,
-// and a device fills the memory.
+// Files that are not regular are refused wherever a job reads one: a pipe would be waited for for
+// ever, and a device fills the memory.
 #include <algorithm>
 #include <array>
 #include <cstdlib>

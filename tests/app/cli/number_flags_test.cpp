@@ -65,7 +65,7 @@ class Program {
   }
   CLI::App& app() { return app_; }
 
-  // What the program says; empty where the line is taken.
+  // Returns what the program says; empty where the line is taken.
   std::string Parse(std::vector<std::string> words) {
     std::reverse(words.begin(), words.end());
     try {

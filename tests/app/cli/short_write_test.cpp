@@ -66,7 +66,7 @@ class ShortWrite : public ::testing::Test {
   ProgramResult Shell(const std::string& line) const {
     const std::string program =
         std::regex_replace(line, std::regex("PROGRAM"), std::string(ARTHRO_PROGRAM));
-    // By a pipe, since a limit of the job's files holds for the file of its sentences as well.
+    // Reads the sentence through a pipe, since the limit holds for files of sentences as well.
     const std::string whole = Whole("{ ( " + program +
                                     " ) >/dev/null; echo $? >@code; } 2>&1 </dev/null | cat >@err;"
                                     " exit $(cat @code)");
@@ -152,7 +152,7 @@ TEST_F(ShortWrite, AClosedPipeIsToldByExitOne) {
   }
 }
 
-// As when the terminal is closed.
+// A closed terminal sends this signal.
 TEST_F(ShortWrite, AHangUpEndsAJobWithNothingLeft) {
   for (const std::string signal : {"HUP", "INT", "TERM"}) {
     const ProgramResult run = Shell(

@@ -1,4 +1,4 @@
-// What is left of unsaved work when the editor is killed, the display goes away, or the window
+// Unsaved work that is left when the editor is killed, the display goes away, or the window
 // manager dies.
 #include <filesystem>
 #include <fstream>
@@ -51,7 +51,7 @@ class EditorEnd : public testing::Test {
   std::unique_ptr<test::Process> Edit(const std::string& script) {
     return Start("edit", script, {"--recovery", copies.string()});
   }
-  // Of the one session; empty: there is none.
+  // Copy of the one session; empty: there is none.
   fs::path Copy() const {
     std::error_code ignored;
     for (const auto& session : fs::directory_iterator(copies, ignored))
@@ -168,8 +168,8 @@ TEST_F(EditorEnd, ALostDisplayEndsAPracticeInOneSentence) {
             "arthroscene: the display was lost; start the program again on a display that works\n");
 }
 
-// As a killed window manager leaves it: the root names a window that is gone, or one that does not
-// name itself.
+// Marks that a killed window manager leaves: the root names a window that is gone, or one that does
+// not name itself.
 TEST_F(EditorEnd, AMarkOfADeadWindowManagerDoesNotKeepTheWindowFromOpening) {
   Display* display = XOpenDisplay(server->name().c_str());
   ASSERT_NE(display, nullptr);

@@ -115,7 +115,7 @@ expect "this folder is not empty"
   EXPECT_TRUE(std::filesystem::exists(by_command / "frame-0000.png"));
 }
 
-// Of the pixels of `area`; 0 is black.
+// Mean brightness of the pixels of `area`; 0 is black.
 double MeanOf(const ColourImage& picture, const cv::Rect& area) {
   double sum = 0;
   for (int y = area.y; y < area.y + area.height; ++y)

@@ -117,7 +117,7 @@ TEST_P(UnfinishedFilms, AreWholeToTheLastSecondWhateverEndedTheProgram) {
     const std::vector<fs::path> left = FilesIn(folder.path());
     ASSERT_EQ(left.size(), 1u) << signal;
     EXPECT_NE(left[0].filename().string().find(".recording."), std::string::npos) << left[0];
-    // As it is, for whoever finds it first.
+    // The file stays as it is, for whoever finds it first.
     ExpectBeginsWithFrames(left[0], given - kPerSecond);
 
     const std::vector<std::string> said = FinishFilmsIn(folder.path());
@@ -183,7 +183,7 @@ TEST(UnfinishedFilm, OneThatIsRecordedIsLeftAlone) {
   EXPECT_EQ(FilesIn(folder.path()), std::vector<fs::path>{folder / "film.mp4"});
 }
 
-// What was saved a moment ago is not what --overwrite means.
+// --overwrite does not mean a film that was saved a moment ago.
 TEST(UnfinishedFilm, OneThatIsAboutToBeRecordedAgainDoesNotTakeItsName) {
   const test::TempFolder folder;
   DieWhileRecording(folder / "film.mkv", SIGKILL, kPerSecond, 0);
@@ -197,7 +197,7 @@ TEST(UnfinishedFilm, FilesOfOthersAreLeftAlone) {
        {".film.12.partial.mp4", "film.12.recording.mp4", ".film.recording.mp4",
         ".film.12x.recording.mp4", ".film.12.recording.png", ".12.recording.mp4"})
     std::ofstream(folder / name) << "mine";
-  // What bears the name and is something else is not removed.
+  // A file of that name that is something else is not removed.
   std::ofstream(folder / "large") << std::string(200'000, 'x');
   fs::create_symlink(folder / "large", folder / ".link.999999999.recording.mp4");
   ASSERT_EQ(::mkfifo((folder / ".pipe.999999999.recording.mp4").c_str(), 0600), 0);
@@ -233,7 +233,7 @@ TEST(UnfinishedFilm, FoldersAreRememberedWhileSomethingIsRecordedThere) {
   ::unsetenv("XDG_STATE_HOME");
 }
 
-// As a practice that dies: whole pictures, the mark, and nobody else may read them.
+// A practice that dies leaves whole pictures, the mark, and nobody else may read them.
 TEST(UnfinishedFilm, NumberedPicturesArePrivateToo) {
   const test::TempFolder folder;
   PictureSequence sequence(*PictureNamesOf((folder / "new/").string()));

@@ -92,7 +92,7 @@ TEST_P(Films, TheSamePicturesGiveTheSameBytes) {
   EXPECT_TRUE(bytes[0] == bytes[1]);
 }
 
-// As high as a film that is encoded in several slices.
+// High enough that the film is encoded in several slices.
 TEST_P(Films, HaveTheSameBytesOnOneCoreAndOnAll) {
   const test::TempFolder folder;
   cpu_set_t all, one;
@@ -127,7 +127,7 @@ TEST_P(Films, MayBeReadByTheirOwnerAlone) {
 }
 
 // RLIMIT_FSIZE stands in for a disk that fills up, from nothing on it to all but the last byte.
-// What was whole by then is kept beside the old film.
+// The part that was whole by then is kept beside the old film.
 TEST_P(Films, ADiskThatFillsUpIsToldAndLeavesTheOldFilm) {
   const test::TempFolder folder;
   const auto file = folder / (std::string("film") + GetParam());

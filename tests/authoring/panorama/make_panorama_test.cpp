@@ -315,7 +315,7 @@ TEST(MakePanorama, StopsWithinHalfASecondInEveryStage) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), Code::kCancelled) << stage << ": " << error.what();
     }
-    // Of all threads, so that a busy machine changes nothing.
+    // Processor time of all threads, so that a busy machine changes nothing.
     EXPECT_LT(ProcessCpuMs() - told_ms, 500) << stage;
   }
   // A session that was stopped goes on from where it was.

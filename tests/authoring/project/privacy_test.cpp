@@ -1,4 +1,4 @@
-// What a copy of a scene carries: pixels, shapes and values, and no name of a patient.
+// A copy of a scene carries pixels, shapes and values, and no name of a patient.
 #include <gtest/gtest.h>
 
 #include "authoring/project/document_io.h"

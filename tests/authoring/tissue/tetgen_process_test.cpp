@@ -86,7 +86,7 @@ TEST(TetgenProcess, KilledFromOutsideNeverGivesACoarserMeshThanAskedFor) {
   const std::string sentence = FillWith(mesher, options).sentence;
   EXPECT_SAYS(sentence, "more than the 4 mm asked for");
   EXPECT_SAYS(sentence, "TetGen crashed (Killed)");
-  // Where no edge was asked for, or the surface's own are, the other way is as good.
+  // Without an asked edge, or with the surface's own edges, the fallback is as good.
   EXPECT_EQ(FillWith(mesher).sentence, "");
   options.keep_surface = true;
   EXPECT_EQ(FillWith(mesher, options).sentence, "");

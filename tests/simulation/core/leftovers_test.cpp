@@ -72,7 +72,7 @@ TEST(Leftovers, NothingElseIsRemoved) {
   // A link is no file of ours, and what it names is not looked at.
   const fs::path link = folder / fmt::format(".link.{}.partial", dead);
   fs::create_directory_symlink(elsewhere.path(), link);
-  // What was changed lately may be of another machine.
+  // A file that was changed lately may belong to another machine.
   const fs::path young = folder / fmt::format(".young.{}.partial.json", dead);
   std::ofstream(young) << "text";
   RemoveLeftovers(folder.path());

@@ -150,7 +150,7 @@ TEST(SolveJob, OverwritesNothingThatItReadsAndNoResultWithAnother) {
   EXPECT_EQ(ReadWholeFile(folder / "case.json"), tissue_case);
 }
 
-// What was reached is kept, but nobody takes it for an answer.
+// The state that was reached is kept, but is marked as no answer.
 TEST(SolveJob, AResultWithElementsInsideOutIsWrittenAsNotConvergedAndRefused) {
   for (const char* mode : {"static", "dynamic"}) {
     SolveRun run;

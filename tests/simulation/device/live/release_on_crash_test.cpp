@@ -130,7 +130,7 @@ TEST_F(ReleaseOnCrashDeathTest, SignalsThatTheProgramIgnoresOrHandlesStayItsOwn)
           const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
           ::raise(SIGPIPE);
           ::raise(SIGUSR1);
-          // What is installed later stays when the guard goes.
+          // A handler that is installed later stays when the guard goes.
           std::signal(SIGUSR2, SIG_IGN);
         }
         ::raise(SIGUSR2);

@@ -1,4 +1,4 @@
-// What a case that has no valid answer ends with.
+// End of a case that has no valid answer.
 #include "simulation/tissue/cases/case_run.h"
 
 #include <gtest/gtest.h>
