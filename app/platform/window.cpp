@@ -102,7 +102,7 @@ struct WindowCallbacks {
 };
 
 Window::Window(const WindowOptions& options) : options_(options) {
-  RemoveStaleWindowManagerMark();
+  const std::shared_ptr<void> connection = RemoveStaleWindowManagerMark();
   EndWhenDisplayIsLost();
   if (!glfwInit())
     throw Error(

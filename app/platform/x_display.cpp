@@ -60,10 +60,10 @@ Window NamedBy(Display* display, Window window, Atom property) {
 
 }  // namespace
 
-void RemoveStaleWindowManagerMark() {
+std::shared_ptr<void> RemoveStaleWindowManagerMark() {
   XInitThreads();  // before any other call of Xlib; GLFW's threads rely on it
   Display* display = XOpenDisplay(nullptr);
-  if (display == nullptr) return;
+  if (display == nullptr) return nullptr;
   const auto previous = XSetErrorHandler(PassOver);
   const Atom mark = XInternAtom(display, "_NET_SUPPORTING_WM_CHECK", False);
   const Window root = DefaultRootWindow(display);
@@ -75,7 +75,7 @@ void RemoveStaleWindowManagerMark() {
   XUngrabServer(display);
   XSync(display, False);
   XSetErrorHandler(previous);
-  XCloseDisplay(display);
+  return {display, [](void* open) { XCloseDisplay(static_cast<Display*>(open)); }};
 }
 
 void EndWhenDisplayIsLost() { XSetIOErrorHandler(EndProgram); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace arthro::app {
@@ -10,7 +11,9 @@ namespace arthro::app {
 // GLFW 3.3.8 aborts where the root window's _NET_SUPPORTING_WM_CHECK names a window that is gone or
 // lacks the property itself, which a killed window manager leaves behind [EWMH 1.5, Root Window
 // Properties]. Removes such a mark. Call before glfwInit; does nothing where there is no display.
-void RemoveStaleWindowManagerMark();
+// The connection that it returns must stay open until glfwInit has its own: an X server whose last
+// client leaves starts anew, and refuses connections meanwhile.
+std::shared_ptr<void> RemoveStaleWindowManagerMark();
 
 // From here on a lost X server ends the program with one sentence and exit code 1.
 void EndWhenDisplayIsLost();
