@@ -121,6 +121,21 @@ TEST_P(FilmEndsWindow, TheFilmIsThereAfterTheNextStart) {
   for (const cv::Mat& rgb : frames) EXPECT_GT(cv::mean(rgb)[0], 5.0) << "a picture, not black";
 }
 
+// A server whose last client leaves starts anew and refuses connections meanwhile, so the program
+// must never close its only one before it has another.
+TEST(OnlyClient, OpensItsWindowOnAServerWithoutOtherClients) {
+  ARTHRO_REQUIRE_XVFB();
+  const test::TempFolder temp;
+  for (int i = 0; i < 5; ++i) {
+    const Display display;
+    ASSERT_FALSE(display.name.empty());
+    const auto run = test::RunProgram("edit --frames 1",
+                                      "HOME=" + temp.path().string() + " DISPLAY=:" + display.name +
+                                          " LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=1");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ends, FilmEndsWindow,
                          testing::Values(SIGKILL, SIGSEGV, SIGABRT, SIGQUIT, SIGPIPE, SIGXFSZ,
                                          SIGTERM, -1),
