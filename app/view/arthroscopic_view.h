@@ -1,4 +1,4 @@
-// What the arthroscope shows: the panorama through the exact geometry [method.md, Oblique view],
+// Picture of the arthroscope: the panorama through the exact geometry [method.md, Oblique view],
 // with tissues and an instrument in it, in a round window. Draws in whatever OpenGL context is
 // current (3.2 core or later) into its own texture. Portal frame, m, rad.
 //

@@ -1,5 +1,5 @@
-// What a haptic device can do [method.md, Output chain]. Logic asks this and never for a device's
-// name. SI; device frame. A value that a device lacks is 0.
+// Capabilities of a haptic device [method.md, Output chain]. Logic asks this and never for a
+// device's name. SI; device frame. A value that a device lacks is 0.
 #pragma once
 
 #include <glm/vec3.hpp>

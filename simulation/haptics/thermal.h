@@ -1,7 +1,7 @@
-// What a motor bears for ever and what it bears for a while [method.md, Output chain]: the mean of
-// the force that was sent, over some ten seconds, lowers the largest force that may be sent next,
-// so that the mean stays below the continuous force whatever is asked for. N, s; noexcept,
-// allocates nothing.
+// Force that a motor bears for ever and force that it bears for a while [method.md, Output chain]:
+// the mean of the force that was sent, over some ten seconds, lowers the largest force that may be
+// sent next, so that the mean stays below the continuous force whatever is asked for. N, s;
+// noexcept, allocates nothing.
 #pragma once
 
 #include "simulation/core/options.h"

@@ -1,4 +1,4 @@
-// Where a direction seen from the scope portal lies in the panorama [method.md, Projection].
+// Pixel of the panorama for a direction seen from the scope portal [method.md, Projection].
 // Picture, force and authoring use this one model. Directions are in the portal frame (+z into the
 // joint, +x right, +y down) and need not be unit; pixels have their origin at the centre of the
 // top-left pixel, x right, y down.

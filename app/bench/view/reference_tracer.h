@@ -1,11 +1,11 @@
-// What the arthroscope must show, by an independent double-precision ray tracer [method.md, Oblique
-// view] with no GL: ray -> sphere of radius D about the portal -> panorama pixel -> bilinear
-// colour. Portal frame, m, rad; pixels from the centre of the top-left one. Tests and `bench view`
-// hold the renderer against it, so it shares nothing with what it judges: nothing of app/view, of
-// its shaders or of OpenGL is included here (tests/layering checks it), and no function of
-// simulation/scope is called, of which only the type of a view is used. The view is a product of
-// rotations, the sphere is met by foot and half chord, the lens is Lambert's equal-area form, so
-// that an error in one derivation shows against the other.
+// Expected picture of the arthroscope, by an independent double-precision ray tracer [method.md,
+// Oblique view] with no GL: ray -> sphere of radius D about the portal -> panorama pixel ->
+// bilinear colour. Portal frame, m, rad; pixels from the centre of the top-left one. Tests and
+// `bench view` hold the renderer against it, so it shares nothing with what it judges: nothing of
+// app/view, of its shaders or of OpenGL is included here (tests/layering checks it), and no
+// function of simulation/scope is called, of which only the type of a view is used. The view is a
+// product of rotations, the sphere is met by foot and half chord, the lens is Lambert's equal-area
+// form, so that an error in one derivation shows against the other.
 #pragma once
 
 #include <cstdint>

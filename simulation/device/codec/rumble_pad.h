@@ -1,8 +1,8 @@
-// What makes a DualSense or a DualShock 4 rumble [devices.md, Report layouts]: amplitude 0 to 1 of
-// the strong (left) and the weak (right) motor, as USB or Bluetooth output reports, the latter
-// closed by a CRC-32 that begins with the byte A2. And what their buttons are: the report numbered
-// 01 over USB and, shorter, over Bluetooth until it is asked for more; 31 and 11 are Bluetooth's
-// long ones [layouts as in the kernel's hid-playstation].
+// Reports that make a DualSense or a DualShock 4 rumble [devices.md, Report layouts]: amplitude 0
+// to 1 of the strong (left) and the weak (right) motor, as USB or Bluetooth output reports, the
+// latter closed by a CRC-32 that begins with the byte A2. And what their buttons are: the report
+// numbered 01 over USB and, shorter, over Bluetooth until it is asked for more; 31 and 11 are
+// Bluetooth's long ones [layouts as in the kernel's hid-playstation].
 #pragma once
 
 #include <array>

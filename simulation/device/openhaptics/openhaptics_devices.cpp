@@ -22,7 +22,7 @@ constexpr int kLastZeros = 5;           // frames; one may be lost
 constexpr int kCalibrationEvery = 100;  // frames
 constexpr int kMostErrors = 16;         // that are taken out of the library's list in a frame
 
-// What the library does not say of itself [devices.md, Families]: values of a Touch.
+// Values that the library does not report [devices.md, Families]: values of a Touch.
 constexpr double kQuantum = 5.5e-5;                              // m
 constexpr double kGimbalSigma = 1.0 / 180.0 * std::numbers::pi;  // rad, potentiometers
 constexpr double kPeriod = 1e-3;                                 // s, of the scheduler
@@ -80,8 +80,8 @@ DeviceCaps CapsOf() {
   caps.peak_force = DoubleOf(HD_NOMINAL_MAX_FORCE);
   caps.continuous_force = DoubleOf(HD_NOMINAL_MAX_CONTINUOUS_FORCE);
   caps.max_stiffness = 1e3 * DoubleOf(HD_NOMINAL_MAX_STIFFNESS);  // from N/mm
-  // What a wall of that stiffness needs to be passive at this rate: b = K T/2 [Colgate & Schenkel
-  // 1997].
+  // Damping that a wall of that stiffness needs to be passive at this rate: b = K T/2 [Colgate &
+  // Schenkel 1997].
   caps.damping = 0.5 * kPeriod * caps.max_stiffness;
   caps.rate = 1 / kPeriod;
   caps.delay_ticks = 2;  // one until its scheduler takes the force, one until it is read
