@@ -7,6 +7,7 @@
 #include "authoring/footage/picture_list.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/archive_io.h"
+#include "simulation/scene/scene_files.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
@@ -17,19 +18,8 @@ std::vector<fs::path> FilesOfScene(const fs::path& scene) {
   std::vector<fs::path> files{SceneFile(scene)};
   if (IsArchive(scene)) return files;
   try {
-    const Scene values = ReadScene(scene);
-    const fs::path folder =
-        files.front().has_parent_path() ? files.front().parent_path() : fs::path(".");
-    const auto add = [&](const fs::path& name) {
-      if (!name.empty()) files.push_back(folder / name);
-    };
-    add(values.backdrop.panorama);
-    add(values.backdrop.depth);
-    add(values.scope.lens);
-    for (const Tissue& tissue : values.tissues) {
-      add(tissue.surface);
-      add(tissue.mesh);
-    }
+    for (const fs::path& name : FilesNamedBy(ReadScene(scene)))
+      files.push_back(files.front().parent_path() / name);
   } catch (const std::exception&) {
   }
   return files;

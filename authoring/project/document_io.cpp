@@ -1,12 +1,12 @@
 #include "authoring/project/document_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "authoring/project/document_extensions.h"
+#include "authoring/project/file_ending.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
@@ -18,22 +18,8 @@
 #include "simulation/scene/scene_io.h"
 
 namespace arthro::authoring {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string LowerExtension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
-
-bool IsOneOf(const std::string& word, std::initializer_list<const char*> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-}  // namespace
 
 Projection GuessProjection(int width, int height) {
   constexpr double kHalfWidthDeg = 52.5;

@@ -9,6 +9,7 @@
 #include "authoring/project/asset_writer.h"
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/file_ending.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
@@ -24,17 +25,6 @@ namespace arthro::authoring {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string LowerExtension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension;
-}
-
-bool IsOneOf(const std::string& word, std::initializer_list<const char*> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 // A file name from a person's words: "Medial meniscus" gives "medial-meniscus".
 std::string FileNameOf(const std::string& words) {

@@ -16,6 +16,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/leftovers.h"
 #include "simulation/scene/mesh_io.h"
+#include "simulation/scene/scene_files.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro {
@@ -191,17 +192,8 @@ void AddFile(zip_t* zip, const fs::path& source, const std::string& name, const 
 std::vector<std::string> FilesOf(const fs::path& scene) {
   const Scene values = ReadScene(scene);
   std::set<std::string> names;
-  const auto add = [&](const fs::path& name) {
-    if (!name.empty() && name != "scene.json")
-      names.insert(name.lexically_normal().generic_string());
-  };
-  add(values.backdrop.panorama);
-  add(values.backdrop.depth);
-  add(values.scope.lens);
-  for (const Tissue& tissue : values.tissues) {
-    add(tissue.surface);
-    add(tissue.mesh);
-  }
+  for (const fs::path& name : FilesNamedBy(values))
+    if (name != "scene.json") names.insert(name.lexically_normal().generic_string());
   std::vector<std::string> files = {"scene.json"};
   files.insert(files.end(), names.begin(), names.end());
   return files;

@@ -1,0 +1,16 @@
+#include "simulation/scene/scene_files.h"
+
+namespace arthro {
+
+std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
+  std::vector<std::filesystem::path> files = {scene.backdrop.panorama, scene.backdrop.depth,
+                                              scene.scope.lens};
+  for (const Tissue& tissue : scene.tissues) {
+    files.push_back(tissue.surface);
+    files.push_back(tissue.mesh);
+  }
+  std::erase_if(files, [](const std::filesystem::path& file) { return file.empty(); });
+  return files;
+}
+
+}  // namespace arthro
