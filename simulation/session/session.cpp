@@ -15,8 +15,22 @@
 namespace arthro::simulation {
 namespace {
 
-// Of a change of the surfaces' push, in a tick.
+// Share of a change of the surfaces' push that a tick passes on to tissue and layers.
 constexpr double kPushedAtOnce = 0.5;
+
+// Offset by which surfaces and layers may press the tool between them; 0.25 N at 500 N/m.
+constexpr double kSqueeze = 5e-4;  // m
+
+// Limits the surfaces' push so that layers do not work against it. The offset of the proxy from the
+// tip, `off`, is the sum of this push and of the layers' pull. Their scalar product is positive
+// where the push ends inside the sphere with diameter `off`. Without the limit, a tool that fits
+// between a layer and the backdrop nowhere would raise both without bound, and be held by the
+// difference.
+glm::dvec3 LimitSqueeze(const glm::dvec3& push, const glm::dvec3& off) noexcept {
+  const glm::dvec3 from_centre = push - 0.5 * off;
+  const double most = 0.5 * glm::length(off) + kSqueeze, length = glm::length(from_centre);
+  return length > most ? 0.5 * off + most / length * from_centre : push;
+}
 
 bool IsFinite(const glm::dvec3& x) noexcept {
   return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
@@ -279,7 +293,8 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       const bool is_pushed = tool.contact.contact >= 0;
       const glm::dvec3 push =
           is_pushed ? tool.contact.proxy.position - tool.contact.held : glm::dvec3(0.0);
-      tool.beside += kPushedAtOnce * (push - tool.beside);
+      tool.beside = LimitSqueeze(tool.beside + kPushedAtOnce * (push - tool.beside),
+                                 tool.contact.proxy.position - tip);
       const glm::dvec3 beside = tool.beside;
       state.tissue_tip_in_portal = tip + beside + tool.layer_push;
       TissuePull pull;
