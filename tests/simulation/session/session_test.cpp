@@ -409,6 +409,31 @@ TEST(Session, AnotherInstrumentEntersAnewAndItsForceRisesFromZero) {
   }
 }
 
+// The tip stays 4 mm in living tissue of 300 N/m.
+TEST(LiveTissue, AnotherInstrumentsForceRisesFromZero) {
+  Hands hands(MakeScene(false, false));
+  hands.Lead({0.03, 0, 0.034}, 1000);
+  std::uint64_t step = 0;
+  const auto tick = [&]() -> const ToolState& {
+    if (step++ % 16 == 0)
+      hands.session.SetCoupling(
+          TissueSpring(hands.session.snapshot().instrument.tip_in_portal, step));
+    return hands.Tick().instrument;
+  };
+  for (int i = 0; i < 600; ++i) tick();
+  const double before = glm::length(hands.session.snapshot().instrument.tip_force);
+  ASSERT_NEAR(before, 1.2, 1e-6);
+  const double ramp = hands.session.options().limiter.ramp_time;
+  for (const ToolKind kind : {ToolKind::kShaver, ToolKind::kPunch, ToolKind::kProbe}) {
+    hands.session.SetInstrument(kind);
+    for (int i = 0; i < 600; ++i) {
+      const double at_tip = glm::length(tick().tip_force);
+      ASSERT_LE(at_tip, before * std::min(1.0, i * kTick / ramp) + 1e-6) << i;
+    }
+    EXPECT_NEAR(glm::length(hands.session.snapshot().instrument.tip_force), before, 1e-6);
+  }
+}
+
 TEST(ServoTick, AllocatesNothing) {
   LoadedScene loaded = MakeScene();
   loaded.surfaces[0] = test::Sphere({0, 0, 0}, 0.005, 5);
