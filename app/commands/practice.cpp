@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
-#include "simulation/session/living_tissues.h"
 
 namespace arthro::app {
 namespace {

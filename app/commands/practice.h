@@ -12,8 +12,8 @@
 
 #include "app/commands/devices/hands.h"
 #include "authoring/project/document.h"
-#include "simulation/session/scripted_device.h"
-#include "simulation/session/servo_loop.h"
+#include "simulation/practice/scripted_device.h"
+#include "simulation/practice/servo_loop.h"
 #include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::app {

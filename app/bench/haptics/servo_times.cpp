@@ -15,8 +15,8 @@
 #include "simulation/device/driver/drivers.h"
 #include "simulation/device/plant_device.h"
 #include "simulation/haptics/paper_kernel.h"
-#include "simulation/session/scripted_device.h"
-#include "simulation/session/servo_loop.h"
+#include "simulation/practice/scripted_device.h"
+#include "simulation/practice/servo_loop.h"
 
 namespace arthro::app {
 namespace {

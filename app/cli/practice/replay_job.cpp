@@ -22,8 +22,8 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/partial_folder.h"
 #include "simulation/device/log/log_replay.h"
+#include "simulation/practice/replay.h"
 #include "simulation/scene/scene_io.h"
-#include "simulation/session/replay.h"
 
 namespace arthro::app {
 namespace {

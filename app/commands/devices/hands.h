@@ -16,7 +16,7 @@
 #include "simulation/device/live/live_device.h"
 #include "simulation/device/live/release_on_crash.h"
 #include "simulation/device/openhaptics/openhaptics_devices.h"
-#include "simulation/session/session_options.h"
+#include "simulation/practice/session_options.h"
 
 namespace arthro::app {
 

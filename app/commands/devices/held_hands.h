@@ -17,9 +17,9 @@
 #include "simulation/device/log/logged_device.h"
 #include "simulation/device/plant_device.h"
 #include "simulation/device/recorded_device.h"
+#include "simulation/practice/scripted_device.h"
+#include "simulation/practice/servo_loop.h"
 #include "simulation/scene/rig_file.h"
-#include "simulation/session/scripted_device.h"
-#include "simulation/session/servo_loop.h"
 
 namespace arthro::app {
 
