@@ -107,7 +107,7 @@ void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
     options.film = screens.film;
     CheckFilm(*options.film, {.shape = options.frame_shape});
   }
-  options.hands = ReadHands(flags.rig, flags.hands);
+  options.hands = simulation::ReadHands(flags.rig, flags.hands);
   if (!options.hands.notice.empty())
     std::fprintf(stderr, "warning: %s\n", options.hands.notice.c_str());
   options.hands.log = flags.log;

@@ -19,10 +19,12 @@ void Open(EditorState& state, DeviceRole role) {
   // The servo has the hands from its first call on, and their devices say how sharp they are.
   state.practice->Advance(0.0, state.hands.get());
   state.hands->Calibrate(role);
-  const HandNow hand = state.hands->Now(role);
+  const simulation::HandNow hand = state.hands->Now(role);
   const DeviceRig mount = state.hands->MountOf(role, state.document().scene);
   state.calibrating.emplace(PivotCalibrating{
-      role, PivotWork(mount.rod_length, PivotOptionsOf(hand.situation.caps)), "", false});
+      role,
+      simulation::PivotWork(mount.rod_length, simulation::PivotOptionsOf(hand.situation.caps)), "",
+      false});
   state.shows_devices = true;  // and there again, when it is closed
 }
 
@@ -67,7 +69,7 @@ void KeepPivotFresh(EditorState& state) {
     Guarded(state, "Calibration", [&] { state.pivot_jobs.Finish(state); });
   if (!state.calibrating) return;
   if (!state.practice) return EndCalibration(state);
-  PivotWork& work = state.calibrating->work;
+  simulation::PivotWork& work = state.calibrating->work;
   simulation::DeviceSample sample;
   while (state.hands->Hear(sample)) work.Take(sample);
   if (state.pivot_jobs.busy()) return;

@@ -1,23 +1,19 @@
-// The one sentence about a hand without force (app/commands/devices/why_no_force.h).
-#include "app/commands/devices/why_no_force.h"
+// The one sentence about a hand without force (simulation/practice/hands/why_no_force.h).
+#include "simulation/practice/hands/why_no_force.h"
 
 #include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
 
-namespace arthro::app {
+namespace arthro::simulation {
 namespace {
-
-using simulation::DeviceState;
-using simulation::DeviceTrouble;
-using simulation::Fault;
 
 // A force device that pushes.
 ForceSituation Pushing() {
   ForceSituation s;
   s.kind = HandKind::kPluggedIn;
-  s.caps.feedback = simulation::Feedback::kForce;
+  s.caps.feedback = Feedback::kForce;
   s.caps.actuated_dof = 3;
   s.caps.peak_force = 3.3;
   s.status = {DeviceState::kArmed, DeviceTrouble::kNone, false};
@@ -53,9 +49,8 @@ TEST(WhyNoForce, NamesEachThingThatIsAloneInTheWay) {
                      s.status = {DeviceState::kFault, DeviceTrouble::kNotFinite, true};
                    }),
                    "no number"));
-  EXPECT_TRUE(Says(with([](auto& s) { s.caps.feedback = simulation::Feedback::kNone; }), "motors"));
-  EXPECT_TRUE(
-      Says(with([](auto& s) { s.caps.feedback = simulation::Feedback::kRumble; }), "rumbles"));
+  EXPECT_TRUE(Says(with([](auto& s) { s.caps.feedback = Feedback::kNone; }), "motors"));
+  EXPECT_TRUE(Says(with([](auto& s) { s.caps.feedback = Feedback::kRumble; }), "rumbles"));
   EXPECT_TRUE(Says(with([](auto& s) { s.is_zero_force = true; }), "Zero-force"));
   EXPECT_TRUE(Says(with([](auto& s) { s.is_practising = false; }), "only in a practice"));
   EXPECT_TRUE(Says(with([](auto& s) { s.sample_age = 0.006; }), "older than 5 ms"));
@@ -89,4 +84,4 @@ TEST(WhyNoForce, NamesFirstWhatMustBeMendedFirst) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::simulation

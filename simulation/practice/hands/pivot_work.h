@@ -14,33 +14,31 @@
 #include "simulation/scope/pivot_swing.h"
 #include "simulation/scope/press_average.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 
 // The noise of a device, as far as it states it.
-simulation::PivotOptions PivotOptionsOf(const simulation::DeviceCaps& caps);
+PivotOptions PivotOptionsOf(const DeviceCaps& caps);
 
 // A fit of many poses takes longer than a frame, so somebody else does it, beside the window.
 struct PivotFit {
-  std::vector<simulation::PivotPress> poses;
-  simulation::PivotOptions options;
+  std::vector<PivotPress> poses;
+  PivotOptions options;
   int generation = 0;
 
-  simulation::PivotCalibration Found() const {
-    return simulation::CalibratePivot(poses, options, simulation::PivotSource::kSwing);
-  }
+  PivotCalibration Found() const { return CalibratePivot(poses, options, PivotSource::kSwing); }
 };
 
 class PivotWork {
  public:
   static constexpr double kFitEvery = 0.25;  // s
 
-  PivotWork(double rod_length, const simulation::PivotOptions& options);
+  PivotWork(double rod_length, const PivotOptions& options);
 
   // From the beginning: by presses, or by swinging.
-  void Begin(simulation::PivotSource source);
+  void Begin(PivotSource source);
   void Begin() { Begin(source_); }
   // What the device said next; a button of its handle that goes down is a press.
-  void Take(const simulation::DeviceSample& sample);
+  void Take(const DeviceSample& sample);
   // Now, by a key or a button on the screen; of a swing nothing.
   void Press();
   void SetAngleNoise(double angle_noise);  // rad
@@ -48,12 +46,12 @@ class PivotWork {
   // A swing's fit that is due; its result comes back by TakeFit, and is passed over where all was
   // begun anew meanwhile.
   std::optional<PivotFit> DueFit();
-  void TakeFit(const PivotFit& fit, const simulation::PivotCalibration& found);
+  void TakeFit(const PivotFit& fit, const PivotCalibration& found);
 
-  simulation::PivotSource source() const noexcept { return source_; }
-  const simulation::PivotOptions& options() const noexcept { return options_; }
-  std::span<const simulation::PivotPress> poses() const noexcept;
-  const simulation::PivotCalibration& found() const noexcept { return found_; }
+  PivotSource source() const noexcept { return source_; }
+  const PivotOptions& options() const noexcept { return options_; }
+  std::span<const PivotPress> poses() const noexcept;
+  const PivotCalibration& found() const noexcept { return found_; }
   bool MayBeUsed() const noexcept;
   // A press that is being averaged, 0 to 1; none: no press.
   std::optional<double> pressing() const noexcept;
@@ -65,18 +63,18 @@ class PivotWork {
  private:
   void Fit();
   double rod_length_;
-  simulation::PivotOptions options_;
-  simulation::PivotSource source_ = simulation::PivotSource::kPresses;
-  std::vector<simulation::PivotPress> presses_;
-  simulation::PivotSwing swing_;
-  std::optional<simulation::PressAverage> press_;
+  PivotOptions options_;
+  PivotSource source_ = PivotSource::kPresses;
+  std::vector<PivotPress> presses_;
+  PivotSwing swing_;
+  std::optional<PressAverage> press_;
   std::string refusal_;
-  simulation::PivotCalibration found_;
-  simulation::DeviceSample last_;
+  PivotCalibration found_;
+  DeviceSample last_;
   std::uint32_t buttons_ = ~0u;  // one that is held from the beginning is no press
   int generation_ = 0;
   std::size_t fitted_ = 0;  // poses
   double fitted_at_ = 0;
 };
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

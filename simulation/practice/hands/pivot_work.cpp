@@ -1,25 +1,21 @@
-#include "app/commands/devices/pivot_work.h"
+#include "simulation/practice/hands/pivot_work.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-namespace arthro::app {
+namespace arthro::simulation {
 
-using simulation::PivotPress;
-using simulation::PivotSource;
-using simulation::PivotStatus;
-
-simulation::PivotOptions PivotOptionsOf(const simulation::DeviceCaps& caps) {
-  simulation::PivotOptions options;
+PivotOptions PivotOptionsOf(const DeviceCaps& caps) {
+  PivotOptions options;
   // Rounding to a quantum is even noise.
   if (caps.position_quantum > 0) options.position_noise = caps.position_quantum / std::sqrt(12.0);
   options.angle_noise = caps.gimbal_sigma;
   return options;
 }
 
-PivotWork::PivotWork(double rod_length, const simulation::PivotOptions& options)
+PivotWork::PivotWork(double rod_length, const PivotOptions& options)
     : rod_length_(rod_length), options_(options), swing_(rod_length) {
   Begin(PivotSource::kPresses);
 }
@@ -27,7 +23,7 @@ PivotWork::PivotWork(double rod_length, const simulation::PivotOptions& options)
 void PivotWork::Begin(PivotSource source) {
   source_ = source;
   presses_.clear();
-  swing_ = simulation::PivotSwing(rod_length_);
+  swing_ = PivotSwing(rod_length_);
   press_.reset();
   refusal_.clear();
   ++generation_;
@@ -35,7 +31,7 @@ void PivotWork::Begin(PivotSource source) {
   Fit();
 }
 
-void PivotWork::Fit() { found_ = simulation::CalibratePivot(poses(), options_, source_); }
+void PivotWork::Fit() { found_ = CalibratePivot(poses(), options_, source_); }
 
 std::span<const PivotPress> PivotWork::poses() const noexcept {
   return source_ == PivotSource::kSwing ? swing_.presses() : std::span<const PivotPress>(presses_);
@@ -47,7 +43,7 @@ void PivotWork::Press() {
   press_.emplace(rod_length_);
 }
 
-void PivotWork::Take(const simulation::DeviceSample& sample) {
+void PivotWork::Take(const DeviceSample& sample) {
   const std::uint32_t down = sample.valid ? sample.buttons & ~buttons_ : 0;
   if (sample.valid) {
     buttons_ = sample.buttons;
@@ -84,7 +80,7 @@ std::optional<PivotFit> PivotWork::DueFit() {
   return PivotFit{{poses().begin(), poses().end()}, options_, generation_};
 }
 
-void PivotWork::TakeFit(const PivotFit& fit, const simulation::PivotCalibration& found) {
+void PivotWork::TakeFit(const PivotFit& fit, const PivotCalibration& found) {
   if (fit.generation == generation_) found_ = found;
 }
 
@@ -100,7 +96,7 @@ std::optional<double> PivotWork::pressing() const noexcept {
 double PivotWork::angle() const noexcept {
   if (source_ == PivotSource::kSwing || !last_.valid)
     return std::isfinite(found_.spread) ? found_.spread : 0.0;
-  const PivotPress now = simulation::PressOf(last_.hip_in_device, last_.handle_in_device, 1.0);
+  const PivotPress now = PressOf(last_.hip_in_device, last_.handle_in_device, 1.0);
   double least = 1.0;
   for (const PivotPress& press : presses_)
     least =
@@ -108,4 +104,4 @@ double PivotWork::angle() const noexcept {
   return std::acos(std::clamp(least, 0.0, 1.0));
 }
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -1,9 +1,6 @@
-#include "app/commands/devices/why_no_force.h"
+#include "simulation/practice/hands/why_no_force.h"
 
-namespace arthro::app {
-
-using simulation::DeviceState;
-using simulation::Fault;
+namespace arthro::simulation {
 
 const char* WhyNoForce(const ForceSituation& situation) noexcept {
   // What there is.
@@ -21,14 +18,13 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
              "button.";
     case DeviceState::kFault:
     case DeviceState::kLost:
-      return simulation::Sentence(situation.status);
+      return Sentence(situation.status);
     case DeviceState::kReady:
     case DeviceState::kArmed:
       break;
   }
-  if (situation.caps.feedback == simulation::Feedback::kRumble)
-    return "This device rumbles and cannot push.";
-  if (!simulation::HasForce(situation.caps))
+  if (situation.caps.feedback == Feedback::kRumble) return "This device rumbles and cannot push.";
+  if (!HasForce(situation.caps))
     return "This device has no motors; it only says where the hand is.";
   // What was chosen.
   if (situation.is_zero_force)
@@ -37,9 +33,9 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
     return "An incision is being calibrated; no device pushes until that is closed.";
   if (!situation.is_practising) return "Devices push only in a practice; F5 begins one.";
   // What comes from the device, and from the hand. What is no number is not fresh.
-  if (!(situation.sample_age <= simulation::kLostAfter))
+  if (!(situation.sample_age <= kLostAfter))
     return "The device has said nothing for more than 20 ms; check its cable.";
-  if (!(situation.sample_age < simulation::kFreshFor))
+  if (!(situation.sample_age < kFreshFor))
     return "Its last sample is older than 5 ms; the force waits for a fresh one.";
   if (situation.status.state == DeviceState::kReady) {
     if (!situation.is_dead_man_held)
@@ -70,4 +66,4 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
   return situation.has_force ? "" : "Nothing is touched.";
 }
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace arthro::app {
+namespace arthro::simulation {
 
 class ForceHistory {
  public:
@@ -40,4 +40,4 @@ class ForceHistory {
   double pending_ = 0, force_ = 0, age_ = 0;
 };
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

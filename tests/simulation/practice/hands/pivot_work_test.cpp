@@ -1,6 +1,6 @@
-// The calibration of an incision as it goes on (app/commands/devices/pivot_work.h), fed with a hand
-// whose incision is known: 1 kHz, rounded to a Touch-class device's quantum.
-#include "app/commands/devices/pivot_work.h"
+// The calibration of an incision as it goes on (simulation/practice/hands/pivot_work.h), fed with a
+// hand whose incision is known: 1 kHz, rounded to a Touch-class device's quantum.
+#include "simulation/practice/hands/pivot_work.h"
 
 #include <cmath>
 
@@ -11,13 +11,8 @@
 #include "simulation/core/units.h"
 #include "simulation/scope/rod_pose.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 namespace {
-
-using simulation::DeviceSample;
-using simulation::PivotSource;
-using simulation::PivotStatus;
-using simulation::RodPose;
 
 constexpr double kQuantum = 0.055e-3;  // m
 const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
@@ -31,8 +26,8 @@ struct Hand {
   void Say(const RodPose& pose, std::uint32_t buttons = 0) {
     DeviceSample sample;
     sample.t = t += 1e-3;
-    sample.hip_in_device = kQuantum * glm::round(simulation::HipFromRodPose(pose, kRig) / kQuantum);
-    sample.handle_in_device = simulation::HandleFromRodPose(pose, kRig);
+    sample.hip_in_device = kQuantum * glm::round(HipFromRodPose(pose, kRig) / kQuantum);
+    sample.handle_in_device = HandleFromRodPose(pose, kRig);
     sample.buttons = buttons;
     sample.valid = true;
     work.Take(sample);
@@ -41,8 +36,8 @@ struct Hand {
   double t = 5;
 };
 
-simulation::DeviceCaps Caps() {
-  simulation::DeviceCaps caps;
+DeviceCaps Caps() {
+  DeviceCaps caps;
   caps.position_quantum = kQuantum;
   return caps;
 }
@@ -151,7 +146,7 @@ TEST(PivotWork, ASwingIsFittedFourTimesASecondBesideTheWindow) {
 
 // Stated noise changes what is found at once.
 TEST(PivotWork, NoiseOfTheHandleIsTakenIntoAccount) {
-  simulation::DeviceCaps caps = Caps();
+  DeviceCaps caps = Caps();
   caps.gimbal_sigma = RadiansFromDegrees(0.1);
   PivotWork work(kRig.rod_length, PivotOptionsOf(caps));
   EXPECT_EQ(work.options().angle_noise, caps.gimbal_sigma);
@@ -170,4 +165,4 @@ TEST(PivotWork, NoiseOfTheHandleIsTakenIntoAccount) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -10,12 +10,12 @@
 #include "simulation/device/trace_io.h"
 #include "simulation/scene/rig_file.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 
 struct HandsChoice {
   std::optional<RigFile> rig;
-  std::filesystem::path rig_file;           // that it was read from
-  std::vector<simulation::TraceRow> trace;  // recorded hands; empty: none
+  std::filesystem::path rig_file;  // that it was read from
+  std::vector<TraceRow> trace;     // recorded hands; empty: none
   bool is_simulated = false;
   bool is_zero_force = false;
   std::filesystem::path log;  // that all of it is written to; empty: none
@@ -29,4 +29,4 @@ HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands
 // A device of a rig that its maker's library drives, and not hidapi.
 bool IsOpenHaptics(const RigDevice& device);
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

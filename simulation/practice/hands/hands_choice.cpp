@@ -1,4 +1,4 @@
-#include "app/commands/devices/hands_choice.h"
+#include "simulation/practice/hands/hands_choice.h"
 
 #include <fmt/format.h>
 
@@ -8,18 +8,18 @@
 #include "simulation/device/openhaptics/openhaptics_devices.h"
 #include "simulation/scene/rig_io.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 namespace {
 
 // One that is never driven is told at once, and not by a hand that never comes.
 void CheckDriven(const RigDevice& own, const char* where, const std::filesystem::path& rig) {
   if (IsOpenHaptics(own)) {
-    if (!simulation::HasOpenHaptics())
-      throw Error(Code::kDevice, fmt::format("{}: {}", where, simulation::kNoOpenHaptics), rig);
+    if (!HasOpenHaptics())
+      throw Error(Code::kDevice, fmt::format("{}: {}", where, kNoOpenHaptics), rig);
     return;
   }
-  simulation::KnownDevice device;
-  device.family = simulation::FamilyNamed(own.family).value_or(device.family);
+  KnownDevice device;
+  device.family = FamilyNamed(own.family).value_or(device.family);
   std::string refusal;
   if (!MakeDriver(device, own.model, refusal))
     throw Error(Code::kBadData, fmt::format("{}: {}", where, refusal), rig);
@@ -27,9 +27,7 @@ void CheckDriven(const RigDevice& own, const char* where, const std::filesystem:
 
 }  // namespace
 
-bool IsOpenHaptics(const RigDevice& device) {
-  return device.family == simulation::kOpenHapticsWord;
-}
+bool IsOpenHaptics(const RigDevice& device) { return device.family == kOpenHapticsWord; }
 
 HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands) {
   HandsChoice choice;
@@ -41,9 +39,8 @@ HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands
     if (choice.rig->pedals) CheckDriven(choice.rig->pedals->device, "pedals", rig);
   }
   choice.is_simulated = hands == "plant";
-  if (!hands.empty() && !choice.is_simulated)
-    choice.trace = simulation::ReadTraceOrLog(hands, choice.notice);
+  if (!hands.empty() && !choice.is_simulated) choice.trace = ReadTraceOrLog(hands, choice.notice);
   return choice;
 }
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -1,6 +1,6 @@
-// Devices that hold the hands of a practice (app/commands/devices/hands.h), on a bus made here.
-// What is plugged in is read by the servo's own thread: those tests wait for what must come.
-#include "app/commands/devices/hands.h"
+// Devices that hold the hands of a practice (simulation/practice/hands/hands.h), on a bus made
+// here. What is plugged in is read by the servo's own thread: those tests wait for what must come.
+#include "simulation/practice/hands/hands.h"
 
 #include <atomic>
 #include <chrono>
@@ -14,21 +14,18 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/practice.h"
-#include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
 #include "simulation/device/log/log_replay.h"
+#include "simulation/practice/hands/practice.h"
 #include "simulation/scope/rod_pose.h"
 #include "tests/simulation/device/live/arm_bench.h"
 #include "tests/support/fake_hidapi.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 namespace {
 
-using simulation::DeviceRole;
-using simulation::HidNode;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr double kFrame = 1.0 / 60;
@@ -50,11 +47,11 @@ struct Socket {
   }
 };
 
-class SocketLink final : public simulation::HidLink {
+class SocketLink final : public HidLink {
  public:
   explicit SocketLink(Socket& socket) : socket_(socket) {}
   int Read(std::span<std::uint8_t> report, int timeout_ms) noexcept override {
-    if (!socket_.is_plugged) return simulation::kLinkIsDead;
+    if (!socket_.is_plugged) return kLinkIsDead;
     {
       const std::scoped_lock lock(socket_.mutex);
       if (!socket_.says.empty()) {
@@ -67,22 +64,20 @@ class SocketLink final : public simulation::HidLink {
     if (timeout_ms > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return 0;
   }
-  int Write(simulation::ReportBytes report) noexcept override {
-    if (!socket_.is_plugged) return simulation::kLinkIsDead;
+  int Write(ReportBytes report) noexcept override {
+    if (!socket_.is_plugged) return kLinkIsDead;
     const std::scoped_lock lock(socket_.mutex);
     socket_.told.assign(report.begin(), report.end());
     return static_cast<int>(report.size());
   }
-  int SendFeature(simulation::ReportBytes report) noexcept override {
-    return static_cast<int>(report.size());
-  }
+  int SendFeature(ReportBytes report) noexcept override { return static_cast<int>(report.size()); }
   int GetFeature(std::span<std::uint8_t>) noexcept override { return 0; }
 
  private:
   Socket& socket_;
 };
 
-class SocketBus final : public simulation::HidBus {
+class SocketBus final : public HidBus {
  public:
   explicit SocketBus(std::deque<Socket>& sockets) : sockets_(sockets) {}
   std::vector<HidNode> List() override {
@@ -91,12 +86,11 @@ class SocketBus final : public simulation::HidBus {
       if (socket.is_plugged) nodes.push_back(socket.node);
     return nodes;
   }
-  std::unique_ptr<simulation::HidLink> Open(const HidNode& node,
-                                            simulation::OpenFault& fault) override {
+  std::unique_ptr<HidLink> Open(const HidNode& node, OpenFault& fault) override {
     for (Socket& socket : sockets_)
       if (socket.is_plugged && socket.node.path == node.path)
         return std::make_unique<SocketLink>(socket);
-    fault = simulation::OpenFault::kGone;
+    fault = OpenFault::kGone;
     return nullptr;
   }
 
@@ -126,21 +120,20 @@ Bytes PadButtons(bool is_cross_down) {
 class PractisedHands : public testing::Test {
  protected:
   void SetUp() override {
-    document = authoring::OpenDocument(test::WriteSmallScene(folder / "knee", false));
+    loaded = LoadScene(test::WriteSmallScene(folder / "knee", false));
     auto& mouse = sockets.emplace_back();
     mouse.node = {0x256f, 0xc635, 1, 8, 0, false, "M1", "SpaceMouse", "socket-0"};
     auto& pad = sockets.emplace_back();
     pad.node = {0x054c, 0x09cc, 1, 5, 0, false, "P1", "DualShock 4", "socket-1"};
   }
   Hands& Make(HandsChoice choice) {
-    simulation::LiveOptions options;
+    LiveOptions options;
     options.list_every = 0.02;
     options.lock_folder = folder.path();
     hands =
         std::make_unique<Hands>(std::move(choice), std::make_unique<SocketBus>(sockets), options);
-    hands->Mount(document.scene);
-    practice.emplace(document, std::vector<simulation::TissuePreset>{},
-                     simulation::TissuePace::kInline);
+    hands->Mount(loaded.scene);
+    practice.emplace(std::make_unique<Session>(loaded), loaded.scene);
     return *hands;
   }
   void Frame() {
@@ -164,7 +157,7 @@ class PractisedHands : public testing::Test {
   }
 
   test::TempFolder folder;
-  authoring::Document document;
+  LoadedScene loaded;
   std::deque<Socket> sockets;
   std::unique_ptr<Hands> hands;
   std::optional<Practice> practice;
@@ -274,13 +267,13 @@ TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZero
   EXPECT_LT(practice->snapshot().instrument.penetration, unheld);
   // In the mean over two seconds the force, the hand's spring of 300 N/m and at most 0.26 N of
   // friction on each axis balance; a count of 0.055 mm is 0.017 N of that spring.
-  const DeviceRig& rig = document.scene.rig.instrument;
+  const DeviceRig& rig = loaded.scene.rig.instrument;
   glm::dvec3 left(0.0);
   constexpr int kFrames = 120;
   for (int i = 0; i < kFrames; ++i) {
     Frame();
-    const glm::dvec3 meant = simulation::HipFromRodPose(practice->instrument().pose(), rig);
-    const glm::dvec3 is = simulation::HipFromRodPose(practice->snapshot().instrument.pose, rig);
+    const glm::dvec3 meant = HipFromRodPose(practice->instrument().pose(), rig);
+    const glm::dvec3 is = HipFromRodPose(practice->snapshot().instrument.pose, rig);
     left += (practice->snapshot().instrument.hand_force + 300.0 * (meant - is)) / (1.0 * kFrames);
   }
   for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(left[axis]), 0.26 + 0.017) << axis;
@@ -300,13 +293,13 @@ TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZero
 
 TEST_F(PractisedHands, ARecordedPairIsPlayedAndThenHandsItsHandsToTheMouse) {
   // Half a second of the scope going in by 5 mm; the instrument is not in it.
-  const DeviceRig& rig = document.scene.rig.scope;
+  const DeviceRig& rig = loaded.scene.rig.scope;
   HandsChoice choice;
   for (const double t : {7.0, 7.5}) {
-    simulation::TraceRow& row = choice.trace.emplace_back();
+    TraceRow& row = choice.trace.emplace_back();
     row.sample.t = t;
     row.sample.valid = true;
-    row.sample.hip_in_device = simulation::HipFromRodPose({0, 0, 0, 0.010 + 0.010 * (t - 7)}, rig);
+    row.sample.hip_in_device = HipFromRodPose({0, 0, 0, 0.010 + 0.010 * (t - 7)}, rig);
   }
   Make(choice);
   for (int i = 0; i < 15; ++i) Frame();
@@ -335,15 +328,15 @@ TEST_F(PractisedHands, ALogHoldsWhatTheServoSawOfBothHandsAndWhatItCommanded) {
   const double t = practice->snapshot().t;
   practice.reset();
   EXPECT_EQ(hands->End(), "");
-  const simulation::DeviceLogContent log = simulation::ReadDeviceLog(folder / "practice.log");
+  const DeviceLogContent log = ReadDeviceLog(folder / "practice.log");
   EXPECT_EQ(log.torn, "");
   EXPECT_EQ(log.missing, 0);
   ASSERT_EQ(log.sources.size(), 2u);
   double pushed = 0;
-  for (const simulation::LogRecord& record : log.records)
+  for (const LogRecord& record : log.records)
     if (record.source == 1) pushed = std::max(pushed, glm::length(record.command));
   EXPECT_GT(pushed, 0.1);
-  const auto trace = simulation::TraceOf(log);
+  const auto trace = TraceOf(log);
   EXPECT_NEAR(static_cast<double>(trace.size()), 2e3 * t, 4) << "each tick, each hand";
   EXPECT_NEAR(trace.back().sample.t, t, 3e-3);
 }
@@ -360,7 +353,7 @@ class PractisedArm : public testing::Test {
  protected:
   static constexpr const char* kPath = "/dev/fake0";
   void SetUp() override {
-    document = authoring::OpenDocument(test::WriteSmallScene(folder / "knee", false));
+    loaded = LoadScene(test::WriteSmallScene(folder / "knee", false));
     HandsChoice choice;
     RigRole& scope = choice.rig.emplace().scope.emplace();
     scope.device.family = "wooden_haptics";
@@ -368,13 +361,13 @@ class PractisedArm : public testing::Test {
     scope.device.model = "woodenhaptics_2015";
     scope.mount.rod_length = 0.3;
     // Where the arm is homed; straight in from there.
-    const double to_incision = 0.3 - document.scene.backdrop.radius - 0.02;
+    const double to_incision = 0.3 - loaded.scene.backdrop.radius - 0.02;
     scope.mount.pivot = glm::dvec3(0.025, 0, 0.205 + to_incision);
-    simulation::LiveOptions options;
+    LiveOptions options;
     options.list_every = 0.02;
     options.lock_folder = folder.path();
     hands = std::make_unique<Hands>(std::move(choice), nullptr, options);
-    hands->Mount(document.scene);
+    hands->Mount(loaded.scene);
     usb.Plug(test::WoodenArm(L"A", kPath));
     ASSERT_TRUE(test::WaitUntil([&] { return usb.opened(kPath) == 1; }));
     hands->AskHome(DeviceRole::kScope);
@@ -392,11 +385,10 @@ class PractisedArm : public testing::Test {
   bool IsPushed() { return test::CurrentsAt(usb, kPath) != std::array<int, 3>{}; }
   // Until the wall pushes it.
   bool Begin() {
-    practice.emplace(document, std::vector<simulation::TissuePreset>{},
-                     simulation::TissuePace::kInline);
+    practice.emplace(std::make_unique<Session>(loaded), loaded.scene);
     hands->HoldDeadMan(false);
     const auto state = [&] { return hands->Now(DeviceRole::kScope).situation.status.state; };
-    if (!FramesUntil([&] { return state() == simulation::DeviceState::kReady; })) return false;
+    if (!FramesUntil([&] { return state() == DeviceState::kReady; })) return false;
     hands->HoldDeadMan(true);
     return FramesUntil([&] { return IsPushed(); });
   }
@@ -405,7 +397,7 @@ class PractisedArm : public testing::Test {
   }
 
   test::TempFolder folder;
-  authoring::Document document;
+  LoadedScene loaded;
   test::FakeUsb usb;
   test::Board board{usb, kPath};
   std::unique_ptr<Hands> hands;
@@ -413,9 +405,8 @@ class PractisedArm : public testing::Test {
 };
 
 TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
-  FramesUntil([&] {
-    return hands->Now(DeviceRole::kScope).situation.status.state == simulation::DeviceState::kReady;
-  });
+  FramesUntil(
+      [&] { return hands->Now(DeviceRole::kScope).situation.status.state == DeviceState::kReady; });
   hands->HoldDeadMan(true);
   EXPECT_STREQ(WhyNoForce(hands->Now(DeviceRole::kScope).situation),
                "Devices push only in a practice; F5 begins one.")
@@ -467,17 +458,17 @@ TEST_F(PractisedArm, IsNotPushedWhileAnIncisionIsCalibratedAndGentlyAfterIt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   const auto state = [&] { return hands->Now(DeviceRole::kScope).situation.status.state; };
-  EXPECT_EQ(state(), simulation::DeviceState::kReady) << "not armed";
+  EXPECT_EQ(state(), DeviceState::kReady) << "not armed";
   EXPECT_NE(std::string(WhyNoForce(hands->Now(DeviceRole::kScope).situation)).find("calibrated"),
             std::string::npos);
   EXPECT_GT(glm::length(practice->snapshot().scope.tip_force), 0.1) << "it is deep in the wall";
 
-  DeviceRig mount = hands->MountOf(DeviceRole::kScope, document.scene);
+  DeviceRig mount = hands->MountOf(DeviceRole::kScope, loaded.scene);
   mount.pivot += glm::dvec3(0, 0, -0.001);
   practice->SetMount(DeviceRole::kScope, mount);
   hands->Calibrate({});
   EXPECT_TRUE(FramesUntil([&] { return IsPushed(); }));
-  EXPECT_EQ(state(), simulation::DeviceState::kArmed);
+  EXPECT_EQ(state(), DeviceState::kArmed);
 }
 
 TEST_F(PractisedArm, IsLetGoByAnException) {
@@ -517,4 +508,4 @@ TEST(ForceHistory, KeepsTheLargestOfEachFiftiethAndForgetsAfterTenSeconds) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -1,4 +1,4 @@
-#include "app/commands/devices/held_hands.h"
+#include "simulation/practice/hands/held_hands.h"
 
 #include <algorithm>
 #include <string>
@@ -6,11 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace arthro::app {
-
-using simulation::DeviceRole;
-using simulation::DeviceSample;
-using simulation::DeviceState;
+namespace arthro::simulation {
 
 namespace {
 
@@ -29,16 +25,16 @@ bool IsDown(const RigButtons& buttons, RigAction action, std::uint32_t down) noe
 }
 
 const std::string kByMouse = "mouse and keys";
-const simulation::DeviceCaps kNoCaps;
+const DeviceCaps kNoCaps;
 
 }  // namespace
 
-class HeldHands::Hand final : public simulation::Device {
+class HeldHands::Hand final : public Device {
  public:
   Hand(HeldHands& both, DeviceRole role, HandParts parts)
       : both_(both), role_(role), parts_(std::move(parts)) {}
 
-  const simulation::DeviceCaps& caps() const noexcept override {
+  const DeviceCaps& caps() const noexcept override {
     return parts_.device ? parts_.device->caps() : kNoCaps;
   }
   const std::string& name() const noexcept override {
@@ -47,8 +43,8 @@ class HeldHands::Hand final : public simulation::Device {
   const std::string& serial() const noexcept override {
     return parts_.device ? parts_.device->serial() : kNoSerial;
   }
-  simulation::DeviceStatus status() const noexcept override {
-    return parts_.device ? parts_.device->status() : simulation::DeviceStatus{};
+  DeviceStatus status() const noexcept override {
+    return parts_.device ? parts_.device->status() : DeviceStatus{};
   }
 
   DeviceSample Read(double now) noexcept override {
@@ -73,10 +69,10 @@ class HeldHands::Hand final : public simulation::Device {
       sample = parts_.device->Read(now);
       // Its rod goes through the incision, wherever the hand is pushed to.
       const DeviceRig& rig = parts_.by_mouse.rig();
-      sample.handle_in_device = simulation::HandleFromRodPose(
-          simulation::RodPoseFromHip(parts_.led->position(), by_mouse.handle_in_device, rig,
-                                     parts_.by_mouse.pose()),
-          rig);
+      sample.handle_in_device =
+          HandleFromRodPose(RodPoseFromHip(parts_.led->position(), by_mouse.handle_in_device, rig,
+                                           parts_.by_mouse.pose()),
+                            rig);
     } else if (parts_.device) {
       if (parts_.integrates != nullptr && !told.is_led_by_device)
         parts_.integrates->SetRateHand({by_mouse.hip_in_device, by_mouse.handle_in_device});
@@ -88,8 +84,8 @@ class HeldHands::Hand final : public simulation::Device {
     const bool is_led = sample.valid && parts_.led == nullptr;
     if (is_led) {
       // Mouse and keys go on from where it leaves the hand.
-      led_pose_ = simulation::RodPoseFromHip(sample.hip_in_device, sample.handle_in_device,
-                                             parts_.by_mouse.rig(), led_pose_);
+      led_pose_ = RodPoseFromHip(sample.hip_in_device, sample.handle_in_device,
+                                 parts_.by_mouse.rig(), led_pose_);
       parts_.by_mouse.Set(led_pose_);
       parts_.by_mouse.Sample(now);
     } else {
@@ -123,7 +119,7 @@ class HeldHands::Hand final : public simulation::Device {
         HasForce(caps()) && state() == DeviceState::kArmed ? glm::length(force_in_device) : 0.0;
     // A pad rumbles with what the instrument's hand feels; nobody needs a dead-man against that.
     if (role_ != DeviceRole::kInstrument || !both_.pedals_.device ||
-        both_.pedals_.device->caps().feedback != simulation::Feedback::kRumble)
+        both_.pedals_.device->caps().feedback != Feedback::kRumble)
       return;
     both_.pedals_.device->HoldDeadMan(IsReady(both_.pedals_.device->state()));
     both_.pedals_.device->Command({glm::length(force_in_device), 0, 0});
@@ -131,7 +127,7 @@ class HeldHands::Hand final : public simulation::Device {
 
   bool IsHeld(RigAction action) const noexcept { return IsDown(parts_.buttons, action, pressed_); }
   HandKind kind() const noexcept { return parts_.kind; }
-  const simulation::RodPose& pose() const noexcept { return parts_.by_mouse.pose(); }
+  const RodPose& pose() const noexcept { return parts_.by_mouse.pose(); }
 
  private:
   // Once; a device may speak less often than it is asked.
@@ -146,7 +142,7 @@ class HeldHands::Hand final : public simulation::Device {
   HeldHands& both_;
   DeviceRole role_;
   HandParts parts_;
-  simulation::RodPose led_pose_;
+  RodPose led_pose_;
   std::uint32_t buttons_ = 0, pressed_ = 0;  // of the session; of the device
   std::optional<double> began_;              // the recording
   double told_t_ = -1;                       // of the sample that was heard last
@@ -165,12 +161,12 @@ HeldHands::HeldHands(std::array<HandParts, 2> parts, PedalParts pedals)
 
 HeldHands::~HeldHands() = default;
 
-void HeldHands::LogTo(simulation::DeviceLog& log, DeviceRole role, int source, int hand) {
+void HeldHands::LogTo(DeviceLog& log, DeviceRole role, int source, int hand) {
   auto& device = devices_[Index(role)];
-  device = std::make_unique<simulation::LoggedDevice>(std::move(device), log, source, hand);
+  device = std::make_unique<LoggedDevice>(std::move(device), log, source, hand);
 }
 
-simulation::Device* HeldHands::Of(DeviceRole role) noexcept { return devices_[Index(role)].get(); }
+Device* HeldHands::Of(DeviceRole role) noexcept { return devices_[Index(role)].get(); }
 
 HandKind HeldHands::KindOf(DeviceRole role) const noexcept { return hands_[Index(role)]->kind(); }
 
@@ -198,10 +194,10 @@ bool HeldHands::IsHeld(RigAction action) const noexcept {
          hands_[1]->IsHeld(action);
 }
 
-void HeldHands::AfterTick(const simulation::Snapshot& snapshot, double dt) noexcept {
+void HeldHands::AfterTick(const Snapshot& snapshot, double dt) noexcept {
   for (const DeviceRole role : {DeviceRole::kScope, DeviceRole::kInstrument}) {
     const bool is_scope = role == DeviceRole::kScope;
-    const simulation::ToolState& state = is_scope ? snapshot.scope : snapshot.instrument;
+    const ToolState& state = is_scope ? snapshot.scope : snapshot.instrument;
     HandsNews::Hand& told = told_.hand[Index(role)];
     told.felt = glm::length(state.hand_force);
     told.fault = state.fault;
@@ -219,4 +215,4 @@ void HeldHands::AfterTick(const simulation::Snapshot& snapshot, double dt) noexc
   news_.Write(told_);
 }
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

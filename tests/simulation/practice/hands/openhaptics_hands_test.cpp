@@ -9,22 +9,19 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/devices/hands.h"
-#include "app/commands/practice.h"
-#include "authoring/project/document_io.h"
 #include "simulation/core/units.h"
 #include "simulation/device/log/log_replay.h"
+#include "simulation/practice/hands/hands.h"
+#include "simulation/practice/hands/practice.h"
 #include "simulation/scene/rig_io.h"
 #include "simulation/scope/rod_pose.h"
 #include "tests/support/fake_openhaptics.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 namespace {
 
-using simulation::DeviceRole;
-using simulation::DeviceState;
 using test::FakeTouch;
 using test::OpenHaptics;
 
@@ -55,7 +52,7 @@ class PractisedTouch : public testing::Test {
     OpenHaptics().Reset();
     OpenHaptics().devices.resize(1);
     OpenHaptics().devices[0].name = "Default Device";
-    document = authoring::OpenDocument(test::WriteSmallScene(folder / "knee", false));
+    loaded = LoadScene(test::WriteSmallScene(folder / "knee", false));
     rig = ReadRig(std::filesystem::path(ARTHRO_SOURCE_DIR) /
                   "resources/presets/rigs/touch_instrument.json");
     Place(kBehind);
@@ -65,17 +62,13 @@ class PractisedTouch : public testing::Test {
     choice.rig = rig;
     choice.log = log;
     hands = std::make_unique<Hands>(std::move(choice));
-    hands->Mount(document.scene);
+    hands->Mount(loaded.scene);
     Begin();
   }
-  void Begin() {
-    practice.emplace(document, std::vector<simulation::TissuePreset>{},
-                     simulation::TissuePace::kInline);
-  }
+  void Begin() { practice.emplace(std::make_unique<Session>(loaded), loaded.scene); }
   // The hand straight in until the tip is so far behind the wall, m.
   void Place(double behind) {
-    const glm::dvec3 hip =
-        RestingHip(rig.instrument->mount, document.scene.backdrop.radius + behind);
+    const glm::dvec3 hip = RestingHip(rig.instrument->mount, loaded.scene.backdrop.radius + behind);
     const auto lock = test::HoldOpenHaptics();
     FakeTouch& touch = OpenHaptics().devices[0];
     for (int i = 0; i < 3; ++i)
@@ -129,7 +122,7 @@ class PractisedTouch : public testing::Test {
 
   static constexpr double kBehind = 0.005;  // m
   test::TempFolder folder;
-  authoring::Document document;
+  LoadedScene loaded;
   RigFile rig;
   std::filesystem::path log;
   SchedulerThread scheduler;
@@ -144,7 +137,7 @@ TEST_F(PractisedTouch, ItsPoseLeadsTheInstrumentAndTheScopeStaysTheMouses) {
   EXPECT_EQ(hands->Now(kInstrument).name, "Touch");
   EXPECT_EQ(hands->Now(kInstrument).serial, "T1");
   EXPECT_EQ(hands->Missing(kInstrument), "");
-  const double depth = document.scene.backdrop.radius + kBehind;
+  const double depth = loaded.scene.backdrop.radius + kBehind;
   const auto told = [&] { return practice->snapshot().instrument.pose; };
   EXPECT_TRUE(FramesUntil([&] { return std::abs(told().depth - depth) < 1e-9; })) << told().depth;
   // To the right: the rod turns about its incision, so the tip goes left.
@@ -247,14 +240,14 @@ TEST_F(PractisedTouch, ItsPracticeIsLoggedTickByTick) {
   ASSERT_TRUE(HeldUntil([&] { return glm::length(LastForce()) > 0.3; }));
   practice.reset();
   EXPECT_EQ(hands->End(), "");
-  const simulation::DeviceLogContent content = simulation::ReadDeviceLog(log);
+  const DeviceLogContent content = ReadDeviceLog(log);
   double pushed = 0;
-  for (const simulation::LogRecord& record : content.records)
+  for (const LogRecord& record : content.records)
     if (content.sources[record.source].roles[0] == kInstrument &&
         record.status.state == DeviceState::kArmed)
       pushed = std::max(pushed, glm::length(record.command));
   EXPECT_GT(pushed, 0.3);
-  EXPECT_FALSE(simulation::TraceOf(content).empty());
+  EXPECT_FALSE(TraceOf(content).empty());
 }
 
 TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIs) {
@@ -264,4 +257,4 @@ TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIs) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -1,4 +1,4 @@
-#include "app/commands/devices/hands.h"
+#include "simulation/practice/hands/hands.h"
 
 #include <algorithm>
 #include <utility>
@@ -8,11 +8,7 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/rig_io.h"
 
-namespace arthro::app {
-
-using simulation::DeviceRole;
-using simulation::DeviceState;
-using simulation::LiveDevice;
+namespace arthro::simulation {
 
 namespace {
 
@@ -42,28 +38,25 @@ const char* NameOf(HandKind kind) {
 
 // Of a device that no servo reads: a board that only answers is then asked too seldom for its
 // samples to be fresh.
-simulation::DeviceStatus StatusOfLink(simulation::LiveLink& link, int hand) {
-  if (const simulation::DeviceTrouble trouble = link.trouble();
-      trouble != simulation::DeviceTrouble::kNone)
+DeviceStatus StatusOfLink(LiveLink& link, int hand) {
+  if (const DeviceTrouble trouble = link.trouble(); trouble != DeviceTrouble::kNone)
     return {DeviceState::kFault, trouble, true};
   if (!link.is_present()) return {DeviceState::kAbsent, {}, true};
   const int opening = link.opening();
   if (opening == 0) return {DeviceState::kOpening, {}, true};
-  const simulation::HandNews& news = link.Newest(hand);
-  const bool is_homed =
-      news.opening == opening ? news.reading.is_homed : !simulation::IsSteady(link.caps());
+  const HandNews& news = link.Newest(hand);
+  const bool is_homed = news.opening == opening ? news.reading.is_homed : !IsSteady(link.caps());
   return {is_homed ? DeviceState::kReady : DeviceState::kHoming, {}, true};
 }
 
 }  // namespace
 
-Hands::Hands(HandsChoice choice, std::unique_ptr<simulation::HidBus> bus,
-             const simulation::LiveOptions& options)
+Hands::Hands(HandsChoice choice, std::unique_ptr<HidBus> bus, const LiveOptions& options)
     : choice_(std::move(choice)),
       options_(options),
       bus_(std::move(bus)),
       is_zero_force_(choice_.is_zero_force) {
-  for (const simulation::TraceRow& row : choice_.trace) is_recorded_[Index(row.device)] = true;
+  for (const TraceRow& row : choice_.trace) is_recorded_[Index(row.device)] = true;
   if (!choice_.log.empty()) OpenLog();
   if (choice_.rig) OpenRig();
 }
@@ -86,10 +79,10 @@ void Hands::OpenRig() {
       roles_[Index(role)].link = LinkOf(own->device);
     }
   if (choice_.rig->pedals) pedals_ = LinkOf(choice_.rig->pedals->device);
-  std::vector<std::shared_ptr<simulation::Releasable>> devices;
+  std::vector<std::shared_ptr<Releasable>> devices;
   for (const Link& own : links_) devices.push_back(own.link);
   if (!names.empty()) {
-    openhaptics_ = std::make_shared<simulation::OpenHapticsDevices>(names, options_.clock);
+    openhaptics_ = std::make_shared<OpenHapticsDevices>(names, options_.clock);
     devices.push_back(openhaptics_);
   }
   for (const DeviceRole role : kRoles)
@@ -98,7 +91,7 @@ void Hands::OpenRig() {
 }
 
 // For a servo: it begins without force, and must be let go of first.
-std::unique_ptr<simulation::Device> Hands::DeviceOf(DeviceRole role) {
+std::unique_ptr<Device> Hands::DeviceOf(DeviceRole role) {
   const Role& own = Of(role);
   if (own.number) return openhaptics_->Hand(*own.number);
   return std::make_unique<LiveDevice>(own.link, RigOf(role)->device.hand);
@@ -111,7 +104,7 @@ const std::optional<RigRole>& Hands::DrivenOf(DeviceRole role) const noexcept {
 
 // A source a link, in the order in which links are made; then those hands that have none.
 void Hands::OpenLog() {
-  std::vector<simulation::LogSource> sources;
+  std::vector<LogSource> sources;
   const auto source_of = [&](const RigDevice& device) {
     for (std::size_t i = 0; i < sources.size(); ++i)
       if (sources[i].family == device.family && sources[i].serial == device.serial) return i;
@@ -138,22 +131,22 @@ void Hands::OpenLog() {
       if (const auto& own = DrivenOf(role)) serial = own->device.serial;
       sources.push_back({"", "", serial, {role, {}}});
     }
-  log_ = std::make_unique<simulation::DeviceLog>(choice_.log, sources);
+  log_ = std::make_unique<DeviceLog>(choice_.log, sources);
   for (std::size_t i = 0; i < links; ++i)
-    taps_.push_back(std::make_unique<simulation::LoggedReports>(*log_, static_cast<int>(i)));
+    taps_.push_back(std::make_unique<LoggedReports>(*log_, static_cast<int>(i)));
 }
 
-std::shared_ptr<simulation::LiveLink> Hands::LinkOf(const RigDevice& device) {
-  simulation::DeviceWish wish;
-  wish.family = simulation::FamilyNamed(device.family).value_or(wish.family);
+std::shared_ptr<LiveLink> Hands::LinkOf(const RigDevice& device) {
+  DeviceWish wish;
+  wish.family = FamilyNamed(device.family).value_or(wish.family);
   wish.serial = device.serial;
   wish.model = device.model;
   for (const Link& known : links_)
     if (known.wish.family == wish.family && known.wish.serial == wish.serial) return known.link;
-  simulation::LiveOptions options = options_;
-  if (!bus_) bus_ = simulation::MachineHidBus();
+  LiveOptions options = options_;
+  if (!bus_) bus_ = MachineHidBus();
   if (log_) options.tap = taps_[links_.size()].get();
-  links_.push_back({wish, std::make_shared<simulation::LiveLink>(*bus_, wish, options)});
+  links_.push_back({wish, std::make_shared<LiveLink>(*bus_, wish, options)});
   return links_.back().link;
 }
 
@@ -171,7 +164,7 @@ DeviceRig Hands::MountOf(DeviceRole role, const Scene& scene) const {
   return mount;
 }
 
-void Hands::Lower(simulation::SessionOptions& options) const noexcept {
+void Hands::Lower(SessionOptions& options) const noexcept {
   for (const DeviceRole role : kRoles)
     if (const auto& own = RigOf(role)) {
       if (own->max_force > 0)
@@ -181,7 +174,7 @@ void Hands::Lower(simulation::SessionOptions& options) const noexcept {
     }
 }
 
-std::shared_ptr<HeldHands> Hands::Hold(const std::array<simulation::ScriptedDevice, 2>& by_mouse) {
+std::shared_ptr<HeldHands> Hands::Hold(const std::array<ScriptedDevice, 2>& by_mouse) {
   if (openhaptics_) {
     openhaptics_->OpenMissing();
     for (const DeviceRole role : kRoles)
@@ -189,22 +182,22 @@ std::shared_ptr<HeldHands> Hands::Hold(const std::array<simulation::ScriptedDevi
   }
   const auto parts_of = [&](DeviceRole role) {
     HandParts parts{HandKind::kMouse, by_mouse[Index(role)], {}, {}, {}, {}, 0, kNoButtons};
-    simulation::ScriptedDevice start = parts.by_mouse;
-    const simulation::DeviceSample at = start.Sample(0.0);
+    ScriptedDevice start = parts.by_mouse;
+    const DeviceSample at = start.Sample(0.0);
     if (choice_.is_simulated) {
-      auto plant = std::make_unique<simulation::PlantDevice>(
-          simulation::PlantOptions{}, simulation::kHand, at.hip_in_device, SerialOf(role));
+      auto plant =
+          std::make_unique<PlantDevice>(PlantOptions{}, kHand, at.hip_in_device, SerialOf(role));
       parts.kind = HandKind::kSimulated;
       parts.led = &plant->plant();
       parts.device = std::move(plant);
     } else if (KindOf(role) == HandKind::kRecorded) {
       parts.kind = HandKind::kRecorded;
-      parts.recorded = simulation::RecordedDevice(choice_.trace, role);
+      parts.recorded = RecordedDevice(choice_.trace, role);
       parts.recording_begins = choice_.trace.front().sample.t;
     } else if (const auto& own = DrivenOf(role)) {
       parts.kind = HandKind::kPluggedIn;
       parts.device = DeviceOf(role);
-      if (parts.device->caps().input == simulation::HandInput::kRate)
+      if (parts.device->caps().input == HandInput::kRate)
         parts.integrates = dynamic_cast<LiveDevice*>(parts.device.get());
       parts.buttons = own->buttons;
     }
@@ -239,7 +232,7 @@ bool Hands::Look() {
   return has_news;
 }
 
-simulation::DeviceStatus Hands::StatusOf(DeviceRole role) const {
+DeviceStatus Hands::StatusOf(DeviceRole role) const {
   const auto held = held_.lock();
   return held ? held->News().hand[Index(role)].status : Of(role).status;
 }
@@ -271,8 +264,8 @@ std::string Hands::WhyNotCalibrated(DeviceRole role) const {
   if (kind == HandKind::kMouse)
     return "Mouse and keys hold this hand, and their incision is where they say.";
   if (kind != HandKind::kPluggedIn) return "";
-  const simulation::DeviceCaps& caps = Of(role).device->caps();
-  if (caps.input == simulation::HandInput::kRate)
+  const DeviceCaps& caps = Of(role).device->caps();
+  if (caps.input == HandInput::kRate)
     return "This device is pushed and has no rod, so it has no incision to find.";
   if (caps.sensed_dof > 0 && caps.sensed_dof < 5)
     return "This device does not say how its handle is turned, so its rod's line is not known; "
@@ -282,12 +275,12 @@ std::string Hands::WhyNotCalibrated(DeviceRole role) const {
 
 void Hands::Calibrate(std::optional<DeviceRole> role) {
   calibrated_ = role;
-  simulation::DeviceSample old;
+  DeviceSample old;
   while (Hear(old)) {
   }
 }
 
-bool Hands::Hear(simulation::DeviceSample& sample) {
+bool Hands::Hear(DeviceSample& sample) {
   const auto held = held_.lock();
   return held && held->Hear(sample);
 }
@@ -315,13 +308,13 @@ HandNow Hands::Now(DeviceRole role) const {
   now.situation.is_calibrating = calibrated_.has_value();
   now.situation.status = StatusOf(role);
   now.name = NameOf(now.kind);
-  const simulation::Device* device = held ? held->Of(role) : own.device.get();
+  const Device* device = held ? held->Of(role) : own.device.get();
   if (device != nullptr && (now.kind == HandKind::kPluggedIn || now.kind == HandKind::kSimulated)) {
     now.name = device->name();
     now.serial = device->serial();
     now.situation.caps = device->caps();
     now.peak = device->caps().peak_force;
-    now.sentence = simulation::Sentence(now.situation.status);
+    now.sentence = Sentence(now.situation.status);
   }
   if (!IsReady(now.situation.status.state))
     if (const std::string detail = DetailOf(role); !detail.empty()) now.sentence = detail;
@@ -338,8 +331,7 @@ HandNow Hands::Now(DeviceRole role) const {
   now.situation.is_dead_man_held = news.is_dead_man_held;
   if (now.kind == HandKind::kRecorded)
     now.sentence = news.is_led_by_device ? "is played" : "has ended; mouse and keys hold it";
-  if (news.last_fault.state != DeviceState::kAbsent)
-    now.last_fault = simulation::Sentence(news.last_fault);
+  if (news.last_fault.state != DeviceState::kAbsent) now.last_fault = Sentence(news.last_fault);
   return now;
 }
 
@@ -373,4 +365,4 @@ std::string Hands::End() {
                                     choice_.log.string(), dropped);
 }
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation

@@ -1,4 +1,4 @@
-#include "app/commands/practice.h"
+#include "simulation/practice/hands/practice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/core/error.h"
-#include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
 
-namespace arthro::app {
+namespace arthro::simulation {
 namespace {
-
-using simulation::DeviceRole;
 
 constexpr double kTick = 1e-3;  // s
 
@@ -26,41 +22,18 @@ constexpr double kWindowHangs = 0.5;  // s
 // would show standing still.
 constexpr double kBladeSpeed = 30.0;  // rad/s
 
-simulation::Session SessionOf(const authoring::Document& document,
-                              const std::vector<simulation::TissuePreset>& presets,
-                              simulation::TissuePace pace) {
-  if (!document.panorama || document.panorama->empty())
-    throw Error(Code::kBadScene,
-                "a scene without a panorama cannot be practised; import one first");
-  std::vector<SurfaceMesh> surfaces;
-  for (const auto& surface : document.surfaces)
-    surfaces.push_back(surface ? *surface : SurfaceMesh{});
-  const Backdrop& backdrop = document.scene.backdrop;
-  auto field = document.depth ? simulation::DepthField(backdrop, *document.depth)
-                              : simulation::DepthField(backdrop, document.panorama->width,
-                                                       document.panorama->height);
-  simulation::Session session(document.scene, std::move(field), surfaces);
-  const auto file_of = [&document](const std::filesystem::path& name) {
-    const auto found = document.files.find(name.generic_string());
-    return found != document.files.end() ? found->second.file : document.folder / name;
-  };
-  session.Enliven(simulation::LivingTissues(document.scene, surfaces, file_of, presets), pace,
-                  simulation::LayersOf(document.scene, surfaces, presets));
-  return session;
-}
-
 }  // namespace
 
-simulation::RodLimits ScopeLimits(const Scene& scene) {
-  simulation::RodLimits limits;
+RodLimits ScopeLimits(const Scene& scene) {
+  RodLimits limits;
   // The lens stays inside the sphere that the panorama is on, and the hand outside the portal.
   limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.scope.rod_length);
   limits.min_depth = -0.2 * scene.backdrop.radius;
   return limits;
 }
 
-simulation::RodLimits InstrumentLimits(const Scene& scene) {
-  simulation::RodLimits limits;
+RodLimits InstrumentLimits(const Scene& scene) {
+  RodLimits limits;
   // Far enough to press on the furthest wall; the wall holds the tip.
   limits.max_depth = std::min(scene.backdrop.radius + std::abs(scene.portals.incision_spacing),
                               0.9 * scene.rig.instrument.rod_length);
@@ -68,41 +41,36 @@ simulation::RodLimits InstrumentLimits(const Scene& scene) {
   return limits;
 }
 
-simulation::RodPose StartOfScope(const Scene& scene) {
+RodPose StartOfScope(const Scene& scene) {
   // Looking at the middle of the picture, as far as the view angle lets the rod: the axis is bent
   // up by the centre angle, so the rod points down by as much.
   constexpr double kLowest = 0.8;  // rad
-  simulation::RodPose pose;
+  RodPose pose;
   pose.depth = 0.3 * scene.backdrop.radius;
-  pose.latitude = -std::min(
-      kLowest, simulation::CentreAngle(scene.scope.view_angle, pose.depth, scene.backdrop.radius));
+  pose.latitude =
+      -std::min(kLowest, CentreAngle(scene.scope.view_angle, pose.depth, scene.backdrop.radius));
   return pose;
 }
 
-simulation::RodPose StartOfInstrument(const Scene& scene) {
+RodPose StartOfInstrument(const Scene& scene) {
   // Its tip in the middle of the scope's first picture, a third of the way to the backdrop.
   constexpr double kShare = 0.33;
-  const simulation::ScopeView view =
-      simulation::ViewFromPose(StartOfScope(scene), scene.scope.view_angle);
-  const glm::dvec3 wall = simulation::SphereHit(view.tip, view.view, scene.backdrop.radius);
+  const ScopeView view = ViewFromPose(StartOfScope(scene), scene.scope.view_angle);
+  const glm::dvec3 wall = SphereHit(view.tip, view.view, scene.backdrop.radius);
   const glm::dvec3 portal(scene.portals.incision_spacing, 0.0, 0.0);
   const glm::dvec3 rod = view.tip + kShare * (wall - view.tip) - portal;
-  simulation::RodPose pose;
+  RodPose pose;
   pose.depth = glm::length(rod);
   pose.latitude = std::atan2(-rod.y, std::hypot(rod.x, rod.z));
   pose.longitude = std::atan2(rod.x, rod.z);
   return pose;
 }
 
-Practice::Practice(const authoring::Document& document,
-                   const std::vector<simulation::TissuePreset>& presets,
-                   simulation::TissuePace pace)
-    : session_(std::make_unique<simulation::Session>(SessionOf(document, presets, pace))),
-      by_mouse_{
-          simulation::ScriptedDevice(session_->scope_rig(), StartOfScope(document.scene),
-                                     ScopeLimits(document.scene)),
-          simulation::ScriptedDevice(session_->instrument_rig(), StartOfInstrument(document.scene),
-                                     InstrumentLimits(document.scene))} {
+Practice::Practice(std::unique_ptr<Session> session, const Scene& scene)
+    : session_(std::move(session)),
+      by_mouse_{ScriptedDevice(session_->scope_rig(), StartOfScope(scene), ScopeLimits(scene)),
+                ScriptedDevice(session_->instrument_rig(), StartOfInstrument(scene),
+                               InstrumentLimits(scene))} {
   wish_.options = session_->options();
   wish_.incision_spacing = session_->incision_spacing();
   wish_.view_angle = session_->view_angle();
@@ -119,20 +87,20 @@ void Practice::Begin(Hands* hands) {
     hands->Lower(wish_.options);
     has_thread_ = hands->NeedsThread();
   } else {
-    const auto by_mouse = [](const simulation::ScriptedDevice& hand) {
+    const auto by_mouse = [](const ScriptedDevice& hand) {
       return HandParts{HandKind::kMouse, hand, {}, {}, {}, {}, 0, kNoButtons};
     };
     held_ = std::make_shared<HeldHands>(std::array{by_mouse(by_mouse_[0]), by_mouse(by_mouse_[1])},
                                         PedalParts{});
   }
-  simulation::ServoOptions options;
+  ServoOptions options;
   options.watch = held_.get();
   if (has_thread_)
     options.wish_lasts = kWindowHangs;
   else
     options.period_without_force = kTick;
-  servo_ = std::make_unique<simulation::ServoLoop>(*session_, held_->Of(DeviceRole::kScope),
-                                                   held_->Of(DeviceRole::kInstrument), options);
+  servo_ = std::make_unique<ServoLoop>(*session_, held_->Of(DeviceRole::kScope),
+                                       held_->Of(DeviceRole::kInstrument), options);
 }
 
 // What the hands and the servo are to do until then.
@@ -167,10 +135,9 @@ void Practice::TakeNews() {
     episodes_[i] = hand.episode;
   }
   if (std::exchange(next_presses_, news.next_presses) == news.next_presses) return;
-  const bool is_last = instrument_kind() == simulation::ToolKind::kGrasper;
-  SetInstrument(is_last
-                    ? simulation::ToolKind::kProbe
-                    : static_cast<simulation::ToolKind>(static_cast<int>(instrument_kind()) + 1));
+  const bool is_last = instrument_kind() == ToolKind::kGrasper;
+  SetInstrument(is_last ? ToolKind::kProbe
+                        : static_cast<ToolKind>(static_cast<int>(instrument_kind()) + 1));
 }
 
 void Practice::Advance(double seconds, Hands* hands) {
@@ -201,4 +168,4 @@ void Practice::ResetTissues() {
 
 double Practice::blade_turn() const { return kBladeSpeed * running_; }
 
-}  // namespace arthro::app
+}  // namespace arthro::simulation
