@@ -13,12 +13,10 @@
 #include <vector>
 
 #include "app/commands/depth_cache.h"
-#include "app/commands/devices/pivot_work.h"
 #include "app/commands/disturbing.h"
 #include "app/commands/footage/footage_board.h"
 #include "app/commands/footage/footage_makers.h"
 #include "app/commands/jobs.h"
-#include "app/commands/practice.h"
 #include "app/commands/recent_scenes.h"
 #include "app/commands/scratch_folder.h"
 #include "app/commands/tissue/cut_brush.h"
@@ -26,6 +24,8 @@
 #include "app/recording/live_film.h"
 #include "authoring/project/history.h"
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/practice/hands/pivot_work.h"
+#include "simulation/practice/hands/practice.h"
 #include "simulation/scope/camera_head.h"
 #include "simulation/scope/rod_pose.h"
 #include "simulation/tissue/body/tissue_preset.h"
@@ -82,7 +82,7 @@ using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, Brows
 // A hand's incision that is being found, in the practice that runs.
 struct PivotCalibrating {
   simulation::DeviceRole role = simulation::DeviceRole::kScope;
-  PivotWork work;
+  simulation::PivotWork work;
   std::string outcome;      // of what was taken over last; empty: nothing was
   bool is_unsaved = false;  // it has a place in a rig, and is not there
 };
@@ -119,7 +119,9 @@ struct EditorState {
   const authoring::Document& document() const { return history.current(); }
 
   // The session that runs: a practice, or the author's poke; null: none.
-  const Practice* live() const { return practice ? &*practice : poke ? &*poke : nullptr; }
+  const simulation::Practice* live() const {
+    return practice ? &*practice : poke ? &*poke : nullptr;
+  }
 
   SceneOnDisk on_disk;
   int document_number = 0;  // grows when another document is begun
@@ -134,10 +136,11 @@ struct EditorState {
   bool shows_sources = false;  // of the material's values
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own
-  std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // what holds them; outlives practices
-  std::optional<Practice> practice;                          // while it runs
-  std::optional<Practice> poke;  // the author's live poke (tissue/tissue_poke.h)
-  int poke_of = 0;               // position of the history that it was made of
+  std::unique_ptr<simulation::Hands> hands =
+      std::make_unique<simulation::Hands>();     // what holds them; outlives practices
+  std::optional<simulation::Practice> practice;  // while it runs
+  std::optional<simulation::Practice> poke;      // the author's live poke (tissue/tissue_poke.h)
+  int poke_of = 0;                               // position of the history that it was made of
   std::optional<PivotCalibrating> calibrating;
   bool shows_devices = false;   // their panel, instead of the practice's
   Disturbing disturbing;        // of a practice's picture

@@ -93,8 +93,8 @@ bool MoveHands(EditorState& state, const RodPose& scope, const RodPose& instrume
                    std::clamp(sum.longitude, -limits.max_longitude, limits.max_longitude), sum.roll,
                    std::clamp(sum.depth, limits.min_depth, limits.max_depth)};
   };
-  state.scope = moved(state.scope, scope, ScopeLimits(scene));
-  state.instrument = moved(state.instrument, instrument, InstrumentLimits(scene));
+  state.scope = moved(state.scope, scope, simulation::ScopeLimits(scene));
+  state.instrument = moved(state.instrument, instrument, simulation::InstrumentLimits(scene));
   if (state.poke) {
     state.poke->scope().Set(state.scope);
     state.poke->instrument().Set(state.instrument);

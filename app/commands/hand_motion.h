@@ -37,6 +37,9 @@ simulation::RodPose MotionOfDrag(const simulation::RodPose& pose, const simulati
 // Held in practice: jaws close, the shaver runs. GLFW_KEY_C.
 inline constexpr int kActKey = 67;
 
+// Held in practice: the devices may push. GLFW_KEY_V.
+inline constexpr int kDeadManKey = 86;
+
 // One notch of the wheel.
 inline constexpr double kInsertionANotch = 1e-3;     // m
 inline constexpr double kRollANotch = 0.0872664626;  // rad, 5°

@@ -76,8 +76,8 @@ void StartDocument(EditorState& state, Document document, bool saved, SceneOnDis
   if (saved) state.history.MarkSaved();
   state.depth_cache.Note(state.document());
   state.tissue = state.document().scene.tissues.empty() ? -1 : 0;
-  state.scope = StartOfScope(state.document().scene);
-  state.instrument = StartOfInstrument(state.document().scene);
+  state.scope = simulation::StartOfScope(state.document().scene);
+  state.instrument = simulation::StartOfInstrument(state.document().scene);
   state.practice.reset();
   state.shows_footage = false;  // the scene is what was asked for
   ++state.document_number;

@@ -213,7 +213,7 @@ class Editor {
       StartDocument(state_, OpenSceneDocument(demo), true);
     }
     state_.practice_only = options_.practice;
-    state_.hands = std::make_unique<Hands>(options_.hands);
+    state_.hands = std::make_unique<simulation::Hands>(options_.hands);
     state_.lens_folder = ResourceFolder() / "presets" / "lenses";
     state_.tissue_preset_folder = ResourceFolder() / "presets" / "tissues";
     state_.rig_preset_folder = ResourceFolder() / "presets" / "rigs";

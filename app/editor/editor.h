@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "app/commands/devices/hands.h"
 #include "app/recording/frame_shape.h"
+#include "simulation/practice/hands/hands.h"
 #include "simulation/scope/camera_head.h"
 
 namespace arthro::app {
@@ -15,7 +15,7 @@ namespace arthro::app {
 struct EditorOptions {
   std::optional<std::filesystem::path> scene;  // none: the demo scene
   bool practice = false;                       // the practise job: nothing but practice
-  HandsChoice hands;                           // devices that hold them
+  simulation::HandsChoice hands;               // devices that hold them
   std::optional<std::filesystem::path> film;   // of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;

@@ -154,7 +154,7 @@ void Pictures::TakeCuts(const authoring::Document& document) {
 
 // Tissues that live are shown as they are; when the session ends, as the document has them.
 void Pictures::TakeLiveTissues(const EditorState& state) {
-  const Practice* live = state.live();
+  const simulation::Practice* live = state.live();
   if (live_ != live) {
     if (!live_tissues_.empty()) surfaces_.clear();  // they are shown anew
     live_ = live;

@@ -85,7 +85,7 @@ class Pictures {
   std::vector<std::shared_ptr<const simulation::BodySkin>>
       shown_cuts_;  // one a tissue; null: whole
   std::string cut_fault_;
-  const Practice* live_ = nullptr;  // whose bodies are shown
+  const simulation::Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1;
   Picture overview_tools_;  // as the overview last got them

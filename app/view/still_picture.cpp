@@ -8,7 +8,7 @@
 #include "app/view/backdrop/footage_light.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/session/cut_skin.h"
+#include "simulation/practice/cut_skin.h"
 
 namespace arthro::app {
 namespace {

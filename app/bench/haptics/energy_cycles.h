@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "simulation/core/progress.h"
+#include "simulation/practice/session.h"
 #include "simulation/scene/scene_io.h"
-#include "simulation/session/session.h"
 
 namespace arthro::app {
 

@@ -10,10 +10,10 @@
 #include "app/cli/practice/living_tissues_of.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/cut_check.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/scene_check.h"
 #include "simulation/scope/window_lens.h"
-#include "simulation/session/cut_check.h"
 
 namespace arthro::app {
 namespace {

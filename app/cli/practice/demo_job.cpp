@@ -24,9 +24,9 @@
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/partial_folder.h"
+#include "simulation/practice/replay.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
-#include "simulation/session/replay.h"
 
 namespace arthro::app {
 namespace {

@@ -102,12 +102,12 @@ void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
     options.notice = sentence;
   }
   options.frame_shape = FrameShapeOf(screens.layout);
-  options.head = simulation::CameraHeadOf(screens.head);
+  options.head = simulation::CameraHeadFromString(screens.head);
   if (!screens.film.empty()) {
     options.film = screens.film;
     CheckFilm(*options.film, {.shape = options.frame_shape});
   }
-  options.hands = ReadHands(flags.rig, flags.hands);
+  options.hands = simulation::ReadHands(flags.rig, flags.hands);
   if (!options.hands.notice.empty())
     std::fprintf(stderr, "warning: %s\n", options.hands.notice.c_str());
   options.hands.log = flags.log;

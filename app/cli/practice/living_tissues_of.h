@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "simulation/practice/living_tissues.h"
 #include "simulation/scene/scene_io.h"
-#include "simulation/session/living_tissues.h"
 
 namespace arthro::app {
 

@@ -11,9 +11,9 @@
 #include "app/recording/frame_shape.h"
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
+#include "simulation/practice/replay.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/scope/camera_head.h"
-#include "simulation/session/replay.h"
 
 namespace arthro::app {
 

@@ -30,12 +30,12 @@ void LeavePractice(State& state) {
 
 void ResetHands(State& state) {
   if (state.practice) {
-    state.practice->scope().Set(StartOfScope(state.document().scene));
-    state.practice->instrument().Set(StartOfInstrument(state.document().scene));
+    state.practice->scope().Set(simulation::StartOfScope(state.document().scene));
+    state.practice->instrument().Set(simulation::StartOfInstrument(state.document().scene));
     state.head.turn = 0;
   }
-  state.scope = StartOfScope(state.document().scene);
-  state.instrument = StartOfInstrument(state.document().scene);
+  state.scope = simulation::StartOfScope(state.document().scene);
+  state.instrument = simulation::StartOfInstrument(state.document().scene);
   state.message = "Both hands are back where they began.";
 }
 

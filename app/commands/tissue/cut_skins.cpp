@@ -1,7 +1,7 @@
 #include "app/commands/tissue/cut_skins.h"
 
 #include "simulation/core/error.h"
-#include "simulation/session/cut_skin.h"
+#include "simulation/practice/cut_skin.h"
 
 namespace arthro::app {
 

@@ -1,6 +1,7 @@
 #include "app/commands/tissue/tissue_poke.h"
 
 #include "app/commands/depth_work.h"
+#include "app/commands/start_practice.h"
 
 namespace arthro::app {
 
@@ -8,7 +9,8 @@ void StartPoke(EditorState& state) {
   WhenDepthIsReady(state, [](EditorState& ready) {
     ready.jobs.Start("Poke", [document = ready.document(), presets = ready.tissue_presets,
                               pace = ready.pace](const Progress&) {
-      const auto session = std::make_shared<Practice>(document, presets, pace);
+      const auto session =
+          std::make_shared<simulation::Practice>(MakePractice(document, presets, pace));
       return [session](EditorState& now) {  // shared only because a std::function is copied
         if (now.practice || now.practice_only) return;
         session->SetViewAngle(now.document().scene.scope.view_angle);

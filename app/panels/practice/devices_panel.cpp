@@ -19,7 +19,7 @@ constexpr float kPlotHeight = 34;
 constexpr float kBetween = 8;  // of two side by side
 
 // Filled: what the device is given. The line: what the session has for the hand.
-void ForceMeter(Ui& ui, const std::string& name, const HandNow& now) {
+void ForceMeter(Ui& ui, const std::string& name, const simulation::HandNow& now) {
   const double full = now.peak > 0 ? now.peak : kFullMeter;
   MarkedBar(ui, name + " force meter", now.given / full, kGood, now.felt / full,
             fmt::format("{:.2f} N", now.given));
@@ -27,11 +27,12 @@ void ForceMeter(Ui& ui, const std::string& name, const HandNow& now) {
                             now.felt, full));
 }
 
-void Plot(Ui& ui, const std::string& name, const std::array<float, ForceHistory::kLength>& values,
-          int oldest, float least_top, const char* unit, float width) {
+void Plot(Ui& ui, const std::string& name,
+          const std::array<float, simulation::ForceHistory::kLength>& values, int oldest,
+          float least_top, const char* unit, float width) {
   const float top = std::max(least_top, *std::max_element(values.begin(), values.end()));
-  ImGui::PlotLines(("##" + name).c_str(), values.data(), ForceHistory::kLength, oldest, nullptr, 0,
-                   top, {width, ui.Px(kPlotHeight)});
+  ImGui::PlotLines(("##" + name).c_str(), values.data(), simulation::ForceHistory::kLength, oldest,
+                   nullptr, 0, top, {width, ui.Px(kPlotHeight)});
   RecordItem(ui, name);
   // Its scale, in its corner.
   const ImVec2 low = ImGui::GetItemRectMin();
@@ -42,15 +43,15 @@ void Plot(Ui& ui, const std::string& name, const std::array<float, ForceHistory:
 float HalfWidth(const Ui& ui) { return (ImGui::GetContentRegionAvail().x - ui.Px(kBetween)) / 2; }
 
 void HandPart(Ui& ui, EditorState& state, DeviceRole role, const char* name) {
-  const Hands& hands = *state.hands;
-  const HandNow now = hands.Now(role);
+  const simulation::Hands& hands = *state.hands;
+  const simulation::HandNow now = hands.Now(role);
   Heading(ui, name);
   Text(ui, now.serial.empty() ? now.name : now.name + ", serial " + now.serial);
   if (!now.sentence.empty()) QuietText(ui, now.sentence);
   if (!now.last_fault.empty()) ColouredText(ui, "Last fault: " + now.last_fault, kWarning);
-  if (now.kind != HandKind::kMouse) {
+  if (now.kind != simulation::HandKind::kMouse) {
     ForceMeter(ui, name, now);
-    const ForceHistory history = hands.History(role);
+    const simulation::ForceHistory history = hands.History(role);
     QuietText(ui,
               fmt::format("Ten seconds of force and sample age ({:.1f} ms)", 1e3 * now.sample_age));
     const float half = HalfWidth(ui);
@@ -59,11 +60,11 @@ void HandPart(Ui& ui, EditorState& state, DeviceRole role, const char* name) {
     ImGui::SameLine(0, ui.Px(kBetween));
     Plot(ui, std::string(name) + " age plot", history.ages(), history.oldest(), 5.0f, "ms", half);
   }
-  if (const char* why = WhyNoForce(now.situation); *why != '\0') {
+  if (const char* why = simulation::WhyNoForce(now.situation); *why != '\0') {
     Text(ui, "Why is there no force?");
     ColouredText(ui, why, kAccent);
   }
-  if (hands.KindOf(role) == HandKind::kMouse) return;
+  if (hands.KindOf(role) == simulation::HandKind::kMouse) return;
   if (const std::string why = hands.WhyNotCalibrated(role); !why.empty())
     QuietText(ui, why);
   else

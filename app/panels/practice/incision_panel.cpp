@@ -40,7 +40,7 @@ void Number(Ui& ui, const std::string& name, const std::string& value) {
   RecordItem(ui, name, true, value);
 }
 
-void HowWellKnown(Ui& ui, const PivotWork& work) {
+void HowWellKnown(Ui& ui, const simulation::PivotWork& work) {
   const PivotCalibration& found = work.found();
   const bool is_swing = work.source() == PivotSource::kSwing;
   QuietText(ui, is_swing || work.poses().empty() ? "Angle between the rods"
@@ -60,7 +60,7 @@ void HowWellKnown(Ui& ui, const PivotWork& work) {
              : fmt::format("{}, {} left out", work.poses().size(), found.left_out.size()));
 }
 
-void WhatOfIt(Ui& ui, const PivotWork& work) {
+void WhatOfIt(Ui& ui, const simulation::PivotWork& work) {
   const PivotCalibration& found = work.found();
   if (const auto done = work.pressing()) {
     Text(ui, fmt::format("Hold still… {:.0f} %", 100 * *done));
@@ -75,7 +75,7 @@ void WhatOfIt(Ui& ui, const PivotWork& work) {
   }
 }
 
-void Ways(Ui& ui, PivotWork& work) {
+void Ways(Ui& ui, simulation::PivotWork& work) {
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   const bool is_swing = work.source() == PivotSource::kSwing;
   if (ToggleButton(ui, "Two presses", !is_swing, true, {half, ui.Px(36)},
@@ -98,7 +98,7 @@ void Ways(Ui& ui, PivotWork& work) {
 void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "incision", area, kPageWindow);
   PivotCalibrating& own = *state.calibrating;
-  const HandNow hand = state.hands->Now(own.role);
+  const simulation::HandNow hand = state.hands->Now(own.role);
   const bool is_scope = own.role == simulation::DeviceRole::kScope;
   Heading(ui, is_scope ? "Incision of the scope" : "Incision of the instrument");
   QuietText(ui, hand.sentence.empty() ? hand.name : hand.name + ": " + hand.sentence);

@@ -36,7 +36,7 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
   double mm = MmFromMetres(state.scope.depth), latitude = DegreesFromRadians(state.scope.latitude),
          longitude = DegreesFromRadians(state.scope.longitude),
          roll = DegreesFromRadians(state.scope.roll);
-  const auto limits = ScopeLimits(state.document().scene);
+  const auto limits = simulation::ScopeLimits(state.document().scene);
   const double most_latitude = DegreesFromRadians(limits.max_latitude),
                most_longitude = DegreesFromRadians(limits.max_longitude);
   struct Field {

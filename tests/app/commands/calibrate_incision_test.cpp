@@ -37,7 +37,9 @@ class CalibrateIncision : public testing::Test {
     rig = temp / "rig.json";
     WriteAtomically(rig, test::kMovedRig);
   }
-  void Hold(HandsChoice choice) { state.hands = std::make_unique<Hands>(std::move(choice)); }
+  void Hold(simulation::HandsChoice choice) {
+    state.hands = std::make_unique<simulation::Hands>(std::move(choice));
+  }
   void Frame() {
     FinishWork(state);
     state.hands->Look();
@@ -76,7 +78,7 @@ class CalibrateIncision : public testing::Test {
     app::Run(state, "press-incision");
     Frames(10);
   }
-  const PivotWork& work() const { return state.calibrating->work; }
+  const simulation::PivotWork& work() const { return state.calibrating->work; }
   DeviceRig Mount() const {
     return state.hands->MountOf(DeviceRole::kScope, state.document().scene);
   }
@@ -87,8 +89,8 @@ class CalibrateIncision : public testing::Test {
 };
 
 TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyCameFrom) {
-  Hold(ReadHands(rig, "plant"));
-  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), HandKind::kSimulated);
+  Hold(simulation::ReadHands(rig, "plant"));
+  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), simulation::HandKind::kSimulated);
   Begin();
   EXPECT_FALSE(CommandOf("use-incision").enabled(state));
   PressAt(0, 0);
@@ -110,7 +112,7 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   EXPECT_EQ(saved.scope->mount, Mount());
   EXPECT_NE(ReadWholeFile(rig).find("x-room"), std::string::npos);
   Scene next;
-  Hands(ReadHands(rig, "plant")).Mount(next);
+  simulation::Hands(simulation::ReadHands(rig, "plant")).Mount(next);
   EXPECT_EQ(next.rig.scope.pivot, Mount().pivot);
 
   app::Run(state, "leave-practice");
@@ -120,7 +122,7 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
 }
 
 TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
-  Hold(ReadHands(rig, "plant"));
+  Hold(simulation::ReadHands(rig, "plant"));
   Begin();
   PressAt(0, 0);
   PressAt(0, 4);
@@ -134,7 +136,7 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
 }
 
 TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritten) {
-  Hold(ReadHands(rig, "plant"));
+  Hold(simulation::ReadHands(rig, "plant"));
   state.rig_preset_folder = temp.path();  // as if the rig had come with the program
   Begin();
   PressAt(0, 0);
@@ -167,7 +169,7 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
 }
 
 TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
-  Hold(ReadHands({}, "plant"));
+  Hold(simulation::ReadHands({}, "plant"));
   Begin();
   PressAt(0, 0);
   PressAt(0, 40);
@@ -187,7 +189,7 @@ TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
 
 // The recorded hand's incision is 30 mm beside the one that the rig names.
 TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
-  HandsChoice choice = ReadHands(rig, "");
+  simulation::HandsChoice choice = simulation::ReadHands(rig, "");
   DeviceRig truth = choice.rig->scope->mount;
   truth.pivot += glm::dvec3(0.03, 0, 0.01);
   for (int i = 0; i < 9000; ++i) {
@@ -198,7 +200,7 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
                   simulation::HandleFromRodPose(pose, truth), 0, true};
   }
   Hold(std::move(choice));
-  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), HandKind::kRecorded);
+  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), simulation::HandKind::kRecorded);
   EXPECT_FALSE(CommandOf("calibrate-instrument").enabled(state)) << "mouse and keys have it";
   Begin();
   state.calibrating->work.Begin(simulation::PivotSource::kSwing);
@@ -217,7 +219,7 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
 }
 
 TEST_F(CalibrateIncision, OfADeviceWithoutARodIsNotOffered) {
-  HandsChoice choice;
+  simulation::HandsChoice choice;
   choice.rig.emplace().scope.emplace().device.family = "space_mouse";
   Hold(std::move(choice));
   EXPECT_FALSE(CommandOf("calibrate-scope").enabled(state));

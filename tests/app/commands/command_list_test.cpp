@@ -662,7 +662,7 @@ TEST_F(Commands, ALongPauseIsNotMadeUpFor) {
   Settle(state);
   const double before = state.practice->snapshot().t;
   state.practice->Advance(10.0);
-  EXPECT_NEAR(state.practice->snapshot().t - before, Practice::kLongestPause, 1.5e-3);
+  EXPECT_NEAR(state.practice->snapshot().t - before, simulation::Practice::kLongestPause, 1.5e-3);
 }
 
 }  // namespace

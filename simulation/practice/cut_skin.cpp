@@ -1,0 +1,41 @@
+#include "simulation/practice/cut_skin.h"
+
+#include "simulation/core/error.h"
+#include "simulation/practice/living_tissues.h"
+#include "simulation/tissue/body/body_options.h"
+#include "simulation/tissue/contact/uncut_surface.h"
+#include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/field/polygonise.h"
+
+namespace arthro::simulation {
+
+bool HasCutsMade(const Tissue& tissue) { return !tissue.cuts.empty() && !tissue.mesh.empty(); }
+
+SolidField WholeField(const Tissue& tissue, const SurfaceMesh& surface) {
+  try {
+    return SolidField::FromSurface(PlacesOf(tissue, surface).surface, BodyOptions{}.cut_spacing);
+  } catch (const Error& error) {
+    throw Error(error.code(), tissue.name + ": " + error.sentence());
+  }
+}
+
+BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface, const SolidField& whole) {
+  try {
+    const BodyPlaces places = PlacesOf(tissue, surface);
+    SolidField field = whole;
+    MakeCuts(field, places.cuts, places.fixed);
+    BodySkin skin{Polygonise(field), {}};
+    LayOnto(UncutSurface(places.surface), field, {}, skin.surface);
+    skin.is_fresh = FreshVertices(skin.surface, field);
+    for (glm::dvec3& x : skin.surface.vertices) x /= tissue.pose.scale;
+    return skin;
+  } catch (const Error& error) {
+    throw Error(error.code(), tissue.name + ": " + error.sentence());
+  }
+}
+
+BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface) {
+  return CutSkin(tissue, surface, WholeField(tissue, surface));
+}
+
+}  // namespace arthro::simulation
