@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/commands/edits.h"
-#include "app/commands/same.h"
-#include "app/commands/tissue/tissue_balls.h"
-#include "app/commands/tissue/tissue_cut.h"
+#include "app/state/edits.h"
+#include "app/state/same.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_cut.h"
 #include "app/view/backdrop/footage_light.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "app/commands/editor_state.h"
-#include "app/commands/tissue/cut_skins.h"
 #include "app/editor/render_scale.h"
 #include "app/panels/panels.h"
+#include "app/state/editor_state.h"
+#include "app/steps/tissue/cut_skins.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
 #include "app/view/overview/overview.h"

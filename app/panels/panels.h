@@ -7,8 +7,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "app/commands/editor_state.h"
 #include "app/panels/widgets.h"
+#include "app/state/editor_state.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {

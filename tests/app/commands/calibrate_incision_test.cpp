@@ -1,6 +1,6 @@
 // An incision that is calibrated in the window's own way (app/commands/devices), without a window:
 // by commands, on simulated and recorded hands, on a rig whose file keeps it.
-#include "app/commands/devices/calibrate_incision.h"
+#include "app/steps/practice/calibrate_incision.h"
 
 #include <chrono>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/scene_files.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"

@@ -1,6 +1,4 @@
 // The command layer without a window: what a user can have done, and that it can be undone.
-#include "app/commands/command_list.h"
-
 #include <chrono>
 #include <fstream>
 #include <set>
@@ -10,13 +8,14 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "app/commands/depth_work.h"
-#include "app/commands/edits.h"
-#include "app/commands/hand_motion.h"
-#include "app/commands/scene_files.h"
-#include "app/commands/tissue/tissue_balls.h"
-#include "app/commands/tissue/tissue_material.h"
-#include "app/commands/tissue_work.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_work.h"
+#include "app/steps/practice/hand_motion.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_material.h"
+#include "app/steps/tissue/tissue_work.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/scene_json.h"
 #include "tests/support/small_scene.h"

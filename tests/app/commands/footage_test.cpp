@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/footage/footage_optics.h"
-#include "app/commands/footage/footage_words.h"
-#include "app/commands/footage/footage_work.h"
-#include "app/commands/scene_files.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/footage_optics.h"
+#include "app/steps/panorama/footage_words.h"
+#include "app/steps/panorama/footage_work.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/image_io.h"

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/commands/edits.h"
-#include "app/commands/recovery/recovery_copy.h"
-#include "app/commands/scene_files.h"
+#include "app/files/recovery_copy.h"
+#include "app/files/scene_files.h"
+#include "app/state/edits.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/units.h"
 #include "tests/support/small_scene.h"

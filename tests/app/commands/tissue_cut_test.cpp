@@ -1,15 +1,15 @@
 // The author's cuts, without a window.
-#include "app/commands/tissue/tissue_cut.h"
+#include "app/steps/tissue/tissue_cut.h"
 
 #include <algorithm>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/edits.h"
-#include "app/commands/scene_files.h"
-#include "app/commands/tissue/cut_skins.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/tissue/cut_skins.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {

@@ -1,0 +1,157 @@
+// Scenes and their files, footage, undo.
+#include <GLFW/glfw3.h>
+
+#include "app/files/scene_files.h"
+#include "app/state/edits.h"
+#include "app/steps/every_step.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+void Quit(State& state) {
+  GuardUnsaved(state, "quit", [](State& sure) { sure.quit = true; });
+}
+
+const std::vector<FileFilter>& SceneFilters() {
+  static const std::vector<FileFilter> filters = {{"Scenes", {".json", ".arthro"}},
+                                                  {"All files", {}}};
+  return filters;
+}
+
+const std::vector<FileFilter>& PictureFilters() {
+  static const std::vector<FileFilter> filters = {
+      {"Pictures", {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}}, {"All files", {}}};
+  return filters;
+}
+
+constexpr Command kCommands[] = {
+    {"new",
+     "New",
+     "Begin a scene with nothing in it.",
+     "Scene",
+     {GLFW_KEY_N, true},
+     {},
+     Idle,
+     [](State& state) {
+       GuardUnsaved(state, "begin a new scene", [](State& sure) {
+         StartDocument(sure, NewDocument(), true);
+         sure.step = Step::kPanorama;
+         sure.message = "A new scene. Import a panorama, or make one from a video.";
+       });
+     }},
+    {"open",
+     "Open…",
+     "Open a scene.",
+     "Scene",
+     {GLFW_KEY_O, true},
+     {},
+     Idle,
+     [](State& state) {
+       GuardUnsaved(state, "open another scene", [](State& sure) {
+         Browse(sure, BrowseFor::kOpenFile, "Open a scene", "Open", SceneFilters(), OpenScene);
+       });
+     }},
+    {"save",
+     "Save",
+     "Save the scene where it was opened from.",
+     "Scene",
+     {GLFW_KEY_S, true},
+     {},
+     [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
+     [](State& state) { SaveScene(state); }},
+    {"save-as",
+     "Save as…",
+     "Save the scene in another folder.",
+     "Scene",
+     {GLFW_KEY_S, true, true},
+     {},
+     [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
+     [](State& state) { SaveSceneAs(state); }},
+    {"import-panorama",
+     "Import a panorama…",
+     "Make a picture the backdrop.",
+     "Scene",
+     {GLFW_KEY_I, true},
+     {},
+     Idle,
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Import a panorama", "Import", PictureFilters(),
+              ImportPanorama);
+     }},
+    {"make-panorama",
+     "Make one from a video…",
+     "Put a panorama together from the frames of a video, or of a folder of pictures.",
+     "Scene",
+     {GLFW_KEY_M, true},
+     {},
+     Idle,
+     BrowseForFootage},
+    {"run-footage",
+     "Run",
+     "Make the panorama. What was made before is kept until this is done.",
+     "Scene",
+     {GLFW_KEY_R, true},
+     {},
+     [](const State& state) { return InEditor(state) && CanRun(state); },
+     RunFootage},
+    {"use-panorama",
+     "Use this panorama",
+     "Make it the backdrop of the scene, and go on to its depth.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && state.footage && state.footage->made; },
+     UseMadePanorama},
+    {"read-report",
+     "Read its report…",
+     "Take the panorama's middle and focal length from the report of `arthroscene panorama`.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state); },
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Read a panorama's report", "Read",
+              {{"Reports", {".json"}}, {"All files", {}}}, ReadPanoramaReport);
+     }},
+    {"make-depth",
+     "Make depth from the picture",
+     "Replace the imported depth map by one that is made from the picture. Undo brings it back.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) {
+       return Idle(state) && HasPicture(state) && state.document().is_depth_imported;
+     },
+     MakeDepth},
+    {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
+    {"undo",
+     "Undo",
+     "Take the last edit back.",
+     "Edit",
+     {GLFW_KEY_Z, true},
+     {},
+     [](const State& state) { return InEditor(state) && state.history.CanUndo(); },
+     [](State& state) {
+       state.message = "Undone: " + state.history.UndoName();
+       state.history.Undo();
+     }},
+    {"redo",
+     "Redo",
+     "Do again what was taken back.",
+     "Edit",
+     {GLFW_KEY_Z, true, true},
+     {GLFW_KEY_Y, true},
+     [](const State& state) { return InEditor(state) && state.history.CanRedo(); },
+     [](State& state) {
+       state.message = "Done again: " + state.history.RedoName();
+       state.history.Redo();
+     }},
+};
+
+}  // namespace
+
+std::span<const Command> SceneCommands() { return kCommands; }
+
+}  // namespace arthro::app

@@ -1,0 +1,138 @@
+#include "app/steps/depth/depth_work.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "authoring/depth/depth_filter.h"
+#include "authoring/depth/depth_preview.h"
+#include "simulation/core/same_options.h"
+
+namespace arthro::app {
+namespace {
+
+using authoring::Document;
+
+// Up to so many pixels a preview is shown on the panorama as it is, its relief stretched to it:
+// handing over a relief of that size takes less than a frame. Larger panoramas are shown small
+// meanwhile.
+constexpr int kMostStretched = 1 << 22;
+
+DepthMap Stretched(const DepthMap& small, int width, int height, int factor) {
+  DepthMap large(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      large.at(x, y) =
+          small.at(std::min(x / factor, small.width - 1), std::min(y / factor, small.height - 1));
+  return large;
+}
+
+// A small picture and its relief, at the speed of the slider.
+Jobs::Work PreviewWork(const Document& document,
+                       std::shared_ptr<const authoring::DepthPreview> pyramid) {
+  return [panorama = document.panorama, options = document.depth_options,
+          pyramid](const Progress&) -> Jobs::Apply {
+    const auto made =
+        pyramid ? pyramid : std::make_shared<const authoring::DepthPreview>(*panorama);
+    DepthMap relief = made->Filter(options);
+    std::shared_ptr<const ColourImage> picture = panorama;
+    if (panorama->width * panorama->height <= kMostStretched)
+      relief = Stretched(relief, panorama->width, panorama->height, made->Factor());
+    else
+      picture = std::make_shared<const ColourImage>(made->Picture());
+    auto depth = std::make_shared<const DepthMap>(std::move(relief));
+    return [=](EditorState& state) {
+      DepthCache& cache = state.depth_cache;
+      cache.pyramid = made;
+      cache.pyramid_of = panorama;
+      if (state.document().panorama != panorama) return;
+      cache.preview = depth;
+      cache.preview_panorama = picture;
+      cache.preview_options = options;
+    };
+  };
+}
+
+Jobs::Work FullWork(const Document& document) {
+  return [panorama = document.panorama,
+          options = document.depth_options](const Progress& progress) -> Jobs::Apply {
+    auto depth = std::make_shared<const DepthMap>(
+        authoring::DepthFromColour(*panorama, options, nullptr, progress));
+    return [=](EditorState& state) {
+      // The author may have gone on meanwhile; then this depth belongs to nothing.
+      const Document& now = state.document();
+      if (now.panorama != panorama || !SameOptions(now.depth_options, options)) return;
+      Document next = now;
+      next.depth = depth;
+      if (next.scene.backdrop.depth.empty()) next.scene.backdrop.depth = "depth.tiff";
+      state.history.Amend(std::move(next));
+      state.depth_cache.Note(state.document());
+    };
+  };
+}
+
+}  // namespace
+
+bool FinishDepth(EditorState& state) {
+  if (!state.preview_jobs.busy()) return false;
+  try {
+    state.preview_jobs.Finish(state);
+  } catch (const Error& error) {
+    // Stopped: other options are wanted now. Otherwise the depth stays what it was.
+    if (error.code() != Code::kCancelled &&
+        SameOptions(state.depth_in_work, state.document().depth_options))
+      state.depth_cache.Refuse(state.document(), error.what());
+  }
+  return !state.preview_jobs.busy();
+}
+
+bool DepthIsUnderWay(const EditorState& state) {
+  return state.preview_jobs.busy() || state.depth_cache.IsStale(state.document());
+}
+
+void KeepDepthFresh(EditorState& state) {
+  DepthCache& cache = state.depth_cache;
+  const Document& document = state.document();
+  if (!cache.IsStale(document)) {
+    cache.preview.reset();
+    cache.preview_panorama.reset();
+    if (state.when_depth_is_ready) std::exchange(state.when_depth_is_ready, {})(state);
+    return;
+  }
+  if (auto made = cache.Find(document)) {  // after undo: computed before
+    Document next = document;
+    next.depth = made;
+    state.history.Amend(std::move(next));
+    return;
+  }
+  const auto has_preview = [&] {
+    return cache.preview && cache.pyramid_of.lock() == document.panorama &&
+           SameOptions(cache.preview_options, document.depth_options);
+  };
+  if (state.preview_jobs.busy()) {
+    // Full-size work for options that changed meanwhile is of no use.
+    if (!SameOptions(state.depth_in_work, document.depth_options)) state.preview_jobs.Stop();
+    return;
+  }
+  try {
+    authoring::CheckDepthOptions(document.depth_options);
+  } catch (const Error& error) {
+    if (cache.ProblemOf(document).empty() || !state.dragging) cache.Refuse(document, error.what());
+    return;
+  }
+  state.depth_in_work = document.depth_options;
+  if (!has_preview()) {
+    const bool usable = cache.pyramid && cache.pyramid_of.lock() == document.panorama;
+    state.preview_jobs.Start("Depth preview",
+                             PreviewWork(document, usable ? cache.pyramid : nullptr));
+  } else if (!state.dragging) {
+    state.preview_jobs.Start("Depth", FullWork(document));
+  }
+}
+
+void WhenDepthIsReady(EditorState& state, std::function<void(EditorState&)> then) {
+  if (!state.depth_cache.IsStale(state.document())) return then(state);
+  state.dragging = false;
+  state.when_depth_is_ready = std::move(then);
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,110 @@
+// Step 1: the picture that is the backdrop, and how it lies around the portal.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/files/scene_files.h"
+#include "app/panels/panels.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/panorama/footage_panels.h"
+#include "app/steps/panorama/footage_work.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+// The file that was worked on lately, as a row that opens it.
+void RecentList(Ui& ui, EditorState& state) {
+  const auto recent = state.recent.Existing();
+  if (recent.empty()) return;
+  Gap(ui);
+  Heading(ui, "Recent scenes");
+  for (const auto& scene : recent) {
+    const auto folder =
+        scene.has_extension() && scene.filename() == "scene.json" ? scene.parent_path() : scene;
+    if (Button(ui, folder.filename().string() + "##" + scene.string(), !state.jobs.busy(),
+               {-FLT_MIN, 0}, scene.c_str()))
+      GuardUnsaved(state, "open another scene", [scene](EditorState& sure) {
+        Guarded(sure, "Open", [&] { OpenScene(sure, scene); });
+      });
+  }
+}
+
+void Drag(EditorState& state, const Change& change) {
+  if (change.held) state.dragging = true;
+  if (change.released) EndDrag(state);
+}
+
+// Which of the two this step is about, once there is a clip.
+void FootageOrBackdrop(Ui& ui, EditorState& state) {
+  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  if (ToggleButton(ui, "Footage", state.shows_footage, true, {half, 0},
+                   "The clip that a panorama is made from."))
+    state.shows_footage = true;
+  ImGui::SameLine();
+  if (ToggleButton(ui, "Backdrop", !state.shows_footage, true, {half, 0},
+                   "The panorama that the scene has."))
+    state.shows_footage = false;
+  Gap(ui, 2);
+}
+
+}  // namespace
+
+void PanoramaPanel(Ui& ui, EditorState& state) {
+  if (state.footage) FootageOrBackdrop(ui, state);
+  if (ShowsFootage(state)) return FootagePanel(ui, state);
+  const authoring::Document document = state.document();  // a copy: edits below move it
+  CommandButton(ui, state, "import-panorama", {-FLT_MIN, 0});
+  CommandButton(ui, state, "make-panorama", {-FLT_MIN, 0});
+  if (!document.panorama) {
+    QuietText(ui,
+              "A panorama is one picture of the joint, put together from a video. Drop either on "
+              "the window, or choose it here.");
+    return RecentList(ui, state);
+  }
+  QuietText(ui, fmt::format("{} × {} px", document.panorama->width, document.panorama->height));
+
+  std::string title = document.scene.title, author = document.scene.author;
+  if (TextField(ui, "Title", title)) SetTitle(state, title);
+  if (TextField(ui, "Author", author)) SetAuthor(state, author);
+
+  Gap(ui);
+  Heading(ui, "How it lies around the portal");
+  CommandButton(ui, state, "read-report", {-FLT_MIN, 0});
+  Backdrop backdrop = document.scene.backdrop;
+  Projection& projection = backdrop.projection;
+  int type = projection.type == ProjectionType::kGnomonic ? 0 : 1;
+  if (Combo(ui, "Projection", type, {"flat (a stitched mosaic)", "latitude and longitude"},
+            "Flat: straight edges stay straight, as `arthroscene panorama` makes it.")) {
+    projection.type = type == 0 ? ProjectionType::kGnomonic : ProjectionType::kEquirectangular;
+    SetBackdrop(state, backdrop, "the projection");
+    EndDrag(state);
+  }
+  Change change;
+  if (type == 0)
+    change = Slider(ui, "Focal length", projection.focal_px, 50, 8000, "%.0f px",
+                    "Pixels a radian in the picture's middle; the panorama's report has it.");
+  else
+    change = Slider(ui, "Scale", projection.px_per_deg, 0.5, 100, "%.2f px/°");
+  if (change) SetBackdrop(state, backdrop, "the projection");
+  Drag(state, change);
+  for (const int axis : {0, 1}) {
+    change = Slider(ui, axis == 0 ? "Middle, from the left" : "Middle, from the top",
+                    projection.centre_px[axis], 0,
+                    axis == 0 ? document.panorama->width - 1 : document.panorama->height - 1,
+                    "%.1f px", "The pixel that lies straight ahead of the scope's portal.");
+    if (change) SetBackdrop(state, backdrop, "the picture's middle");
+    Drag(state, change);
+  }
+  double radius_mm = MmFromMetres(backdrop.radius);
+  change = Slider(ui, "Distance of the backdrop", radius_mm, 10, 150, "%.1f mm",
+                  "Radius of the sphere about the portal that the picture is on.");
+  if (change) {
+    backdrop.radius = MetresFromMm(radius_mm);
+    SetBackdrop(state, backdrop, "the distance of the backdrop");
+  }
+  Drag(state, change);
+  RecentList(ui, state);
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,126 @@
+// What disturbs the picture of a practice, one command each.
+#include <algorithm>
+#include <string>
+
+#include <GLFW/glfw3.h>
+
+#include "app/steps/every_step.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+bool Practising(const State& state) { return state.practice.has_value(); }
+
+template <Strength strength>
+void Toggle(State& state) {
+  ToggleDisturbance(state, strength);
+}
+
+constexpr DisturbanceSwitch kSwitches[] = {
+    {"disturb-haze", &Disturbances::haze},
+    {"disturb-bubbles", &Disturbances::bubbles},
+    {"disturb-debris", &Disturbances::debris},
+    {"disturb-fog", &Disturbances::fog},
+    {"disturb-near-blur", &Disturbances::near_blur},
+    {"disturb-far-blur", &Disturbances::far_blur},
+    {"disturb-overexposure", &Disturbances::overexposure},
+};
+
+constexpr Command kCommands[] = {
+    {"disturbances",
+     "Disturbances",
+     "What an educator lays over the picture, and how strongly.",
+     "Disturbances",
+     {GLFW_KEY_F3},
+     {},
+     Practising,
+     [](State& state) {
+       state.disturbing.shows_panel = !state.disturbing.shows_panel;
+       state.shows_devices = false;
+     }},
+    {"disturb-haze",
+     "Bleeding",
+     "Blood in the fluid, the thicker the farther.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::haze>},
+    {"disturb-bubbles",
+     "Bubbles",
+     "Air that rises, and some on the lens.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::bubbles>},
+    {"disturb-debris",
+     "Debris",
+     "Loose flakes and fibres that drift by.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::debris>},
+    {"disturb-fog",
+     "Fogged lens",
+     "A milky veil from the rim inwards.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::fog>},
+    {"disturb-near-blur",
+     "Near blur",
+     "The camera is focused on the far.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::near_blur>},
+    {"disturb-far-blur",
+     "Far blur",
+     "The camera is focused on the near.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::far_blur>},
+    {"disturb-overexposure",
+     "Overexposed",
+     "Too much light for the camera.",
+     "Disturbances",
+     {},
+     {},
+     Practising,
+     Toggle<&Disturbances::overexposure>},
+    {"clear-view",
+     "Clear view",
+     "Nothing disturbs the picture.",
+     "Disturbances",
+     {},
+     {},
+     [](const State& state) { return Practising(state) && state.disturbing.now.is_any(); },
+     [](State& state) { state.disturbing.now = {}; }},
+};
+
+}  // namespace
+
+std::span<const Command> DisturbanceCommands() { return kCommands; }
+
+std::span<const DisturbanceSwitch> DisturbanceSwitches() { return kSwitches; }
+
+void ToggleDisturbance(State& state, Strength strength) {
+  double& now = state.disturbing.now.*strength;
+  now = now > 0 ? 0.0 : state.disturbing.chosen.*strength;
+}
+
+void SetDisturbance(State& state, Strength strength, double value) {
+  const double kept = std::clamp(value, kLeastStrength, 1.0);
+  state.disturbing.chosen.*strength = kept;
+  if (state.disturbing.now.*strength > 0) state.disturbing.now.*strength = kept;
+}
+
+}  // namespace arthro::app

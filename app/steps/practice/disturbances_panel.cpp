@@ -1,0 +1,35 @@
+// What an educator lays over the picture of a practice, each with its strength.
+#include <string>
+
+#include <imgui.h>
+
+#include "app/panels/fixed_window.h"
+#include "app/panels/panels.h"
+#include "app/state/command.h"
+
+namespace arthro::app {
+
+void DisturbancesPage(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "disturbances", area, kPageWindow);
+  Heading(ui, "Disturbances");
+  QuietText(ui, "What a trainee must cope with. They change the picture, and no force.");
+  Gap(ui);
+  const float button = ui.Px(118), high = ui.Px(40);
+  for (const auto& [id, strength] : DisturbanceSwitches()) {
+    const Command& command = CommandOf(id);
+    const bool is_on = state.disturbing.now.*strength > 0;
+    if (ToggleButton(ui, command.words, is_on, true, {button, high}, command.help))
+      Run(state, command);
+    ImGui::SameLine(0, ui.Px(8));
+    ImGui::BeginGroup();
+    double value = state.disturbing.chosen.*strength;
+    if (Slider(ui, std::string(command.words) + " strength", value, kLeastStrength, 1.0, "%.2f"))
+      SetDisturbance(state, strength, value);
+    ImGui::EndGroup();
+  }
+  Gap(ui);
+  CommandButton(ui, state, "clear-view", {-FLT_MIN, ui.Px(44)});
+  if (Button(ui, "Hide disturbances", true, {-FLT_MIN, ui.Px(44)})) Run(state, "disturbances");
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,104 @@
+// Calibration of the hands' incisions.
+#include <GLFW/glfw3.h>
+
+#include "app/steps/every_step.h"
+#include "app/steps/portals/validation_plot.h"
+#include "app/steps/practice/calibrate_incision.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+using simulation::DeviceRole;
+using simulation::PivotSource;
+
+bool Calibrating(const State& state) { return state.calibrating.has_value(); }
+
+template <DeviceRole role>
+bool May(const State& state) {
+  return MayCalibrate(state, role);
+}
+
+template <DeviceRole role>
+void Calibrate(State& state) {
+  CalibrateIncision(state, role);
+}
+
+constexpr Command kCommands[] = {
+    {"calibrate-scope",
+     "Calibrate scope incision…",
+     "Find where the incision lies in the frame of the scope's device.",
+     "Incision",
+     {},
+     {},
+     May<DeviceRole::kScope>,
+     Calibrate<DeviceRole::kScope>},
+    {"calibrate-instrument",
+     "Calibrate instrument incision…",
+     "Find where the incision lies in the frame of the instrument's device.",
+     "Incision",
+     {},
+     {},
+     May<DeviceRole::kInstrument>,
+     Calibrate<DeviceRole::kInstrument>},
+    {"press-incision",
+     "Press",
+     "Take the rod as it is held now; a button of its handle does the same.",
+     "Incision",
+     {GLFW_KEY_B},
+     {},
+     [](const State& state) {
+       return Calibrating(state) && state.calibrating->work.source() == PivotSource::kPresses &&
+              !state.calibrating->work.pressing();
+     },
+     [](State& state) { state.calibrating->work.Press(); }},
+    {"begin-incision-again",
+     "Begin again",
+     "Forget what was pressed or swung so far.",
+     "Incision",
+     {},
+     {},
+     Calibrating,
+     [](State& state) { state.calibrating->work.Begin(); }},
+    {"use-incision",
+     "Use this incision",
+     "The hand's mount takes it over at once; a rig's file keeps it.",
+     "Incision",
+     {},
+     {},
+     [](const State& state) { return Calibrating(state) && state.calibrating->work.MayBeUsed(); },
+     UseIncision},
+    {"save-rig-as",
+     "Save rig as…",
+     "Write the rig with its new incisions into another file.",
+     "Incision",
+     {},
+     {},
+     [](const State& state) {
+       return Calibrating(state) && !state.calibrating->outcome.empty() &&
+              state.hands->IsInRig(state.calibrating->role);
+     },
+     SaveRigAs},
+    {"validation-plot",
+     "Validation plot…",
+     "Draw where the centre of the view goes as the scope turns, and write it as a table.",
+     "Incision",
+     {},
+     {},
+     [](const State& state) { return !state.jobs.busy() && state.document().panorama != nullptr; },
+     SaveValidationPlot},
+    {"close-calibration",
+     "Close calibration",
+     "Back to the devices; Esc does the same.",
+     "Incision",
+     {},
+     {},
+     Calibrating,
+     EndCalibration},
+};
+
+}  // namespace
+
+std::span<const Command> IncisionCommands() { return kCommands; }
+
+}  // namespace arthro::app

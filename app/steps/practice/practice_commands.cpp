@@ -1,0 +1,313 @@
+// The steps of the editor, practice, the window.
+#include <string>
+
+#include <GLFW/glfw3.h>
+
+#include "app/state/edits.h"
+#include "app/steps/every_step.h"
+#include "app/steps/practice/calibrate_incision.h"
+#include "app/steps/practice/film.h"
+#include "app/steps/practice/hand_motion.h"
+#include "app/steps/practice/start_practice.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+bool Practising(const State& state) { return state.practice.has_value(); }
+
+// A calibration first.
+void LeavePractice(State& state) {
+  if (state.calibrating) return EndCalibration(state);
+  const double seconds = state.practice->snapshot().t;
+  state.practice.reset();
+  state.full_screen = false;
+  state.message = "Practice left.";
+  if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{seconds});
+}
+
+void ResetHands(State& state) {
+  if (state.practice) {
+    state.practice->scope().Set(StartOfScope(state.document().scene));
+    state.practice->instrument().Set(StartOfInstrument(state.document().scene));
+    state.head.turn = 0;
+  }
+  state.scope = StartOfScope(state.document().scene);
+  state.instrument = StartOfInstrument(state.document().scene);
+  state.message = "Both hands are back where they began.";
+}
+
+// Beside the practice that runs, or in the editor's last step.
+void ToggleDevices(State& state) {
+  const bool is_in_sight = state.practice || state.step == Step::kPractice;
+  state.shows_devices = !(state.shows_devices && is_in_sight);
+  state.disturbing.shows_panel = false;
+  if (!state.practice) state.step = Step::kPractice;
+}
+
+void ToggleZeroForce(State& state) {
+  state.hands->SetZeroForce(!state.hands->is_zero_force());
+  state.message = state.hands->is_zero_force()
+                      ? "Zero-force mode: forces are shown, and no device is given any."
+                      : "Zero-force mode has ended.";
+}
+
+template <int degrees>
+void LookAt(State& state) {
+  SetViewAngle(state, RadiansFromDegrees(degrees));
+  state.message = "View angle " + std::to_string(degrees) + "°";
+}
+
+template <simulation::ToolKind kind>
+void TakeInstrument(State& state) {
+  state.practice->SetInstrument(kind);
+}
+
+// However it was turned, the head is straight again.
+template <bool is_upright>
+void HoldHead(State& state) {
+  state.head = {.is_upright = is_upright};
+  state.message = is_upright ? "The camera head is held upright; the scope turns in it."
+                             : "The camera head turns with the scope.";
+}
+
+template <int steps>
+void StepHead(State& state) {
+  TurnHead(state, steps * kHeadStep);
+}
+
+template <Step step>
+void Open(State& state) {
+  state.step = step;
+}
+
+constexpr Command kCommands[] = {
+    {"step-panorama",
+     "Panorama",
+     "The picture that is the backdrop.",
+     "Steps",
+     {GLFW_KEY_F6},
+     {},
+     InEditor,
+     Open<Step::kPanorama>},
+    {"step-depth",
+     "Depth",
+     "How brightness becomes relief.",
+     "Steps",
+     {GLFW_KEY_F7},
+     {},
+     InEditor,
+     Open<Step::kDepth>},
+    {"step-tissue",
+     "Tissue",
+     "Deformable models in the scene.",
+     "Steps",
+     {GLFW_KEY_F8},
+     {},
+     InEditor,
+     Open<Step::kTissue>},
+    {"step-portals",
+     "Portals",
+     "Incisions and the scope.",
+     "Steps",
+     {GLFW_KEY_F9},
+     {},
+     InEditor,
+     Open<Step::kPortals>},
+    {"step-practice",
+     "Practice",
+     "Try the scene as a trainee will.",
+     "Steps",
+     {GLFW_KEY_F10},
+     {},
+     InEditor,
+     Open<Step::kPractice>},
+    {"practise",
+     "Practise",
+     "Practise in this scene at once.",
+     "Practice",
+     {GLFW_KEY_F5},
+     {GLFW_KEY_P},
+     MayPractise,
+     [](State& state) { StartPractice(state); }},
+    {"leave-practice",
+     "Leave practice",
+     "Back to the editor, exactly where it was.",
+     "Practice",
+     {GLFW_KEY_ESCAPE},
+     {},
+     Practising,
+     LeavePractice},
+    {"reset-hands",
+     "Reset the view",
+     "Put both hands back where they began.",
+     "Practice",
+     {GLFW_KEY_HOME},
+     {},
+     [](const State& state) { return state.document().panorama != nullptr && ShowsScope(state); },
+     ResetHands},
+    {"head-with-scope",
+     "With scope",
+     "The camera head turns with the scope, and the picture with it.",
+     "Practice",
+     {GLFW_KEY_T},
+     {},
+     Practising,
+     HoldHead<false>},
+    {"head-upright",
+     "Upright",
+     "The camera head is held upright while the scope turns in it.",
+     "Practice",
+     {GLFW_KEY_U},
+     {},
+     Practising,
+     HoldHead<true>},
+    {"head-left",
+     "Turn left",
+     "Turn the camera head to the left; G does while it is held.",
+     "Practice",
+     {},
+     {},
+     Practising,
+     StepHead<-1>},
+    {"head-right",
+     "Turn right",
+     "Turn the camera head to the right; H does while it is held.",
+     "Practice",
+     {},
+     {},
+     Practising,
+     StepHead<1>},
+    {"instrument-probe",
+     "Probe",
+     "Feel and lift with the hook.",
+     "Practice",
+     {GLFW_KEY_5},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kProbe>},
+    {"instrument-punch",
+     "Punch",
+     "Bite with the basket forceps: C closes the jaws.",
+     "Practice",
+     {GLFW_KEY_6},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kPunch>},
+    {"instrument-shaver",
+     "Shaver",
+     "Take tissue away while C is held.",
+     "Practice",
+     {GLFW_KEY_7},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kShaver>},
+    {"instrument-grasper",
+     "Grasper",
+     "Blunt jaws: C closes them.",
+     "Practice",
+     {GLFW_KEY_8},
+     {},
+     Practising,
+     TakeInstrument<simulation::ToolKind::kGrasper>},
+    {"reset-tissues",
+     "Tissue as it was",
+     "Every tissue as the session began with it, its author's cuts made.",
+     "Practice",
+     {},
+     {},
+     [](const State& state) { return Practising(state) && state.practice->tissues() != nullptr; },
+     [](State& state) {
+       state.practice->ResetTissues();
+       state.message = "The tissue is whole again.";
+     }},
+    {"devices",
+     "Devices",
+     "What holds the two hands, how they fare, and why there is no force.",
+     "Practice",
+     {GLFW_KEY_F4},
+     {},
+     [](const State& state) { return state.practice.has_value() || InEditor(state); },
+     ToggleDevices},
+    {"record",
+     "Record…",
+     "Begin a film of the scope's picture, or end it.",
+     "Practice",
+     {GLFW_KEY_F2},
+     {},
+     MayToggleFilm,
+     ToggleFilm},
+    {"outside",
+     "From outside",
+     "Show both hands from outside, in a corner of the picture, or stop.",
+     "Practice",
+     {GLFW_KEY_O},
+     {},
+     Practising,
+     [](State& state) { state.shows_outside = !state.shows_outside; }},
+    {"trainee-screen",
+     "Trainee's screen",
+     "Show the scope's picture alone, over all of a second monitor, or stop.",
+     "Window",
+     {GLFW_KEY_F12},
+     {},
+     Always,
+     [](State& state) { state.trainee_screen.is_wanted = !state.trainee_screen.is_wanted; }},
+    {"zero-force",
+     "Zero-force mode",
+     "Show forces and give the devices none, or end that.",
+     "Practice",
+     {GLFW_KEY_0},
+     {},
+     Always,
+     ToggleZeroForce},
+    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
+    {"view-30",
+     "30°",
+     "Look 30° away from the scope.",
+     "Practice",
+     {GLFW_KEY_2},
+     {},
+     ShowsScope,
+     LookAt<30>},
+    {"view-70",
+     "70°",
+     "Look 70° away from the scope.",
+     "Practice",
+     {GLFW_KEY_3},
+     {},
+     ShowsScope,
+     LookAt<70>},
+    {"view-90",
+     "90°",
+     "Look straight to the side.",
+     "Practice",
+     {GLFW_KEY_4},
+     {},
+     ShowsScope,
+     LookAt<90>},
+    {"full-screen",
+     "Full screen",
+     "Fill the screen, or stop.",
+     "Window",
+     {GLFW_KEY_F11},
+     {},
+     Always,
+     [](State& state) { state.full_screen = !state.full_screen; }},
+    {"help",
+     "?",
+     "All keys and mouse actions.",
+     "Window",
+     {GLFW_KEY_F1},
+     {},
+     Always,
+     [](State& state) { state.dialogs.push_back(HelpDialog{}); }},
+};
+
+}  // namespace
+
+std::span<const Command> PracticeCommands() { return kCommands; }
+
+}  // namespace arthro::app

@@ -1,0 +1,203 @@
+// What is done to the selected tissue: its surface, mesh, balls, cuts.
+#include <GLFW/glfw3.h>
+
+#include "app/state/edits.h"
+#include "app/steps/every_step.h"
+#include "app/steps/practice/tissue_poke.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_cut.h"
+#include "app/steps/tissue/tissue_work.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+bool HasTissue(const State& state) {
+  return Idle(state) && ShowsScope(state) && state.tissue >= 0 &&
+         state.tissue < static_cast<int>(state.document().scene.tissues.size());
+}
+
+template <BallKind kind>
+void ToggleBrush(State& state) {
+  if (state.brush == kind)
+    state.brush.reset();
+  else
+    state.brush = kind;
+  state.message = !state.brush ? "The overview turns and moves again."
+                  : kind == BallKind::kHeld
+                      ? "Click on the tissue in the overview to hold it there."
+                      : "Click on the tissue in the overview where its mesh shall be finer.";
+}
+
+constexpr Command kCommands[] = {
+    {"import-surface",
+     "Import a surface…",
+     "Add a tissue from an STL, OBJ, PLY, OFF or VTP file.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state); },
+     BrowseForSurface},
+    {"tetrahedralise",
+     "Make tetrahedra",
+     "Fill the chosen tissue with tetrahedra.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     TetrahedraliseTissue},
+    {"hold-brush",
+     "Hold it here…",
+     "Click on the tissue in the overview: it is held there, in a ball of the radius above.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     ToggleBrush<BallKind::kHeld>},
+    {"hold-at-instrument",
+     "Hold it at the instrument",
+     "Hold the chosen tissue where the instrument's tip is.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { AddBallAtInstrument(state, BallKind::kHeld); }},
+    {"release-ball",
+     "Release this one",
+     "Take the chosen ball away.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) {
+       return HasTissue(state) && state.tissue_page == TissuePage::kHold &&
+              HasChosenBall(state, BallKind::kHeld);
+     },
+     [](State& state) { RemoveChosenBall(state, BallKind::kHeld); }},
+    {"release-tissue",
+     "Release all",
+     "Take all balls away: nothing holds the tissue any more.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && HasBalls(state, BallKind::kHeld); },
+     [](State& state) { RemoveAllBalls(state, BallKind::kHeld); }},
+    {"probe-brush",
+     "Finer here…",
+     "Click on the tissue in the overview: the next tetrahedra are finer there, in a ball of the "
+     "radius above.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     ToggleBrush<BallKind::kProbed>},
+    {"probe-at-instrument",
+     "Finer at the instrument",
+     "The next tetrahedra of the chosen tissue are finer where the instrument's tip is.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { AddBallAtInstrument(state, BallKind::kProbed); }},
+    {"remove-probed",
+     "Not this one",
+     "Take the chosen place away.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) {
+       return HasTissue(state) && state.tissue_page == TissuePage::kMesh &&
+              HasChosenBall(state, BallKind::kProbed);
+     },
+     [](State& state) { RemoveChosenBall(state, BallKind::kProbed); }},
+    {"remove-all-probed",
+     "None of them",
+     "Take all places away: the next tetrahedra are finer where the tissue is free.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && HasBalls(state, BallKind::kProbed); },
+     [](State& state) { RemoveAllBalls(state, BallKind::kProbed); }},
+    {"cut-tear",
+     "Tear…",
+     "Click points along the tear on the tissue in the overview; press again to end it.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); }},
+    {"cut-bite",
+     "Bite…",
+     "Click on the tissue in the overview: a round bite is taken there.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kBite); }},
+    {"remove-cut",
+     "Remove this cut",
+     "Make the tissue whole where the chosen cut is.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && ChosenCut(state) != nullptr; },
+     RemoveChosenCut},
+    {"remove-all-cuts",
+     "Remove all cuts",
+     "Make the tissue whole.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) {
+       return HasTissue(state) &&
+              !state.document().scene.tissues[static_cast<std::size_t>(state.tissue)].cuts.empty();
+     },
+     RemoveAllCuts},
+    {"cut-region",
+     "Region…",
+     "Click on the tissue in the overview: what a trainee takes in a ball about it is told by "
+     "name.",
+     "Edit",
+     {},
+     {},
+     HasTissue,
+     [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kRegion); }},
+    {"remove-region",
+     "Remove this region",
+     "What is taken there is told under another name.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return HasTissue(state) && ChosenRegion(state) != nullptr; },
+     RemoveChosenRegion},
+    {"poke",
+     "Poke it",
+     "Let the instrument press on the tissue, here in your own view.",
+     "Edit",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state) && ShowsScope(state); },
+     [](State& state) { state.poke ? EndPoke(state) : StartPoke(state); }},
+    {"duplicate-tissue",
+     "Duplicate",
+     "Add a copy of the chosen tissue beside it.",
+     "Edit",
+     {GLFW_KEY_D, true},
+     {},
+     HasTissue,
+     [](State& state) { DuplicateTissue(state, state.tissue); }},
+    {"remove-tissue",
+     "Remove",
+     "Take the chosen tissue out of the scene.",
+     "Edit",
+     {GLFW_KEY_DELETE},
+     {},
+     HasTissue,
+     [](State& state) { RemoveTissue(state, state.tissue); }},
+};
+
+}  // namespace
+
+std::span<const Command> TissueCommands() { return kCommands; }
+
+}  // namespace arthro::app
