@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "app/editor/panels/panels.h"
 #include "app/editor/render_scale.h"
-#include "app/panels/panels.h"
 #include "app/state/editor_state.h"
 #include "app/steps/tissue/cut_skins.h"
 #include "app/view/arthroscopic_view.h"

@@ -1,9 +1,9 @@
-// Scenes and their files, footage, undo.
+// Scenes and their files, undo.
 #include <GLFW/glfw3.h>
 
 #include "app/files/scene_files.h"
+#include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/every_step.h"
 
 namespace arthro::app {
 namespace {
@@ -17,12 +17,6 @@ void Quit(State& state) {
 const std::vector<FileFilter>& SceneFilters() {
   static const std::vector<FileFilter> filters = {{"Scenes", {".json", ".arthro"}},
                                                   {"All files", {}}};
-  return filters;
-}
-
-const std::vector<FileFilter>& PictureFilters() {
-  static const std::vector<FileFilter> filters = {
-      {"Pictures", {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}}, {"All files", {}}};
   return filters;
 }
 
@@ -69,62 +63,6 @@ constexpr Command kCommands[] = {
      {},
      [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
      [](State& state) { SaveSceneAs(state); }},
-    {"import-panorama",
-     "Import a panorama…",
-     "Make a picture the backdrop.",
-     "Scene",
-     {GLFW_KEY_I, true},
-     {},
-     Idle,
-     [](State& state) {
-       Browse(state, BrowseFor::kOpenFile, "Import a panorama", "Import", PictureFilters(),
-              ImportPanorama);
-     }},
-    {"make-panorama",
-     "Make one from a video…",
-     "Put a panorama together from the frames of a video, or of a folder of pictures.",
-     "Scene",
-     {GLFW_KEY_M, true},
-     {},
-     Idle,
-     BrowseForFootage},
-    {"run-footage",
-     "Run",
-     "Make the panorama. What was made before is kept until this is done.",
-     "Scene",
-     {GLFW_KEY_R, true},
-     {},
-     [](const State& state) { return InEditor(state) && CanRun(state); },
-     RunFootage},
-    {"use-panorama",
-     "Use this panorama",
-     "Make it the backdrop of the scene, and go on to its depth.",
-     "Scene",
-     {},
-     {},
-     [](const State& state) { return Idle(state) && state.footage && state.footage->made; },
-     UseMadePanorama},
-    {"read-report",
-     "Read its report…",
-     "Take the panorama's middle and focal length from the report of `arthroscene panorama`.",
-     "Scene",
-     {},
-     {},
-     [](const State& state) { return Idle(state) && HasPicture(state); },
-     [](State& state) {
-       Browse(state, BrowseFor::kOpenFile, "Read a panorama's report", "Read",
-              {{"Reports", {".json"}}, {"All files", {}}}, ReadPanoramaReport);
-     }},
-    {"make-depth",
-     "Make depth from the picture",
-     "Replace the imported depth map by one that is made from the picture. Undo brings it back.",
-     "Scene",
-     {},
-     {},
-     [](const State& state) {
-       return Idle(state) && HasPicture(state) && state.document().is_depth_imported;
-     },
-     MakeDepth},
     {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
     {"undo",
      "Undo",
@@ -152,6 +90,6 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
-std::span<const Command> SceneCommands() { return kCommands; }
+std::span<const Command> FileCommands() { return kCommands; }
 
 }  // namespace arthro::app

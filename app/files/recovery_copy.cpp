@@ -9,7 +9,7 @@
 
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
-#include "app/steps/depth/depth_work.h"
+#include "app/steps/depth/depth_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
 

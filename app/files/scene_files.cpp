@@ -7,8 +7,10 @@
 
 #include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
-#include "app/steps/depth/depth_work.h"
+#include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_step.h"
+#include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -30,16 +32,6 @@ std::string LowerExtension(const fs::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-double NumberOf(const nlohmann::json& json, const char* key, const fs::path& file) {
-  const auto entry = json.find(key);
-  if (entry == json.end() || !entry->is_number())
-    throw Error(Code::kBadData,
-                std::string("the report's \"panorama\" has no number \"") + key +
-                    "\"; choose the report that `arthroscene panorama --report` wrote",
-                file);
-  return entry->get<double>();
 }
 
 }  // namespace
@@ -74,12 +66,12 @@ void StartDocument(EditorState& state, Document document, bool saved, SceneOnDis
   state.on_disk = std::move(on_disk);
   state.history = authoring::History(std::move(document));
   if (saved) state.history.MarkSaved();
-  state.depth_cache.Note(state.document());
+  state.steps.depth->cache.Note(state.document());
   state.tissue = state.document().scene.tissues.empty() ? -1 : 0;
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
   state.practice.reset();
-  state.shows_footage = false;  // the scene is what was asked for
+  state.steps.panorama->shows_footage = false;  // the scene is what was asked for
   ++state.document_number;
 }
 
@@ -129,7 +121,7 @@ void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
           return [then, saved, on_disk = NoteOnDisk(saved.folder)](EditorState& now) {
             now.history.MarkSaved(saved);
             now.on_disk = on_disk;
-            now.depth_cache.Note(saved);
+            now.steps.depth->cache.Note(saved);
             now.recent.Add(saved.folder);
             now.message = "Saved in " + saved.folder.string();
             if (then) then(now);
@@ -165,54 +157,6 @@ void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then) {
       name);
 }
 
-void ImportPanorama(EditorState& state, const fs::path& picture) {
-  state.jobs.Start("Import " + picture.filename().string(), [picture](const Progress&) {
-    auto panorama = std::make_shared<const ColourImage>(ReadColourImage(picture));
-    return [picture, panorama](EditorState& now) {
-      SetPanorama(now, "Import " + picture.filename().string(), panorama);
-      now.step = Step::kPanorama;
-      now.shows_footage = false;
-    };
-  });
-}
-
-void ReadPanoramaReport(EditorState& state, const fs::path& report) {
-  const nlohmann::json json =
-      ParseJson(ReadWholeFile(report, kMostJsonBytes), Code::kBadData, report);
-  const nlohmann::json part = json.is_object() ? json.value("panorama", nlohmann::json()) : json;
-  if (!part.is_object())
-    throw Error(Code::kBadData, "there is no \"panorama\" in it; choose the report of a panorama",
-                report);
-  Backdrop backdrop = state.document().scene.backdrop;
-  backdrop.projection.type = ProjectionType::kGnomonic;
-  backdrop.projection.focal_px = NumberOf(part, "focal_px", report);
-  backdrop.projection.centre_px = {NumberOf(part, "cx", report), NumberOf(part, "cy", report)};
-  const auto& panorama = state.document().panorama;
-  if (panorama && (NumberOf(part, "width", report) != panorama->width ||
-                   NumberOf(part, "height", report) != panorama->height))
-    throw Error(Code::kBadData,
-                "the report is of a panorama of another size; choose the one that was written with "
-                "this panorama",
-                report);
-  SetBackdrop(state, backdrop, "the projection");
-}
-
-void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
-            const std::string& accept_words, std::vector<FileFilter> filters,
-            std::function<void(EditorState&, const fs::path&)> then, const std::string& file_name) {
-  std::error_code ignored;
-  fs::path start = state.document().folder;
-  if (start.empty() && !state.recent.Existing().empty())
-    start = state.recent.Existing().front().parent_path();
-  if (start.empty()) start = fs::current_path(ignored);
-  // A scene is a folder: a copy goes beside it, not into it.
-  if (purpose == BrowseFor::kSaveFolder && fs::exists(start / "scene.json", ignored))
-    start = start.parent_path();
-  state.dialogs.push_back(BrowseDialog{
-      title, accept_words, FileBrowserModel(purpose, std::move(filters), start, file_name),
-      std::move(then), false, false, ""});
-}
-
 void OpenDropped(EditorState& state, const fs::path& file) {
   const std::string extension = LowerExtension(file);
   const auto is_one_of = [&](std::initializer_list<const char*> extensions) {
@@ -233,12 +177,6 @@ void OpenDropped(EditorState& state, const fs::path& file) {
         "picture, a video or a folder of its frames, or an STL, OBJ, PLY, OFF or VTP surface",
         file);
   }
-}
-
-void GuardUnsaved(EditorState& state, const std::string& action,
-                  std::function<void(EditorState&)> then) {
-  if (state.practice_only || state.history.IsSaved()) return then(state);
-  state.dialogs.push_back(GuardDialog{action, std::move(then)});
 }
 
 }  // namespace arthro::app

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include "app/state/editor_state.h"
 
@@ -37,23 +38,9 @@ void SaveScene(EditorState& state, std::function<void(EditorState&)> then = {});
 void ReplaceChangedScene(EditorState& state, std::function<void(EditorState&)> then = {});
 void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then = {});
 
-// A picture becomes the backdrop; its projection is kept if the size is that of the old one.
-void ImportPanorama(EditorState& state, const std::filesystem::path& picture);
-// A panorama report says where the middle is and how many pixels a radian [method.md, File
-// formats].
-void ReadPanoramaReport(EditorState& state, const std::filesystem::path& report);
+std::span<const Command> FileCommands();  // and undo
 
 // A file that was dropped on the window: a scene, a picture, footage or a surface, by its name.
 void OpenDropped(EditorState& state, const std::filesystem::path& file);
-
-// Runs `then` now if all is saved; else asks: Save, Discard or Cancel.
-void GuardUnsaved(EditorState& state, const std::string& action,
-                  std::function<void(EditorState&)> then);
-
-// Opens the file browser; `then` gets what was chosen.
-void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
-            const std::string& accept_words, std::vector<FileFilter> filters,
-            std::function<void(EditorState&, const std::filesystem::path&)> then,
-            const std::string& file_name = {});
 
 }  // namespace arthro::app

@@ -5,11 +5,6 @@
 
 #include <GLFW/glfw3.h>
 
-#include "app/steps/depth/depth_work.h"
-#include "app/steps/every_step.h"
-#include "app/steps/practice/film.h"
-#include "app/steps/practice/tissue_poke.h"
-
 namespace arthro::app {
 
 std::string WordsOf(const Shortcut& shortcut) {
@@ -29,19 +24,15 @@ std::string WordsOf(const Shortcut& shortcut) {
   }
 }
 
-std::span<const Command> AllCommands() {
-  static const std::vector<Command> all = [] {
-    std::vector<Command> commands;
-    for (const auto group : {SceneCommands(), TissueCommands(), PracticeCommands(),
-                             DisturbanceCommands(), IncisionCommands()})
-      commands.insert(commands.end(), group.begin(), group.end());
-    return commands;
-  }();
-  return all;
+bool Always(const EditorState&) { return true; }
+bool InEditor(const EditorState& state) { return !state.practice && !state.practice_only; }
+bool Idle(const EditorState& state) { return InEditor(state) && !state.jobs.busy(); }
+bool HasPicture(const EditorState& state) {
+  return InEditor(state) && state.document().panorama != nullptr;
 }
 
-const Command& CommandOf(std::string_view id) {
-  for (const Command& command : AllCommands())
+const Command& CommandOf(const EditorState& state, std::string_view id) {
+  for (const Command& command : state.commands)
     if (id == command.id) return command;
   throw std::logic_error("no command " + std::string(id));
 }
@@ -64,20 +55,6 @@ void Run(EditorState& state, const Command& command) {
   Guarded(state, command.words, [&] { command.run(state); });
 }
 
-void Run(EditorState& state, std::string_view id) { Run(state, CommandOf(id)); }
-
-bool FinishWork(EditorState& state) {
-  bool changed = FinishFootage(state);
-  if (state.jobs.busy()) {
-    const std::string words = state.jobs.words();
-    Guarded(state, words, [&] { changed = state.jobs.Finish(state); });
-    changed = changed || !state.jobs.busy();
-  }
-  changed = FinishFilm(state) || changed;
-  changed = FinishDepth(state) || changed;
-  KeepPokeFresh(state);
-  Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
-  return changed;
-}
+void Run(EditorState& state, std::string_view id) { Run(state, CommandOf(state, id)); }
 
 }  // namespace arthro::app

@@ -3,7 +3,7 @@
 // shortcuts are made from this list.
 #pragma once
 
-#include <span>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -27,8 +27,13 @@ struct Command {
   void (*run)(EditorState&);
 };
 
-std::span<const Command> AllCommands();
-const Command& CommandOf(std::string_view id);  // of an id that exists
+const Command& CommandOf(const EditorState& state, std::string_view id);  // of an id that exists
+
+// ---- When a command can be called. ----
+bool Always(const EditorState& state);
+bool InEditor(const EditorState& state);
+bool Idle(const EditorState& state);  // and no work is under way
+bool HasPicture(const EditorState& state);
 
 // Runs it if it is enabled. An Error becomes a dialog with its sentence.
 void Run(EditorState& state, const Command& command);
@@ -36,8 +41,5 @@ void Run(EditorState& state, std::string_view id);
 
 // Runs `action`; an Error becomes a dialog titled `title`, a cancelled job a message.
 void Guarded(EditorState& state, const std::string& title, const std::function<void()>& action);
-
-// Takes over ended work, keeps the depth map fresh. Once a frame. True when something changed.
-bool FinishWork(EditorState& state);
 
 }  // namespace arthro::app

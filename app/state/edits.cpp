@@ -4,9 +4,7 @@
 
 #include "app/state/footage_optics.h"
 #include "app/state/same.h"
-#include "app/steps/depth/depth_cache.h"
 #include "authoring/project/document_io.h"
-#include "simulation/core/same_options.h"
 
 namespace arthro::app {
 namespace {
@@ -93,40 +91,10 @@ void SetPanorama(EditorState& state, const std::string& name,
   });
 }
 
-void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
-                     const std::string& what) {
-  if (SameOptions(options, state.document().depth_options)) return;
-  if (state.document().is_depth_imported) {
-    state.message = "The imported depth map is kept. Make one from the picture to change it.";
-    return;
-  }
-  Edit(state, "Depth: " + what, Key("depth", what), [&](auto& next) {
-    next.depth_options = options;
-    // What was made before for these options is taken up again at once.
-    if (auto made = state.depth_cache.Find(next)) next.depth = made;
-  });
-}
-
-void MakeDepth(EditorState& state) {
-  const authoring::Document& document = state.document();
-  if (!document.panorama || !document.is_depth_imported) return;
-  Edit(state, "Replace the imported depth map", "", [&](auto& next) {
-    next.is_depth_imported = false;
-    if (auto made = state.depth_cache.Find(next)) next.depth = made;
-  });
-}
-
 void SetIncisionSpacing(EditorState& state, double spacing) {
   if (spacing == state.document().scene.portals.incision_spacing) return;
   Edit(state, "Change the incision spacing", "incision_spacing",
        [&](auto& next) { next.scene.portals.incision_spacing = spacing; });
-}
-
-void SetViewAngle(EditorState& state, double view_angle) {
-  if (state.practice) return state.practice->SetViewAngle(view_angle);
-  if (view_angle == state.document().scene.scope.view_angle) return;
-  Edit(state, "Change the view angle", "",
-       [&](auto& next) { next.scene.scope.view_angle = view_angle; });
 }
 
 void SetFieldOfView(EditorState& state, double field_of_view) {

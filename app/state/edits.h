@@ -29,13 +29,7 @@ void SetPanorama(EditorState& state, const std::string& name,
 void SetPanorama(EditorState& state, const std::string& name,
                  const std::shared_ptr<const ColourImage>& panorama, const Projection& projection,
                  const Lens& lens, bool is_lens_guessed);
-// Nothing happens while the depth map is an imported one: MakeDepth says that it may be replaced.
-void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
-                     const std::string& what);
-// Puts a depth map that is made from the picture in the place of the imported one.
-void MakeDepth(EditorState& state);
 void SetIncisionSpacing(EditorState& state, double spacing);  // m
-void SetViewAngle(EditorState& state, double view_angle);     // rad; in practice the session's
 void SetFieldOfView(EditorState& state, double field_of_view);
 void SetRelight(EditorState& state, double share);  // Backdrop::relight
 void SetRodLength(EditorState& state, double rod_length);

@@ -4,10 +4,10 @@
 
 #include <imgui.h>
 
+#include "app/editor/panels/panels.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
-#include "app/steps/depth/depth_work.h"
+#include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_work.h"
 
 namespace arthro::app {
@@ -54,15 +54,6 @@ Layout PracticeLayout(float width, float height, float scale) {
   return AtLeastAPixel(layout);
 }
 
-bool CommandButton(Ui& ui, EditorState& state, std::string_view id, const ImVec2& size) {
-  const Command& command = CommandOf(id);
-  std::string tip = command.help;
-  if (const std::string keys = WordsOf(command.shortcut); !keys.empty()) tip += " (" + keys + ")";
-  if (!Button(ui, command.words, command.enabled(state), size, tip.c_str())) return false;
-  Run(state, command);
-  return true;
-}
-
 void TopBar(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "top", area, kBarWindow);
   for (const char* id : {"new", "open", "save", "save-as"}) {
@@ -102,8 +93,8 @@ void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& 
   const FixedWindow window(ui, "status", area, kBarWindow);
   // Work under way stands on the right, unless the page says it already.
   const bool depth = DepthIsUnderWay(state);
-  const bool on_page =
-      ShowsFootage(state) && FootageIsUnderWay(state) && state.footage_job.makes_panorama;
+  const bool on_page = ShowsFootage(state) && FootageIsUnderWay(state) &&
+                       state.steps.panorama->footage_job.makes_panorama;
   const bool work = (state.jobs.busy() || depth) && !on_page;
   const float left = ui.Px(12), half = 0.5f * (area.width - 2 * left);
   ShortenedText(ui, state.message, state.message, work ? half - ui.Px(22) : 2 * half);
@@ -117,7 +108,8 @@ void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& 
 
   if (!work) return;
   const std::string words = state.jobs.busy() ? state.jobs.words() : "Depth";
-  const double done = state.jobs.busy() ? state.jobs.done() : state.preview_jobs.done();
+  const double done =
+      state.jobs.busy() ? state.jobs.done() : state.steps.depth->preview_jobs.done();
   const float bar = ui.Px(160), stop = ui.Px(64), rest = bar + stop + ui.Px(44);
   const float text = std::min(ImGui::CalcTextSize(words.c_str()).x, half - rest);
   ImGui::SameLine(area.width - rest - text);

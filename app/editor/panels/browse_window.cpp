@@ -3,7 +3,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "app/panels/panels.h"
+#include "app/editor/panels/panels.h"
 #include "app/state/command.h"
 
 namespace arthro::app {

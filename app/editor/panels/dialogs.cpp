@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/editor/panels/panels.h"
 #include "app/files/scene_files.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
 #include "app/steps/tissue/tissue_work.h"
 
@@ -98,7 +98,7 @@ void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {
   Heading(ui, "Practice ended");
   Gap(ui, 2);
   Text(ui, fmt::format("You practised for {}:{:02} minutes.", whole / 60, whole % 60));
-  if (!state.film_words.empty()) Text(ui, state.film_words);
+  if (!state.steps.practice->film_words.empty()) Text(ui, state.steps.practice->film_words);
   Gap(ui);
   const bool again = Button(ui, "Practise again", true, {ui.Px(170), ui.Px(44)}) || EnterPressed();
   ImGui::SameLine();

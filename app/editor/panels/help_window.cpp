@@ -4,7 +4,7 @@
 
 #include <imgui.h>
 
-#include "app/panels/panels.h"
+#include "app/editor/panels/panels.h"
 #include "app/state/command.h"
 #include "app/steps/practice/hand_motion.h"
 
@@ -28,7 +28,7 @@ bool BeginRows(Ui& ui, const char* name) {
 
 }  // namespace
 
-void HelpWindow(Ui& ui, EditorState&) {
+void HelpWindow(Ui& ui, EditorState& state) {
   Heading(ui, "Keys and mouse");
   const float foot = ImGui::GetFrameHeightWithSpacing() + ui.Px(6);
   ImGui::BeginChild("help", {0, -foot});
@@ -77,7 +77,7 @@ void HelpWindow(Ui& ui, EditorState&) {
   // Commands, under the headings of their groups.
   const char* group = "";
   bool in_table = false;
-  for (const Command& command : AllCommands()) {
+  for (const Command& command : state.commands) {
     const std::string keys = WordsOf(command.shortcut);
     if (keys.empty()) continue;
     if (std::strcmp(group, command.group) != 0) {

@@ -5,8 +5,8 @@
 
 #include <imgui.h>
 
+#include "app/editor/panels/panels.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/practice/hand_motion.h"
@@ -175,7 +175,7 @@ bool ApplyHeldKeys(EditorState& state, bool picture_has_focus, double seconds) {
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt) return false;
   const auto held = [&](int key) { return io.KeysDown[key]; };
   if (state.practice) state.practice->Press(held(kActKey));
-  state.hands->HoldDeadMan(held(kDeadManKey));
+  state.steps.practice->hands->HoldDeadMan(held(kDeadManKey));
   const bool is_turned = TurnHead(state, HeadTurnOfKeys(seconds, held));
   return MoveHands(state, MotionOfKeys(false, picture_has_focus, seconds, held),
                    MotionOfKeys(true, picture_has_focus, seconds, held)) ||

@@ -1,9 +1,15 @@
 // The author's steps as a list, with the controls of the chosen one below it.
 #include <imgui.h>
 
+#include "app/editor/panels/panels.h"
+#include "app/files/scene_files.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/panorama_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 namespace {
@@ -22,7 +28,7 @@ constexpr StepEntry kSteps[] = {{Step::kPanorama, "step-panorama", "1"},
 void StepList(Ui& ui, EditorState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.Px(8), ui.Px(2)});
   for (const StepEntry& entry : kSteps) {
-    const Command& command = CommandOf(entry.command);
+    const Command& command = CommandOf(state, entry.command);
     const bool chosen = state.step == entry.step;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
@@ -38,6 +44,23 @@ void StepList(Ui& ui, EditorState& state) {
                   ImGui::GetColorU32(ImGuiCol_Text), command.words);
   }
   ImGui::PopStyleVar();
+}
+
+// The file that was worked on lately, as a row that opens it.
+void RecentList(Ui& ui, EditorState& state) {
+  const auto recent = state.recent.Existing();
+  if (recent.empty()) return;
+  Gap(ui);
+  Heading(ui, "Recent scenes");
+  for (const auto& scene : recent) {
+    const auto folder =
+        scene.has_extension() && scene.filename() == "scene.json" ? scene.parent_path() : scene;
+    if (Button(ui, folder.filename().string() + "##" + scene.string(), !state.jobs.busy(),
+               {-FLT_MIN, 0}, scene.c_str()))
+      GuardUnsaved(state, "open another scene", [scene](EditorState& sure) {
+        Guarded(sure, "Open", [&] { OpenScene(sure, scene); });
+      });
+  }
 }
 
 }  // namespace

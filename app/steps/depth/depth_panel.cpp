@@ -3,11 +3,12 @@
 
 #include <imgui.h>
 
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
 #include "app/panels/options_panel.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/depth/depth_work.h"
+#include "app/steps/depth/depth_step.h"
 
 namespace arthro::app {
 
@@ -33,7 +34,7 @@ void DepthPanel(Ui& ui, EditorState& state) {
   if (!panel.changed_field.empty()) SetDepthOptions(state, options, panel.changed_field);
   if (panel.held) state.dragging = true;
   if (panel.released) EndDrag(state);
-  const std::string problem = state.depth_cache.ProblemOf(state.document());
+  const std::string problem = state.steps.depth->cache.ProblemOf(state.document());
   if (!problem.empty()) ColouredText(ui, problem, kWarning);
   Gap(ui);
   if (Button(ui, "Back to the defaults", !is_imported, {-1, 0})) {

@@ -17,7 +17,7 @@ namespace {
 constexpr float kBarHeight = 48, kLineHeight = 14;  // at scale 1
 
 void ViewToggles(Ui& ui, EditorState& state) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   struct Entry {
     const char* words;
     FrameView view;
@@ -40,7 +40,7 @@ void ViewToggles(Ui& ui, EditorState& state) {
 }
 
 void Bar(Ui& ui, EditorState& state, const Area& area) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
   const bool mosaic = board.selected < 0;
   if (ToggleButton(ui, "The panorama", mosaic, true, {0, 0},
@@ -77,7 +77,7 @@ void Bar(Ui& ui, EditorState& state, const Area& area) {
 // the panels elsewhere.
 void Keys(EditorState& state) {
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key); };
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   if (pressed(GLFW_KEY_LEFT)) StepFrame(state, -1);
   if (pressed(GLFW_KEY_RIGHT)) StepFrame(state, 1);
   if (pressed(GLFW_KEY_PAGE_UP)) StepFrame(state, -10);
@@ -144,7 +144,7 @@ const char* WordOf(FrameStatus status) {
 }
 
 void FootageBoardPage(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture) {
-  if (std::exchange(state.footage->wants_focus, false)) ImGui::SetNextWindowFocus();
+  if (std::exchange(state.steps.panorama->footage->wants_focus, false)) ImGui::SetNextWindowFocus();
   const FixedWindow window(ui, "board", area, kPictureWindow);
   const float bar = ui.Px(kBarHeight), line = ui.Px(kLineHeight), strip = FrameStripHeight(ui);
   const float picture = std::max(1.0f, area.height - bar - line - strip);

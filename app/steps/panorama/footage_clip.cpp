@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/files/scene_files.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_work.h"
@@ -111,72 +110,76 @@ void OpenFootage(EditorState& state, const fs::path& chosen) {
     ReadClip(footage, *mail, progress);
     return [count = footage.index() + 1](EditorState& now) {
       TakeFootageMail(now);
-      if (!now.footage) return;
-      now.footage->thumbs.resize(static_cast<std::size_t>(std::max(1, count)));
-      now.footage->notes.resize(now.footage->thumbs.size());
+      if (!now.steps.panorama->footage) return;
+      now.steps.panorama->footage->thumbs.resize(static_cast<std::size_t>(std::max(1, count)));
+      now.steps.panorama->footage->notes.resize(now.steps.panorama->footage->thumbs.size());
       now.message = "The clip is read. Choose its lens and run.";
     };
   });
-  state.footage_job = {std::move(mail), false};
+  state.steps.panorama->footage_job = {std::move(mail), false};
 }
 
 void BeginBoard(EditorState& state, const FootageClip& clip) {
   FootageBoard board = NewBoard(clip.file, clip.info);
   // Lens and options are those of the clip before: most clips of a day are from one scope.
-  board.lenses = state.footage ? state.footage->lenses : LensChoices(state.lens_folder);
-  if (state.footage) {
-    board.lens = state.footage->lens;
+  board.lenses = state.steps.panorama->footage ? state.steps.panorama->footage->lenses
+                                               : LensChoices(state.steps.panorama->lens_folder);
+  if (state.steps.panorama->footage) {
+    board.lens = state.steps.panorama->footage->lens;
     for (LensChoice& lens : board.lenses)
       if (lens.preset) lens.lens.reset();  // its round window is to be found
-    board.options = state.footage->options;
+    board.options = state.steps.panorama->footage->options;
   }
   NoteNextRun(board);
-  state.footage = std::move(board);
-  state.shows_footage = true;
+  state.steps.panorama->footage = std::move(board);
+  state.steps.panorama->shows_footage = true;
   state.step = Step::kPanorama;
 }
 
 void CloseFootage(EditorState& state) {
   if (FootageIsUnderWay(state)) return;
-  state.footage.reset();
-  state.shows_footage = false;
+  state.steps.panorama->footage.reset();
+  state.steps.panorama->shows_footage = false;
 }
 
 void SetFootageLens(EditorState& state, int choice) {
-  if (!state.footage || choice < 0 || choice >= static_cast<int>(state.footage->lenses.size()))
+  if (!state.steps.panorama->footage || choice < 0 ||
+      choice >= static_cast<int>(state.steps.panorama->footage->lenses.size()))
     return;
-  const LensChoice& lens = state.footage->lenses[static_cast<std::size_t>(choice)];
+  const LensChoice& lens = state.steps.panorama->footage->lenses[static_cast<std::size_t>(choice)];
   if (!lens.problem.empty()) {
     state.dialogs.push_back(ErrorDialog{lens.words, lens.problem});
     return;
   }
-  state.footage->lens = choice;
-  state.footage->large = {};  // rectified by another lens
-  NoteNextRun(*state.footage);
+  state.steps.panorama->footage->lens = choice;
+  state.steps.panorama->footage->large = {};  // rectified by another lens
+  NoteNextRun(*state.steps.panorama->footage);
 }
 
 void BrowseForLens(EditorState& state) {
   Browse(state, BrowseFor::kOpenFile, "The lens of the scope", "Take it",
          {{"Lenses", {".json"}}, {"All files", {}}}, [](EditorState& now, const fs::path& file) {
-           if (!now.footage) return;
-           now.footage->lenses.push_back(LensFromFile(file));
-           SetFootageLens(now, static_cast<int>(now.footage->lenses.size()) - 1);
+           if (!now.steps.panorama->footage) return;
+           now.steps.panorama->footage->lenses.push_back(LensFromFile(file));
+           SetFootageLens(now, static_cast<int>(now.steps.panorama->footage->lenses.size()) - 1);
          });
 }
 
 void SetPanoramaOptions(EditorState& state, const authoring::PanoramaOptions& options) {
-  if (!state.footage) return;
-  state.footage->options = options;
-  NoteNextRun(*state.footage);
+  if (!state.steps.panorama->footage) return;
+  state.steps.panorama->footage->options = options;
+  NoteNextRun(*state.steps.panorama->footage);
 }
 
 void SetFrameIncluded(EditorState& state, int frame, bool included) {
-  if (!state.footage || frame < 0 || frame >= state.footage->frames()) return;
+  if (!state.steps.panorama->footage || frame < 0 ||
+      frame >= state.steps.panorama->footage->frames())
+    return;
   if (included)
-    state.footage->excluded.erase(frame);
+    state.steps.panorama->footage->excluded.erase(frame);
   else
-    state.footage->excluded.insert(frame);
-  NoteNextRun(*state.footage);
+    state.steps.panorama->footage->excluded.insert(frame);
+  NoteNextRun(*state.steps.panorama->footage);
 }
 
 }  // namespace arthro::app

@@ -4,6 +4,7 @@
 
 #include "app/state/command.h"
 #include "app/steps/panorama/board_picture.h"
+#include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_work.h"
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"
@@ -21,11 +22,11 @@ void MakeRoom(FootageBoard& board, int frame) {
 }  // namespace
 
 void TakeFootageMail(EditorState& state) {
-  if (!state.footage_job.mail) return;
-  FootageNews news = state.footage_job.mail->Take();
+  if (!state.steps.panorama->footage_job.mail) return;
+  FootageNews news = state.steps.panorama->footage_job.mail->Take();
   if (news.clip) BeginBoard(state, *news.clip);
-  if (!state.footage) return;
-  FootageBoard& board = *state.footage;
+  if (!state.steps.panorama->footage) return;
+  FootageBoard& board = *state.steps.panorama->footage;
   for (auto& [frame, thumb] : news.thumbs) {
     if (frame < 0) continue;
     MakeRoom(board, frame);
@@ -76,15 +77,15 @@ void FetchEvenLight(LentSession* session, LargeFrame& large) {
 
 // Has the selected frame read, the newest wish first.
 void ReadLarge(EditorState& state) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   if (board.selected < 0 || board.large.frame == board.selected) return;
-  if (state.frame_jobs.busy()) {  // with one that is not wanted any more
+  if (state.steps.panorama->frame_jobs.busy()) {  // with one that is not wanted any more
     board.large = {};
-    return state.frame_jobs.Stop();
+    return state.steps.panorama->frame_jobs.Stop();
   }
   board.large = {};
   board.large.frame = board.selected;
-  state.frame_jobs.Start(
+  state.steps.panorama->frame_jobs.Start(
       "Frame", [session = board.session, request = RequestOf(board), frame = board.selected,
                 lens = board.lens](const Progress& progress) {
         LargeFrame large;
@@ -97,10 +98,12 @@ void ReadLarge(EditorState& state) {
           large.problem = error.sentence();
         }
         return Jobs::Apply([large, lens, file = request.footage](EditorState& now) {
-          const bool same_clip = now.footage && now.footage->file == file;
+          const bool same_clip =
+              now.steps.panorama->footage && now.steps.panorama->footage->file == file;
           // Another frame or lens may be wanted by now; then it is read next.
-          if (same_clip && now.footage->large.frame == large.frame && now.footage->lens == lens)
-            now.footage->large = large;
+          if (same_clip && now.steps.panorama->footage->large.frame == large.frame &&
+              now.steps.panorama->footage->lens == lens)
+            now.steps.panorama->footage->large = large;
         });
       });
 }
@@ -108,39 +111,41 @@ void ReadLarge(EditorState& state) {
 }  // namespace
 
 bool ShowsFootage(const EditorState& state) {
-  return state.footage && state.shows_footage && state.step == Step::kPanorama && !state.practice &&
-         !state.practice_only;
+  return state.steps.panorama->footage && state.steps.panorama->shows_footage &&
+         state.step == Step::kPanorama && !state.practice && !state.practice_only;
 }
 
 void SelectFrame(EditorState& state, int frame) {
-  if (!state.footage) return;
-  state.footage->selected = std::clamp(frame, -1, state.footage->frames() - 1);
-  state.footage->scroll_to_selected = true;
+  if (!state.steps.panorama->footage) return;
+  state.steps.panorama->footage->selected =
+      std::clamp(frame, -1, state.steps.panorama->footage->frames() - 1);
+  state.steps.panorama->footage->scroll_to_selected = true;
 }
 
 void StepFrame(EditorState& state, int by) {
-  if (!state.footage) return;
-  const int from = state.footage->selected;
-  SelectFrame(state,
-              from < 0 ? (by > 0 ? 0 : state.footage->frames() - 1) : std::max(0, from + by));
+  if (!state.steps.panorama->footage) return;
+  const int from = state.steps.panorama->footage->selected;
+  SelectFrame(state, from < 0 ? (by > 0 ? 0 : state.steps.panorama->footage->frames() - 1)
+                              : std::max(0, from + by));
 }
 
 void SetFrameView(EditorState& state, FrameView view) {
-  if (state.footage) state.footage->view = view;
+  if (state.steps.panorama->footage) state.steps.panorama->footage->view = view;
 }
 
 bool FinishFootage(EditorState& state) {
   bool changed = false;
   TakeFootageMail(state);
-  if (state.footage_job.mail && !state.jobs.busy()) {
-    state.footage_job = {};
+  if (state.steps.panorama->footage_job.mail && !state.jobs.busy()) {
+    state.steps.panorama->footage_job = {};
     changed = true;
   }
-  if (state.frame_jobs.busy()) {
-    Guarded(state, "Frame", [&] { state.frame_jobs.Finish(state); });
-    const bool has_ended = !state.frame_jobs.busy();
+  if (state.steps.panorama->frame_jobs.busy()) {
+    Guarded(state, "Frame", [&] { state.steps.panorama->frame_jobs.Finish(state); });
+    const bool has_ended = !state.steps.panorama->frame_jobs.busy();
     // It had the session for a moment, in which nobody else could ask it.
-    if (has_ended && state.footage && !FootageIsUnderWay(state)) NoteNextRun(*state.footage);
+    if (has_ended && state.steps.panorama->footage && !FootageIsUnderWay(state))
+      NoteNextRun(*state.steps.panorama->footage);
     changed = changed || has_ended;
   }
   if (ShowsFootage(state)) ReadLarge(state);

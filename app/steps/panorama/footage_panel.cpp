@@ -62,13 +62,13 @@ struct Folded {
 };
 
 void Clip(Ui& ui, EditorState& state) {
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   ImGui::PushFont(ui.fonts.heading);
   ShortenedText(ui, board.name, board.file.c_str());
   ImGui::PopFont();
   QuietText(ui, WordsOfClip(board));
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (Button(ui, "Another video…", CommandOf("make-panorama").enabled(state), {half, 0}))
+  if (Button(ui, "Another video…", CommandOf(state, "make-panorama").enabled(state), {half, 0}))
     Run(state, "make-panorama");
   ImGui::SameLine();
   if (Button(ui, "Close it", !FootageIsUnderWay(state), {half, 0},
@@ -77,7 +77,7 @@ void Clip(Ui& ui, EditorState& state) {
 }
 
 void LensChooser(Ui& ui, EditorState& state) {
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   std::vector<std::string> words;
   for (const LensChoice& lens : board.lenses) words.push_back(lens.words);
   words.emplace_back("from a file…");
@@ -100,7 +100,7 @@ bool MainButton(Ui& ui, const std::string& name, bool enabled, const char* help)
 }
 
 void RunAndStop(Ui& ui, EditorState& state) {
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   if (FootageIsUnderWay(state)) {
     ImGui::ProgressBar(static_cast<float>(state.jobs.done()), {-FLT_MIN, 0});
     Text(ui, WordsOfStage(state.jobs.stage()));
@@ -108,7 +108,7 @@ void RunAndStop(Ui& ui, EditorState& state) {
       state.jobs.Stop();
     return;
   }
-  const Command& run = CommandOf("run-footage");
+  const Command& run = CommandOf(state, "run-footage");
   const bool again = board.session != nullptr;
   const bool pressed =
       again ? Button(ui, "Run again", run.enabled(state), {-FLT_MIN, ui.Px(36)}, run.help)
@@ -118,12 +118,12 @@ void RunAndStop(Ui& ui, EditorState& state) {
 }
 
 void Result(Ui& ui, EditorState& state) {
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   if (!board.made) return;
   Gap(ui, 2);
   const std::vector<std::string> lines = WordsOfResult(board);
   Heading(ui, lines.front());
-  const Command& use = CommandOf("use-panorama");
+  const Command& use = CommandOf(state, "use-panorama");
   if (MainButton(ui, use.words, use.enabled(state), use.help)) Run(state, use);
   Gap(ui, 1);
   for (std::size_t i = 1; i < lines.size(); ++i) Text(ui, lines[i]);
@@ -134,16 +134,16 @@ void Result(Ui& ui, EditorState& state) {
 
 void FootagePanel(Ui& ui, EditorState& state) {
   Clip(ui, state);
-  if (!state.footage) return;
+  if (!state.steps.panorama->footage) return;
   Gap(ui, 2);
   LensChooser(ui, state);
-  authoring::PanoramaOptions options = state.footage->options;
+  authoring::PanoramaOptions options = state.steps.panorama->footage->options;
   OptionsPanelVisitor panel{ui};
   InFront in_front{panel};
   options.Visit(in_front);
   Gap(ui, 2);
   RunAndStop(ui, state);
-  if (!state.footage) return;
+  if (!state.steps.panorama->footage) return;
   Result(ui, state);
 
   Gap(ui, 2);

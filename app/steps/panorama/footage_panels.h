@@ -4,7 +4,9 @@
 
 #include <functional>
 
-#include "app/panels/panels.h"
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
+#include "app/steps/panorama/panorama_step.h"
 
 namespace arthro::app {
 

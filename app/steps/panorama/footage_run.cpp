@@ -6,6 +6,7 @@
 #include "app/state/edits.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_words.h"
+#include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_work.h"
 
 namespace arthro::app {
@@ -67,51 +68,52 @@ void NoteNextRun(FootageBoard& board) {
 }
 
 bool CanRun(const EditorState& state) {
-  return state.footage && !state.jobs.busy() && !state.practice &&
-         (!state.footage->made || !state.footage->next_stage.empty());
+  return state.steps.panorama->footage && !state.jobs.busy() && !state.practice &&
+         (!state.steps.panorama->footage->made ||
+          !state.steps.panorama->footage->next_stage.empty());
 }
 
 bool FootageIsUnderWay(const EditorState& state) {
-  return state.footage_job.mail != nullptr && state.jobs.busy();
+  return state.steps.panorama->footage_job.mail != nullptr && state.jobs.busy();
 }
 
 void RunFootage(EditorState& state) {
   if (!CanRun(state)) return;
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   if (!board.session) board.session = std::make_shared<LentSession>();
   auto mail = std::make_shared<FootageMail>();
-  state.jobs.Start(
-      "Panorama of " + board.name, [mail, run = state.makers.run, session = board.session,
-                                    request = RequestOf(board)](const Progress& progress) {
-        std::shared_ptr<const MadePanorama> made;
-        std::exception_ptr fault;
-        try {
-          const auto lock = Borrow(*session, progress);
-          made =
-              MadeOf(run(session->session, request, ObserverOf(mail, request.excluded), progress),
-                     request.excluded);
-        } catch (const cv::Exception& error) {
-          // Not said by us, so hardly fit to be shown; but it must not take the window with it.
-          fault = std::make_exception_ptr(
-              Error(Code::kBadData, "this clip could not be worked on (" + error.err + ")"));
-        } catch (...) {
-          fault = std::current_exception();
-        }
-        return [made, fault, session](EditorState& now) {
-          TakeFootageMail(now);
-          if (!now.footage || now.footage->session != session) return;
-          FootageBoard& of_run = *now.footage;
-          if (made) of_run.made = made;
-          of_run.large = {};  // even light may be another one
-          NoteNextRun(of_run);
-          ShowMade(of_run);
-          if (fault) std::rethrow_exception(fault);
-          now.message = WordsOfResult(of_run).front();
-        };
-      });
+  state.jobs.Start("Panorama of " + board.name, [mail, run = state.steps.panorama->makers.run,
+                                                 session = board.session,
+                                                 request =
+                                                     RequestOf(board)](const Progress& progress) {
+    std::shared_ptr<const MadePanorama> made;
+    std::exception_ptr fault;
+    try {
+      const auto lock = Borrow(*session, progress);
+      made = MadeOf(run(session->session, request, ObserverOf(mail, request.excluded), progress),
+                    request.excluded);
+    } catch (const cv::Exception& error) {
+      // Not said by us, so hardly fit to be shown; but it must not take the window with it.
+      fault = std::make_exception_ptr(
+          Error(Code::kBadData, "this clip could not be worked on (" + error.err + ")"));
+    } catch (...) {
+      fault = std::current_exception();
+    }
+    return [made, fault, session](EditorState& now) {
+      TakeFootageMail(now);
+      if (!now.steps.panorama->footage || now.steps.panorama->footage->session != session) return;
+      FootageBoard& of_run = *now.steps.panorama->footage;
+      if (made) of_run.made = made;
+      of_run.large = {};  // even light may be another one
+      NoteNextRun(of_run);
+      ShowMade(of_run);
+      if (fault) std::rethrow_exception(fault);
+      now.message = WordsOfResult(of_run).front();
+    };
+  });
   board.selected = -1;
   board.wants_focus = true;
-  state.footage_job = {std::move(mail), true};
+  state.steps.panorama->footage_job = {std::move(mail), true};
 }
 
 void ShowMade(FootageBoard& board) {
@@ -125,12 +127,13 @@ void ShowMade(FootageBoard& board) {
 }
 
 void UseMadePanorama(EditorState& state) {
-  if (!state.footage || !state.footage->made || state.jobs.busy()) return;
-  const MadePanorama& made = *state.footage->made;
+  if (!state.steps.panorama->footage || !state.steps.panorama->footage->made || state.jobs.busy())
+    return;
+  const MadePanorama& made = *state.steps.panorama->footage->made;
   state.step = Step::kDepth;
   if (state.document().panorama == made.picture) return;  // it is the backdrop already
-  SetPanorama(state, "Use the panorama of " + state.footage->name, made.picture, made.projection,
-              made.report.lens, made.report.is_lens_guessed);
+  SetPanorama(state, "Use the panorama of " + state.steps.panorama->footage->name, made.picture,
+              made.projection, made.report.lens, made.report.is_lens_guessed);
 }
 
 }  // namespace arthro::app

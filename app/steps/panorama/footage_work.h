@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "app/state/editor_state.h"
-#include "app/steps/panorama/footage_mail.h"
+#include "app/steps/panorama/panorama_step.h"
 
 namespace arthro::app {
+
+struct FootageClip;
 
 // ---- The clip. ----
 void BrowseForFootage(EditorState& state);
@@ -35,7 +36,6 @@ void RunFootage(EditorState& state);
 void UseMadePanorama(EditorState& state);
 
 // ---- What is looked at. ----
-bool ShowsFootage(const EditorState& state);      // the board, instead of scope and overview
 void SelectFrame(EditorState& state, int frame);  // -1: the mosaic; clamped
 void StepFrame(EditorState& state, int by);
 void SetFrameView(EditorState& state, FrameView view);

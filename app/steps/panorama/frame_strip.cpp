@@ -50,7 +50,7 @@ void Thumb(const SharedPicture& picture, const ImVec2& low, const Cell& cell,
 
 void DrawCell(Ui& ui, EditorState& state, int frame, const ImVec2& low, const Cell& cell,
               const TextureOf& texture) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   const FrameStatus status = StatusOf(board, frame);
   const bool is_out = status == FrameStatus::kExcluded, is_selected = board.selected == frame;
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -95,7 +95,7 @@ float FrameStripHeight(const Ui& ui) {
 }
 
 void FrameStrip(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   const Cell cell = CellOf(ui, board);
   const float margin = ui.Px(kMargin);
   const float total = 2 * margin + cell.step * static_cast<float>(board.frames()) - ui.Px(kCellGap);
@@ -132,7 +132,7 @@ void FrameStrip(Ui& ui, EditorState& state, const Area& area, const TextureOf& t
 }
 
 void FrameLine(Ui& ui, EditorState& state, const Area& area) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   const int frames = board.frames();
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float left = area.x + ui.Px(kMargin),

@@ -66,19 +66,20 @@ void InTheMiddle(Ui& ui, const Area& area, const std::string& words) {
 }
 
 std::string WordsOfNothing(const EditorState& state) {
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   const bool works = FootageIsUnderWay(state);
   if (board.selected >= 0)
     return works ? "This frame is being read." : "This frame could not be read.";
-  if (works && state.footage_job.makes_panorama)
+  if (works && state.steps.panorama->footage_job.makes_panorama)
     return "The panorama will grow here as soon as the first frames have found their place.";
   return "There is no panorama yet. Choose the lens of the scope, then press Run.";
 }
 
 // Why it is not the step that was asked for; "" when it is.
 std::string WordsOfStandIn(const EditorState& state, const Showing& showing) {
-  const FootageBoard& board = *state.footage;
-  if (board.large.frame != board.selected || state.frame_jobs.busy()) return "Being read…";
+  const FootageBoard& board = *state.steps.panorama->footage;
+  if (board.large.frame != board.selected || state.steps.panorama->frame_jobs.busy())
+    return "Being read…";
   if (!board.large.problem.empty()) return board.large.problem;
   if (!showing.is_stand_in) return "";
   if (board.view == FrameView::kRectified) return "No lens was chosen, so nothing is straightened.";
@@ -89,7 +90,7 @@ std::string WordsOfStandIn(const EditorState& state, const Showing& showing) {
 }  // namespace
 
 void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture) {
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   const Showing showing = ShowingOf(board);
   ImGui::GetWindowDrawList()->AddRectFilled(
       {area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);

@@ -2,33 +2,17 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/files/scene_files.h"
-#include "app/panels/panels.h"
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_step.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
-
-// The file that was worked on lately, as a row that opens it.
-void RecentList(Ui& ui, EditorState& state) {
-  const auto recent = state.recent.Existing();
-  if (recent.empty()) return;
-  Gap(ui);
-  Heading(ui, "Recent scenes");
-  for (const auto& scene : recent) {
-    const auto folder =
-        scene.has_extension() && scene.filename() == "scene.json" ? scene.parent_path() : scene;
-    if (Button(ui, folder.filename().string() + "##" + scene.string(), !state.jobs.busy(),
-               {-FLT_MIN, 0}, scene.c_str()))
-      GuardUnsaved(state, "open another scene", [scene](EditorState& sure) {
-        Guarded(sure, "Open", [&] { OpenScene(sure, scene); });
-      });
-  }
-}
 
 void Drag(EditorState& state, const Change& change) {
   if (change.held) state.dragging = true;
@@ -38,20 +22,20 @@ void Drag(EditorState& state, const Change& change) {
 // Which of the two this step is about, once there is a clip.
 void FootageOrBackdrop(Ui& ui, EditorState& state) {
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (ToggleButton(ui, "Footage", state.shows_footage, true, {half, 0},
+  if (ToggleButton(ui, "Footage", state.steps.panorama->shows_footage, true, {half, 0},
                    "The clip that a panorama is made from."))
-    state.shows_footage = true;
+    state.steps.panorama->shows_footage = true;
   ImGui::SameLine();
-  if (ToggleButton(ui, "Backdrop", !state.shows_footage, true, {half, 0},
+  if (ToggleButton(ui, "Backdrop", !state.steps.panorama->shows_footage, true, {half, 0},
                    "The panorama that the scene has."))
-    state.shows_footage = false;
+    state.steps.panorama->shows_footage = false;
   Gap(ui, 2);
 }
 
 }  // namespace
 
 void PanoramaPanel(Ui& ui, EditorState& state) {
-  if (state.footage) FootageOrBackdrop(ui, state);
+  if (state.steps.panorama->footage) FootageOrBackdrop(ui, state);
   if (ShowsFootage(state)) return FootagePanel(ui, state);
   const authoring::Document document = state.document();  // a copy: edits below move it
   CommandButton(ui, state, "import-panorama", {-FLT_MIN, 0});
@@ -60,7 +44,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
     QuietText(ui,
               "A panorama is one picture of the joint, put together from a video. Drop either on "
               "the window, or choose it here.");
-    return RecentList(ui, state);
+    return;
   }
   QuietText(ui, fmt::format("{} × {} px", document.panorama->width, document.panorama->height));
 
@@ -104,7 +88,6 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
     SetBackdrop(state, backdrop, "the distance of the backdrop");
   }
   Drag(state, change);
-  RecentList(ui, state);
 }
 
 }  // namespace arthro::app

@@ -1,9 +1,11 @@
 // Step 4: where the instrument comes in, and which scope looks.
 #include <imgui.h>
 
-#include "app/panels/panels.h"
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/portals/portals_step.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -34,7 +36,7 @@ void PortalsPanel(Ui& ui, EditorState& state) {
   for (const int degrees : {0, 30, 70, 90}) {
     if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
     const bool chosen = std::abs(scene.scope.view_angle - RadiansFromDegrees(degrees)) < 1e-6;
-    const Command& command = CommandOf("view-" + std::to_string(degrees));
+    const Command& command = CommandOf(state, "view-" + std::to_string(degrees));
     if (ToggleButton(ui, command.words, chosen, true, {width, 0}, command.help))
       Run(state, command);
   }
@@ -60,9 +62,9 @@ void PortalsPanel(Ui& ui, EditorState& state) {
   if (scene.backdrop.relight > 0 && !state.document().depth)
     QuietText(ui, "Waits for a depth map, which says how far its light goes.");
   const bool is_relit = scene.backdrop.relight > 0 && state.document().depth;
-  if (ToggleButton(ui, "As filmed", is_relit && state.shows_as_filmed, is_relit, {},
+  if (ToggleButton(ui, "As filmed", is_relit && state.steps.portals->shows_as_filmed, is_relit, {},
                    "Shows the picture before, to compare. Nothing is changed by it."))
-    state.shows_as_filmed = !state.shows_as_filmed;
+    state.steps.portals->shows_as_filmed = !state.steps.portals->shows_as_filmed;
 }
 
 }  // namespace arthro::app

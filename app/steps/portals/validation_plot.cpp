@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/files/scene_files.h"
+#include "app/commands/practice.h"
 #include "app/steps/portals/centres_figure.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"

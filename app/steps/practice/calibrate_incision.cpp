@@ -3,8 +3,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/files/scene_files.h"
 #include "app/state/command.h"
+#include "app/state/dialogs.h"
 #include "app/steps/practice/start_practice.h"
 
 namespace arthro::app {
@@ -17,29 +17,29 @@ const char* NameOf(DeviceRole role) { return role == DeviceRole::kScope ? "scope
 
 void Open(EditorState& state, DeviceRole role) {
   // The servo has the hands from its first call on, and their devices say how sharp they are.
-  state.practice->Advance(0.0, state.hands.get());
-  state.hands->Calibrate(role);
-  const HandNow hand = state.hands->Now(role);
-  const DeviceRig mount = state.hands->MountOf(role, state.document().scene);
-  state.calibrating.emplace(PivotCalibrating{
+  state.practice->Advance(0.0, state.steps.practice->hands.get());
+  state.steps.practice->hands->Calibrate(role);
+  const HandNow hand = state.steps.practice->hands->Now(role);
+  const DeviceRig mount = state.steps.practice->hands->MountOf(role, state.document().scene);
+  state.steps.practice->calibrating.emplace(PivotCalibrating{
       role, PivotWork(mount.rod_length, PivotOptionsOf(hand.situation.caps)), "", false});
-  state.shows_devices = true;  // and there again, when it is closed
+  state.steps.practice->shows_devices = true;  // and there again, when it is closed
 }
 
 // The files that came with the program are everybody's.
 bool IsShipped(const EditorState& state, const fs::path& file) {
   std::error_code ignored;
   const fs::path folder = fs::weakly_canonical(file, ignored).parent_path();
-  return !state.rig_preset_folder.empty() &&
-         folder == fs::weakly_canonical(state.rig_preset_folder, ignored);
+  return !state.steps.practice->rig_preset_folder.empty() &&
+         folder == fs::weakly_canonical(state.steps.practice->rig_preset_folder, ignored);
 }
 
 void SaveInto(EditorState& state, const fs::path& file) {
-  PivotCalibrating& own = *state.calibrating;
+  PivotCalibrating& own = *state.steps.practice->calibrating;
   if (IsShipped(state, file))
     throw Error(Code::kFile, "came with the program and stays as it is; save the rig elsewhere",
                 file);
-  state.hands->SaveRig(file);
+  state.steps.practice->hands->SaveRig(file);
   own.is_unsaved = false;
   own.outcome = "In use, and saved in " + file.string() + ".";
   state.message = "Rig saved in " + file.string();
@@ -48,7 +48,8 @@ void SaveInto(EditorState& state, const fs::path& file) {
 }  // namespace
 
 bool MayCalibrate(const EditorState& state, DeviceRole role) {
-  return !state.calibrating && state.hands->WhyNotCalibrated(role).empty() &&
+  return !state.steps.practice->calibrating &&
+         state.steps.practice->hands->WhyNotCalibrated(role).empty() &&
          (state.practice || MayPractise(state));
 }
 
@@ -58,34 +59,36 @@ void CalibrateIncision(EditorState& state, DeviceRole role) {
 }
 
 void EndCalibration(EditorState& state) {
-  state.calibrating.reset();
-  state.hands->Calibrate({});
+  state.steps.practice->calibrating.reset();
+  state.steps.practice->hands->Calibrate({});
 }
 
 void KeepPivotFresh(EditorState& state) {
-  if (state.pivot_jobs.busy())
-    Guarded(state, "Calibration", [&] { state.pivot_jobs.Finish(state); });
-  if (!state.calibrating) return;
+  if (state.steps.practice->pivot_jobs.busy())
+    Guarded(state, "Calibration", [&] { state.steps.practice->pivot_jobs.Finish(state); });
+  if (!state.steps.practice->calibrating) return;
   if (!state.practice) return EndCalibration(state);
-  PivotWork& work = state.calibrating->work;
+  PivotWork& work = state.steps.practice->calibrating->work;
   simulation::DeviceSample sample;
-  while (state.hands->Hear(sample)) work.Take(sample);
-  if (state.pivot_jobs.busy()) return;
+  while (state.steps.practice->hands->Hear(sample)) work.Take(sample);
+  if (state.steps.practice->pivot_jobs.busy()) return;
   if (auto fit = work.DueFit())
-    state.pivot_jobs.Start("Calibration", [fit = std::move(*fit)](const Progress&) {
+    state.steps.practice->pivot_jobs.Start("Calibration", [fit = std::move(*fit)](const Progress&) {
       return [fit, found = fit.Found()](EditorState& now) {
-        if (now.calibrating) now.calibrating->work.TakeFit(fit, found);
+        if (now.steps.practice->calibrating)
+          now.steps.practice->calibrating->work.TakeFit(fit, found);
       };
     });
 }
 
 void UseIncision(EditorState& state) {
-  PivotCalibrating& own = *state.calibrating;
+  PivotCalibrating& own = *state.steps.practice->calibrating;
   const glm::dvec3 pivot = *own.work.found().pivot;
-  state.hands->SetPivot(own.role, pivot);
-  state.practice->SetMount(own.role, state.hands->MountOf(own.role, state.document().scene));
+  state.steps.practice->hands->SetPivot(own.role, pivot);
+  state.practice->SetMount(own.role,
+                           state.steps.practice->hands->MountOf(own.role, state.document().scene));
   state.message = std::string("The ") + NameOf(own.role) + "'s incision is in use.";
-  own.is_unsaved = state.hands->IsInRig(own.role);
+  own.is_unsaved = state.steps.practice->hands->IsInRig(own.role);
   if (!own.is_unsaved) {
     own.outcome =
         "In use until the program ends: this hand comes from no rig file that could keep "
@@ -93,19 +96,19 @@ void UseIncision(EditorState& state) {
     return;
   }
   try {
-    SaveInto(state, state.hands->rig_file());
+    SaveInto(state, state.steps.practice->hands->rig_file());
   } catch (const Error& error) {
     own.outcome = std::string("In use, and not saved. ") + error.what();
   }
 }
 
 void SaveRigAs(EditorState& state) {
-  const fs::path name = state.hands->rig_file().filename();
+  const fs::path name = state.steps.practice->hands->rig_file().filename();
   Browse(
       state, BrowseFor::kSaveFile, "Save the rig with the incisions that were found", "Save",
       {{"Rig (.json)", {".json"}}},
       [](EditorState& now, const fs::path& file) {
-        if (now.calibrating) SaveInto(now, file);
+        if (now.steps.practice->calibrating) SaveInto(now, file);
       },
       name.string());
 }

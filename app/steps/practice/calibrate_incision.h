@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "app/state/editor_state.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 

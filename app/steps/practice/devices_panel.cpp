@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 namespace {
@@ -42,7 +43,7 @@ void Plot(Ui& ui, const std::string& name, const std::array<float, ForceHistory:
 float HalfWidth(const Ui& ui) { return (ImGui::GetContentRegionAvail().x - ui.Px(kBetween)) / 2; }
 
 void HandPart(Ui& ui, EditorState& state, DeviceRole role, const char* name) {
-  const Hands& hands = *state.hands;
+  const Hands& hands = *state.steps.practice->hands;
   const HandNow now = hands.Now(role);
   Heading(ui, name);
   Text(ui, now.serial.empty() ? now.name : now.name + ", serial " + now.serial);
@@ -81,9 +82,9 @@ void DevicesPanel(Ui& ui, EditorState& state) {
   Gap(ui);
   if (state.practice && !state.practice->servo_sentence().empty())
     QuietText(ui, state.practice->servo_sentence());
-  const Command& zero = CommandOf("zero-force");
-  if (ToggleButton(ui, zero.words, state.hands->is_zero_force(), true, {-FLT_MIN, ui.Px(44)},
-                   zero.help))
+  const Command& zero = CommandOf(state, "zero-force");
+  if (ToggleButton(ui, zero.words, state.steps.practice->hands->is_zero_force(), true,
+                   {-FLT_MIN, ui.Px(44)}, zero.help))
     Run(state, zero);
   QuietText(ui,
             "V, a handle's button or a pedal is the dead-man: devices push only while it is held.");

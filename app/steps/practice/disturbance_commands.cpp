@@ -4,7 +4,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "app/steps/every_step.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 namespace {
@@ -37,8 +37,8 @@ constexpr Command kCommands[] = {
      {},
      Practising,
      [](State& state) {
-       state.disturbing.shows_panel = !state.disturbing.shows_panel;
-       state.shows_devices = false;
+       state.steps.practice->disturbing.shows_panel = !state.steps.practice->disturbing.shows_panel;
+       state.steps.practice->shows_devices = false;
      }},
     {"disturb-haze",
      "Bleeding",
@@ -102,8 +102,10 @@ constexpr Command kCommands[] = {
      "Disturbances",
      {},
      {},
-     [](const State& state) { return Practising(state) && state.disturbing.now.is_any(); },
-     [](State& state) { state.disturbing.now = {}; }},
+     [](const State& state) {
+       return Practising(state) && state.steps.practice->disturbing.now.is_any();
+     },
+     [](State& state) { state.steps.practice->disturbing.now = {}; }},
 };
 
 }  // namespace
@@ -113,14 +115,15 @@ std::span<const Command> DisturbanceCommands() { return kCommands; }
 std::span<const DisturbanceSwitch> DisturbanceSwitches() { return kSwitches; }
 
 void ToggleDisturbance(State& state, Strength strength) {
-  double& now = state.disturbing.now.*strength;
-  now = now > 0 ? 0.0 : state.disturbing.chosen.*strength;
+  double& now = state.steps.practice->disturbing.now.*strength;
+  now = now > 0 ? 0.0 : state.steps.practice->disturbing.chosen.*strength;
 }
 
 void SetDisturbance(State& state, Strength strength, double value) {
   const double kept = std::clamp(value, kLeastStrength, 1.0);
-  state.disturbing.chosen.*strength = kept;
-  if (state.disturbing.now.*strength > 0) state.disturbing.now.*strength = kept;
+  state.steps.practice->disturbing.chosen.*strength = kept;
+  if (state.steps.practice->disturbing.now.*strength > 0)
+    state.steps.practice->disturbing.now.*strength = kept;
 }
 
 }  // namespace arthro::app

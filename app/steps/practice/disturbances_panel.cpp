@@ -3,9 +3,10 @@
 
 #include <imgui.h>
 
+#include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 
@@ -16,13 +17,13 @@ void DisturbancesPage(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui);
   const float button = ui.Px(118), high = ui.Px(40);
   for (const auto& [id, strength] : DisturbanceSwitches()) {
-    const Command& command = CommandOf(id);
-    const bool is_on = state.disturbing.now.*strength > 0;
+    const Command& command = CommandOf(state, id);
+    const bool is_on = state.steps.practice->disturbing.now.*strength > 0;
     if (ToggleButton(ui, command.words, is_on, true, {button, high}, command.help))
       Run(state, command);
     ImGui::SameLine(0, ui.Px(8));
     ImGui::BeginGroup();
-    double value = state.disturbing.chosen.*strength;
+    double value = state.steps.practice->disturbing.chosen.*strength;
     if (Slider(ui, std::string(command.words) + " strength", value, kLeastStrength, 1.0, "%.2f"))
       SetDisturbance(state, strength, value);
     ImGui::EndGroup();

@@ -95,16 +95,17 @@ bool MoveHands(EditorState& state, const RodPose& scope, const RodPose& instrume
   };
   state.scope = moved(state.scope, scope, ScopeLimits(scene));
   state.instrument = moved(state.instrument, instrument, InstrumentLimits(scene));
-  if (state.poke) {
-    state.poke->scope().Set(state.scope);
-    state.poke->instrument().Set(state.instrument);
+  if (state.steps.practice->poke) {
+    state.steps.practice->poke->scope().Set(state.scope);
+    state.steps.practice->poke->instrument().Set(state.instrument);
   }
   return true;
 }
 
 bool TurnHead(EditorState& state, double angle) {
   if (!state.practice || angle == 0) return false;
-  state.head.turn = std::remainder(state.head.turn + angle, 2.0 * std::numbers::pi);
+  state.steps.practice->head.turn =
+      std::remainder(state.steps.practice->head.turn + angle, 2.0 * std::numbers::pi);
   return true;
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "app/state/editor_state.h"
+#include "app/steps/practice/practice_step.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/rod_pose.h"
 

@@ -1,8 +1,6 @@
 // Calibration of the hands' incisions.
 #include <GLFW/glfw3.h>
 
-#include "app/steps/every_step.h"
-#include "app/steps/portals/validation_plot.h"
 #include "app/steps/practice/calibrate_incision.h"
 
 namespace arthro::app {
@@ -12,7 +10,7 @@ using State = EditorState;
 using simulation::DeviceRole;
 using simulation::PivotSource;
 
-bool Calibrating(const State& state) { return state.calibrating.has_value(); }
+bool Calibrating(const State& state) { return state.steps.practice->calibrating.has_value(); }
 
 template <DeviceRole role>
 bool May(const State& state) {
@@ -48,10 +46,11 @@ constexpr Command kCommands[] = {
      {GLFW_KEY_B},
      {},
      [](const State& state) {
-       return Calibrating(state) && state.calibrating->work.source() == PivotSource::kPresses &&
-              !state.calibrating->work.pressing();
+       return Calibrating(state) &&
+              state.steps.practice->calibrating->work.source() == PivotSource::kPresses &&
+              !state.steps.practice->calibrating->work.pressing();
      },
-     [](State& state) { state.calibrating->work.Press(); }},
+     [](State& state) { state.steps.practice->calibrating->work.Press(); }},
     {"begin-incision-again",
      "Begin again",
      "Forget what was pressed or swung so far.",
@@ -59,14 +58,16 @@ constexpr Command kCommands[] = {
      {},
      {},
      Calibrating,
-     [](State& state) { state.calibrating->work.Begin(); }},
+     [](State& state) { state.steps.practice->calibrating->work.Begin(); }},
     {"use-incision",
      "Use this incision",
      "The hand's mount takes it over at once; a rig's file keeps it.",
      "Incision",
      {},
      {},
-     [](const State& state) { return Calibrating(state) && state.calibrating->work.MayBeUsed(); },
+     [](const State& state) {
+       return Calibrating(state) && state.steps.practice->calibrating->work.MayBeUsed();
+     },
      UseIncision},
     {"save-rig-as",
      "Save rig as…",
@@ -75,18 +76,10 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) {
-       return Calibrating(state) && !state.calibrating->outcome.empty() &&
-              state.hands->IsInRig(state.calibrating->role);
+       return Calibrating(state) && !state.steps.practice->calibrating->outcome.empty() &&
+              state.steps.practice->hands->IsInRig(state.steps.practice->calibrating->role);
      },
      SaveRigAs},
-    {"validation-plot",
-     "Validation plot…",
-     "Draw where the centre of the view goes as the scope turns, and write it as a table.",
-     "Incision",
-     {},
-     {},
-     [](const State& state) { return !state.jobs.busy() && state.document().panorama != nullptr; },
-     SaveValidationPlot},
     {"close-calibration",
      "Close calibration",
      "Back to the devices; Esc does the same.",

@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
+#include "app/steps/practice/practice_step.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -97,8 +98,8 @@ void Ways(Ui& ui, PivotWork& work) {
 
 void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "incision", area, kPageWindow);
-  PivotCalibrating& own = *state.calibrating;
-  const HandNow hand = state.hands->Now(own.role);
+  PivotCalibrating& own = *state.steps.practice->calibrating;
+  const HandNow hand = state.steps.practice->hands->Now(own.role);
   const bool is_scope = own.role == simulation::DeviceRole::kScope;
   Heading(ui, is_scope ? "Incision of the scope" : "Incision of the instrument");
   QuietText(ui, hand.sentence.empty() ? hand.name : hand.name + ": " + hand.sentence);
@@ -124,7 +125,7 @@ void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
   CommandButton(ui, state, "use-incision", {-FLT_MIN, ui.Px(kButton)});
   if (!own.outcome.empty()) {
     ColouredText(ui, own.outcome, own.is_unsaved ? kWarning : kGood);
-    if (state.hands->IsInRig(own.role))
+    if (state.steps.practice->hands->IsInRig(own.role))
       CommandButton(ui, state, "save-rig-as", {-FLT_MIN, ui.Px(36)});
   }
   Gap(ui);

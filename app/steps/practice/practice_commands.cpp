@@ -1,15 +1,14 @@
-// The steps of the editor, practice, the window.
+// Practice: begin and leave it, the camera head, the instruments, the poke.
 #include <string>
 
 #include <GLFW/glfw3.h>
 
-#include "app/state/edits.h"
-#include "app/steps/every_step.h"
+#include "app/steps/panorama/panorama_step.h"
 #include "app/steps/practice/calibrate_incision.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
-#include "simulation/core/units.h"
+#include "app/steps/practice/tissue_poke.h"
 
 namespace arthro::app {
 namespace {
@@ -20,7 +19,7 @@ bool Practising(const State& state) { return state.practice.has_value(); }
 
 // A calibration first.
 void LeavePractice(State& state) {
-  if (state.calibrating) return EndCalibration(state);
+  if (state.steps.practice->calibrating) return EndCalibration(state);
   const double seconds = state.practice->snapshot().t;
   state.practice.reset();
   state.full_screen = false;
@@ -32,7 +31,7 @@ void ResetHands(State& state) {
   if (state.practice) {
     state.practice->scope().Set(StartOfScope(state.document().scene));
     state.practice->instrument().Set(StartOfInstrument(state.document().scene));
-    state.head.turn = 0;
+    state.steps.practice->head.turn = 0;
   }
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
@@ -42,22 +41,16 @@ void ResetHands(State& state) {
 // Beside the practice that runs, or in the editor's last step.
 void ToggleDevices(State& state) {
   const bool is_in_sight = state.practice || state.step == Step::kPractice;
-  state.shows_devices = !(state.shows_devices && is_in_sight);
-  state.disturbing.shows_panel = false;
+  state.steps.practice->shows_devices = !(state.steps.practice->shows_devices && is_in_sight);
+  state.steps.practice->disturbing.shows_panel = false;
   if (!state.practice) state.step = Step::kPractice;
 }
 
 void ToggleZeroForce(State& state) {
-  state.hands->SetZeroForce(!state.hands->is_zero_force());
-  state.message = state.hands->is_zero_force()
+  state.steps.practice->hands->SetZeroForce(!state.steps.practice->hands->is_zero_force());
+  state.message = state.steps.practice->hands->is_zero_force()
                       ? "Zero-force mode: forces are shown, and no device is given any."
                       : "Zero-force mode has ended.";
-}
-
-template <int degrees>
-void LookAt(State& state) {
-  SetViewAngle(state, RadiansFromDegrees(degrees));
-  state.message = "View angle " + std::to_string(degrees) + "°";
 }
 
 template <simulation::ToolKind kind>
@@ -68,7 +61,7 @@ void TakeInstrument(State& state) {
 // However it was turned, the head is straight again.
 template <bool is_upright>
 void HoldHead(State& state) {
-  state.head = {.is_upright = is_upright};
+  state.steps.practice->head = {.is_upright = is_upright};
   state.message = is_upright ? "The camera head is held upright; the scope turns in it."
                              : "The camera head turns with the scope.";
 }
@@ -78,52 +71,7 @@ void StepHead(State& state) {
   TurnHead(state, steps * kHeadStep);
 }
 
-template <Step step>
-void Open(State& state) {
-  state.step = step;
-}
-
 constexpr Command kCommands[] = {
-    {"step-panorama",
-     "Panorama",
-     "The picture that is the backdrop.",
-     "Steps",
-     {GLFW_KEY_F6},
-     {},
-     InEditor,
-     Open<Step::kPanorama>},
-    {"step-depth",
-     "Depth",
-     "How brightness becomes relief.",
-     "Steps",
-     {GLFW_KEY_F7},
-     {},
-     InEditor,
-     Open<Step::kDepth>},
-    {"step-tissue",
-     "Tissue",
-     "Deformable models in the scene.",
-     "Steps",
-     {GLFW_KEY_F8},
-     {},
-     InEditor,
-     Open<Step::kTissue>},
-    {"step-portals",
-     "Portals",
-     "Incisions and the scope.",
-     "Steps",
-     {GLFW_KEY_F9},
-     {},
-     InEditor,
-     Open<Step::kPortals>},
-    {"step-practice",
-     "Practice",
-     "Try the scene as a trainee will.",
-     "Steps",
-     {GLFW_KEY_F10},
-     {},
-     InEditor,
-     Open<Step::kPractice>},
     {"practise",
      "Practise",
      "Practise in this scene at once.",
@@ -246,7 +194,9 @@ constexpr Command kCommands[] = {
      {GLFW_KEY_O},
      {},
      Practising,
-     [](State& state) { state.shows_outside = !state.shows_outside; }},
+     [](State& state) {
+       state.steps.practice->shows_outside = !state.steps.practice->shows_outside;
+     }},
     {"trainee-screen",
      "Trainee's screen",
      "Show the scope's picture alone, over all of a second monitor, or stop.",
@@ -254,7 +204,10 @@ constexpr Command kCommands[] = {
      {GLFW_KEY_F12},
      {},
      Always,
-     [](State& state) { state.trainee_screen.is_wanted = !state.trainee_screen.is_wanted; }},
+     [](State& state) {
+       state.steps.practice->trainee_screen.is_wanted =
+           !state.steps.practice->trainee_screen.is_wanted;
+     }},
     {"zero-force",
      "Zero-force mode",
      "Show forces and give the devices none, or end that.",
@@ -263,47 +216,14 @@ constexpr Command kCommands[] = {
      {},
      Always,
      ToggleZeroForce},
-    {"view-0", "0°", "Look along the scope.", "Practice", {GLFW_KEY_1}, {}, ShowsScope, LookAt<0>},
-    {"view-30",
-     "30°",
-     "Look 30° away from the scope.",
-     "Practice",
-     {GLFW_KEY_2},
+    {"poke",
+     "Poke it",
+     "Let the instrument press on the tissue, here in your own view.",
+     "Edit",
      {},
-     ShowsScope,
-     LookAt<30>},
-    {"view-70",
-     "70°",
-     "Look 70° away from the scope.",
-     "Practice",
-     {GLFW_KEY_3},
      {},
-     ShowsScope,
-     LookAt<70>},
-    {"view-90",
-     "90°",
-     "Look straight to the side.",
-     "Practice",
-     {GLFW_KEY_4},
-     {},
-     ShowsScope,
-     LookAt<90>},
-    {"full-screen",
-     "Full screen",
-     "Fill the screen, or stop.",
-     "Window",
-     {GLFW_KEY_F11},
-     {},
-     Always,
-     [](State& state) { state.full_screen = !state.full_screen; }},
-    {"help",
-     "?",
-     "All keys and mouse actions.",
-     "Window",
-     {GLFW_KEY_F1},
-     {},
-     Always,
-     [](State& state) { state.dialogs.push_back(HelpDialog{}); }},
+     [](const State& state) { return Idle(state) && HasPicture(state) && ShowsScope(state); },
+     [](State& state) { state.steps.practice->poke ? EndPoke(state) : StartPoke(state); }},
 };
 
 }  // namespace

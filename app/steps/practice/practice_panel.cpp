@@ -7,10 +7,11 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
-#include "app/panels/panels.h"
 #include "app/state/command.h"
 #include "app/steps/practice/film.h"
+#include "app/steps/practice/practice_step.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -106,12 +107,12 @@ void CommandRow(Ui& ui, EditorState& state,
                 std::initializer_list<std::pair<const char*, bool>> row) {
   const float gap = ui.Px(6), count = static_cast<float>(row.size());
   float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
-  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(id).words).x;
+  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(state, id).words).x;
   bool is_first = true;
   for (const auto& [id, is_on] : row) {
     if (!is_first) ImGui::SameLine(0, gap);
     is_first = false;
-    const Command& command = CommandOf(id);
+    const Command& command = CommandOf(state, id);
     const float width = ImGui::CalcTextSize(command.words).x + spare / count;
     const std::string keys = WordsOf(command.shortcut);
     const std::string tip = command.help + (keys.empty() ? keys : " (" + keys + ")");
@@ -123,14 +124,14 @@ void CommandRow(Ui& ui, EditorState& state,
 
 // How the camera's head is held, and by how much it was turned from there.
 void CameraHead(Ui& ui, EditorState& state) {
-  const double turn = DegreesFromRadians(state.head.turn);
+  const double turn = DegreesFromRadians(state.steps.practice->head.turn);
   QuietText(ui, std::abs(turn) < 0.5 ? std::string("Camera head (T, U; G and H turn it)")
                                      : fmt::format("Camera head, turned {:.0f}° to the {}",
                                                    std::abs(turn), turn < 0 ? "left" : "right"));
   ImGui::PushButtonRepeat(true);
   CommandRow(ui, state,
-             {{"head-with-scope", !state.head.is_upright},
-              {"head-upright", state.head.is_upright},
+             {{"head-with-scope", !state.steps.practice->head.is_upright},
+              {"head-upright", state.steps.practice->head.is_upright},
               {"head-left", false},
               {"head-right", false}});
   ImGui::PopButtonRepeat();
@@ -160,18 +161,19 @@ void Instruments(Ui& ui, EditorState& state) {
 // A lit dot and how long the film is, at the right of a line of text whose top is `top`; under it
 // how many pictures were left out.
 void FilmMark(Ui& ui, const EditorState& state, float top) {
-  if (!state.film) return;
+  if (!state.steps.practice->film) return;
   const ImVec2 back = ImGui::GetCursorPos();
   const float left = ui.Px(190);
   ImGui::SetCursorPos({left + ui.Px(18), top});
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ColouredText(ui,
-               state.film->is_ending() ? std::string("Writing the film")
-                                       : "Recording " + ClockWords(FilmSeconds(state)),
+               state.steps.practice->film->is_ending()
+                   ? std::string("Writing the film")
+                   : "Recording " + ClockWords(FilmSeconds(state)),
                kBad);
   ImGui::GetWindowDrawList()->AddCircleFilled(
       {corner.x - ui.Px(11), corner.y + 0.5f * ImGui::GetTextLineHeight()}, ui.Px(6), kBad);
-  if (const int left_out = state.film->left_out(); left_out > 0) {
+  if (const int left_out = state.steps.practice->film->left_out(); left_out > 0) {
     ImGui::SetCursorPosX(left);
     QuietText(ui, fmt::format("{} picture{} left out", left_out, left_out == 1 ? "" : "s"));
   }
@@ -180,23 +182,24 @@ void FilmMark(Ui& ui, const EditorState& state, float top) {
 
 // What became of the last film and of the trainee's screen. True: there was something to say.
 bool ScreenNews(Ui& ui, const EditorState& state) {
-  const std::string& of_screen = state.trainee_screen.words;
+  const std::string& of_screen = state.steps.practice->trainee_screen.words;
   if (!of_screen.empty()) QuietText(ui, of_screen);
-  if (state.film || state.film_words.empty()) return !of_screen.empty();
-  if (state.is_film_lost)
-    ColouredText(ui, state.film_words, kWarning);
+  if (state.steps.practice->film || state.steps.practice->film_words.empty())
+    return !of_screen.empty();
+  if (state.steps.practice->is_film_lost)
+    ColouredText(ui, state.steps.practice->film_words, kWarning);
   else
-    QuietText(ui, state.film_words);
+    QuietText(ui, state.steps.practice->film_words);
   return true;
 }
 
 // What a rig names and is not there. True: there was something to say.
 bool MissingDevices(Ui& ui, const EditorState& state) {
-  bool is_any = state.hands->is_zero_force();
+  bool is_any = state.steps.practice->hands->is_zero_force();
   for (const auto role : {simulation::DeviceRole::kScope, simulation::DeviceRole::kInstrument})
-    if (const std::string sentence = state.hands->Missing(role); !sentence.empty())
+    if (const std::string sentence = state.steps.practice->hands->Missing(role); !sentence.empty())
       ColouredText(ui, sentence, kWarning), is_any = true;
-  if (state.hands->is_zero_force())
+  if (state.steps.practice->hands->is_zero_force())
     ColouredText(ui, "Zero-force mode: no device pushes. 0 ends it.", kWarning);
   return is_any;
 }
@@ -204,7 +207,7 @@ bool MissingDevices(Ui& ui, const EditorState& state) {
 }  // namespace
 
 void PracticeStepPanel(Ui& ui, EditorState& state) {
-  if (state.shows_devices) return DevicesPanel(ui, state);
+  if (state.steps.practice->shows_devices) return DevicesPanel(ui, state);
   Text(ui, "Practise in the scene as it stands. Esc brings you back to exactly this place.");
   Gap(ui);
   CommandButton(ui, state, "practise", {-FLT_MIN, ui.Px(48)});
@@ -251,7 +254,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   int column = 0;
   for (const int degrees : {0, 30, 70, 90}) {
     if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
-    const Command& command = CommandOf("view-" + std::to_string(degrees));
+    const Command& command = CommandOf(state, "view-" + std::to_string(degrees));
     const bool chosen = std::abs(practice.view_angle() - RadiansFromDegrees(degrees)) < 1e-6;
     if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(kButton)}, command.help))
       Run(state, command);
@@ -261,7 +264,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui);
   Instruments(ui, state);
   Gap(ui);
-  const bool is_disturbed = state.disturbing.now.is_any();
+  const bool is_disturbed = state.steps.practice->disturbing.now.is_any();
   if (Taken(state) > 0)
     CommandRow(ui, state,
                {{"reset-hands", false}, {"disturbances", is_disturbed}, {"reset-tissues", false}});
@@ -279,12 +282,12 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   const float free = ImGui::GetContentRegionAvail().y - foot;
   if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
   CommandRow(ui, state,
-             {{"record", state.film != nullptr},
-              {"outside", state.shows_outside},
+             {{"record", state.steps.practice->film != nullptr},
+              {"outside", state.steps.practice->shows_outside},
               {"full-screen", state.full_screen},
               {"help", false}});
   CommandRow(ui, state,
-             {{"trainee-screen", state.trainee_screen.is_wanted},
+             {{"trainee-screen", state.steps.practice->trainee_screen.is_wanted},
               {"devices", false},
               {"leave-practice", false}});
 }

@@ -3,9 +3,15 @@
 #include <memory>
 #include <utility>
 
-#include "app/steps/depth/depth_work.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
+
+const Practice* LiveSession(const EditorState& state) {
+  if (state.practice) return &*state.practice;
+  return state.steps.practice->poke ? &*state.steps.practice->poke : nullptr;
+}
 
 bool MayPractise(const EditorState& state) {
   return !state.practice && !state.jobs.busy() && state.document().panorama;
@@ -14,13 +20,14 @@ bool MayPractise(const EditorState& state) {
 void StartPractice(EditorState& state, std::function<void(EditorState&)> then) {
   WhenDepthIsReady(state, [then = std::move(then)](EditorState& ready) {
     authoring::Document mounted = ready.document();
-    ready.hands->Mount(mounted.scene);
-    ready.jobs.Start("Practise", [document = std::move(mounted), presets = ready.tissue_presets,
-                                  pace = ready.pace, then](const Progress&) {
+    ready.steps.practice->hands->Mount(mounted.scene);
+    ready.jobs.Start("Practise", [document = std::move(mounted),
+                                  presets = ready.steps.tissue->presets,
+                                  pace = ready.steps.practice->pace, then](const Progress&) {
       const auto practice = std::make_shared<Practice>(document, presets, pace);
       return [practice, then](EditorState& now) {  // shared only because a std::function is copied
         now.practice.emplace(std::move(*practice));
-        now.head.turn = 0;
+        now.steps.practice->head.turn = 0;
         now.message = "Practice. Esc leaves it.";
         if (then) then(now);
       };

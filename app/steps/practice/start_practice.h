@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "app/state/editor_state.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 

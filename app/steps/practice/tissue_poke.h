@@ -3,7 +3,7 @@
 // author's own view shows it. An edit of the scene ends it.
 #pragma once
 
-#include "app/state/editor_state.h"
+#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
 

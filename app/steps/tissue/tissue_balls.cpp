@@ -41,12 +41,12 @@ const std::vector<Ball>& BallsOf(const Tissue& tissue, BallKind kind) {
 void AddBall(EditorState& state, BallKind kind, int tissue, const glm::dvec3& x_in_tissue) {
   Tissue changed = state.document().scene.tissues.at(static_cast<std::size_t>(tissue));
   std::vector<Ball>& balls = BallsOf(changed, kind);
-  balls.push_back({x_in_tissue, state.ball_radius / changed.pose.scale});
+  balls.push_back({x_in_tissue, state.steps.tissue->ball_radius / changed.pose.scale});
   const int added = static_cast<int>(balls.size()) - 1;
   SetTissue(state, tissue, changed, NamesOf(kind).add);
   EndDrag(state);  // each is a step of its own
   state.tissue = tissue;
-  state.ball = added;
+  state.steps.tissue->ball = added;
 }
 
 void AddBallAtInstrument(EditorState& state, BallKind kind) {
@@ -66,7 +66,8 @@ void SetBall(EditorState& state, BallKind kind, int tissue, int index, const Bal
 
 bool HasChosenBall(const EditorState& state, BallKind kind) {
   const Tissue* tissue = ChosenTissue(state);
-  return tissue && state.ball >= 0 && state.ball < static_cast<int>(BallsOf(*tissue, kind).size());
+  return tissue && state.steps.tissue->ball >= 0 &&
+         state.steps.tissue->ball < static_cast<int>(BallsOf(*tissue, kind).size());
 }
 
 bool HasBalls(const EditorState& state, BallKind kind) {
@@ -78,11 +79,11 @@ void RemoveChosenBall(EditorState& state, BallKind kind) {
   if (!HasChosenBall(state, kind)) return;
   Tissue changed = *ChosenTissue(state);
   std::vector<Ball>& balls = BallsOf(changed, kind);
-  balls.erase(balls.begin() + state.ball);
+  balls.erase(balls.begin() + state.steps.tissue->ball);
   const int left = static_cast<int>(balls.size());
   SetTissue(state, state.tissue, changed, NamesOf(kind).remove);
   EndDrag(state);
-  if (state.ball >= left) --state.ball;
+  if (state.steps.tissue->ball >= left) --state.steps.tissue->ball;
 }
 
 void RemoveAllBalls(EditorState& state, BallKind kind) {
@@ -91,7 +92,7 @@ void RemoveAllBalls(EditorState& state, BallKind kind) {
   BallsOf(changed, kind).clear();
   SetTissue(state, state.tissue, changed, NamesOf(kind).remove_all);
   EndDrag(state);
-  state.ball = -1;
+  state.steps.tissue->ball = -1;
 }
 
 std::optional<BallKind> BallKindOf(TissuePage page) {

@@ -7,13 +7,14 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/state/editor_state.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 
 const std::vector<Ball>& BallsOf(const Tissue& tissue, BallKind kind);
 
-// A ball of state.ball_radius about a place of the tissue's own frame; it becomes the chosen one.
+// A ball of state.steps.tissue->ball_radius about a place of the tissue's own frame; it becomes the
+// chosen one.
 void AddBall(EditorState& state, BallKind kind, int tissue, const glm::dvec3& x_in_tissue);
 // The same where the tip of the author's instrument is.
 void AddBallAtInstrument(EditorState& state, BallKind kind);

@@ -2,8 +2,7 @@
 #include <GLFW/glfw3.h>
 
 #include "app/state/edits.h"
-#include "app/steps/every_step.h"
-#include "app/steps/practice/tissue_poke.h"
+#include "app/steps/panorama/panorama_step.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
 #include "app/steps/tissue/tissue_work.h"
@@ -20,11 +19,11 @@ bool HasTissue(const State& state) {
 
 template <BallKind kind>
 void ToggleBrush(State& state) {
-  if (state.brush == kind)
-    state.brush.reset();
+  if (state.steps.tissue->brush == kind)
+    state.steps.tissue->brush.reset();
   else
-    state.brush = kind;
-  state.message = !state.brush ? "The overview turns and moves again."
+    state.steps.tissue->brush = kind;
+  state.message = !state.steps.tissue->brush ? "The overview turns and moves again."
                   : kind == BallKind::kHeld
                       ? "Click on the tissue in the overview to hold it there."
                       : "Click on the tissue in the overview where its mesh shall be finer.";
@@ -70,7 +69,7 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) {
-       return HasTissue(state) && state.tissue_page == TissuePage::kHold &&
+       return HasTissue(state) && state.steps.tissue->page == TissuePage::kHold &&
               HasChosenBall(state, BallKind::kHeld);
      },
      [](State& state) { RemoveChosenBall(state, BallKind::kHeld); }},
@@ -106,7 +105,7 @@ constexpr Command kCommands[] = {
      {},
      {},
      [](const State& state) {
-       return HasTissue(state) && state.tissue_page == TissuePage::kMesh &&
+       return HasTissue(state) && state.steps.tissue->page == TissuePage::kMesh &&
               HasChosenBall(state, BallKind::kProbed);
      },
      [](State& state) { RemoveChosenBall(state, BallKind::kProbed); }},
@@ -170,14 +169,6 @@ constexpr Command kCommands[] = {
      {},
      [](const State& state) { return HasTissue(state) && ChosenRegion(state) != nullptr; },
      RemoveChosenRegion},
-    {"poke",
-     "Poke it",
-     "Let the instrument press on the tissue, here in your own view.",
-     "Edit",
-     {},
-     {},
-     [](const State& state) { return Idle(state) && HasPicture(state) && ShowsScope(state); },
-     [](State& state) { state.poke ? EndPoke(state) : StartPoke(state); }},
     {"duplicate-tissue",
      "Duplicate",
      "Add a copy of the chosen tissue beside it.",

@@ -51,13 +51,13 @@ void SetInOneStep(EditorState& state, int tissue, const Tissue& changed, const s
 }
 
 void AddTearPoint(EditorState& state, int tissue, const glm::dvec3& x) {
-  CutBrush& brush = state.cut_brush;
+  CutBrush& brush = state.steps.tissue->cut_brush;
   Tissue changed = *TissueAt(state, tissue);
   const SurfaceMesh& surface = *state.document().surfaces.at(static_cast<std::size_t>(tissue));
   const bool goes_on = brush.goes_on && tissue == state.tissue && ChosenCut(state) != nullptr &&
                        std::holds_alternative<TearCut>(*ChosenCut(state));
   if (goes_on) {
-    auto& tear = std::get<TearCut>(changed.cuts[static_cast<std::size_t>(state.cut)]);
+    auto& tear = std::get<TearCut>(changed.cuts[static_cast<std::size_t>(state.steps.tissue->cut)]);
     tear.path.push_back(x);
     tear.into = InwardAlong(surface, tear.path);
     SetInOneStep(state, tissue, changed, "Lengthen a tear of");
@@ -84,7 +84,8 @@ void AddTearPoint(EditorState& state, int tissue, const glm::dvec3& x) {
 
 void AddBite(EditorState& state, int tissue, const glm::dvec3& x) {
   Tissue changed = *TissueAt(state, tissue);
-  changed.cuts.push_back(CapsuleCut{x, x, state.cut_brush.radius / changed.pose.scale});
+  changed.cuts.push_back(
+      CapsuleCut{x, x, state.steps.tissue->cut_brush.radius / changed.pose.scale});
   SetInOneStep(state, tissue, changed, "Bite");
   state.tissue = tissue;
   ChooseCut(state, static_cast<int>(changed.cuts.size()) - 1);
@@ -99,7 +100,8 @@ void AddRegion(EditorState& state, int tissue, const glm::dvec3& x) {
   std::string name;
   for (int number = 1; name.empty() || HasRegion(changed, name); ++number)
     name = fmt::format("region {}", number);
-  changed.regions.push_back({name, {x, state.cut_brush.region_radius / changed.pose.scale}});
+  changed.regions.push_back(
+      {name, {x, state.steps.tissue->cut_brush.region_radius / changed.pose.scale}});
   SetInOneStep(state, tissue, changed, "Name a region of");
   state.tissue = tissue;
   ChooseRegion(state, static_cast<int>(changed.regions.size()) - 1);
@@ -111,7 +113,7 @@ void ChangeCut(EditorState& state, const std::string& what, double CutKind::*fie
   const Cut* chosen = ChosenCut(state);
   if (chosen == nullptr || !std::holds_alternative<CutKind>(*chosen)) return;
   Tissue changed = *TissueAt(state, state.tissue);
-  std::get<CutKind>(changed.cuts[static_cast<std::size_t>(state.cut)]).*field =
+  std::get<CutKind>(changed.cuts[static_cast<std::size_t>(state.steps.tissue->cut)]).*field =
       value / changed.pose.scale;
   SetTissue(state, state.tissue, changed, what);
 }
@@ -119,7 +121,7 @@ void ChangeCut(EditorState& state, const std::string& what, double CutKind::*fie
 }  // namespace
 
 void ToggleCutBrush(EditorState& state, CutBrush::Kind kind) {
-  CutBrush& brush = state.cut_brush;
+  CutBrush& brush = state.steps.tissue->cut_brush;
   brush.kind = brush.kind == kind ? CutBrush::Kind::kNone : kind;
   brush.start.reset();
   ChooseCut(state, -1);
@@ -146,7 +148,7 @@ void UseCutBrush(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) 
     state.message = clicked->name + " has no tetrahedra yet; make them on its Mesh page first.";
     return;
   }
-  switch (state.cut_brush.kind) {
+  switch (state.steps.tissue->cut_brush.kind) {
     case CutBrush::Kind::kTear:
       return AddTearPoint(state, tissue, x_in_tissue);
     case CutBrush::Kind::kBite:
@@ -159,52 +161,54 @@ void UseCutBrush(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) 
 }
 
 void ChooseCut(EditorState& state, int cut) {
-  state.cut = cut;
-  state.region = -1;
-  state.cut_brush.goes_on = false;
+  state.steps.tissue->cut = cut;
+  state.steps.tissue->region = -1;
+  state.steps.tissue->cut_brush.goes_on = false;
 }
 
 void ChooseRegion(EditorState& state, int region) {
-  state.cut = -1;
-  state.region = region;
-  state.cut_brush.goes_on = false;
+  state.steps.tissue->cut = -1;
+  state.steps.tissue->region = region;
+  state.steps.tissue->cut_brush.goes_on = false;
 }
 
 const Cut* ChosenCut(const EditorState& state) {
   const Tissue* tissue = TissueAt(state, state.tissue);
-  return tissue != nullptr && state.cut >= 0 && state.cut < static_cast<int>(tissue->cuts.size())
-             ? &tissue->cuts[static_cast<std::size_t>(state.cut)]
+  return tissue != nullptr && state.steps.tissue->cut >= 0 &&
+                 state.steps.tissue->cut < static_cast<int>(tissue->cuts.size())
+             ? &tissue->cuts[static_cast<std::size_t>(state.steps.tissue->cut)]
              : nullptr;
 }
 
 const Region* ChosenRegion(const EditorState& state) {
   const Tissue* tissue = TissueAt(state, state.tissue);
-  return tissue != nullptr && state.region >= 0 &&
-                 state.region < static_cast<int>(tissue->regions.size())
-             ? &tissue->regions[static_cast<std::size_t>(state.region)]
+  return tissue != nullptr && state.steps.tissue->region >= 0 &&
+                 state.steps.tissue->region < static_cast<int>(tissue->regions.size())
+             ? &tissue->regions[static_cast<std::size_t>(state.steps.tissue->region)]
              : nullptr;
 }
 
 void SetTearDepth(EditorState& state, double depth) {
-  state.cut_brush.depth = depth;
+  state.steps.tissue->cut_brush.depth = depth;
   ChangeCut(state, "Change the depth of a tear of", &TearCut::depth, depth);
 }
 
 void SetTearWidth(EditorState& state, double width) {
-  state.cut_brush.width = width;
+  state.steps.tissue->cut_brush.width = width;
   ChangeCut(state, "Change the width of a tear of", &TearCut::width, width);
 }
 
 void SetBiteRadius(EditorState& state, double radius) {
-  state.cut_brush.radius = radius;
+  state.steps.tissue->cut_brush.radius = radius;
   ChangeCut(state, "Change a bite of", &CapsuleCut::radius, radius);
 }
 
 void SetRegionRadius(EditorState& state, double radius) {
-  state.cut_brush.region_radius = radius;
+  state.steps.tissue->cut_brush.region_radius = radius;
   if (ChosenRegion(state) == nullptr) return;
   Tissue changed = *TissueAt(state, state.tissue);
-  changed.regions[static_cast<std::size_t>(state.region)].ball.radius = radius / changed.pose.scale;
+  changed.regions[static_cast<std::size_t>(state.steps.tissue->region)].ball.radius =
+      radius / changed.pose.scale;
   SetTissue(state, state.tissue, changed, "Change a region of");
 }
 
@@ -212,17 +216,17 @@ void RenameRegion(EditorState& state, const std::string& name) {
   if (ChosenRegion(state) == nullptr || name.empty() || name == kElsewhere) return;
   Tissue changed = *TissueAt(state, state.tissue);
   if (HasRegion(changed, name)) return;
-  changed.regions[static_cast<std::size_t>(state.region)].name = name;
+  changed.regions[static_cast<std::size_t>(state.steps.tissue->region)].name = name;
   SetTissue(state, state.tissue, changed, "Rename a region of");
 }
 
 void RemoveChosenCut(EditorState& state) {
   if (ChosenCut(state) == nullptr) return;
   Tissue changed = *TissueAt(state, state.tissue);
-  changed.cuts.erase(changed.cuts.begin() + state.cut);
-  state.cut_brush.goes_on = false;
+  changed.cuts.erase(changed.cuts.begin() + state.steps.tissue->cut);
+  state.steps.tissue->cut_brush.goes_on = false;
   SetInOneStep(state, state.tissue, changed, "Remove a cut of");
-  if (state.cut >= static_cast<int>(changed.cuts.size())) --state.cut;
+  if (state.steps.tissue->cut >= static_cast<int>(changed.cuts.size())) --state.steps.tissue->cut;
 }
 
 void RemoveAllCuts(EditorState& state) {
@@ -230,17 +234,18 @@ void RemoveAllCuts(EditorState& state) {
   if (tissue == nullptr || tissue->cuts.empty()) return;
   Tissue changed = *tissue;
   changed.cuts.clear();
-  state.cut_brush.goes_on = false;
+  state.steps.tissue->cut_brush.goes_on = false;
   SetInOneStep(state, state.tissue, changed, "Remove all cuts of");
-  state.cut = -1;
+  state.steps.tissue->cut = -1;
 }
 
 void RemoveChosenRegion(EditorState& state) {
   if (ChosenRegion(state) == nullptr) return;
   Tissue changed = *TissueAt(state, state.tissue);
-  changed.regions.erase(changed.regions.begin() + state.region);
+  changed.regions.erase(changed.regions.begin() + state.steps.tissue->region);
   SetInOneStep(state, state.tissue, changed, "Remove a region of");
-  if (state.region >= static_cast<int>(changed.regions.size())) --state.region;
+  if (state.steps.tissue->region >= static_cast<int>(changed.regions.size()))
+    --state.steps.tissue->region;
 }
 
 std::string CutName(const Tissue& tissue, int cut) {

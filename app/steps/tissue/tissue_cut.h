@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/state/editor_state.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 

@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/panels/panels.h"
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_cut.h"
+#include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -44,9 +46,9 @@ void List(Ui& ui, const char* id, int count, int chosen,
 }
 
 void BrushButton(Ui& ui, EditorState& state, const char* id, CutBrush::Kind kind, float width) {
-  const Command& command = CommandOf(id);
-  if (ToggleButton(ui, command.words, state.cut_brush.kind == kind, command.enabled(state),
-                   {width, 0}, command.help))
+  const Command& command = CommandOf(state, id);
+  if (ToggleButton(ui, command.words, state.steps.tissue->cut_brush.kind == kind,
+                   command.enabled(state), {width, 0}, command.help))
     Run(state, command);
 }
 
@@ -55,7 +57,7 @@ void Sizes(Ui& ui, EditorState& state, const Tissue& tissue) {
   const Cut* cut = ChosenCut(state);
   const bool is_next = cut == nullptr;
   const double scale = tissue.pose.scale;
-  const CutBrush& brush = state.cut_brush;
+  const CutBrush& brush = state.steps.tissue->cut_brush;
   const auto* tear = cut ? std::get_if<TearCut>(cut) : nullptr;
   const auto* bite = cut ? std::get_if<CapsuleCut>(cut) : nullptr;
   if (tear || (is_next && brush.kind == CutBrush::Kind::kTear)) {
@@ -79,7 +81,7 @@ void Sizes(Ui& ui, EditorState& state, const Tissue& tissue) {
 // The same of a region.
 void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   const double scale = tissue.pose.scale;
-  double radius = state.cut_brush.region_radius;
+  double radius = state.steps.tissue->cut_brush.region_radius;
   if (const Region* region = ChosenRegion(state)) {
     radius = region->ball.radius * scale;
     std::string name = region->name;
@@ -103,13 +105,13 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   QuietText(ui, tissue.cuts.empty() ? "Whole. A trainee begins with what you cut here."
                                     : "A trainee begins with these cuts made.");
   List(
-      ui, "cuts", static_cast<int>(tissue.cuts.size()), state.cut,
+      ui, "cuts", static_cast<int>(tissue.cuts.size()), state.steps.tissue->cut,
       [&](int i) { return CutName(tissue, i); }, [&](int i) { return CutWords(tissue, i); },
       [&](int i) { ChooseCut(state, i); });
   if (!tissue.regions.empty())
     QuietText(ui, "What a trainee takes is told by these regions, and elsewhere.");
   List(
-      ui, "regions", static_cast<int>(tissue.regions.size()), state.region,
+      ui, "regions", static_cast<int>(tissue.regions.size()), state.steps.tissue->region,
       [&](int i) { return tissue.regions[static_cast<std::size_t>(i)].name; },
       [&](int i) {
         const Ball& ball = tissue.regions[static_cast<std::size_t>(i)].ball;
@@ -122,9 +124,9 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   BrushButton(ui, state, "cut-bite", CutBrush::Kind::kBite, third);
   ImGui::SameLine(0, ui.Px(8));
   BrushButton(ui, state, "cut-region", CutBrush::Kind::kRegion, third);
-  const bool is_region =
-      ChosenRegion(state) != nullptr ||
-      (ChosenCut(state) == nullptr && state.cut_brush.kind == CutBrush::Kind::kRegion);
+  const bool is_region = ChosenRegion(state) != nullptr ||
+                         (ChosenCut(state) == nullptr &&
+                          state.steps.tissue->cut_brush.kind == CutBrush::Kind::kRegion);
   if (is_region)
     RegionFields(ui, state, tissue);
   else

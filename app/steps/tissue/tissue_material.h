@@ -4,11 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "app/state/editor_state.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 
-// Fills state.tissue_presets from state.tissue_preset_folder, once. A fault becomes a dialog.
+// Fills state.steps.tissue->presets from state.steps.tissue->preset_folder, once. A fault becomes a
+// dialog.
 void LoadTissuePresets(EditorState& state);
 
 // The tissue's preset with its own values; nothing where its word is not known.

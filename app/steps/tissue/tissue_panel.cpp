@@ -9,13 +9,14 @@
 #include <glm/vec3.hpp>
 #include <imgui.h>
 
-#include "app/panels/panels.h"
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/tissue/tissue_ball_fields.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_material.h"
 #include "app/steps/tissue/tissue_pose.h"
+#include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
 
@@ -94,13 +95,14 @@ void ElasticityField(Ui& ui, EditorState& state, const Tissue& tissue, const std
 void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   std::vector<std::string> titles;
   int chosen = -1;
-  const auto* own = simulation::FindTissuePreset(state.tissue_presets, tissue.material);
-  for (const auto& preset : state.tissue_presets) {
+  const auto* own = simulation::FindTissuePreset(state.steps.tissue->presets, tissue.material);
+  for (const auto& preset : state.steps.tissue->presets) {
     if (own == &preset) chosen = static_cast<int>(titles.size());
     titles.push_back(preset.title);
   }
   if (Combo(ui, "Preset", chosen, titles, "What it is made of; values come with their sources."))
-    ChoosePreset(state, state.tissue, state.tissue_presets[static_cast<std::size_t>(chosen)].name);
+    ChoosePreset(state, state.tissue,
+                 state.steps.tissue->presets[static_cast<std::size_t>(chosen)].name);
   const auto preset = PresetOf(state, tissue);
   if (!preset) {
     ColouredText(ui, fmt::format("There is no preset \"{}\"; choose one.", tissue.material),
@@ -124,10 +126,10 @@ void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
                     "Stiffness along circles about the tissue's own z axis; 0: none.");
   if (!(tissue.elasticity == Elasticity{})) QuietText(ui, "Differs from the preset.");
   QuietText(ui, preset->probing);
-  if (ToggleButton(ui, "Sources", state.shows_sources, true, {-FLT_MIN, 0},
+  if (ToggleButton(ui, "Sources", state.steps.tissue->shows_sources, true, {-FLT_MIN, 0},
                    "Where each value comes from."))
-    state.shows_sources = !state.shows_sources;
-  if (state.shows_sources)
+    state.steps.tissue->shows_sources = !state.steps.tissue->shows_sources;
+  if (state.steps.tissue->shows_sources)
     for (const std::string& source : preset->sources) QuietText(ui, source);
   bool is_cuttable = tissue.is_cuttable;
   if (Checkbox(ui, "Instruments may cut it", is_cuttable)) {
@@ -151,14 +153,14 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
   std::vector<std::string> sizes;
   int chosen = 0;
   for (const authoring::MeshBudget& budget : authoring::MeshBudgets()) {
-    if (budget.size == state.mesh_size) chosen = static_cast<int>(sizes.size());
+    if (budget.size == state.steps.tissue->mesh_size) chosen = static_cast<int>(sizes.size());
     sizes.push_back(budget.name);
   }
   if (Combo(ui, "Mesh size", chosen, sizes,
             "Finer is truer and slower. Probed places gain by it with coarse and fine; of the "
             "default's 300 elements they take as much as they give."))
-    state.mesh_size = authoring::MeshBudgets()[static_cast<std::size_t>(chosen)].size;
-  QuietText(ui, authoring::BudgetWords(authoring::BudgetOf(state.mesh_size)));
+    state.steps.tissue->mesh_size = authoring::MeshBudgets()[static_cast<std::size_t>(chosen)].size;
+  QuietText(ui, authoring::BudgetWords(authoring::BudgetOf(state.steps.tissue->mesh_size)));
   QuietText(ui, tissue.probed.empty()
                     ? "Finer where it is free; or say where it will be probed:"
                     : fmt::format("Finest in {} probed {}:", tissue.probed.size(),
@@ -178,12 +180,12 @@ void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 // The author's instrument on the tissue, with the force that it gives.
 void PokeFields(Ui& ui, EditorState& state) {
-  const Command& poke = CommandOf("poke");
-  if (ToggleButton(ui, poke.words, state.poke.has_value(), poke.enabled(state),
+  const Command& poke = CommandOf(state, "poke");
+  if (ToggleButton(ui, poke.words, state.steps.practice->poke.has_value(), poke.enabled(state),
                    {-FLT_MIN, ui.Px(36)}, poke.help))
     Run(state, poke);
-  if (!state.poke) return;
-  const double force = glm::length(state.poke->snapshot().instrument.tip_force);
+  if (!state.steps.practice->poke) return;
+  const double force = glm::length(state.steps.practice->poke->snapshot().instrument.tip_force);
   ColouredText(ui,
                fmt::format("{:.2f} N; instruments do harm above {:.1f} N", force,
                            simulation::kSafeProbingForce),
@@ -224,7 +226,8 @@ void TissuePanel(Ui& ui, EditorState& state) {
     const std::string& name = tissues[static_cast<std::size_t>(i)].name;
     ImGui::PushID(i);
     if (ImGui::Selectable(name.c_str(), state.tissue == i)) {
-      if (state.tissue != i) state.ball = state.cut = state.region = -1;
+      if (state.tissue != i)
+        state.steps.tissue->ball = state.steps.tissue->cut = state.steps.tissue->region = -1;
       state.tissue = i;
     }
     RecordItem(ui, name, true, state.tissue == i ? "on" : "off");
@@ -247,15 +250,16 @@ void TissuePanel(Ui& ui, EditorState& state) {
   for (const auto& [page, words] : kPages) {
     const float page_width = ImGui::CalcTextSize(words).x + free / 5;
     if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
-    if (ToggleButton(ui, words, state.tissue_page == page, true, {page_width, 0})) {
-      if (state.tissue_page != page) state.ball = -1;  // it counts the balls of its page
-      state.tissue_page = page;
-      state.brush.reset();
-      state.cut_brush.kind = CutBrush::Kind::kNone;
+    if (ToggleButton(ui, words, state.steps.tissue->page == page, true, {page_width, 0})) {
+      if (state.steps.tissue->page != page)
+        state.steps.tissue->ball = -1;  // it counts the balls of its page
+      state.steps.tissue->page = page;
+      state.steps.tissue->brush.reset();
+      state.steps.tissue->cut_brush.kind = CutBrush::Kind::kNone;
     }
   }
   Gap(ui);
-  switch (state.tissue_page) {
+  switch (state.steps.tissue->page) {
     case TissuePage::kPlace:
       PlaceFields(ui, state, tissue);
       break;

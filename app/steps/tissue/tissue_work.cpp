@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "app/files/scene_files.h"
 #include "app/state/edits.h"
 #include "authoring/tissue/mesh_budget.h"
 #include "simulation/core/units.h"
@@ -65,7 +64,7 @@ void TetrahedraliseTissue(EditorState& state) {
   const auto surface = document.surfaces.at(static_cast<std::size_t>(index));
   if (!surface) return;
   authoring::MeshWish wish;
-  wish.elements = authoring::BudgetOf(state.mesh_size).elements;
+  wish.elements = authoring::BudgetOf(state.steps.tissue->mesh_size).elements;
   wish.fixed = tissue.fixed;
   wish.probed = tissue.probed;
   // Kept beside the window until the scene is saved; saving copies it into the scene's folder.

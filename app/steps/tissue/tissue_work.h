@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/state/editor_state.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 

@@ -12,6 +12,9 @@
 
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
+#include "app/editor/every_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -33,16 +36,18 @@ class CalibrateIncision : public testing::Test {
   void SetUp() override {
     StartDocument(state, authoring::OpenDocument(test::WriteSmallScene(temp / "knee", false)),
                   true);
-    state.pace = simulation::TissuePace::kInline;
+    state.steps.practice->pace = simulation::TissuePace::kInline;
     rig = temp / "rig.json";
     WriteAtomically(rig, test::kMovedRig);
   }
-  void Hold(HandsChoice choice) { state.hands = std::make_unique<Hands>(std::move(choice)); }
+  void Hold(HandsChoice choice) {
+    state.steps.practice->hands = std::make_unique<Hands>(std::move(choice));
+  }
   void Frame() {
     FinishWork(state);
-    state.hands->Look();
+    state.steps.practice->hands->Look();
     if (state.practice && state.dialogs.empty())
-      state.practice->Advance(1.0 / 60, state.hands.get());
+      state.practice->Advance(1.0 / 60, state.steps.practice->hands.get());
     KeepPivotFresh(state);
   }
   void Frames(int count) {
@@ -55,12 +60,13 @@ class CalibrateIncision : public testing::Test {
       Frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.preview_jobs.busy() || state.pivot_jobs.busy());
+    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() ||
+             state.steps.practice->pivot_jobs.busy());
   }
   void Begin(const char* command = "calibrate-scope") {
     app::Run(state, command);
     Settle();
-    ASSERT_TRUE(state.calibrating) << "in a practice that is begun for it";
+    ASSERT_TRUE(state.steps.practice->calibrating) << "in a practice that is begun for it";
   }
   // Swings the scope there within half a second, lets it rest, presses.
   void PressAt(double latitude_deg, double longitude_deg) {
@@ -76,19 +82,19 @@ class CalibrateIncision : public testing::Test {
     app::Run(state, "press-incision");
     Frames(10);
   }
-  const PivotWork& work() const { return state.calibrating->work; }
+  const PivotWork& work() const { return state.steps.practice->calibrating->work; }
   DeviceRig Mount() const {
-    return state.hands->MountOf(DeviceRole::kScope, state.document().scene);
+    return state.steps.practice->hands->MountOf(DeviceRole::kScope, state.document().scene);
   }
 
   test::TempFolder temp;
   fs::path rig;
-  EditorState state{NewDocument()};
+  EditorState state = MakeEditorState(NewDocument());
 };
 
 TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyCameFrom) {
   Hold(ReadHands(rig, "plant"));
-  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), HandKind::kSimulated);
+  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), HandKind::kSimulated);
   Begin();
   EXPECT_FALSE(CommandOf("use-incision").enabled(state));
   PressAt(0, 0);
@@ -101,7 +107,8 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   EXPECT_LT(glm::distance(*work().found().pivot, test::kMovedPivot), 3 * sigma);
   app::Run(state, "use-incision");
   EXPECT_TRUE(state.dialogs.empty());
-  EXPECT_NE(state.calibrating->outcome.find("saved in " + rig.string()), std::string::npos);
+  EXPECT_NE(state.steps.practice->calibrating->outcome.find("saved in " + rig.string()),
+            std::string::npos);
   Frames(2);
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   EXPECT_NE(Mount().pivot, test::kMovedPivot) << "what was found, not what was there";
@@ -114,8 +121,8 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   EXPECT_EQ(next.rig.scope.pivot, Mount().pivot);
 
   app::Run(state, "leave-practice");
-  EXPECT_FALSE(state.calibrating) << "Esc closes the calibration first";
-  EXPECT_FALSE(state.hands->calibrated());
+  EXPECT_FALSE(state.steps.practice->calibrating) << "Esc closes the calibration first";
+  EXPECT_FALSE(state.steps.practice->hands->calibrated());
   EXPECT_TRUE(state.practice);
 }
 
@@ -135,15 +142,16 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
 
 TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritten) {
   Hold(ReadHands(rig, "plant"));
-  state.rig_preset_folder = temp.path();  // as if the rig had come with the program
+  state.steps.practice->rig_preset_folder = temp.path();  // as if the rig had come with the program
   Begin();
   PressAt(0, 0);
   PressAt(0, 40);
   ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
   app::Run(state, "use-incision");
-  EXPECT_TRUE(state.calibrating->is_unsaved);
-  EXPECT_NE(state.calibrating->outcome.find("came with the program"), std::string::npos)
-      << state.calibrating->outcome;
+  EXPECT_TRUE(state.steps.practice->calibrating->is_unsaved);
+  EXPECT_NE(state.steps.practice->calibrating->outcome.find("came with the program"),
+            std::string::npos)
+      << state.steps.practice->calibrating->outcome;
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 
@@ -157,11 +165,11 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
   save(temp / "nowhere" / "mine.json");
   ASSERT_EQ(state.dialogs.size(), 1u) << "in a sentence";
   state.dialogs.clear();
-  EXPECT_TRUE(state.calibrating->is_unsaved);
+  EXPECT_TRUE(state.steps.practice->calibrating->is_unsaved);
   fs::create_directory(temp / "own");
   save(temp / "own" / "mine.json");
   EXPECT_TRUE(state.dialogs.empty());
-  EXPECT_FALSE(state.calibrating->is_unsaved);
+  EXPECT_FALSE(state.steps.practice->calibrating->is_unsaved);
   EXPECT_EQ(ReadRig(temp / "own" / "mine.json").scope->mount.pivot, Mount().pivot);
   EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 }
@@ -173,7 +181,8 @@ TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
   PressAt(0, 40);
   ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
   app::Run(state, "use-incision");
-  EXPECT_NE(state.calibrating->outcome.find("until the program ends"), std::string::npos);
+  EXPECT_NE(state.steps.practice->calibrating->outcome.find("until the program ends"),
+            std::string::npos);
   EXPECT_FALSE(CommandOf("save-rig-as").enabled(state));
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   // Also of the practice after this one.
@@ -181,7 +190,7 @@ TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
   app::Run(state, "leave-practice");
   EXPECT_FALSE(state.practice);
   Scene scene = state.document().scene;
-  state.hands->Mount(scene);
+  state.steps.practice->hands->Mount(scene);
   EXPECT_EQ(scene.rig.scope.pivot, Mount().pivot);
 }
 
@@ -198,10 +207,10 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
                   simulation::HandleFromRodPose(pose, truth), 0, true};
   }
   Hold(std::move(choice));
-  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), HandKind::kRecorded);
+  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), HandKind::kRecorded);
   EXPECT_FALSE(CommandOf("calibrate-instrument").enabled(state)) << "mouse and keys have it";
   Begin();
-  state.calibrating->work.Begin(simulation::PivotSource::kSwing);
+  state.steps.practice->calibrating->work.Begin(simulation::PivotSource::kSwing);
   const auto off = [&] { return glm::distance(state.practice->snapshot().scope.pose.depth, 0.06); };
   Frames(60);
   EXPECT_GT(off(), 1e-3) << "the rig is wrong";
@@ -221,8 +230,9 @@ TEST_F(CalibrateIncision, OfADeviceWithoutARodIsNotOffered) {
   choice.rig.emplace().scope.emplace().device.family = "space_mouse";
   Hold(std::move(choice));
   EXPECT_FALSE(CommandOf("calibrate-scope").enabled(state));
-  EXPECT_NE(state.hands->WhyNotCalibrated(DeviceRole::kScope).find("no rod"), std::string::npos);
-  EXPECT_NE(state.hands->WhyNotCalibrated(DeviceRole::kInstrument).find("Mouse"),
+  EXPECT_NE(state.steps.practice->hands->WhyNotCalibrated(DeviceRole::kScope).find("no rod"),
+            std::string::npos);
+  EXPECT_NE(state.steps.practice->hands->WhyNotCalibrated(DeviceRole::kInstrument).find("Mouse"),
             std::string::npos);
 }
 

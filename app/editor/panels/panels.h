@@ -1,25 +1,19 @@
-// The panels of the window: free functions over the editor's state, which they change only through
+// The pages of the window: free functions over the editor's state, which they change only through
 // app/commands. They compute nothing.
 #pragma once
 
-#include <string_view>
+#include <string>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "app/panels/widgets.h"
+#include "app/panels/fixed_window.h"
 #include "app/state/editor_state.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
 
-// A button that runs a command of the list; shortcut and help as its tooltip.
-bool CommandButton(Ui& ui, EditorState& state, std::string_view id, const ImVec2& size = {0, 0});
-
 // ---- Where things are, in window coordinates. ----
-struct Area {
-  float x = 0, y = 0, width = 0, height = 0;
-};
 struct Layout {
   Area top, side, picture, overview, status;
 };
@@ -31,20 +25,7 @@ void TopBar(Ui& ui, EditorState& state, const Area& area);
 // `notice`: what the pictures could not show as given.
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
 void StepsPanel(Ui& ui, EditorState& state, const Area& area);
-void PracticePanel(Ui& ui, EditorState& state, const Area& area);
-void DevicesPage(Ui& ui, EditorState& state, const Area& area);       // in the place of the last
-void DisturbancesPage(Ui& ui, EditorState& state, const Area& area);  // there too
-void IncisionPage(Ui& ui, EditorState& state, const Area& area);      // while one is calibrated
 void Dialogs(Ui& ui, EditorState& state);
-
-// One page of controls each, inside StepsPanel.
-void PanoramaPanel(Ui& ui, EditorState& state);
-void DepthPanel(Ui& ui, EditorState& state);
-void TissuePanel(Ui& ui, EditorState& state);
-void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
-void PortalsPanel(Ui& ui, EditorState& state);
-void PracticeStepPanel(Ui& ui, EditorState& state);
-void DevicesPanel(Ui& ui, EditorState& state);
 
 // ---- Dialogs with much in them. ----
 void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog

@@ -1,8 +1,9 @@
-#include "app/steps/depth/depth_work.h"
+#include "app/steps/depth/depth_step.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "app/state/edits.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_preview.h"
 #include "simulation/core/same_options.h"
@@ -41,7 +42,7 @@ Jobs::Work PreviewWork(const Document& document,
       picture = std::make_shared<const ColourImage>(made->Picture());
     auto depth = std::make_shared<const DepthMap>(std::move(relief));
     return [=](EditorState& state) {
-      DepthCache& cache = state.depth_cache;
+      DepthCache& cache = state.steps.depth->cache;
       cache.pyramid = made;
       cache.pyramid_of = panorama;
       if (state.document().panorama != panorama) return;
@@ -65,7 +66,7 @@ Jobs::Work FullWork(const Document& document) {
       next.depth = depth;
       if (next.scene.backdrop.depth.empty()) next.scene.backdrop.depth = "depth.tiff";
       state.history.Amend(std::move(next));
-      state.depth_cache.Note(state.document());
+      state.steps.depth->cache.Note(state.document());
     };
   };
 }
@@ -73,29 +74,30 @@ Jobs::Work FullWork(const Document& document) {
 }  // namespace
 
 bool FinishDepth(EditorState& state) {
-  if (!state.preview_jobs.busy()) return false;
+  if (!state.steps.depth->preview_jobs.busy()) return false;
   try {
-    state.preview_jobs.Finish(state);
+    state.steps.depth->preview_jobs.Finish(state);
   } catch (const Error& error) {
     // Stopped: other options are wanted now. Otherwise the depth stays what it was.
     if (error.code() != Code::kCancelled &&
-        SameOptions(state.depth_in_work, state.document().depth_options))
-      state.depth_cache.Refuse(state.document(), error.what());
+        SameOptions(state.steps.depth->in_work, state.document().depth_options))
+      state.steps.depth->cache.Refuse(state.document(), error.what());
   }
-  return !state.preview_jobs.busy();
+  return !state.steps.depth->preview_jobs.busy();
 }
 
 bool DepthIsUnderWay(const EditorState& state) {
-  return state.preview_jobs.busy() || state.depth_cache.IsStale(state.document());
+  return state.steps.depth->preview_jobs.busy() ||
+         state.steps.depth->cache.IsStale(state.document());
 }
 
 void KeepDepthFresh(EditorState& state) {
-  DepthCache& cache = state.depth_cache;
+  DepthCache& cache = state.steps.depth->cache;
   const Document& document = state.document();
   if (!cache.IsStale(document)) {
     cache.preview.reset();
     cache.preview_panorama.reset();
-    if (state.when_depth_is_ready) std::exchange(state.when_depth_is_ready, {})(state);
+    if (state.steps.depth->when_ready) std::exchange(state.steps.depth->when_ready, {})(state);
     return;
   }
   if (auto made = cache.Find(document)) {  // after undo: computed before
@@ -108,9 +110,10 @@ void KeepDepthFresh(EditorState& state) {
     return cache.preview && cache.pyramid_of.lock() == document.panorama &&
            SameOptions(cache.preview_options, document.depth_options);
   };
-  if (state.preview_jobs.busy()) {
+  if (state.steps.depth->preview_jobs.busy()) {
     // Full-size work for options that changed meanwhile is of no use.
-    if (!SameOptions(state.depth_in_work, document.depth_options)) state.preview_jobs.Stop();
+    if (!SameOptions(state.steps.depth->in_work, document.depth_options))
+      state.steps.depth->preview_jobs.Stop();
     return;
   }
   try {
@@ -119,20 +122,64 @@ void KeepDepthFresh(EditorState& state) {
     if (cache.ProblemOf(document).empty() || !state.dragging) cache.Refuse(document, error.what());
     return;
   }
-  state.depth_in_work = document.depth_options;
+  state.steps.depth->in_work = document.depth_options;
   if (!has_preview()) {
     const bool usable = cache.pyramid && cache.pyramid_of.lock() == document.panorama;
-    state.preview_jobs.Start("Depth preview",
-                             PreviewWork(document, usable ? cache.pyramid : nullptr));
+    state.steps.depth->preview_jobs.Start("Depth preview",
+                                          PreviewWork(document, usable ? cache.pyramid : nullptr));
   } else if (!state.dragging) {
-    state.preview_jobs.Start("Depth", FullWork(document));
+    state.steps.depth->preview_jobs.Start("Depth", FullWork(document));
   }
 }
 
 void WhenDepthIsReady(EditorState& state, std::function<void(EditorState&)> then) {
-  if (!state.depth_cache.IsStale(state.document())) return then(state);
+  if (!state.steps.depth->cache.IsStale(state.document())) return then(state);
   state.dragging = false;
-  state.when_depth_is_ready = std::move(then);
+  state.steps.depth->when_ready = std::move(then);
 }
+
+void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
+                     const std::string& what) {
+  if (SameOptions(options, state.document().depth_options)) return;
+  if (state.document().is_depth_imported) {
+    state.message = "The imported depth map is kept. Make one from the picture to change it.";
+    return;
+  }
+  Edit(state, "Depth: " + what, "depth." + what, [&](auto& next) {
+    next.depth_options = options;
+    // What was made before for these options is taken up again at once.
+    if (auto made = state.steps.depth->cache.Find(next)) next.depth = made;
+  });
+}
+
+void MakeDepth(EditorState& state) {
+  const authoring::Document& document = state.document();
+  if (!document.panorama || !document.is_depth_imported) return;
+  Edit(state, "Replace the imported depth map", "", [&](auto& next) {
+    next.is_depth_imported = false;
+    if (auto made = state.steps.depth->cache.Find(next)) next.depth = made;
+  });
+}
+
+namespace {
+
+using State = EditorState;
+
+constexpr Command kCommands[] = {
+    {"make-depth",
+     "Make depth from the picture",
+     "Replace the imported depth map by one that is made from the picture. Undo brings it back.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) {
+       return Idle(state) && HasPicture(state) && state.document().is_depth_imported;
+     },
+     MakeDepth},
+};
+
+}  // namespace
+
+std::span<const Command> DepthCommands() { return kCommands; }
 
 }  // namespace arthro::app

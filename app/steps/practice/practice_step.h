@@ -1,0 +1,101 @@
+// Step 5: the practice, what holds the two hands, and what is shown and recorded of it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "app/commands/devices/pivot_work.h"
+#include "app/commands/practice.h"
+#include "app/recording/live_film.h"
+#include "app/state/command.h"
+#include "app/view/disturbances/disturbances.h"
+#include "simulation/scope/camera_head.h"
+
+namespace arthro::app {
+
+struct Area;
+struct Ui;
+
+// A hand's incision that is being found, in the practice that runs.
+struct PivotCalibrating {
+  simulation::DeviceRole role = simulation::DeviceRole::kScope;
+  PivotWork work;
+  std::string outcome;      // of what was taken over last; empty: nothing was
+  bool is_unsaved = false;  // it has a place in a rig, and is not there
+};
+
+// The scope's picture alone, in a window of its own: on another monitor over all of it, else one
+// that can be moved. The window that shows it takes `is_wanted` back when it is closed.
+struct TraineeScreen {
+  bool is_wanted = false;
+  int monitor = 0;    // from 1; 0: one that the window is not on
+  std::string words;  // what was not as it was asked for; empty: nothing
+};
+
+// What an educator lays over a practice's picture (app/view/disturbances/disturbances.h): each is
+// switched by a command, and keeps the strength that it was given last.
+inline constexpr double kUsualStrength = 0.5;  // plain to see, and one can still work
+inline constexpr double kLeastStrength = 0.05;
+
+struct Disturbing {
+  Disturbances now;  // 0: off
+  // What switching one on gives.
+  Disturbances chosen{kUsualStrength, kUsualStrength, kUsualStrength, kUsualStrength,
+                      kUsualStrength, kUsualStrength, kUsualStrength};
+  bool shows_panel = false;  // instead of the practice's
+};
+
+using Strength = double Disturbances::*;
+struct DisturbanceSwitch {
+  const char* command;  // its id
+  Strength strength;
+};
+std::span<const DisturbanceSwitch> DisturbanceSwitches();
+
+void ToggleDisturbance(EditorState& state, Strength strength);
+// Of one that is on, or will be.
+void SetDisturbance(EditorState& state, Strength strength, double value);
+
+struct PracticeStep {
+  explicit PracticeStep(std::function<void()> wake) : pivot_jobs(std::move(wake)) {}
+
+  std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // what holds them; outlives practices
+  std::optional<Practice> poke;  // the author's live poke (tissue_poke.h)
+  int poke_of = 0;               // position of the history that it was made of
+  std::optional<PivotCalibrating> calibrating;
+  Jobs pivot_jobs;              // where the poses of a swing meet
+  bool shows_devices = false;   // their panel, instead of the practice's
+  Disturbing disturbing;        // of a practice's picture
+  simulation::CameraHead head;  // of a practice's scope
+  simulation::TissuePace pace = simulation::TissuePace::kThread;  // of living tissue
+  std::filesystem::path rig_preset_folder;
+
+  // The scope's picture, while it is recorded (film.h), and what became of the last film.
+  FrameShape frame_shape = FrameShape::kSquare;  // of films and of the trainee's screen
+  std::unique_ptr<LiveFilm> film;
+  double film_begin = 0, film_seconds = 0;  // s of the session
+  std::string film_words;
+  bool is_film_lost = false;
+  bool shows_outside = false;  // in practice: the overview in a corner of the picture
+  TraineeScreen trainee_screen;
+};
+
+// The session that runs: a practice, or the author's poke; null: none.
+const Practice* LiveSession(const EditorState& state);
+
+std::span<const Command> PracticeCommands();
+std::span<const Command> DisturbanceCommands();  // of a practice's picture
+std::span<const Command> IncisionCommands();     // their calibration
+
+void PracticeStepPanel(Ui& ui, EditorState& state);
+void DevicesPanel(Ui& ui, EditorState& state);
+void PracticePanel(Ui& ui, EditorState& state, const Area& area);
+void DevicesPage(Ui& ui, EditorState& state, const Area& area);       // in the place of the last
+void DisturbancesPage(Ui& ui, EditorState& state, const Area& area);  // there too
+void IncisionPage(Ui& ui, EditorState& state, const Area& area);      // while one is calibrated
+
+}  // namespace arthro::app
