@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/pictures.h"
@@ -28,7 +29,6 @@
 #include "app/recording/unfinished_film.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/editor/every_step.h"
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/practice/calibrate_incision.h"
@@ -436,7 +436,7 @@ class Editor {
   std::optional<ScriptRunner> script_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
-  std::map<std::string, std::vector<double>> frame_seconds_;  // of drawn frames, by mark
+  std::map<std::string, std::vector<double>> frame_seconds_;  // s per drawn frame, by mark
   bool picture_focused_ = true, will_draw_ = true;
   const LiveFilm* noted_film_ = nullptr;  // the folder of which is remembered
 };

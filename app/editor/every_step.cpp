@@ -34,7 +34,7 @@ constexpr Command kStepCommands[] = {
      Open<Step::kPanorama>},
     {"step-depth",
      "Depth",
-     "How brightness becomes relief.",
+     "How brightness is turned into depth.",
      "Steps",
      {GLFW_KEY_F7},
      {},
@@ -69,7 +69,7 @@ constexpr Command kStepCommands[] = {
 constexpr Command kWindowCommands[] = {
     {"full-screen",
      "Full screen",
-     "Fill the screen, or stop.",
+     "Switch full screen on or off.",
      "Window",
      {GLFW_KEY_F11},
      {},

@@ -27,8 +27,8 @@ bool Same(const Picture& a, const Picture& b) {
          a.instrument == b.instrument && a.disturbances == b.disturbances;
 }
 
-// What a projection in pixels of one picture is in pixels of a smaller one, whose pixel (x, y)
-// covers x·factor … x·factor + factor − 1.
+// Converts a projection to the pixels of a smaller picture, whose pixel (x, y) covers
+// x·factor … x·factor + factor − 1.
 Projection Shrunk(Projection projection, double factor) {
   projection.centre_px = (projection.centre_px - 0.5 * (factor - 1.0)) / factor;
   projection.focal_px /= factor;
@@ -56,7 +56,7 @@ Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optic
                                         tool.pose.roll, state.practice->instrument_kind(),
                                         tool.opening,   state.practice->blade_turn()};
     picture.disturbances = state.steps.practice->disturbing.now;
-    // What stands still is not drawn anew.
+    // Disturbances at rest are not drawn again.
     if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
   } else {
     picture.instrument =
@@ -236,7 +236,7 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   const int chosen = IsTissueEdited(state) && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
-  // What the user looks at comes first.
+  // Draws the scope's picture before the overview on a slow machine.
   const auto now = std::chrono::steady_clock::now();
   if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
     return true;

@@ -70,11 +70,11 @@ class Pictures {
   Picture picture_;
   int drawn_size_ = 0;
   long drawn_count_ = 0;
-  RenderScale scale_;      // of pictures that move
+  RenderScale scale_;      // scale of moving pictures
   bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
   std::chrono::steady_clock::time_point overview_drawn_{};
-  // What the view holds.
+  // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
   std::shared_ptr<const DepthMap> depth_;
   Backdrop backdrop_;
@@ -88,7 +88,7 @@ class Pictures {
   const Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1;
-  Picture overview_tools_;  // as the overview last got them
+  Picture overview_tools_;  // tools of the last overview
   glm::dvec2 pointer_{-1.0};
 };
 

@@ -23,7 +23,7 @@ const std::vector<FileFilter>& SceneFilters() {
 constexpr Command kCommands[] = {
     {"new",
      "New",
-     "Begin a scene with nothing in it.",
+     "Begin an empty scene.",
      "Scene",
      {GLFW_KEY_N, true},
      {},
@@ -49,7 +49,7 @@ constexpr Command kCommands[] = {
      }},
     {"save",
      "Save",
-     "Save the scene where it was opened from.",
+     "Save the scene in its folder or file.",
      "Scene",
      {GLFW_KEY_S, true},
      {},
@@ -66,7 +66,7 @@ constexpr Command kCommands[] = {
     {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
     {"undo",
      "Undo",
-     "Take the last edit back.",
+     "Undo the last edit.",
      "Edit",
      {GLFW_KEY_Z, true},
      {},
@@ -77,13 +77,13 @@ constexpr Command kCommands[] = {
      }},
     {"redo",
      "Redo",
-     "Do again what was taken back.",
+     "Redo the last edit that was undone.",
      "Edit",
      {GLFW_KEY_Z, true, true},
      {GLFW_KEY_Y, true},
      [](const State& state) { return InEditor(state) && state.history.CanRedo(); },
      [](State& state) {
-       state.message = "Done again: " + state.history.RedoName();
+       state.message = "Redone: " + state.history.RedoName();
        state.history.Redo();
      }},
 };

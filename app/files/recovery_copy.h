@@ -46,7 +46,7 @@ class RecoveryCopy {
   std::function<void()> wake_;
   RecoverySession session_;
   long long seen_ = -1, in_work_ = -1, written_ = -1;  // states of the document
-  double first_change_ = 0, last_change_ = 0;          // that are not written
+  double first_change_ = 0, last_change_ = 0;          // times of the unwritten changes, s
   bool is_due_ = false;
   std::future<std::string> writing_;  // the fault; empty: written
 };

@@ -1,4 +1,4 @@
-// Where the files of resources/ lie: beside an installed program, or in the source tree it was
+// Folder of the files of resources/: beside an installed program, or in the source tree it was
 // built from.
 #pragma once
 

@@ -27,7 +27,8 @@ struct Command {
   void (*run)(EditorState&);
 };
 
-const Command& CommandOf(const EditorState& state, std::string_view id);  // of an id that exists
+const Command& CommandOf(const EditorState& state,
+                         std::string_view id);  // throws for an unknown id
 
 // ---- When a command can be called. ----
 bool Always(const EditorState& state);

@@ -45,7 +45,7 @@ struct PracticeEndedDialog {
 // A copy of unsaved work was left by a program that ended (recovery/recovery_copy.h).
 struct RecoveryDialog {
   std::string title, when;
-  std::filesystem::path folder;  // of its document; empty: it was never saved
+  std::filesystem::path folder;  // folder of the document; empty: it was never saved
   std::function<void(EditorState&)> restore, discard;
 };
 using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,

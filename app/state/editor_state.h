@@ -32,7 +32,7 @@ class Practice;
 // The author's way through a scene, one page of controls each.
 enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice };
 
-// What the steps keep beside the document.
+// State of each step beside the document.
 struct StepStates {
   Owned<PanoramaStep> panorama;
   Owned<DepthStep> depth;
@@ -44,7 +44,7 @@ struct StepStates {
 // The scene as this window has last read or written it.
 struct SceneOnDisk {
   std::filesystem::path place;  // folder or archive; empty: none
-  std::string fingerprint;      // of scene.json or the archive (core/fingerprint.h)
+  std::string fingerprint;      // fingerprint of scene.json or the archive (core/fingerprint.h)
 };
 
 struct EditorState {

@@ -43,7 +43,7 @@ void TakeFootageLens(authoring::Document& document, const Lens& lens, bool is_gu
   if (is_guessed || !CanBeDrawn(lens, *field)) return;
   scope.lens = kLensFile;
   document.lens = lens;
-  document.files.erase(kLensFile);  // what lies under that name is another lens
+  document.files.erase(kLensFile);  // the file of that name holds another lens
 }
 
 }  // namespace arthro::app

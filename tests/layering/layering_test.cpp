@@ -1,4 +1,4 @@
-// Who may include whom (CONTRIBUTING.md). Linking cannot catch a header that is merely included, so
+// Rules for includes (CONTRIBUTING.md). Linking cannot catch a header that is merely included, so
 // every #include of every source is read and held against the table below.
 #include <algorithm>
 #include <filesystem>
@@ -58,8 +58,8 @@ const std::vector<std::string> kNotInSimulation = {
 const std::vector<std::string> kNotInAuthoring = {"vtk",  "imgui", "backends/imgui",
                                                   "GLFW", "GL/",   "CLI"};
 
-// What the renderer is judged by shares nothing with it: headers that these files may include of
-// ours, beside one another.
+// References for the renderer share nothing with it: headers of ours that these files may include,
+// beside one another.
 const std::string kReferences[] = {"app/bench/view/reference_tracer.",
                                    "app/bench/view/grid_picture."};
 const Names kReferencesMayInclude = {"simulation/scene/image.h", "simulation/scene/lens.h",

@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kTopHeight = 48, kStatusHeight = 32, kSideWidth = 330;
 constexpr float kPracticeWidth = 370;
-constexpr float kOutsideShare = 0.34f;   // in practice, of the picture's area
-constexpr float kOverviewShare = 0.38f;  // of the width beside the controls
+constexpr float kOutsideShare = 0.34f;   // share of the picture's shorter side, in practice
+constexpr float kOverviewShare = 0.38f;  // share of the width beside the controls
 
 // ImGui takes a size of 0 for "as large as the content", and textures need a pixel.
 Area AtLeastAPixel(const Area& area) {

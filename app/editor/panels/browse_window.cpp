@@ -65,7 +65,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   Heading(ui, dialog.title);
   const bool enter = DialogKeyPressed(GLFW_KEY_ENTER);
 
-  // Where we are, and how to go elsewhere.
+  // Current folder, and ways to leave it.
   if (Button(ui, "Up")) model.GoUp();
   ImGui::SameLine();
   if (Button(ui, "Home"))
@@ -131,7 +131,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   if (Button(ui, dialog.accept_words, !model.file_name.empty(), {ui.Px(120), 0})) accept = true;
   ImGui::SameLine();
   if (model.purpose() == BrowseFor::kOpenFileOrFolder) {
-    if (Button(ui, "Use this folder", true, {ui.Px(160), 0}, "All pictures in it are the clip."))
+    if (Button(ui, "Use this folder", true, {ui.Px(160), 0}, "All pictures in it become the clip."))
       acceptance = model.AcceptFolder();
     ImGui::SameLine();
   }

@@ -64,7 +64,7 @@ void Draw(Ui& ui, EditorState& state, ChangedOnDiskDialog& dialog) {
   const ImVec2 size = {ui.Px(120), 0};
   const bool save_as = Button(ui, "Save as…", true, size, "Keep both: save this one elsewhere.");
   ImGui::SameLine();
-  const bool replace = Button(ui, "Replace it", true, size, "What others changed is lost.");
+  const bool replace = Button(ui, "Replace it", true, size, "The other changes are lost.");
   ImGui::SameLine();
   const bool cancel = Button(ui, "Cancel", true, size) || EscapePressed();
   if (!save_as && !replace && !cancel) return;
@@ -76,7 +76,7 @@ void Draw(Ui& ui, EditorState& state, ChangedOnDiskDialog& dialog) {
 void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   Heading(ui, "Which unit is the surface in?");
   Gap(ui, 2);
-  Text(ui, fmt::format("{} does not say. A meniscus is 30 to 45 mm long.",
+  Text(ui, fmt::format("{} does not state its unit. A meniscus is 30 to 45 mm long.",
                        dialog.surface.filename().string()));
   for (const char* unit : {"mm", "cm", "m", "um", "in"}) {
     if (ToggleButton(ui, unit, dialog.unit == unit, true, {ui.Px(64), 0})) dialog.unit = unit;

@@ -68,10 +68,10 @@ void HelpWindow(Ui& ui, EditorState& state) {
   if (BeginRows(ui, "hands")) {
     for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);
     Row(ui, "C", "Close the jaws, run the shaver");
-    Row(ui, "V", "Dead-man: the devices may push");
+    Row(ui, "V", "Dead-man switch: the devices may push");
     ImGui::EndTable();
   }
-  QuietText(ui, "Arrow and page keys move the scope once the picture was clicked.");
+  QuietText(ui, "Arrow and page keys move the scope after a click on the picture.");
   Gap(ui);
 
   // Commands, under the headings of their groups.

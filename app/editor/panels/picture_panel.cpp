@@ -15,7 +15,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr float kStripHeight = 66;  // of the pose's numbers, at scale 1
+constexpr float kStripHeight = 66;  // px at scale 1, of the pose's numbers
 
 // A texture as it is: VTK leaves alpha below 1 where translucent things were.
 void OpaqueImage(ImDrawList* draw, unsigned texture, const ImVec2& low, const ImVec2& high) {

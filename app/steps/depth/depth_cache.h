@@ -1,6 +1,6 @@
-// Which depth map belongs to which panorama and options. Depth is made from the two by work beside
-// the window, so for a while a document may hold the depth of other options: it is then stale. Also
-// hands out again what was made before, so that undo does not compute twice.
+// Pairs a depth map with the panorama and options that it was made from. Depth is made from the two
+// by work beside the window, so for a while a document may hold the depth of other options: it is
+// then stale. Also hands out again what was made before, so that undo does not compute twice.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace arthro::app {
 
 class DepthCache {
  public:
-  // What `document` holds counts as made from its panorama and options.
+  // Records that the depth map of `document` was made from its panorama and options.
   void Note(const authoring::Document& document);
   // Nor can there be any better one, for the reason given.
   void Refuse(const authoring::Document& document, const std::string& reason);
@@ -23,7 +23,7 @@ class DepthCache {
   // Made before and still in memory; null if not.
   std::shared_ptr<const DepthMap> Find(const authoring::Document& document) const;
 
-  // What the pictures show while the document's depth is stale; null otherwise.
+  // Shown by the pictures while the document's depth is stale; null otherwise.
   std::shared_ptr<const DepthMap> preview;
   std::shared_ptr<const ColourImage> preview_panorama;
   authoring::DepthOptions preview_options;

@@ -147,7 +147,7 @@ void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
   }
   Edit(state, "Depth: " + what, "depth." + what, [&](auto& next) {
     next.depth_options = options;
-    // What was made before for these options is taken up again at once.
+    // A map that was made before for these options is used again at once.
     if (auto made = state.steps.depth->cache.Find(next)) next.depth = made;
   });
 }

@@ -18,7 +18,7 @@ struct DepthStep {
 
   DepthCache cache;
   Jobs preview_jobs;
-  authoring::DepthOptions in_work;  // what preview_jobs computes
+  authoring::DepthOptions in_work;  // options of the map that preview_jobs computes
   std::function<void(EditorState&)> when_ready;
 };
 std::span<const Command> DepthCommands();
@@ -33,8 +33,8 @@ void MakeDepth(EditorState& state);
 // Starts the work that is wanted, if any. Once a frame; returns at once.
 void KeepDepthFresh(EditorState& state);
 
-// Takes over what ended. A fault is told beside the sliders, not in a dialog: the next value may
-// do. True when something changed.
+// Takes over what ended. Shows a fault beside the sliders, not in a dialog: the next value may
+// be valid. True when something changed.
 bool FinishDepth(EditorState& state);
 
 // The map is being made or is about to be.

@@ -1,7 +1,7 @@
-// What the window knows of the clip that a panorama is made from: its frames as small pictures and
-// where each of them ended up, which frames and options the next run will use, and what the last
-// run made. Plain values; pictures are shared since they are handed to textures and never changed.
-// Frames are counted as in the report of `arthroscene panorama`: from 0.
+// The clip that a panorama is made from: thumbnails of its frames and the status of each, the
+// frames and options of the next run, and the result of the last run. Plain values; pictures are
+// shared since they are handed to textures and never changed. Frames are counted as in the report
+// of `arthroscene panorama`: from 0.
 #pragma once
 
 #include <filesystem>
@@ -23,13 +23,14 @@ class FootageMail;
 
 using SharedPicture = std::shared_ptr<const ColourImage>;
 
-// What became of a frame. Unused: it was never tried, being blank, unreadable or one of too many.
+// Status of a frame. Unused: it was never tried, because it is blank, unreadable or one of too
+// many.
 enum class FrameStatus { kNotYet, kPlaced, kRejected, kSeparate, kUnused, kExcluded };
 
 struct FrameNote {
   FrameStatus status = FrameStatus::kNotYet;
-  std::string reason;                        // of one that is not placed
-  double rms_px = 0, expected_error_px = 0;  // of a placed one
+  std::string reason;                        // why the frame is not placed
+  double rms_px = 0, expected_error_px = 0;  // errors of a placed frame
 };
 
 enum class FrameView { kRaw, kRectified, kEvenLight };
@@ -45,7 +46,7 @@ struct LargeFrame {
 struct MadePanorama {
   SharedPicture picture;  // black where nothing was imaged
   SharedPicture shown;    // the same, small enough for the board
-  Projection projection;  // of `picture`
+  Projection projection;  // projection of `picture`
   authoring::PanoramaReport report;
   std::set<int> excluded;  // when it was made
 };
@@ -61,24 +62,24 @@ struct FootageBoard {
   // The clip.
   std::filesystem::path file;
   std::string name;
-  int width = 0, height = 0;  // of a frame, px
+  int width = 0, height = 0;  // size of a frame, px
   double frames_per_second = 0;
   std::vector<SharedPicture> thumbs;  // one a frame; null until it was read
 
-  // What the next run will use.
+  // Settings of the next run.
   std::vector<LensChoice> lenses;  // the first one is "none"
   int lens = 0;
   authoring::PanoramaOptions options;
   std::set<int> excluded;
-  std::string next_stage;  // that it begins with; empty when it would change nothing
+  std::string next_stage;  // first stage of the next run; empty when it would change nothing
 
-  // What the last run, or the one that goes on, said.
+  // Report of the last run, or of the one under way.
   std::vector<FrameNote> notes;          // one a frame
-  SharedPicture mosaic;                  // as it grows
+  SharedPicture mosaic;                  // grows during a run
   std::shared_ptr<LentSession> session;  // null before the first run; shared with the jobs
   std::shared_ptr<const MadePanorama> made;
 
-  // What is looked at.
+  // Selection.
   int selected = -1;  // -1: the mosaic
   FrameView view = FrameView::kRaw;
   bool compares = false;  // beside it, what it was before
@@ -99,7 +100,7 @@ struct FootageJob {
   bool makes_panorama = false;
 };
 
-// As it will be shown: what the user left out is left out at once.
+// Status as it is shown: a frame that the user left out counts at once.
 FrameStatus StatusOf(const FootageBoard& board, int frame);
 
 }  // namespace arthro::app

@@ -24,10 +24,10 @@ void ViewToggles(Ui& ui, EditorState& state) {
     const char* help;
   };
   constexpr Entry kViews[] = {
-      {"Raw", FrameView::kRaw, "As the camera gave it."},
-      {"Rectified", FrameView::kRectified, "Without the bend of the lens."},
+      {"Raw", FrameView::kRaw, "The frame as it was filmed."},
+      {"Rectified", FrameView::kRectified, "The frame without the distortion of the lens."},
       {"Even light", FrameView::kEvenLight,
-       "As frames are compared: light and shade taken out, glints and tools left out."}};
+       "The frame as it is compared with others: even light, without glints and tools."}};
   for (const Entry& entry : kViews) {
     ImGui::SameLine();
     if (ToggleButton(ui, entry.words, board.view == entry.view, true, {0, 0}, entry.help))
@@ -35,7 +35,7 @@ void ViewToggles(Ui& ui, EditorState& state) {
   }
   ImGui::SameLine();
   if (ToggleButton(ui, "Before and after", board.compares, board.view != FrameView::kRaw, {0, 0},
-                   "Beside it, what it was before."))
+                   "Show the picture before this step beside it."))
     board.compares = !board.compares;
 }
 
@@ -44,7 +44,7 @@ void Bar(Ui& ui, EditorState& state, const Area& area) {
   ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
   const bool mosaic = board.selected < 0;
   if (ToggleButton(ui, "The panorama", mosaic, true, {0, 0},
-                   "What the frames are put together to."))
+                   "Show the panorama made of the frames."))
     SelectFrame(state, -1);
   const auto words = [&](const std::string& text) {
     ImGui::AlignTextToFramePadding();
@@ -54,7 +54,7 @@ void Bar(Ui& ui, EditorState& state, const Area& area) {
   ImGui::SameLine(0, ui.Px(18));
   words("Frame");
   if (Button(ui, "<", board.selected != 0, {ImGui::GetFrameHeight(), 0},
-             "The one before (left arrow)"))
+             "Previous frame (left arrow)"))
     StepFrame(state, -1);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ui.Px(64));
@@ -65,7 +65,7 @@ void Bar(Ui& ui, EditorState& state, const Area& area) {
   ImGui::SameLine();
   words(fmt::format("of {}", board.frames()));
   if (Button(ui, ">", board.selected + 1 < board.frames(), {ImGui::GetFrameHeight(), 0},
-             "The next one (right arrow)"))
+             "Next frame (right arrow)"))
     StepFrame(state, 1);
   if (board.selected < 0) return;
   ImGui::SameLine(0, ui.Px(10));

@@ -1,4 +1,4 @@
-// What of the footage is looked at, and taking over what the jobs tell.
+// Selection of a frame, and messages of the jobs.
 #include <algorithm>
 #include <utility>
 
@@ -66,7 +66,7 @@ void ReadFrame(const authoring::PanoramaRequest& request, LargeFrame& large,
   large.rectified = PictureFromMat(rectified, kBoardEdge);
 }
 
-// What the frame was compared by, if the run came so far; not while a run has the session.
+// Fetches the frame with even light if the run got that far; not while a run holds the session.
 void FetchEvenLight(LentSession* session, LargeFrame& large) {
   if (session == nullptr) return;
   const std::unique_lock lock(session->mutex, std::try_to_lock);

@@ -1,6 +1,6 @@
-// What a job beside the window tells while it runs: small pictures, how frames stand, the growing
-// mosaic. Put in by the job's thread, taken out once a frame by the window's; nobody waits longer
-// than a few pointers take to move.
+// Messages from a running job to the window: thumbnails, the status of frames, the growing mosaic.
+// The job's thread puts them in, the window's thread takes them out once per frame. The lock is
+// held only while a few pointers move.
 #pragma once
 
 #include <mutex>

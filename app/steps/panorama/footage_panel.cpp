@@ -72,7 +72,7 @@ void Clip(Ui& ui, EditorState& state) {
     Run(state, "make-panorama");
   ImGui::SameLine();
   if (Button(ui, "Close it", !FootageIsUnderWay(state), {half, 0},
-             "Take the clip off the board. The scene stays as it is."))
+             "Close the clip. The scene stays as it is."))
     CloseFootage(state);
 }
 
@@ -104,7 +104,7 @@ void RunAndStop(Ui& ui, EditorState& state) {
   if (FootageIsUnderWay(state)) {
     ImGui::ProgressBar(static_cast<float>(state.jobs.done()), {-FLT_MIN, 0});
     Text(ui, WordsOfStage(state.jobs.stage()));
-    if (Button(ui, "Stop", true, {-FLT_MIN, ui.Px(36)}, "What was there before stays."))
+    if (Button(ui, "Stop", true, {-FLT_MIN, ui.Px(36)}, "Stop. The last panorama is kept."))
       state.jobs.Stop();
     return;
   }

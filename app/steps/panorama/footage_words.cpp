@@ -44,7 +44,7 @@ std::string WordsOfClip(const FootageBoard& board) {
   std::string words =
       fmt::format("{} · {} × {} px", Frames(board.frames()), board.width, board.height);
   if (board.frames_per_second > 0)
-    words += fmt::format(" · {:.3g} a second", board.frames_per_second);
+    words += fmt::format(" · {:.3g} per second", board.frames_per_second);
   return words;
 }
 
@@ -99,10 +99,10 @@ std::string WordsOfNextRun(const FootageBoard& board) {
   if (!board.session) return "";
   if (board.next_stage.empty()) return board.made ? "Nothing changed since the last run." : "";
   if (board.next_stage == "register")
-    return "Begins with placing the frames; what comes before is kept.";
+    return "The next run begins with placing the frames; earlier stages are kept.";
   if (board.next_stage == "compose")
-    return "Begins with drawing the panorama; what comes before is kept.";
-  return "Begins with reading the frames.";
+    return "The next run begins with drawing the panorama; earlier stages are kept.";
+  return "The next run begins with reading the frames.";
 }
 
 std::string WordsOfStage(const std::string& stage) { return Capital(stage); }

@@ -18,7 +18,7 @@ void BrowseForFootage(EditorState& state);
 // Until the first frame was read, what was on the board stays.
 void OpenFootage(EditorState& state, const std::filesystem::path& file);
 void CloseFootage(EditorState& state);
-// By its name: a video, or a folder with pictures that is no scene.
+// True for the name of a video, or for a folder with pictures that is not a scene.
 bool LooksLikeFootage(const std::filesystem::path& file);
 
 // ---- What the next run will use. ----
@@ -47,8 +47,8 @@ bool FinishFootage(EditorState& state);
 // ---- Among the files of this folder. ----
 void TakeFootageMail(EditorState& state);
 void BeginBoard(EditorState& state, const FootageClip& clip);
-authoring::PanoramaRequest RequestOf(const FootageBoard& board);  // of the next run
+authoring::PanoramaRequest RequestOf(const FootageBoard& board);  // request of the next run
 void NoteNextRun(FootageBoard& board);  // after options, lens, frames or products changed
-void ShowMade(FootageBoard& board);     // what the last finished run made, or nothing
+void ShowMade(FootageBoard& board);     // shows the result of the last finished run
 
 }  // namespace arthro::app

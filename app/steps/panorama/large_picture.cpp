@@ -1,4 +1,4 @@
-// What is large on the board: one picture, or two side by side; the wheel and drags look closer.
+// Large picture of the board, or two side by side; wheel and drags zoom and shift it.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -71,11 +71,11 @@ std::string WordsOfNothing(const EditorState& state) {
   if (board.selected >= 0)
     return works ? "This frame is being read." : "This frame could not be read.";
   if (works && state.steps.panorama->footage_job.makes_panorama)
-    return "The panorama will grow here as soon as the first frames have found their place.";
+    return "The panorama will grow here as soon as the first frames are placed.";
   return "There is no panorama yet. Choose the lens of the scope, then press Run.";
 }
 
-// Why it is not the step that was asked for; "" when it is.
+// Reason why it is not the step that was asked for; "" when it is.
 std::string WordsOfStandIn(const EditorState& state, const Showing& showing) {
   const FootageBoard& board = *state.steps.panorama->footage;
   if (board.large.frame != board.selected || state.steps.panorama->frame_jobs.busy())
@@ -84,7 +84,7 @@ std::string WordsOfStandIn(const EditorState& state, const Showing& showing) {
   if (!showing.is_stand_in) return "";
   if (board.view == FrameView::kRectified) return "No lens was chosen, so nothing is straightened.";
   return FootageIsUnderWay(state) ? "Shown once the run is over."
-                                  : "Light is evened out by the run, of the frames that it uses.";
+                                  : "The run evens out the light of the frames that it uses.";
 }
 
 }  // namespace

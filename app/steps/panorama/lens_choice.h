@@ -13,7 +13,7 @@
 namespace arthro::app {
 
 struct LensChoice {
-  std::string words;  // as the list shows it
+  std::string words;  // its line in the list
   std::string help;   // a sentence
   std::optional<Lens> lens;
   std::optional<authoring::LensPreset> preset = {};

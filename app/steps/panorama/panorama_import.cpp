@@ -1,4 +1,4 @@
-// A panorama that is there already: a picture, and the report that says how it lies.
+// Import of an existing panorama: a picture, and the report with its projection.
 #include <algorithm>
 #include <memory>
 

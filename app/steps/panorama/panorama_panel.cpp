@@ -19,7 +19,7 @@ void Drag(EditorState& state, const Change& change) {
   if (change.released) EndDrag(state);
 }
 
-// Which of the two this step is about, once there is a clip.
+// Switch between footage and backdrop, once there is a clip.
 void FootageOrBackdrop(Ui& ui, EditorState& state) {
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   if (ToggleButton(ui, "Footage", state.steps.panorama->shows_footage, true, {half, 0},
@@ -27,7 +27,7 @@ void FootageOrBackdrop(Ui& ui, EditorState& state) {
     state.steps.panorama->shows_footage = true;
   ImGui::SameLine();
   if (ToggleButton(ui, "Backdrop", !state.steps.panorama->shows_footage, true, {half, 0},
-                   "The panorama that the scene has."))
+                   "The panorama of the scene."))
     state.steps.panorama->shows_footage = false;
   Gap(ui, 2);
 }
@@ -41,9 +41,10 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
   CommandButton(ui, state, "import-panorama", {-FLT_MIN, 0});
   CommandButton(ui, state, "make-panorama", {-FLT_MIN, 0});
   if (!document.panorama) {
-    QuietText(ui,
-              "A panorama is one picture of the joint, put together from a video. Drop either on "
-              "the window, or choose it here.");
+    QuietText(
+        ui,
+        "A panorama is one picture of the joint, made from a video. Drop a panorama or a video "
+        "on the window, or choose one here.");
     return;
   }
   QuietText(ui, fmt::format("{} × {} px", document.panorama->width, document.panorama->height));
@@ -53,7 +54,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
   if (TextField(ui, "Author", author)) SetAuthor(state, author);
 
   Gap(ui);
-  Heading(ui, "How it lies around the portal");
+  Heading(ui, "Position around the portal");
   CommandButton(ui, state, "read-report", {-FLT_MIN, 0});
   Backdrop backdrop = document.scene.backdrop;
   Projection& projection = backdrop.projection;
@@ -67,7 +68,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
   Change change;
   if (type == 0)
     change = Slider(ui, "Focal length", projection.focal_px, 50, 8000, "%.0f px",
-                    "Pixels a radian in the picture's middle; the panorama's report has it.");
+                    "Pixels per radian in the picture's middle; the panorama's report states it.");
   else
     change = Slider(ui, "Scale", projection.px_per_deg, 0.5, 100, "%.2f px/°");
   if (change) SetBackdrop(state, backdrop, "the projection");
@@ -82,7 +83,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
   }
   double radius_mm = MmFromMetres(backdrop.radius);
   change = Slider(ui, "Distance of the backdrop", radius_mm, 10, 150, "%.1f mm",
-                  "Radius of the sphere about the portal that the picture is on.");
+                  "Radius of the sphere around the portal on which the picture lies.");
   if (change) {
     backdrop.radius = MetresFromMm(radius_mm);
     SetBackdrop(state, backdrop, "the distance of the backdrop");

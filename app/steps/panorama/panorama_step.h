@@ -13,7 +13,7 @@ namespace arthro::app {
 
 struct Ui;
 
-// What the window asks of authoring/panorama, as a function, so that tests can give their own.
+// The panorama job as a function, so that tests can replace it.
 struct FootageMakers {
   std::function<authoring::PanoramaResult(authoring::PanoramaSession&,
                                           const authoring::PanoramaRequest&,

@@ -11,7 +11,7 @@ namespace {
 constexpr double kNotch = 1.2;  // zoom a notch
 constexpr double kMostZoom = 24;
 
-// What is shown stays inside the picture; an axis that fits is centred.
+// Keeps the visible part inside the picture; an axis that fits is centred.
 PictureZoom Kept(PictureZoom zoom, const glm::dvec2& frame, const glm::dvec2& picture) {
   const glm::dvec2 size = PlaceOf(zoom, frame, picture).size;
   for (int axis = 0; axis < 2; ++axis) {

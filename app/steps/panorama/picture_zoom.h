@@ -1,4 +1,4 @@
-// Which part of a picture its frame on the screen shows: all of it at zoom 1, else a part that the
+// Part of a picture that its frame on the screen shows: all of it at zoom 1, else a part that the
 // wheel and drags choose. Sizes and positions on the screen are in px from the frame's top left.
 #pragma once
 
@@ -8,10 +8,10 @@ namespace arthro::app {
 
 struct PictureZoom {
   double zoom = 1;              // 1: the whole picture just fits
-  glm::dvec2 middle{0.5, 0.5};  // of what is shown, share of the picture
+  glm::dvec2 middle{0.5, 0.5};  // centre of the visible part, as a share of the picture
 };
 
-// Where the whole picture lies on the screen.
+// Rectangle of the whole picture on the screen.
 struct PicturePlace {
   glm::dvec2 corner{0}, size{0};
 };

@@ -18,14 +18,14 @@ namespace arthro::app {
 struct CentresChoice {
   double view_angle = 0;
   std::vector<double> insertion_mm = {5.0, 10.0, 15.0};
-  double latitude_deg = 0, longitude_deg = 0;  // of the rod
+  double latitude_deg = 0, longitude_deg = 0;  // direction of the rod
   int roll_steps = 72;
 };
 
 struct CentresFigure {
   std::string table;               // CSV: insertion, roll_deg, u_px, v_px
   std::vector<CentresLine> lines;  // one a depth
-  std::optional<glm::dvec2> rod;   // where the rod points
+  std::optional<glm::dvec2> rod;   // pixel in the direction of the rod
   int without_pixel = 0;           // centres that a gnomonic panorama has no pixel for
 };
 

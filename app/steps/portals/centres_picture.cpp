@@ -50,7 +50,7 @@ void DrawCentres(ColourImage& picture, const std::optional<glm::dvec2>& rod,
       cv::circle(canvas, Sixteenths(*a), 16 * 2 * thick, colour, cv::FILLED, cv::LINE_AA, kShift);
     }
   }
-  // What each line is, in the upper left corner.
+  // Legend of the lines, in the upper left corner.
   const int row = static_cast<int>(32 * letters), count = static_cast<int>(lines.size());
   cv::rectangle(canvas, cv::Rect(0, 0, 6 * row, row * count + row / 2), cv::Scalar::all(255),
                 cv::FILLED);

@@ -55,7 +55,7 @@ constexpr Command kCommands[] = {
      LookAt<90>},
     {"validation-plot",
      "Validation plot…",
-     "Draw where the centre of the view goes as the scope turns, and write it as a table.",
+     "Draw the path of the view's centre as the scope rolls, and write it as a table.",
      "Incision",
      {},
      {},

@@ -46,24 +46,27 @@ void PortalsPanel(Ui& ui, EditorState& state) {
   if (change) SetFieldOfView(state, RadiansFromDegrees(field_deg));
   Drag(state, change);
   double length_mm = MmFromMetres(scene.scope.rod_length);
-  change = Slider(ui, "Length of the scope", length_mm, 100, 400, "%.0f mm",
-                  "From the hand to the lens; longer makes the hand's way longer.");
+  change = Slider(
+      ui, "Length of the scope", length_mm, 100, 400, "%.0f mm",
+      "Distance from the hand to the lens. A longer scope needs larger movements of the hand.");
   if (change) SetRodLength(state, MetresFromMm(length_mm));
   Drag(state, change);
 
   Gap(ui);
   Heading(ui, "Light");
   double relight = 100 * scene.backdrop.relight;
-  change = Slider(ui, "Lamp of the scope", relight, 0, 100, "%.0f %%",
-                  "0: as it was filmed, with its light. 100: that light is evened out, and the "
-                  "scope's own lamp lights what is near, with wet highlights.");
+  change =
+      Slider(ui, "Lamp of the scope", relight, 0, 100, "%.0f %%",
+             "0: the light of the footage. 100: that light is evened out, and the scope's own lamp "
+             "lights near tissue, with wet highlights.");
   if (change) SetRelight(state, relight / 100);
   Drag(state, change);
   if (scene.backdrop.relight > 0 && !state.document().depth)
-    QuietText(ui, "Waits for a depth map, which says how far its light goes.");
+    QuietText(ui, "The lamp needs a depth map. Make one in the Depth step.");
   const bool is_relit = scene.backdrop.relight > 0 && state.document().depth;
-  if (ToggleButton(ui, "As filmed", is_relit && state.steps.portals->shows_as_filmed, is_relit, {},
-                   "Shows the picture before, to compare. Nothing is changed by it."))
+  if (ToggleButton(
+          ui, "As filmed", is_relit && state.steps.portals->shows_as_filmed, is_relit, {},
+          "Show the picture with the light of the footage, to compare. Nothing is changed."))
     state.steps.portals->shows_as_filmed = !state.steps.portals->shows_as_filmed;
 }
 

@@ -17,7 +17,7 @@ void Save(EditorState& state, const fs::path& picture) {
   const fs::path stem = picture.parent_path() / picture.stem();
   const fs::path grid = fs::path(stem) += "-grid.png", table = fs::path(stem) += ".csv";
   std::error_code ignored;
-  // Who was asked about the picture said yes to all three.
+  // Consent to replace the picture covers all three files.
   if (!fs::exists(picture, ignored))
     for (const fs::path& beside : {grid, table})
       if (fs::exists(beside, ignored))

@@ -16,8 +16,8 @@ void EndCalibration(EditorState& state);
 // Once a frame, after the practice: takes what the device said, and fits a swing beside the window.
 void KeepPivotFresh(EditorState& state);
 
-// What was found is the hand's pivot from now on, and is saved where it came from. Where it cannot
-// be saved it is used all the same, and the panel says so.
+// Makes the pivot that was found that of the hand, and saves it in the rig's file. A pivot that
+// cannot be saved is used all the same, and the panel says so.
 void UseIncision(EditorState& state);
 void SaveRigAs(EditorState& state);  // asks where
 

@@ -1,4 +1,4 @@
-// What holds the two hands and how they fare: beside the practice, or in the editor's last step.
+// Devices that hold the two hands, and their state: beside the practice, or in the last step.
 #include <algorithm>
 #include <string>
 
@@ -17,14 +17,14 @@ using simulation::DeviceRole;
 
 constexpr double kFullMeter = 3.3;  // N, where a device says no peak of its own
 constexpr float kPlotHeight = 34;
-constexpr float kBetween = 8;  // of two side by side
+constexpr float kBetween = 8;  // px, gap between two buttons or plots
 
 // Filled: what the device is given. The line: what the session has for the hand.
 void ForceMeter(Ui& ui, const std::string& name, const HandNow& now) {
   const double full = now.peak > 0 ? now.peak : kFullMeter;
   MarkedBar(ui, name + " force meter", now.given / full, kGood, now.felt / full,
             fmt::format("{:.2f} N", now.given));
-  QuietText(ui, fmt::format("{:.2f} N given of {:.2f} N shown; full at {:.1f} N", now.given,
+  QuietText(ui, fmt::format("{:.2f} N given of {:.2f} N shown; full scale {:.1f} N", now.given,
                             now.felt, full));
 }
 
@@ -87,7 +87,8 @@ void DevicesPanel(Ui& ui, EditorState& state) {
                    {-FLT_MIN, ui.Px(44)}, zero.help))
     Run(state, zero);
   QuietText(ui,
-            "V, a handle's button or a pedal is the dead-man: devices push only while it is held.");
+            "V, a handle's button or a pedal is the dead-man switch: devices push only while it is "
+            "held.");
   Gap(ui, 2);
   const float half = HalfWidth(ui);
   CommandButton(ui, state, "validation-plot", {half, ui.Px(44)});

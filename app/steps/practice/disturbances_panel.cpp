@@ -1,4 +1,4 @@
-// What an educator lays over the picture of a practice, each with its strength.
+// Disturbances of the picture of a practice, each with its strength.
 #include <string>
 
 #include <imgui.h>
@@ -13,7 +13,7 @@ namespace arthro::app {
 void DisturbancesPage(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "disturbances", area, kPageWindow);
   Heading(ui, "Disturbances");
-  QuietText(ui, "What a trainee must cope with. They change the picture, and no force.");
+  QuietText(ui, "Difficulties for the trainee. They change the picture, not the forces.");
   Gap(ui);
   const float button = ui.Px(118), high = ui.Px(40);
   for (const auto& [id, strength] : DisturbanceSwitches()) {

@@ -12,7 +12,7 @@ void ToggleFilm(EditorState& state) {
   if (state.steps.practice->film) return state.steps.practice->film->End(FilmSeconds(state));
   Browse(
       state, BrowseFor::kSaveFile,
-      "Record the scope's picture as a film, or as frame-%04d.png in an empty folder", "Record",
+      "Record a film, or pictures as frame-%04d.png in an empty folder", "Record",
       {{"Films", {".mp4", ".mkv", ".avi"}}, {"Pictures", {".png"}}},
       [](EditorState& now, const std::filesystem::path& file) {
         if (now.practice && !now.steps.practice->film) BeginFilm(now, file);
@@ -45,8 +45,7 @@ bool FinishFilm(EditorState& state) {
     state.steps.practice->film_words = fmt::format(
         "The {} in {}", film.is_pictures() ? "pictures are" : "film is", film.file().string());
     state.steps.practice->film_words +=
-        film.left_out() == 0 ? "."
-                             : fmt::format("; {} of its pictures were left out.", film.left_out());
+        film.left_out() == 0 ? "." : fmt::format("; {} pictures were left out.", film.left_out());
   }
   state.steps.practice->is_film_lost = !film.fault().empty();
   state.message = state.steps.practice->film_words;

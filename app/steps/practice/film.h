@@ -15,7 +15,7 @@ bool MayToggleFilm(const EditorState& state);
 // Throws Error where it cannot be written there. Only while a practice runs and no film does.
 void BeginFilm(EditorState& state, const std::filesystem::path& file);
 
-double FilmSeconds(const EditorState& state);  // of the one that runs
+double FilmSeconds(const EditorState& state);  // length of the running film, s
 
 // Once a frame: ends it where its practice ended, and says what became of it. True: it said so.
 bool FinishFilm(EditorState& state);

@@ -23,7 +23,7 @@ struct HandMotion {
 };
 std::span<const HandMotion> HandMotions();
 
-// What the held keys do to one hand in `seconds`. `held` tells whether a key is.
+// Change of one hand's pose by the held keys in `seconds`. `held` returns whether a key is held.
 simulation::RodPose MotionOfKeys(bool instrument, bool picture_has_focus, double seconds,
                                  const std::function<bool(int key)>& held);
 // rad, of the camera's head.

@@ -80,15 +80,15 @@ void Ways(Ui& ui, PivotWork& work) {
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   const bool is_swing = work.source() == PivotSource::kSwing;
   if (ToggleButton(ui, "Two presses", !is_swing, true, {half, ui.Px(36)},
-                   "At two or more places, the rod held still at each.") &&
+                   "Press at two or more places; hold the rod still at each.") &&
       is_swing)
     work.Begin(PivotSource::kPresses);
   ImGui::SameLine(0, ui.Px(8));
   if (ToggleButton(ui, "Keep swinging", is_swing, true, {half, ui.Px(36)},
-                   "Up to 2000 poses of a moving hand; what slips is left out.") &&
+                   "Up to 2000 poses of a moving hand; poses that slip are left out.") &&
       !is_swing)
     work.Begin(PivotSource::kSwing);
-  Text(ui, is_swing ? "Hold the rod through the incision and swing it about, by 30° or more, in "
+  Text(ui, is_swing ? "Hold the rod through the incision and swing it by 30° or more in "
                       "every direction."
                     : "Hold the rod through the incision and press its handle's button, or B. "
                       "Tilt it by 30° or more and press again.");
@@ -116,8 +116,8 @@ void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
     ImGui::SameLine(0, ui.Px(8));
   }
   CommandButton(ui, state, "begin-incision-again", {half, ui.Px(kButton)});
-  // What is solved may be used where only the rod's length is in doubt: the number is right, and
-  // who calibrates with the rod drawn back would else be stopped by it.
+  // Allows a solved pivot when only the rod's length is in doubt: the pivot is right, and a person
+  // who calibrates with the rod drawn back would otherwise be stopped.
   if (own.work.found().status == PivotStatus::kOutsideRod)
     QuietText(ui,
               "The pivot itself is known; only the rod's length, or where its tip was, is in "
@@ -133,7 +133,7 @@ void IncisionPage(Ui& ui, EditorState& state, const Area& area) {
   if (Slider(ui, "Noise of the handle's angles", noise_deg, 0.0, 5.0, "%.2f°",
              "As the maker states it, rms: about 0.1 for encoders, 0.5 to 2 for potentiometers."))
     own.work.SetAngleNoise(RadiansFromDegrees(noise_deg));
-  QuietText(ui, "No device is given a force meanwhile.");
+  QuietText(ui, "No device gets a force during calibration.");
   CommandButton(ui, state, "close-calibration", {-FLT_MIN, ui.Px(kButton)});
 }
 

@@ -35,7 +35,7 @@ void ResetHands(State& state) {
   }
   state.scope = StartOfScope(state.document().scene);
   state.instrument = StartOfInstrument(state.document().scene);
-  state.message = "Both hands are back where they began.";
+  state.message = "Both hands are back at their starting poses.";
 }
 
 // Beside the practice that runs, or in the editor's last step.
@@ -49,7 +49,7 @@ void ToggleDevices(State& state) {
 void ToggleZeroForce(State& state) {
   state.steps.practice->hands->SetZeroForce(!state.steps.practice->hands->is_zero_force());
   state.message = state.steps.practice->hands->is_zero_force()
-                      ? "Zero-force mode: forces are shown, and no device is given any."
+                      ? "Zero-force mode: forces are shown, but no device gets any."
                       : "Zero-force mode has ended.";
 }
 
@@ -74,7 +74,7 @@ void StepHead(State& state) {
 constexpr Command kCommands[] = {
     {"practise",
      "Practise",
-     "Practise in this scene at once.",
+     "Practise in this scene.",
      "Practice",
      {GLFW_KEY_F5},
      {GLFW_KEY_P},
@@ -82,15 +82,15 @@ constexpr Command kCommands[] = {
      [](State& state) { StartPractice(state); }},
     {"leave-practice",
      "Leave practice",
-     "Back to the editor, exactly where it was.",
+     "Return to the editor as it was.",
      "Practice",
      {GLFW_KEY_ESCAPE},
      {},
      Practising,
      LeavePractice},
     {"reset-hands",
-     "Reset the view",
-     "Put both hands back where they began.",
+     "Reset both hands",
+     "Put both hands back to their starting poses.",
      "Practice",
      {GLFW_KEY_HOME},
      {},
@@ -114,7 +114,7 @@ constexpr Command kCommands[] = {
      HoldHead<true>},
     {"head-left",
      "Turn left",
-     "Turn the camera head to the left; G does while it is held.",
+     "Turn the camera head to the left. Hold G to keep turning.",
      "Practice",
      {},
      {},
@@ -122,7 +122,7 @@ constexpr Command kCommands[] = {
      StepHead<-1>},
     {"head-right",
      "Turn right",
-     "Turn the camera head to the right; H does while it is held.",
+     "Turn the camera head to the right. Hold H to keep turning.",
      "Practice",
      {},
      {},
@@ -146,7 +146,7 @@ constexpr Command kCommands[] = {
      TakeInstrument<simulation::ToolKind::kPunch>},
     {"instrument-shaver",
      "Shaver",
-     "Take tissue away while C is held.",
+     "Remove tissue while C is held.",
      "Practice",
      {GLFW_KEY_7},
      {},
@@ -161,19 +161,19 @@ constexpr Command kCommands[] = {
      Practising,
      TakeInstrument<simulation::ToolKind::kGrasper>},
     {"reset-tissues",
-     "Tissue as it was",
-     "Every tissue as the session began with it, its author's cuts made.",
+     "Restore tissue",
+     "Restore every tissue to its state at the start of the session.",
      "Practice",
      {},
      {},
      [](const State& state) { return Practising(state) && state.practice->tissues() != nullptr; },
      [](State& state) {
        state.practice->ResetTissues();
-       state.message = "The tissue is whole again.";
+       state.message = "The tissue is as it was at the start of the session.";
      }},
     {"devices",
      "Devices",
-     "What holds the two hands, how they fare, and why there is no force.",
+     "Show the devices that hold the two hands, their state, and why there is no force.",
      "Practice",
      {GLFW_KEY_F4},
      {},
@@ -181,7 +181,7 @@ constexpr Command kCommands[] = {
      ToggleDevices},
     {"record",
      "Record…",
-     "Begin a film of the scope's picture, or end it.",
+     "Start or stop recording the scope's picture.",
      "Practice",
      {GLFW_KEY_F2},
      {},
@@ -189,7 +189,7 @@ constexpr Command kCommands[] = {
      ToggleFilm},
     {"outside",
      "From outside",
-     "Show both hands from outside, in a corner of the picture, or stop.",
+     "Show or hide a view of both hands from outside, in a corner of the picture.",
      "Practice",
      {GLFW_KEY_O},
      {},
@@ -199,7 +199,7 @@ constexpr Command kCommands[] = {
      }},
     {"trainee-screen",
      "Trainee's screen",
-     "Show the scope's picture alone, over all of a second monitor, or stop.",
+     "Show only the scope's picture on a second monitor, or close it.",
      "Window",
      {GLFW_KEY_F12},
      {},
@@ -210,7 +210,7 @@ constexpr Command kCommands[] = {
      }},
     {"zero-force",
      "Zero-force mode",
-     "Show forces and give the devices none, or end that.",
+     "Show forces but send none to the devices. Press again to end it.",
      "Practice",
      {GLFW_KEY_0},
      {},
@@ -218,7 +218,7 @@ constexpr Command kCommands[] = {
      ToggleZeroForce},
     {"poke",
      "Poke it",
-     "Let the instrument press on the tissue, here in your own view.",
+     "Let the instrument press on the tissue in your own view.",
      "Edit",
      {},
      {},

@@ -37,7 +37,7 @@ std::string ContactWords(const EditorState& state, int contact) {
   return index < tissues.size() ? tissues[index].name : "tissue";
 }
 
-// What the trainee can do about a hand that gets no force.
+// Advice to the trainee about a hand that gets no force.
 const char* FaultWords(simulation::Fault fault) {
   switch (fault) {
     case simulation::Fault::kNone:
@@ -51,7 +51,7 @@ const char* FaultWords(simulation::Fault fault) {
     case simulation::Fault::kNotFinite:
       return "No force: the device sent something unreadable.";
     case simulation::Fault::kTooFar:
-      return "No force: the device says that the hand is metres away.";
+      return "No force: the device reports that the hand is metres away.";
     case simulation::Fault::kTooFast:
       return "No force: the hand is too fast; slow down.";
     case simulation::Fault::kNotArmed:
@@ -137,7 +137,7 @@ void CameraHead(Ui& ui, EditorState& state) {
   ImGui::PopButtonRepeat();
 }
 
-// Which one is in the hand, and what was taken with it.
+// Instrument in the hand, and the volume that was removed.
 void Instruments(Ui& ui, EditorState& state) {
   QuietText(ui, "Instrument (C closes or runs it)");
   using simulation::ToolKind;
@@ -152,9 +152,9 @@ void Instruments(Ui& ui, EditorState& state) {
   const double removed = Taken(state);
   int debris = 0;
   for (const auto& body : world->bodies) debris += body.cut.debris;
-  Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ taken away", removed * 1e9)
-                       : fmt::format("{:.1f} mm³ taken away, {} loose piece{}", removed * 1e9,
-                                     debris, debris == 1 ? "" : "s"));
+  Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ removed", removed * 1e9)
+                       : fmt::format("{:.1f} mm³ removed, {} loose piece{}", removed * 1e9, debris,
+                                     debris == 1 ? "" : "s"));
   for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
 }
 
@@ -180,7 +180,7 @@ void FilmMark(Ui& ui, const EditorState& state, float top) {
   ImGui::SetCursorPos(back);
 }
 
-// What became of the last film and of the trainee's screen. True: there was something to say.
+// Results of the last film and of the trainee's screen. Returns whether there was any.
 bool ScreenNews(Ui& ui, const EditorState& state) {
   const std::string& of_screen = state.steps.practice->trainee_screen.words;
   if (!of_screen.empty()) QuietText(ui, of_screen);
@@ -193,14 +193,14 @@ bool ScreenNews(Ui& ui, const EditorState& state) {
   return true;
 }
 
-// What a rig names and is not there. True: there was something to say.
+// Devices that a rig names and that are missing. Returns whether there was any message.
 bool MissingDevices(Ui& ui, const EditorState& state) {
   bool is_any = state.steps.practice->hands->is_zero_force();
   for (const auto role : {simulation::DeviceRole::kScope, simulation::DeviceRole::kInstrument})
     if (const std::string sentence = state.steps.practice->hands->Missing(role); !sentence.empty())
       ColouredText(ui, sentence, kWarning), is_any = true;
   if (state.steps.practice->hands->is_zero_force())
-    ColouredText(ui, "Zero-force mode: no device pushes. 0 ends it.", kWarning);
+    ColouredText(ui, "Zero-force mode: no device pushes. Press 0 to end it.", kWarning);
   return is_any;
 }
 
@@ -215,7 +215,7 @@ void PracticeStepPanel(Ui& ui, EditorState& state) {
   MissingDevices(ui, state);
   Gap(ui);
   QuietText(ui,
-            "Drag over the picture to swing the scope, turn the wheel to move it in and out. The "
+            "Drag over the picture to swing the scope; turn the wheel to move it in and out. The "
             "right button moves the instrument. Press ? for all keys.");
 }
 
@@ -238,7 +238,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
             : force < kForceOfHarm ? kWarning
                                    : kBad);
   ForceBar(ui, force, practice.peak_force());
-  QuietText(ui, fmt::format("largest so far {:.2f} N; harm above {:.1f} N (red mark)",
+  QuietText(ui, fmt::format("largest so far {:.2f} N (white line); harm above {:.1f} N (red line)",
                             practice.peak_force(), kForceOfHarm));
   Gap(ui);
   QuietText(ui, "The instrument touches");
@@ -271,7 +271,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
   else
     CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}});
   Gap(ui);
-  // What is missing is more urgent than the hint, and there is room for one of them.
+  // Missing devices are more urgent than the hint, and there is room for one of them.
   if (!MissingDevices(ui, state) && !ScreenNews(ui, state))
     QuietText(
         ui,

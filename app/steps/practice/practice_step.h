@@ -24,7 +24,7 @@ struct Ui;
 struct PivotCalibrating {
   simulation::DeviceRole role = simulation::DeviceRole::kScope;
   PivotWork work;
-  std::string outcome;      // of what was taken over last; empty: nothing was
+  std::string outcome;      // message about the last pivot taken over; empty: none
   bool is_unsaved = false;  // it has a place in a rig, and is not there
 };
 
@@ -33,17 +33,17 @@ struct PivotCalibrating {
 struct TraineeScreen {
   bool is_wanted = false;
   int monitor = 0;    // from 1; 0: one that the window is not on
-  std::string words;  // what was not as it was asked for; empty: nothing
+  std::string words;  // message where the wish could not be met; empty: none
 };
 
-// What an educator lays over a practice's picture (app/view/disturbances/disturbances.h): each is
-// switched by a command, and keeps the strength that it was given last.
+// Disturbances that an educator lays over the picture (app/view/disturbances/disturbances.h). A
+// command switches each; it keeps its last strength.
 inline constexpr double kUsualStrength = 0.5;  // plain to see, and one can still work
 inline constexpr double kLeastStrength = 0.05;
 
 struct Disturbing {
   Disturbances now;  // 0: off
-  // What switching one on gives.
+  // Strength that a disturbance gets when it is switched on.
   Disturbances chosen{kUsualStrength, kUsualStrength, kUsualStrength, kUsualStrength,
                       kUsualStrength, kUsualStrength, kUsualStrength};
   bool shows_panel = false;  // instead of the practice's
@@ -57,25 +57,25 @@ struct DisturbanceSwitch {
 std::span<const DisturbanceSwitch> DisturbanceSwitches();
 
 void ToggleDisturbance(EditorState& state, Strength strength);
-// Of one that is on, or will be.
+// Applies now where the disturbance is on, else when it is switched on.
 void SetDisturbance(EditorState& state, Strength strength, double value);
 
 struct PracticeStep {
   explicit PracticeStep(std::function<void()> wake) : pivot_jobs(std::move(wake)) {}
 
-  std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // what holds them; outlives practices
+  std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // devices or mouse; outlives practices
   std::optional<Practice> poke;  // the author's live poke (tissue_poke.h)
   int poke_of = 0;               // position of the history that it was made of
   std::optional<PivotCalibrating> calibrating;
-  Jobs pivot_jobs;              // where the poses of a swing meet
+  Jobs pivot_jobs;              // pivot fits
   bool shows_devices = false;   // their panel, instead of the practice's
-  Disturbing disturbing;        // of a practice's picture
-  simulation::CameraHead head;  // of a practice's scope
-  simulation::TissuePace pace = simulation::TissuePace::kThread;  // of living tissue
+  Disturbing disturbing;        // disturbances of the picture
+  simulation::CameraHead head;  // camera head of the scope
+  simulation::TissuePace pace = simulation::TissuePace::kThread;  // stepping of deformable tissue
   std::filesystem::path rig_preset_folder;
 
   // The scope's picture, while it is recorded (film.h), and what became of the last film.
-  FrameShape frame_shape = FrameShape::kSquare;  // of films and of the trainee's screen
+  FrameShape frame_shape = FrameShape::kSquare;  // shape of films and of the trainee's screen
   std::unique_ptr<LiveFilm> film;
   double film_begin = 0, film_seconds = 0;  // s of the session
   std::string film_words;
@@ -88,8 +88,8 @@ struct PracticeStep {
 const Practice* LiveSession(const EditorState& state);
 
 std::span<const Command> PracticeCommands();
-std::span<const Command> DisturbanceCommands();  // of a practice's picture
-std::span<const Command> IncisionCommands();     // their calibration
+std::span<const Command> DisturbanceCommands();  // disturbances of the picture
+std::span<const Command> IncisionCommands();     // calibration of incisions
 
 void PracticeStepPanel(Ui& ui, EditorState& state);
 void DevicesPanel(Ui& ui, EditorState& state);

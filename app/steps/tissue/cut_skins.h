@@ -22,13 +22,13 @@ class CutSkins {
 
  private:
   struct Made {
-    // Of what.
+    // Input.
     std::shared_ptr<const SurfaceMesh> surface;
     double scale = 0;
     std::vector<Cut> cuts;
     std::vector<Ball> fixed;
-    // What came of it.
-    std::shared_ptr<const simulation::SolidField> whole;  // of surface and scale
+    // Result.
+    std::shared_ptr<const simulation::SolidField> whole;  // field of surface and scale
     std::shared_ptr<const simulation::BodySkin> skin;
     std::string fault;
   };

@@ -15,7 +15,7 @@
 namespace arthro::app {
 namespace {
 
-// What a kind's buttons run (command_list.cpp).
+// Commands of the buttons of a kind (tissue_commands.cpp).
 struct Buttons {
   const char *remove, *remove_all, *brush, *at_instrument;
 };

@@ -11,7 +11,7 @@ std::vector<Ball>& BallsOf(Tissue& tissue, BallKind kind) {
   return kind == BallKind::kHeld ? tissue.fixed : tissue.probed;
 }
 
-// What a step is called.
+// Names of the steps of the history.
 struct Names {
   const char *add, *remove, *remove_all;
 };

@@ -1,4 +1,4 @@
-// What is done to the selected tissue: its surface, mesh, balls, cuts.
+// Commands for the chosen tissue: its surface, mesh, balls, cuts.
 #include <GLFW/glfw3.h>
 
 #include "app/state/edits.h"
@@ -26,7 +26,7 @@ void ToggleBrush(State& state) {
   state.message = !state.steps.tissue->brush ? "The overview turns and moves again."
                   : kind == BallKind::kHeld
                       ? "Click on the tissue in the overview to hold it there."
-                      : "Click on the tissue in the overview where its mesh shall be finer.";
+                      : "Click on the tissue in the overview where its mesh should be finer.";
 }
 
 constexpr Command kCommands[] = {
@@ -48,7 +48,7 @@ constexpr Command kCommands[] = {
      TetrahedraliseTissue},
     {"hold-brush",
      "Hold it here…",
-     "Click on the tissue in the overview: it is held there, in a ball of the radius above.",
+     "Click on the tissue in the overview. It is held there, in a ball of the radius above.",
      "Edit",
      {},
      {},
@@ -64,7 +64,7 @@ constexpr Command kCommands[] = {
      [](State& state) { AddBallAtInstrument(state, BallKind::kHeld); }},
     {"release-ball",
      "Release this one",
-     "Take the chosen ball away.",
+     "Remove the chosen ball.",
      "Edit",
      {},
      {},
@@ -75,7 +75,7 @@ constexpr Command kCommands[] = {
      [](State& state) { RemoveChosenBall(state, BallKind::kHeld); }},
     {"release-tissue",
      "Release all",
-     "Take all balls away: nothing holds the tissue any more.",
+     "Remove all balls. Nothing holds the tissue any more.",
      "Edit",
      {},
      {},
@@ -83,7 +83,7 @@ constexpr Command kCommands[] = {
      [](State& state) { RemoveAllBalls(state, BallKind::kHeld); }},
     {"probe-brush",
      "Finer here…",
-     "Click on the tissue in the overview: the next tetrahedra are finer there, in a ball of the "
+     "Click on the tissue in the overview. The next tetrahedra are finer there, in a ball of the "
      "radius above.",
      "Edit",
      {},
@@ -99,8 +99,8 @@ constexpr Command kCommands[] = {
      HasTissue,
      [](State& state) { AddBallAtInstrument(state, BallKind::kProbed); }},
     {"remove-probed",
-     "Not this one",
-     "Take the chosen place away.",
+     "Remove this place",
+     "Remove the chosen place.",
      "Edit",
      {},
      {},
@@ -110,8 +110,8 @@ constexpr Command kCommands[] = {
      },
      [](State& state) { RemoveChosenBall(state, BallKind::kProbed); }},
     {"remove-all-probed",
-     "None of them",
-     "Take all places away: the next tetrahedra are finer where the tissue is free.",
+     "Remove all places",
+     "Remove all places. The next tetrahedra are finer where the tissue is free.",
      "Edit",
      {},
      {},
@@ -119,7 +119,7 @@ constexpr Command kCommands[] = {
      [](State& state) { RemoveAllBalls(state, BallKind::kProbed); }},
     {"cut-tear",
      "Tear…",
-     "Click points along the tear on the tissue in the overview; press again to end it.",
+     "Click points along the tear on the tissue in the overview. Press again to end it.",
      "Edit",
      {},
      {},
@@ -127,7 +127,7 @@ constexpr Command kCommands[] = {
      [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); }},
     {"cut-bite",
      "Bite…",
-     "Click on the tissue in the overview: a round bite is taken there.",
+     "Click on the tissue in the overview. A round bite is removed there.",
      "Edit",
      {},
      {},
@@ -154,8 +154,8 @@ constexpr Command kCommands[] = {
      RemoveAllCuts},
     {"cut-region",
      "Region…",
-     "Click on the tissue in the overview: what a trainee takes in a ball about it is told by "
-     "name.",
+     "Click on the tissue in the overview. The volume that a trainee removes in a ball around it "
+     "is reported by name.",
      "Edit",
      {},
      {},
@@ -163,7 +163,7 @@ constexpr Command kCommands[] = {
      [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kRegion); }},
     {"remove-region",
      "Remove this region",
-     "What is taken there is told under another name.",
+     "Remove the chosen region. The volume taken there counts for the rest of the tissue.",
      "Edit",
      {},
      {},
@@ -179,7 +179,7 @@ constexpr Command kCommands[] = {
      [](State& state) { DuplicateTissue(state, state.tissue); }},
     {"remove-tissue",
      "Remove",
-     "Take the chosen tissue out of the scene.",
+     "Remove the chosen tissue from the scene.",
      "Edit",
      {GLFW_KEY_DELETE},
      {},

@@ -12,7 +12,7 @@ namespace arthro::app {
 
 // Takes it up, or, where it is up, puts it away. A tear begins anew.
 void ToggleCutBrush(EditorState& state, CutBrush::Kind kind);
-// What a click on a tissue does with the brush that is up: a point of a tear (from its second on
+// Applies the active brush to a click on a tissue: a point of a tear (from its second on
 // the tear is there), a bite, a region. `x_in_tissue`: on its surface, in its own frame.
 void UseCutBrush(EditorState& state, int tissue, const glm::dvec3& x_in_tissue);
 

@@ -1,5 +1,5 @@
-// What the author takes of a tissue before practice, and the regions by which it is told what a
-// trainee takes.
+// Cut page of a tissue: the cuts that a trainee begins with, and the regions for which the removed
+// volume is reported.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -52,7 +52,7 @@ void BrushButton(Ui& ui, EditorState& state, const char* id, CutBrush::Kind kind
     Run(state, command);
 }
 
-// Of the chosen one; with none chosen, of the next one.
+// Sizes of the chosen cut; with none chosen, of the next cut.
 void Sizes(Ui& ui, EditorState& state, const Tissue& tissue) {
   const Cut* cut = ChosenCut(state);
   const bool is_next = cut == nullptr;
@@ -64,8 +64,8 @@ void Sizes(Ui& ui, EditorState& state, const Tissue& tissue) {
     const double depth = tear ? tear->depth * scale : brush.depth,
                  width = tear ? tear->width * scale : brush.width;
     MmSlider(ui, state, "Tear depth", depth, 0.5, 15.0,
-             "Deeper than the tissue is thick: it goes through.", SetTearDepth);
-    MmSlider(ui, state, "Tear width", width, 0.5, 4.0, "How wide the slot stands open at rest.",
+             "A tear deeper than the tissue is thick goes through it.", SetTearDepth);
+    MmSlider(ui, state, "Tear width", width, 0.5, 4.0, "Width of the open slot at rest.",
              SetTearWidth);
   }
   if (bite || (is_next && brush.kind == CutBrush::Kind::kBite))
@@ -78,7 +78,7 @@ void Sizes(Ui& ui, EditorState& state, const Tissue& tissue) {
   CommandButton(ui, state, "remove-all-cuts", {half, 0});
 }
 
-// The same of a region.
+// Name and radius of the chosen region; with none chosen, of the next region.
 void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   const double scale = tissue.pose.scale;
   double radius = state.steps.tissue->cut_brush.region_radius;
@@ -98,8 +98,7 @@ void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (tissue.mesh.empty()) {
-    ColouredText(ui, "Cuts are made in its tetrahedra; make them on the Mesh page first.",
-                 kWarning);
+    ColouredText(ui, "Cuts need tetrahedra. Make them on the Mesh page first.", kWarning);
     return;
   }
   QuietText(ui, tissue.cuts.empty() ? "Whole. A trainee begins with what you cut here."
@@ -109,7 +108,7 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
       [&](int i) { return CutName(tissue, i); }, [&](int i) { return CutWords(tissue, i); },
       [&](int i) { ChooseCut(state, i); });
   if (!tissue.regions.empty())
-    QuietText(ui, "What a trainee takes is told by these regions, and elsewhere.");
+    QuietText(ui, "The removed volume is reported for these regions, and for the rest.");
   List(
       ui, "regions", static_cast<int>(tissue.regions.size()), state.steps.tissue->region,
       [&](int i) { return tissue.regions[static_cast<std::size_t>(i)].name; },

@@ -1,4 +1,4 @@
-// What the chosen tissue is made of: a preset by name, and what the author says otherwise.
+// Material of the chosen tissue: a preset by name, and the values that the author changed.
 #pragma once
 
 #include <optional>

@@ -115,7 +115,7 @@ void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
                   "Young's modulus, at small strain. Drag, or double-click to type.");
   ElasticityField(ui, state, tissue, "Poisson's ratio", material.poisson_ratio, 1.0,
                   &Elasticity::poisson_ratio, {0.0, 0.499}, "%.3f",
-                  "How little the volume changes: 0.5 would be not at all.");
+                  "Ratio of transverse to axial strain; at 0.5 the volume would not change.");
   if (preset->is_thin)
     ElasticityField(ui, state, tissue, "Thickness of the layer", preset->layer_thickness,
                     kMetrePerMillimetre, &Elasticity::layer_thickness, {1e-4, 0.02}, "%.1f mm",
@@ -127,7 +127,7 @@ void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (!(tissue.elasticity == Elasticity{})) QuietText(ui, "Differs from the preset.");
   QuietText(ui, preset->probing);
   if (ToggleButton(ui, "Sources", state.steps.tissue->shows_sources, true, {-FLT_MIN, 0},
-                   "Where each value comes from."))
+                   "Show the source of each value."))
     state.steps.tissue->shows_sources = !state.steps.tissue->shows_sources;
   if (state.steps.tissue->shows_sources)
     for (const std::string& source : preset->sources) QuietText(ui, source);
@@ -156,13 +156,14 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
     if (budget.size == state.steps.tissue->mesh_size) chosen = static_cast<int>(sizes.size());
     sizes.push_back(budget.name);
   }
-  if (Combo(ui, "Mesh size", chosen, sizes,
-            "Finer is truer and slower. Probed places gain by it with coarse and fine; of the "
-            "default's 300 elements they take as much as they give."))
+  if (Combo(
+          ui, "Mesh size", chosen, sizes,
+          "Finer meshes are more accurate and slower. Marking probed places helps with coarse and "
+          "fine meshes, not with the default of 300 elements."))
     state.steps.tissue->mesh_size = authoring::MeshBudgets()[static_cast<std::size_t>(chosen)].size;
   QuietText(ui, authoring::BudgetWords(authoring::BudgetOf(state.steps.tissue->mesh_size)));
   QuietText(ui, tissue.probed.empty()
-                    ? "Finer where it is free; or say where it will be probed:"
+                    ? "Finer where it is free. Or mark where it will be probed:"
                     : fmt::format("Finest in {} probed {}:", tissue.probed.size(),
                                   tissue.probed.size() == 1 ? "place" : "places"));
   BallFields(ui, state, tissue, BallKind::kProbed);
@@ -171,14 +172,14 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
 
 void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (tissue.fixed.empty())
-    ColouredText(ui, "Nothing holds it: it will drift when it is touched.", kWarning);
+    ColouredText(ui, "Nothing holds this tissue: it will drift when it is touched.", kWarning);
   else
-    QuietText(ui, fmt::format("{} {} hold it.", tissue.fixed.size(),
-                              tissue.fixed.size() == 1 ? "ball" : "balls"));
+    QuietText(ui, tissue.fixed.size() == 1 ? std::string("1 ball holds it.")
+                                           : fmt::format("{} balls hold it.", tissue.fixed.size()));
   BallFields(ui, state, tissue, BallKind::kHeld);
 }
 
-// The author's instrument on the tissue, with the force that it gives.
+// Poke button, and the force on the author's instrument.
 void PokeFields(Ui& ui, EditorState& state) {
   const Command& poke = CommandOf(state, "poke");
   if (ToggleButton(ui, poke.words, state.steps.practice->poke.has_value(), poke.enabled(state),
@@ -187,7 +188,7 @@ void PokeFields(Ui& ui, EditorState& state) {
   if (!state.steps.practice->poke) return;
   const double force = glm::length(state.steps.practice->poke->snapshot().instrument.tip_force);
   ColouredText(ui,
-               fmt::format("{:.2f} N; instruments do harm above {:.1f} N", force,
+               fmt::format("{:.2f} N; instruments cause harm above {:.1f} N", force,
                            simulation::kSafeProbingForce),
                force < simulation::kSafeProbingForce ? kGood : kBad);
   QuietText(ui, "Right drag over the picture and Ctrl+wheel move the instrument.");
@@ -219,7 +220,7 @@ void TissuePanel(Ui& ui, EditorState& state) {
   if (tissues.empty()) {
     QuietText(ui, document.panorama
                       ? "No tissue yet. Import a closed surface of a meniscus or cartilage."
-                      : "Tissue is laid onto a panorama; import one first.");
+                      : "Tissue is placed on a panorama. Import one first.");
     return;
   }
   for (int i = 0; i < static_cast<int>(tissues.size()); ++i) {
@@ -244,7 +245,7 @@ void TissuePanel(Ui& ui, EditorState& state) {
                                                            {TissuePage::kMesh, "Mesh"},
                                                            {TissuePage::kHold, "Hold"},
                                                            {TissuePage::kCut, "Cut"}};
-  // As wide as their words, and what is left evenly.
+  // Widths of the words, plus equal shares of the remaining space.
   float free = ImGui::GetContentRegionAvail().x - 4 * ui.Px(4);
   for (const auto& [page, words] : kPages) free -= ImGui::CalcTextSize(words).x;
   for (const auto& [page, words] : kPages) {

@@ -16,9 +16,9 @@ namespace arthro::app {
 
 struct Ui;
 
-// What of the chosen tissue is worked on.
+// Page of the chosen tissue.
 enum class TissuePage { kPlace, kMaterial, kMesh, kHold, kCut };
-// What a ball on it says: it is held there, or probed.
+// Meaning of a ball on a tissue: it is held there, or probed there.
 enum class BallKind { kHeld, kProbed };
 
 // How the author cuts and names next: what a click on tissue in the overview does on its Cut page.
@@ -44,12 +44,12 @@ struct TissueStep {
   double ball_radius = 2e-3;      // m, of the next one
   CutBrush cut_brush;
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
-  bool shows_sources = false;  // of the material's values
+  bool shows_sources = false;  // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   std::filesystem::path preset_folder;
   std::vector<simulation::TissuePreset> presets;
 };
-std::span<const Command> TissueCommands();  // what is done to the chosen tissue
+std::span<const Command> TissueCommands();
 void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind);

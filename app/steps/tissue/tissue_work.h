@@ -14,7 +14,7 @@ void BrowseForSurface(EditorState& state);
 // Reads it and adds a tissue in the middle of the view. `unit`: m, cm, mm, um or in.
 void ImportSurface(EditorState& state, const std::filesystem::path& surface,
                    const std::string& unit);
-// Of the chosen tissue.
+// Makes tetrahedra of the chosen tissue, beside the window.
 void TetrahedraliseTissue(EditorState& state);
 
 }  // namespace arthro::app

@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
-#include "app/editor/every_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
@@ -142,7 +142,8 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
 
 TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritten) {
   Hold(ReadHands(rig, "plant"));
-  state.steps.practice->rig_preset_folder = temp.path();  // as if the rig had come with the program
+  state.steps.practice->rig_preset_folder =
+      temp.path();  // the rig now counts as shipped with the program
   Begin();
   PressAt(0, 0);
   PressAt(0, 40);

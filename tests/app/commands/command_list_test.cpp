@@ -8,11 +8,11 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/editor/every_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/practice_step.h"
@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the window's loop does between frames, until nothing is under way.
+// Does the work of the window's loop between frames, until nothing is under way.
 void Settle(EditorState& state) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
   do {

@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/footage_optics.h"
-#include "app/editor/every_step.h"
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
@@ -89,7 +89,7 @@ class Footage : public testing::Test {
     state.steps.panorama->makers.run = MadeUpRun;
   }
 
-  // What the window's loop does between frames, until nothing is under way.
+  // Does the work of the window's loop between frames, until nothing is under way.
   void Settle() {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
     do {
