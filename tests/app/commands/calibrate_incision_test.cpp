@@ -96,7 +96,7 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   Hold(ReadHands(rig, "plant"));
   EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), HandKind::kSimulated);
   Begin();
-  EXPECT_FALSE(CommandOf("use-incision").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "use-incision").enabled(state));
   PressAt(0, 0);
   EXPECT_EQ(work().poses().size(), 1u) << work().refusal();
   PressAt(10, 35);
@@ -134,7 +134,7 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
   ASSERT_EQ(work().poses().size(), 2u) << work().refusal();
   EXPECT_EQ(work().found().status, PivotStatus::kTooNarrow);
   EXPECT_NE(work().found().reason.find("degrees"), std::string::npos);
-  EXPECT_FALSE(CommandOf("use-incision").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "use-incision").enabled(state));
   app::Run(state, "use-incision");
   EXPECT_EQ(Mount().pivot, test::kMovedPivot);
   EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
@@ -184,7 +184,7 @@ TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
   app::Run(state, "use-incision");
   EXPECT_NE(state.steps.practice->calibrating->outcome.find("until the program ends"),
             std::string::npos);
-  EXPECT_FALSE(CommandOf("save-rig-as").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "save-rig-as").enabled(state));
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   // Also of the practice after this one.
   app::Run(state, "leave-practice");
@@ -209,7 +209,7 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
   }
   Hold(std::move(choice));
   EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), HandKind::kRecorded);
-  EXPECT_FALSE(CommandOf("calibrate-instrument").enabled(state)) << "mouse and keys have it";
+  EXPECT_FALSE(CommandOf(state, "calibrate-instrument").enabled(state)) << "mouse and keys have it";
   Begin();
   state.steps.practice->calibrating->work.Begin(simulation::PivotSource::kSwing);
   const auto off = [&] { return glm::distance(state.practice->snapshot().scope.pose.depth, 0.06); };
@@ -230,7 +230,7 @@ TEST_F(CalibrateIncision, OfADeviceWithoutARodIsNotOffered) {
   HandsChoice choice;
   choice.rig.emplace().scope.emplace().device.family = "space_mouse";
   Hold(std::move(choice));
-  EXPECT_FALSE(CommandOf("calibrate-scope").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "calibrate-scope").enabled(state));
   EXPECT_NE(state.steps.practice->hands->WhyNotCalibrated(DeviceRole::kScope).find("no rod"),
             std::string::npos);
   EXPECT_NE(state.steps.practice->hands->WhyNotCalibrated(DeviceRole::kInstrument).find("Mouse"),

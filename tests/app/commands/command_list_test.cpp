@@ -73,6 +73,7 @@ class Commands : public testing::Test {
 };
 
 TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {
+  const EditorState state = MakeEditorState(NewDocument());
   std::set<std::string> ids;
   for (const Command& command : AllCommands()) {
     EXPECT_TRUE(ids.insert(command.id).second) << command.id;
@@ -80,7 +81,7 @@ TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {
     EXPECT_STREQ(std::string(command.help).substr(std::string(command.help).size() - 1).c_str(),
                  ".")
         << command.id << ": the help is a sentence";
-    EXPECT_EQ(&CommandOf(command.id), &command);
+    EXPECT_EQ(&CommandOf(state, command.id), &command);
   }
 }
 
@@ -498,7 +499,7 @@ TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   EXPECT_EQ(fixed()[0].centre, glm::dvec3(0, 0.006, 0));
   app::Run(state, "release-tissue");
   EXPECT_TRUE(fixed().empty());
-  EXPECT_FALSE(CommandOf("release-tissue").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "release-tissue").enabled(state));
   app::Run(state, "undo");
   EXPECT_EQ(fixed().size(), 1u);
 }
@@ -514,7 +515,7 @@ TEST_F(Commands, ProbedPlacesAreBallsOfTheirOwn) {
   EXPECT_EQ(tissue().fixed, (std::vector<Ball>{{{0.006, 0, 0}, 0.0015}}));
   EXPECT_EQ(tissue().probed, (std::vector<Ball>{{{0, 0.006, 0}, 0.0015}}));
   EXPECT_EQ(state.steps.tissue->ball, 0);
-  EXPECT_FALSE(CommandOf("release-ball").enabled(state)) << "the page is about the probed ones";
+  EXPECT_FALSE(CommandOf(state, "release-ball").enabled(state)) << "the page is about the probed ones";
   app::Run(state, "remove-probed");
   EXPECT_TRUE(tissue().probed.empty());
   EXPECT_EQ(tissue().fixed.size(), 1u);
@@ -522,7 +523,7 @@ TEST_F(Commands, ProbedPlacesAreBallsOfTheirOwn) {
   app::Run(state, "undo");
   app::Run(state, "remove-all-probed");
   EXPECT_TRUE(tissue().probed.empty());
-  EXPECT_FALSE(CommandOf("remove-all-probed").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "remove-all-probed").enabled(state));
   app::Run(state, "probe-brush");
   EXPECT_EQ(state.steps.tissue->brush, BallKind::kProbed);
   app::Run(state, "hold-brush");
