@@ -29,6 +29,7 @@
 #include "app/recording/unfinished_film.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/practice/calibrate_incision.h"

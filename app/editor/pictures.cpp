@@ -5,6 +5,9 @@
 
 #include "app/state/edits.h"
 #include "app/state/same.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
 #include "app/view/backdrop/footage_light.h"

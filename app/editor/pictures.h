@@ -9,6 +9,7 @@
 
 #include "app/editor/panels/panels.h"
 #include "app/editor/render_scale.h"
+#include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
 #include "app/steps/tissue/cut_skins.h"
 #include "app/view/arthroscopic_view.h"

@@ -18,6 +18,7 @@
 #include "app/state/scratch_folder.h"
 #include "authoring/project/history.h"
 #include "simulation/scope/rod_pose.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::app {
 
@@ -68,7 +69,8 @@ struct EditorState {
 
   Step step = Step::kPanorama;
   StepStates steps;
-  int tissue = -1;                        // chosen one, -1 none
+  int tissue = -1;  // chosen one, -1 none
+  std::vector<simulation::TissuePreset> tissue_presets;
   simulation::RodPose scope, instrument;  // the author's hands; practice has its own
   bool dragging = false;                  // a slider is held: preview now, full size after
 

@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "app/editor/panels/panels.h"
+#include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/steps/depth/depth_step.h"

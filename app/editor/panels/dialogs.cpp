@@ -8,6 +8,7 @@
 #include "app/editor/panels/panels.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
+#include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_work.h"
 
 namespace arthro::app {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 
@@ -21,8 +20,7 @@ void StartPractice(EditorState& state, std::function<void(EditorState&)> then) {
   WhenDepthIsReady(state, [then = std::move(then)](EditorState& ready) {
     authoring::Document mounted = ready.document();
     ready.steps.practice->hands->Mount(mounted.scene);
-    ready.jobs.Start("Practise", [document = std::move(mounted),
-                                  presets = ready.steps.tissue->presets,
+    ready.jobs.Start("Practise", [document = std::move(mounted), presets = ready.tissue_presets,
                                   pace = ready.steps.practice->pace, then](const Progress&) {
       const auto practice = std::make_shared<Practice>(document, presets, pace);
       return [practice, then](EditorState& now) {  // shared only because a std::function is copied

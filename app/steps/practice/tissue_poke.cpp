@@ -1,13 +1,12 @@
 #include "app/steps/practice/tissue_poke.h"
 
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 
 void StartPoke(EditorState& state) {
   WhenDepthIsReady(state, [](EditorState& ready) {
-    ready.jobs.Start("Poke", [document = ready.document(), presets = ready.steps.tissue->presets,
+    ready.jobs.Start("Poke", [document = ready.document(), presets = ready.tissue_presets,
                               pace = ready.steps.practice->pace](const Progress&) {
       const auto session = std::make_shared<Practice>(document, presets, pace);
       return [session](EditorState& now) {  // shared only because a std::function is copied

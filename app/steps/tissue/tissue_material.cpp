@@ -6,17 +6,17 @@
 namespace arthro::app {
 
 void LoadTissuePresets(EditorState& state) {
-  if (!state.steps.tissue->presets.empty() || state.steps.tissue->preset_folder.empty()) return;
+  if (!state.tissue_presets.empty() || state.steps.tissue->preset_folder.empty()) return;
   Guarded(state, "Tissue presets", [&] {
     const std::filesystem::path folder = state.steps.tissue->preset_folder;
     state.steps.tissue->preset_folder.clear();  // a fault is told once
-    state.steps.tissue->presets = simulation::ReadTissuePresets(folder);
+    state.tissue_presets = simulation::ReadTissuePresets(folder);
   });
 }
 
 std::optional<simulation::TissuePreset> PresetOf(const EditorState& state, const Tissue& tissue) {
   const simulation::TissuePreset* preset =
-      simulation::FindTissuePreset(state.steps.tissue->presets, tissue.material);
+      simulation::FindTissuePreset(state.tissue_presets, tissue.material);
   if (!preset) return std::nullopt;
   return simulation::WithElasticity(*preset, tissue.elasticity);
 }
@@ -31,8 +31,7 @@ void ChoosePreset(EditorState& state, int tissue, const std::string& name) {
 
 void SetElasticity(EditorState& state, int tissue, Elasticity elasticity, const std::string& what) {
   Tissue changed = state.document().scene.tissues.at(static_cast<std::size_t>(tissue));
-  if (const auto* preset =
-          simulation::FindTissuePreset(state.steps.tissue->presets, changed.material)) {
+  if (const auto* preset = simulation::FindTissuePreset(state.tissue_presets, changed.material)) {
     const auto drop = [](std::optional<double>& own, double of_preset) {
       if (own == of_preset) own.reset();
     };

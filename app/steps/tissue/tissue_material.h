@@ -8,7 +8,7 @@
 
 namespace arthro::app {
 
-// Fills state.steps.tissue->presets from state.steps.tissue->preset_folder, once. A fault becomes a
+// Fills state.tissue_presets from state.steps.tissue->preset_folder, once. A fault becomes a
 // dialog.
 void LoadTissuePresets(EditorState& state);
 

@@ -13,6 +13,7 @@
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_material.h"
 #include "app/steps/tissue/tissue_pose.h"
@@ -95,14 +96,13 @@ void ElasticityField(Ui& ui, EditorState& state, const Tissue& tissue, const std
 void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   std::vector<std::string> titles;
   int chosen = -1;
-  const auto* own = simulation::FindTissuePreset(state.steps.tissue->presets, tissue.material);
-  for (const auto& preset : state.steps.tissue->presets) {
+  const auto* own = simulation::FindTissuePreset(state.tissue_presets, tissue.material);
+  for (const auto& preset : state.tissue_presets) {
     if (own == &preset) chosen = static_cast<int>(titles.size());
     titles.push_back(preset.title);
   }
   if (Combo(ui, "Preset", chosen, titles, "What it is made of; values come with their sources."))
-    ChoosePreset(state, state.tissue,
-                 state.steps.tissue->presets[static_cast<std::size_t>(chosen)].name);
+    ChoosePreset(state, state.tissue, state.tissue_presets[static_cast<std::size_t>(chosen)].name);
   const auto preset = PresetOf(state, tissue);
   if (!preset) {
     ColouredText(ui, fmt::format("There is no preset \"{}\"; choose one.", tissue.material),

@@ -4,13 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "app/state/command.h"
 #include "authoring/tissue/mesh_budget.h"
-#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::app {
 
@@ -47,7 +45,6 @@ struct TissueStep {
   bool shows_sources = false;  // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   std::filesystem::path preset_folder;
-  std::vector<simulation::TissuePreset> presets;
 };
 std::span<const Command> TissueCommands();
 void TissuePanel(Ui& ui, EditorState& state);

@@ -13,6 +13,8 @@
 #include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"

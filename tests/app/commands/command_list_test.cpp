@@ -13,6 +13,7 @@
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/practice_step.h"
@@ -515,7 +516,8 @@ TEST_F(Commands, ProbedPlacesAreBallsOfTheirOwn) {
   EXPECT_EQ(tissue().fixed, (std::vector<Ball>{{{0.006, 0, 0}, 0.0015}}));
   EXPECT_EQ(tissue().probed, (std::vector<Ball>{{{0, 0.006, 0}, 0.0015}}));
   EXPECT_EQ(state.steps.tissue->ball, 0);
-  EXPECT_FALSE(CommandOf(state, "release-ball").enabled(state)) << "the page is about the probed ones";
+  EXPECT_FALSE(CommandOf(state, "release-ball").enabled(state))
+      << "the page is about the probed ones";
   app::Run(state, "remove-probed");
   EXPECT_TRUE(tissue().probed.empty());
   EXPECT_EQ(tissue().fixed.size(), 1u);
@@ -551,7 +553,7 @@ TEST_F(Commands, MaterialsArePresetsAndWhatTheSceneSaysOtherwise) {
   Open();
   state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
   LoadTissuePresets(state);
-  ASSERT_EQ(state.steps.tissue->presets.size(), 4u);
+  ASSERT_EQ(state.tissue_presets.size(), 4u);
   const auto tissue = [&]() -> const Tissue& { return state.document().scene.tissues[0]; };
   Elasticity own;
   own.young_modulus = 3e5;
