@@ -14,27 +14,29 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/devices/calibrate_incision.h"
-#include "app/commands/edits.h"
-#include "app/commands/footage/footage_work.h"
-#include "app/commands/hand_motion.h"
-#include "app/commands/recovery/recovery_copy.h"
-#include "app/commands/scene_files.h"
-#include "app/commands/screens/film.h"
-#include "app/commands/start_practice.h"
-#include "app/commands/tissue/tissue_material.h"
+#include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
+#include "app/editor/panels/panels.h"
 #include "app/editor/pictures.h"
-#include "app/panels/footage/footage_panels.h"
-#include "app/panels/panels.h"
+#include "app/files/recovery_copy.h"
+#include "app/files/scene_files.h"
 #include "app/platform/ending_signals.h"
 #include "app/platform/picture_window.h"
+#include "app/platform/resource_folder.h"
 #include "app/platform/script_runner.h"
 #include "app/platform/window.h"
 #include "app/platform/x_display.h"
 #include "app/recording/unfinished_film.h"
-#include "app/resource_folder.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/footage_panels.h"
+#include "app/steps/panorama/footage_work.h"
+#include "app/steps/practice/calibrate_incision.h"
+#include "app/steps/practice/film.h"
+#include "app/steps/practice/hand_motion.h"
+#include "app/steps/practice/start_practice.h"
+#include "app/steps/tissue/tissue_material.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
@@ -64,9 +66,9 @@ double ProcessAge() {
 }
 
 // Every command's keys but those that end the program, and the keys of lists and fields.
-std::vector<CrawlKeys> KeysOfCrawl() {
+std::vector<CrawlKeys> KeysOfCrawl(const EditorState& state) {
   std::vector<CrawlKeys> all;
-  for (const Command& command : AllCommands())
+  for (const Command& command : state.commands)
     for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
       if (shortcut.key == 0 || command.id == std::string_view("quit")) continue;
       std::vector<int> keys;
@@ -85,7 +87,7 @@ std::vector<CrawlKeys> KeysOfCrawl() {
 void RunShortcuts(EditorState& state) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!state.dialogs.empty()) return;
-  for (const Command& command : AllCommands())
+  for (const Command& command : state.commands)
     for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
       if (shortcut.key == 0 || !ImGui::IsKeyPressed(shortcut.key, false)) continue;
       if (io.KeyCtrl != shortcut.ctrl || io.KeyShift != shortcut.shift || io.KeyAlt) continue;
@@ -132,13 +134,13 @@ class Editor {
         signals_(signals),
         window_(WindowFrom(options)),
         pictures_(options.script.has_value()),
-        state_(NewDocument(), Window::WakeUp,
-               options.script ? std::filesystem::path() : RecentScenesFile()),
+        state_(MakeEditorState(NewDocument(), Window::WakeUp,
+                               options.script ? std::filesystem::path() : RecentScenesFile())),
         recovery_(FolderOfCopies(options), Window::WakeUp) {
     if (options.script) {
       script_.emplace(ParseScript(ReadWholeFile(*options.script), *options.script),
                       window_.scale());
-      script_->SetCrawlKeys(KeysOfCrawl());
+      script_->SetCrawlKeys(KeysOfCrawl(state_));
     }
     Begin();
   }
@@ -176,7 +178,7 @@ class Editor {
   void End() {
     state_.practice.reset();
     EndFilm();
-    if (const std::string missing = state_.hands->End(); !missing.empty())
+    if (const std::string missing = state_.steps.practice->hands->End(); !missing.empty())
       std::fprintf(stderr, "warning: %s\n", missing.c_str());
   }
 
@@ -199,9 +201,10 @@ class Editor {
 
   // Waits until it is written.
   void EndFilm() {
-    while (state_.film)
+    while (state_.steps.practice->film)
       if (!FinishFilm(state_)) std::this_thread::sleep_for(Seconds(kFrame));
-    if (state_.is_film_lost) std::fprintf(stderr, "warning: %s\n", state_.film_words.c_str());
+    if (state_.steps.practice->is_film_lost)
+      std::fprintf(stderr, "warning: %s\n", state_.steps.practice->film_words.c_str());
   }
 
   void Begin() {
@@ -213,19 +216,19 @@ class Editor {
       StartDocument(state_, OpenSceneDocument(demo), true);
     }
     state_.practice_only = options_.practice;
-    state_.hands = std::make_unique<simulation::Hands>(options_.hands);
-    state_.lens_folder = ResourceFolder() / "presets" / "lenses";
-    state_.tissue_preset_folder = ResourceFolder() / "presets" / "tissues";
-    state_.rig_preset_folder = ResourceFolder() / "presets" / "rigs";
+    state_.steps.practice->hands = std::make_unique<simulation::Hands>(options_.hands);
+    state_.steps.panorama->lens_folder = ResourceFolder() / "presets" / "lenses";
+    state_.steps.tissue->preset_folder = ResourceFolder() / "presets" / "tissues";
+    state_.steps.practice->rig_preset_folder = ResourceFolder() / "presets" / "rigs";
     LoadTissuePresets(state_);
-    if (options_.script) state_.pace = simulation::TissuePace::kInline;
+    if (options_.script) state_.steps.practice->pace = simulation::TissuePace::kInline;
     if (!options_.practice && options_.scene)
       state_.recent.Add(state_.document().folder.empty() ? *options_.scene
                                                          : state_.document().folder);
-    state_.frame_shape = options_.frame_shape;
-    state_.head = options_.head;
-    state_.trainee_screen = {options_.trainee_screen.has_value(),
-                             options_.trainee_screen.value_or(0), ""};
+    state_.steps.practice->frame_shape = options_.frame_shape;
+    state_.steps.practice->head = options_.head;
+    state_.steps.practice->trainee_screen = {options_.trainee_screen.has_value(),
+                                             options_.trainee_screen.value_or(0), ""};
     if (options_.practice)
       BeginPractice();
     else
@@ -246,13 +249,14 @@ class Editor {
     const bool busy = Busy();
     if (!window_.input().empty() || script_ || options_.frames > 0) {
       window_.WaitEvents(0);
-    } else if (state_.live() || window_.AnythingHeld()) {
+    } else if (LiveSession(state_) || window_.AnythingHeld()) {
       window_.WaitEvents(0);
       if (since < kFrame) std::this_thread::sleep_for(Seconds(kFrame - since));
     } else if (Seconds(Clock::now() - last_event_).count() < kLivelyAfter || unsettled_ > 0) {
       window_.WaitEvents(1.0 / 30.0);
     } else if (busy || ImGui::GetIO().WantTextInput ||
-               (state_.shows_devices && state_.hands->HasDevices())) {
+               (state_.steps.practice->shows_devices &&
+                state_.steps.practice->hands->HasDevices())) {
       window_.WaitEvents(0.1);
     } else {
       window_.WaitEvents(std::clamp(recovery_.SecondsUntilDue(Now()), 0.05, 10.0));
@@ -263,8 +267,9 @@ class Editor {
   static double Now() { return Seconds(Clock::now().time_since_epoch()).count(); }
 
   bool Busy() const {
-    return state_.jobs.busy() || state_.preview_jobs.busy() || state_.frame_jobs.busy() ||
-           state_.pivot_jobs.busy() || (state_.film && state_.film->is_ending());
+    return state_.jobs.busy() || state_.steps.depth->preview_jobs.busy() ||
+           state_.steps.panorama->frame_jobs.busy() || state_.steps.practice->pivot_jobs.busy() ||
+           (state_.steps.practice->film && state_.steps.practice->film->is_ending());
   }
 
   void Frame() {
@@ -276,12 +281,13 @@ class Editor {
     RunShortcuts(state_);
     if (state_.dialogs.empty() && !ShowsFootage(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
-    if (state_.hands->Look()) last_event_ = now;
+    if (state_.steps.practice->hands->Look()) last_event_ = now;
     if (state_.practice && state_.dialogs.empty())
-      state_.practice->Advance(step, state_.hands.get());
+      state_.practice->Advance(step, state_.steps.practice->hands.get());
     KeepPivotFresh(state_);
     recovery_.Follow(state_, Now());
-    if (state_.poke && state_.dialogs.empty()) state_.poke->Advance(step);
+    if (state_.steps.practice->poke && state_.dialogs.empty())
+      state_.steps.practice->poke->Advance(step);
     window_.SetTitle(TitleOf(state_));
     window_.SetFullScreen(state_.full_screen);
 
@@ -317,7 +323,7 @@ class Editor {
   }
 
   void ShowTraineeScreen() {
-    TraineeScreen& screen = state_.trainee_screen;
+    TraineeScreen& screen = state_.steps.practice->trainee_screen;
     if (trainee_screen_ && trainee_screen_->IsLost()) {
       screen.is_wanted = false;
       screen.words = "The trainee's screen was closed, or its monitor is gone.";
@@ -338,10 +344,10 @@ class Editor {
     }
     if (trainee_screen_)
       trainee_screen_->Show(pictures_.scope_texture(), pictures_.scope_edge(),
-                            pictures_.scope_version(), state_.frame_shape);
+                            pictures_.scope_version(), state_.steps.practice->frame_shape);
   }
   void Redraw() {
-    state_.message = state_.trainee_screen.words;
+    state_.message = state_.steps.practice->trainee_screen.words;
     unsettled_ = std::max(unsettled_, 2);
   }
 
@@ -353,14 +359,14 @@ class Editor {
       picture_focused_ = true;
       DrawPictures(ui, layout);
       TakePictureInput(ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()));
-      if (state_.shows_outside)
+      if (state_.steps.practice->shows_outside)
         pictures_.HandleOverview(state_,
                                  InsetOverview(ui, layout.overview, pictures_.overview_texture()));
-      if (state_.calibrating)
+      if (state_.steps.practice->calibrating)
         IncisionPage(ui, state_, layout.side);
-      else if (state_.shows_devices)
+      else if (state_.steps.practice->shows_devices)
         DevicesPage(ui, state_, layout.side);
-      else if (state_.disturbing.shows_panel)
+      else if (state_.steps.practice->disturbing.shows_panel)
         DisturbancesPage(ui, state_, layout.side);
       else
         PracticePanel(ui, state_, layout.side);
@@ -406,12 +412,13 @@ class Editor {
     if (!will_draw_) return;
     if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
       unsettled_ = 2;
-    if (state_.film && state_.practice) {
-      if (std::exchange(noted_film_, state_.film.get()) != state_.film.get())
-        NoteRecordingFolder(state_.film->file().parent_path());
-      pictures_.Record(*state_.film, FilmSeconds(state_));
+    if (state_.steps.practice->film && state_.practice) {
+      if (std::exchange(noted_film_, state_.steps.practice->film.get()) !=
+          state_.steps.practice->film.get())
+        NoteRecordingFolder(state_.steps.practice->film->file().parent_path());
+      pictures_.Record(*state_.steps.practice->film, FilmSeconds(state_));
     }
-    if (state_.practice && !state_.shows_outside) return;
+    if (state_.practice && !state_.steps.practice->shows_outside) return;
     if (pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
                                static_cast<int>(layout.overview.height)) &&
         unsettled_ < 2)
@@ -430,7 +437,7 @@ class Editor {
   std::optional<ScriptRunner> script_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
-  std::map<std::string, std::vector<double>> frame_seconds_;  // of drawn frames, by mark
+  std::map<std::string, std::vector<double>> frame_seconds_;  // s per drawn frame, by mark
   bool picture_focused_ = true, will_draw_ = true;
   const LiveFilm* noted_film_ = nullptr;  // the folder of which is remembered
 };

@@ -15,12 +15,12 @@ namespace arthro::app {
 struct EditorOptions {
   std::optional<std::filesystem::path> scene;  // none: the demo scene
   bool practice = false;                       // the practise job: nothing but practice
-  simulation::HandsChoice hands;               // devices that hold them
-  std::optional<std::filesystem::path> film;   // of a practice, from its beginning
+  simulation::HandsChoice hands;                           // devices that hold them
+  std::optional<std::filesystem::path> film;   // film of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;
   std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
-  std::string notice;                 // what was found at the start; empty: nothing
+  std::string notice;                 // message for the start; empty: none
   // For tests.
   std::optional<std::filesystem::path> recovery;  // folder of copies; none: the user's
   std::optional<std::filesystem::path> script;

@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "app/commands/footage/footage_board.h"
 #include "app/editor/picture_texture.h"
+#include "app/steps/panorama/footage_board.h"
 
 namespace arthro::app {
 

@@ -3,10 +3,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/commands/edits.h"
-#include "app/commands/same.h"
-#include "app/commands/tissue/tissue_balls.h"
-#include "app/commands/tissue/tissue_cut.h"
+#include "app/state/edits.h"
+#include "app/state/same.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_cut.h"
 #include "app/view/backdrop/footage_light.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
@@ -27,8 +30,8 @@ bool Same(const Picture& a, const Picture& b) {
          a.instrument == b.instrument && a.disturbances == b.disturbances;
 }
 
-// What a projection in pixels of one picture is in pixels of a smaller one, whose pixel (x, y)
-// covers x·factor … x·factor + factor − 1.
+// Converts a projection to the pixels of a smaller picture, whose pixel (x, y) covers
+// x·factor … x·factor + factor − 1.
 Projection Shrunk(Projection projection, double factor) {
   projection.centre_px = (projection.centre_px - 0.5 * (factor - 1.0)) / factor;
   projection.focal_px /= factor;
@@ -41,7 +44,7 @@ Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optic
   const simulation::RodPose& scope =
       state.practice ? state.practice->snapshot().scope.pose : state.scope;
   std::optional<double> head_roll;
-  if (state.practice) head_roll = simulation::HeadRoll(state.head, scope.roll);
+  if (state.practice) head_roll = simulation::HeadRoll(state.steps.practice->head, scope.roll);
   Picture picture =
       PictureFromPose(scope, state.practice ? state.practice->view_angle() : scene.scope.view_angle,
                       optics.field_of_view, head_roll);
@@ -55,14 +58,15 @@ Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optic
     picture.instrument = InstrumentView{portal,         tool.proxy_in_portal,
                                         tool.pose.roll, state.practice->instrument_kind(),
                                         tool.opening,   state.practice->blade_turn()};
-    picture.disturbances = state.disturbing.now;
-    // What stands still is not drawn anew.
+    picture.disturbances = state.steps.practice->disturbing.now;
+    // Disturbances at rest are not drawn again.
     if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
   } else {
     picture.instrument =
         InstrumentView{portal,
-                       state.poke ? state.poke->snapshot().instrument.proxy_in_portal
-                                  : portal + simulation::TipInOwnPortal(state.instrument),
+                       state.steps.practice->poke
+                           ? state.steps.practice->poke->snapshot().instrument.proxy_in_portal
+                           : portal + simulation::TipInOwnPortal(state.instrument),
                        state.instrument.roll};
   }
   return picture;
@@ -72,14 +76,14 @@ Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optic
 
 void Pictures::TakeBackdrop(const EditorState& state) {
   const authoring::Document& document = state.document();
-  const DepthCache& cache = state.depth_cache;
+  const DepthCache& cache = state.steps.depth->cache;
   const bool preview = cache.preview && cache.preview_panorama;
   const auto& panorama = preview ? cache.preview_panorama : document.panorama;
   const auto& depth = preview ? cache.preview : document.depth;
   const DepthMap bare;
   const DepthMap& relief = depth ? *depth : bare;
   const Backdrop& wanted = document.scene.backdrop;
-  const bool as_filmed = state.shows_as_filmed && !state.practice;
+  const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
   const bool same_place = SameBackdrop(backdrop_, wanted) && as_filmed == as_filmed_;
   const bool same_panorama = panorama == panorama_ && panorama;
   if (panorama == panorama_ && depth == depth_ && same_place) return;
@@ -154,7 +158,7 @@ void Pictures::TakeCuts(const authoring::Document& document) {
 
 // Tissues that live are shown as they are; when the session ends, as the document has them.
 void Pictures::TakeLiveTissues(const EditorState& state) {
-  const simulation::Practice* live = state.live();
+  const simulation::Practice* live = LiveSession(state);
   if (live_ != live) {
     if (!live_tissues_.empty()) surfaces_.clear();  // they are shown anew
     live_ = live;
@@ -229,12 +233,13 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
   }
   // The box is there while tissue is worked on.
-  const bool is_brush = IsTissueEdited(state) &&
-                        (state.brush.has_value() || state.cut_brush.kind != CutBrush::Kind::kNone);
+  const bool is_brush =
+      IsTissueEdited(state) && (state.steps.tissue->brush.has_value() ||
+                                state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
   const int chosen = IsTissueEdited(state) && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
-  // What the user looks at comes first.
+  // Draws the scope's picture before the overview on a slow machine.
   const auto now = std::chrono::steady_clock::now();
   if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
     return true;
@@ -247,16 +252,19 @@ void Pictures::ShowPlaces(const EditorState& state) {
   const auto& tissues = state.document().scene.tissues;
   const bool has_tissue =
       IsTissueEdited(state) && state.tissue >= 0 && state.tissue < static_cast<int>(tissues.size());
-  const auto kind = BallKindOf(state.tissue_page);
+  const auto kind = BallKindOf(state.steps.tissue->page);
   if (has_tissue && kind)
-    return overview_.ShowBalls(
-        state.tissue, BallsOf(tissues[static_cast<std::size_t>(state.tissue)], *kind), state.ball);
-  if (!has_tissue || state.tissue_page != TissuePage::kCut) return overview_.ShowBalls(-1, {}, -1);
+    return overview_.ShowBalls(state.tissue,
+                               BallsOf(tissues[static_cast<std::size_t>(state.tissue)], *kind),
+                               state.steps.tissue->ball);
+  if (!has_tissue || state.steps.tissue->page != TissuePage::kCut)
+    return overview_.ShowBalls(-1, {}, -1);
   const Tissue& tissue = tissues[static_cast<std::size_t>(state.tissue)];
   std::vector<Ball> balls;
   for (const Region& region : tissue.regions) balls.push_back(region.ball);
-  int chosen = state.region;
-  if (const CutBrush& brush = state.cut_brush; brush.start && brush.start_tissue == state.tissue) {
+  int chosen = state.steps.tissue->region;
+  if (const CutBrush& brush = state.steps.tissue->cut_brush;
+      brush.start && brush.start_tissue == state.tissue) {
     constexpr double kMark = 6e-4;  // m, of the first point of a tear
     chosen = static_cast<int>(balls.size());
     balls.push_back({*brush.start, kMark / tissue.pose.scale});
@@ -290,11 +298,12 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
   for (int button = 0; button < 3; ++button) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
-      const bool is_cutting = state.cut_brush.kind != CutBrush::Kind::kNone;
-      if (button == 0 && (state.brush || is_cutting) && IsTissueEdited(state))
+      const bool is_cutting = state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone;
+      if (button == 0 && (state.steps.tissue->brush || is_cutting) && IsTissueEdited(state))
         if (const auto place = overview_.PickTissue(event.x, event.y)) {
-          is_cutting ? UseCutBrush(state, place->tissue, place->x_in_tissue)
-                     : AddBall(state, *state.brush, place->tissue, place->x_in_tissue);
+          is_cutting
+              ? UseCutBrush(state, place->tissue, place->x_in_tissue)
+              : AddBall(state, *state.steps.tissue->brush, place->tissue, place->x_in_tissue);
           continue;
         }
       event.kind = Kind::kPress;

@@ -7,10 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/commands/editor_state.h"
-#include "app/commands/tissue/cut_skins.h"
+#include "app/editor/panels/panels.h"
 #include "app/editor/render_scale.h"
-#include "app/panels/panels.h"
+#include "app/recording/live_film.h"
+#include "app/state/editor_state.h"
+#include "app/steps/tissue/cut_skins.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
 #include "app/view/overview/overview.h"
@@ -70,11 +71,11 @@ class Pictures {
   Picture picture_;
   int drawn_size_ = 0;
   long drawn_count_ = 0;
-  RenderScale scale_;      // of pictures that move
+  RenderScale scale_;      // scale of moving pictures
   bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
   std::chrono::steady_clock::time_point overview_drawn_{};
-  // What the view holds.
+  // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
   std::shared_ptr<const DepthMap> depth_;
   Backdrop backdrop_;
@@ -88,7 +89,7 @@ class Pictures {
   const simulation::Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1;
-  Picture overview_tools_;  // as the overview last got them
+  Picture overview_tools_;  // tools of the last overview
   glm::dvec2 pointer_{-1.0};
 };
 

@@ -27,7 +27,7 @@ void RenderScale::Note(double seconds) {
   const double usual = sorted[kFrames / 2];
   const int before = step_;
   if (usual > kTooLong * kFrameTime) {
-    // As if all of it went by the number of pixels: where it does not, one more step follows.
+    // Assumes a time proportional to the number of pixels; otherwise one more step follows.
     while (step_ < Last() &&
            usual * std::pow(ScaleOf(step_) / ScaleOf(before), 2) > kTooLong * kFrameTime)
       ++step_;

@@ -3,10 +3,14 @@
 
 #include <imgui.h>
 
-#include "app/panels/panels.h"
+#include "app/panels/widgets.h"
 
 namespace arthro::app {
 
+// In window coordinates, px.
+struct Area {
+  float x = 0, y = 0, width = 0, height = 0;
+};
 inline constexpr ImGuiWindowFlags kPageWindow =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |

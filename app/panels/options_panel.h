@@ -81,7 +81,7 @@ struct OptionsPanelVisitor {
 
   static std::string Escaped(const std::string& unit) { return unit == "%" ? "%%" : unit; }
 
-  // As many decimals as a person can set with the mouse.
+  // Decimals that a person can set with the mouse.
   static std::string Format(const std::string& unit, double width) {
     const std::string shown = unit == "m" ? "mm" : unit == "rad" ? "°" : Escaped(unit);
     const char* number = width > 50 ? "%.1f" : "%.2f";

@@ -12,7 +12,7 @@
 
 namespace arthro::app {
 
-// What a panel draws with; lives for one frame.
+// Drawing context of a panel; lives for one frame.
 struct Ui {
   WidgetRegistry& widgets;
   const Fonts& fonts;
@@ -35,7 +35,7 @@ bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled = t
                   const ImVec2& size = {0, 0}, const char* tooltip = nullptr);
 bool Checkbox(Ui& ui, const std::string& name, bool& value, const char* tooltip = nullptr);
 
-// What a slider or field had done to it in this frame.
+// Change of a slider or field in this frame.
 struct Change {
   bool changed = false;   // the value is another one
   bool held = false;      // the mouse or keyboard still has hold of it
@@ -61,7 +61,7 @@ bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::
 // A key that goes down in this frame, for the dialog that is drawn; not the one that opened it.
 bool DialogKeyPressed(int key);  // GLFW_KEY_…
 
-// As wide as there is room, filled to a share of it and with a line at another; 0: neither.
+// Bar over the whole width, filled to the share `filled`, with a line at the share `mark`; 0: none.
 void MarkedBar(Ui& ui, const std::string& name, double filled, unsigned colour, double mark,
                const std::string& value);
 void Heading(Ui& ui, const std::string& text);
@@ -72,7 +72,7 @@ void QuietText(Ui& ui, const std::string& text);  // wrapped, secondary
 // the window's edge.
 void ShortenedText(Ui& ui, const std::string& text, const std::string& full, float room = 0);
 void ColouredText(Ui& ui, const std::string& text, unsigned colour);
-void Tooltip(Ui& ui, const char* text);  // of the last item, when it is pointed at
+void Tooltip(Ui& ui, const char* text);  // shown while the last item is pointed at
 void Gap(Ui& ui, double pixels = 6);
 
 }  // namespace arthro::app

@@ -40,8 +40,8 @@ class Crawler {
  private:
   struct Action {
     const WidgetRecord* widget = nullptr;  // null: of the keyboard
-    std::string item, key;                 // of `counts_`: the widget, and this action of it
-    int index = 0;                         // of the actions of its kind
+    std::string item, key;                 // keys of `counts_`: the widget, and this action on it
+    int index = 0;                         // index among the actions of its kind
   };
   std::vector<Action> ActionsOf(const WidgetRegistry& widgets) const;
   std::size_t Below(std::size_t count);  // a random index

@@ -27,7 +27,7 @@ struct FileEntry {
   std::string name() const { return path.filename().string(); }
 };
 
-// What came of pressing the accept button.
+// Result of pressing the accept button.
 enum class Acceptance {
   kNothing,    // no name yet, or `problem` says why not
   kEntered,    // the choice was a folder, which is open now
@@ -64,7 +64,7 @@ class FileBrowserModel {
   const std::string& problem() const { return problem_; }
   const std::filesystem::path& accepted() const { return accepted_; }
 
-  std::string file_name;  // as typed or chosen; a path is understood too
+  std::string file_name;  // typed or chosen; a path is understood too
 
  private:
   bool Matches(const std::filesystem::path& file) const;

@@ -3,7 +3,7 @@
 namespace arthro::app {
 namespace {
 
-// What this frame has seen so far.
+// Kinds of events that this frame has seen so far.
 struct Seen {
   bool moved = false, wheeled = false, key = false, character = false, button = false;
 };

@@ -1,4 +1,4 @@
-// What the user did, in order, and how much of it one frame may see. Dear ImGui 1.86 looks at the
+// Input events in order, and the part of them that one frame may see. Dear ImGui 1.86 looks at the
 // state of mouse and keys once a frame, so two changes of one button between two frames would be
 // lost; this queue hands out only as much as one frame can tell apart and keeps the rest. Window
 // callbacks and scripts append here. Pointer positions in window coordinates (not scaled), x right,

@@ -50,7 +50,7 @@ const Calls& Gl() {
   return calls;
 }
 
-// Of the window's middle; the first one where it is on none.
+// Monitor of the window's middle; the first one where it lies on none.
 int MonitorOf(GLFWwindow* window, const std::vector<GLFWmonitor*>& monitors) {
   int x = 0, y = 0, width = 0, height = 0;
   glfwGetWindowPos(window, &x, &y);
@@ -147,7 +147,7 @@ bool PictureWindow::Show(unsigned texture, int edge, long version, FrameShape sh
   shown_ = version, width_ = width, height_ = height;
   texture_ = texture, edge_ = edge, shape_ = shape;
   is_damaged_ = false;
-  // What the first context drew has to be there before the second one reads it.
+  // The first context must finish drawing before the second one reads.
   const GLsync drawn = Gl().fence(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glFlush();
   glfwMakeContextCurrent(window_);

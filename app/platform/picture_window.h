@@ -34,7 +34,7 @@ class PictureWindow {
   // True: it drew. The first window's context is current afterwards.
   bool Show(unsigned texture, int edge, long version, FrameShape shape);
 
-  // What it shows, drawn again; its texture must be as it was.
+  // Draws its picture again and reads it; the texture must be unchanged.
   ColourImage ReadPicture();
 
  private:

@@ -187,7 +187,7 @@ std::vector<int> KeysFromWords(std::string_view words) {
     if (const auto name = kNames.find(word); name != kNames.end()) {
       keys.push_back(name->second);
     } else if (word.size() == 1 && std::isalnum(static_cast<unsigned char>(word[0]))) {
-      keys.push_back(std::toupper(static_cast<unsigned char>(word[0])));  // as GLFW numbers them
+      keys.push_back(std::toupper(static_cast<unsigned char>(word[0])));  // key numbers of GLFW
     } else if (word.size() >= 2 && word[0] == 'f' &&
                std::from_chars(word.data() + 1, word.data() + word.size(), function).ec ==
                    std::errc() &&

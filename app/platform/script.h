@@ -48,7 +48,7 @@ enum class ScriptVerb {
 struct ScriptLine {
   int number = 0;  // in the file, from 1
   ScriptVerb verb = ScriptVerb::kQuit;
-  std::string name, text;  // of an item; typed, expected or a file
+  std::string name, text;  // name of an item; text that is typed or expected, or a file
   double x = 0, y = 0;  // drag, click from the middle, wheel (y), frames (x), size, seed and steps
   bool right_button = false;
 };

@@ -32,7 +32,7 @@ class ScriptRunner {
 
   ScriptState state() const { return state_; }
   const std::string& failure() const { return failure_; }  // a sentence with the line's number
-  int line_number() const;                                 // that runs next, or the last
+  int line_number() const;                                 // line that runs next, or the last
   bool at_end() const { return next_ == lines_.size(); }
   const std::string& mark() const { return mark_; }
   // Keys that a crawl presses.

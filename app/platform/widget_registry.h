@@ -1,4 +1,4 @@
-// What the last frame showed: every named item with its rectangle, so that a script can click by
+// Items of the last frame: every named one with its rectangle, so that a script can click by
 // name, and every text, so that it can say what must be seen. Filled by app/panels/widgets.h while
 // a frame is built; window coordinates, x right, y down.
 #pragma once
@@ -24,7 +24,7 @@ struct WidgetRecord {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // the part that is not clipped away
   bool visible = false;                   // any of it is on screen
   bool enabled = true;
-  std::string value = {};  // as shown, of items that have one
+  std::string value = {};  // value as shown; empty for items without one
   WidgetKind kind = WidgetKind::kButton;
   bool reachable = true;  // no dialog lies over it
 };

@@ -28,7 +28,7 @@ struct WindowOptions {
   std::optional<double> fixed_step;  // s; frames then take this long for ImGui, whatever the clock
 };
 
-// What BeginFrame took that ImGui has no place for.
+// Events that BeginFrame took and ImGui has no place for.
 struct FrameNews {
   std::vector<std::filesystem::path> dropped;
   bool close_requested = false;

@@ -31,7 +31,7 @@ constexpr double kKeyEvery = 1.0;      // s
 constexpr int kRowsPerSlice = 270;     // px; a slice per thread, so that larger pictures keep pace
 constexpr int kMostSlices = 4;         // whatever the machine has, for the same bytes everywhere
 constexpr int kBuffer = 1 << 16;       // bytes
-constexpr int kLargestRate = 1001000;  // of a rate's fraction: holds 30000/1001
+constexpr int kLargestRate = 1001000;  // numerator of a rate; 30000/1001 fits
 
 struct Free {
   void operator()(AVCodecContext* own) const { avcodec_free_context(&own); }

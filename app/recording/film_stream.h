@@ -40,7 +40,7 @@ class FilmStream {
   FilmStream& operator=(const FilmStream&) = delete;
 
   FilmResult Begin();
-  FilmResult Add(const ColourImage& picture);  // of this size
+  FilmResult Add(const ColourImage& picture);  // size as in the form
   FilmResult End();
 
   // Up to there the file is whole: bytes, and the pictures in them.

@@ -10,14 +10,14 @@ namespace arthro::app {
 
 enum class FrameShape { kSquare, k4x3, k16x9 };
 
-// As on the command line: "square", "4:3", "16:9". Throws Error(kBadArgument) for another word.
+// Reads "square", "4:3" or "16:9", as on the command line. Throws Error(kBadArgument) otherwise.
 FrameShape FrameShapeOf(std::string_view word);
 std::string_view WordOf(FrameShape shape);
 
 // To the next even number, which films need.
 int FrameWidth(FrameShape shape, int height);
 
-// Where the square picture goes on a screen: the frame as large as the screen lets it be, in its
+// Place of the square picture on a screen: the frame as large as the screen lets it be, in its
 // middle, and in that the picture. From the top left.
 struct ScreenPlace {
   int x = 0, y = 0, edge = 0;

@@ -93,7 +93,7 @@ void LiveFilm::Write() {
     const bool is_end = item.picture.empty();
     ColourImage next;
     if (!is_end) next = LaidOut(Resized(item.picture, form_.size), form_.shape);
-    if (frame.empty()) frame = next;  // what came first also stands for what was before it
+    if (frame.empty()) frame = next;  // the first picture also fills the time before it
     std::visit(
         [&](auto& frames) {
           while (!frame.empty() && frames.count() < item.frame) frames.Add(frame);

@@ -44,7 +44,7 @@ class PictureSequence {
   bool made_folder_ = false;
   int count_ = 0;
   ColourImage last_;
-  std::string bytes_;  // of the last one
+  std::string bytes_;  // bytes of the last picture
 };
 
 }  // namespace arthro::app

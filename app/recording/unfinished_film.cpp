@@ -109,7 +109,7 @@ Placed PutInPlace(int descriptor, const fs::path& beside, const fs::path& target
   copy.replace_filename(fmt::format(".{}-recovered.{}.partial{}",
                                     target.stem().string().substr(0, kLongestStem), ::getpid(),
                                     target.extension().string()));
-  ::unlink(copy.c_str());  // of a dead process with this number
+  ::unlink(copy.c_str());  // left by a dead process with this number
   {
     const Descriptor to(::open(copy.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
     int copied = 0;

@@ -24,7 +24,7 @@ class VideoFile {
  public:
   // Throws Error: as CheckVideo, or kFile where it cannot be written there.
   VideoFile(const std::filesystem::path& file, VideoSize size, double rate);
-  // What was not finished is gone.
+  // Removes an unfinished file.
   ~VideoFile();
   VideoFile(VideoFile&&) noexcept;
   VideoFile& operator=(VideoFile&&) noexcept;

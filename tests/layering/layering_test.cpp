@@ -1,8 +1,9 @@
-// Who may include whom (CONTRIBUTING.md). Linking cannot catch a header that is merely included, so
+// Rules for includes (CONTRIBUTING.md). Linking cannot catch a header that is merely included, so
 // every #include of every source is read and held against the table below.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <regex>
 #include <set>
@@ -35,6 +36,20 @@ const std::map<std::string, Names> kMayInclude = {
 const Names kAuthoringMayInclude = {"simulation/core", "simulation/scene", "simulation/scope",
                                     "authoring"};
 
+// The same inside app. bench, cli and what lies in app itself may include all of app.
+const std::map<std::string, Names> kAppMayInclude = {
+    {"app/recording", {}},
+    {"app/view", {}},
+    {"app/platform", {"app/recording"}},
+    {"app/state", {"app/platform"}},
+    {"app/panels", {"app/platform", "app/state"}},
+    {"app/steps", {"app/panels", "app/platform", "app/recording", "app/state", "app/view"}},
+    {"app/files", {"app/platform", "app/state", "app/steps"}},
+    {"app/editor",
+     {"app/files", "app/panels", "app/platform", "app/recording", "app/state", "app/steps",
+      "app/view"}},
+};
+
 // Third-party headers, by how their path begins, that a whole side must not see. Files named
 // *_io.cpp in simulation/scene read and write formats and may use OpenCV's and VTK's IO.
 const std::vector<std::string> kNotInSimulation = {
@@ -43,8 +58,8 @@ const std::vector<std::string> kNotInSimulation = {
 const std::vector<std::string> kNotInAuthoring = {"vtk",  "imgui", "backends/imgui",
                                                   "GLFW", "GL/",   "CLI"};
 
-// What the renderer is judged by shares nothing with it: headers that these files may include of
-// ours, beside one another.
+// References for the renderer share nothing with it: headers of ours that these files may include,
+// beside one another.
 const std::string kReferences[] = {"app/bench/view/reference_tracer.",
                                    "app/bench/view/grid_picture."};
 const Names kReferencesMayInclude = {"simulation/scene/image.h", "simulation/scene/lens.h",
@@ -61,7 +76,7 @@ std::vector<Include> IncludesOf(const fs::path& root, const std::string& top) {
   const std::regex pattern(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
   for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
     const std::string extension = entry.path().extension().string();
-    if (extension != ".h" && extension != ".cpp") continue;
+    if (extension != ".h" && extension != ".cpp" && extension != ".inc") continue;
     std::ifstream stream(entry.path());
     std::string line;
     std::smatch match;
@@ -121,6 +136,86 @@ std::vector<std::string> FaultsOf(const std::vector<Include>& includes) {
       faults.push_back(fault);
   }
   return faults;
+}
+
+// "app/steps" of "app/steps/depth/depth_step.h"; "app" of a file that lies in app itself.
+std::string AppRoomOf(const std::string& path) {
+  const auto slash = path.find('/', std::string("app/").size());
+  return slash == std::string::npos ? "app" : path.substr(0, slash);
+}
+
+std::vector<std::string> AppFaultsOf(const std::vector<Include>& includes) {
+  std::vector<std::string> faults;
+  for (const auto& [file, name] : includes) {
+    if (!file.starts_with("app/") || !name.starts_with("app/")) continue;
+    const std::string room = AppRoomOf(file), other = AppRoomOf(name);
+    if (room == other || room == "app" || room == "app/bench" || room == "app/cli") continue;
+    if (!kAppMayInclude.contains(room) || !kAppMayInclude.at(room).contains(other))
+      faults.push_back(file + " includes " + name);
+  }
+  return faults;
+}
+
+// Folders that reach each other through their files' includes, one sentence per circle. A folder
+// and one inside it are two folders.
+std::vector<std::string> CirclesOf(const std::vector<Include>& includes) {
+  std::map<std::string, std::map<std::string, std::string>> edges;  // with an include as witness
+  for (const auto& [file, name] : includes) {
+    const std::string from = fs::path(file).parent_path(), to = fs::path(name).parent_path();
+    if (IsOurs(name) && from != to) edges[from].emplace(to, file + " includes " + name);
+  }
+  std::vector<std::string> circles;
+  Names done;
+  std::vector<std::string> path;
+  const std::function<void(const std::string&)> visit = [&](const std::string& folder) {
+    if (const auto begin = std::find(path.begin(), path.end(), folder); begin != path.end()) {
+      std::string circle = "these folders include each other:";
+      for (auto at = begin; at != path.end(); ++at)
+        circle += "\n  " + edges.at(*at).at(at + 1 == path.end() ? folder : *(at + 1));
+      circles.push_back(circle);
+      return;
+    }
+    if (done.contains(folder)) return;
+    path.push_back(folder);
+    if (edges.contains(folder))
+      for (const auto& [next, witness] : edges.at(folder)) visit(next);
+    path.pop_back();
+    done.insert(folder);
+  };
+  for (const auto& [folder, ignored] : edges) visit(folder);
+  return circles;
+}
+
+TEST(Layering, EveryIncludeInsideAppFollowsItsTable) {
+  const std::vector<Include> includes = IncludesOf(ARTHRO_SOURCE_DIR, "app");
+  ASSERT_GT(includes.size(), 20u) << "the scan found too little to mean anything";
+  for (const auto& fault : AppFaultsOf(includes)) ADD_FAILURE() << fault;
+}
+
+TEST(Layering, NoTwoFoldersIncludeEachOther) {
+  std::vector<Include> includes;
+  for (const char* top : {"app", "authoring", "simulation", "tests"})
+    for (auto& include : IncludesOf(ARTHRO_SOURCE_DIR, top)) includes.push_back(include);
+  for (const auto& circle : CirclesOf(includes)) ADD_FAILURE() << circle;
+}
+
+TEST(Layering, ScanCatchesCirclesOfFolders) {
+  const std::vector<Include> chain = {{"app/view/a.h", "app/view/exposure/b.h"},
+                                      {"app/view/exposure/b.h", "simulation/scene/c.h"}};
+  EXPECT_TRUE(CirclesOf(chain).empty());
+  for (const char* back : {"app/view/a.h", "app/view/exposure/other.h"}) {
+    std::vector<Include> circle = chain;
+    circle.push_back({"simulation/scene/kernel.inc", back});
+    EXPECT_EQ(CirclesOf(circle).size(), 1u) << back;
+  }
+  EXPECT_EQ(AppFaultsOf({{"app/state/a.h", "app/steps/depth/b.h"},
+                         {"app/steps/depth/b.cpp", "app/editor/panels/c.h"},
+                         {"app/new_folder/a.cpp", "app/state/b.h"}})
+                .size(),
+            3u);
+  EXPECT_TRUE(AppFaultsOf({{"app/editor/a.cpp", "app/steps/depth/b.h"},
+                           {"app/cli/a.cpp", "app/editor/b.h"}})
+                  .empty());
 }
 
 TEST(Layering, EveryIncludeFollowsTheTable) {

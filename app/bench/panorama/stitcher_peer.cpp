@@ -12,7 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/stitching.hpp>
 
-#include "app/commands/scratch_folder.h"
+#include "app/state/scratch_folder.h"
 #include "authoring/tissue/child_process.h"
 #include "authoring/tissue/tetrahedralize.h"
 #include "simulation/core/error.h"

@@ -14,7 +14,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
-#include "app/commands/footage/footage_optics.h"
+#include "app/state/footage_optics.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"

@@ -12,7 +12,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
-#include "app/commands/figure/centres_figure.h"
+#include "app/steps/portals/centres_figure.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"

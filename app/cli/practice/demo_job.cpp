@@ -19,7 +19,7 @@
 #include "app/cli/number_flags.h"
 #include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
-#include "app/resource_folder.h"
+#include "app/platform/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/resource_folder.h"
+#include "app/platform/resource_folder.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/archive_io.h"
 

@@ -1,6 +1,6 @@
 // An incision that is calibrated in the window's own way (app/commands/devices), without a window:
 // by commands, on simulated and recorded hands, on a rig whose file keeps it.
-#include "app/commands/devices/calibrate_incision.h"
+#include "app/steps/practice/calibrate_incision.h"
 
 #include <chrono>
 #include <cmath>
@@ -10,8 +10,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/scene_files.h"
+#include "app/editor/every_step.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/panorama_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -33,18 +38,18 @@ class CalibrateIncision : public testing::Test {
   void SetUp() override {
     StartDocument(state, authoring::OpenDocument(test::WriteSmallScene(temp / "knee", false)),
                   true);
-    state.pace = simulation::TissuePace::kInline;
+    state.steps.practice->pace = simulation::TissuePace::kInline;
     rig = temp / "rig.json";
     WriteAtomically(rig, test::kMovedRig);
   }
   void Hold(simulation::HandsChoice choice) {
-    state.hands = std::make_unique<simulation::Hands>(std::move(choice));
+    state.steps.practice->hands = std::make_unique<simulation::Hands>(std::move(choice));
   }
   void Frame() {
     FinishWork(state);
-    state.hands->Look();
+    state.steps.practice->hands->Look();
     if (state.practice && state.dialogs.empty())
-      state.practice->Advance(1.0 / 60, state.hands.get());
+      state.practice->Advance(1.0 / 60, state.steps.practice->hands.get());
     KeepPivotFresh(state);
   }
   void Frames(int count) {
@@ -57,12 +62,13 @@ class CalibrateIncision : public testing::Test {
       Frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.preview_jobs.busy() || state.pivot_jobs.busy());
+    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() ||
+             state.steps.practice->pivot_jobs.busy());
   }
   void Begin(const char* command = "calibrate-scope") {
     app::Run(state, command);
     Settle();
-    ASSERT_TRUE(state.calibrating) << "in a practice that is begun for it";
+    ASSERT_TRUE(state.steps.practice->calibrating) << "in a practice that is begun for it";
   }
   // Swings the scope there within half a second, lets it rest, presses.
   void PressAt(double latitude_deg, double longitude_deg) {
@@ -78,21 +84,21 @@ class CalibrateIncision : public testing::Test {
     app::Run(state, "press-incision");
     Frames(10);
   }
-  const simulation::PivotWork& work() const { return state.calibrating->work; }
+  const simulation::PivotWork& work() const { return state.steps.practice->calibrating->work; }
   DeviceRig Mount() const {
-    return state.hands->MountOf(DeviceRole::kScope, state.document().scene);
+    return state.steps.practice->hands->MountOf(DeviceRole::kScope, state.document().scene);
   }
 
   test::TempFolder temp;
   fs::path rig;
-  EditorState state{NewDocument()};
+  EditorState state = MakeEditorState(NewDocument());
 };
 
 TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyCameFrom) {
   Hold(simulation::ReadHands(rig, "plant"));
-  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), simulation::HandKind::kSimulated);
+  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), simulation::HandKind::kSimulated);
   Begin();
-  EXPECT_FALSE(CommandOf("use-incision").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "use-incision").enabled(state));
   PressAt(0, 0);
   EXPECT_EQ(work().poses().size(), 1u) << work().refusal();
   PressAt(10, 35);
@@ -103,7 +109,8 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   EXPECT_LT(glm::distance(*work().found().pivot, test::kMovedPivot), 3 * sigma);
   app::Run(state, "use-incision");
   EXPECT_TRUE(state.dialogs.empty());
-  EXPECT_NE(state.calibrating->outcome.find("saved in " + rig.string()), std::string::npos);
+  EXPECT_NE(state.steps.practice->calibrating->outcome.find("saved in " + rig.string()),
+            std::string::npos);
   Frames(2);
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   EXPECT_NE(Mount().pivot, test::kMovedPivot) << "what was found, not what was there";
@@ -116,8 +123,8 @@ TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyC
   EXPECT_EQ(next.rig.scope.pivot, Mount().pivot);
 
   app::Run(state, "leave-practice");
-  EXPECT_FALSE(state.calibrating) << "Esc closes the calibration first";
-  EXPECT_FALSE(state.hands->calibrated());
+  EXPECT_FALSE(state.steps.practice->calibrating) << "Esc closes the calibration first";
+  EXPECT_FALSE(state.steps.practice->hands->calibrated());
   EXPECT_TRUE(state.practice);
 }
 
@@ -129,7 +136,7 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
   ASSERT_EQ(work().poses().size(), 2u) << work().refusal();
   EXPECT_EQ(work().found().status, PivotStatus::kTooNarrow);
   EXPECT_NE(work().found().reason.find("degrees"), std::string::npos);
-  EXPECT_FALSE(CommandOf("use-incision").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "use-incision").enabled(state));
   app::Run(state, "use-incision");
   EXPECT_EQ(Mount().pivot, test::kMovedPivot);
   EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
@@ -137,15 +144,17 @@ TEST_F(CalibrateIncision, WhatIsTooNarrowIsRefusedInWordsAndNothingChanges) {
 
 TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritten) {
   Hold(simulation::ReadHands(rig, "plant"));
-  state.rig_preset_folder = temp.path();  // as if the rig had come with the program
+  state.steps.practice->rig_preset_folder =
+      temp.path();  // the rig now counts as shipped with the program
   Begin();
   PressAt(0, 0);
   PressAt(0, 40);
   ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
   app::Run(state, "use-incision");
-  EXPECT_TRUE(state.calibrating->is_unsaved);
-  EXPECT_NE(state.calibrating->outcome.find("came with the program"), std::string::npos)
-      << state.calibrating->outcome;
+  EXPECT_TRUE(state.steps.practice->calibrating->is_unsaved);
+  EXPECT_NE(state.steps.practice->calibrating->outcome.find("came with the program"),
+            std::string::npos)
+      << state.steps.practice->calibrating->outcome;
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 
@@ -159,11 +168,11 @@ TEST_F(CalibrateIncision, WhatCannotBeSavedIsUsedAllTheSameAndNothingIsOverwritt
   save(temp / "nowhere" / "mine.json");
   ASSERT_EQ(state.dialogs.size(), 1u) << "in a sentence";
   state.dialogs.clear();
-  EXPECT_TRUE(state.calibrating->is_unsaved);
+  EXPECT_TRUE(state.steps.practice->calibrating->is_unsaved);
   fs::create_directory(temp / "own");
   save(temp / "own" / "mine.json");
   EXPECT_TRUE(state.dialogs.empty());
-  EXPECT_FALSE(state.calibrating->is_unsaved);
+  EXPECT_FALSE(state.steps.practice->calibrating->is_unsaved);
   EXPECT_EQ(ReadRig(temp / "own" / "mine.json").scope->mount.pivot, Mount().pivot);
   EXPECT_EQ(ReadWholeFile(rig), test::kMovedRig);
 }
@@ -175,15 +184,16 @@ TEST_F(CalibrateIncision, OfAHandWithoutARigLastsUntilTheProgramEnds) {
   PressAt(0, 40);
   ASSERT_TRUE(work().MayBeUsed()) << work().found().reason;
   app::Run(state, "use-incision");
-  EXPECT_NE(state.calibrating->outcome.find("until the program ends"), std::string::npos);
-  EXPECT_FALSE(CommandOf("save-rig-as").enabled(state));
+  EXPECT_NE(state.steps.practice->calibrating->outcome.find("until the program ends"),
+            std::string::npos);
+  EXPECT_FALSE(CommandOf(state, "save-rig-as").enabled(state));
   EXPECT_EQ(Mount().pivot, *work().found().pivot);
   // Also of the practice after this one.
   app::Run(state, "leave-practice");
   app::Run(state, "leave-practice");
   EXPECT_FALSE(state.practice);
   Scene scene = state.document().scene;
-  state.hands->Mount(scene);
+  state.steps.practice->hands->Mount(scene);
   EXPECT_EQ(scene.rig.scope.pivot, Mount().pivot);
 }
 
@@ -200,10 +210,10 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
                   simulation::HandleFromRodPose(pose, truth), 0, true};
   }
   Hold(std::move(choice));
-  EXPECT_EQ(state.hands->KindOf(DeviceRole::kScope), simulation::HandKind::kRecorded);
-  EXPECT_FALSE(CommandOf("calibrate-instrument").enabled(state)) << "mouse and keys have it";
+  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), simulation::HandKind::kRecorded);
+  EXPECT_FALSE(CommandOf(state, "calibrate-instrument").enabled(state)) << "mouse and keys have it";
   Begin();
-  state.calibrating->work.Begin(simulation::PivotSource::kSwing);
+  state.steps.practice->calibrating->work.Begin(simulation::PivotSource::kSwing);
   const auto off = [&] { return glm::distance(state.practice->snapshot().scope.pose.depth, 0.06); };
   Frames(60);
   EXPECT_GT(off(), 1e-3) << "the rig is wrong";
@@ -222,9 +232,10 @@ TEST_F(CalibrateIncision, OfADeviceWithoutARodIsNotOffered) {
   simulation::HandsChoice choice;
   choice.rig.emplace().scope.emplace().device.family = "space_mouse";
   Hold(std::move(choice));
-  EXPECT_FALSE(CommandOf("calibrate-scope").enabled(state));
-  EXPECT_NE(state.hands->WhyNotCalibrated(DeviceRole::kScope).find("no rod"), std::string::npos);
-  EXPECT_NE(state.hands->WhyNotCalibrated(DeviceRole::kInstrument).find("Mouse"),
+  EXPECT_FALSE(CommandOf(state, "calibrate-scope").enabled(state));
+  EXPECT_NE(state.steps.practice->hands->WhyNotCalibrated(DeviceRole::kScope).find("no rod"),
+            std::string::npos);
+  EXPECT_NE(state.steps.practice->hands->WhyNotCalibrated(DeviceRole::kInstrument).find("Mouse"),
             std::string::npos);
 }
 

@@ -1,6 +1,4 @@
 // The command layer without a window: what a user can have done, and that it can be undone.
-#include "app/commands/command_list.h"
-
 #include <chrono>
 #include <fstream>
 #include <set>
@@ -10,13 +8,18 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "app/commands/depth_work.h"
-#include "app/commands/edits.h"
-#include "app/commands/hand_motion.h"
-#include "app/commands/scene_files.h"
-#include "app/commands/tissue/tissue_balls.h"
-#include "app/commands/tissue/tissue_material.h"
-#include "app/commands/tissue_work.h"
+#include "app/editor/every_step.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/panorama_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/hand_motion.h"
+#include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_material.h"
+#include "app/steps/tissue/tissue_work.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/scene_json.h"
 #include "tests/support/small_scene.h"
@@ -27,14 +30,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the window's loop does between frames, until nothing is under way.
+// Does the work of the window's loop between frames, until nothing is under way.
 void Settle(EditorState& state) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
   do {
     FinishWork(state);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-  } while (state.jobs.busy() || state.preview_jobs.busy() || DepthIsUnderWay(state));
+  } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() || DepthIsUnderWay(state));
 }
 
 std::string Print(const EditorState& state) {
@@ -67,10 +70,11 @@ class Commands : public testing::Test {
     WriteScene(temp / "knee/scene.json", scene);
   }
   test::TempFolder temp;
-  EditorState state{NewDocument()};
+  EditorState state = MakeEditorState(NewDocument());
 };
 
 TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {
+  const EditorState state = MakeEditorState(NewDocument());
   std::set<std::string> ids;
   for (const Command& command : AllCommands()) {
     EXPECT_TRUE(ids.insert(command.id).second) << command.id;
@@ -78,7 +82,7 @@ TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {
     EXPECT_STREQ(std::string(command.help).substr(std::string(command.help).size() - 1).c_str(),
                  ".")
         << command.id << ": the help is a sentence";
-    EXPECT_EQ(&CommandOf(command.id), &command);
+    EXPECT_EQ(&CommandOf(state, command.id), &command);
   }
 }
 
@@ -180,11 +184,11 @@ TEST_F(Commands, WhileASliderIsHeldOnlyAPreviewIsMade) {
   state.dragging = true;
   options.near_relief = 0.009;
   SetDepthOptions(state, options, "Near relief");
-  for (int i = 0; i < 60000 && !state.depth_cache.preview; ++i) {
+  for (int i = 0; i < 60000 && !state.steps.depth->cache.preview; ++i) {
     FinishWork(state);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  ASSERT_TRUE(state.depth_cache.preview);
+  ASSERT_TRUE(state.steps.depth->cache.preview);
   for (int i = 0; i < 50; ++i) {
     FinishWork(state);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -205,10 +209,10 @@ TEST_F(Commands, OptionsThatContradictEachOtherAreToldAndKeepTheDepth) {
   EndDrag(state);
   Settle(state);
   EXPECT_EQ(state.document().depth, before);
-  EXPECT_NE(state.depth_cache.ProblemOf(state.document()), "");
+  EXPECT_NE(state.steps.depth->cache.ProblemOf(state.document()), "");
   EXPECT_TRUE(state.dialogs.empty()) << "a slider on its way is no reason for a dialog";
   app::Run(state, "undo");
-  EXPECT_EQ(state.depth_cache.ProblemOf(state.document()), "");
+  EXPECT_EQ(state.steps.depth->cache.ProblemOf(state.document()), "");
 }
 
 TEST_F(Commands, SavingWaitsForTheDepthOfTheOptions) {
@@ -472,14 +476,14 @@ TEST_F(Commands, PracticeLeavesTheEditorExactlyAsItWas) {
 TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   Open();
   state.tissue = 0;
-  state.ball_radius = 0.003;
+  state.steps.tissue->ball_radius = 0.003;
   AddBall(state, BallKind::kHeld, 0, {0.006, 0, 0});
   AddBall(state, BallKind::kHeld, 0, {0, 0.006, 0});
   const auto& fixed = [&]() -> const std::vector<Ball>& {
     return state.document().scene.tissues[0].fixed;
   };
   ASSERT_EQ(fixed().size(), 2u);
-  EXPECT_EQ(state.ball, 1);
+  EXPECT_EQ(state.steps.tissue->ball, 1);
   EXPECT_EQ(fixed()[0], (Ball{{0.006, 0, 0}, 0.003}));
   SetBall(state, BallKind::kHeld, 0, 1, {{0, 0.006, 0}, 0.001}, "Change a ball of");
   EXPECT_EQ(fixed()[1].radius, 0.001);
@@ -489,14 +493,14 @@ TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
   app::Run(state, "undo");
   EXPECT_EQ(fixed().size(), 1u) << "each ball is a step of its own";
   app::Run(state, "redo");
-  state.ball = 0;
-  state.tissue_page = TissuePage::kHold;
+  state.steps.tissue->ball = 0;
+  state.steps.tissue->page = TissuePage::kHold;
   app::Run(state, "release-ball");
   ASSERT_EQ(fixed().size(), 1u);
   EXPECT_EQ(fixed()[0].centre, glm::dvec3(0, 0.006, 0));
   app::Run(state, "release-tissue");
   EXPECT_TRUE(fixed().empty());
-  EXPECT_FALSE(CommandOf("release-tissue").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "release-tissue").enabled(state));
   app::Run(state, "undo");
   EXPECT_EQ(fixed().size(), 1u);
 }
@@ -504,15 +508,16 @@ TEST_F(Commands, BallsThatHoldATissueAreAddedMovedAndReleasedStepByStep) {
 TEST_F(Commands, ProbedPlacesAreBallsOfTheirOwn) {
   Open();
   state.tissue = 0;
-  state.tissue_page = TissuePage::kMesh;
-  state.ball_radius = 0.0015;
+  state.steps.tissue->page = TissuePage::kMesh;
+  state.steps.tissue->ball_radius = 0.0015;
   AddBall(state, BallKind::kHeld, 0, {0.006, 0, 0});
   AddBall(state, BallKind::kProbed, 0, {0, 0.006, 0});
   const auto& tissue = [&]() -> const Tissue& { return state.document().scene.tissues[0]; };
   EXPECT_EQ(tissue().fixed, (std::vector<Ball>{{{0.006, 0, 0}, 0.0015}}));
   EXPECT_EQ(tissue().probed, (std::vector<Ball>{{{0, 0.006, 0}, 0.0015}}));
-  EXPECT_EQ(state.ball, 0);
-  EXPECT_FALSE(CommandOf("release-ball").enabled(state)) << "the page is about the probed ones";
+  EXPECT_EQ(state.steps.tissue->ball, 0);
+  EXPECT_FALSE(CommandOf(state, "release-ball").enabled(state))
+      << "the page is about the probed ones";
   app::Run(state, "remove-probed");
   EXPECT_TRUE(tissue().probed.empty());
   EXPECT_EQ(tissue().fixed.size(), 1u);
@@ -520,13 +525,13 @@ TEST_F(Commands, ProbedPlacesAreBallsOfTheirOwn) {
   app::Run(state, "undo");
   app::Run(state, "remove-all-probed");
   EXPECT_TRUE(tissue().probed.empty());
-  EXPECT_FALSE(CommandOf("remove-all-probed").enabled(state));
+  EXPECT_FALSE(CommandOf(state, "remove-all-probed").enabled(state));
   app::Run(state, "probe-brush");
-  EXPECT_EQ(state.brush, BallKind::kProbed);
+  EXPECT_EQ(state.steps.tissue->brush, BallKind::kProbed);
   app::Run(state, "hold-brush");
-  EXPECT_EQ(state.brush, BallKind::kHeld) << "one brush at a time";
+  EXPECT_EQ(state.steps.tissue->brush, BallKind::kHeld) << "one brush at a time";
   app::Run(state, "hold-brush");
-  EXPECT_FALSE(state.brush);
+  EXPECT_FALSE(state.steps.tissue->brush);
 }
 
 TEST_F(Commands, ABallAtTheInstrumentLiesAtItsTipInTheTissuesOwnFrame) {
@@ -541,12 +546,12 @@ TEST_F(Commands, ABallAtTheInstrumentLiesAtItsTipInTheTissuesOwnFrame) {
   ASSERT_EQ(tissue.fixed.size(), 1u);
   const glm::dvec3 tip = glm::dvec3(0.03, 0, 0) + simulation::TipInOwnPortal(state.instrument);
   EXPECT_LT(glm::distance(tissue.pose * tissue.fixed[0].centre, tip), 1e-12);
-  EXPECT_NEAR(tissue.fixed[0].radius * 2, state.ball_radius, 1e-15);
+  EXPECT_NEAR(tissue.fixed[0].radius * 2, state.steps.tissue->ball_radius, 1e-15);
 }
 
 TEST_F(Commands, MaterialsArePresetsAndWhatTheSceneSaysOtherwise) {
   Open();
-  state.tissue_preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
+  state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
   LoadTissuePresets(state);
   ASSERT_EQ(state.tissue_presets.size(), 4u);
   const auto tissue = [&]() -> const Tissue& { return state.document().scene.tissues[0]; };
@@ -575,7 +580,7 @@ TEST_F(Commands, MaterialsArePresetsAndWhatTheSceneSaysOtherwise) {
 TEST_F(Commands, ABrokenPresetIsToldOnce) {
   Open();
   std::ofstream(temp / "bad.json") << "{";
-  state.tissue_preset_folder = temp.path();
+  state.steps.tissue->preset_folder = temp.path();
   LoadTissuePresets(state);
   LoadTissuePresets(state);
   EXPECT_EQ(state.dialogs.size(), 1u);
@@ -587,25 +592,25 @@ TEST_F(Commands, PokingHoldsTheInstrumentOutOfTheTissueUntilAnEditEndsIt) {
   Open();
   app::Run(state, "poke");
   Settle(state);
-  ASSERT_TRUE(state.poke);
+  ASSERT_TRUE(state.steps.practice->poke);
   ASSERT_FALSE(state.practice);
-  EXPECT_EQ(state.live(), &*state.poke);
+  EXPECT_EQ(LiveSession(state), &*state.steps.practice->poke);
   // Towards the joint's surface until it must have met it.
   state.instrument = {0.0, -0.5, 0.0, 0.046};
   MoveHands(state, {}, {0, 0, 0, 0.001});
-  for (int i = 0; i < 30; ++i) state.poke->Advance(0.016);
-  EXPECT_GT(glm::length(state.poke->snapshot().instrument.tip_force), 0.05);
+  for (int i = 0; i < 30; ++i) state.steps.practice->poke->Advance(0.016);
+  EXPECT_GT(glm::length(state.steps.practice->poke->snapshot().instrument.tip_force), 0.05);
   EXPECT_EQ(state.instrument.depth, 0.047) << "the author's own hand is what moved";
   FinishWork(state);
-  EXPECT_TRUE(state.poke);
+  EXPECT_TRUE(state.steps.practice->poke);
   SetTitle(state, "another");
   FinishWork(state);
-  EXPECT_FALSE(state.poke);
+  EXPECT_FALSE(state.steps.practice->poke);
   app::Run(state, "poke");
   Settle(state);
-  ASSERT_TRUE(state.poke);
+  ASSERT_TRUE(state.steps.practice->poke);
   app::Run(state, "poke");
-  EXPECT_FALSE(state.poke) << "the same command ends it";
+  EXPECT_FALSE(state.steps.practice->poke) << "the same command ends it";
 }
 
 TEST_F(Commands, ASceneWithoutAPanoramaCannotBePractised) {
@@ -631,29 +636,31 @@ TEST_F(Commands, InPracticeTheInstrumentPressesOnTheJointAndTheForceIsShown) {
 TEST_F(Commands, TheCameraHeadIsHeldOrTurnsWithTheScopeAndEveryPracticeBeginsWithItStraight) {
   Open();
   app::Run(state, "head-upright");
-  EXPECT_FALSE(state.head.is_upright) << "only in practice";
+  EXPECT_FALSE(state.steps.practice->head.is_upright) << "only in practice";
   app::Run(state, "practise");
   Settle(state);
   ASSERT_TRUE(state.practice);
-  EXPECT_EQ(state.head, simulation::CameraHead{}) << "with the scope, as in the paper";
+  EXPECT_EQ(state.steps.practice->head, simulation::CameraHead{})
+      << "with the scope, as in the paper";
   app::Run(state, "head-upright");
   for (int i = 0; i < 3; ++i) app::Run(state, "head-right");
   app::Run(state, "head-left");
-  EXPECT_TRUE(state.head.is_upright);
-  EXPECT_NEAR(state.head.turn, 2 * kHeadStep, 1e-15);
+  EXPECT_TRUE(state.steps.practice->head.is_upright);
+  EXPECT_NEAR(state.steps.practice->head.turn, 2 * kHeadStep, 1e-15);
   for (int i = 0; i < 91; ++i) app::Run(state, "head-right");
-  EXPECT_NEAR(state.head.turn, RadiansFromDegrees(2 * 93 - 360), 1e-7) << "round and on";
+  EXPECT_NEAR(state.steps.practice->head.turn, RadiansFromDegrees(2 * 93 - 360), 1e-7)
+      << "round and on";
   app::Run(state, "reset-hands");
-  EXPECT_EQ(state.head, simulation::CameraHead{.is_upright = true});
+  EXPECT_EQ(state.steps.practice->head, simulation::CameraHead{.is_upright = true});
   TurnHead(state, 0.4);
   app::Run(state, "head-with-scope");
-  EXPECT_EQ(state.head, simulation::CameraHead{}) << "and straight again";
+  EXPECT_EQ(state.steps.practice->head, simulation::CameraHead{}) << "and straight again";
   TurnHead(state, 0.4);
   app::Run(state, "leave-practice");
   EXPECT_FALSE(TurnHead(state, 0.1));
   app::Run(state, "practise");
   Settle(state);
-  EXPECT_EQ(state.head.turn, 0.0);
+  EXPECT_EQ(state.steps.practice->head.turn, 0.0);
 }
 
 TEST_F(Commands, ALongPauseIsNotMadeUpFor) {

@@ -9,11 +9,16 @@
 
 #include <gtest/gtest.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/footage/footage_optics.h"
-#include "app/commands/footage/footage_words.h"
-#include "app/commands/footage/footage_work.h"
-#include "app/commands/scene_files.h"
+#include "app/editor/every_step.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/footage_optics.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/footage_words.h"
+#include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/image_io.h"
@@ -83,23 +88,24 @@ class Footage : public testing::Test {
     for (int i = 0; i < kFrames; ++i)
       WriteColourImage(clip / ("frame" + std::to_string(i) + ".png"),
                        Plain(kWidth, kHeight, static_cast<std::uint8_t>(40 * i)));
-    state.makers.run = MadeUpRun;
+    state.steps.panorama->makers.run = MadeUpRun;
   }
 
-  // What the window's loop does between frames, until nothing is under way.
+  // Does the work of the window's loop between frames, until nothing is under way.
   void Settle() {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
     do {
       FinishWork(state);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.preview_jobs.busy() || state.frame_jobs.busy());
+    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() ||
+             state.steps.panorama->frame_jobs.busy());
     FinishWork(state);
   }
   void OpenClip() {
     OpenFootage(state, clip);
     Settle();
-    ASSERT_TRUE(state.footage);
+    ASSERT_TRUE(state.steps.panorama->footage);
   }
   void RunIt() {
     app::Run(state, "run-footage");
@@ -108,12 +114,12 @@ class Footage : public testing::Test {
 
   test::TempFolder temp;
   fs::path clip = temp / "clip";
-  EditorState state{NewDocument()};
+  EditorState state = MakeEditorState(NewDocument());
 };
 
 TEST_F(Footage, AFolderOfPicturesComesOnTheBoardFrameByFrame) {
   OpenClip();
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   EXPECT_TRUE(ShowsFootage(state));
   ASSERT_EQ(board.frames(), kFrames);
   for (int i = 0; i < kFrames; ++i) {
@@ -128,8 +134,8 @@ TEST_F(Footage, AFolderOfPicturesComesOnTheBoardFrameByFrame) {
 TEST_F(Footage, OnePictureOfAFolderStandsForAllOfThem) {
   OpenFootage(state, clip / "frame2.png");
   Settle();
-  ASSERT_TRUE(state.footage);
-  EXPECT_EQ(state.footage->frames(), kFrames);
+  ASSERT_TRUE(state.steps.panorama->footage);
+  EXPECT_EQ(state.steps.panorama->footage->frames(), kFrames);
 }
 
 TEST_F(Footage, WhatIsDroppedIsKnownByItsName) {
@@ -148,14 +154,14 @@ TEST_F(Footage, AClipThatCannotBeOpenedIsOneSentenceAndTheBoardStays) {
   Settle();
   ASSERT_EQ(state.dialogs.size(), 1u);
   EXPECT_NE(std::get<ErrorDialog>(state.dialogs[0]).sentence.find("broken.mp4"), std::string::npos);
-  EXPECT_EQ(state.footage->name, "clip");
+  EXPECT_EQ(state.steps.panorama->footage->name, "clip");
 }
 
 TEST_F(Footage, ARunTellsWhatBecameOfEveryFrame) {
   OpenClip();
   SetFrameIncluded(state, 1, false);
   RunIt();
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   EXPECT_EQ(StatusOf(board, 0), FrameStatus::kPlaced);
   EXPECT_EQ(StatusOf(board, 1), FrameStatus::kExcluded);
   EXPECT_EQ(StatusOf(board, 3), FrameStatus::kRejected);
@@ -178,14 +184,14 @@ TEST_F(Footage, AFrameThatIsTakenInAgainIsNotYetDecided) {
   SetFrameIncluded(state, 1, false);
   RunIt();
   SetFrameIncluded(state, 1, true);
-  EXPECT_EQ(StatusOf(*state.footage, 1), FrameStatus::kNotYet);
+  EXPECT_EQ(StatusOf(*state.steps.panorama->footage, 1), FrameStatus::kNotYet);
 }
 
 // A double click selects a frame and leaves it out: its reader has the session just then.
 TEST_F(Footage, WhatIsLeftOutWhileAFrameIsReadIsKnownOnceItIsRead) {
   OpenClip();
   RunIt();
-  FootageBoard& board = *state.footage;
+  FootageBoard& board = *state.steps.panorama->footage;
   SelectFrame(state, 0);
   board.next_stage.clear();
   {
@@ -231,8 +237,9 @@ Lens LensOf75Degrees() {
 }
 
 TEST_F(Footage, TheScopeOfTheSceneSeesAsWideAsTheClipsLens) {
-  state.makers.run = [](PanoramaSession& session, const PanoramaRequest& request,
-                        const PanoramaObserver& observer, const Progress& progress) {
+  state.steps.panorama->makers.run = [](PanoramaSession& session, const PanoramaRequest& request,
+                                        const PanoramaObserver& observer,
+                                        const Progress& progress) {
     PanoramaResult result = MadeUpRun(session, request, observer, progress);
     result.report.lens = LensOf75Degrees();
     return result;
@@ -269,38 +276,41 @@ TEST_F(Footage, AGuessedLensGivesItsFieldOfViewAndTakesNoKnownLensAway) {
 TEST_F(Footage, AFailedRunIsOneSentenceAndWhatWasMadeStays) {
   OpenClip();
   RunIt();
-  const auto made = state.footage->made;
-  state.makers.run = [](PanoramaSession&, const PanoramaRequest&, const PanoramaObserver& observer,
-                        const Progress&) -> PanoramaResult {
+  const auto made = state.steps.panorama->footage->made;
+  state.steps.panorama->makers.run = [](PanoramaSession&, const PanoramaRequest&,
+                                        const PanoramaObserver& observer,
+                                        const Progress&) -> PanoramaResult {
     observer.frame(Row(0, false, "blank", -1), {});
     throw Error(Code::kBadImage, "nothing overlaps; move slowly", "clip");
   };
   SetFrameIncluded(state, 0, false);
   SetFrameIncluded(state, 0, true);
-  state.footage->next_stage = "register";  // something changed
+  state.steps.panorama->footage->next_stage = "register";  // something changed
   RunIt();
   ASSERT_EQ(state.dialogs.size(), 1u);
   EXPECT_EQ(std::get<ErrorDialog>(state.dialogs[0]).sentence,
             "clip: nothing overlaps; move slowly");
-  EXPECT_EQ(state.footage->made, made);
-  EXPECT_EQ(StatusOf(*state.footage, 0), FrameStatus::kPlaced);
+  EXPECT_EQ(state.steps.panorama->footage->made, made);
+  EXPECT_EQ(StatusOf(*state.steps.panorama->footage, 0), FrameStatus::kPlaced);
 }
 
 TEST_F(Footage, StopEndsTheRunAndKeepsWhatWasMade) {
   OpenClip();
   RunIt();
-  const auto made = state.footage->made;
-  state.makers.run = [](PanoramaSession&, const PanoramaRequest&, const PanoramaObserver& observer,
-                        const Progress& progress) -> PanoramaResult {
+  const auto made = state.steps.panorama->footage->made;
+  state.steps.panorama->makers.run = [](PanoramaSession&, const PanoramaRequest&,
+                                        const PanoramaObserver& observer,
+                                        const Progress& progress) -> PanoramaResult {
     observer.frame(Row(0, false, "blank", -1), {});
     for (;;) {
       progress.Step("match", 0.5);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   };
-  state.footage->next_stage = "register";
+  state.steps.panorama->footage->next_stage = "register";
   app::Run(state, "run-footage");
-  for (int i = 0; i < 24000 && StatusOf(*state.footage, 0) == FrameStatus::kPlaced; ++i) {
+  for (int i = 0; i < 24000 && StatusOf(*state.steps.panorama->footage, 0) == FrameStatus::kPlaced;
+       ++i) {
     FinishWork(state);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -310,8 +320,8 @@ TEST_F(Footage, StopEndsTheRunAndKeepsWhatWasMade) {
   Settle();
   EXPECT_TRUE(state.dialogs.empty());
   EXPECT_EQ(state.message, "Stopped.");
-  EXPECT_EQ(state.footage->made, made);
-  EXPECT_EQ(StatusOf(*state.footage, 0), FrameStatus::kPlaced);
+  EXPECT_EQ(state.steps.panorama->footage->made, made);
+  EXPECT_EQ(StatusOf(*state.steps.panorama->footage, 0), FrameStatus::kPlaced);
 }
 
 TEST_F(Footage, TheSelectedFrameIsReadAtFullSizeAndWithoutTheLens) {
@@ -321,13 +331,13 @@ TEST_F(Footage, TheSelectedFrameIsReadAtFullSizeAndWithoutTheLens) {
   lens.focal_px = 30, lens.cx = 19.5, lens.cy = 14.5;
   lens.field_of_view = 0.8;
   WriteLens(temp / "lens.json", lens);
-  state.footage->lenses.push_back(LensFromFile(temp / "lens.json"));
+  state.steps.panorama->footage->lenses.push_back(LensFromFile(temp / "lens.json"));
   SetFootageLens(state, 1);
   SelectFrame(state, 2);
   SetFrameView(state, FrameView::kRectified);
-  state.footage->compares = true;
+  state.steps.panorama->footage->compares = true;
   Settle();
-  const FootageBoard& board = *state.footage;
+  const FootageBoard& board = *state.steps.panorama->footage;
   ASSERT_EQ(board.large.frame, 2);
   EXPECT_EQ(board.large.problem, "");
   const Showing showing = ShowingOf(board);
@@ -344,23 +354,23 @@ TEST_F(Footage, ALensOfAnotherSizeIsToldBesideTheFrame) {
   lens.width = 800, lens.height = 640;
   lens.focal_px = 400, lens.cx = 400, lens.cy = 320;
   lens.field_of_view = 0.8;
-  state.footage->lenses.push_back({"other", "", lens});
+  state.steps.panorama->footage->lenses.push_back({"other", "", lens});
   SetFootageLens(state, 1);
   Settle();
-  EXPECT_NE(state.footage->large.problem, "");
-  EXPECT_TRUE(state.footage->large.raw) << "as it came, it can be seen";
+  EXPECT_NE(state.steps.panorama->footage->large.problem, "");
+  EXPECT_TRUE(state.steps.panorama->footage->large.raw) << "as it came, it can be seen";
 }
 
 TEST_F(Footage, FramesAreWalkedThroughWithinTheClip) {
   OpenClip();
-  EXPECT_EQ(state.footage->selected, 0);
+  EXPECT_EQ(state.steps.panorama->footage->selected, 0);
   StepFrame(state, -1);
-  EXPECT_EQ(state.footage->selected, 0);
+  EXPECT_EQ(state.steps.panorama->footage->selected, 0);
   StepFrame(state, 100);
-  EXPECT_EQ(state.footage->selected, kFrames - 1);
+  EXPECT_EQ(state.steps.panorama->footage->selected, kFrames - 1);
   SelectFrame(state, -1);
   StepFrame(state, 1);
-  EXPECT_EQ(state.footage->selected, 0);
+  EXPECT_EQ(state.steps.panorama->footage->selected, 0);
 }
 
 TEST_F(Footage, DeleteAndViewKeysDoNotReachTheSceneBehindTheBoard) {
@@ -368,7 +378,7 @@ TEST_F(Footage, DeleteAndViewKeysDoNotReachTheSceneBehindTheBoard) {
   const double before = state.document().scene.scope.view_angle;
   app::Run(state, "view-70");
   EXPECT_EQ(state.document().scene.scope.view_angle, before);
-  state.shows_footage = false;
+  state.steps.panorama->shows_footage = false;
   app::Run(state, "view-70");
   EXPECT_NE(state.document().scene.scope.view_angle, before);
 }
@@ -391,11 +401,12 @@ TEST(LensChoices, AreNoneAndThePresetsWhichFitTheRoundWindowOfTheClip) {
 }
 
 TEST_F(Footage, APresetThatDoesNotFitTheClipIsRefusedInASentence) {
-  state.lens_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources" / "presets" / "lenses";
+  state.steps.panorama->lens_folder =
+      fs::path(ARTHRO_SOURCE_DIR) / "resources" / "presets" / "lenses";
   OpenClip();  // frames of one colour: there is no round window
-  ASSERT_GE(state.footage->lenses.size(), 2u);
+  ASSERT_GE(state.steps.panorama->footage->lenses.size(), 2u);
   SetFootageLens(state, 1);
-  EXPECT_EQ(state.footage->lens, 0);
+  EXPECT_EQ(state.steps.panorama->footage->lens, 0);
   ASSERT_EQ(state.dialogs.size(), 1u);
 }
 

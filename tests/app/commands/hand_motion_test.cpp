@@ -1,5 +1,5 @@
 // Mouse and keys to hands (app/commands/hand_motion.h), and rotations as three angles.
-#include "app/commands/hand_motion.h"
+#include "app/steps/practice/hand_motion.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/tissue_pose.h"
+#include "app/steps/tissue/tissue_pose.h"
 
 namespace arthro::app {
 namespace {

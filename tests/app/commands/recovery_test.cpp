@@ -6,9 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "app/commands/edits.h"
-#include "app/commands/recovery/recovery_copy.h"
-#include "app/commands/scene_files.h"
+#include "app/editor/every_step.h"
+#include "app/files/recovery_copy.h"
+#include "app/files/scene_files.h"
+#include "app/state/edits.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/units.h"
 #include "tests/support/small_scene.h"
@@ -37,7 +40,7 @@ class Recovery : public testing::Test {
   }
   test::TempFolder temp;
   fs::path scene = test::WriteSmallScene(temp / "knee"), folder = temp / "state" / "recovery";
-  EditorState state{NewDocument()};
+  EditorState state = MakeEditorState(NewDocument());
 };
 
 TEST_F(Recovery, IsWrittenSomeSecondsAfterTheLastChangeAndNotBefore) {
@@ -96,13 +99,13 @@ TEST_F(Recovery, GivesBackEveryUnsavedValueAndIsNotOfferedTwice) {
     ASSERT_TRUE(copy.WriteNow(state));
   }
   RecoveryCopy copy(folder), other(folder);
-  EditorState next{NewDocument()};
+  EditorState next = MakeEditorState(NewDocument());
   copy.Offer(next);
   ASSERT_EQ(next.dialogs.size(), 1u);
   auto dialog = std::get<RecoveryDialog>(next.dialogs.back());
   EXPECT_EQ(dialog.title, "Small knee");
   EXPECT_EQ(dialog.folder, scene);
-  EditorState second{NewDocument()};
+  EditorState second = MakeEditorState(NewDocument());
   other.Offer(second);
   EXPECT_TRUE(second.dialogs.empty()) << "another window has it";
 
@@ -126,7 +129,7 @@ TEST_F(Recovery, OfASceneThatChangedOnDiskSinceIsSavedElsewhere) {
   fs::last_write_time(scene / "scene.json",
                       fs::file_time_type::clock::now() + std::chrono::seconds(5));
   RecoveryCopy copy(folder);
-  EditorState next{NewDocument()};
+  EditorState next = MakeEditorState(NewDocument());
   copy.Offer(next);
   ASSERT_EQ(next.dialogs.size(), 1u);
   std::get<RecoveryDialog>(next.dialogs.back()).restore(next);

@@ -1,15 +1,17 @@
 // The author's cuts, without a window.
-#include "app/commands/tissue/tissue_cut.h"
+#include "app/steps/tissue/tissue_cut.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/commands/command_list.h"
-#include "app/commands/edits.h"
-#include "app/commands/scene_files.h"
-#include "app/commands/tissue/cut_skins.h"
+#include "app/editor/every_step.h"
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/tissue/cut_skins.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {
@@ -29,11 +31,11 @@ class TissueCut : public testing::Test {
     tissue.pose.scale = scale;
     document.surfaces.push_back(std::make_shared<const SurfaceMesh>(
         test::Box(glm::dvec3(-6, -4, -4) * kMm, glm::dvec3(6, 4, 0) * kMm)));
-    state.emplace(std::move(document));
+    state.reset(new EditorState(MakeEditorState(std::move(document))));
     state->tissue = 0;
   }
   const Tissue& Block() const { return state->document().scene.tissues[0]; }
-  std::optional<EditorState> state;
+  std::unique_ptr<EditorState> state;
 };
 
 TEST_F(TissueCut, ATearIsClickedPointByPointAndUndonePointByPoint) {
@@ -49,7 +51,8 @@ TEST_F(TissueCut, ATearIsClickedPointByPointAndUndonePointByPoint) {
   const auto& tear = std::get<TearCut>(Block().cuts[0]);
   EXPECT_EQ(tear.path.size(), 3u);
   EXPECT_LT(glm::distance(tear.into, glm::dvec3(0, 0, -1)), 1e-12) << "into the block";
-  EXPECT_NEAR(2 * tear.depth, state->cut_brush.depth, 1e-15) << "its size is of the joint";
+  EXPECT_NEAR(2 * tear.depth, state->steps.tissue->cut_brush.depth, 1e-15)
+      << "its size is of the joint";
   EXPECT_EQ(CutName(Block(), 0), "Tear 1");
   EXPECT_EQ(CutWords(Block(), 0), "3 points, 12.6 mm long");
 
@@ -92,7 +95,7 @@ TEST_F(TissueCut, BitesAndRegionsAreAddedChangedAndRemoved) {
   EXPECT_EQ(std::get<CapsuleCut>(Block().cuts[0]).a.x, 6 * kMm);
   app::Run(*state, "remove-all-cuts");
   EXPECT_TRUE(Block().cuts.empty());
-  EXPECT_FALSE(CommandOf("remove-all-cuts").enabled(*state));
+  EXPECT_FALSE(CommandOf(*state, "remove-all-cuts").enabled(*state));
   app::Run(*state, "undo");
   app::Run(*state, "undo");
   EXPECT_EQ(Block().cuts.size(), 2u);

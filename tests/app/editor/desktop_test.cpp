@@ -1,5 +1,5 @@
 // The way from the X server through GLFW to the scene: real clicks and keys by xdotool, no script.
-// Where things are at 1280x800 is read off the layout (app/panels/bars.cpp).
+// Positions at 1280x800 follow from the layout (app/editor/panels/bars.cpp).
 #include <cstdlib>
 #include <fstream>
 

@@ -243,8 +243,7 @@ wait frames 2
         "--rig " + rig.string());
 }
 
-// What was practised with simulated devices is a log, and that is a recording: of the replay and of
-// another practice.
+// A practice with simulated devices writes a log, which the replay and another practice can play.
 TEST_F(EditorWindow, PracticeWritesALogThatReplayAndPracticePlay) {
   const std::string log = (temp / "practice.log").string();
   Drive(R"(
@@ -387,7 +386,7 @@ wait frames 3
 expect "Finest in 1 probed place:"
 expect value "Ball 1" on
 click Hold
-expect "Nothing holds it"
+expect "Nothing holds this tissue"
 click Mesh
 click "Make tetrahedra"
 wait job
@@ -427,7 +426,7 @@ click Tissue
 set "Position (right, down, in), down" 3
 set "Position (right, down, in), in" 22.5
 click Hold
-expect "Nothing holds it"
+expect "Nothing holds this tissue"
 click "Hold it here…"
 wait frames 3
 click Overview
@@ -458,7 +457,7 @@ click Tissue
 set "Position (right, down, in), down" 3
 set "Position (right, down, in), in" 22.5
 click Cut
-expect "make them on the Mesh page first"
+expect "Make them on the Mesh page first"
 click Mesh
 click "Make tetrahedra"
 wait job
@@ -506,7 +505,7 @@ expect "Saved in"
 click Practise
 wait job
 wait frames 10
-expect "0.0 mm³ taken away"
+expect "0.0 mm³ removed"
 )");
   const Tissue saved = ReadScene(scene).tissues.at(0);
   ASSERT_EQ(saved.cuts.size(), 2u);
@@ -527,13 +526,13 @@ click Tissue
 click "Poke it"
 wait job
 wait frames 5
-expect "instruments do harm above 8.5 N"
+expect "instruments cause harm above 8.5 N"
 expect value "Poke it" on
 drag Picture 20 0 right
 wait frames 5
 set "Position (right, down, in), in" 25
 wait frames 3
-expect not "instruments do harm above 8.5 N"
+expect not "instruments cause harm above 8.5 N"
 )");
 }
 

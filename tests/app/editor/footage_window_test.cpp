@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFrames = 7;  // as many as the strip shows at once
+constexpr int kFrames = 7;  // number that the strip shows at once
 
 // A clip of the phantom as pictures, and its lens; made once for all tests.
 class FootageWindow : public testing::Test {
@@ -95,7 +95,7 @@ wait job
 expect "7 of 7 frames placed"
 double-click "Frame 0"
 expect value "Frame 0" "left out"
-expect "Begins with placing the frames"
+expect "The next run begins with placing the frames"
 click "Use frame 0"
 expect value "Frame 0" placed
 expect disabled "Run again"
@@ -140,7 +140,7 @@ expect value "Frame number" "2"
 expect "Not looked at yet"
 click "Even light"
 wait job
-expect "Light is evened out by the run"
+expect "The run evens out the light"
 wheel "Large picture" 3
 key escape
 expect "There is no panorama yet"

@@ -44,7 +44,7 @@ click "Calibrate scope incision…"
 wait job
 wait frames 60
 expect "Incision of the scope"
-expect "No device is given a force meanwhile."
+expect "No device gets a force during calibration."
 expect disabled "Use this incision"
 )";
 
@@ -71,8 +71,7 @@ key escape
 expect "Practice left."
 )",
         "--hands plant --rig " + rig.string());
-  // As predicted: 0.05 mm or less is what a rounding of 0.055 mm leaves of presses 37 degrees
-  // apart.
+  // Predicted error: a rounding of 0.055 mm leaves 0.05 mm or less for presses 37 degrees apart.
   EXPECT_LT(Moved(), 3 * 0.05e-3);
   EXPECT_GT(Moved(), 0) << "what was found, not what was there";
   EXPECT_NE(ReadWholeFile(rig).find("x-room"), std::string::npos);

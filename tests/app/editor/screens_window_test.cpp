@@ -1,4 +1,4 @@
-// What of a practice is shown beside its window: films of it, and the view from outside.
+// Pictures of a practice beside its window: films, the trainee's screen, and the view from outside.
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -61,7 +61,7 @@ TEST_F(ScreensWindow, TheCommandAsksWhereAndEndsTheFilmThePracticeGoesOn) {
 wait job
 expect not "Recording"
 key f2
-expect "Record the scope's picture as a film"
+expect "Record a film"
 set "File name" ")" + (temp / "mine.avi").string() +
                                        R"("
 wait frames 20
@@ -76,7 +76,7 @@ expect "Force on the tissue"
   EXPECT_GE(authoring::Footage::Open(temp / "mine.avi").info().frames, 5);
 }
 
-// As the films above. What the files hold is tested where they are written (tests/app/recording).
+// Pictures instead of a film. Their contents are tested in tests/app/recording.
 TEST_F(ScreensWindow, APracticeIsRecordedAsPicturesByTheFlagAndByTheCommand) {
   const auto by_flag = temp / "flag", by_command = temp / "command";
   std::filesystem::create_directory(by_command);
@@ -222,8 +222,8 @@ TEST_F(ScreensWindow, TheViewFromOutsideStandsInACornerUntilItIsTakenAway) {
   EXPECT_EQ(left, 0);
 }
 
-// Of the round picture in a window of 1280x800: where its mark stands, degrees from the top towards
-// the right. The mark is black and reaches 0.925 of the radius.
+// Angle of the mark of the round picture in a window of 1280x800, in degrees clockwise from the
+// top. The mark is black and reaches 0.925 of the radius.
 double MarkAngle(const ColourImage& window) {
   const double centre_x = 455, centre_y = 400, radius = 392;
   double darkest = 1e9, found = 0;
@@ -305,7 +305,7 @@ TEST_F(ScreensWindow, TheTraineesScreenShowsThePictureAndNothingElse) {
   ASSERT_EQ(screen.height, 720);
   for (int y = 0; y < 720; ++y)
     for (const int x : {0, 60, 119, 840, 959}) EXPECT_EQ(screen.at(x, y)[0], 0) << x << " " << y;
-  const int left = 8, top = 8;  // of the picture in the first window
+  const int left = 8, top = 8;  // px, corner of the picture in the first window
   long off = 0, all = 0;
   for (int y = 90; y < 630; ++y)
     for (int x = 210; x < 750; ++x) {

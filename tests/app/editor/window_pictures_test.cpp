@@ -32,7 +32,7 @@ ColourImage Shrunk(const ColourImage& image) {
 class WindowPictures : public testing::Test {
  protected:
   void SetUp() override { ARTHRO_REQUIRE_XVFB(); }
-  // What the window shows after a script. The pointer rests where nothing is lit by it.
+  // Window after a script. The pointer rests where it highlights nothing.
   ColourImage Shoot(const std::string& job, const std::string& script) {
     const auto file = temp / "shot.png";
     const auto result =

@@ -1,4 +1,4 @@
-// What one frame may see of the queue (app/platform/input_queue.h).
+// Part of the queue that one frame may see (app/platform/input_queue.h).
 #include "app/platform/input_queue.h"
 
 #include <string>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLeft = 0;
 
-// What Dear ImGui 1.86 makes of the frames: the state of one button and the pointer, once a frame.
+// Reads frames like Dear ImGui 1.86: the state of one button and the pointer, once per frame.
 struct Reader {
   bool down = false;
   double x = 0, drag_x = 0;

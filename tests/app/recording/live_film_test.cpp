@@ -62,7 +62,7 @@ TEST(LiveFilm, APictureStandsUntilTheNextOnesTime) {
 
 TEST(LiveFilm, WhatDoesNotFitIsLeftOutAndTheFilmKeepsItsLength) {
   const test::TempFolder folder;
-  // As large as films are: encoding one takes tens of milliseconds, offering none.
+  // Full film size: encoding a picture takes tens of milliseconds, offering one takes none.
   LiveFilm film(folder / "film.mp4", {FrameShape::k16x9, 2160, 25.0});
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < 30; ++i) film.Offer(i / 25.0, Grey(40 + i, 64));
@@ -94,7 +94,7 @@ TEST(LiveFilm, AFaultEndsItWithASentenceAndLeavesNothing) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &usual), 0);
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(film.fault().find("this film was not written"), std::string::npos) << film.fault();
-  film.Offer(1.0, Grey(0));  // what comes after is not taken, and no fault
+  film.Offer(1.0, Grey(0));  // later pictures are ignored, without a fault
   EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
 }
 

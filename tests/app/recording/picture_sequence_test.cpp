@@ -89,7 +89,7 @@ TEST(PictureSequence, AFolderWithSomethingInItIsRefusedAndKept) {
   EXPECT_EQ(FilesIn(folder.path()), 1);
 }
 
-// As a live film: a picture stands until the next one's time.
+// Timing of a live film: a picture stands until the time of the next one.
 TEST(LivePictures, AreAsManyAsAFilmsFramesAndExact) {
   const test::TempFolder folder;
   {

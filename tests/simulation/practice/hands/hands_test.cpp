@@ -1,5 +1,6 @@
 // Devices that hold the hands of a practice (simulation/practice/hands/hands.h), on a bus made
-// here. What is plugged in is read by the servo's own thread: those tests wait for what must come.
+// here. Plugged-in devices are read by the servo's own thread; those tests wait for the expected
+// state.
 #include "simulation/practice/hands/hands.h"
 
 #include <atomic>
@@ -360,7 +361,7 @@ class PractisedArm : public testing::Test {
     scope.device.serial = "A";
     scope.device.model = "woodenhaptics_2015";
     scope.mount.rod_length = 0.3;
-    // Where the arm is homed; straight in from there.
+    // Home position of the arm; the rod points straight in from there.
     const double to_incision = 0.3 - loaded.scene.backdrop.radius - 0.02;
     scope.mount.pivot = glm::dvec3(0.025, 0, 0.205 + to_incision);
     LiveOptions options;
@@ -413,7 +414,7 @@ TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
       << hands->Now(DeviceRole::kScope).sentence;
   ASSERT_TRUE(Begin());
   EXPECT_TRUE(hands->Leads(DeviceRole::kScope));
-  // Of the device: a lone spring with its viscosity is stable to 781 N/m, at 3.3 N.
+  // Peak of the device; a spring with its viscosity is stable to 781 N/m, at 3.3 N.
   EXPECT_LE(hands->Now(DeviceRole::kScope).given, hands->Now(DeviceRole::kScope).peak);
 
   // Esc.

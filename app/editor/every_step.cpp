@@ -1,0 +1,129 @@
+#include "app/editor/every_step.h"
+
+#include <utility>
+#include <vector>
+
+#include <GLFW/glfw3.h>
+
+#include "app/files/scene_files.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/footage_work.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/film.h"
+#include "app/steps/practice/tissue_poke.h"
+#include "app/steps/tissue/tissue_step.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+template <Step step>
+void Open(State& state) {
+  state.step = step;
+}
+
+constexpr Command kStepCommands[] = {
+    {"step-panorama",
+     "Panorama",
+     "The picture that is the backdrop.",
+     "Steps",
+     {GLFW_KEY_F6},
+     {},
+     InEditor,
+     Open<Step::kPanorama>},
+    {"step-depth",
+     "Depth",
+     "How brightness is turned into depth.",
+     "Steps",
+     {GLFW_KEY_F7},
+     {},
+     InEditor,
+     Open<Step::kDepth>},
+    {"step-tissue",
+     "Tissue",
+     "Deformable models in the scene.",
+     "Steps",
+     {GLFW_KEY_F8},
+     {},
+     InEditor,
+     Open<Step::kTissue>},
+    {"step-portals",
+     "Portals",
+     "Incisions and the scope.",
+     "Steps",
+     {GLFW_KEY_F9},
+     {},
+     InEditor,
+     Open<Step::kPortals>},
+    {"step-practice",
+     "Practice",
+     "Try the scene as a trainee will.",
+     "Steps",
+     {GLFW_KEY_F10},
+     {},
+     InEditor,
+     Open<Step::kPractice>},
+};
+
+constexpr Command kWindowCommands[] = {
+    {"full-screen",
+     "Full screen",
+     "Switch full screen on or off.",
+     "Window",
+     {GLFW_KEY_F11},
+     {},
+     Always,
+     [](State& state) { state.full_screen = !state.full_screen; }},
+    {"help",
+     "?",
+     "All keys and mouse actions.",
+     "Window",
+     {GLFW_KEY_F1},
+     {},
+     Always,
+     [](State& state) { state.dialogs.push_back(HelpDialog{}); }},
+};
+
+}  // namespace
+
+std::span<const Command> AllCommands() {
+  static const std::vector<Command> all = [] {
+    std::vector<Command> commands;
+    for (const auto group :
+         {FileCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
+          std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
+          DisturbanceCommands(), IncisionCommands(), std::span<const Command>(kWindowCommands)})
+      commands.insert(commands.end(), group.begin(), group.end());
+    return commands;
+  }();
+  return all;
+}
+
+EditorState MakeEditorState(authoring::Document document, std::function<void()> wake,
+                            std::filesystem::path recent_file) {
+  StepStates steps;
+  steps.panorama.emplace(wake);
+  steps.depth.emplace(wake);
+  steps.tissue.emplace();
+  steps.portals.emplace();
+  steps.practice.emplace(wake);
+  return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
+                     std::move(recent_file));
+}
+
+bool FinishWork(EditorState& state) {
+  bool changed = FinishFootage(state);
+  if (state.jobs.busy()) {
+    const std::string words = state.jobs.words();
+    Guarded(state, words, [&] { changed = state.jobs.Finish(state); });
+    changed = changed || !state.jobs.busy();
+  }
+  changed = FinishFilm(state) || changed;
+  changed = FinishDepth(state) || changed;
+  KeepPokeFresh(state);
+  Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
+  return changed;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,127 @@
+// Layout, the bar of commands on top and the bar of messages at the bottom.
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "app/editor/panels/panels.h"
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
+#include "app/state/command.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/footage_work.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr float kTopHeight = 48, kStatusHeight = 32, kSideWidth = 330;
+constexpr float kPracticeWidth = 370;
+constexpr float kOutsideShare = 0.34f;   // share of the picture's shorter side, in practice
+constexpr float kOverviewShare = 0.38f;  // share of the width beside the controls
+
+// ImGui takes a size of 0 for "as large as the content", and textures need a pixel.
+Area AtLeastAPixel(const Area& area) {
+  return {area.x, area.y, std::max(area.width, 1.0f), std::max(area.height, 1.0f)};
+}
+Layout AtLeastAPixel(const Layout& layout) {
+  return {AtLeastAPixel(layout.top), AtLeastAPixel(layout.side), AtLeastAPixel(layout.picture),
+          AtLeastAPixel(layout.overview), AtLeastAPixel(layout.status)};
+}
+
+}  // namespace
+
+Layout EditorLayout(float width, float height, float scale) {
+  const float top = kTopHeight * scale, status = kStatusHeight * scale;
+  const float side = std::min(kSideWidth * scale, 0.4f * width);
+  const float middle = std::max(1.0f, height - top - status);
+  const float overview = std::floor(kOverviewShare * (width - side));
+  const float gap = std::max(1.0f, std::floor(scale));  // between the pictures
+  return AtLeastAPixel(Layout{{0, 0, width, top},
+                              {0, top, side, middle},
+                              {side, top, width - side - overview - gap, middle},
+                              {width - overview, top, overview, middle},
+                              {0, height - status, width, status}});
+}
+
+Layout PracticeLayout(float width, float height, float scale) {
+  const float side = std::min(kPracticeWidth * scale, 0.4f * width);
+  Layout layout;
+  layout.picture = {0, 0, width - side, height};
+  layout.side = {width - side, 0, side, height};
+  // In the corner that the round picture leaves free; 4:3.
+  const float outside = std::floor(kOutsideShare * std::min(width - side, height)),
+              edge = 8 * scale;
+  layout.overview = {edge, height - 0.75f * outside - edge, outside, 0.75f * outside};
+  return AtLeastAPixel(layout);
+}
+
+void TopBar(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "top", area, kBarWindow);
+  for (const char* id : {"new", "open", "save", "save-as"}) {
+    CommandButton(ui, state, id);
+    ImGui::SameLine();
+  }
+  ImGui::SameLine(0, ui.Px(22));
+  CommandButton(ui, state, "undo");
+  ImGui::SameLine();
+  CommandButton(ui, state, "redo");
+  ImGui::SameLine(0, ui.Px(22));
+  CommandButton(ui, state, "practise");
+  ImGui::SameLine(0, ui.Px(22));
+
+  // The scene's name, with a dot before it while there are changes that are not saved.
+  const std::string title_of_scene = state.document().scene.title;
+  const std::string name = title_of_scene.empty() ? "Untitled" : title_of_scene;
+  const std::string title = (state.history.IsSaved() ? "" : "• ") + name;
+  const float help = ImGui::GetFrameHeight() + ui.Px(12);
+  ImGui::AlignTextToFramePadding();
+  const float room = area.width - help - ui.Px(24) - ImGui::GetCursorPosX();
+  ImGui::PushClipRect(ImGui::GetCursorScreenPos(),
+                      {ImGui::GetCursorScreenPos().x + std::max(room, 1.0f), area.y + area.height},
+                      true);
+  ImGui::TextUnformatted(title.c_str());
+  ImGui::PopClipRect();
+  ui.widgets.RecordText(title);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", state.history.IsSaved()
+                                ? name.c_str()
+                                : (name + ": changed since it was saved").c_str());
+  ImGui::SameLine(area.width - help - ui.Px(12));
+  CommandButton(ui, state, "help", {help, 0});
+}
+
+void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice) {
+  const FixedWindow window(ui, "status", area, kBarWindow);
+  // Work under way stands on the right, unless the page says it already.
+  const bool depth = DepthIsUnderWay(state);
+  const bool on_page = ShowsFootage(state) && FootageIsUnderWay(state) &&
+                       state.steps.panorama->footage_job.makes_panorama;
+  const bool work = (state.jobs.busy() || depth) && !on_page;
+  const float left = ui.Px(12), half = 0.5f * (area.width - 2 * left);
+  ShortenedText(ui, state.message, state.message, work ? half - ui.Px(22) : 2 * half);
+  if (!notice.empty()) {
+    ui.widgets.RecordText(notice);
+    ImGui::SameLine(0, ui.Px(22));
+    ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
+    ImGui::TextUnformatted(notice.c_str());
+    ImGui::PopStyleColor();
+  }
+
+  if (!work) return;
+  const std::string words = state.jobs.busy() ? state.jobs.words() : "Depth";
+  const double done =
+      state.jobs.busy() ? state.jobs.done() : state.steps.depth->preview_jobs.done();
+  const float bar = ui.Px(160), stop = ui.Px(64), rest = bar + stop + ui.Px(44);
+  const float text = std::min(ImGui::CalcTextSize(words.c_str()).x, half - rest);
+  ImGui::SameLine(area.width - rest - text);
+  ShortenedText(ui, words, words, text + 1);
+  ImGui::SameLine();
+  ImGui::ProgressBar(static_cast<float>(done), {bar, ImGui::GetTextLineHeight()});
+  if (!state.jobs.busy()) return;
+  ImGui::SameLine();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.Px(6), 0});
+  if (Button(ui, "Stop", true, {stop, 0})) state.jobs.Stop();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,150 @@
+// The looks of the file browser (app/platform/file_browser_model.h).
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "app/editor/panels/panels.h"
+#include "app/state/command.h"
+
+namespace arthro::app {
+namespace {
+
+// Asks before an old file is lost.
+enum class Answer { kNone, kYes, kNo };
+Answer AskOverwrite(Ui& ui, const BrowseDialog& dialog) {
+  ColouredText(ui,
+               "\"" + dialog.model.accepted().filename().string() +
+                   "\" is already there. Saving replaces it.",
+               kWarning);
+  const bool yes = Button(ui, "Replace", true, {ui.Px(120), 0});
+  ImGui::SameLine();
+  const bool no = Button(ui, "Keep it", true, {ui.Px(120), 0});
+  return yes ? Answer::kYes : no ? Answer::kNo : Answer::kNone;
+}
+
+// Rows of what is in the folder. True when a double-click chose one.
+bool Entries(Ui& ui, FileBrowserModel& model) {
+  bool accepted = false;
+  std::optional<std::filesystem::path> enter;
+  if (ImGui::BeginTable("entries", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ui.Px(90));
+    for (const FileEntry& entry : model.entries()) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      const std::string name = entry.name() + (entry.is_folder ? "/" : "");
+      const bool chosen = entry.name() == model.file_name;
+      if (ImGui::Selectable(
+              name.c_str(), chosen,
+              ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
+        model.Select(entry);
+        if (ImGui::IsMouseDoubleClicked(0)) {
+          if (entry.is_folder)
+            enter = entry.path;
+          else
+            accepted = true;
+        }
+      }
+      RecordItem(ui, name);
+      ImGui::TableNextColumn();
+      if (!entry.is_folder) QuietText(ui, WordsForBytes(entry.bytes));
+    }
+    ImGui::EndTable();
+  }
+  if (enter) {
+    model.GoTo(*enter);
+    model.file_name.clear();
+  }
+  return accepted;
+}
+
+}  // namespace
+
+void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
+  FileBrowserModel& model = dialog.model;
+  Heading(ui, dialog.title);
+  const bool enter = DialogKeyPressed(GLFW_KEY_ENTER);
+
+  // Current folder, and ways to leave it.
+  if (Button(ui, "Up")) model.GoUp();
+  ImGui::SameLine();
+  if (Button(ui, "Home"))
+    if (const char* home = std::getenv("HOME")) model.GoTo(home);
+  ImGui::SameLine();
+  if (Button(ui, "New folder…")) dialog.asks_folder_name = !dialog.asks_folder_name;
+  ImGui::SameLine();
+  bool hidden = model.shows_hidden();
+  if (Checkbox(ui, "Hidden files", hidden)) model.ShowHidden(hidden);
+  bool made_folder = false;
+  if (dialog.asks_folder_name) {
+    ImGui::SetNextItemWidth(ui.Px(300));
+    ImGui::InputTextWithHint("##new folder", "Name of the new folder", &dialog.new_folder);
+    RecordItem(ui, "New folder's name", true, dialog.new_folder, WidgetKind::kText);
+    const bool typed = ImGui::IsItemDeactivated() && enter;
+    ImGui::SameLine();
+    if (Button(ui, "Make it") || typed) {
+      made_folder = true;
+      if (model.CreateFolder(dialog.new_folder)) {
+        dialog.asks_folder_name = false;
+        dialog.new_folder.clear();
+      }
+    }
+  }
+  QuietText(ui, model.folder().string());
+
+  // The list takes what the lines below it leave.
+  const float line = ImGui::GetFrameHeightWithSpacing();
+  const float foot =
+      2.2f * line + (dialog.asks_overwrite ? 2 * line : 0) + (model.problem().empty() ? 0 : line);
+  ImGui::BeginChild("list", {0, -foot}, false);
+  bool accept = Entries(ui, model);
+  ImGui::EndChild();
+
+  const float filter = model.filters().size() > 1 ? ui.Px(150) : 0;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - filter - (filter > 0 ? ui.Px(8) : 0));
+  ImGui::InputTextWithHint("##name", "Name", &model.file_name);
+  RecordItem(ui, "File name", true, model.file_name, WidgetKind::kText);
+  if (ImGui::IsItemDeactivated() && enter) accept = true;
+  if (filter > 0) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(filter);
+    const std::string& shown = model.filters()[model.filter()].words;
+    const bool open = ImGui::BeginCombo("##filter", shown.c_str());
+    RecordItem(ui, "Kind of file", true, shown, WidgetKind::kCombo);
+    if (open) {
+      for (std::size_t i = 0; i < model.filters().size(); ++i) {
+        if (ImGui::Selectable(model.filters()[i].words.c_str(), i == model.filter()))
+          model.SetFilter(i);
+        RecordItem(ui, model.filters()[i].words);
+      }
+      ImGui::EndCombo();
+    }
+  }
+  if (!model.problem().empty()) ColouredText(ui, model.problem(), kWarning);
+
+  Acceptance acceptance = Acceptance::kNothing;
+  if (dialog.asks_overwrite) {
+    const Answer answer = AskOverwrite(ui, dialog);
+    if (answer == Answer::kYes) acceptance = model.AcceptOverwrite();
+    if (answer != Answer::kNone) dialog.asks_overwrite = false;
+  }
+  if (Button(ui, dialog.accept_words, !model.file_name.empty(), {ui.Px(120), 0})) accept = true;
+  ImGui::SameLine();
+  if (model.purpose() == BrowseFor::kOpenFileOrFolder) {
+    if (Button(ui, "Use this folder", true, {ui.Px(160), 0}, "All pictures in it become the clip."))
+      acceptance = model.AcceptFolder();
+    ImGui::SameLine();
+  }
+  const bool cancel =
+      Button(ui, "Cancel", true, {ui.Px(120), 0}) || DialogKeyPressed(GLFW_KEY_ESCAPE);
+  if (accept && !made_folder && acceptance == Acceptance::kNothing) acceptance = model.Accept();
+  if (acceptance == Acceptance::kOverwrite) dialog.asks_overwrite = true;
+  if (acceptance != Acceptance::kDone && !cancel) return;
+
+  // The dialog goes first, so that what follows may put up another one.
+  const BrowseDialog taken = std::get<BrowseDialog>(std::move(state.dialogs.back()));
+  state.dialogs.pop_back();
+  if (!cancel) Guarded(state, taken.title, [&] { taken.then(state, taken.model.accepted()); });
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,104 @@
+// All keys and mouse actions, made from the lists that they are made from.
+#include <cstring>
+#include <string>
+
+#include <imgui.h>
+
+#include "app/editor/panels/panels.h"
+#include "app/state/command.h"
+#include "app/steps/practice/hand_motion.h"
+
+namespace arthro::app {
+namespace {
+
+void Row(Ui& ui, const std::string& keys, const std::string& words) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ColouredText(ui, keys, kAccent);
+  ImGui::TableNextColumn();
+  Text(ui, words);
+}
+
+bool BeginRows(Ui& ui, const char* name) {
+  if (!ImGui::BeginTable(name, 2)) return false;
+  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, ui.Px(210));
+  ImGui::TableSetupColumn("words", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+}  // namespace
+
+void HelpWindow(Ui& ui, EditorState& state) {
+  Heading(ui, "Keys and mouse");
+  const float foot = ImGui::GetFrameHeightWithSpacing() + ui.Px(6);
+  ImGui::BeginChild("help", {0, -foot});
+  Heading(ui, "Over the picture");
+  if (BeginRows(ui, "mouse")) {
+    Row(ui, "Drag", "Swing the scope");
+    Row(ui, "Wheel", "Scope deeper, or back");
+    Row(ui, "Shift+wheel", "Roll the scope");
+    Row(ui, "Right drag", "Swing the instrument");
+    Row(ui, "Ctrl+wheel", "Instrument deeper, or back");
+    Row(ui, "Ctrl+Shift+wheel", "Roll the instrument");
+    ImGui::EndTable();
+  }
+  Gap(ui);
+  Heading(ui, "Over the overview");
+  if (BeginRows(ui, "overview mouse")) {
+    Row(ui, "Drag", "Turn it");
+    Row(ui, "Wheel or right drag", "Nearer, or further");
+    Row(ui, "Middle drag", "Shift it");
+    Row(ui, "Drag the box", "Move the chosen tissue");
+    Row(ui, "Shift+drag the box", "Turn the chosen tissue");
+    Row(ui, "Right drag the box", "Make it larger, or smaller");
+    ImGui::EndTable();
+  }
+  Gap(ui);
+  Heading(ui, "On the footage's board");
+  if (BeginRows(ui, "footage")) {
+    Row(ui, "Left, Right", "Frame before, or next");
+    Row(ui, "Page up, Page down", "Ten frames back, or on");
+    Row(ui, "Space, double-click", "Use this frame, or leave it out");
+    Row(ui, "Escape", "Back to the panorama");
+    Row(ui, "Wheel, drag", "Look closer, shift; double-click shows all");
+    ImGui::EndTable();
+  }
+  Gap(ui);
+  Heading(ui, "Hands, while a key is held");
+  if (BeginRows(ui, "hands")) {
+    for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);
+    Row(ui, "C", "Close the jaws, run the shaver");
+    Row(ui, "V", "Dead-man switch: the devices may push");
+    ImGui::EndTable();
+  }
+  QuietText(ui, "Arrow and page keys move the scope after a click on the picture.");
+  Gap(ui);
+
+  // Commands, under the headings of their groups.
+  const char* group = "";
+  bool in_table = false;
+  for (const Command& command : state.commands) {
+    const std::string keys = WordsOf(command.shortcut);
+    if (keys.empty()) continue;
+    if (std::strcmp(group, command.group) != 0) {
+      if (in_table) ImGui::EndTable(), Gap(ui);
+      group = command.group;
+      Heading(ui, group);
+      in_table = BeginRows(ui, group);
+      if (!in_table) return ImGui::EndChild();
+    }
+    const std::string other = WordsOf(command.other_shortcut);
+    Row(ui, keys + (other.empty() ? "" : " or " + other), command.help);
+  }
+  if (in_table) ImGui::EndTable(), Gap(ui);
+  Heading(ui, "Anywhere");
+  if (BeginRows(ui, "anywhere")) {
+    Row(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");
+    Row(ui, "Ctrl+click a slider", "Type its number");
+    Row(ui, "?", "This page");
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,62 @@
+// The pages of the window: free functions over the editor's state, which they change only through
+// app/commands. They compute nothing.
+#pragma once
+
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "app/panels/fixed_window.h"
+#include "app/state/editor_state.h"
+#include "simulation/scope/arthroscope.h"
+
+namespace arthro::app {
+
+// ---- Where things are, in window coordinates. ----
+struct Layout {
+  Area top, side, picture, overview, status;
+};
+Layout EditorLayout(float width, float height, float scale);
+Layout PracticeLayout(float width, float height, float scale);
+
+// ---- The pages. Each fills its area. ----
+void TopBar(Ui& ui, EditorState& state, const Area& area);
+// `notice`: what the pictures could not show as given.
+void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
+void StepsPanel(Ui& ui, EditorState& state, const Area& area);
+void Dialogs(Ui& ui, EditorState& state);
+
+// ---- Dialogs with much in them. ----
+void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog
+void HelpWindow(Ui& ui, EditorState& state);
+
+// ---- The pictures. `texture` is an OpenGL texture with its first row at the bottom. ----
+struct PictureInput {
+  bool hovered = false, focused = false;
+  glm::dvec2 scope_drag{0.0}, instrument_drag{0.0};  // share of the picture's width, down positive
+  double wheel = 0;                                  // notches, away from the user positive
+  bool shift = false, ctrl = false;
+};
+// The square picture of the scope, as large as the area lets it be.
+PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned texture);
+// Pixels a side that the scope's picture fills there.
+int ScopePictureSize(const Ui& ui, const EditorState& state, const Area& area);
+
+struct OverviewInput {
+  bool hovered = false, owned = false;  // owned: a drag that began here goes on
+  glm::dvec2 pointer{0.0};              // in the picture, px from its top left
+  bool pressed[3] = {false, false, false}, released[3] = {false, false, false};
+  double wheel = 0;
+  bool shift = false, ctrl = false;
+};
+OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture);
+// The same in a corner of the scope's picture.
+OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture);
+
+// Moves the hand by what the user did over the picture. True when something moved.
+bool ApplyPictureInput(EditorState& state, const PictureInput& input,
+                       const simulation::ScopeView& view, double field_of_view);
+bool ApplyHeldKeys(EditorState& state, bool picture_has_focus, double seconds);
+
+}  // namespace arthro::app

@@ -1,0 +1,99 @@
+// The author's steps as a list, with the controls of the chosen one below it.
+#include <imgui.h>
+
+#include "app/editor/panels/panels.h"
+#include "app/files/scene_files.h"
+#include "app/panels/fixed_window.h"
+#include "app/state/command.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/panorama/panorama_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/tissue_step.h"
+
+namespace arthro::app {
+namespace {
+
+struct StepEntry {
+  Step step;
+  const char* command;
+  const char* number;
+};
+constexpr StepEntry kSteps[] = {{Step::kPanorama, "step-panorama", "1"},
+                                {Step::kDepth, "step-depth", "2"},
+                                {Step::kTissue, "step-tissue", "3"},
+                                {Step::kPortals, "step-portals", "4"},
+                                {Step::kPractice, "step-practice", "5"}};
+
+void StepList(Ui& ui, EditorState& state) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.Px(8), ui.Px(2)});
+  for (const StepEntry& entry : kSteps) {
+    const Command& command = CommandOf(state, entry.command);
+    const bool chosen = state.step == entry.step;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    if (ImGui::Selectable((std::string("##") + command.words).c_str(), chosen, 0, {0, height}))
+      Run(state, command);
+    RecordItem(ui, command.words, true, chosen ? "on" : "off");
+    Tooltip(ui, (std::string(command.help) + " (" + WordsOf(command.shortcut) + ")").c_str());
+    // Number and name over the row.
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const float y = corner.y + 0.5f * (height - ImGui::GetTextLineHeight());
+    draw->AddText({corner.x + ui.Px(8), y}, chosen ? kAccent : kQuiet, entry.number);
+    draw->AddText(ui.fonts.text, ImGui::GetFontSize(), {corner.x + ui.Px(30), y},
+                  ImGui::GetColorU32(ImGuiCol_Text), command.words);
+  }
+  ImGui::PopStyleVar();
+}
+
+// The file that was worked on lately, as a row that opens it.
+void RecentList(Ui& ui, EditorState& state) {
+  const auto recent = state.recent.Existing();
+  if (recent.empty()) return;
+  Gap(ui);
+  Heading(ui, "Recent scenes");
+  for (const auto& scene : recent) {
+    const auto folder =
+        scene.has_extension() && scene.filename() == "scene.json" ? scene.parent_path() : scene;
+    if (Button(ui, folder.filename().string() + "##" + scene.string(), !state.jobs.busy(),
+               {-FLT_MIN, 0}, scene.c_str()))
+      GuardUnsaved(state, "open another scene", [scene](EditorState& sure) {
+        Guarded(sure, "Open", [&] { OpenScene(sure, scene); });
+      });
+  }
+}
+
+}  // namespace
+
+void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(
+      ui, "steps", area,
+      kPageWindow | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  StepList(ui, state);
+  Gap(ui, 2);
+  ImGui::Separator();
+  Gap(ui, 2);
+
+  // Only the controls scroll; the list of steps stays in sight.
+  ImGui::BeginChild("controls", {0, 0}, false, 0);
+  switch (state.step) {
+    case Step::kPanorama:
+      PanoramaPanel(ui, state);
+      break;
+    case Step::kDepth:
+      DepthPanel(ui, state);
+      break;
+    case Step::kTissue:
+      TissuePanel(ui, state);
+      break;
+    case Step::kPortals:
+      PortalsPanel(ui, state);
+      break;
+    case Step::kPractice:
+      PracticeStepPanel(ui, state);
+      break;
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace arthro::app

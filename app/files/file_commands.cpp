@@ -1,0 +1,95 @@
+// Scenes and their files, undo.
+#include <GLFW/glfw3.h>
+
+#include "app/files/scene_files.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+void Quit(State& state) {
+  GuardUnsaved(state, "quit", [](State& sure) { sure.quit = true; });
+}
+
+const std::vector<FileFilter>& SceneFilters() {
+  static const std::vector<FileFilter> filters = {{"Scenes", {".json", ".arthro"}},
+                                                  {"All files", {}}};
+  return filters;
+}
+
+constexpr Command kCommands[] = {
+    {"new",
+     "New",
+     "Begin an empty scene.",
+     "Scene",
+     {GLFW_KEY_N, true},
+     {},
+     Idle,
+     [](State& state) {
+       GuardUnsaved(state, "begin a new scene", [](State& sure) {
+         StartDocument(sure, NewDocument(), true);
+         sure.step = Step::kPanorama;
+         sure.message = "A new scene. Import a panorama, or make one from a video.";
+       });
+     }},
+    {"open",
+     "Open…",
+     "Open a scene.",
+     "Scene",
+     {GLFW_KEY_O, true},
+     {},
+     Idle,
+     [](State& state) {
+       GuardUnsaved(state, "open another scene", [](State& sure) {
+         Browse(sure, BrowseFor::kOpenFile, "Open a scene", "Open", SceneFilters(), OpenScene);
+       });
+     }},
+    {"save",
+     "Save",
+     "Save the scene in its folder or file.",
+     "Scene",
+     {GLFW_KEY_S, true},
+     {},
+     [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
+     [](State& state) { SaveScene(state); }},
+    {"save-as",
+     "Save as…",
+     "Save the scene in another folder.",
+     "Scene",
+     {GLFW_KEY_S, true, true},
+     {},
+     [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
+     [](State& state) { SaveSceneAs(state); }},
+    {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
+    {"undo",
+     "Undo",
+     "Undo the last edit.",
+     "Edit",
+     {GLFW_KEY_Z, true},
+     {},
+     [](const State& state) { return InEditor(state) && state.history.CanUndo(); },
+     [](State& state) {
+       state.message = "Undone: " + state.history.UndoName();
+       state.history.Undo();
+     }},
+    {"redo",
+     "Redo",
+     "Redo the last edit that was undone.",
+     "Edit",
+     {GLFW_KEY_Z, true, true},
+     {GLFW_KEY_Y, true},
+     [](const State& state) { return InEditor(state) && state.history.CanRedo(); },
+     [](State& state) {
+       state.message = "Redone: " + state.history.RedoName();
+       state.history.Redo();
+     }},
+};
+
+}  // namespace
+
+std::span<const Command> FileCommands() { return kCommands; }
+
+}  // namespace arthro::app

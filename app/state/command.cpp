@@ -1,0 +1,60 @@
+#include "app/state/command.h"
+
+#include <stdexcept>
+#include <vector>
+
+#include <GLFW/glfw3.h>
+
+namespace arthro::app {
+
+std::string WordsOf(const Shortcut& shortcut) {
+  if (shortcut.key == 0) return "";
+  std::string words = std::string(shortcut.ctrl ? "Ctrl+" : "") + (shortcut.shift ? "Shift+" : "");
+  if (shortcut.key >= GLFW_KEY_F1 && shortcut.key <= GLFW_KEY_F12)
+    return words + "F" + std::to_string(shortcut.key - GLFW_KEY_F1 + 1);
+  switch (shortcut.key) {
+    case GLFW_KEY_ESCAPE:
+      return words + "Esc";
+    case GLFW_KEY_DELETE:
+      return words + "Delete";
+    case GLFW_KEY_HOME:
+      return words + "Home";
+    default:
+      return words + static_cast<char>(shortcut.key);
+  }
+}
+
+bool Always(const EditorState&) { return true; }
+bool InEditor(const EditorState& state) { return !state.practice && !state.practice_only; }
+bool Idle(const EditorState& state) { return InEditor(state) && !state.jobs.busy(); }
+bool HasPicture(const EditorState& state) {
+  return InEditor(state) && state.document().panorama != nullptr;
+}
+
+const Command& CommandOf(const EditorState& state, std::string_view id) {
+  for (const Command& command : state.commands)
+    if (id == command.id) return command;
+  throw std::logic_error("no command " + std::string(id));
+}
+
+void Guarded(EditorState& state, const std::string& title, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (error.code() == Code::kCancelled)
+      state.message = "Stopped.";
+    else
+      state.dialogs.push_back(ErrorDialog{title, error.what()});
+  } catch (const std::exception& fault) {
+    state.dialogs.push_back(ErrorDialog{title, DescribeFault(fault)});
+  }
+}
+
+void Run(EditorState& state, const Command& command) {
+  if (!command.enabled(state)) return;
+  Guarded(state, command.words, [&] { command.run(state); });
+}
+
+void Run(EditorState& state, std::string_view id) { Run(state, CommandOf(state, id)); }
+
+}  // namespace arthro::app

@@ -1,0 +1,46 @@
+// Everything a user can have done by a button, a key, a menu entry or a script line, in one list:
+// what it is called, what it does, which keys call it, when it can be called. The help page and the
+// shortcuts are made from this list.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "app/state/editor_state.h"
+
+namespace arthro::app {
+
+struct Shortcut {
+  int key = 0;  // GLFW_KEY_…; 0 none
+  bool ctrl = false, shift = false;
+};
+std::string WordsOf(const Shortcut& shortcut);  // "Ctrl+Shift+S"
+
+struct Command {
+  const char* id;     // "save-as"
+  const char* words;  // on its button: "Save as…"
+  const char* help;   // one sentence
+  const char* group;  // heading of the help page
+  Shortcut shortcut, other_shortcut = {};
+  bool (*enabled)(const EditorState&);
+  void (*run)(EditorState&);
+};
+
+const Command& CommandOf(const EditorState& state,
+                         std::string_view id);  // throws for an unknown id
+
+// ---- When a command can be called. ----
+bool Always(const EditorState& state);
+bool InEditor(const EditorState& state);
+bool Idle(const EditorState& state);  // and no work is under way
+bool HasPicture(const EditorState& state);
+
+// Runs it if it is enabled. An Error becomes a dialog with its sentence.
+void Run(EditorState& state, const Command& command);
+void Run(EditorState& state, std::string_view id);
+
+// Runs `action`; an Error becomes a dialog titled `title`, a cancelled job a message.
+void Guarded(EditorState& state, const std::string& title, const std::function<void()>& action);
+
+}  // namespace arthro::app

@@ -1,0 +1,64 @@
+// Dialogs of the window, as values, and the two that many commands open.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/platform/file_browser_model.h"
+
+namespace arthro::app {
+
+struct EditorState;
+
+struct ErrorDialog {
+  std::string title, sentence;
+};
+// Before a document with unsaved changes is left.
+struct GuardDialog {
+  std::string action;  // "open another scene"
+  std::function<void(EditorState&)> then;
+};
+// Before a scene is replaced that another program or window has changed since it was read here.
+struct ChangedOnDiskDialog {
+  std::filesystem::path place;
+  std::function<void(EditorState&)> then;
+};
+struct BrowseDialog {
+  std::string title, accept_words;
+  FileBrowserModel model;
+  std::function<void(EditorState&, const std::filesystem::path&)> then;
+  bool asks_overwrite = false, asks_folder_name = false;
+  std::string new_folder;
+};
+// A mesh file says nothing of its unit.
+struct UnitDialog {
+  std::filesystem::path surface;
+  std::string unit = "mm";
+};
+struct HelpDialog {};
+struct PracticeEndedDialog {
+  double seconds = 0;
+};
+// A copy of unsaved work was left by a program that ended (recovery/recovery_copy.h).
+struct RecoveryDialog {
+  std::string title, when;
+  std::filesystem::path folder;  // folder of the document; empty: it was never saved
+  std::function<void(EditorState&)> restore, discard;
+};
+using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,
+                            HelpDialog, PracticeEndedDialog, RecoveryDialog>;
+
+// Opens the file browser; `then` gets what was chosen.
+void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
+            const std::string& accept_words, std::vector<FileFilter> filters,
+            std::function<void(EditorState&, const std::filesystem::path&)> then,
+            const std::string& file_name = {});
+
+// Runs `then` now if all is saved; else asks: Save, Discard or Cancel.
+void GuardUnsaved(EditorState& state, const std::string& action,
+                  std::function<void(EditorState&)> then);
+
+}  // namespace arthro::app

@@ -1,0 +1,169 @@
+#include "app/state/edits.h"
+
+#include <cmath>
+
+#include "app/state/footage_optics.h"
+#include "app/state/same.h"
+#include "authoring/project/document_io.h"
+
+namespace arthro::app {
+namespace {
+
+std::string Key(const std::string& area, const std::string& what) { return area + "." + what; }
+
+// A name that no tissue has yet: "meniscus", "meniscus 2", …
+std::string FreeName(const Scene& scene, const std::string& wanted) {
+  const auto taken = [&](const std::string& name) {
+    for (const Tissue& tissue : scene.tissues)
+      if (tissue.name == name) return true;
+    return false;
+  };
+  std::string name = wanted.empty() ? "tissue" : wanted;
+  const std::string stem = name;
+  for (int number = 2; taken(name); ++number) name = stem + " " + std::to_string(number);
+  return name;
+}
+
+bool HasTissue(const EditorState& state, int tissue) {
+  return tissue >= 0 && tissue < static_cast<int>(state.document().scene.tissues.size());
+}
+
+}  // namespace
+
+void Edit(EditorState& state, const std::string& name, const std::string& merge_key,
+          const std::function<void(authoring::Document&)>& change) {
+  authoring::Document next = state.document();
+  change(next);
+  state.history.Push(std::move(next), name, merge_key);
+  state.message = name;
+}
+
+void SetTitle(EditorState& state, const std::string& title) {
+  if (title == state.document().scene.title) return;
+  Edit(state, "Change the title", "title", [&](auto& next) { next.scene.title = title; });
+}
+
+void SetAuthor(EditorState& state, const std::string& author) {
+  if (author == state.document().scene.author) return;
+  Edit(state, "Change the author", "author", [&](auto& next) { next.scene.author = author; });
+}
+
+void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what) {
+  if (SameBackdrop(backdrop, state.document().scene.backdrop)) return;
+  Edit(state, "Change " + what, Key("backdrop", what),
+       [&](auto& next) { next.scene.backdrop = backdrop; });
+}
+
+namespace {
+
+void PutPanorama(authoring::Document& document, const std::shared_ptr<const ColourImage>& panorama,
+                 const std::optional<Projection>& projection) {
+  const bool same_size = document.panorama && document.panorama->width == panorama->width &&
+                         document.panorama->height == panorama->height;
+  const bool keeps_depth = document.is_depth_imported && same_size && !projection;
+  if (projection)
+    document.scene.backdrop.projection = *projection;
+  else if (!same_size)
+    document.scene.backdrop.projection =
+        authoring::GuessProjection(panorama->width, panorama->height);
+  document.panorama = panorama;
+  document.scene.backdrop.panorama = "panorama.png";
+  if (keeps_depth) return;
+  document.scene.backdrop.depth = "depth.tiff";
+  document.depth = nullptr;
+  document.is_depth_imported = false;
+}
+
+}  // namespace
+
+void SetPanorama(EditorState& state, const std::string& name,
+                 const std::shared_ptr<const ColourImage>& panorama,
+                 const std::optional<Projection>& projection) {
+  Edit(state, name, "", [&](auto& next) { PutPanorama(next, panorama, projection); });
+}
+
+void SetPanorama(EditorState& state, const std::string& name,
+                 const std::shared_ptr<const ColourImage>& panorama, const Projection& projection,
+                 const Lens& lens, bool is_lens_guessed) {
+  Edit(state, name, "", [&](auto& next) {
+    PutPanorama(next, panorama, projection);
+    TakeFootageLens(next, lens, is_lens_guessed);
+  });
+}
+
+void SetIncisionSpacing(EditorState& state, double spacing) {
+  if (spacing == state.document().scene.portals.incision_spacing) return;
+  Edit(state, "Change the incision spacing", "incision_spacing",
+       [&](auto& next) { next.scene.portals.incision_spacing = spacing; });
+}
+
+void SetFieldOfView(EditorState& state, double field_of_view) {
+  if (field_of_view == state.document().scene.scope.field_of_view) return;
+  Edit(state, "Change the field of view", "field_of_view",
+       [&](auto& next) { next.scene.scope.field_of_view = field_of_view; });
+}
+
+void SetRelight(EditorState& state, double share) {
+  if (share == state.document().scene.backdrop.relight) return;
+  Edit(state, "Change the light", "relight",
+       [&](auto& next) { next.scene.backdrop.relight = share; });
+}
+
+void SetRodLength(EditorState& state, double rod_length) {
+  if (rod_length == state.document().scene.scope.rod_length) return;
+  Edit(state, "Change the scope's length", "rod_length", [&](auto& next) {
+    next.scene.scope.rod_length = rod_length;
+    next.scene.rig.scope.rod_length = rod_length;
+  });
+}
+
+void AddTissue(EditorState& state, Tissue tissue, std::shared_ptr<const SurfaceMesh> surface) {
+  tissue.name = FreeName(state.document().scene, tissue.name);
+  const std::string name = tissue.name;
+  Edit(state, "Add " + name, "", [&](auto& next) {
+    next.scene.tissues.push_back(std::move(tissue));
+    next.surfaces.push_back(std::move(surface));
+  });
+  state.tissue = static_cast<int>(state.document().scene.tissues.size()) - 1;
+}
+
+void RemoveTissue(EditorState& state, int tissue) {
+  if (!HasTissue(state, tissue)) return;
+  const auto index = static_cast<std::ptrdiff_t>(tissue);
+  Edit(state, "Remove " + state.document().scene.tissues[static_cast<std::size_t>(tissue)].name, "",
+       [&](auto& next) {
+         next.scene.tissues.erase(next.scene.tissues.begin() + index);
+         next.surfaces.erase(next.surfaces.begin() + index);
+       });
+  if (!HasTissue(state, state.tissue))
+    state.tissue = static_cast<int>(state.document().scene.tissues.size()) - 1;
+}
+
+void DuplicateTissue(EditorState& state, int tissue) {
+  if (!HasTissue(state, tissue)) return;
+  const auto index = static_cast<std::size_t>(tissue);
+  Tissue copy = state.document().scene.tissues[index];
+  copy.pose.position.x += 0.2 * state.document().scene.backdrop.radius;  // beside it, not inside it
+  AddTissue(state, std::move(copy), state.document().surfaces[index]);
+}
+
+void SetTissue(EditorState& state, int tissue, const Tissue& changed, const std::string& what) {
+  if (!HasTissue(state, tissue)) return;
+  const Tissue& old = state.document().scene.tissues[static_cast<std::size_t>(tissue)];
+  if (SamePose(changed.pose, old.pose) && changed.name == old.name &&
+      changed.material == old.material && changed.colour == old.colour &&
+      changed.mesh == old.mesh && changed.surface == old.surface &&
+      changed.elasticity == old.elasticity && changed.fixed == old.fixed &&
+      changed.probed == old.probed && changed.cuts == old.cuts && changed.regions == old.regions &&
+      changed.is_cuttable == old.is_cuttable && changed.is_implicit == old.is_implicit)
+    return;
+  Edit(state, what + " " + old.name, Key("tissue " + std::to_string(tissue), what),
+       [&](auto& next) { next.scene.tissues[static_cast<std::size_t>(tissue)] = changed; });
+}
+
+void EndDrag(EditorState& state) {
+  state.dragging = false;
+  state.history.EndMerge();
+}
+
+}  // namespace arthro::app

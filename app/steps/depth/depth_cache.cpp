@@ -1,0 +1,57 @@
+#include "app/steps/depth/depth_cache.h"
+
+#include <algorithm>
+
+#include "simulation/core/same_options.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr std::size_t kMostKept = 64;  // records, not maps
+
+}  // namespace
+
+void DepthCache::Note(const authoring::Document& document) {
+  if (document.is_depth_imported) return;  // it was made from nothing that is known here
+  std::erase_if(made_, [&](const Made& made) {
+    const auto panorama = made.panorama.lock();
+    return !panorama ||
+           (panorama == document.panorama && SameOptions(made.options, document.depth_options));
+  });
+  made_.push_back(
+      {document.panorama, document.depth_options, document.depth, document.depth != nullptr, ""});
+  if (made_.size() > kMostKept) made_.erase(made_.begin());
+}
+
+void DepthCache::Refuse(const authoring::Document& document, const std::string& reason) {
+  if (document.is_depth_imported) return;
+  Note(document);
+  made_.back().problem = reason;
+}
+
+std::string DepthCache::ProblemOf(const authoring::Document& document) const {
+  for (const Made& made : made_)
+    if (made.panorama.lock() == document.panorama &&
+        SameOptions(made.options, document.depth_options))
+      return made.problem;
+  return "";
+}
+
+bool DepthCache::IsStale(const authoring::Document& document) const {
+  if (!document.panorama || document.is_depth_imported) return false;
+  for (const Made& made : made_)
+    if (made.panorama.lock() == document.panorama && made.has_depth == bool(document.depth) &&
+        made.depth.lock() == document.depth && SameOptions(made.options, document.depth_options))
+      return false;
+  return true;
+}
+
+std::shared_ptr<const DepthMap> DepthCache::Find(const authoring::Document& document) const {
+  for (const Made& made : made_)
+    if (made.panorama.lock() == document.panorama &&
+        SameOptions(made.options, document.depth_options))
+      return made.depth.lock();
+  return nullptr;
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,46 @@
+// Step 2: keeps the document's depth map that of its panorama and options: a small preview while a
+// slider moves, the full map once it is let go, both in a thread of their own.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "app/state/command.h"
+#include "app/steps/depth/depth_cache.h"
+
+namespace arthro::app {
+
+struct Ui;
+
+struct DepthStep {
+  explicit DepthStep(std::function<void()> wake) : preview_jobs(std::move(wake)) {}
+
+  DepthCache cache;
+  Jobs preview_jobs;
+  authoring::DepthOptions in_work;  // options of the map that preview_jobs computes
+  std::function<void(EditorState&)> when_ready;
+};
+std::span<const Command> DepthCommands();
+void DepthPanel(Ui& ui, EditorState& state);
+
+// Nothing happens while the depth map is an imported one: MakeDepth says that it may be replaced.
+void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
+                     const std::string& what);
+// Puts a depth map that is made from the picture in the place of the imported one.
+void MakeDepth(EditorState& state);
+
+// Starts the work that is wanted, if any. Once a frame; returns at once.
+void KeepDepthFresh(EditorState& state);
+
+// Takes over what ended. Shows a fault beside the sliders, not in a dialog: the next value may
+// be valid. True when something changed.
+bool FinishDepth(EditorState& state);
+
+// The map is being made or is about to be.
+bool DepthIsUnderWay(const EditorState& state);
+
+// Runs `then` once the depth map is that of the options: now, or after the work.
+void WhenDepthIsReady(EditorState& state, std::function<void(EditorState&)> then);
+
+}  // namespace arthro::app

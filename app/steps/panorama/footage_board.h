@@ -1,0 +1,106 @@
+// The clip that a panorama is made from: thumbnails of its frames and the status of each, the
+// frames and options of the next run, and the result of the last run. Plain values; pictures are
+// shared since they are handed to textures and never changed. Frames are counted as in the report
+// of `arthroscene panorama`: from 0.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/steps/panorama/lens_choice.h"
+#include "app/steps/panorama/picture_zoom.h"
+#include "authoring/panorama/make_panorama.h"
+#include "simulation/scene/image.h"
+#include "simulation/scene/projection.h"
+
+namespace arthro::app {
+
+class FootageMail;
+
+using SharedPicture = std::shared_ptr<const ColourImage>;
+
+// Status of a frame. Unused: it was never tried, because it is blank, unreadable or one of too
+// many.
+enum class FrameStatus { kNotYet, kPlaced, kRejected, kSeparate, kUnused, kExcluded };
+
+struct FrameNote {
+  FrameStatus status = FrameStatus::kNotYet;
+  std::string reason;                        // why the frame is not placed
+  double rms_px = 0, expected_error_px = 0;  // errors of a placed frame
+};
+
+enum class FrameView { kRaw, kRectified, kEvenLight };
+
+// One frame at full size, each step of its preparation; null where there is none (yet).
+struct LargeFrame {
+  int frame = -1;
+  SharedPicture raw, rectified, even_light;
+  std::string problem;  // why one is missing
+};
+
+// A finished run.
+struct MadePanorama {
+  SharedPicture picture;  // black where nothing was imaged
+  SharedPicture shown;    // the same, small enough for the board
+  Projection projection;  // projection of `picture`
+  authoring::PanoramaReport report;
+  std::set<int> excluded;  // when it was made
+};
+
+// The stages' products, which the next run goes on from. Lent to one thread at a time: the run's,
+// or the one that fetches a frame's picture.
+struct LentSession {
+  std::timed_mutex mutex;
+  authoring::PanoramaSession session;
+};
+
+struct FootageBoard {
+  // The clip.
+  std::filesystem::path file;
+  std::string name;
+  int width = 0, height = 0;  // size of a frame, px
+  double frames_per_second = 0;
+  std::vector<SharedPicture> thumbs;  // one a frame; null until it was read
+
+  // Settings of the next run.
+  std::vector<LensChoice> lenses;  // the first one is "none"
+  int lens = 0;
+  authoring::PanoramaOptions options;
+  std::set<int> excluded;
+  std::string next_stage;  // first stage of the next run; empty when it would change nothing
+
+  // Report of the last run, or of the one under way.
+  std::vector<FrameNote> notes;          // one a frame
+  SharedPicture mosaic;                  // grows during a run
+  std::shared_ptr<LentSession> session;  // null before the first run; shared with the jobs
+  std::shared_ptr<const MadePanorama> made;
+
+  // Selection.
+  int selected = -1;  // -1: the mosaic
+  FrameView view = FrameView::kRaw;
+  bool compares = false;  // beside it, what it was before
+  PictureZoom zoom;
+  LargeFrame large;
+  bool wants_focus = true;  // so that keys walk through the frames at once
+  bool scroll_to_selected = false;
+
+  int frames() const { return static_cast<int>(thumbs.size()); }
+};
+
+// The note of a report's row.
+FrameNote NoteOf(const authoring::FrameReport& report, bool is_excluded);
+
+// Reading a clip or making its panorama, while the job goes on.
+struct FootageJob {
+  std::shared_ptr<FootageMail> mail;  // shared with the job's thread
+  bool makes_panorama = false;
+};
+
+// Status as it is shown: a frame that the user left out counts at once.
+FrameStatus StatusOf(const FootageBoard& board, int frame);
+
+}  // namespace arthro::app

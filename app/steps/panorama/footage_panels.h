@@ -1,0 +1,31 @@
+// The Panorama step's pages for footage: its controls beside, its pictures on the board. Free
+// functions over the editor's state, which they change only through app/commands.
+#pragma once
+
+#include <functional>
+
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
+#include "app/steps/panorama/panorama_step.h"
+
+namespace arthro::app {
+
+// Clip, lens, options, run and result.
+void FootagePanel(Ui& ui, EditorState& state);
+
+// The large picture, the line of all frames and the strip of small pictures. `texture` gives a
+// picture's OpenGL texture, first row at v = 0; it is asked for those in sight only.
+using TextureOf = std::function<unsigned(const SharedPicture&)>;
+void FootageBoardPage(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
+
+// ---- Parts of the board. ----
+unsigned ColourOf(FrameStatus status);   // 0xAABBGGRR
+const char* SignOf(FrameStatus status);  // so that colour is not all there is
+const char* WordOf(FrameStatus status);
+
+void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
+void FrameLine(Ui& ui, EditorState& state, const Area& area);  // one mark a frame, the whole clip
+void FrameStrip(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
+float FrameStripHeight(const Ui& ui);
+
+}  // namespace arthro::app

@@ -1,0 +1,74 @@
+// Import a panorama, or make one from footage.
+#include <vector>
+
+#include <GLFW/glfw3.h>
+
+#include "app/steps/panorama/footage_work.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+
+const std::vector<FileFilter>& PictureFilters() {
+  static const std::vector<FileFilter> filters = {
+      {"Pictures", {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}}, {"All files", {}}};
+  return filters;
+}
+
+constexpr Command kCommands[] = {
+    {"import-panorama",
+     "Import a panorama…",
+     "Make a picture the backdrop.",
+     "Scene",
+     {GLFW_KEY_I, true},
+     {},
+     Idle,
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Import a panorama", "Import", PictureFilters(),
+              ImportPanorama);
+     }},
+    {"make-panorama",
+     "Make one from a video…",
+     "Make a panorama from the frames of a video, or from a folder of pictures.",
+     "Scene",
+     {GLFW_KEY_M, true},
+     {},
+     Idle,
+     BrowseForFootage},
+    {"run-footage",
+     "Run",
+     "Make the panorama. The last one is kept until this one is complete.",
+     "Scene",
+     {GLFW_KEY_R, true},
+     {},
+     [](const State& state) { return InEditor(state) && CanRun(state); },
+     RunFootage},
+    {"use-panorama",
+     "Use this panorama",
+     "Make it the backdrop of the scene, and go to the Depth step.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) {
+       return Idle(state) && state.steps.panorama->footage && state.steps.panorama->footage->made;
+     },
+     UseMadePanorama},
+    {"read-report",
+     "Read its report…",
+     "Read the middle and focal length of the panorama from its report.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state); },
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Read a panorama's report", "Read",
+              {{"Reports", {".json"}}, {"All files", {}}}, ReadPanoramaReport);
+     }},
+};
+
+}  // namespace
+
+std::span<const Command> PanoramaCommands() { return kCommands; }
+
+}  // namespace arthro::app

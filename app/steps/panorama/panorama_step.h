@@ -1,0 +1,49 @@
+// Step 1: the picture that is the backdrop, imported or made from footage.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "app/state/command.h"
+#include "app/steps/panorama/footage_board.h"
+
+namespace arthro::app {
+
+struct Ui;
+
+// The panorama job as a function, so that tests can replace it.
+struct FootageMakers {
+  std::function<authoring::PanoramaResult(authoring::PanoramaSession&,
+                                          const authoring::PanoramaRequest&,
+                                          const authoring::PanoramaObserver&, const Progress&)>
+      run = [](authoring::PanoramaSession& session, const authoring::PanoramaRequest& request,
+               const authoring::PanoramaObserver& observer,
+               const Progress& progress) { return session.Run(request, observer, progress); };
+};
+
+struct PanoramaStep {
+  explicit PanoramaStep(std::function<void()> wake) : frame_jobs(std::move(wake)) {}
+
+  std::optional<FootageBoard> footage;
+  FootageJob footage_job;
+  bool shows_footage = false;  // the clip, not the backdrop
+  FootageMakers makers;
+  std::filesystem::path lens_folder;  // presets
+  Jobs frame_jobs;                    // one frame of the footage at full size
+};
+std::span<const Command> PanoramaCommands();
+void PanoramaPanel(Ui& ui, EditorState& state);
+
+// The footage's board is shown, instead of scope and overview.
+bool ShowsFootage(const EditorState& state);
+inline bool ShowsScope(const EditorState& state) { return !ShowsFootage(state); }
+
+// A picture becomes the backdrop; its projection is kept if the size is that of the old one.
+void ImportPanorama(EditorState& state, const std::filesystem::path& picture);
+// A panorama report says where the middle is and how many pixels a radian [method.md, File
+// formats].
+void ReadPanoramaReport(EditorState& state, const std::filesystem::path& report);
+
+}  // namespace arthro::app

@@ -1,0 +1,73 @@
+// Step 4: where the instrument comes in, and which scope looks.
+#include <imgui.h>
+
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/portals/portals_step.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+void Drag(EditorState& state, const Change& change) {
+  if (change.held) state.dragging = true;
+  if (change.released) EndDrag(state);
+}
+
+}  // namespace
+
+void PortalsPanel(Ui& ui, EditorState& state) {
+  const Scene scene = state.document().scene;  // a copy: edits below move it
+  Heading(ui, "Incisions");
+  double spacing_mm = MmFromMetres(scene.portals.incision_spacing);
+  Change change = Slider(ui, "Incision spacing", spacing_mm, -80, 80, "%.1f mm",
+                         "From the scope's portal to the instrument's; negative when the "
+                         "instrument enters on the left. Ctrl+click to type.");
+  if (change) SetIncisionSpacing(state, MetresFromMm(spacing_mm));
+  Drag(state, change);
+
+  Gap(ui);
+  Heading(ui, "Scope");
+  QuietText(ui, "View angle");
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * ui.Px(6)) / 4;
+  int column = 0;
+  for (const int degrees : {0, 30, 70, 90}) {
+    if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
+    const bool chosen = std::abs(scene.scope.view_angle - RadiansFromDegrees(degrees)) < 1e-6;
+    const Command& command = CommandOf(state, "view-" + std::to_string(degrees));
+    if (ToggleButton(ui, command.words, chosen, true, {width, 0}, command.help))
+      Run(state, command);
+  }
+  double field_deg = DegreesFromRadians(scene.scope.field_of_view);
+  change = Slider(ui, "Field of view", field_deg, 30, 150, "%.0f°",
+                  "Angle from edge to edge of the round picture.");
+  if (change) SetFieldOfView(state, RadiansFromDegrees(field_deg));
+  Drag(state, change);
+  double length_mm = MmFromMetres(scene.scope.rod_length);
+  change = Slider(
+      ui, "Length of the scope", length_mm, 100, 400, "%.0f mm",
+      "Distance from the hand to the lens. A longer scope needs larger movements of the hand.");
+  if (change) SetRodLength(state, MetresFromMm(length_mm));
+  Drag(state, change);
+
+  Gap(ui);
+  Heading(ui, "Light");
+  double relight = 100 * scene.backdrop.relight;
+  change =
+      Slider(ui, "Lamp of the scope", relight, 0, 100, "%.0f %%",
+             "0: the light of the footage. 100: that light is evened out, and the scope's own lamp "
+             "lights near tissue, with wet highlights.");
+  if (change) SetRelight(state, relight / 100);
+  Drag(state, change);
+  if (scene.backdrop.relight > 0 && !state.document().depth)
+    QuietText(ui, "The lamp needs a depth map. Make one in the Depth step.");
+  const bool is_relit = scene.backdrop.relight > 0 && state.document().depth;
+  if (ToggleButton(
+          ui, "As filmed", is_relit && state.steps.portals->shows_as_filmed, is_relit, {},
+          "Show the picture with the light of the footage, to compare. Nothing is changed."))
+    state.steps.portals->shows_as_filmed = !state.steps.portals->shows_as_filmed;
+}
+
+}  // namespace arthro::app

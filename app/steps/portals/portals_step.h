@@ -1,0 +1,20 @@
+// Step 4: where the instrument comes in, and which scope looks.
+#pragma once
+
+#include <span>
+
+#include "app/state/command.h"
+
+namespace arthro::app {
+
+struct Ui;
+
+struct PortalsStep {
+  bool shows_as_filmed = false;  // the footage's light, to compare
+};
+std::span<const Command> PortalsCommands();
+void PortalsPanel(Ui& ui, EditorState& state);
+
+void SetViewAngle(EditorState& state, double view_angle);  // rad; in practice the session's
+
+}  // namespace arthro::app

@@ -1,0 +1,295 @@
+// Step 5 in the editor, and the panel beside the large picture while a practice runs.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
+#include "app/state/command.h"
+#include "app/steps/practice/film.h"
+#include "app/steps/practice/practice_step.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+// Above it tissue is hurt; marked on the bar, which goes on a little.
+constexpr double kForceOfHarm = simulation::kSafeProbingForce;
+constexpr double kForceOfFullBar = 10.0;  // N
+constexpr double kForceOfCare = 3.0;      // N: amber from here
+
+constexpr double kButton = 44;  // px; a thumb hits it
+
+std::string ClockWords(double seconds) {
+  const int whole = static_cast<int>(seconds);
+  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+}
+
+std::string ContactWords(const EditorState& state, int contact) {
+  if (contact == simulation::kNoContact) return "nothing";
+  if (contact == simulation::kBackdropContact) return "joint surface";
+  const auto& tissues = state.document().scene.tissues;
+  const auto index = static_cast<std::size_t>(contact - 1);
+  return index < tissues.size() ? tissues[index].name : "tissue";
+}
+
+// Advice to the trainee about a hand that gets no force.
+const char* FaultWords(simulation::Fault fault) {
+  switch (fault) {
+    case simulation::Fault::kNone:
+      return "";
+    case simulation::Fault::kNoSample:
+      return "No force: the device gives no position.";
+    case simulation::Fault::kStale:
+      return "No force: the device pauses.";
+    case simulation::Fault::kLost:
+      return "No force: the device is lost; check its cable.";
+    case simulation::Fault::kNotFinite:
+      return "No force: the device sent something unreadable.";
+    case simulation::Fault::kTooFar:
+      return "No force: the device reports that the hand is metres away.";
+    case simulation::Fault::kTooFast:
+      return "No force: the hand is too fast; slow down.";
+    case simulation::Fault::kNotArmed:
+      return "No force: hold the dead-man of the device.";
+    case simulation::Fault::kTissue:
+      return "No force: the tissue was reset.";
+  }
+  return "";
+}
+
+void ForceBar(Ui& ui, double force, double peak) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(26);
+  const auto at = [&](double newton) {
+    return corner.x + width * static_cast<float>(std::clamp(newton / kForceOfFullBar, 0.0, 1.0));
+  };
+  const unsigned colour = force < kForceOfCare ? kGood : force < kForceOfHarm ? kWarning : kBad;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(corner, {corner.x + width, corner.y + height},
+                      ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
+  if (force > 0)
+    draw->AddRectFilled(corner, {std::max(at(force), corner.x + ui.Px(3)), corner.y + height},
+                        colour, ui.Px(4));
+  // The largest force so far as a line, and where care begins as a thin one.
+  draw->AddLine({at(kForceOfCare), corner.y}, {at(kForceOfCare), corner.y + height}, kQuiet,
+                ui.Px(1));
+  draw->AddLine({at(kForceOfHarm), corner.y}, {at(kForceOfHarm), corner.y + height}, kBad,
+                ui.Px(2));
+  if (peak > 0)
+    draw->AddLine({at(peak), corner.y}, {at(peak), corner.y + height}, 0xFFFFFFFF, ui.Px(2));
+  ImGui::Dummy({width, height});
+  RecordItem(ui, "Force bar", true, fmt::format("{:.2f} N", force), WidgetKind::kShown);
+}
+
+// Only the regions that something was taken of.
+void TakenByRegion(Ui& ui, const EditorState& state, const simulation::BodyPicture& body) {
+  const auto& tissue = state.document().scene.tissues[static_cast<std::size_t>(body.tissue)];
+  for (std::size_t i = 0; i < body.cut.by_region.size(); ++i)
+    if (const double mm3 = body.cut.by_region[i] * 1e9; mm3 >= 0.05)
+      QuietText(ui, fmt::format("{:.1f} mm³ of {}, {}", mm3, tissue.name,
+                                i < tissue.regions.size() ? tissue.regions[i].name : kElsewhere));
+}
+
+double Taken(const EditorState& state) {
+  double removed = 0;
+  if (const auto* world = state.practice->tissues())
+    for (const auto& body : world->bodies) removed += body.cut.removed;
+  return removed;
+}
+
+// Commands side by side, each as wide as its words ask; lit while what they stand for is on.
+void CommandRow(Ui& ui, EditorState& state,
+                std::initializer_list<std::pair<const char*, bool>> row) {
+  const float gap = ui.Px(6), count = static_cast<float>(row.size());
+  float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
+  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(state, id).words).x;
+  bool is_first = true;
+  for (const auto& [id, is_on] : row) {
+    if (!is_first) ImGui::SameLine(0, gap);
+    is_first = false;
+    const Command& command = CommandOf(state, id);
+    const float width = ImGui::CalcTextSize(command.words).x + spare / count;
+    const std::string keys = WordsOf(command.shortcut);
+    const std::string tip = command.help + (keys.empty() ? keys : " (" + keys + ")");
+    if (ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)},
+                     tip.c_str()))
+      Run(state, command);
+  }
+}
+
+// How the camera's head is held, and by how much it was turned from there.
+void CameraHead(Ui& ui, EditorState& state) {
+  const double turn = DegreesFromRadians(state.steps.practice->head.turn);
+  QuietText(ui, std::abs(turn) < 0.5 ? std::string("Camera head (T, U; G and H turn it)")
+                                     : fmt::format("Camera head, turned {:.0f}° to the {}",
+                                                   std::abs(turn), turn < 0 ? "left" : "right"));
+  ImGui::PushButtonRepeat(true);
+  CommandRow(ui, state,
+             {{"head-with-scope", !state.steps.practice->head.is_upright},
+              {"head-upright", state.steps.practice->head.is_upright},
+              {"head-left", false},
+              {"head-right", false}});
+  ImGui::PopButtonRepeat();
+}
+
+// Instrument in the hand, and the volume that was removed.
+void Instruments(Ui& ui, EditorState& state) {
+  QuietText(ui, "Instrument (C closes or runs it)");
+  using simulation::ToolKind;
+  const ToolKind kind = state.practice->instrument_kind();
+  CommandRow(ui, state,
+             {{"instrument-probe", kind == ToolKind::kProbe},
+              {"instrument-punch", kind == ToolKind::kPunch},
+              {"instrument-shaver", kind == ToolKind::kShaver},
+              {"instrument-grasper", kind == ToolKind::kGrasper}});
+  const auto* world = state.practice->tissues();
+  if (world == nullptr) return;
+  const double removed = Taken(state);
+  int debris = 0;
+  for (const auto& body : world->bodies) debris += body.cut.debris;
+  Text(ui, debris == 0 ? fmt::format("{:.1f} mm³ removed", removed * 1e9)
+                       : fmt::format("{:.1f} mm³ removed, {} loose piece{}", removed * 1e9, debris,
+                                     debris == 1 ? "" : "s"));
+  for (const auto& body : world->bodies) TakenByRegion(ui, state, body);
+}
+
+// A lit dot and how long the film is, at the right of a line of text whose top is `top`; under it
+// how many pictures were left out.
+void FilmMark(Ui& ui, const EditorState& state, float top) {
+  if (!state.steps.practice->film) return;
+  const ImVec2 back = ImGui::GetCursorPos();
+  const float left = ui.Px(190);
+  ImGui::SetCursorPos({left + ui.Px(18), top});
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ColouredText(ui,
+               state.steps.practice->film->is_ending()
+                   ? std::string("Writing the film")
+                   : "Recording " + ClockWords(FilmSeconds(state)),
+               kBad);
+  ImGui::GetWindowDrawList()->AddCircleFilled(
+      {corner.x - ui.Px(11), corner.y + 0.5f * ImGui::GetTextLineHeight()}, ui.Px(6), kBad);
+  if (const int left_out = state.steps.practice->film->left_out(); left_out > 0) {
+    ImGui::SetCursorPosX(left);
+    QuietText(ui, fmt::format("{} picture{} left out", left_out, left_out == 1 ? "" : "s"));
+  }
+  ImGui::SetCursorPos(back);
+}
+
+// Results of the last film and of the trainee's screen. Returns whether there was any.
+bool ScreenNews(Ui& ui, const EditorState& state) {
+  const std::string& of_screen = state.steps.practice->trainee_screen.words;
+  if (!of_screen.empty()) QuietText(ui, of_screen);
+  if (state.steps.practice->film || state.steps.practice->film_words.empty())
+    return !of_screen.empty();
+  if (state.steps.practice->is_film_lost)
+    ColouredText(ui, state.steps.practice->film_words, kWarning);
+  else
+    QuietText(ui, state.steps.practice->film_words);
+  return true;
+}
+
+// Devices that a rig names and that are missing. Returns whether there was any message.
+bool MissingDevices(Ui& ui, const EditorState& state) {
+  bool is_any = state.steps.practice->hands->is_zero_force();
+  for (const auto role : {simulation::DeviceRole::kScope, simulation::DeviceRole::kInstrument})
+    if (const std::string sentence = state.steps.practice->hands->Missing(role); !sentence.empty())
+      ColouredText(ui, sentence, kWarning), is_any = true;
+  if (state.steps.practice->hands->is_zero_force())
+    ColouredText(ui, "Zero-force mode: no device pushes. Press 0 to end it.", kWarning);
+  return is_any;
+}
+
+}  // namespace
+
+void PracticeStepPanel(Ui& ui, EditorState& state) {
+  if (state.steps.practice->shows_devices) return DevicesPanel(ui, state);
+  Text(ui, "Practise in the scene as it stands. Esc brings you back to exactly this place.");
+  Gap(ui);
+  CommandButton(ui, state, "practise", {-FLT_MIN, ui.Px(48)});
+  CommandButton(ui, state, "devices", {-FLT_MIN, ui.Px(48)});
+  MissingDevices(ui, state);
+  Gap(ui);
+  QuietText(ui,
+            "Drag over the picture to swing the scope; turn the wheel to move it in and out. The "
+            "right button moves the instrument. Press ? for all keys.");
+}
+
+void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "practice", area, kPageWindow);
+  const auto& practice = *state.practice;
+  const auto& instrument = practice.snapshot().instrument;
+  const double force = glm::length(instrument.tip_force);
+
+  const std::string title = state.document().scene.title;
+  Heading(ui, title.empty() ? "Practice" : title);
+  const float top = ImGui::GetCursorPosY();
+  QuietText(ui, "Time");
+  LargeText(ui, ClockWords(practice.snapshot().t));
+  FilmMark(ui, state, top);
+
+  QuietText(ui, "Force on the tissue");
+  LargeText(ui, fmt::format("{:.2f} N", force),
+            force < kForceOfCare   ? kBright
+            : force < kForceOfHarm ? kWarning
+                                   : kBad);
+  ForceBar(ui, force, practice.peak_force());
+  QuietText(ui, fmt::format("largest so far {:.2f} N (white line); harm above {:.1f} N (red line)",
+                            practice.peak_force(), kForceOfHarm));
+  Gap(ui);
+  QuietText(ui, "The instrument touches");
+  Heading(ui, ContactWords(state, instrument.contact));
+  if (instrument.fault != simulation::Fault::kNone)
+    ColouredText(ui, FaultWords(instrument.fault), kWarning);
+
+  Gap(ui);
+  const auto& pose = practice.snapshot().scope.pose;
+  QuietText(ui, fmt::format("Scope: {:.0f}° view angle, {:.1f} mm deep",
+                            DegreesFromRadians(practice.view_angle()), MmFromMetres(pose.depth)));
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * ui.Px(6)) / 4;
+  int column = 0;
+  for (const int degrees : {0, 30, 70, 90}) {
+    if (column++ > 0) ImGui::SameLine(0, ui.Px(6));
+    const Command& command = CommandOf(state, "view-" + std::to_string(degrees));
+    const bool chosen = std::abs(practice.view_angle() - RadiansFromDegrees(degrees)) < 1e-6;
+    if (ToggleButton(ui, command.words, chosen, true, {width, ui.Px(kButton)}, command.help))
+      Run(state, command);
+  }
+  Gap(ui);
+  CameraHead(ui, state);
+  Gap(ui);
+  Instruments(ui, state);
+  Gap(ui);
+  const bool is_disturbed = state.steps.practice->disturbing.now.is_any();
+  if (Taken(state) > 0)
+    CommandRow(ui, state,
+               {{"reset-hands", false}, {"disturbances", is_disturbed}, {"reset-tissues", false}});
+  else
+    CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}});
+  Gap(ui);
+  // Missing devices are more urgent than the hint, and there is room for one of them.
+  if (!MissingDevices(ui, state) && !ScreenNews(ui, state))
+    QuietText(
+        ui,
+        "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
+
+  // At the foot, where it is not pressed by chance.
+  const float foot = 2 * ui.Px(kButton) + ui.Px(22);
+  const float free = ImGui::GetContentRegionAvail().y - foot;
+  if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
+  CommandRow(ui, state,
+             {{"record", state.steps.practice->film != nullptr},
+              {"outside", state.steps.practice->shows_outside},
+              {"full-screen", state.full_screen},
+              {"help", false}});
+  CommandRow(ui, state,
+             {{"trainee-screen", state.steps.practice->trainee_screen.is_wanted},
+              {"devices", false},
+              {"leave-practice", false}});
+}
+
+}  // namespace arthro::app

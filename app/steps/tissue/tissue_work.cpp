@@ -1,0 +1,101 @@
+#include "app/steps/tissue/tissue_work.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "app/state/edits.h"
+#include "authoring/tissue/mesh_budget.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/mesh_io.h"
+#include "simulation/scope/arthroscope.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A tissue's name as a file may bear it.
+std::string FileNameOf(const std::string& name) {
+  std::string file;
+  for (const char c : name)
+    file += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+  return file.empty() ? "tissue" : file;
+}
+
+}  // namespace
+
+void BrowseForSurface(EditorState& state) {
+  Browse(state, BrowseFor::kOpenFile, "Import a surface", "Import",
+         {{"Surfaces", {".stl", ".obj", ".ply", ".off", ".vtp"}}, {"All files", {}}},
+         [](EditorState& now, const fs::path& file) { now.dialogs.push_back(UnitDialog{file}); });
+}
+
+void ImportSurface(EditorState& state, const fs::path& file, const std::string& unit) {
+  const double metres_per_unit = MetresPerUnit(unit).value_or(1.0);
+  state.jobs.Start("Import " + file.filename().string(), [file, metres_per_unit](const Progress&) {
+    SurfaceMesh mesh = ReadSurface(file, metres_per_unit);
+    // Its own origin becomes its middle, so that turning turns it on the spot.
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const auto& x : mesh.vertices) low = glm::min(low, x), high = glm::max(high, x);
+    const glm::dvec3 middle = 0.5 * (low + high);
+    for (auto& x : mesh.vertices) x -= middle;
+    auto surface = std::make_shared<const SurfaceMesh>(std::move(mesh));
+    return [file, surface](EditorState& now) {
+      Tissue tissue;
+      tissue.name = file.stem().string();
+      // In front of the scope, where it is seen at once.
+      const Scene& scene = now.document().scene;
+      const auto view = simulation::ViewFromPose(now.scope, scene.scope.view_angle);
+      tissue.pose.position = view.tip + 0.35 * scene.backdrop.radius * view.view;
+      AddTissue(now, std::move(tissue), surface);
+      now.step = Step::kTissue;
+    };
+  });
+}
+
+void TetrahedraliseTissue(EditorState& state) {
+  const int index = state.tissue;
+  const authoring::Document& document = state.document();
+  const Tissue tissue = document.scene.tissues.at(static_cast<std::size_t>(index));
+  const auto surface = document.surfaces.at(static_cast<std::size_t>(index));
+  if (!surface) return;
+  authoring::MeshWish wish;
+  wish.elements = authoring::BudgetOf(state.steps.tissue->mesh_size).elements;
+  wish.fixed = tissue.fixed;
+  wish.probed = tissue.probed;
+  // Kept beside the window until the scene is saved; saving copies it into the scene's folder.
+  const fs::path file = state.scratch.path() / (FileNameOf(tissue.name) + ".vtu");
+  state.jobs.Start("Make tetrahedra of " + tissue.name, [=](const Progress& progress) {
+    authoring::SurfaceSource source;
+    source.file = tissue.name;
+    source.unit = "mm";
+    source.metres_per_unit = kMetrePerMillimetre;
+    authoring::TetrahedralizeReport report;
+    const TetMesh mesh =
+        authoring::TetrahedralizeToBudget(*surface, source, wish, &report, progress);
+    WriteTetMesh(file, mesh);
+    return [=](EditorState& now) {
+      // The list may have changed meanwhile.
+      const auto& tissues = now.document().scene.tissues;
+      const auto found = std::find_if(tissues.begin(), tissues.end(),
+                                      [&](const Tissue& t) { return t.name == tissue.name; });
+      if (found == tissues.end()) return;
+      const auto at = static_cast<std::size_t>(found - tissues.begin());
+      if (now.document().surfaces[at] != surface) return;
+      Edit(now, "Make tetrahedra of " + tissue.name, "", [&](authoring::Document& next) {
+        const std::string name = "tissues/" + file.filename().string();
+        next.scene.tissues[at].mesh = name;
+        next.scene.tissues[at].is_implicit = false;  // it gives way now
+        next.files[name].file = file;
+      });
+      now.message = fmt::format("{}: {} curved tetrahedra, volume off by {:.1f} %", tissue.name,
+                                report.elements, 100 * report.volume_error);
+    };
+  });
+}
+
+}  // namespace arthro::app
