@@ -33,8 +33,8 @@ constexpr PatchTable kTable = MakeTable();
 
 using Cell = std::array<int, 3>;
 
-// A patch's vertex: the mean of its crossings, then along the gradient onto the zero of the
-// trilinear interpolation, in parts of the cell.
+// Computes a patch's vertex in units of the cell: the mean of its crossings, moved along the
+// gradient onto the zero of the trilinear interpolation.
 glm::dvec3 VertexOf(const std::array<double, 8>& value, const CellPatches& patches, int patch) {
   glm::dvec3 sum(0.0);
   int crossings = 0;
@@ -72,7 +72,7 @@ glm::dvec3 VertexOf(const std::array<double, 8>& value, const CellPatches& patch
 
 }  // namespace
 
-// Reads cells of a field.
+// Read access to the cells of a field.
 class FieldSkin::Cells {
  public:
   explicit Cells(const SolidField& field)
@@ -90,7 +90,7 @@ class FieldSkin::Cells {
       configuration |= (Value({c[0] + (n & 1), c[1] + (n >> 1 & 1), c[2] + (n >> 2)}) < 0) << n;
     return configuration;
   }
-  // The patches of a cell, with the faces joined that its neighbour agrees to join.
+  // Returns the patches of a cell; a face is joined only if the neighbour agrees.
   CellPatches Patches(const Cell& c, int configuration) const {
     const int touching = kTable.touching[static_cast<std::size_t>(configuration)];
     if (touching == 0) return kTable.patches[static_cast<std::size_t>(configuration)];
@@ -123,7 +123,7 @@ class FieldSkin::Cells {
         for (int i = brick[0] * kBrick; i < end[0]; ++i) visit(Cell{i, j, k});
   }
 
-  // How many cells it looked at.
+  // Computes the vertices of a brick and returns the number of cells visited.
   long MakeVertices(const Cell& at, Brick& brick) const {
     long looked = 0;
     brick.vertices.clear();
@@ -152,7 +152,8 @@ class FieldSkin::Cells {
     return looked;
   }
 
-  // Edges belong to the brick of the cell whose lowest node is their lower end.
+  // Builds the quads of a brick; an edge belongs to the brick of the cell whose lowest node is its
+  // lower end.
   void MakeQuads(const std::vector<Brick>& bricks, const Cell& at, Brick& brick) const {
     brick.quads.clear();
     ForEach(at, [&](const Cell& node) {
@@ -161,7 +162,7 @@ class FieldSkin::Cells {
         Cell end = node;
         ++end[a];
         if ((Value(end) < 0) == is_solid) continue;
-        // The four cells about the edge, counter-clockwise seen from its upper end.
+        // Lists the four cells around the edge, counter-clockwise seen from its upper end.
         const std::size_t u = (a + 1) % 3, v = (a + 2) % 3;
         std::array<Corner, 4> quad;
         for (std::size_t q = 0; q < 4; ++q) {
@@ -209,8 +210,8 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
   const auto versions = field.brick_versions();
   const auto has_changed = [&](const Cell& b) { return is_new || versions[index(b)] > version_; };
 
-  // Bricks to redo: those that changed, and those beside one that may have agreed with it to join
-  // a face.
+  // Bricks to redo: those that changed, and neighbours that may have agreed to join a face with
+  // them.
   std::vector<Cell> redo, relink;
   std::vector<unsigned char> is_redone(bricks_.size(), 0);
   for_each_brick([&](const Cell& b) {
@@ -226,7 +227,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
     redo.push_back(b);
     is_redone[index(b)] = 1;
   });
-  // Triangles lie in bricks that reach back one cell to redone ones.
+  // Triangles of a brick also use vertices of the bricks that follow it by one cell.
   for_each_brick([&](const Cell& b) {
     for (int n = 0; n < 8; ++n) {
       const Cell other = {b[0] - (n & 1), b[1] - (n >> 1 & 1), b[2] - (n >> 2)};
@@ -254,7 +255,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
   }
   for (const Cell& b : relink) cells.MakeQuads(bricks_, b, bricks_[index(b)]);
 
-  // One surface of all bricks' pieces, in the bricks' order.
+  // Concatenates the parts of all bricks in brick order.
   surface_.vertices.clear();
   surface_.triangles.clear();
   previous_.clear();
@@ -270,7 +271,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
         previous_.push_back(old_first + static_cast<int>(v));
       continue;
     }
-    // In a redone brick the vertices of cells in which nothing moved are the same, too.
+    // In a redone brick, vertices of unchanged cells keep their index too.
     previous_.resize(surface_.vertices.size(), -1);
     const Brick& was = old[r++];
     if (brick.first_vertex.empty() || was.first_vertex.empty()) continue;
@@ -292,8 +293,8 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
                                surface_.vertices[static_cast<std::size_t>(v[p])];
         return glm::dot(way, way);
       };
-      // Along the shorter diagonal. The two cells at its ends share this grid edge alone, so no
-      // other triangle has that diagonal.
+      // Splits the quad along the shorter diagonal. The two cells at its ends share this grid edge
+      // only, so no other triangle has that diagonal.
       if (length2(0, 2) <= length2(1, 3)) {
         surface_.triangles.push_back({v[0], v[1], v[2]});
         surface_.triangles.push_back({v[0], v[2], v[3]});
