@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t kHeld = 7;
 
-// Far from an obstacle its gap may be an estimate (along a ray, not across): half of it is safe.
+// Usable fraction of a large gap, which may be an estimate along a ray instead of the distance.
 constexpr double kTrusted = 0.5;
 
 }  // namespace
