@@ -55,7 +55,7 @@ BodyReport ImplicitBody::Step(const WorldTool& tool, double dt) noexcept {
     const Capsule& bite = tool.shape.bite;
     report.was_cut =
         CutWith({body_from_tool * bite.a, body_from_tool * bite.b, bite.radius}, cut, time);
-  } catch (const std::exception&) {  // out of memory: soon whole again, and it is said
+  } catch (const std::exception&) {  // no memory: restored soon, and reported
     is_lost_ = report.was_reset = true;
   }
   report.is_asleep = !report.was_cut && !report.was_reset;
@@ -97,7 +97,7 @@ bool ImplicitBody::CutWith(const Capsule& tool, ToolCut cut, double time) {
   return true;
 }
 
-// Outside of what changed, and a spacing around it, vertices have the normals that they had.
+// Recomputes normals in the changed box and one spacing around it; the others stay.
 void ImplicitBody::TakeSkin(const Box3& changed) {
   const double around = now_.field().spacing();
   const Box3 turned{changed.low - around, changed.high + around};

@@ -7,8 +7,8 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kOpened = 0.5, kClosed = 0.15;  // shares of the jaws' opening: ready, bitten
-constexpr int kShaveEvery = 6;  // steps; what is shaved is taken ten times a second
+constexpr double kOpened = 0.5, kClosed = 0.15;  // fraction of the jaws' opening: ready, bitten
+constexpr int kShaveEvery = 6;  // steps; a shaver removes volume ten times per second
 
 }  // namespace
 
