@@ -17,7 +17,7 @@ double MsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-// Accuracy comes before time here.
+// Limits chosen for accuracy rather than time.
 constexpr int kMostNewton = 50, kMostIterations = 2000;
 
 SetResults SetsOf(const TetMesh& mesh, std::span<const glm::dvec3> x,
@@ -45,7 +45,7 @@ CaseResult RunCase(const TissueCase& c, const Progress& progress) {
   const std::size_t nodes = mesh.rest_positions.size();
   progress.Step("factoring", 0.0);
 
-  // What is held, led and loaded.
+  // Collects fixed, displaced and loaded nodes.
   FixedAxes fixed(nodes, 0);
   std::vector<glm::dvec3> target = mesh.rest_positions, load(nodes, glm::dvec3(0.0));
   for (const CaseFixed& one : c.fixed)
