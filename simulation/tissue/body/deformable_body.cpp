@@ -51,8 +51,8 @@ std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder&
                                      EmbedSkin(spec.surface, spec.mesh, finder), field, nullptr);
 }
 
-std::shared_ptr<const FemModel> ModelOf(const TetMesh& mesh, std::span<const double> share,
-                                        const Material& material, const FemModel* before) {
+std::shared_ptr<const FemModel> MakeModel(const TetMesh& mesh, std::span<const double> share,
+                                          const Material& material, const FemModel* before) {
   if (before == nullptr || before->mesh().elements != mesh.elements ||
       before->mesh().rest_positions != mesh.rest_positions)
     return std::make_shared<const FemModel>(mesh, material, share);
@@ -66,7 +66,7 @@ std::shared_ptr<const FemModel> ModelOf(const TetMesh& mesh, std::span<const dou
 BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
                      EmbeddedSkin carried, const SolidField& field, const FemModel* before)
     : mesh(std::move(elements)),
-      model(ModelOf(mesh, share, spec.material, before)),
+      model(MakeModel(mesh, share, spec.material, before)),
       fixed(FixedBy(spec.fixed, mesh)),
       skin(std::move(carried)),
       skin_contact(skin, mesh, field, spec.material.young_modulus),
@@ -93,13 +93,13 @@ DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
                             spec.fixed.size()));
   state.x = spec.mesh.rest_positions;
   state.v.assign(state.x.size(), glm::dvec3(0.0));
-  MakeRoom();
+  ResizeBuffers();
   taken.by_region.assign(spec.regions.empty() ? 0 : spec.regions.size() + 1, 0.0);
   if (!spec.cuts.empty()) MakeAuthorsCuts();
 }
 
 // Resizes everything that has one entry per node of the shape or per vertex of the skin.
-void DeformableBody::Impl::MakeRoom() {
+void DeformableBody::Impl::ResizeBuffers() {
   load.assign(state.x.size(), glm::dvec3(0.0));
   contacts.reserve(state.x.size() + placed.size() * kMaxToolContacts);
   results.resize(contacts.capacity());
@@ -108,7 +108,7 @@ void DeformableBody::Impl::MakeRoom() {
   since_good = 0;
   positions.resize(shape->skin.rest.vertices.size());
   normals.resize(positions.size());
-  lies_on = nullptr;
+  known_obstacle = nullptr;
   MoveSkin();
 }
 
@@ -220,10 +220,10 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   const std::size_t of_tools = own.contacts.size();
   report.contacts = static_cast<int>(of_tools);
   if (obstacle != nullptr) {
-    if (obstacle != own.lies_on)
-      own.shape->rest_contact.LayAtRest(*obstacle, own.spec.portal_from_body,
-                                        own.shape->mesh.rest_positions);
-    own.lies_on = obstacle;
+    if (obstacle != own.known_obstacle)
+      own.shape->rest_contact.AcceptRestOverlap(*obstacle, own.spec.portal_from_body,
+                                                own.shape->mesh.rest_positions);
+    own.known_obstacle = obstacle;
     own.shape->rest_contact.Find(*obstacle, own.spec.portal_from_body, own.state.x, own.on_obstacle,
                                  own.contacts);
   }
@@ -285,7 +285,7 @@ void DeformableBody::TakeRefresh() noexcept {
   impl_->is_refreshing = false;
 }
 
-void DeformableBody::WhenCut(std::function<void()> finish) {
+void DeformableBody::SetBeforeCut(std::function<void()> finish) {
   impl_->finish_refresh = std::move(finish);
 }
 

@@ -93,7 +93,7 @@ class DeformableBody {
   void TakeRefresh() noexcept;
   // Sets a function that is called before a cut, which needs a new factor at once. It waits for a
   // factor in preparation elsewhere and takes it.
-  void WhenCut(std::function<void()> finish);
+  void SetBeforeCut(std::function<void()> finish);
 
   void Reset();  // to the untouched state: the author's cuts stay
   // Returns true after a cut ran out of memory: the body must not be shown. It becomes whole again

@@ -166,7 +166,7 @@ bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double
     PlacedTool& tool = placed[i];
     if (tool.count == 0) continue;
     double time = 0;
-    const ToolCut cut_now = CutOf(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
+    const ToolCut cut_now = TriggerCut(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
     if (cut_now != ToolCut::kNone) was_cut |= CutWith(tool.bite, cut_now == ToolCut::kShave, time);
   }
   return was_cut;
@@ -242,7 +242,7 @@ bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double d
                        : SubtractDeformed(field, box, place_of, distance);
   if (edit.changed.empty()) return false;
   // Washes away small fragments that are no longer held.
-  const CrumbReport gone = WashAway(field, spec.fixed);
+  const CrumbReport gone = RemoveDebris(field, spec.fixed);
   edit.changed = Union(edit.changed, gone.edit.changed);
   taken.removed += edit.removed + gone.edit.removed;
   taken.debris += gone.crumbs;
@@ -272,7 +272,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
       is_new[v] = 0;
       skin.rest.vertices[v] = shape->skin.rest.vertices[static_cast<std::size_t>(before)];
     }
-  LayOnto(cut->uncut, field, is_new, skin.rest);
+  ProjectOnto(cut->uncut, field, is_new, skin.rest);
   std::vector<int> element_of(skin.rest.vertices.size());
   skin.point.resize(element_of.size());
   for (std::size_t v = 0; v < element_of.size(); ++v) {
@@ -309,7 +309,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
     moved.v.push_back(state.v[k]);
   }
   state = std::move(moved);
-  MakeRoom();
+  ResizeBuffers();
 }
 
 }  // namespace arthro::simulation

@@ -83,7 +83,7 @@ struct DeformableBody::Impl {
   // Updates elements, state, solver and skin after the field changed within `box`.
   void FollowField(const Box3& box);
   // Resizes everything that has one entry per node of the shape or per vertex of the skin.
-  void MakeRoom();
+  void ResizeBuffers();
   // Returns the box at rest of the elements near the tool and flags them in cut->is_near.
   Box3 RestBoxOf(const Capsule& tool);
   // Computes the present position of a field node; false: far from the tool, or no tissue.
@@ -99,7 +99,7 @@ struct DeformableBody::Impl {
   CutReport taken;
   ImplicitSolver solver;
   ObstacleContactOptions on_obstacle;
-  const RigidObstacle* lies_on = nullptr;  // obstacle that shape->rest_contact knows
+  const RigidObstacle* known_obstacle = nullptr;  // obstacle that shape->rest_contact knows
   BodyState state, good;
   std::vector<glm::dvec3> load, positions, normals;
   std::vector<ContactPoint> contacts;

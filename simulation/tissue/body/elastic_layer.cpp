@@ -164,7 +164,7 @@ Value At(const Curve& xs, const Curve& ys, const Curve& slopes, double before, d
 
 // Estimates unknown slopes of samples from the parabola through the neighbours.
 template <class Curve>
-Curve SlopesOf(const Curve& xs, const Curve& ys) {
+Curve EstimateSlopes(const Curve& xs, const Curve& ys) {
   Curve slopes{};
   for (std::size_t i = 0; i < xs.size(); ++i) {
     const std::size_t m = std::clamp<std::size_t>(i, 1, xs.size() - 2);
@@ -240,9 +240,9 @@ ElasticLayer::ElasticLayer(const Material& material, double thickness) : thickne
     log_line_force_[i] = std::log(line.force);
     line_force_slope_[i] = line.kappa * line.depth / line.force;
   }
-  line_radius_slope_ = SlopesOf(log_line_depth_, log_radius_);
-  kappa_slope_ = SlopesOf(log_radius_, log_kappa_);
-  radius_slope_ = SlopesOf(log_depth_, log_radius_);
+  line_radius_slope_ = EstimateSlopes(log_line_depth_, log_radius_);
+  kappa_slope_ = EstimateSlopes(log_radius_, log_kappa_);
+  radius_slope_ = EstimateSlopes(log_depth_, log_radius_);
 }
 
 LayerTouch ElasticLayer::PressFlat(double radius, double depth) const noexcept {

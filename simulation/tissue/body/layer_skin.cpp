@@ -20,8 +20,8 @@ constexpr int kSweeps = 16;     // per frame; each starts from the previous answ
 
 // Returns the distance from x along `way` (unit) at which the ray leaves the capsule; 0: x is
 // outside. Bisects, because a capsule is convex.
-double ExitOf(const Capsule& capsule, const glm::dvec3& x, const glm::dvec3& way,
-              double most) noexcept {
+double ExitDistance(const Capsule& capsule, const glm::dvec3& x, const glm::dvec3& way,
+                    double most) noexcept {
   const glm::dvec3 axis = capsule.b - capsule.a;
   const double length2 = glm::dot(axis, axis);
   const auto is_in = [&](const glm::dvec3& p) noexcept {
@@ -119,7 +119,7 @@ void LayerSkin::Press(std::span<const Capsule> capsules, double depth) noexcept 
     moved_.push_back(static_cast<int>(i));
     least_[i] = 0.0;
     for (std::size_t piece = 0; piece < pieces; ++piece)
-      least_[i] = std::max(least_[i], ExitOf(tool[piece], rest[i], -rest_normals_[i], most));
+      least_[i] = std::max(least_[i], ExitDistance(tool[piece], rest[i], -rest_normals_[i], most));
   }
   Relax();
   for (int v : moved_) {

@@ -25,7 +25,7 @@ void TakeShape(const Body& body, BodyPicture& shown) {
 }
 
 // Creates a body and adds its name to errors.
-DeformableBody Made(BodySpec spec, const BodyOptions& options) {
+DeformableBody MakeBody(BodySpec spec, const BodyOptions& options) {
   const std::string name = spec.name;
   try {
     return DeformableBody(std::move(spec), options);
@@ -128,8 +128,8 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
     : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
-    impl_->bodies.push_back({Made(std::move(spec), options), {}, 0});
-    impl_->bodies.back().body.WhenCut([own = impl_.get()] { own->FinishRefresh(); });
+    impl_->bodies.push_back({MakeBody(std::move(spec), options), {}, 0});
+    impl_->bodies.back().body.SetBeforeCut([own = impl_.get()] { own->FinishRefresh(); });
   }
   for (LayerSpec& layer : layers) impl_->layers.push_back({LayerSkin(std::move(layer)), 0});
   impl_->implicit = std::move(implicit);

@@ -24,18 +24,18 @@ struct CutTrigger {
 
 // Returns the cut of a step. Jaws that were open and close bite once. A running shaver cuts ten
 // times per second, for the `time` since its last cut.
-ToolCut CutOf(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigger,
-              double& time) noexcept;
+ToolCut TriggerCut(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigger,
+                   double& time) noexcept;
 
-// Removes small fragments that none of the balls (field's frame) holds, as WashAway. Without a ball
-// the largest piece is held.
-struct WashReport {
+// Removes small fragments that none of the balls (field's frame) holds, as RemoveDebris. Without a
+// ball the largest piece is held.
+struct LooseReport {
   CrumbReport gone;
   int pieces = 0;  // remaining pieces
 };
-WashReport WashAwayLoose(SolidField& field, std::span<const Ball> fixed);
+LooseReport RemoveLoosePieces(SolidField& field, std::span<const Ball> fixed);
 
 // Returns a flag per vertex: 1 on faces made by cuts.
-std::vector<std::uint8_t> FreshIn(const SurfaceMesh& skin, const SolidField& field);
+std::vector<std::uint8_t> MarkFreshVertices(const SurfaceMesh& skin, const SolidField& field);
 
 }  // namespace arthro::simulation

@@ -86,8 +86,8 @@ LayerUnder::LayerUnder(const SurfaceMesh& surface, const Rigid3& portal_from_sur
     half_way = std::max(half_way, -static_cast<double>(value));
 }
 
-LayerForce ForceOfLayers(std::span<const LayerUnder> layers, std::span<const Capsule> tool,
-                         const glm::dvec3& tip) noexcept {
+LayerForce ComputeLayerForce(std::span<const LayerUnder> layers, std::span<const Capsule> tool,
+                             const glm::dvec3& tip) noexcept {
   Sum sum;
   sum.all.clear = std::numeric_limits<double>::max();
   double most = 0.0;
@@ -144,7 +144,7 @@ LayerHold HoldOnLayers(std::span<const LayerUnder> layers, std::span<const Capsu
   if (layers.empty() || tool.empty() || !(stiffness > 0.0) || !is_known) return hold;
   // Newton's method from the previous position, in steps that cannot skip a layer.
   glm::dvec3 x = before;
-  LayerForce at = ForceOfLayers(layers, tool, x);
+  LayerForce at = ComputeLayerForce(layers, tool, x);
   glm::dvec3 excess = stiffness * (held - x) + at.force;
   for (int i = 0; i < kSteps && glm::length(excess) > kBalanced; ++i) {
     glm::dvec3 step = glm::inverse(glm::dmat3(stiffness) + at.stiffness) * excess;
@@ -152,7 +152,7 @@ LayerHold HoldOnLayers(std::span<const LayerUnder> layers, std::span<const Capsu
     if (length > most) step *= most / length;
     bool is_nearer = false;
     for (int halving = 0; halving <= kHalvings && !is_nearer; ++halving, step *= 0.5) {
-      const LayerForce next = ForceOfLayers(layers, tool, x + step);
+      const LayerForce next = ComputeLayerForce(layers, tool, x + step);
       const glm::dvec3 left = stiffness * (held - x - step) + next.force;
       // A tool that is too deep moves out whatever the residual.
       is_nearer = at.is_through || (glm::length(left) < glm::length(excess) && !next.is_through);

@@ -42,8 +42,8 @@ struct LayerForce {
   bool is_through = false;    // at the depth limit
 };
 // `tool` holds its capsules with the tip at the origin.
-LayerForce ForceOfLayers(std::span<const LayerUnder> layers, std::span<const Capsule> tool,
-                         const glm::dvec3& tip) noexcept;
+LayerForce ComputeLayerForce(std::span<const LayerUnder> layers, std::span<const Capsule> tool,
+                             const glm::dvec3& tip) noexcept;
 
 struct LayerHold {
   glm::dvec3 tip{0.0};    // equilibrium position

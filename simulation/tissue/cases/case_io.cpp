@@ -139,12 +139,12 @@ class CaseReader {
                          "fixed is empty: nothing holds the body, so that it has no equilibrium; "
                          "name a set to hold"});
     if (!faults_.empty()) return;
-    RefuseTwoWills();
+    RefuseConflicts();
     if (!case_.is_dynamic) RequireHeld();
   }
 
   // Refuses nodes that are both fixed and displaced, or displaced to two places.
-  void RefuseTwoWills() {
+  void RefuseConflicts() {
     const auto shared = [&](const std::string& a, const std::string& b) {
       int count = 0;
       for (std::size_t i = 0; i < case_.mesh.rest_positions.size(); ++i)

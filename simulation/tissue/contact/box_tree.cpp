@@ -23,7 +23,7 @@ struct Placed {
 // Sorts the items along a Morton curve, items of one cell by index. A radix sort is used because a
 // cut rebuilds a tree of about 33,000 triangles within a frame. Splitting at medians took seven
 // times as long and gave queries of the same speed on a crescent's skin.
-std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
+std::vector<Placed> SortAlongCurve(std::span<const Box3> boxes) {
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const Box3& box : boxes) {
     low = glm::min(low, Centre(box));
@@ -64,7 +64,7 @@ std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
 BoxTree::BoxTree(std::span<const Box3> boxes) : items_(boxes.size()) {
   if (boxes.empty()) return;
   std::vector<std::uint32_t> code(boxes.size());
-  const std::vector<Placed> along = AlongCurve(boxes);
+  const std::vector<Placed> along = SortAlongCurve(boxes);
   for (std::size_t i = 0; i < along.size(); ++i) {
     items_[i] = along[i].item;
     code[i] = along[i].code;

@@ -37,7 +37,7 @@ class BoxTree {
 
   // Leaves in item order, for callers that compute shared data once per leaf.
   int leaf_count() const noexcept { return static_cast<int>(leaf_.size()); }
-  std::span<const int> ItemsOf(int leaf) const noexcept {
+  std::span<const int> LeafItems(int leaf) const noexcept {
     const Node& node = nodes_[static_cast<std::size_t>(leaf_[static_cast<std::size_t>(leaf)])];
     return {items_.data() + node.next, static_cast<std::size_t>(node.count)};
   }
@@ -63,7 +63,7 @@ class BoxTree {
     RefitLeaves([&](int leaf) noexcept {
       Box3 box{glm::dvec3(std::numeric_limits<double>::max()),
                glm::dvec3(std::numeric_limits<double>::lowest())};
-      for (const int i : ItemsOf(leaf)) {
+      for (const int i : LeafItems(leaf)) {
         const Box3 item = box_of(i);
         box = {glm::min(box.low, item.low), glm::max(box.high, item.high)};
       }

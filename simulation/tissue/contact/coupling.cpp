@@ -55,12 +55,12 @@ glm::dvec3 AtMost(const glm::dvec3& across, double most) noexcept {
 }
 
 // Returns the fraction of the force left after a time without a new coupling.
-double FadeOf(const CouplingBlend& blend) noexcept {
+double FadeFactor(const CouplingBlend& blend) noexcept {
   return std::clamp(1.0 - (blend.passed - kSilence) / kFade, 0.0, 1.0);
 }
 
 // Blends `from` and its remainder into `to`.
-CoupledForce Mixed(const CouplingBlend& blend, const glm::dvec3& tip) noexcept {
+CoupledForce EvaluateBlend(const CouplingBlend& blend, const glm::dvec3& tip) noexcept {
   CoupledForce now = ForceOf(blend.to, tip);
   if (blend.share >= 1.0) return now;
   const CoupledForce before = ForceOf(blend.from, tip);
@@ -159,7 +159,8 @@ void TakeCoupling(CouplingBlend& blend, const ToolCoupling& coupling) noexcept {
     blend.left = glm::dvec3(0.0);
   } else {
     // Starts from the force that is felt: after silence that is little or nothing.
-    blend.left = FadeOf(blend) * Mixed(blend, blend.tip).force - ForceOf(blend.to, blend.tip).force;
+    blend.left = FadeFactor(blend) * EvaluateBlend(blend, blend.tip).force -
+                 ForceOf(blend.to, blend.tip).force;
     blend.from = blend.to;
     blend.to = coupling;
   }
@@ -172,8 +173,8 @@ CoupledForce BlendedForce(CouplingBlend& blend, const glm::dvec3& tip, double dt
   blend.passed += std::max(dt, 0.0);
   blend.share = time > 0.0 ? std::min(1.0, blend.passed / time) : 1.0;
   blend.tip = tip;
-  CoupledForce force = Mixed(blend, tip);
-  const double fade = FadeOf(blend);
+  CoupledForce force = EvaluateBlend(blend, tip);
+  const double fade = FadeFactor(blend);
   if (fade < 1.0) force.force *= fade;
   if (fade <= 0.0) force.tissue = -1;
   return force;

@@ -39,7 +39,7 @@ Linearised LineariseAt(int order, const std::array<glm::dvec3, 10>& x,
   return result;
 }
 
-glm::dmat3 JacobianOf(const Linearised& linear) noexcept {
+glm::dmat3 Jacobian(const Linearised& linear) noexcept {
   const auto& corner = linear.corner;
   return {corner[1] - corner[0], corner[2] - corner[0], corner[3] - corner[0]};
 }
@@ -119,7 +119,7 @@ EmbeddedPoint ElementFinder::PointAt(int element, const Local& local,
   // Extrapolates the rest of the path linearly from the nearest point.
   const Linearised linear = LineariseAt(order_, PlacesOf(element, rest_), local.l);
   const glm::dvec3 way = rest - linear.at;
-  const glm::dmat3 jacobian = JacobianOf(linear);
+  const glm::dmat3 jacobian = Jacobian(linear);
   const double det = glm::determinant(jacobian);
   if (glm::dot(way, way) == 0.0 || !(std::abs(det) > 0.0)) return point;
   const glm::dvec3 change = glm::inverse(jacobian) * way;
@@ -216,8 +216,8 @@ bool ElementFinder::FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, 
   if (!FindDeformed(place, element, local)) return false;
   point = {element, ShapeAt(order_, local.l).value};
   rest = PlaceOf(point, NodesOf(element), rest_);
-  const glm::dmat3 before = JacobianOf(LineariseAt(order_, PlacesOf(element, rest_), local.l));
-  const glm::dmat3 now = JacobianOf(LineariseAt(order_, PlacesOf(element, x_), local.l));
+  const glm::dmat3 before = Jacobian(LineariseAt(order_, PlacesOf(element, rest_), local.l));
+  const glm::dmat3 now = Jacobian(LineariseAt(order_, PlacesOf(element, x_), local.l));
   gradient =
       std::abs(glm::determinant(before)) > 0.0 ? now * glm::inverse(before) : glm::dmat3(1.0);
   return true;

@@ -64,8 +64,9 @@ ObstacleContact::ObstacleContact(const TetMesh& mesh, std::span<const std::uint8
   }
 }
 
-void ObstacleContact::LayAtRest(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
-                                std::span<const glm::dvec3> rest) noexcept {
+void ObstacleContact::AcceptRestOverlap(const RigidObstacle& obstacle,
+                                        const Rigid3& portal_from_body,
+                                        std::span<const glm::dvec3> rest) noexcept {
   for (Node& node : nodes_) {
     glm::dvec3 normal(0, 0, 1);
     const double gap =

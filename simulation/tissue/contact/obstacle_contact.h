@@ -29,8 +29,8 @@ class ObstacleContact {
 
   // Accepts overlaps at rest, since models are placed by hand: a node that lies below the obstacle
   // at rest is only pushed out of deeper positions. `rest` holds the mesh's rest positions.
-  void LayAtRest(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
-                 std::span<const glm::dvec3> rest) noexcept;
+  void AcceptRestOverlap(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
+                         std::span<const glm::dvec3> rest) noexcept;
 
   // Appends the contacts (owner −1) of the nodes at `x`. Allocates only if `contacts` must grow.
   void Find(const RigidObstacle& obstacle, const Rigid3& portal_from_body,

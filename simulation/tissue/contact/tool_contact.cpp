@@ -49,7 +49,7 @@ SkinContact::SkinContact(const EmbeddedSkin& skin, const TetMesh& mesh, const So
   // Neighbouring triangles share corners, so each corner is listed once per leaf.
   for (int leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
     leaf_begin_.push_back(static_cast<int>(leaf_vertex_.size()));
-    for (const int t : tree_.ItemsOf(leaf))
+    for (const int t : tree_.LeafItems(leaf))
       for (const int v : skin.rest.triangles[static_cast<std::size_t>(t)])
         if (std::find(leaf_vertex_.begin() + leaf_begin_.back(), leaf_vertex_.end(), v) ==
             leaf_vertex_.end())

@@ -92,7 +92,7 @@ ToolShape ShapeOf(ToolKind kind) {
   return {};
 }
 
-ToolKind ToolKindOf(const std::string& word) {
+ToolKind ToolKindFromString(const std::string& word) {
   if (word == "punch") return ToolKind::kPunch;
   if (word == "shaver") return ToolKind::kShaver;
   if (word == "grasper") return ToolKind::kGrasper;

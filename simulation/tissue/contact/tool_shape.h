@@ -34,7 +34,7 @@ struct ToolShape {
 // app/view/instruments/probe_mesh), punch 3.4 mm wide, shaver 4.5 mm.
 ToolShape ShapeOf(ToolKind kind);
 // "probe", "punch", "shaver", "grasper" of Instrument::kind; another word: kProbe.
-ToolKind ToolKindOf(const std::string& word);
+ToolKind ToolKindFromString(const std::string& word);
 
 // State of a tool at a step, in the portal frame.
 struct ToolInput {

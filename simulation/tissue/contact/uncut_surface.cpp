@@ -47,8 +47,8 @@ glm::dvec3 UncutSurface::Nearest(const glm::dvec3& x, double reach) const noexce
   return nearest;
 }
 
-void LayOnto(const UncutSurface& uncut, const SolidField& field,
-             std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
+void ProjectOnto(const UncutSurface& uncut, const SolidField& field,
+                 std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
   const double reach = kReach * field.spacing(), near_cut = kNearCut * field.spacing(),
                most = kMostMoved * field.spacing();
   std::vector<std::size_t> free, at_cut;

@@ -29,7 +29,7 @@ class UncutSurface {
 
 // Projects the vertices of a field's skin that lie well away from cuts onto the surface. Smooths
 // the others by less than half a spacing. Moves flagged vertices only (empty: all).
-void LayOnto(const UncutSurface& uncut, const SolidField& field,
-             std::span<const std::uint8_t> is_new, SurfaceMesh& skin);
+void ProjectOnto(const UncutSurface& uncut, const SolidField& field,
+                 std::span<const std::uint8_t> is_new, SurfaceMesh& skin);
 
 }  // namespace arthro::simulation

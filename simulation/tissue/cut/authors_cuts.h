@@ -16,7 +16,7 @@ namespace arthro::simulation {
 inline constexpr double kDebrisVolume = 60e-9;  // m³
 
 // Removes small loose fragments; none if nothing holds the tissue (`fixed` empty).
-CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed);
+CrumbReport RemoveDebris(SolidField& field, std::span<const Ball> fixed);
 
 struct MadeCuts {
   std::vector<double> removed;  // m³ per cut: volume removed beyond that of the cuts before it

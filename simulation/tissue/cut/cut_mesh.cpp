@@ -51,7 +51,7 @@ MeshCutter::MeshCutter(TetMesh whole, double spacing, const CutOptions& options)
     for (std::size_t p = 0; p < lattice.point.size(); ++p)
       shapes.push_back(ShapeAt(order, lattice.BarycentricOf(static_cast<int>(p))).value);
   }
-  const auto& quadrature = QuadratureOf(order);
+  const auto& quadrature = QuadraturePoints(order);
   for (int e = 0; e < count; ++e) {
     const auto nodes = NodesOf(e);
     const auto x = [&](std::size_t i) { return whole_.rest_positions[At(nodes[i])]; };
@@ -126,13 +126,13 @@ void MeshCutter::BuildFaces() {
 }
 
 const CutMesh& MeshCutter::Update(const SolidField& field, const Box3& changed) {
-  looked_at_ = 0;
+  elements_tested_ = 0;
   for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
     if (changed.empty() || !Meet(box_[At(e)], changed)) continue;
-    ++looked_at_;
+    ++elements_tested_;
     before_of_[At(e)] = static_cast<int>(before_.size());
     before_.push_back(elements_[At(e)]);
-    LookAt(field, e);
+    UpdateElement(field, e);
   }
   return Assemble(field);
 }
@@ -152,7 +152,7 @@ int MeshCutter::PartNear(int e, const glm::dvec4& barycentric) const {
   for (std::size_t p = 0; p < element.parts.size(); ++p)
     if (element.parts[p].copy >= 0) left = static_cast<int>(p), ++count;
   if (count <= 1) return left;
-  const TetLattice& lattice = LatticeOf(e);
+  const TetLattice& lattice = Lattice(e);
   const int nearest = lattice.Nearest(barycentric);
   if (const std::uint8_t label = element.label[At(nearest)];
       label != kNoPart && element.parts[label].copy >= 0)
@@ -196,7 +196,7 @@ ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest,
           }
       for (const int e : next) {
         const Element& candidate = elements_[At(e)];
-        for (int p = 0; p < static_cast<int>(LatticeOf(e).point.size()); ++p) {
+        for (int p = 0; p < static_cast<int>(Lattice(e).point.size()); ++p) {
           const int label = candidate.label.empty() ? 0 : candidate.label[At(p)];
           if (label == kNoPart || candidate.parts.empty() || candidate.parts[At(label)].copy < 0)
             continue;

@@ -71,7 +71,7 @@ class MeshCutter {
   // Tests all elements: for another field or an undo.
   const CutMesh& Rebuild(const SolidField& field);
   const CutMesh& result() const { return result_; }
-  int elements_looked_at() const { return looked_at_; }  // by the last call
+  int elements_tested() const { return elements_tested_; }  // by the last call
 
   // Finds the copy that carries a point at `rest` in, or nearest to, `element` of the whole mesh:
   // the copy whose solid is nearest. If that element is gone, searches the elements around it.
@@ -97,7 +97,7 @@ class MeshCutter {
 
   struct Draft;
 
-  void LookAt(const SolidField& field, int e);
+  void UpdateElement(const SolidField& field, int e);
   void BuildFaces();
   const CutMesh& Assemble(const SolidField& field);
   void MakeCopies(Draft& draft);
@@ -105,7 +105,7 @@ class MeshCutter {
   void ListElements(const SolidField& field, Draft& draft);
   void NumberNodes(const CutMesh& old, Draft& draft);
   void Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const;
-  const TetLattice& LatticeOf(int e) const {
+  const TetLattice& Lattice(int e) const {
     return (*lattices_)[level_[static_cast<std::size_t>(e)]];
   }
   std::span<const int> NodesOf(int e) const;
@@ -131,7 +131,7 @@ class MeshCutter {
   std::vector<double> values_;              // field values at these points
   std::vector<NodeNear> grid_node_;         // grid nodes to which these points belong
   std::vector<std::int16_t> front_;         // points still to be visited
-  int looked_at_ = 0;
+  int elements_tested_ = 0;
   CutMesh result_;
 };
 

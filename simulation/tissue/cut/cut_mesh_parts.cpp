@@ -24,7 +24,7 @@ glm::dvec3 MeshCutter::PlaceOf(int e, int point) const {
 
 // Computes all lattice points of an element; along a row of points the map is a parabola.
 void MeshCutter::PlacesIn(int e, std::span<glm::dvec3> places) const {
-  const TetLattice& lattice = LatticeOf(e);
+  const TetLattice& lattice = Lattice(e);
   const int n = lattice.n;
   std::size_t p = 0;
   for (int k = 0; k <= n; ++k)
@@ -48,9 +48,9 @@ void MeshCutter::PlacesIn(int e, std::span<glm::dvec3> places) const {
 }
 
 // Finds what is left of element e and its parts.
-void MeshCutter::LookAt(const SolidField& field, int e) {
+void MeshCutter::UpdateElement(const SolidField& field, int e) {
   Element& element = elements_[At(e)];
-  const TetLattice& lattice = LatticeOf(e);
+  const TetLattice& lattice = Lattice(e);
   const std::size_t count = lattice.point.size();
   bool is_whole = !field.MayBeCut(box_[At(e)]);
   if (!is_whole) {
@@ -142,7 +142,7 @@ void MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs)
     pairs.push_back({0, 0});
     return;
   }
-  const TetLattice &la = LatticeOf(face.first), &lb = LatticeOf(face.second);
+  const TetLattice &la = Lattice(face.first), &lb = Lattice(face.second);
   const int n = std::min(la.n, lb.n);
   // Corners of the face in node order, in each element's own numbering.
   const auto corners = [&](int e, int f) {

@@ -181,7 +181,7 @@ void FactorPlan::Analyse(std::vector<int> order) {
   for (std::size_t s = 0; s < l.nsuper; ++s) {
     Supernode node{first[s], first[s + 1] - first[s], rows_begin[s + 1] - rows_begin[s],
                    0,        rows_begin[s],           panel_size_};
-    node.stride = StripsOf(node.rows);
+    node.stride = RoundUpToStrip(node.rows);
     panel_size_ += static_cast<std::int64_t>(node.stride) * node.columns;
     widest_ = std::max(widest_, node.columns);
     tallest_ = std::max(tallest_, node.rows);
@@ -203,10 +203,10 @@ void FactorPlan::Analyse(std::vector<int> order) {
     }
 }
 
-std::shared_ptr<const FactorPlan> PlanAfter(const std::shared_ptr<const FactorPlan>& before,
-                                            std::span<const int> parent,
-                                            const std::shared_ptr<const BlockPattern>& pattern,
-                                            const FixedAxes& fixed) {
+std::shared_ptr<const FactorPlan> UpdatePlan(const std::shared_ptr<const FactorPlan>& before,
+                                             std::span<const int> parent,
+                                             const std::shared_ptr<const BlockPattern>& pattern,
+                                             const FixedAxes& fixed) {
   if (before->Fits(*pattern, fixed)) return before;
   return parent.empty() ? std::make_shared<const FactorPlan>(pattern, fixed)
                         : std::make_shared<const FactorPlan>(pattern, fixed, *before, parent);

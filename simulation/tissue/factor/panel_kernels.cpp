@@ -247,7 +247,7 @@ void MultiplyPanelTransposed(const Panel& p, int right, const float* t, int t_st
 bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double* work,
                      double least) noexcept {
   if (n <= kSmall) return FactorSmall(n, a, lda, inverse, ldi, least);
-  const int n1 = n / 2, n2 = n - n1, stride = StripsOf(n2);
+  const int n1 = n / 2, n2 = n - n1, stride = RoundUpToStrip(n2);
   if (!FactorAndInvert(n1, a, lda, inverse, ldi, work, least)) return false;
   double* a21 = a + n1;
   double* a22 = a + static_cast<long>(n1) * lda + n1;
@@ -266,7 +266,7 @@ bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double
   if (!FactorAndInvert(n2, a22, lda, inverse22, ldi, work, least)) return false;
   // First L₂₁ L₁₁⁻¹, with the transpose of L₁₁⁻¹ stored after the product.
   double* transposed = work + static_cast<long>(n1) * stride;
-  const int stride1 = StripsOf(n1);
+  const int stride1 = RoundUpToStrip(n1);
   for (int j = 0; j < n1; ++j)
     for (int i = 0; i < n1; ++i)
       transposed[static_cast<long>(j) * stride1 + i] = inverse[static_cast<long>(i) * ldi + j];

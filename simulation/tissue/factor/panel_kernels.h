@@ -7,7 +7,7 @@
 namespace arthro::simulation {
 
 inline constexpr int kStrip = 16;  // rows; one cache line of floats
-constexpr int StripsOf(int rows) { return (rows + kStrip - 1) / kStrip * kStrip; }
+constexpr int RoundUpToStrip(int rows) { return (rows + kStrip - 1) / kStrip * kStrip; }
 
 // Part of a product that is zero above or below a diagonal, or is not needed. Whole tiles of it are
 // skipped; the bits of the rest are the same.
@@ -20,8 +20,8 @@ void MultiplyTransposed(int m, int n, int k, const double* a, int lda, const dou
                         LeftOut left_out = LeftOut::kNothing) noexcept;
 
 // Replaces a (n×n, lower triangle, stride lda) by its Cholesky factor L and writes L⁻¹ to `inverse`
-// (n×n, stride ldi, zeros above the diagonal). `work` has 2 n·StripsOf(n) entries. Returns false if
-// a pivot is not above `least`.
+// (n×n, stride ldi, zeros above the diagonal). `work` has 2 n·RoundUpToStrip(n) entries. Returns
+// false if a pivot is not above `least`.
 bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double* work,
                      double least) noexcept;
 

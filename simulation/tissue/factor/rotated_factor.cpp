@@ -51,7 +51,7 @@ void RotatedFactor::Inherit(std::span<const int> parent, const FixedAxes& fixed)
   fixed_ = fixed;
 }
 
-void RotatedFactor::TurnTo(std::span<const glm::dmat3> rotation) noexcept {
+void RotatedFactor::SetCurrentRotations(std::span<const glm::dmat3> rotation) noexcept {
   for (std::size_t i = 0; i < turn_.size(); ++i)
     turn_[i] = fixed_[i] ? glm::dmat3(1.0) : rotation[i] * glm::transpose(then_[i]);
 }

@@ -32,7 +32,7 @@ class RotatedFactor {
   void Inherit(std::span<const int> parent, const FixedAxes& fixed);
 
   // Sets the present rotations of the body's nodes.
-  void TurnTo(std::span<const glm::dmat3> rotation) noexcept;
+  void SetCurrentRotations(std::span<const glm::dmat3> rotation) noexcept;
   // Sets the present block diagonal of the body; has an effect only at split nodes.
   void SetDiagonal(const BlockMatrix& a, std::span<const double> added) noexcept;
 

@@ -19,11 +19,11 @@ SparseFactor::SparseFactor(std::shared_ptr<const FactorPlan> plan) : plan_(std::
   panels_ = storage_.data();
   while (reinterpret_cast<std::uintptr_t>(panels_) % 64) ++panels_;
   vector_.resize(static_cast<std::size_t>(kMostRight) * p.size_);
-  strip_.resize(static_cast<std::size_t>(kMostRight) * StripsOf(p.tallest_));
+  strip_.resize(static_cast<std::size_t>(kMostRight) * RoundUpToStrip(p.tallest_));
   short_.resize(static_cast<std::size_t>(kMostRight) * p.widest_);
 }
 
-void SparseFactor::TakeMemory(SparseFactor& other) noexcept {
+void SparseFactor::TakeWorkMemory(SparseFactor& other) noexcept {
   for (auto buffer : {&SparseFactor::work_, &SparseFactor::inverse_, &SparseFactor::product_,
                       &SparseFactor::right_})
     std::swap(this->*buffer, other.*buffer);
@@ -31,11 +31,11 @@ void SparseFactor::TakeMemory(SparseFactor& other) noexcept {
 
 double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added) {
   const FactorPlan& p = *plan_;
-  const std::int64_t widest = p.widest_, tallest = StripsOf(p.tallest_);
+  const std::int64_t widest = p.widest_, tallest = RoundUpToStrip(p.tallest_);
   work_.resize(p.panel_size_ + kStrip);
-  inverse_.resize(widest * StripsOf(p.widest_) + kStrip);
+  inverse_.resize(widest * RoundUpToStrip(p.widest_) + kStrip);
   right_.resize(inverse_.size());
-  product_.resize(std::max(widest * tallest, 2 * widest * StripsOf(p.widest_)) + kStrip);
+  product_.resize(std::max(widest * tallest, 2 * widest * RoundUpToStrip(p.widest_)) + kStrip);
   map_.resize(p.size_);
   head_.resize(p.supernode_.size());
   next_.resize(p.supernode_.size());
@@ -81,7 +81,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       const int begin = position_[d];
       int end = begin;
       while (end < from.rows && from_rows[end] < s.first + s.columns) ++end;
-      const int m = from.rows - begin, n = end - begin, stride = StripsOf(m);
+      const int m = from.rows - begin, n = end - begin, stride = RoundUpToStrip(m);
       const double* source = work_.data() + from.value + begin;
       MultiplyTransposed(m, n, from.columns, source, from.stride, source, from.stride,
                          product_.data(), stride, 1.0, false, LeftOut::kAboveInC);
@@ -106,7 +106,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       d = following;
     }
     // Computes L₁₁ and its inverse, then L₂₁ = A₂₁ L₁₁⁻ᵀ.
-    const int n = s.columns, m = s.rows - n, ldi = StripsOf(n);
+    const int n = s.columns, m = s.rows - n, ldi = RoundUpToStrip(n);
     if (!FactorAndInvert(n, panel, s.stride, inverse_.data(), ldi, product_.data(), least))
       return false;
     float* kept = panels_ + s.value;
@@ -115,7 +115,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
         kept[static_cast<std::int64_t>(j) * s.stride + r] =
             static_cast<float>(inverse_[j * ldi + r]);
     if (m > 0) {
-      const int stride = StripsOf(m);
+      const int stride = RoundUpToStrip(m);
       MultiplyTransposed(m, n, n, panel + n, s.stride, inverse_.data(), ldi, product_.data(),
                          stride, 1.0, false, LeftOut::kAboveInB);
       for (int j = 0; j < n; ++j)
@@ -142,7 +142,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
 void SparseFactor::Solve(std::span<const std::span<const glm::dvec3>> b,
                          std::span<const std::span<glm::dvec3>> x) noexcept {
   const FactorPlan& p = *plan_;
-  const int right = static_cast<int>(b.size()), n = p.size_, tall = StripsOf(p.tallest_);
+  const int right = static_cast<int>(b.size()), n = p.size_, tall = RoundUpToStrip(p.tallest_);
   float *v = vector_.data(), *t = strip_.data();
   // Scales each vector, so that neither tiny nor huge forces leave the range of float.
   std::array<double, kMostRight> scale{};

@@ -51,7 +51,7 @@ class FactorPlan {
   friend class SparseFactor;
   struct Supernode {
     int first, columns, rows;  // in the permuted matrix; its own rows come first
-    int stride;                // StripsOf(rows)
+    int stride;                // RoundUpToStrip(rows)
     std::int64_t row, value;   // start of its rows and of its panel
   };
   struct Entry {
@@ -77,10 +77,10 @@ class FactorPlan {
 
 // Returns a plan for a body that was cut since `before`, or `before` itself if it still fits. An
 // empty `parent` means the same nodes with other fixed axes.
-std::shared_ptr<const FactorPlan> PlanAfter(const std::shared_ptr<const FactorPlan>& before,
-                                            std::span<const int> parent,
-                                            const std::shared_ptr<const BlockPattern>& pattern,
-                                            const FixedAxes& fixed);
+std::shared_ptr<const FactorPlan> UpdatePlan(const std::shared_ptr<const FactorPlan>& before,
+                                             std::span<const int> parent,
+                                             const std::shared_ptr<const BlockPattern>& pattern,
+                                             const FixedAxes& fixed);
 
 class SparseFactor {
  public:
@@ -93,7 +93,7 @@ class SparseFactor {
 
   // Takes over the work memory of another factor, because getting pages from the system costs a
   // tenth of the time. Not to be called while either one factors.
-  void TakeMemory(SparseFactor& other) noexcept;
+  void TakeWorkMemory(SparseFactor& other) noexcept;
 
   // Computes x = A⁻¹ b, 0 at fixed axes. Not thread-safe: it uses its own buffer.
   void Solve(std::span<const glm::dvec3> b, std::span<glm::dvec3> x) noexcept {

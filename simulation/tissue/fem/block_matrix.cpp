@@ -12,7 +12,7 @@ int BlockPattern::Find(int row, int i) const {
   return found != end && *found == i ? static_cast<int>(found - column.begin()) : -1;
 }
 
-BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int node_count) {
+BlockPattern MakePattern(std::span<const int> elements, int nodes_per_element, int node_count) {
   // Lists the elements of each node, then collects and sorts their nodes, row by row.
   const int n = nodes_per_element;
   std::vector<int> begin(node_count + 1, 0);

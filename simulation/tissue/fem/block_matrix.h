@@ -22,7 +22,7 @@ struct BlockPattern {
 };
 
 // Makes the pattern in which every two nodes of an element share a block.
-BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int node_count);
+BlockPattern MakePattern(std::span<const int> elements, int nodes_per_element, int node_count);
 
 struct BlockMatrix {
   std::shared_ptr<const BlockPattern> pattern;

@@ -116,7 +116,7 @@ double LumpShare(int order, const TetShape& shape, int a) {
   constexpr double kCorner = 1.0 / 70, kMiddle = 8.0 / 105;  // ∫N²dV / V
   if (a < 4) return kCorner;
   double sum = 0;
-  for (const TetShape& point : QuadratureOf(2))
+  for (const TetShape& point : QuadraturePoints(2))
     sum += point.weight * point.value[a] * point.value[a];
   return kMiddle * shape.value[a] * shape.value[a] / sum;
 }
@@ -128,9 +128,9 @@ FemModel::FemModel(const TetMesh& mesh, const Material& material, std::span<cons
   CheckMaterial(material_);
   CheckMesh(mesh_);
   const int n = mesh_.NodesPerElement(), count = mesh_.ElementCount();
-  const auto& quadrature = QuadratureOf(mesh_.order);
+  const auto& quadrature = QuadraturePoints(mesh_.order);
   const int points = static_cast<int>(quadrature.size());
-  auto pattern = std::make_shared<BlockPattern>(PatternOf(mesh_.elements, n, node_count()));
+  auto pattern = std::make_shared<BlockPattern>(MakePattern(mesh_.elements, n, node_count()));
 
   ElementBatches& b = batches_;
   b.nodes = n;
@@ -188,7 +188,7 @@ void FemModel::SetShares(std::span<const double> share) {
   CheckShares(share, whole_volume_.size());
   share_.assign(share.begin(), share.end());
   const int n = mesh_.NodesPerElement(), points = points_per_element();
-  const auto& quadrature = QuadratureOf(mesh_.order);
+  const auto& quadrature = QuadraturePoints(mesh_.order);
   mass_.assign(node_count(), 0.0);
   volume_ = 0;
   std::vector<double> whole(node_count(), 0.0);
@@ -266,7 +266,7 @@ std::vector<double> FemModel::NodeShares() const {
 
 void FemModel::AddBodyForce(const glm::dvec3& per_volume, std::span<glm::dvec3> force) const {
   const int n = mesh_.NodesPerElement(), points = points_per_element();
-  const auto& quadrature = QuadratureOf(mesh_.order);
+  const auto& quadrature = QuadraturePoints(mesh_.order);
   for (std::size_t at = 0; at < whole_volume_.size(); ++at) {
     const int* node = &mesh_.elements[at / points * n];
     for (int a = 0; a < n; ++a)

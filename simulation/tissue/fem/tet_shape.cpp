@@ -61,7 +61,7 @@ glm::dvec4 BarycentricIn(const std::array<glm::dvec3, 4>& corner, const glm::dve
   return {1.0 - l.x - l.y - l.z, l};
 }
 
-const std::vector<TetShape>& QuadratureOf(int order) {
+const std::vector<TetShape>& QuadraturePoints(int order) {
   static const std::vector<TetShape> linear = MakeQuadrature(1), quadratic = MakeQuadrature(2);
   return order == 2 ? quadratic : linear;
 }

@@ -25,7 +25,7 @@ TetShape ShapeAt(int order, const glm::dvec4& barycentric);
 glm::dvec4 BarycentricIn(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& x) noexcept;
 
 // Returns the quadrature points of an element of this order.
-const std::vector<TetShape>& QuadratureOf(int order);
+const std::vector<TetShape>& QuadraturePoints(int order);
 
 // Corners of the four outward-facing faces, each followed by the midpoints of its edges 01, 12, 20.
 inline constexpr std::array<std::array<int, 6>, 4> kTetFaces{

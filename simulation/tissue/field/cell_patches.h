@@ -46,7 +46,7 @@ constexpr bool IsAmbiguous(int configuration, int face) {
 }
 
 // `joined` has bit f set for face f.
-constexpr CellPatches PatchesOf(int configuration, int joined) {
+constexpr CellPatches FindPatches(int configuration, int joined) {
   std::array<int, 12> root{};
   for (int e = 0; e < 12; ++e) root[static_cast<std::size_t>(e)] = e;
   const auto find = [&](int e) {
@@ -92,7 +92,7 @@ constexpr CellPatches PatchesOf(int configuration, int joined) {
 // Returns the faces across which a patch touches itself while solid corners are separated; bit f
 // stands for face f.
 constexpr int SelfTouchingFaces(int configuration) {
-  const CellPatches patches = PatchesOf(configuration, 0);
+  const CellPatches patches = FindPatches(configuration, 0);
   int faces = 0;
   for (int face = 0; face < 6; ++face) {
     if (!IsAmbiguous(configuration, face)) continue;

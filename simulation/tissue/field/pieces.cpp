@@ -15,7 +15,7 @@ struct Run {
   int root;                // a run of the same piece: this one or an earlier one
 };
 
-int RootOf(std::vector<Run>& runs, int i) {
+int FindRoot(std::vector<Run>& runs, int i) {
   const auto run = [&](int r) -> Run& { return runs[static_cast<std::size_t>(r)]; };
   while (run(i).root != i) i = run(i).root = run(run(i).root).root;
   return i;
@@ -26,7 +26,7 @@ void JoinRows(std::vector<Run>& runs, int a, int a_end, int b, int b_end, std::s
   while (a < a_end && b < b_end) {
     const Run &in_a = runs[static_cast<std::size_t>(a)], &in_b = runs[static_cast<std::size_t>(b)];
     if (in_a.begin < in_b.end + step && in_b.begin + step < in_a.end) {
-      const int root_a = RootOf(runs, a), root_b = RootOf(runs, b);
+      const int root_a = FindRoot(runs, a), root_b = FindRoot(runs, b);
       runs[static_cast<std::size_t>(std::max(root_a, root_b))].root = std::min(root_a, root_b);
     }
     in_a.end < in_b.end + step ? ++a : ++b;
@@ -110,7 +110,7 @@ FieldPieces PiecesWithoutVolumes(const SolidField& field) {
   for (int row = 0; row < ny * nz; ++row)
     for (int r = of_row[static_cast<std::size_t>(row)];
          r < of_row[static_cast<std::size_t>(row) + 1]; ++r) {
-      const auto root = static_cast<std::size_t>(RootOf(runs, r));
+      const auto root = static_cast<std::size_t>(FindRoot(runs, r));
       if (number[root] < 0) {
         number[root] = pieces.count();
         pieces.extent.push_back({grid.count, {-1, -1, -1}});

@@ -24,7 +24,7 @@ struct PatchTable {
 constexpr PatchTable MakeTable() {
   PatchTable table{};
   for (int c = 0; c < 256; ++c) {
-    table.patches[static_cast<std::size_t>(c)] = PatchesOf(c, 0);
+    table.patches[static_cast<std::size_t>(c)] = FindPatches(c, 0);
     table.touching[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(SelfTouchingFaces(c));
   }
   return table;
@@ -35,7 +35,8 @@ using Cell = std::array<int, 3>;
 
 // Computes a patch's vertex in units of the cell: the mean of its crossings, moved along the
 // gradient onto the zero of the trilinear interpolation.
-glm::dvec3 VertexOf(const std::array<double, 8>& value, const CellPatches& patches, int patch) {
+glm::dvec3 ComputeVertex(const std::array<double, 8>& value, const CellPatches& patches,
+                         int patch) {
   glm::dvec3 sum(0.0);
   int crossings = 0;
   for (int e = 0; e < 12; ++e) {
@@ -103,9 +104,9 @@ class FieldSkin::Cells {
           (kTable.touching[static_cast<std::size_t>(Configuration(other))] >> (face ^ 1) & 1) != 0)
         joined |= 1 << face;
     }
-    return PatchesOf(configuration, joined);
+    return FindPatches(configuration, joined);
   }
-  int BrickOf(const Cell& c) const {
+  int OwningBrick(const Cell& c) const {
     return (c[2] / kBrick * bricks_[1] + c[1] / kBrick) * bricks_[0] + c[0] / kBrick;
   }
   static std::size_t InBrick(const Cell& c) {
@@ -142,7 +143,7 @@ class FieldSkin::Cells {
       const CellPatches patches = Patches(c, configuration);
       for (int patch = 0; patch < patches.count; ++patch)
         brick.vertices.push_back(grid_.Place(c[0], c[1], c[2]) +
-                                 grid_.spacing * VertexOf(value, patches, patch));
+                                 grid_.spacing * ComputeVertex(value, patches, patch));
       const int touching = kTable.touching[static_cast<std::size_t>(configuration)];
       for (int face = 0; touching != 0 && face < 6; ++face)
         if ((touching >> face & 1) != 0 &&
@@ -172,7 +173,7 @@ class FieldSkin::Cells {
           cell[v] -= below_v;
           const CellPatches patches = Patches(cell, Configuration(cell));
           const int edge = static_cast<int>(4 * a) + below_u + 2 * below_v;
-          const int owner = BrickOf(cell);
+          const int owner = OwningBrick(cell);
           quad[is_solid ? q : 3 - q] = {
               owner, bricks[static_cast<std::size_t>(owner)].first_vertex[InBrick(cell)] +
                          patches.of_edge[static_cast<std::size_t>(edge)]};

@@ -25,7 +25,7 @@ constexpr int kMargin = 4;
 constexpr double kOffset = 0.381966;
 constexpr std::int64_t kCellUnits = std::int64_t{1} << 30;
 
-double OutsideOf(const Box3& box, const glm::dvec3& x) noexcept {
+double DistanceOutside(const Box3& box, const glm::dvec3& x) noexcept {
   const glm::dvec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   const glm::dvec3 q = glm::abs(x - centre) - half;
   return glm::length(glm::max(q, glm::dvec3(0.0))) + std::min(0.0, std::max({q.x, q.y, q.z}));
@@ -92,7 +92,7 @@ SolidField SolidField::FromFunction(const Box3& box, double spacing,
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i) {
         const glm::dvec3 x = field.grid_.Place(i, j, k);
-        const double d = std::max(distance(x), OutsideOf(box, x));
+        const double d = std::max(distance(x), DistanceOutside(box, x));
         // A value that is not finite becomes the band, outside the solid.
         field.value_[field.grid_.Index(i, j, k)] =
             static_cast<float>(std::isfinite(d) ? std::clamp(d, -band, band) : band);

@@ -47,7 +47,7 @@ double Distance2(const Triangle& triangle, const glm::dvec3& x) noexcept {
   return to(a + vb * whole * ab + vc * whole * ac);
 }
 
-std::vector<Triangle> TrianglesOf(const SurfaceMesh& surface) {
+std::vector<Triangle> CheckedTriangles(const SurfaceMesh& surface) {
   if (surface.triangles.empty())
     throw Error(Code::kBadMesh, "the surface has no triangles; a solid needs a closed one");
   for (const glm::dvec3& x : surface.vertices)
@@ -158,7 +158,7 @@ void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axi
 }  // namespace
 
 std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& grid, double band) {
-  const std::vector<Triangle> triangles = TrianglesOf(surface);
+  const std::vector<Triangle> triangles = CheckedTriangles(surface);
   const auto& n = grid.count;
   // Near the surface, compares each triangle with the nodes around it: exact.
   std::vector<double> distance2(grid.NodeCount(), std::numeric_limits<double>::max());

@@ -53,7 +53,7 @@ void ImplicitSolver::Compliance(std::span<const ContactPoint> points, double tol
                body.tool_vectors, body.tool_left[0]);
     for (std::size_t j = 0; j < points.size(); ++j)
       for (int c = 0; c < 3; ++c) {
-        const glm::dvec3 moved = PointOf(points[j], body.tool_left[0][c]);
+        const glm::dvec3 moved = ContactPosition(points[j], body.tool_left[0][c]);
         for (int a = 0; a < 3; ++a) w[(3 * j + a) * columns + 3 * k + c] = moved[a];
       }
   }

@@ -85,7 +85,7 @@ bool InvertPositive(const glm::dmat3& m, glm::dmat3& inverse) noexcept {
   return std::isfinite(glm::length(inverse[0]) + glm::length(inverse[1]) + glm::length(inverse[2]));
 }
 
-glm::dvec3 PointOf(const ContactPoint& contact, std::span<const glm::dvec3> x) noexcept {
+glm::dvec3 ContactPosition(const ContactPoint& contact, std::span<const glm::dvec3> x) noexcept {
   glm::dvec3 point(0.0);
   for (int i = 0; i < contact.count; ++i) point += contact.weight[i] * x[contact.node[i]];
   return point;
@@ -161,7 +161,7 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
   std::array<glm::dvec3, kMostTools> began{};
   for (std::size_t h = 0; h < holds.size(); ++h) began[h] = holds[h].offset;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    springs[i].point = PointOf(contacts[i], x);
+    springs[i].point = ContactPosition(contacts[i], x);
     if (const int hold = hold_of(contacts[i]); hold >= 0)
       springs[i].gap = GapAt(contacts[i], springs[i].point - offset_of(hold)).gap;
   }
@@ -230,7 +230,8 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
   }
 }
 
-double EnergyOf(std::span<const ContactSpring> springs, std::span<const ToolHold> holds) noexcept {
+double SpringEnergy(std::span<const ContactSpring> springs,
+                    std::span<const ToolHold> holds) noexcept {
   double energy = 0;
   for (const ContactSpring& spring : springs) energy += spring.energy;
   for (const ToolHold& hold : holds)
@@ -244,12 +245,12 @@ void AddStiffness(std::span<const ContactSpring> springs, std::span<const ToolHo
   for (const ContactSpring& spring : springs)
     if (spring.hold >= 0 && spring.bears)
       pulled[static_cast<std::size_t>(spring.hold)] +=
-          (spring.stiffness + spring.turn) * PointOf(*spring.contact, p);
+          (spring.stiffness + spring.turn) * ContactPosition(*spring.contact, p);
   for (std::size_t h = 0; h < holds.size(); ++h) pulled[h] = holds[h].give * pulled[h];
   for (const ContactSpring& spring : springs) {
     if (!spring.bears) continue;
     const ContactPoint& contact = *spring.contact;
-    glm::dvec3 moved = PointOf(contact, p);
+    glm::dvec3 moved = ContactPosition(contact, p);
     if (spring.hold >= 0) moved -= pulled[static_cast<std::size_t>(spring.hold)];
     const glm::dvec3 pull = (spring.stiffness + spring.turn) * moved;
     for (int i = 0; i < contact.count; ++i) y[contact.node[i]] += contact.weight[i] * pull;

@@ -47,7 +47,7 @@ struct ToolHold {
 bool InvertPositive(const glm::dmat3& m, glm::dmat3& inverse) noexcept;
 
 // Returns Σ wᵢ xᵢ.
-glm::dvec3 PointOf(const ContactPoint& contact, std::span<const glm::dvec3> x) noexcept;
+glm::dvec3 ContactPosition(const ContactPoint& contact, std::span<const glm::dvec3> x) noexcept;
 
 // Returns k min(g, 0) ∇g on the tissue's point at `point` with the tool at p. The next iteration
 // uses it as the normal force of friction.
@@ -72,7 +72,8 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
                 std::span<ContactSpring> springs) noexcept;
 
 // Returns the energy of all springs and holds.
-double EnergyOf(std::span<const ContactSpring> springs, std::span<const ToolHold> holds) noexcept;
+double SpringEnergy(std::span<const ContactSpring> springs,
+                    std::span<const ToolHold> holds) noexcept;
 
 // Computes y += Jᵀ (K − K H⁻¹ K) J p.
 void AddStiffness(std::span<const ContactSpring> springs, std::span<const ToolHold> holds,

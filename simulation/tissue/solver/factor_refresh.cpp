@@ -46,8 +46,8 @@ void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true
     std::vector<double> with(mass.size());
     for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (dt * dt);
     auto made = std::make_unique<SparseFactor>(
-        PlanAfter(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
-    made->TakeMemory(factor->factor());
+        UpdatePlan(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
+    made->TakeWorkMemory(factor->factor());
     const auto shift_needed = [&] {
       BlockMatrix matrix = stiffness;
       AddSprings(matrix);
@@ -101,7 +101,7 @@ void ImplicitSolver::RunRefresh() noexcept {
     if (!fits)
       body.spare = std::make_unique<RotatedFactor>(
           std::make_unique<SparseFactor>(
-              PlanAfter(body.job_plan, body.job_plan_parent, pattern, body.job_fixed)),
+              UpdatePlan(body.job_plan, body.job_plan_parent, pattern, body.job_fixed)),
           body.job_rotation);
     const double shift = body.spare->factor().Factor(body.job_stiffness, body.job_added);
     body.spare->SetRotations(body.job_rotation);

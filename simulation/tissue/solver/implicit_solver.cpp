@@ -104,7 +104,8 @@ void ImplicitSolver::Impl::FinishReactions(const Problem& problem) {
 void ImplicitSolver::Impl::FillResults(std::span<const glm::dvec3> x,
                                        std::span<ContactResult> results) {
   for (std::size_t i = 0; i < std::min(results.size(), springs.size()); ++i)
-    results[i] = {PointOf(contacts[i], x), springs[i].force, springs[i].gap, springs[i].push};
+    results[i] = {ContactPosition(contacts[i], x), springs[i].force, springs[i].gap,
+                  springs[i].push};
 }
 
 bool ImplicitSolver::Impl::Take(const Problem& problem) {
@@ -193,7 +194,7 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
   body.FinishReactions(problem);
   // A body that was laid anew has no velocity.
   for (std::size_t i = 0; i < nodes; ++i)
-    state.v[i] = body.was_laid ? glm::dvec3(0.0) : (state.x[i] - body.begin_x[i]) / dt;
+    state.v[i] = body.was_refitted ? glm::dvec3(0.0) : (state.x[i] - body.begin_x[i]) / dt;
   report.clamped_speed = slow_down() || came_fast;
   std::copy(state.x.begin(), state.x.end(), body.good_x.begin());
   std::copy(state.v.begin(), state.v.end(), body.good_v.begin());

@@ -61,7 +61,7 @@ struct ImplicitSolver::Impl {
 
   // shape_recovery.cpp
   void MakeRecovery();
-  void LayRestShape(std::span<glm::dvec3> x) const;
+  void FitRestShape(std::span<glm::dvec3> x) const;
   void RecoverShape(std::span<glm::dvec3> x, const Problem& problem);
 
   // compliance.cpp
@@ -109,7 +109,7 @@ struct ImplicitSolver::Impl {
   // Response of the tissue to each tool, kept as a start for the next step.
   std::array<std::array<std::vector<glm::dvec3>, 3>, 2> tool_left;
   bool is_recovering = false;  // from inverted elements
-  bool was_laid = false;       // this step replaced the body by its rest shape
+  bool was_refitted = false;   // this step replaced the body by its rest shape
   int recovery_rounds = 0, rounds_once_clean = 0;
   bool has_given_up = false;  // recovery ended with inverted elements, which are then accepted
   bool wants_factor = false;  // the last system needed many iterations

@@ -56,7 +56,7 @@ double ImplicitSolver::Impl::Potential(std::span<const glm::dvec3> x, const Prob
       const glm::dvec3 off = (x[i] - goal_x[i]) * is_free[i];
       inertia += 0.5 * added[i] * glm::dot(off, off);
     }
-  const double contact = EnergyOf(springs, holds);
+  const double contact = SpringEnergy(springs, holds);
   magnitude = std::abs(assembly.energy) + std::abs(work) + inertia + contact;
   return assembly.energy - work + inertia + contact;
 }
@@ -124,7 +124,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
       system.Apply(lead, direction);
       for (std::size_t i = 0; i < x.size(); ++i) right[i] -= direction[i];
     }
-    factor->TurnTo(rotation);
+    factor->SetCurrentRotations(rotation);
     factor->SetDiagonal(stiffness, system.added);
     linear.max_iterations =
         may_factor && !goal.refactors ? std::min(most, kIterationsOfAFactor) : most;
@@ -198,7 +198,7 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     }
   int stuck = 0;
   met_negative = false;
-  was_laid = false;
+  was_refitted = false;
   while (true) {
     const Tangent tangent =
         projected_left > 0 && !goal.follows ? Tangent::kProjected : Tangent::kTrue;

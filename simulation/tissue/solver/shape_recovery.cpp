@@ -49,13 +49,13 @@ void ImplicitSolver::Impl::MakeRecovery() {
   std::vector<double> with(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (kUsualStep * kUsualStep);
   recovery_factor = std::make_unique<SparseFactor>(
-      PlanAfter(factor->factor().shared_plan(), factor->parent(), model->pattern(), fixed));
+      UpdatePlan(factor->factor().shared_plan(), factor->parent(), model->pattern(), fixed));
   recovery_factor->Factor(bound, with);
 }
 
 // Moves the rest shape rigidly to the best fit with the fixed nodes, or with all nodes if fewer
 // than three are fixed.
-void ImplicitSolver::Impl::LayRestShape(std::span<glm::dvec3> x) const {
+void ImplicitSolver::Impl::FitRestShape(std::span<glm::dvec3> x) const {
   const auto& rest = model->mesh().rest_positions;
   const auto mass = model->mass();
   const auto held = std::count(fixed.begin(), fixed.end(), 7);
@@ -96,9 +96,9 @@ void ImplicitSolver::Impl::RecoverShape(std::span<glm::dvec3> x, const Problem& 
   if (!is_recovering) {
     recovery_rounds = rounds_once_clean = 0;
     if (assembly.inverted > kTrusted * model->mesh().ElementCount()) {
-      LayRestShape(x);
+      FitRestShape(x);
       std::copy(x.begin(), x.end(), goal_x.begin());  // no inertia from the old position
-      was_laid = true;
+      was_refitted = true;
     }
   }
   is_recovering = true;

@@ -50,7 +50,7 @@ struct PointJob {
   std::array<double, 3> fibre;
 };
 // Response of a quadrature point.
-struct PointAnswer {
+struct PointResponse {
   double psi = 0, j = 0;           // J/m³
   std::array<double, 9> p{};       // Pa, row-major
   std::array<double, 81> dp_df{};  // Pa, entry (3i+k, 3j+l) = ∂P_ik/∂F_jl
@@ -66,7 +66,7 @@ struct ElementKernel {
   // Fills the lower triangle; `mirror` maps an entry of the pattern to the transposed entry.
   void (*mirror)(const BlockPattern&, const int* mirror, std::array<double, 9>* block) noexcept;
   void (*multiply)(const MultiplyJob&) noexcept;
-  PointAnswer (*point)(const PointJob&) noexcept;
+  PointResponse (*point)(const PointJob&) noexcept;
 };
 
 // Returns null if this processor lacks the instruction set.

@@ -120,7 +120,7 @@ LayerUnder Slab() {
 double ForceByLaw(const LayerUnder& slab, double radius, double length, double depth, double tilt) {
   const glm::dvec3 along(std::cos(tilt), 0, std::sin(tilt));
   const std::array<Capsule, 1> tool{Capsule{{0, 0, 0}, length * along, radius}};
-  return ForceOfLayers({&slab, 1}, tool, {0, 0, radius - depth}).force.z;
+  return ComputeLayerForce({&slab, 1}, tool, {0, 0, radius - depth}).force.z;
 }
 
 TEST(ToolOnLayers, RodForceAgreesWithBoundaryElementsAtAllTilts) {
@@ -234,7 +234,7 @@ TEST(ToolOnLayers, SpringAndLayersBalanceWithinTheReportedDepth) {
       for (int tick = 0; tick < 60; ++tick)
         hold = HoldOnLayers({&condyle, 1}, tool, hand, hold.tip, kSpring, 0.0);
       ASSERT_EQ(hold.tissue, 0) << deep << " " << tilt;
-      const LayerForce force = ForceOfLayers({&condyle, 1}, tool, hold.tip);
+      const LayerForce force = ComputeLayerForce({&condyle, 1}, tool, hold.tip);
       // Pushed harder than a device can (3.3 N at 6.6 mm), it may rest where two cells of the
       // distance field meet. Their normals differ, so there is no exact balance.
       const double off = deep < 6.6 ? 1e-5 : 5e-3 * glm::length(hold.force);

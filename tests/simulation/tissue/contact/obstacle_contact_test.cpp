@@ -47,7 +47,7 @@ TEST(ObstacleContact, OverlapAtRestIsNotPushed) {
   const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
   ObstacleContact contact(mesh, {});
   const Bone bone = BoneAt(3e-4);
-  contact.LayAtRest(bone, kPose, mesh.rest_positions);
+  contact.AcceptRestOverlap(bone, kPose, mesh.rest_positions);
   std::vector<ContactPoint> found;
   contact.Find(bone, kPose, mesh.rest_positions, {}, found);
   double deepest = 0.0;
@@ -113,7 +113,7 @@ TEST(ObstacleContact, StiffnessScalesWithTheRemainingShare) {
   std::vector<glm::dvec3> pressed = mesh.rest_positions;
   for (glm::dvec3& x : pressed) x.z -= 1e-4;
   ObstacleContact contact(mesh, {}, share);
-  contact.LayAtRest(bone, kPose, mesh.rest_positions);
+  contact.AcceptRestOverlap(bone, kPose, mesh.rest_positions);
   std::vector<ContactPoint> found;
   const ObstacleContactOptions options;
   contact.Find(bone, kPose, pressed, options, found);

@@ -24,11 +24,11 @@ Extent ExtentOf(std::span<const Capsule> capsules) {
 }
 
 TEST(ToolShape, SceneWordsNameTools) {
-  EXPECT_EQ(ToolKindOf("probe"), ToolKind::kProbe);
-  EXPECT_EQ(ToolKindOf("punch"), ToolKind::kPunch);
-  EXPECT_EQ(ToolKindOf("shaver"), ToolKind::kShaver);
-  EXPECT_EQ(ToolKindOf("grasper"), ToolKind::kGrasper);
-  EXPECT_EQ(ToolKindOf("spoon"), ToolKind::kProbe);
+  EXPECT_EQ(ToolKindFromString("probe"), ToolKind::kProbe);
+  EXPECT_EQ(ToolKindFromString("punch"), ToolKind::kPunch);
+  EXPECT_EQ(ToolKindFromString("shaver"), ToolKind::kShaver);
+  EXPECT_EQ(ToolKindFromString("grasper"), ToolKind::kGrasper);
+  EXPECT_EQ(ToolKindFromString("spoon"), ToolKind::kProbe);
 }
 
 TEST(ToolShape, EveryToolEndsAtItsTip) {

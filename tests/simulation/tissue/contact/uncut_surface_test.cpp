@@ -34,7 +34,7 @@ TEST(UncutSurface, SkinIsProjectedAwayFromCutsAndKeptNearThem) {
   field.Subtract(field.box(), bite);
   const SurfaceMesh raw = Polygonise(field);
   SurfaceMesh laid = raw;
-  LayOnto(UncutSurface(box), field, {}, laid);
+  ProjectOnto(UncutSurface(box), field, {}, laid);
   double raw_worst = 0;
   for (std::size_t v = 0; v < raw.vertices.size(); ++v) {
     if (bite(raw.vertices[v]) < 0.3 * kMm) {  // relaxed

@@ -200,7 +200,7 @@ TEST(CutMesh, LocalUpdateEqualsARebuild) {
     const FieldEdit edit = field.Subtract({centre - r - kMm, centre + r + kMm}, BallAt(centre, r));
     const CutMesh before = cutter.result();
     const CutMesh& now = cutter.Update(field, edit.changed);
-    looked_at += cutter.elements_looked_at();
+    looked_at += cutter.elements_tested();
     ExpectSound(now, whole);
     const CutMesh rebuilt = CutByField(whole, field);
     EXPECT_TRUE(SameTopology(now, rebuilt));
@@ -326,7 +326,7 @@ TEST(CutMesh, TimesOfAMeniscusOf600) {
   start = ThreadCpuMs();
   cutter.Update(field, edit.changed);
   const double bite = ms(start);
-  const int local = cutter.elements_looked_at();
+  const int local = cutter.elements_tested();
   start = ThreadCpuMs();
   cutter.Rebuild(field);
   std::printf("%d T10: made in %.1f ms; a bite of 3.4 mm %.2f ms (%d elements); all %.1f ms\n",

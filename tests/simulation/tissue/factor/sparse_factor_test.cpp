@@ -145,7 +145,7 @@ TEST(SparseFactor, IndefiniteMatrixIsShiftedUntilPositiveDefinite) {
 struct Row {
   std::vector<int> cells, parent;  // parent: node of the whole row
   std::shared_ptr<const BlockPattern> Pattern() const {
-    return std::make_shared<BlockPattern>(PatternOf(cells, 8, static_cast<int>(parent.size())));
+    return std::make_shared<BlockPattern>(MakePattern(cells, 8, static_cast<int>(parent.size())));
   }
 };
 Row RowCutAt(int cut) {
@@ -172,7 +172,7 @@ Row RowCutAt(int cut) {
 TEST(FactorPlan, PlanOfACutBodyKeepsTheOrder) {
   const Row whole = RowCutAt(100), cut = RowCutAt(7);
   const auto before = std::make_shared<const FactorPlan>(whole.Pattern(), FixedAxes{});
-  const auto after = PlanAfter(before, cut.parent, cut.Pattern(), FixedAxes(cut.parent.size(), 0));
+  const auto after = UpdatePlan(before, cut.parent, cut.Pattern(), FixedAxes(cut.parent.size(), 0));
   const FactorPlan sought(cut.Pattern(), FixedAxes{});
   EXPECT_EQ(after->size(), 3 * static_cast<int>(cut.parent.size()));
   EXPECT_LE(after->flops(), 1.1 * before->flops()) << "a cut row costs no more than a whole one";
@@ -201,16 +201,16 @@ TEST(FactorPlan, PlanIsReusedWhenTheCutChangedNothing) {
   const Row whole = RowCutAt(100);
   const auto before = std::make_shared<const FactorPlan>(whole.Pattern(), FixedAxes{});
   const FixedAxes free(whole.parent.size(), 0);
-  EXPECT_EQ(PlanAfter(before, whole.parent, whole.Pattern(), free), before);
+  EXPECT_EQ(UpdatePlan(before, whole.parent, whole.Pattern(), free), before);
   FixedAxes held = free;
   held[3] = 7;
-  EXPECT_EQ(PlanAfter(before, {}, whole.Pattern(), held)->size(), before->size() - 3);
+  EXPECT_EQ(UpdatePlan(before, {}, whole.Pattern(), held)->size(), before->size() - 3);
 }
 
 TEST(PanelKernels, SkippedPartsOfAProductChangeNoOtherBit) {
   Random random(3);
   for (const int n : {1, 5, 16, 23, 47}) {
-    const int stride = StripsOf(n);
+    const int stride = RoundUpToStrip(n);
     const auto made = [&](auto&& is_there) {
       std::vector<double> m(static_cast<std::size_t>(stride * stride + kStrip), 0.0);
       for (int j = 0; j < n; ++j)

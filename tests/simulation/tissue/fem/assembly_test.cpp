@@ -98,7 +98,7 @@ TEST_P(EachOrderAndLaw, PatchTestGivesUniformStress) {
                Tangent::kNone,
                {f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]},
                {}};
-  const PointAnswer point = KernelOf(InstructionSet::kScalar)->point(job);
+  const PointResponse point = KernelOf(InstructionSet::kScalar)->point(job);
   EXPECT_NEAR(a.sum.energy, point.psi * model.volume(), 1e-12 * point.psi * model.volume());
   EXPECT_NEAR(a.sum.min_ratio, point.j, 1e-13);
   EXPECT_NEAR(model.volume(), kSide * kSide * kSide, 1e-15 * kSide);

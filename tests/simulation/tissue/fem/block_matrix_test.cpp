@@ -60,7 +60,7 @@ TEST(BlockMatrix, ThreeProductsAtOnceEqualSingleProductsBitForBit) {
 
 TEST(BlockMatrix, PatternIncludesUnusedNodesAndHasNoDuplicates) {
   const std::vector<int> elements{0, 1, 2, 4, 1, 2, 4, 5};
-  const BlockPattern p = PatternOf(elements, 4, 7);
+  const BlockPattern p = MakePattern(elements, 4, 7);
   EXPECT_EQ(p.node_count(), 7);
   EXPECT_EQ(p.row_begin, (std::vector<int>{0, 4, 9, 14, 15, 20, 24, 25}));
   EXPECT_EQ(p.column[p.diagonal[3]], 3);

@@ -44,7 +44,7 @@ Answer At(const Matrix3& f, Law law, Tangent tangent = Tangent::kTrue,
                {},
                {kDirection.x(), kDirection.y(), kDirection.z()}};
   for (int i = 0; i < 9; ++i) job.f[i] = f(i / 3, i % 3);
-  const PointAnswer raw = KernelOf(set)->point(job);
+  const PointResponse raw = KernelOf(set)->point(job);
   Answer answer{raw.psi, raw.j, Vector9(raw.p.data()), Matrix9(raw.dp_df.data())};
   return answer;
 }

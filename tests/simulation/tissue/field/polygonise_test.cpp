@@ -57,7 +57,7 @@ TEST(CellPatches, JoiningTheOnlyAmbiguousFaceSplitsASelfTouchingPatch) {
     int ambiguous = 0;
     for (int face = 0; face < 6; ++face) ambiguous += IsAmbiguous(c, face);
     EXPECT_EQ(ambiguous, 1) << c;
-    EXPECT_EQ(PatchesOf(c, faces).count, PatchesOf(c, 0).count + 1) << c;
+    EXPECT_EQ(FindPatches(c, faces).count, FindPatches(c, 0).count + 1) << c;
   }
   EXPECT_GT(touching, 0);
 }
