@@ -123,7 +123,7 @@ Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMe
   scope_shape_ = ScopeShape();
   for (std::size_t kind = 0; kind < shapes_.size(); ++kind)
     shapes_[kind] = ShapeOf(static_cast<ToolKind>(kind));
-  if (!scene.instruments.empty()) kind_ = ToolKindOf(scene.instruments.front().kind);
+  if (!scene.instruments.empty()) kind_ = ToolKindFromString(scene.instruments.front().kind);
 }
 
 void Session::SetInstrument(ToolKind kind) noexcept {

@@ -1,4 +1,4 @@
-// All options of living tissue in one list: solver, contact with tools, sleep, cuts.
+// All options of simulated tissue in one list: solver, contact with tools, sleep, cuts.
 #pragma once
 
 #include "simulation/core/options.h"
@@ -9,10 +9,10 @@
 namespace arthro::simulation {
 
 struct BodyOptions {
-  // One Newton iteration follows a slow hand, and nineteen of twenty steps need no more than two;
-  // a tool that comes onto other skin in a step needs up to eight. What is left unbalanced pushes
-  // it somewhere else in the next: with at most three, 8 % of a soak's steps ended so, with eight
-  // 2 %, and the slowest steps were no slower.
+  // One Newton iteration follows a slow hand; 19 of 20 steps need at most two. A tool that moves
+  // onto other skin in a step needs up to eight. A residual left over moves the tissue in the next
+  // step. A limit of three left one in 8 % of the steps of a soak test, a limit of eight in 2 %,
+  // and the slowest steps took no longer.
   SolverOptions solver{.max_newton = 8};
   ToolContactOptions contact;
   ShaverOptions shaver;
@@ -26,14 +26,14 @@ struct BodyOptions {
     contact.Visit(v);
     shaver.Visit(v);
     v("sleep_speed", sleep_speed, Range{0, 1}, "m/s",
-      "A tissue that nothing touches and whose nodes are slower than this sleeps.");
+      "Speed of nodes below which an untouched tissue sleeps.");
     v("refresh_iterations", refresh_iterations, Range{1, 1000}, "",
-      "A step that needed more has the preconditioner made anew, beside the next steps.");
+      "Iterations above which a new preconditioner is made, in parallel with the next steps.");
     v("coupling_tolerance", coupling_tolerance, Range{1e-8, 0.5}, "",
-      "Energy error, of the whole, to which the stiffness that the servo gets is solved; the "
-      "stiffness is off by its square.");
+      "Relative energy error of the stiffness that is solved for the servo; the error of the "
+      "stiffness is its square.");
     v("cut_spacing", cut_spacing, Range{5e-5, 2e-3}, "m",
-      "Grid on which cuts are kept: the resolution of cut faces.");
+      "Spacing of the grid that stores cuts: the resolution of cut faces.");
   }
 };
 

@@ -16,17 +16,17 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kQuietSteps = 20;    // slow and untouched for so long, then it sleeps
-constexpr int kGoodEvery = 30;     // steps between two copies of a state to fall back to
+constexpr int kQuietSteps = 20;    // slow and untouched steps before it sleeps
+constexpr int kGoodEvery = 30;     // steps between two saved good states
 constexpr int kRefreshPause = 10;  // steps between two factors, so that none is wasted
 
 FixedAxes FixedBy(const std::vector<Ball>& balls, const TetMesh& mesh) {
   FixedAxes fixed = HeldNodes(mesh.rest_positions, balls);
-  for (std::uint8_t& axes : fixed) axes *= 7;  // all three of a held node
+  for (std::uint8_t& axes : fixed) axes *= 7;  // all three axes of a fixed node
   return fixed;
 }
 
-// Of the elements' corners, m.
+// Returns the mean edge length of the elements' corners, m.
 double MeanEdge(const TetMesh& mesh) {
   double sum = 0;
   for (int e = 0; e < mesh.ElementCount(); ++e) {
@@ -51,8 +51,8 @@ std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder&
                                      EmbedSkin(spec.surface, spec.mesh, finder), field, nullptr);
 }
 
-std::shared_ptr<const FemModel> ModelOf(const TetMesh& mesh, std::span<const double> share,
-                                        const Material& material, const FemModel* before) {
+std::shared_ptr<const FemModel> MakeModel(const TetMesh& mesh, std::span<const double> share,
+                                          const Material& material, const FemModel* before) {
   if (before == nullptr || before->mesh().elements != mesh.elements ||
       before->mesh().rest_positions != mesh.rest_positions)
     return std::make_shared<const FemModel>(mesh, material, share);
@@ -66,7 +66,7 @@ std::shared_ptr<const FemModel> ModelOf(const TetMesh& mesh, std::span<const dou
 BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
                      EmbeddedSkin carried, const SolidField& field, const FemModel* before)
     : mesh(std::move(elements)),
-      model(ModelOf(mesh, share, spec.material, before)),
+      model(MakeModel(mesh, share, spec.material, before)),
       fixed(FixedBy(spec.fixed, mesh)),
       skin(std::move(carried)),
       skin_contact(skin, mesh, field, spec.material.young_modulus),
@@ -93,13 +93,13 @@ DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
                             spec.fixed.size()));
   state.x = spec.mesh.rest_positions;
   state.v.assign(state.x.size(), glm::dvec3(0.0));
-  MakeRoom();
+  ResizeBuffers();
   taken.by_region.assign(spec.regions.empty() ? 0 : spec.regions.size() + 1, 0.0);
   if (!spec.cuts.empty()) MakeAuthorsCuts();
 }
 
-// For everything that has as many entries as the shape has nodes or the skin vertices.
-void DeformableBody::Impl::MakeRoom() {
+// Resizes everything that has one entry per node of the shape or per vertex of the skin.
+void DeformableBody::Impl::ResizeBuffers() {
   load.assign(state.x.size(), glm::dvec3(0.0));
   contacts.reserve(state.x.size() + placed.size() * kMaxToolContacts);
   results.resize(contacts.capacity());
@@ -108,7 +108,7 @@ void DeformableBody::Impl::MakeRoom() {
   since_good = 0;
   positions.resize(shape->skin.rest.vertices.size());
   normals.resize(positions.size());
-  lies_on = nullptr;
+  known_obstacle = nullptr;
   MoveSkin();
 }
 
@@ -132,7 +132,7 @@ void DeformableBody::Impl::TakeTools(std::span<const WorldTool> tools) noexcept 
     const Rigid3 body_from_tool = body_from_portal * tools[i].now.portal_from_tool;
     tool.bite = {body_from_tool * tools[i].shape.bite.a, body_from_tool * tools[i].shape.bite.b,
                  tools[i].shape.bite.radius};
-    // Another instrument is not held as the one before was, nor does it finish its bite.
+    // Another instrument inherits neither the grip nor the unfinished bite.
     const bool goes_on = tool.was_present && tool.count > 0 && tool.kind == tools[i].shape.kind;
     tool.motion = goes_on ? body_from_tool.translation - tool.tip : glm::dvec3(0.0);
     if (!goes_on) {
@@ -184,7 +184,7 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   if (impl_->is_lost && !impl_->is_refreshing) {
     try {
       Reset();
-    } catch (const std::exception&) {  // still no memory: it stands still until there is some
+    } catch (const std::exception&) {  // still no memory: stays as it is until there is some
     }
   }
   Impl& own = *impl_;
@@ -205,12 +205,12 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   if (own.spec.is_cuttable) {
     try {
       report.was_cut = own.CutWithTools(tools, dt);
-    } catch (const std::exception&) {  // out of memory: soon whole again, and it is said
+    } catch (const std::exception&) {  // no memory: restored soon, and reported
       return lost();
     }
   }
 
-  // What holds it where it is now.
+  // Finds the present contacts.
   own.contacts.clear();
   for (std::size_t i = 0; i < own.tool_count; ++i)
     if (own.placed[i].count > 0)
@@ -220,15 +220,15 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   const std::size_t of_tools = own.contacts.size();
   report.contacts = static_cast<int>(of_tools);
   if (obstacle != nullptr) {
-    if (obstacle != own.lies_on)
-      own.shape->rest_contact.LayAtRest(*obstacle, own.spec.portal_from_body,
-                                        own.shape->mesh.rest_positions);
-    own.lies_on = obstacle;
+    if (obstacle != own.known_obstacle)
+      own.shape->rest_contact.AcceptRestOverlap(*obstacle, own.spec.portal_from_body,
+                                                own.shape->mesh.rest_positions);
+    own.known_obstacle = obstacle;
     own.shape->rest_contact.Find(*obstacle, own.spec.portal_from_body, own.state.x, own.on_obstacle,
                                  own.contacts);
   }
 
-  // Solve; a state that is no state goes back to the last good one, and says so.
+  // Solves. A state that is not finite is replaced by the last good one and reported.
   const std::span<ContactResult> results(own.results.data(), own.contacts.size());
   report.step = own.solver.Step(own.state, own.load, own.contacts, {}, dt, results);
   if (!report.step.is_finite || !IsFinite(own.state.x)) {
@@ -248,12 +248,12 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
     own.since_good = 0;
   }
 
-  // How the servo feels it until the next step.
+  // Sets what the servo feels until the next step.
   for (std::size_t i = 0; i < own.tool_count && i < coupling.size(); ++i)
     own.AddCoupling(static_cast<int>(i), {own.contacts.data(), of_tools}, results.first(of_tools),
                     coupling[i]);
 
-  // A preconditioner that grows old is made anew; a body at rest sleeps.
+  // Refreshes an old preconditioner; lets a body at rest sleep.
   ++own.since_refresh;
   report.factor_age = own.solver.factor_age();
   if (report.step.iterations > own.options.refresh_iterations * std::max(1, report.step.newton) &&
@@ -285,7 +285,7 @@ void DeformableBody::TakeRefresh() noexcept {
   impl_->is_refreshing = false;
 }
 
-void DeformableBody::WhenCut(std::function<void()> finish) {
+void DeformableBody::SetBeforeCut(std::function<void()> finish) {
   impl_->finish_refresh = std::move(finish);
 }
 

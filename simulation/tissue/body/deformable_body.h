@@ -1,8 +1,7 @@
-// One living tissue: elements, solver, skin, what holds it and what was cut away. A step finds what
-// the tools touch, solves, moves the skin, and says how the servo will feel it until the next step.
-// A tissue that nothing touches and that has come to rest sleeps: its step costs a look at a box.
-// Own frame (the scene's tissue frame, scale applied), m, s, N; tools and couplings in the portal
-// frame.
+// One simulated tissue: elements, solver, skin, fixed nodes and cuts. A step finds the contacts of
+// the tools, solves, moves the skin and sets the coupling that the servo uses until the next step.
+// An untouched tissue at rest sleeps; its step then only tests a box. Own frame (the scene's tissue
+// frame, scale applied), m, s, N; tools and couplings in the portal frame.
 #pragma once
 
 #include <array>
@@ -30,16 +29,16 @@ struct BodySpec {
   std::string name;
   int tissue = 0;       // index in the scene
   TetMesh mesh;         // own frame
-  SurfaceMesh surface;  // its fine skin, same frame, closed
+  SurfaceMesh surface;  // fine skin, same frame, closed
   Material material;
-  std::vector<Ball> fixed;  // nodes in any of these are held
-  std::vector<Cut> cuts;    // of the author: it begins, and is reset to, with these made
+  std::vector<Ball> fixed;  // nodes in any of these are fixed
+  std::vector<Cut> cuts;    // author's cuts: made at the start and on reset
   std::vector<Region> regions;
   Rigid3 portal_from_body;
   bool is_cuttable = false;
 };
 
-// One tool for one step, portal frame.
+// State of one tool in one step, portal frame.
 struct WorldTool {
   ToolShape shape;
   ToolInput now;
@@ -49,64 +48,65 @@ struct BodyReport {
   StepReport step;
   bool is_asleep = false;
   bool was_cut = false;    // in this step
-  bool was_reset = false;  // the solver failed: back at the last good state; or lost
+  bool was_reset = false;  // the solver failed and the last good state was restored; or lost
   int contacts = 0;
   double max_speed = 0;  // m/s
   int factor_age = 0;    // steps
 };
 
-// What was taken of a body so far, the author's cuts not counted.
+// Volume removed from a body so far, without the author's cuts.
 struct CutReport {
-  double removed = 0;        // m³ by tools, debris included
-  int pieces = 1;            // that it has fallen into, debris not counted
+  double removed = 0;        // m³, by tools and as debris
+  int pieces = 1;            // number of parts, without debris
   int debris = 0;            // loose fragments that were washed away
   double debris_volume = 0;  // m³
-  int cuts = 0;              // bites, and updates of shaving
-  // m³, one a region of the spec, then what lies in none; their sum is `removed`. Empty: no
+  int cuts = 0;              // bites and shaving updates
+  // m³ per region of the spec, then outside all regions; the sum is `removed`. Empty without
   // regions.
   std::vector<double> by_region;
 };
 
-// The skin of a body at rest, whole or after a cut.
+// Skin of a body at rest, whole or after a cut.
 struct BodySkin {
   SurfaceMesh surface;
-  std::vector<std::uint8_t> is_fresh;  // a vertex: 1 on a cut face; empty: whole
+  std::vector<std::uint8_t> is_fresh;  // 1 per vertex on a cut face; empty: whole
 };
 
 class DeformableBody {
  public:
-  // Throws Error(kBadMesh) for a mesh that cannot be computed with and Error(kBadScene) where balls
-  // are given but hold no node. With no ball it floats.
+  // Throws Error(kBadMesh) for a mesh that cannot be computed with. Throws Error(kBadScene) if
+  // balls are given but contain no node. Without a ball the body floats.
   DeformableBody(BodySpec spec, const BodyOptions& options);
   ~DeformableBody();
   DeformableBody(DeformableBody&&) noexcept;
   DeformableBody& operator=(DeformableBody&&) noexcept;
 
-  // `coupling`: one a tool, contacts of this body are added. `obstacle`: what it rests on, or null.
+  // `coupling` has one entry per tool, to which contacts of this body are added. `obstacle`
+  // supports the body, or is null.
   BodyReport Step(std::span<const WorldTool> tools, const RigidObstacle* obstacle, double dt,
                   std::span<ToolCoupling> coupling) noexcept;
 
-  // The factor of the solver is made anew on another thread between Begin and Take.
+  // The solver's factor is renewed on another thread between Begin and Take.
   bool WantsRefresh() const noexcept;
   void BeginRefresh();
   void RunRefresh() noexcept;
   void TakeRefresh() noexcept;
-  // A cut needs a new factor at once: `finish` is called before, to wait for one that is being made
-  // elsewhere and take it.
-  void WhenCut(std::function<void()> finish);
+  // Sets a function that is called before a cut, which needs a new factor at once. It waits for a
+  // factor in preparation elsewhere and takes it.
+  void SetBeforeCut(std::function<void()> finish);
 
-  void Reset();  // as it was before it was touched: the author's cuts stay
-  // There was no memory for a cut: what it is now is not to be shown, and it is whole again at the
-  // first step that has memory and no refresh under way.
+  void Reset();  // to the untouched state: the author's cuts stay
+  // Returns true after a cut ran out of memory: the body must not be shown. It becomes whole again
+  // at the first step with enough memory and no refresh in progress.
   bool IsLost() const noexcept;
 
   const BodySpec& spec() const;
   const BodyState& state() const;
-  std::span<const glm::dvec3> positions() const;  // of the skin's vertices
+  std::span<const glm::dvec3> positions() const;  // positions of the skin's vertices
   std::span<const glm::dvec3> normals() const;
-  const std::shared_ptr<const BodySkin>& skin() const;  // at rest; another one after a cut
+  const std::shared_ptr<const BodySkin>& skin() const;  // at rest; replaced by a cut
   std::uint64_t shape_version() const;                  // grows when positions change
-  const TetMesh& mesh() const;                          // as state() has nodes; cut or whole
+  const TetMesh& mesh() const;                          // nodes as in state(); cut or whole
   const CutReport& cut_report() const;
   int held_nodes() const;
 

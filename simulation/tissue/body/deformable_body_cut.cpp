@@ -1,5 +1,4 @@
-// Taking parts of a body away: the field in rest space, the elements after it, the skin, the
-// solver.
+// Removal of parts of a body: the field at rest, then elements, skin and solver.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -16,17 +15,17 @@
 namespace arthro::simulation {
 namespace {
 
-// A tool that cuts and comes so near finds the tissue prepared for it (50 ms) when it bites.
+// Distance at which a cutting tool triggers the preparation of the tissue (50 ms).
 constexpr double kPrepareReach = 5e-3;  // m
 
-constexpr double kSkinReach = 2.5;  // spacings outside the tissue that a cut still has to know
+constexpr double kSkinReach = 2.5;  // spacings outside the tissue that a cut must know
 
 bool Meet(const Box3& a, const Box3& b) {
   return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
 }
 
-// Where the nodes of the new mesh come from in the one before. A node that was in none goes with a
-// node of its element that was.
+// Maps the nodes of the new mesh to the previous one. A new node is mapped like an old node of its
+// element.
 std::vector<int> PreviousNodes(const CutMesh& cut) {
   std::vector<int> previous = cut.previous_node;
   const int nodes = cut.mesh.NodesPerElement();
@@ -43,7 +42,7 @@ std::vector<int> PreviousNodes(const CutMesh& cut) {
   return previous;
 }
 
-// Smallest of the barycentric coordinates in the element's corners, straight edges between them.
+// Returns the smallest barycentric coordinate in the element's corner tetrahedron.
 double Inside(const TetMesh& mesh, int element, const glm::dvec3& x) {
   const int* node = &mesh.elements[static_cast<std::size_t>(element * mesh.NodesPerElement())];
   const auto at = [&](int i) { return mesh.rest_positions[static_cast<std::size_t>(node[i])]; };
@@ -51,11 +50,10 @@ double Inside(const TetMesh& mesh, int element, const glm::dvec3& x) {
   return std::min({l.x, l.y, l.z, l.w});
 }
 
-// The element that a node of the grid lies in, or, up to four nodes outside the mesh, the one of
-// its neighbour; −1 further out. A walk over the elements: asking for each node takes a hundred
-// times as long.
+// Finds the element of each grid node. Up to four nodes outside the mesh it is that of a neighbour,
+// further out −1. Walks over the elements; a search for each node takes a hundred times as long.
 std::vector<int> ElementsOfNodes(const TetMesh& mesh, const FieldGrid& grid) {
-  constexpr double kBulge = -0.2;  // of a curved side beyond the straight one, barycentric
+  constexpr double kBulge = -0.2;  // barycentric bulge of a curved face beyond the straight one
   constexpr int kOutside = 4;
   std::vector<int> element(grid.NodeCount(), -1);
   std::vector<float> inside(grid.NodeCount(), static_cast<float>(kBulge));
@@ -92,7 +90,7 @@ std::vector<int> ElementsOfNodes(const TetMesh& mesh, const FieldGrid& grid) {
   return element;
 }
 
-// Of the elements at the eight nodes about a place, the one that holds it best; −1: none.
+// Finds the best containing element among those at the eight nodes around a point; −1: none.
 int ElementAround(const glm::dvec3& x, const FieldGrid& grid, const std::vector<int>& of_node,
                   const TetMesh& mesh) {
   const glm::dvec3 last(grid.count[0] - 2, grid.count[1] - 2, grid.count[2] - 2);
@@ -112,8 +110,7 @@ int ElementAround(const glm::dvec3& x, const FieldGrid& grid, const std::vector<
   return best;
 }
 
-// Of each element of the whole mesh that is there once: which it is in the cut mesh; −1: none, or
-// several.
+// Maps each element of the whole mesh to its only copy in the cut mesh; −1: none, or several.
 std::vector<int> OnlyCopies(const CutMesh& cut, int elements) {
   constexpr int kNone = -1, kSeveral = -2;
   std::vector<int> only(static_cast<std::size_t>(elements), kNone);
@@ -157,7 +154,7 @@ void DeformableBody::Impl::PrepareToBeCut() noexcept {
       continue;
     try {
       BeginCutting();
-    } catch (const std::exception&) {  // no memory: at the cut it is tried again, and said
+    } catch (const std::exception&) {  // no memory: tried again at the cut, and reported
       cut.reset();
     }
   }
@@ -169,7 +166,7 @@ bool DeformableBody::Impl::CutWithTools(std::span<const WorldTool> tools, double
     PlacedTool& tool = placed[i];
     if (tool.count == 0) continue;
     double time = 0;
-    const ToolCut cut_now = CutOf(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
+    const ToolCut cut_now = TriggerCut(tools[i].shape.kind, tools[i].now, dt, tool.trigger, time);
     if (cut_now != ToolCut::kNone) was_cut |= CutWith(tool.bite, cut_now == ToolCut::kShave, time);
   }
   return was_cut;
@@ -180,7 +177,7 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
   const glm::dvec3 at = glm::round((rest - grid.origin) / grid.spacing);
   const std::size_t node =
       grid.Index(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z));
-  // Well outside the tissue nothing is to be known.
+  // Points well outside the tissue are not needed.
   if (field.values()[node] > std::min(kSkinReach * grid.spacing, 0.9 * field.band())) return false;
   const int element = cut->element_of_node[node];
   if (element < 0 || cut->is_near[static_cast<std::size_t>(element)] == 0) return false;
@@ -201,7 +198,7 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
   return true;
 }
 
-// What a cut needs, made at the first one.
+// Creates the data that cutting needs, at the first cut.
 void DeformableBody::Impl::BeginCutting() {
   cut = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
                                             .skin = FieldSkin(field),
@@ -213,7 +210,7 @@ void DeformableBody::Impl::BeginCutting() {
   cut->is_near.assign(static_cast<std::size_t>(spec.mesh.ElementCount()), 0);
 }
 
-// What the author took is not the trainee's: the body begins without it.
+// Makes the author's cuts, which do not count as the trainee's.
 void DeformableBody::Impl::MakeAuthorsCuts() {
   BeginCutting();
   const MadeCuts made = MakeCuts(field, spec.cuts, spec.fixed);
@@ -244,8 +241,8 @@ bool DeformableBody::Impl::CutWith(const Capsule& tool, bool is_shaver, double d
                        ? Shave(field, box, place_of, distance, options.shaver, dt, cut->shaver)
                        : SubtractDeformed(field, box, place_of, distance);
   if (edit.changed.empty()) return false;
-  // Fragments that nothing holds any more are washed away when they are small.
-  const CrumbReport gone = WashAway(field, spec.fixed);
+  // Washes away small fragments that are no longer held.
+  const CrumbReport gone = RemoveDebris(field, spec.fixed);
   edit.changed = Union(edit.changed, gone.edit.changed);
   taken.removed += edit.removed + gone.edit.removed;
   taken.debris += gone.crumbs;
@@ -261,7 +258,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
   const CutMesh& after = cut->cutter.Update(field, box);
   taken.pieces = after.piece_count();
 
-  // The skin of what is left, on the elements that are left.
+  // Builds the skin of the remaining tissue on the remaining elements.
   cut->skin.Update(field);
   EmbeddedSkin skin{cut->skin.surface(), {}};
   const std::vector<int> only_copy = OnlyCopies(after, spec.mesh.ElementCount());
@@ -275,7 +272,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
       is_new[v] = 0;
       skin.rest.vertices[v] = shape->skin.rest.vertices[static_cast<std::size_t>(before)];
     }
-  LayOnto(cut->uncut, field, is_new, skin.rest);
+  ProjectOnto(cut->uncut, field, is_new, skin.rest);
   std::vector<int> element_of(skin.rest.vertices.size());
   skin.point.resize(element_of.size());
   for (std::size_t v = 0; v < element_of.size(); ++v) {
@@ -286,7 +283,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
       const int copy = only_copy[static_cast<std::size_t>(element_of[v])];
       const EmbeddedPoint& point = shape->skin.point[static_cast<std::size_t>(before)];
       if (copy >= 0 && was_only_copy[static_cast<std::size_t>(element_of[v])] >= 0) {
-        skin.point[v] = {copy, point.weight};  // as before: the vertex did not move at rest
+        skin.point[v] = {copy, point.weight};  // unchanged: the vertex did not move at rest
         continue;
       }
     } else {
@@ -312,7 +309,7 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
     moved.v.push_back(state.v[k]);
   }
   state = std::move(moved);
-  MakeRoom();
+  ResizeBuffers();
 }
 
 }  // namespace arthro::simulation

@@ -1,4 +1,4 @@
-// What is inside a DeformableBody, for the files that it is written in: stepping and cutting.
+// Implementation of DeformableBody, shared by its source files for stepping and cutting.
 #pragma once
 
 #include <functional>
@@ -16,9 +16,10 @@
 
 namespace arthro::simulation {
 
-// All that a cut makes anew: elements, what is held, the skin and what finds contacts on it.
+// Data that a cut rebuilds: elements, fixed nodes, skin and contact search.
 struct BodyShape {
-  // `before`: of the shape before, or null; where it has the same elements only shares are new.
+  // `before` is the previous shape's model, or null; if it has the same elements, only shares are
+  // new.
   BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
             EmbeddedSkin carried, const SolidField& field, const FemModel* before);
 
@@ -31,23 +32,24 @@ struct BodyShape {
   std::shared_ptr<const BodySkin> skin_at_rest;
 };
 
-// Kept from the author's first cut on, or from when a tool that cuts first comes near.
+// Data kept from the author's first cut on, or from when a cutting tool first comes near.
 struct CutState {
   MeshCutter cutter;
   FieldSkin skin;
   UncutSurface uncut;
   SolidField original;                   // with the author's cuts, before the first tool's
-  std::vector<int> element_of_vertex{};  // of the whole mesh, one a vertex of the field's skin
+  std::vector<int> element_of_vertex{};  // element of the whole mesh per vertex of the field's skin
   std::vector<int>
-      element_of_node{};  // of the whole mesh, one a node of the field; −1: far from it
-  // Where in its element a node of the field is: kept, since a shaver asks ten times a second.
-  std::vector<int> point_of_node{};  // index in `points`; −1: not asked yet
+      element_of_node{};  // element of the whole mesh per node of the field; −1: far from it
+  // Positions of field nodes in their elements; cached, since a shaver needs them ten times a
+  // second.
+  std::vector<int> point_of_node{};  // index in `points`; −1: not computed yet
   std::vector<ElementPoint> points{};
-  std::vector<unsigned char> is_near{};  // of the whole mesh: an element where the tool is now
+  std::vector<unsigned char> is_near{};  // per element of the whole mesh: near the tool now
   Shaver shaver{};
 };
 
-// A tool in the body's own frame.
+// Tool in the body's own frame.
 struct PlacedTool {
   std::array<Capsule, kMaxCapsules> capsules;
   int count = 0;
@@ -55,7 +57,7 @@ struct PlacedTool {
   ToolKind kind = ToolKind::kNone;
   glm::dvec3 tip{0.0}, motion{0.0};
   ToolGrip grip;
-  Capsule bite;  // what it takes when it closes or runs
+  Capsule bite;  // volume removed when it closes or runs
   CutTrigger trigger;
   std::span<const Capsule> Capsules() const {
     return {capsules.data(), static_cast<std::size_t>(count)};
@@ -70,34 +72,34 @@ struct DeformableBody::Impl {
   bool IsTouchedSoon() const noexcept;
   void AddCoupling(int tool, std::span<const ContactPoint> of_tools,
                    std::span<const ContactResult> results, ToolCoupling& coupling) noexcept;
-  // Begins cutting, where a tool that cuts comes near: 50 ms that the first bite does not take.
+  // Prepares cutting when a cutting tool comes near, so that the first bite need not take 50 ms.
   void PrepareToBeCut() noexcept;
-  // Bites and shavings of this step; true when something was taken.
+  // Applies bites and shavings of this step; returns true if something was removed.
   bool CutWithTools(std::span<const WorldTool> tools, double dt);
   bool CutWith(const Capsule& tool, bool is_shaver, double dt);
   void BeginCutting();
   void MakeAuthorsCuts();
   void CountRegions();
-  // The field changed within `box`: elements, state, solver and skin follow.
+  // Updates elements, state, solver and skin after the field changed within `box`.
   void FollowField(const Box3& box);
-  // For everything that has as many entries as the shape has nodes or the skin vertices.
-  void MakeRoom();
-  // At rest, of the elements that are where the tool is now; they are flagged in cut->is_near.
+  // Resizes everything that has one entry per node of the shape or per vertex of the skin.
+  void ResizeBuffers();
+  // Returns the box at rest of the elements near the tool and flags them in cut->is_near.
   Box3 RestBoxOf(const Capsule& tool);
-  // Where a node of the field is now; false: not near the tool, or no tissue.
+  // Computes the present position of a field node; false: far from the tool, or no tissue.
   bool PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place);
 
   BodySpec spec;
   BodyOptions options;
   Rigid3 body_from_portal;
-  ElementFinder finder;  // of the whole mesh
+  ElementFinder finder;  // for the whole mesh
   SolidField field;
   std::unique_ptr<BodyShape> shape;
   std::unique_ptr<CutState> cut;  // null: whole
   CutReport taken;
   ImplicitSolver solver;
   ObstacleContactOptions on_obstacle;
-  const RigidObstacle* lies_on = nullptr;  // that shape->rest_contact knows
+  const RigidObstacle* known_obstacle = nullptr;  // obstacle that shape->rest_contact knows
   BodyState state, good;
   std::vector<glm::dvec3> load, positions, normals;
   std::vector<ContactPoint> contacts;
@@ -105,12 +107,12 @@ struct DeformableBody::Impl {
   std::array<PlacedTool, 2> placed;
   std::size_t tool_count = 0;
   std::uint64_t shape_version = 0;
-  bool is_asleep = true;  // at rest until it is touched
+  bool is_asleep = true;  // at rest until touched
   int quiet = 0, since_good = 0, since_refresh = 0;
   bool wants_refresh = false;
-  std::function<void()> finish_refresh;  // ends one that runs elsewhere
-  bool is_refreshing = false;  // between Begin and Take another thread may work on the solver
-  bool is_lost = false;        // a cut ended midway: to be made whole when nobody works on it
+  std::function<void()> finish_refresh;  // waits for one that runs elsewhere
+  bool is_refreshing = false;            // between Begin and Take another thread may use the solver
+  bool is_lost = false;                  // a cut failed midway: restored when no thread works on it
 };
 
 }  // namespace arthro::simulation

@@ -14,19 +14,18 @@ namespace arthro::simulation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSmallest = 0.01, kLargest = 10.0;  // contact radius over thickness
+constexpr double kSmallest = 0.01, kLargest = 10.0;  // contact radius / thickness
 
-// How much more a bonded layer gives than a half space under pressure of wave number k/h,
-// frictionless on top: w = (1−ν)/μ · M(k) h/k · p. Jaffar 1989, eq. 6, with κ = 3 − 4ν; multiplied
-// through by exp(−2k) so that nothing overflows. k → 0: the foundation; k → ∞: 1.
+// Returns the compliance of a bonded layer relative to a half space under pressure of wave number
+// k/h, frictionless on top: w = (1−ν)/μ · M(k) h/k · p [Jaffar 1989, eq. 6], κ = 3 − 4ν. Multiplied
+// through by exp(−2k) to avoid overflow. k → 0: foundation; k → ∞: 1.
 double LayerFactor(double k, double nu) {
   const double kappa = 3 - 4 * nu, e = std::exp(-2 * k);
   return (kappa * (1 - e * e) - 4 * k * e) /
          (kappa * (1 + e * e) + (kappa * kappa + 1 + 4 * k * k) * e);
 }
 
-// ∫₀^∞ (1 − M(k)) cos(k y) dk by Simpson's rule. 1 − M falls as k² exp(−2k): at 20 it is under
-// 1e-14.
+// ∫₀^∞ (1 − M(k)) cos(k y) dk by Simpson's rule. 1 − M falls as k² exp(−2k): below 1e-14 at k = 20.
 class LayerKernel {
  public:
   explicit LayerKernel(double nu) {
@@ -43,20 +42,21 @@ class LayerKernel {
   }
 
  private:
-  // Simpson's error is the step⁴ / 180 times the third derivative at 0, about y²: 8e-7 at y = 20.
+  // Simpson's error is step⁴ / 180 times the third derivative at 0, about y²: 8e-7 at y = 20.
   static constexpr int kPoints = 800;
   static constexpr double kStep = 20.0 / kPoints;
   std::vector<double> share_;
 };
 
-// Of contact radius x (lengths over the thickness): force a depth and, for a ball, depth and force.
+// Contact of radius x (lengths over the thickness): force per depth of a flat end; depth and force
+// of a ball.
 struct Contact {
   double kappa, depth, force;
 };
 
-// Lebedev & Ufliand's equation φ(s) − 1/π ∫₋ₓˣ H(s−t) φ(t) dt = G(s), φ even, by Simpson's rule:
-// for G = 1 (a flat end) and s² (what a paraboloid adds). A ball's pressure ends at zero, φ(x) = 0,
-// which is how deep it must be to touch just so far.
+// Solves Lebedev & Ufliand's equation φ(s) − 1/π ∫₋ₓˣ H(s−t) φ(t) dt = G(s), φ even, by Simpson's
+// rule. G = 1 is a flat end, G = s² the addition of a paraboloid. The pressure of a ball ends at
+// zero, φ(x) = 0, which determines the depth for this contact radius.
 Contact Solve(const LayerKernel& kernel, double x) {
   constexpr int kCells = 40;
   const double step = x / kCells;
@@ -79,15 +79,15 @@ Contact Solve(const LayerKernel& kernel, double x) {
   return {flat / x, depth, depth * flat - weight.dot(phi.col(1))};
 }
 
-// What the depth under a line load is beside −ln|y| of a half plane: ½ ln(1 + y²) + ∫₀^∞ (M(k) − 1
-// + exp(−k))/k cos(k y) dk, lengths over the thickness; sampled, and cubic in between.
+// Depth under a line load, relative to −ln|y| of a half plane: ½ ln(1 + y²) + ∫₀^∞ (M(k) − 1 +
+// exp(−k))/k cos(k y) dk, lengths over the thickness. Sampled, with cubic interpolation.
 class LineKernel {
  public:
   explicit LineKernel(double nu) {
     std::vector<double> share;
     for (int i = 0; i <= kPoints; ++i) {
       const double weight = i == 0 || i == kPoints ? 1 : i % 2 == 1 ? 4 : 2;
-      const double k = std::max(i * kStep, 1e-3);  // at 0 it has a limit, and cancels
+      const double k = std::max(i * kStep, 1e-3);  // finite limit at 0, but cancellation
       share.push_back(weight * kStep / 3 * (LayerFactor(k, nu) - 1 + std::exp(-k)) / k);
     }
     for (int j = 0; j <= kSpan * kPerUnit + 1; ++j) {
@@ -102,7 +102,7 @@ class LineKernel {
     const double place = std::abs(y) * kPerUnit;
     const auto j = std::min(static_cast<std::size_t>(place), at_.size() - 2);
     const double t = place - static_cast<double>(j);
-    // Even in y: the sample before the first is the second.
+    // Even in y: the sample before the first equals the second.
     const double before = at_[j == 0 ? 1 : j - 1], a = at_[j], b = at_[j + 1];
     const double after = j + 2 < at_.size() ? at_[j + 2] : 2 * b - a;
     return a + 0.5 * t *
@@ -116,9 +116,9 @@ class LineKernel {
   std::vector<double> at_;
 };
 
-// Of half width x: a flat strip's force a depth, and depth and force of a parabola that touches
-// just so far. Pressure Σ cₙ T₂ₙ(t)/√(1−t²), t over the half width: −ln|t − s| takes T₂ₙ to π/2n
-// T₂ₙ, and the rest of the kernel is smooth, for Gauss and Chebyshev's rule.
+// Solves a contact of half width x: force per depth of a flat strip, depth and force of a parabola.
+// Pressure Σ cₙ T₂ₙ(t)/√(1−t²), t over the half width: −ln|t − s| maps T₂ₙ to π/2n T₂ₙ. The rest of
+// the kernel is smooth and uses Gauss-Chebyshev quadrature.
 Contact SolveLine(const LineKernel& kernel, double x) {
   constexpr int kTerms = 16, kNodes = 48;
   const auto chebyshev = [](int n, double angle) { return std::cos(2 * n * angle); };
@@ -145,14 +145,15 @@ struct Value {
   double y, slope;
 };
 
-// Cubic through two samples with their slopes.
+// Evaluates the cubic through two samples with their slopes.
 Value Hermite(double x0, double x1, double y0, double y1, double s0, double s1, double x) {
   const double width = x1 - x0, t = (x - x0) / width, rise = (y1 - y0) / width;
   const double a = s0 + s1 - 2 * rise, b = 3 * rise - 2 * s0 - s1;
   return {y0 + width * t * (s0 + t * (b + t * a)), s0 + t * (2 * b + t * 3 * a)};
 }
 
-// The curve at x; outside its samples a straight line of slope `before` or of the last slope.
+// Evaluates the curve at x; outside its samples a straight line with slope `before` or the last
+// slope.
 template <class Curve>
 Value At(const Curve& xs, const Curve& ys, const Curve& slopes, double before, double x) {
   if (x <= xs.front()) return {ys.front() + before * (x - xs.front()), before};
@@ -161,9 +162,9 @@ Value At(const Curve& xs, const Curve& ys, const Curve& slopes, double before, d
   return Hermite(xs[i - 1], xs[i], ys[i - 1], ys[i], slopes[i - 1], slopes[i], x);
 }
 
-// Slopes of samples whose own are not known: those of the parabola through the neighbours.
+// Estimates unknown slopes of samples from the parabola through the neighbours.
 template <class Curve>
-Curve SlopesOf(const Curve& xs, const Curve& ys) {
+Curve EstimateSlopes(const Curve& xs, const Curve& ys) {
   Curve slopes{};
   for (std::size_t i = 0; i < xs.size(); ++i) {
     const std::size_t m = std::clamp<std::size_t>(i, 1, xs.size() - 2);
@@ -175,19 +176,19 @@ Curve SlopesOf(const Curve& xs, const Curve& ys) {
   return slopes;
 }
 
-// A ball on a half space at depth d (of its radius) beside the paraboloid of the same curvature:
-// force over Hertz's with its derivative by d, and contact radius over Hertz's [Sneddon 1965:
-// d = e atanh e, F ~ (1 + e²) atanh e − e, e the contact's radius over the ball's; Hertz: e² = d,
-// F ~ 4/3 d^1.5].
+// Ball on a half space at depth d (over its radius), compared with the paraboloid of the same
+// curvature: force over Hertz's with its derivative by d, and contact radius over Hertz's. [Sneddon
+// 1965]: d = e atanh e, F ~ (1 + e²) atanh e − e, e the contact's radius over the ball's; Hertz: e²
+// = d, F ~ 4/3 d^1.5.
 struct Roundness {
   double force = 1, slope = -0.1, radius = 1;
 };
 Roundness RoundnessAt(double d) {
   if (d < 1e-4) return {1 - 0.1 * d, -0.1, 1 - d / 6};  // the next terms are d²
   const double hertz = 4.0 / 3 * d * std::sqrt(d);
-  if (d > 8)  // the contact is the ball's whole width but for 1e-7 of it: e = 1
+  if (d > 8)  // the contact has the ball's full width to 1e-7: e = 1
     return {(2 * d - 1) / hertz, (2 - (2 * d - 1) * 1.5 / d) / hertz, 1 / std::sqrt(d)};
-  // Newton from above, where the function is convex: eight steps leave rounding only.
+  // Newton's method from above, where the function is convex: eight steps reach rounding.
   double e = std::min(std::sqrt(d), std::tanh(d / std::tanh(d)));
   for (int i = 0; i < 8; ++i) {
     const double turn = std::atanh(e);
@@ -228,7 +229,7 @@ ElasticLayer::ElasticLayer(const Material& material, double thickness) : thickne
     log_kappa_[i] = std::log(contact.kappa);
     log_depth_[i] = std::log(contact.depth);
     log_force_[i] = std::log(contact.force);
-    // A little deeper, a ball moves what it touches as a flat end of that size would.
+    // For a small increase of depth, a ball acts like a flat end of the contact's size.
     force_slope_[i] = x * contact.kappa * contact.depth / contact.force;
   }
   line_unit_ = kPi * mu / (1 - nu);
@@ -239,9 +240,9 @@ ElasticLayer::ElasticLayer(const Material& material, double thickness) : thickne
     log_line_force_[i] = std::log(line.force);
     line_force_slope_[i] = line.kappa * line.depth / line.force;
   }
-  line_radius_slope_ = SlopesOf(log_line_depth_, log_radius_);
-  kappa_slope_ = SlopesOf(log_radius_, log_kappa_);
-  radius_slope_ = SlopesOf(log_depth_, log_radius_);
+  line_radius_slope_ = EstimateSlopes(log_line_depth_, log_radius_);
+  kappa_slope_ = EstimateSlopes(log_radius_, log_kappa_);
+  radius_slope_ = EstimateSlopes(log_depth_, log_radius_);
 }
 
 LayerTouch ElasticLayer::PressFlat(double radius, double depth) const noexcept {
@@ -285,8 +286,8 @@ LayerTouch ElasticLayer::PressLine(double radius, double depth) const noexcept {
 
 double ElasticLayer::BallDepth(double radius, double force) const noexcept {
   if (!IsPressed(radius, force)) return 0;
-  // The force rises everywhere, so halving finds the depth; 70 halvings of a span of 80 (in the
-  // logarithm) leave nothing.
+  // Bisects, because the force rises everywhere; 70 halvings of a span of 80 (in the logarithm)
+  // reach rounding.
   double low = std::log(thickness_) - 70, high = std::log(thickness_) + 10;
   for (int i = 0; i < 70; ++i) {
     const double middle = 0.5 * (low + high);

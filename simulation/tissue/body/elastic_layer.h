@@ -1,13 +1,16 @@
-// Cartilage that is not cut, without a mesh: an elastic layer of even thickness, bonded to rigid
-// bone, pressed by something small and smooth without friction. A wide press feels a Winkler
-// foundation of the aggregate modulus over the thickness; a small one feels a half space (Hertz);
-// between them, and near ν = 0.5, both are wrong by factors, and the contact problem of the bonded
-// layer [Lebedev & Ufliand 1958; Hayes et al. 1972; Jaffar 1989] is solved once, when the layer is
-// made. Pressing then reads a curve: noexcept, no allocation. What a ball is more curved than the
-// paraboloid of that theory is put right by the ratio of the two on a half space [Sneddon 1965].
-// Linear theory: beside quadratic elements with the stable neo-Hookean law it is within 5 % up to a
-// depth of a tenth of the thickness and within 10 % up to a fifth; `is_deep` says when a mesh
-// should take over. m, N, Pa.
+// Uncut cartilage without a mesh: an elastic layer of constant thickness, bonded to rigid bone,
+// pressed without friction by a small smooth body.
+//
+// A wide contact feels a Winkler foundation: aggregate modulus over thickness. A small one feels a
+// half space (Hertz). Between these limits, and near ν = 0.5, both are wrong by large factors. The
+// contact problem of the bonded layer [Lebedev & Ufliand 1958; Hayes et al. 1972; Jaffar 1989] is
+// therefore solved once, when the layer is made. Pressing then evaluates a curve: noexcept, no
+// allocation. The theory assumes a paraboloid; the ratio of ball to paraboloid on a half space
+// [Sneddon 1965] corrects for a ball.
+//
+// Linear theory: compared with quadratic elements and the stable neo-Hookean law the error is
+// within 5 % up to a depth of a tenth of the thickness and within 10 % up to a fifth. `is_deep`
+// tells when a mesh should take over. m, N, Pa.
 #pragma once
 
 #include <array>
@@ -26,44 +29,43 @@ struct LayerTouch {
 
 class ElasticLayer {
  public:
-  static constexpr double kDeepShare = 0.3;      // of the thickness
-  static constexpr double kDeepBallShare = 0.8;  // of a ball's radius: its sides begin to touch
+  static constexpr double kDeepShare = 0.3;      // fraction of the thickness
+  static constexpr double kDeepBallShare = 0.8;  // over a ball's radius: its sides begin to touch
 
-  // Of the material only E and ν count: law and fibres differ at strains that this is not for.
-  // Throws Error(kBadArgument) for a thickness, modulus or Poisson's ratio that is not one.
+  // Uses only E and ν of the material; law and fibres matter at larger strains only. Throws
+  // Error(kBadArgument) for an invalid thickness, modulus or Poisson's ratio.
   ElasticLayer(const Material& material, double thickness);
 
   double thickness() const noexcept { return thickness_; }
-  // Pa/m: pressure over depth where the contact is much wider than the layer is thick.
+  // Pa/m: pressure over depth for a contact much wider than the thickness.
   double foundation() const noexcept { return foundation_; }
 
-  // A ball of this radius whose lowest point is `depth` under the surface at rest. Depths ≤ 0,
-  // radii ≤ 0 and values that are not finite: no force.
+  // Presses a ball of this radius to `depth` below the surface at rest. Returns no force for a
+  // depth or radius ≤ 0 or a value that is not finite.
   LayerTouch PressBall(double radius, double depth) const noexcept;
-  // The flat end of a round rod of this radius, square on the surface.
+  // Presses the flat end of a round rod of this radius, perpendicular to the surface.
   LayerTouch PressFlat(double radius, double depth) const noexcept;
-  // A long round rod that lies on it: force and stiffness a metre of it (N/m, N/m²), contact_radius
-  // half the width. Plane strain; of its cross-section the curvature counts, the rest of the
-  // circle does not.
+  // Presses a long round rod that lies on the surface: force and stiffness per metre (N/m, N/m²),
+  // contact_radius half the width. Plane strain; the cross-section is approximated by its
+  // curvature.
   LayerTouch PressLine(double radius, double depth) const noexcept;
-  // The other way round: how deep it is when it is pushed with `force`. PressX(depth).force is
-  // `force` to 1e-9 of it.
+  // Inverse functions: return the depth for a force. PressX(depth).force equals `force` to 1e-9.
   double BallDepth(double radius, double force) const noexcept;
   double FlatDepth(double radius, double force) const noexcept;
 
  private:
-  // Contact radii over thickness from 0.01 to 10, evenly in the logarithm. Smaller is a half space
-  // to 1 %, larger goes on as a power.
+  // Contact radii over thickness from 0.01 to 10, evenly in the logarithm. Smaller values are a
+  // half space to 1 %; larger ones continue as a power.
   static constexpr std::size_t kSamples = 28;
   using Curve = std::array<double, kSamples>;
 
   double thickness_ = 0, foundation_ = 0;
   double flat_unit_ =
-      0;  // N/m: force over depth of a flat end as large as the layer is thick, κ = 1
+      0;  // N/m: force per depth of a flat end of radius equal to the thickness, κ = 1
   Curve log_radius_{};                               // ln(a/h)
   Curve log_kappa_{}, kappa_slope_{};                // over log_radius_
   Curve log_depth_{}, log_force_{}, force_slope_{};  // ball: ln(δ R/h²), ln(F R/(flat_unit h²))
-  Curve radius_slope_{};                             // of log_radius_ over log_depth_
+  Curve radius_slope_{};                             // d log_radius_ / d log_depth_
   double line_unit_ = 0;                             // Pa: πμ/(1 − ν)
   // Line: half the width is exp(log_radius_) h; ln(δ R/h²), ln(F' R/(line_unit h²)).
   Curve log_line_depth_{}, log_line_force_{}, line_force_slope_{}, line_radius_slope_{};

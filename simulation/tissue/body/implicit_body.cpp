@@ -49,13 +49,13 @@ BodyReport ImplicitBody::Step(const WorldTool& tool, double dt) noexcept {
     if (kind != std::exchange(kind_, kind)) trigger_ = CutTrigger{};
     if (!spec_.is_cuttable || kind == ToolKind::kNone) return report;
     double time = 0;
-    const ToolCut cut = CutOf(kind, tool.now, dt, trigger_, time);
+    const ToolCut cut = TriggerCut(kind, tool.now, dt, trigger_, time);
     if (cut == ToolCut::kNone) return report;
     const Rigid3 body_from_tool = Inverse(spec_.portal_from_body) * tool.now.portal_from_tool;
     const Capsule& bite = tool.shape.bite;
     report.was_cut =
         CutWith({body_from_tool * bite.a, body_from_tool * bite.b, bite.radius}, cut, time);
-  } catch (const std::exception&) {  // out of memory: soon whole again, and it is said
+  } catch (const std::exception&) {  // no memory: restored soon, and reported
     is_lost_ = report.was_reset = true;
   }
   report.is_asleep = !report.was_cut && !report.was_reset;
@@ -84,7 +84,7 @@ bool ImplicitBody::CutWith(const Capsule& tool, ToolCut cut, double time) {
   report_.removed += edit.removed;
   ++report_.cuts;
 
-  const auto [gone, pieces] = WashAwayLoose(field, spec_.fixed);
+  const auto [gone, pieces] = RemoveLoosePieces(field, spec_.fixed);
   report_.debris += gone.crumbs;
   report_.debris_volume += gone.edit.removed;
   report_.removed += gone.edit.removed;
@@ -97,7 +97,7 @@ bool ImplicitBody::CutWith(const Capsule& tool, ToolCut cut, double time) {
   return true;
 }
 
-// Outside of what changed, and a spacing around it, vertices have the normals that they had.
+// Recomputes normals in the changed box and one spacing around it; the others stay.
 void ImplicitBody::TakeSkin(const Box3& changed) {
   const double around = now_.field().spacing();
   const Box3 turned{changed.low - around, changed.high + around};
@@ -116,7 +116,8 @@ void ImplicitBody::TakeSkin(const Box3& changed) {
                      ? normals_[static_cast<std::size_t>(before)]
                      : now_.solid().NormalInField(surface.vertices[v]);
   }
-  skin_ = std::make_shared<const BodySkin>(BodySkin{surface, FreshIn(surface, now_.field())});
+  skin_ =
+      std::make_shared<const BodySkin>(BodySkin{surface, MarkFreshVertices(surface, now_.field())});
   normals_ = std::move(normals);
   ++version_;
 }

@@ -1,7 +1,7 @@
-// A tissue that is a function of space in a session [paper, 3.4]: it does not give way, but bites
-// and a running shaver take of it, and what they loosen is washed away. It is sampled on the grid
-// that cuts are kept on. A step that takes nothing costs a look at a box. Own frame (the scene's
-// tissue frame, scale applied), m, s; tools in the portal frame.
+// Tissue given by an implicit function in a session [paper, 3.4]. It does not deform, but bites and
+// a running shaver remove parts of it, and loose parts are washed away. It is sampled on the grid
+// that stores cuts. A step without a cut only tests a box. Own frame (the scene's tissue frame,
+// scale applied), m, s; tools in the portal frame.
 #pragma once
 
 #include <memory>
@@ -20,31 +20,32 @@ struct ImplicitSpec {
   int tissue = 0;       // index in the scene
   SurfaceMesh surface;  // own frame, closed
   Rigid3 portal_from_body;
-  std::vector<Ball> fixed;      // pieces with a node in one of these stay; none: the largest does
-  std::vector<Cut> cuts;        // the author's: it begins with them
-  std::vector<Region> regions;  // that the report counts by
+  std::vector<Ball> fixed;      // pieces with a node in one of these stay; empty: the largest stays
+  std::vector<Cut> cuts;        // author's cuts, made at the start
+  std::vector<Region> regions;  // for the report's volumes
   bool is_cuttable = false;
 };
 
 class ImplicitBody {
  public:
-  // Throws Error(kBadMesh), with the tissue's name, for a surface that is open or not finite.
+  // Throws Error(kBadMesh), naming the tissue, for a surface that is open or not finite.
   ImplicitBody(ImplicitSpec spec, const BodyOptions& options);
 
-  // is_asleep: nothing was taken.
+  // is_asleep: nothing was removed.
   BodyReport Step(const WorldTool& tool, double dt) noexcept;
   void Reset();
-  // There was no memory for a cut: it is whole again at the first step that has.
+  // Returns true after a cut ran out of memory; it becomes whole again at the first step with
+  // enough.
   bool IsLost() const noexcept { return is_lost_; }
 
   const ImplicitSpec& spec() const { return spec_; }
-  const PosedField& solid() const { return now_.solid(); }  // what is felt
+  const PosedField& solid() const { return now_.solid(); }  // the shape that is felt
   std::span<const glm::dvec3> positions() const { return skin_->surface.vertices; }
   std::span<const glm::dvec3> normals() const { return normals_; }
   const std::shared_ptr<const BodySkin>& skin() const { return skin_; }
   std::uint64_t shape_version() const { return version_; }
   const CutReport& cut_report() const { return report_; }
-  const SkinUpdate& skin_update() const { return update_; }  // what the last edit had to make anew
+  const SkinUpdate& skin_update() const { return update_; }  // cost of the last edit
 
  private:
   bool CutWith(const Capsule& tool, ToolCut cut, double time);
@@ -59,7 +60,7 @@ class ImplicitBody {
   SkinUpdate update_;
   Shaver shaver_;
   CutTrigger trigger_;
-  ToolKind kind_ = ToolKind::kNone;  // that the trigger is of
+  ToolKind kind_ = ToolKind::kNone;  // kind to which the trigger belongs
   std::uint64_t version_ = 1;
   bool is_lost_ = false;
 };

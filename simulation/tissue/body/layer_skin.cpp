@@ -13,15 +13,15 @@
 namespace arthro::simulation {
 namespace {
 
-// Further than this outside of the tool nothing moves: the rim has come down to a thousandth.
+// Distance from the tool beyond which nothing moves: the rim has decayed to a thousandth.
 constexpr double kReach = 4.0;  // thicknesses of the layer
-constexpr double kRim = 0.5;    // of the thickness, over which the rim comes down
-constexpr int kSweeps = 16;     // a frame; each begins with the last frame's answer
+constexpr double kRim = 0.5;    // decay length of the rim, of the thickness
+constexpr int kSweeps = 16;     // per frame; each starts from the previous answer
 
-// How far from x along `way` (unit) the ray leaves the capsule; 0: x is not in it. By halving:
-// what is inside of a capsule is convex.
-double ExitOf(const Capsule& capsule, const glm::dvec3& x, const glm::dvec3& way,
-              double most) noexcept {
+// Returns the distance from x along `way` (unit) at which the ray leaves the capsule; 0: x is
+// outside. Bisects, because a capsule is convex.
+double ExitDistance(const Capsule& capsule, const glm::dvec3& x, const glm::dvec3& way,
+                    double most) noexcept {
   const glm::dvec3 axis = capsule.b - capsule.a;
   const double length2 = glm::dot(axis, axis);
   const auto is_in = [&](const glm::dvec3& p) noexcept {
@@ -56,7 +56,7 @@ LayerSkin::LayerSkin(LayerSpec spec) : spec_(std::move(spec)) {
   least_.assign(count, 0.0);
   moved_.reserve(count);
 
-  // Triangles and neighbours of each vertex, one list after the other.
+  // Lists triangles and neighbours of each vertex.
   first_triangle_.assign(count + 1, 0);
   for (const auto& triangle : surface.triangles)
     for (int v : triangle) ++first_triangle_[static_cast<std::size_t>(v) + 1];
@@ -95,7 +95,7 @@ void LayerSkin::Press(std::span<const Capsule> capsules, double depth) noexcept 
   for (std::size_t i = 0; i < pieces; ++i)
     tool[i] = {body_from_portal * capsules[i].a, body_from_portal * capsules[i].b,
                capsules[i].radius};
-  // As deep as the theory goes; where the tool is deeper, with it, to the bone.
+  // Limits the depth to the range of the theory, or to the tool's depth, at most to the bone.
   const double thickness = spec_.layer.thickness();
   const double most = std::clamp(depth, ElasticLayer::kDeepShare * thickness, thickness);
   const auto is_near = [&](const glm::dvec3& x) noexcept {
@@ -105,7 +105,7 @@ void LayerSkin::Press(std::span<const Capsule> capsules, double depth) noexcept 
                        });
   };
 
-  // What was near before goes back first, but remembers its dent to begin from.
+  // Restores the vertices that were near before, but keeps their dent as a starting value.
   const std::vector<glm::dvec3>& rest = skin_->surface.vertices;
   for (int v : moved_) {
     const auto i = static_cast<std::size_t>(v);
@@ -119,7 +119,7 @@ void LayerSkin::Press(std::span<const Capsule> capsules, double depth) noexcept 
     moved_.push_back(static_cast<int>(i));
     least_[i] = 0.0;
     for (std::size_t piece = 0; piece < pieces; ++piece)
-      least_[i] = std::max(least_[i], ExitOf(tool[piece], rest[i], -rest_normals_[i], most));
+      least_[i] = std::max(least_[i], ExitDistance(tool[piece], rest[i], -rest_normals_[i], most));
   }
   Relax();
   for (int v : moved_) {
@@ -130,8 +130,8 @@ void LayerSkin::Press(std::span<const Capsule> capsules, double depth) noexcept 
   ++version_;
 }
 
-// Δu = u/rim² outside of the tool, u at least what the tool asks: by sweeps that alternate their
-// direction, in place.
+// Relaxes Δu = u/rim² outside the tool, with u at least the tool's depth, by in-place sweeps of
+// alternating direction.
 void LayerSkin::Relax() noexcept {
   const std::vector<glm::dvec3>& rest = skin_->surface.vertices;
   const double rim = kRim * spec_.layer.thickness();
@@ -145,7 +145,7 @@ void LayerSkin::Relax() noexcept {
       sum += weight * dent_[w];
       weights += weight;
     }
-    // Of n neighbours at distance l in the plane: Δu ≈ 4/n Σ (u_w − u_v)/l².
+    // For n neighbours at distance l in the plane: Δu ≈ 4/n Σ (u_w − u_v)/l².
     const double valence = first_neighbour_[v + 1] - first_neighbour_[v];
     dent_[v] = std::max(least_[v], sum / (weights + 0.25 * valence / (rim * rim)));
   };
@@ -156,7 +156,7 @@ void LayerSkin::Relax() noexcept {
       for (std::size_t i = moved_.size(); i-- > 0;) relax(moved_[i]);
 }
 
-// Normals of the vertices that moved, weighted by area. Those beside them hardly turn.
+// Computes area-weighted normals of the vertices that moved; adjacent ones hardly rotate.
 void LayerSkin::TakeShape() noexcept {
   const auto& triangles = skin_->surface.triangles;
   for (int vertex : moved_) {

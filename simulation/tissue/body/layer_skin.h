@@ -1,8 +1,7 @@
-// What a thin layer looks like under a tool: its surface goes before the tool as far as the tool is
-// in it, and the rim comes down with it as a membrane on a foundation does (Pasternak), over half a
-// thickness. A picture only: the force is ElasticLayer's. Nothing is computed of a layer that is
-// not pressed, and one that is let go is exactly at rest. Own frame (the scene's tissue frame,
-// scale applied), m.
+// Displayed shape of a thin layer under a tool. The surface yields by the tool's depth, and the rim
+// follows like a membrane on a foundation (Pasternak), with a decay length of half a thickness.
+// Display only: the force comes from ElasticLayer. An untouched layer costs nothing, and a released
+// one is exactly at rest. Own frame (the scene's tissue frame, scale applied), m.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@
 
 namespace arthro::simulation {
 
-// A tissue without a mesh that gives way as a layer of even thickness on bone.
+// Tissue without a mesh that deforms as a layer of constant thickness on bone.
 struct LayerSpec {
   std::string name;
   int tissue = 0;       // index in the scene
@@ -34,7 +33,7 @@ class LayerSkin {
  public:
   explicit LayerSkin(LayerSpec spec);
 
-  // The tool where it is drawn, portal frame, `depth` deep in the layer. Allocates nothing.
+  // Dents the layer by the drawn tool, portal frame, `depth` deep in the layer. Allocates nothing.
   void Press(std::span<const Capsule> capsules, double depth) noexcept;
   void Release() noexcept;
 
@@ -52,9 +51,9 @@ class LayerSkin {
   LayerSpec spec_;
   std::shared_ptr<const BodySkin> skin_;  // shared with the pictures
   std::vector<glm::dvec3> rest_normals_, positions_, normals_;
-  std::vector<int> neighbour_, first_neighbour_, triangle_, first_triangle_;  // of a vertex
-  std::vector<double> dent_, least_;  // a vertex, along −normal: as shown, and what the tool asks
-  std::vector<int> moved_;            // vertices near the tool, ascending
+  std::vector<int> neighbour_, first_neighbour_, triangle_, first_triangle_;  // per vertex
+  std::vector<double> dent_, least_;  // per vertex, along −normal: as shown, as required
+  std::vector<int> moved_;            // vertices near the tool, rising
   std::uint64_t version_ = 1;
 };
 

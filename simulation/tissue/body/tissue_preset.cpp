@@ -43,7 +43,7 @@ TissuePreset ReadTissuePreset(const std::filesystem::path& file) {
   reader.Text("schema", schema, JsonObjectReader::kRequired);
   reader.Text("title", preset.title, JsonObjectReader::kRequired);
   reader.Texts("words", preset.words);
-  // The material is read by its own list of fields, which also refuses unknown ones.
+  // The material is read through its own list of fields, which also refuses unknown ones.
   reader.Object("material", JsonObjectReader::kRequired, [&](JsonObjectReader& inner) {
     for (const auto& [key, value] : json["material"].items()) inner.Know(key);
   });

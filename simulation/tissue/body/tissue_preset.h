@@ -1,6 +1,6 @@
-// What tissues are made of, by name: one JSON file each in resources/presets/tissues, with where
-// every value comes from. A scene names a preset (Tissue::material) and may say single values
-// otherwise (Tissue::elasticity). SI.
+// Tissue properties by name: one JSON file each in resources/presets/tissues, with the source of
+// every value. A scene names a preset (Tissue::material) and may override single values
+// (Tissue::elasticity). SI units.
 #pragma once
 
 #include <filesystem>
@@ -13,36 +13,37 @@
 namespace arthro::simulation {
 
 struct TissuePreset {
-  std::string name;                // of the file, without .json
-  std::string title;               // for a person
+  std::string name;                // file name without .json
+  std::string title;               // for display
   std::vector<std::string> words;  // other names that scenes use for it
   Material material;
-  bool is_thin = false;              // a layer on bone, so thin that it needs no mesh
-  double layer_thickness = 0;        // m; of a thin one
-  double friction = 0.03;            // Coulomb, of an instrument on it in saline
-  std::string probing;               // what a person should know of the forces it gives
-  std::vector<std::string> sources;  // a line a value: what, how much, from where
+  bool is_thin = false;              // layer on bone that is thin enough to need no mesh
+  double layer_thickness = 0;        // m; for a thin tissue
+  double friction = 0.03;            // Coulomb coefficient of an instrument on it in saline
+  std::string probing;               // note about the forces that it gives
+  std::vector<std::string> sources;  // one line per value: quantity, value, source
 };
 
-// Above this an instrument does harm: "safe maximum" of 19 surgeons' probing (Tuijthof 2011,
-// PMC3023859); they push with 2.8 ± 0.8 N. What a force meter marks.
+// Force above which an instrument does harm: "safe maximum" of 19 surgeons' probing (Tuijthof 2011,
+// PMC3023859); they push with 2.8 ± 0.8 N. Marked on force meters.
 constexpr double kSafeProbingForce = 8.5;  // N
 
-// Throws Error(kBadData) that names the key at fault.
+// Throws Error(kBadData) naming the wrong key.
 TissuePreset ReadTissuePreset(const std::filesystem::path& file);
-// All of a folder, by name. Throws also where one word stands for two presets.
+// Reads all presets of a folder, by name. Also throws if one word stands for two presets.
 std::vector<TissuePreset> ReadTissuePresets(const std::filesystem::path& folder);
 
-// The one of this name, or the one that has it among its words; nullptr: none.
+// Finds the preset with this name or this word; nullptr if there is none.
 const TissuePreset* FindTissuePreset(const std::vector<TissuePreset>& presets,
                                      const std::string& word);
-// The same of a folder. Throws Error(kBadData) that lists the names that there are.
+// Finds it in a folder. Throws Error(kBadData) listing the available names.
 TissuePreset FindTissuePreset(const std::filesystem::path& folder, const std::string& word);
 
-// Does this tissue give way as a thin layer: no tetrahedra, not implicit, of a thin preset?
+// Returns whether the tissue deforms as a thin layer: no tetrahedra, not implicit, and a thin
+// preset.
 bool IsThinLayer(const Tissue& tissue, const std::vector<TissuePreset>& presets);
 
-// The preset with what the scene says otherwise.
+// Returns the preset with the overrides of the scene.
 TissuePreset WithElasticity(TissuePreset preset, const Elasticity& elasticity);
 
 }  // namespace arthro::simulation

@@ -10,11 +10,11 @@
 namespace arthro::simulation {
 namespace {
 
-// Steps from the begin of a new factor to its use, done or waited for: always as many, so that a
-// session gives the same bits on a fast and on a slow machine.
+// Steps from the start of a new factor to its use, whether ready or waited for. The constant number
+// gives the same bits in fast and slow sessions.
 constexpr int kRefreshSteps = 2;
 
-// What changed of one tissue since `shown` was last filled.
+// Copies the changes of one tissue since `shown` was last filled.
 template <class Body>
 void TakeShape(const Body& body, BodyPicture& shown) {
   if (shown.shape == body.shape_version() && shown.skin == body.skin()) return;
@@ -24,8 +24,8 @@ void TakeShape(const Body& body, BodyPicture& shown) {
   shown.normals.assign(body.normals().begin(), body.normals().end());
 }
 
-// What is wrong with a tissue, with its name.
-DeformableBody Made(BodySpec spec, const BodyOptions& options) {
+// Creates a body and adds its name to errors.
+DeformableBody MakeBody(BodySpec spec, const BodyOptions& options) {
   const std::string name = spec.name;
   try {
     return DeformableBody(std::move(spec), options);
@@ -56,7 +56,7 @@ struct TissueWorld::Impl {
     refreshing = nullptr;
   }
 
-  // One body at a time has its factor made anew.
+  // Refreshes the factor of one body at a time.
   void Refresh() noexcept {
     if (refreshing != nullptr) {
       if (++refresh_age < kRefreshSteps) return;
@@ -78,7 +78,7 @@ struct TissueWorld::Impl {
     double step_ms = 0;
   };
 
-  // The tool as it is drawn: where the layer lets it be.
+  // Steps the layers with the tool as drawn, i.e. as far as the layer lets it.
   void StepLayers(const WorldTool& tool, const LayerPress& press) noexcept {
     for (HeldLayer& held : layers) {
       const double begin = ThreadCpuMs();
@@ -95,7 +95,7 @@ struct TissueWorld::Impl {
     }
   }
 
-  // Reports and times are beside the bodies, which lie side by side for who reads them all.
+  // Reports and times are stored outside the bodies, which are contiguous for their readers.
   void StepImplicit(const WorldTool& tool, double dt) noexcept {
     for (std::size_t i = 0; i < implicit.size(); ++i) {
       const double begin = ThreadCpuMs();
@@ -113,7 +113,7 @@ struct TissueWorld::Impl {
   std::vector<HeldLayer> layers;
   std::vector<ImplicitBody> implicit;
   std::vector<OfStep> of_implicit;
-  std::array<WorldTool, static_cast<std::size_t>(ToolKind::kGrasper) + 1> tools;  // by kind
+  std::array<WorldTool, static_cast<std::size_t>(ToolKind::kGrasper) + 1> tools;  // one per kind
   std::shared_ptr<const RigidObstacle> obstacle;
   ToolCoupling coupling;
   std::uint64_t step = 0;
@@ -128,8 +128,8 @@ TissueWorld::TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options
     : impl_(std::make_unique<Impl>(std::move(obstacle), second_thread && !specs.empty())) {
   impl_->bodies.reserve(specs.size());
   for (BodySpec& spec : specs) {
-    impl_->bodies.push_back({Made(std::move(spec), options), {}, 0});
-    impl_->bodies.back().body.WhenCut([own = impl_.get()] { own->FinishRefresh(); });
+    impl_->bodies.push_back({MakeBody(std::move(spec), options), {}, 0});
+    impl_->bodies.back().body.SetBeforeCut([own = impl_.get()] { own->FinishRefresh(); });
   }
   for (LayerSpec& layer : layers) impl_->layers.push_back({LayerSkin(std::move(layer)), 0});
   impl_->implicit = std::move(implicit);

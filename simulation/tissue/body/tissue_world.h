@@ -1,6 +1,6 @@
-// All living tissues of a scene and the tools among them, one step at a time [method.md, Threads].
-// No clock and no threads of its own but one, on request, that makes factors anew; with it or
-// without, the same inputs give the same bits. Portal frame, m, s, N.
+// All simulated tissues of a scene and the tools among them, advanced step by step [method.md,
+// Threads]. Uses no clock and at most one thread, on request, to make factors. The same inputs give
+// the same bits with and without it. Portal frame, m, s, N.
 #pragma once
 
 #include <array>
@@ -16,30 +16,30 @@
 
 namespace arthro::simulation {
 
-// The thin layer that the instrument presses, as the servo says.
+// Thin layer that the instrument presses, from the servo.
 struct LayerPress {
   int tissue = -1;          // in the scene; −1: none
-  Rigid3 portal_from_tool;  // where the layer lets it be
+  Rigid3 portal_from_tool;  // equilibrium pose on the layer
   double depth = 0;         // m, of the tool's deepest point in the layer
 };
 
-// The instrument in the hand at a step: any of the kinds, changed in mid-session.
+// Instrument in the hand at a step: any kind, which may change during the session.
 struct Instrumentation {
   ToolKind kind = ToolKind::kProbe;
   ToolInput now;
   LayerPress press;
 };
 
-// Of one tissue, for the picture and the panels.
+// State of one tissue for the picture and the panels.
 struct BodyPicture {
   int tissue = -1;                       // in the scene
-  std::uint64_t shape = 0;               // another number: positions changed
-  std::shared_ptr<const BodySkin> skin;  // at rest; another pointer: cut
+  std::uint64_t shape = 0;               // changes when positions change
+  std::shared_ptr<const BodySkin> skin;  // at rest; replaced by a cut
   std::vector<glm::dvec3> positions,
-      normals;  // of the skin's vertices, tissue frame, scale applied
+      normals;  // skin vertices, tissue frame, scale applied
   BodyReport report;
   CutReport cut;
-  double step_ms = 0;  // of the processor
+  double step_ms = 0;  // processor time
 };
 
 struct WorldPicture {
@@ -49,9 +49,9 @@ struct WorldPicture {
 
 class TissueWorld {
  public:
-  // `obstacle`: what tissue rests on, or null. `second_thread`: factors are made there. Layers and
-  // what is a function of space are shown after the bodies, in this order: the servo has their
-  // force itself.
+  // `obstacle` supports tissue, or is null. With `second_thread`, factors are made there. Layers
+  // and implicit tissues are shown after the bodies, in this order; the servo computes their force
+  // itself.
   TissueWorld(std::vector<BodySpec> specs, const BodyOptions& options,
               std::shared_ptr<const RigidObstacle> obstacle, bool second_thread,
               std::vector<LayerSpec> layers = {}, std::vector<ImplicitBody> implicit = {});
@@ -59,15 +59,15 @@ class TissueWorld {
   TissueWorld(TissueWorld&&) noexcept;
   TissueWorld& operator=(TissueWorld&&) noexcept;
 
-  // Advances all bodies by dt with the instrument as it is now; the scope pushes nothing aside.
-  // noexcept: what goes wrong is in the reports.
+  // Advances all bodies by dt with the present instrument; the scope does not push tissue.
+  // noexcept: the reports tell what went wrong.
   void Step(const Instrumentation& instrument, double dt) noexcept;
 
   const ToolCoupling& coupling() const noexcept;
-  // Copies what changed since `picture` was last filled.
+  // Copies the changes since `picture` was last filled.
   void Show(WorldPicture& picture) const;
 
-  // What the servo's proxy meets of these.
+  // Returns the implicit tissues, which the servo's proxy collides with.
   std::span<const ImplicitBody> implicit() const noexcept;
 
   bool IsEmpty() const noexcept;

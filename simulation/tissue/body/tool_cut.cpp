@@ -7,13 +7,13 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kOpened = 0.5, kClosed = 0.15;  // shares of the jaws' opening: ready, bitten
-constexpr int kShaveEvery = 6;  // steps; what is shaved is taken ten times a second
+constexpr double kOpened = 0.5, kClosed = 0.15;  // fraction of the jaws' opening: ready, bitten
+constexpr int kShaveEvery = 6;  // steps; a shaver removes volume ten times per second
 
 }  // namespace
 
-ToolCut CutOf(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigger,
-              double& time) noexcept {
+ToolCut TriggerCut(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigger,
+                   double& time) noexcept {
   if (kind == ToolKind::kPunch) {
     if (now.opening > kOpened) trigger.is_ready_to_bite = true;
     if (!(now.opening < kClosed) || !trigger.is_ready_to_bite) return ToolCut::kNone;
@@ -28,7 +28,7 @@ ToolCut CutOf(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigge
   return ToolCut::kShave;
 }
 
-WashReport WashAwayLoose(SolidField& field, std::span<const Ball> fixed) {
+LooseReport RemoveLoosePieces(SolidField& field, std::span<const Ball> fixed) {
   const FieldPieces pieces = PiecesOf(field);
   if (pieces.count() == 0) return {};
   std::vector<unsigned char> is_debris = HeldPieces(field, pieces, fixed);
@@ -41,7 +41,7 @@ WashReport WashAwayLoose(SolidField& field, std::span<const Ball> fixed) {
   return {gone, pieces.count() - gone.crumbs};
 }
 
-std::vector<std::uint8_t> FreshIn(const SurfaceMesh& skin, const SolidField& field) {
+std::vector<std::uint8_t> MarkFreshVertices(const SurfaceMesh& skin, const SolidField& field) {
   std::vector<std::uint8_t> fresh;
   for (const glm::dvec3& x : skin.vertices)
     fresh.push_back(field.CutDistance(x) > -0.3 * field.spacing() ? 1 : 0);

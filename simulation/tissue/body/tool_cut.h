@@ -1,5 +1,5 @@
-// When an instrument takes tissue, and what becomes of the pieces: one rule for tissue of elements
-// and for tissue that is a function. s, m³.
+// Rule by which an instrument removes tissue and loose pieces are washed away, common to tissue of
+// elements and to implicit tissue. s, m³.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@ namespace arthro::simulation {
 
 enum class ToolCut { kNone, kBite, kShave };
 
-// What one tissue remembers of one tool between steps. A tool that was away begins with a new one.
+// Memory of one tool on one tissue between steps. A tool that was away starts with a new one.
 struct CutTrigger {
-  bool is_ready_to_bite = false;  // was opened since the last bite
+  bool is_ready_to_bite = false;  // opened since the last bite
   int since_shave = 0;            // steps
 };
 
-// Jaws that were open and close bite once; a running shaver takes ten times a second, for the
-// `time` since it last did.
-ToolCut CutOf(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigger,
-              double& time) noexcept;
+// Returns the cut of a step. Jaws that were open and close bite once. A running shaver cuts ten
+// times per second, for the `time` since its last cut.
+ToolCut TriggerCut(ToolKind kind, const ToolInput& now, double dt, CutTrigger& trigger,
+                   double& time) noexcept;
 
-// Takes away the fragments that none of the balls (the field's own frame) holds and that are small,
-// as WashAway; but with no ball the largest piece is the tissue, and held.
-struct WashReport {
+// Removes small fragments that none of the balls (field's frame) holds, as RemoveDebris. Without a
+// ball the largest piece is held.
+struct LooseReport {
   CrumbReport gone;
-  int pieces = 0;  // that are left
+  int pieces = 0;  // remaining pieces
 };
-WashReport WashAwayLoose(SolidField& field, std::span<const Ball> fixed);
+LooseReport RemoveLoosePieces(SolidField& field, std::span<const Ball> fixed);
 
-// A flag a vertex: 1 where it lies on a face that cuts have made.
-std::vector<std::uint8_t> FreshIn(const SurfaceMesh& skin, const SolidField& field);
+// Returns a flag per vertex: 1 on faces made by cuts.
+std::vector<std::uint8_t> MarkFreshVertices(const SurfaceMesh& skin, const SolidField& field);
 
 }  // namespace arthro::simulation

@@ -12,20 +12,20 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kSpacing = 3.5e-4;  // m, of the distance field, as of cuts
-constexpr double kAround = 2.6e-3;   // m, outside of the surface: the thickest tool, and a spacing
+constexpr double kSpacing = 3.5e-4;  // m, of the distance field, as for cuts
+constexpr double kAround = 2.6e-3;   // m, outside the surface: the thickest tool and a spacing
 constexpr std::int64_t kMostCells = 20'000'000;
-constexpr double kLongest = 0.03;       // m from the tip; further up a rod is out of the joint
-constexpr double kPart = 0.5;           // of the radius: how long a part of a capsule is
+constexpr double kLongest = 0.03;       // m from the tip; a rod further up is outside the joint
+constexpr double kPart = 0.5;           // fraction of the radius: length of a part of a capsule
 constexpr double kShortestPart = 4e-4;  // m
-constexpr int kMostParts = 64;          // of a capsule
-constexpr double kNotThrough = 0.99;    // of the way to the bone
+constexpr int kMostParts = 64;          // per capsule
+constexpr double kNotThrough = 0.99;    // fraction of the depth to the bone
 
 constexpr int kSteps = 24, kHalvings = 4;
 constexpr double kLeastStep = 2e-4;  // m, a step that may touch more; a twelfth of a layer
 constexpr double kBalanced = 1e-6;   // N
 
-// The end of a capsule inside of another one, or the later of two that are one, is none.
+// Returns whether this is a free end: not inside another capsule, nor the later of two equal ends.
 bool IsEnd(std::span<const Capsule> tool, std::size_t capsule, const glm::dvec3& end) noexcept {
   const double radius = tool[capsule].radius;
   for (std::size_t i = 0; i < tool.size(); ++i) {
@@ -45,7 +45,7 @@ struct Sum {
   LayerForce all;
   double of_layer = 0;
 
-  // A ball of the tool at x. `press`: the closed form; `share`: what of it counts, by the normal.
+  // Adds a ball of the tool at x. `press`: the closed form; `share`: its fraction, from the normal.
   template <class Press, class Share>
   void Add(const LayerUnder& layer, const glm::dvec3& x, double radius, const Press& press,
            const Share& share) noexcept {
@@ -56,7 +56,7 @@ struct Sum {
     }
     all.clear = 0.0;
     all.depth = std::max(all.depth, depth);
-    // Bone, or where the field has no depth any more: F/(1 − (δ/most)⁴).
+    // Bone, or the depth limit of the field: F/(1 − (δ/most)⁴).
     const double most = std::min(layer.layer.thickness(), radius + 0.8 * layer.half_way);
     const double way = std::min(depth / most, kNotThrough);
     if (depth >= kNotThrough * most) all.is_through = true;
@@ -86,8 +86,8 @@ LayerUnder::LayerUnder(const SurfaceMesh& surface, const Rigid3& portal_from_sur
     half_way = std::max(half_way, -static_cast<double>(value));
 }
 
-LayerForce ForceOfLayers(std::span<const LayerUnder> layers, std::span<const Capsule> tool,
-                         const glm::dvec3& tip) noexcept {
+LayerForce ComputeLayerForce(std::span<const LayerUnder> layers, std::span<const Capsule> tool,
+                             const glm::dvec3& tip) noexcept {
   Sum sum;
   sum.all.clear = std::numeric_limits<double>::max();
   double most = 0.0;
@@ -95,7 +95,7 @@ LayerForce ForceOfLayers(std::span<const LayerUnder> layers, std::span<const Cap
     sum.of_layer = 0.0;
     for (std::size_t i = 0; i < tool.size(); ++i) {
       const double radius = tool[i].radius;
-      // From the end that is nearer to the tip, as far as the tool goes into a joint.
+      // Runs from the end nearer to the tip, as far as the tool goes into a joint.
       const bool is_b_near = glm::dot(tool[i].b, tool[i].b) <= glm::dot(tool[i].a, tool[i].a);
       const glm::dvec3 near = is_b_near ? tool[i].b : tool[i].a;
       const glm::dvec3 far = is_b_near ? tool[i].a : tool[i].b;
@@ -142,9 +142,9 @@ LayerHold HoldOnLayers(std::span<const LayerUnder> layers, std::span<const Capsu
   const bool is_known =
       std::isfinite(held.x + held.y + held.z) && std::isfinite(before.x + before.y + before.z);
   if (layers.empty() || tool.empty() || !(stiffness > 0.0) || !is_known) return hold;
-  // Newton, in steps that pass nothing: from where it was, the layers yield to the hand.
+  // Newton's method from the previous position, in steps that cannot skip a layer.
   glm::dvec3 x = before;
-  LayerForce at = ForceOfLayers(layers, tool, x);
+  LayerForce at = ComputeLayerForce(layers, tool, x);
   glm::dvec3 excess = stiffness * (held - x) + at.force;
   for (int i = 0; i < kSteps && glm::length(excess) > kBalanced; ++i) {
     glm::dvec3 step = glm::inverse(glm::dmat3(stiffness) + at.stiffness) * excess;
@@ -152,9 +152,9 @@ LayerHold HoldOnLayers(std::span<const LayerUnder> layers, std::span<const Capsu
     if (length > most) step *= most / length;
     bool is_nearer = false;
     for (int halving = 0; halving <= kHalvings && !is_nearer; ++halving, step *= 0.5) {
-      const LayerForce next = ForceOfLayers(layers, tool, x + step);
+      const LayerForce next = ComputeLayerForce(layers, tool, x + step);
       const glm::dvec3 left = stiffness * (held - x - step) + next.force;
-      // What is too deep to be right goes out whatever it costs.
+      // A tool that is too deep moves out whatever the residual.
       is_nearer = at.is_through || (glm::length(left) < glm::length(excess) && !next.is_through);
       if (!is_nearer) continue;
       x += step;
@@ -163,8 +163,8 @@ LayerHold HoldOnLayers(std::span<const LayerUnder> layers, std::span<const Capsu
     }
     if (!is_nearer) break;
   }
-  if (at.tissue < 0) return hold;  // free: it is where its hand has it
-  // Friction: the tip lags behind, across the force, by as much as that holds.
+  if (at.tissue < 0) return hold;  // free: at its commanded position
+  // Friction: the tip lags behind, across the force, by as much as friction holds.
   const double push = glm::length(at.force);
   const glm::dvec3 normal = push > 0.0 ? at.force / push : glm::dvec3(0.0);
   glm::dvec3 lag = before - x;

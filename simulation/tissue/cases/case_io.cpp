@@ -31,7 +31,7 @@ class CaseReader {
   TissueCase Read() {
     nlohmann::json json = ParseJson(ReadWholeFile(file_, kMostJsonBytes), Code::kBadData, file_);
     if (!json.is_object()) throw Error(Code::kBadData, "a case must be a JSON object {…}", file_);
-    // The material reads itself, by its own list of fields.
+    // The material is read through its own list of fields.
     ReadMaterial(json);
     json.erase("material");
     JsonObjectReader root(json, "", faults_);
@@ -96,7 +96,7 @@ class CaseReader {
     });
   }
 
-  // The elastic constants have no default that fits a case.
+  // Checks the material; the elastic constants have no sensible default.
   void ReadMaterial(const nlohmann::json& json) {
     const auto fault = [&](const std::string& key, const std::string& sentence) {
       faults_.push_back({key, key + " " + sentence});
@@ -139,12 +139,12 @@ class CaseReader {
                          "fixed is empty: nothing holds the body, so that it has no equilibrium; "
                          "name a set to hold"});
     if (!faults_.empty()) return;
-    RefuseTwoWills();
+    RefuseConflicts();
     if (!case_.is_dynamic) RequireHeld();
   }
 
-  // A node that is held cannot be led elsewhere, nor led to two places.
-  void RefuseTwoWills() {
+  // Refuses nodes that are both fixed and displaced, or displaced to two places.
+  void RefuseConflicts() {
     const auto shared = [&](const std::string& a, const std::string& b) {
       int count = 0;
       for (std::size_t i = 0; i < case_.mesh.rest_positions.size(); ++i)
@@ -170,7 +170,7 @@ class CaseReader {
     }
   }
 
-  // Held axes must stop all six rigid motions, or no load has an equilibrium.
+  // Checks that the fixed axes stop all six rigid motions; otherwise no load has an equilibrium.
   void RequireHeld() {
     const std::vector<glm::dvec3>& rest = case_.mesh.rest_positions;
     std::vector<std::uint8_t> axes(rest.size(), 0);
@@ -185,7 +185,8 @@ class CaseReader {
     double size = 0;
     for (const glm::dvec3& x : rest) size = std::max(size, glm::distance(x, middle));
 
-    // What the held axes see of three shifts and three turns about the middle.
+    // Sums the response of the fixed axes to three translations and three rotations about the
+    // centre.
     Eigen::Matrix<double, 6, 6> seen = Eigen::Matrix<double, 6, 6>::Zero();
     std::string open = "xyz";
     for (std::size_t i = 0; i < rest.size(); ++i)
@@ -204,7 +205,7 @@ class CaseReader {
           {"fixed", fmt::format("fixed holds the body nowhere along {}, so that it has no "
                                 "equilibrium; hold a set along {} too",
                                 fmt::join(open, " and "), open.size() > 1 ? "these" : "it")});
-    constexpr double kLeast = 1e-9;  // of the best seen: rounding leaves 1e-15
+    constexpr double kLeast = 1e-9;  // relative to the largest eigenvalue; rounding leaves 1e-15
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> motions(
         seen, Eigen::EigenvaluesOnly);
     if (motions.eigenvalues()[0] < kLeast * motions.eigenvalues()[5])
@@ -213,8 +214,8 @@ class CaseReader {
                          "three points that are not on one line, or along more axes"});
   }
 
-  // A mid-edge node belongs to a set when both ends do, and where the file itself says so:
-  // reference meshes mark middles of edges that run from one held set into another.
+  // Adds mid-edge nodes whose two ends are in the set. Marked middles stay: reference meshes mark
+  // edges that run from one fixed set into another.
   void CompleteSets() {
     if (case_.mesh.order != 2) return;
     constexpr int kEnds[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};

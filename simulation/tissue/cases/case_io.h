@@ -1,7 +1,7 @@
-// CASE.json and result.json of the job `solve` [method.md, File formats]: one body, what holds,
-// moves and loads it, and what became of it. SI, the mesh's own frame. A set is a 0/1 point array
-// of the VTU; a mid-edge node is in it when both ends are; a load spreads over the surface
-// triangles whose corners are all in the set.
+// CASE.json and result.json of the job `solve` [method.md, File formats]: one body, its fixed and
+// displaced sets and loads, and its solution. SI units, mesh's own frame.
+// A set is a 0/1 point array of the VTU. A mid-edge node is in it when both ends are. A load
+// spreads over the surface triangles whose corners are all in the set.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct CaseLoad {
 struct TissueCase {
   std::filesystem::path mesh_file;
   TetMesh mesh;
-  std::vector<std::string> messages;  // what reading the mesh changed
+  std::vector<std::string> messages;  // changes made while the mesh was read
   Material material;
   std::vector<CaseFixed> fixed;
   std::vector<CaseDisplaced> displaced;
@@ -45,37 +45,37 @@ struct TissueCase {
   double tolerance = 1e-8;  // relative residual of every equilibrium or step
 };
 
-// The mesh is read too; its name is relative to the case's folder. Throws Error: every fault of the
-// file in one sentence each, with its key.
+// Reads the case and its mesh, whose name is relative to the case's folder. Throws Error with one
+// sentence for each fault in the file, naming its key.
 TissueCase ReadCase(const std::filesystem::path& file);
 
 struct SetResult {
   glm::dvec3 mean_displacement{0.0};  // m, plain mean over the nodes
-  glm::dvec3 reaction{0.0};           // N, sum of what holds its fixed axes
+  glm::dvec3 reaction{0.0};           // N, sum of the forces that hold its fixed axes
 };
 using SetResults = std::map<std::string, SetResult>;
 
 struct CaseMoment {
   double t = 0;        // s
-  double wall_ms = 0;  // of this step
+  double wall_ms = 0;  // for this step
   SetResults sets;
 };
 
 struct CaseResult {
-  bool converged = false;     // to the tolerance, and no element is inverted
-  double residual = 0;        // relative; of a dynamic case the largest of its steps
-  int iterations = 0;         // Newton's
-  int linear_iterations = 0;  // of conjugate gradients
-  double wall_ms = 0;         // factoring included, reading and writing not
+  bool converged = false;     // to the tolerance, without inverted elements
+  double residual = 0;        // relative; dynamic: the largest of all steps
+  int iterations = 0;         // Newton iterations
+  int linear_iterations = 0;  // conjugate-gradient iterations
+  double wall_ms = 0;         // includes factoring, excludes reading and writing
   SetResults sets;
   double energy = 0;                // J, elastic
-  int inverted_elements = 0;        // of a dynamic case the largest of its steps
-  bool used_fallback = false;       // elements were inverted on the way
-  std::vector<CaseMoment> history;  // dynamic: one a step
-  std::vector<glm::dvec3> x;        // m, the nodes in the end; not in the file
+  int inverted_elements = 0;        // dynamic: the largest of all steps
+  bool used_fallback = false;       // elements were inverted during the solve
+  std::vector<CaseMoment> history;  // dynamic: one per step
+  std::vector<glm::dvec3> x;        // m, final node positions; not in the file
 };
 
-// The text of result.json.
+// Returns the text of result.json.
 std::string JsonFromResult(const CaseResult& result);
 
 }  // namespace arthro::simulation

@@ -17,11 +17,11 @@ double MsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-// Accuracy comes before time here.
+// Limits chosen for accuracy rather than time.
 constexpr int kMostNewton = 50, kMostIterations = 2000;
 
-SetResults SetsOf(const TetMesh& mesh, std::span<const glm::dvec3> x,
-                  std::span<const glm::dvec3> reactions) {
+SetResults EvaluateSets(const TetMesh& mesh, std::span<const glm::dvec3> x,
+                        std::span<const glm::dvec3> reactions) {
   SetResults results;
   for (const auto& [name, member] : mesh.sets) {
     SetResult& result = results[name];
@@ -45,7 +45,7 @@ CaseResult RunCase(const TissueCase& c, const Progress& progress) {
   const std::size_t nodes = mesh.rest_positions.size();
   progress.Step("factoring", 0.0);
 
-  // What is held, led and loaded.
+  // Collects fixed, displaced and loaded nodes.
   FixedAxes fixed(nodes, 0);
   std::vector<glm::dvec3> target = mesh.rest_positions, load(nodes, glm::dvec3(0.0));
   for (const CaseFixed& one : c.fixed)
@@ -95,12 +95,12 @@ CaseResult RunCase(const TissueCase& c, const Progress& progress) {
       const StepReport report = solver.Step(state, load, {}, target, c.dt, {});
       result.converged = take(report) && result.converged;
       result.history.push_back(
-          {(step + 1) * c.dt, MsSince(begin), SetsOf(mesh, state.x, solver.reactions())});
+          {(step + 1) * c.dt, MsSince(begin), EvaluateSets(mesh, state.x, solver.reactions())});
       if (!report.is_finite) break;
     }
   }
   progress.Step("done", 1.0);
-  result.sets = SetsOf(mesh, state.x, solver.reactions());
+  result.sets = EvaluateSets(mesh, state.x, solver.reactions());
   result.x = state.x;
   result.wall_ms = MsSince(start);
   return result;

@@ -1,5 +1,5 @@
-// Solves a case (case_io.h): its equilibrium, or so many steps of implicit Euler from rest under
-// loads and displacements that are there from the first step on.
+// Solves a case (case_io.h): its equilibrium, or a number of implicit Euler steps from rest. Loads
+// and displacements act from the first step on.
 #pragma once
 
 #include "simulation/core/progress.h"
@@ -7,8 +7,8 @@
 
 namespace arthro::simulation {
 
-// Throws Error for a material, mesh or set that cannot be solved with; what did not converge is in
-// the result.
+// Throws Error for a material, mesh or set that cannot be solved; the result tells whether it
+// converged.
 CaseResult RunCase(const TissueCase& tissue_case, const Progress& progress = {});
 
 }  // namespace arthro::simulation

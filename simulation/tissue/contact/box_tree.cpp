@@ -8,20 +8,22 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kLeafSize = 12;  // fewer items: a further box costs more than it saves
-constexpr int kBits = 10;      // of a place along each axis
+constexpr int kLeafSize = 12;  // with fewer items another box costs more than it saves
+constexpr int kBits = 10;      // per axis of a position
 
-glm::dvec3 Centre(const Box3& box) { return box.low + box.high; }  // twice; only compared
+glm::dvec3 Centre(const Box3& box) {
+  return box.low + box.high;
+}  // twice the centre; only compared
 
 struct Placed {
-  std::uint32_t code;  // bits of x, y and z in turn: where along a Morton curve
+  std::uint32_t code;  // Morton code: interleaved bits of x, y and z
   int item;
 };
 
-// The items in the order of a Morton curve, those of one cell by index: by radix, since a cut makes
-// a tree of some 33,000 triangles anew within a frame. Halving at medians took seven times as long;
-// queries of a crescent's skin are as quick.
-std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
+// Sorts the items along a Morton curve, items of one cell by index. A radix sort is used because a
+// cut rebuilds a tree of about 33,000 triangles within a frame. Splitting at medians took seven
+// times as long and gave queries of the same speed on a crescent's skin.
+std::vector<Placed> SortAlongCurve(std::span<const Box3> boxes) {
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const Box3& box : boxes) {
     low = glm::min(low, Centre(box));
@@ -40,7 +42,7 @@ std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
   std::vector<Placed> sorted(boxes.size()), other(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const glm::dvec3 at = scale * (Centre(boxes[i]) - low);
-    const auto cell = [](double x) {  // in this order NaN becomes 0
+    const auto cell = [](double x) {  // this order of min and max turns NaN into 0
       return static_cast<std::uint32_t>(std::min(std::max(0.0, x), kCells - 1.0));
     };
     sorted[i] = {spread(cell(at.x)) << 2 | spread(cell(at.y)) << 1 | spread(cell(at.z)),
@@ -62,7 +64,7 @@ std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
 BoxTree::BoxTree(std::span<const Box3> boxes) : items_(boxes.size()) {
   if (boxes.empty()) return;
   std::vector<std::uint32_t> code(boxes.size());
-  const std::vector<Placed> along = AlongCurve(boxes);
+  const std::vector<Placed> along = SortAlongCurve(boxes);
   for (std::size_t i = 0; i < along.size(); ++i) {
     items_[i] = along[i].item;
     code[i] = along[i].code;
@@ -81,7 +83,7 @@ void BoxTree::Build(std::span<const std::uint32_t> code, int first, int count) {
     leaf_.push_back(static_cast<int>(node));
     return;
   }
-  // In two where the highest bit changes: a plane. What is in one cell is halved.
+  // Splits where the highest differing bit changes, which is a plane; items of one cell are halved.
   const auto begin = code.begin() + first, end = begin + count;
   const std::uint32_t differing = *begin ^ *(end - 1);
   int below = count / 2;

@@ -1,6 +1,6 @@
-// A tree of boxes over items that move but stay neighbours: built once over the rest state, its
-// boxes fitted anew when the items have moved. m. Refit and Visit are noexcept and allocate
-// nothing; the order of visits depends on nothing but the boxes.
+// Tree of boxes over items that move but stay neighbours: built once from the rest state and
+// refitted when the items have moved. m. Refit and Visit are noexcept and allocate nothing. The
+// order of visits depends on the boxes only.
 #pragma once
 
 #include <array>
@@ -31,16 +31,18 @@ class BoxTree {
   explicit BoxTree(std::span<const Box3> boxes);
 
   bool empty() const noexcept { return nodes_.empty(); }
-  const Box3& box() const noexcept { return nodes_.front().box; }  // of all; not when empty
+  const Box3& box() const noexcept {
+    return nodes_.front().box;
+  }  // of all items; undefined when empty
 
-  // Leaves in the order of their items; what they have in common is asked once a leaf by who knows.
+  // Leaves in item order, for callers that compute shared data once per leaf.
   int leaf_count() const noexcept { return static_cast<int>(leaf_.size()); }
-  std::span<const int> ItemsOf(int leaf) const noexcept {
+  std::span<const int> LeafItems(int leaf) const noexcept {
     const Node& node = nodes_[static_cast<std::size_t>(leaf_[static_cast<std::size_t>(leaf)])];
     return {items_.data() + node.next, static_cast<std::size_t>(node.count)};
   }
 
-  // `box_of(leaf)`: the box of all of its items now.
+  // `box_of(leaf)` returns the present box of all items of the leaf.
   template <class BoxOf>
   void RefitLeaves(BoxOf&& box_of) noexcept {
     int leaf = leaf_count();
@@ -55,13 +57,13 @@ class BoxTree {
     }
   }
 
-  // `box_of(i)`: the box of item i now.
+  // `box_of(i)` returns the present box of item i.
   template <class BoxOf>
   void Refit(BoxOf&& box_of) noexcept {
     RefitLeaves([&](int leaf) noexcept {
       Box3 box{glm::dvec3(std::numeric_limits<double>::max()),
                glm::dvec3(std::numeric_limits<double>::lowest())};
-      for (const int i : ItemsOf(leaf)) {
+      for (const int i : LeafItems(leaf)) {
         const Box3 item = box_of(i);
         box = {glm::min(box.low, item.low), glm::max(box.high, item.high)};
       }
@@ -69,8 +71,9 @@ class BoxTree {
     });
   }
 
-  // Calls visit(i) for the items of every leaf whose box is not further from `shape` (a point or a
-  // box) than the root of `limit2`, nearer boxes first. `visit` may lower limit2; below zero: stop.
+  // Calls visit(i) for the items of each leaf whose box is within the square root of `limit2` of
+  // `shape` (a point or a box). Visits nearer boxes first. `visit` may lower limit2; a value below
+  // zero ends the search.
   template <class Shape, class Visit>
   void ForNear(const Shape& shape, double& limit2, Visit&& visit) const noexcept {
     if (nodes_.empty()) return;
@@ -101,10 +104,10 @@ class BoxTree {
   }
 
  private:
-  // A path splits by 30 bits of a place and then halves what is at one place, 2^31 items at most;
-  // it leaves an entry a level.
+  // A path splits by the 30 bits of a Morton code and then by halves, for 2^31 items at most. Each
+  // level adds one entry.
   static constexpr std::size_t kDeepest = 64;
-  // Children of an inner node are node + 1 and `next`; a leaf has count > 0 items from `next`.
+  // The children of an inner node are node + 1 and `next`; a leaf has count > 0 items from `next`.
   struct Node {
     Box3 box;
     std::int32_t next = 0, count = 0;
@@ -112,7 +115,7 @@ class BoxTree {
   void Build(std::span<const std::uint32_t> code, int first, int count);
 
   std::vector<Node> nodes_;
-  std::vector<int> items_, leaf_;  // leaf_: which nodes are leaves, rising
+  std::vector<int> items_, leaf_;  // leaf_: indices of the leaf nodes, rising
 };
 
 }  // namespace arthro::simulation

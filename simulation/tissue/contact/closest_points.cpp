@@ -11,19 +11,19 @@
 namespace arthro::simulation {
 namespace {
 
-// Sine of the angle below which a segment counts as parallel to a line or a face: the middle of the
+// Sine of the angle below which a segment counts as parallel to a line or a face. The middle of the
 // stretch is then as near as its ends to 1e-6 of its length.
 constexpr double kParallel = 1e-6;
 
-// Squared distance over area at which a point of a triangle's plane lies on the triangle.
+// Squared distance divided by area below which a point of a triangle's plane lies on the triangle.
 constexpr double kRounding = 1e-20;
 
 glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) noexcept {
   return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
 }
 
-// Middle of the part of p + t d, t in [low, high], whose foot on c + s e lies in 0 ≤ s ≤ 1, for
-// parallel directions. False: there is none.
+// Finds the middle of the part of p + t d, t in [low, high], that projects onto c + s e with 0 ≤ s
+// ≤ 1, for parallel directions. Returns false if there is none.
 bool ParallelMiddle(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec3& c,
                     const glm::dvec3& e, double& t) noexcept {
   const double dd = glm::dot(d, d);
@@ -34,7 +34,7 @@ bool ParallelMiddle(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec3& 
   return true;
 }
 
-// Closest points of the segments p + t d and c + s e.
+// Finds the closest points of the segments p + t d and c + s e.
 double ClosestSegments(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec3& c,
                        const glm::dvec3& e, double& t, double& s) noexcept {
   const glm::dvec3 r = p - c;
@@ -89,7 +89,7 @@ glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x)
     return {0, 1.0 - w, w};
   }
   const double sum = va + vb + vc;
-  if (!(sum > 0.0)) return {1, 0, 0};  // no area, and on none of its edges: not a number
+  if (!(sum > 0.0)) return {1, 0, 0};  // no area and on no edge, or not finite
   return {1.0 - (vb + vc) / sum, vb / sum, vc / sum};
 }
 
@@ -97,7 +97,7 @@ glm::dvec4 ClosestInTetrahedron(const std::array<glm::dvec3, 4>& corner,
                                 const glm::dvec3& x) noexcept {
   const glm::dvec4 l = BarycentricIn(corner, x);
   if (l.x >= 0.0 && l.y >= 0.0 && l.z >= 0.0 && l.w >= 0.0) return l;
-  // Outside, the nearest point lies on a face that x sees.
+  // Outside, the nearest point lies on a face visible from x.
   constexpr std::array<std::array<int, 3>, 4> kFaceWithout{
       {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
   double best = std::numeric_limits<double>::max();
@@ -133,7 +133,7 @@ SegmentTriangle ClosestSegmentTriangle(const glm::dvec3& a, const glm::dvec3& b,
     const glm::dvec3 x = a + along * way, l = ClosestOnTriangle(corner, x), gap = x - At(corner, l);
     return SegmentTriangle{along, l, glm::dot(gap, gap)};
   };
-  // Above the face and parallel to it: the middle of the stretch over the face.
+  // Segment above the face and parallel to it: the middle of the stretch over the face.
   if (area2 > 0.0 && up * up <= kParallel * kParallel * area2 * length2) {
     double low = 0.0, high = 1.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -148,7 +148,7 @@ SegmentTriangle ClosestSegmentTriangle(const glm::dvec3& a, const glm::dvec3& b,
     }
     if (low <= high) return at_point(0.5 * (low + high));
   }
-  // Through the face.
+  // Segment through the face.
   if (area2 > 0.0 && up != 0.0) {
     const double t = glm::dot(corner[0] - a, normal) / up;
     if (t >= 0.0 && t <= 1.0) {
@@ -159,7 +159,7 @@ SegmentTriangle ClosestSegmentTriangle(const glm::dvec3& a, const glm::dvec3& b,
       }
     }
   }
-  // Otherwise the segment against an edge, or one of its ends against the face.
+  // Otherwise an edge is nearest to the segment, or the face to one of its ends.
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const glm::dvec3& c = corner[static_cast<std::size_t>(i)];

@@ -1,4 +1,4 @@
-// Closest points of simple shapes, exact for faces, edges and corners, degenerate shapes included
+// Closest points of simple shapes: exact for faces, edges and corners, including degenerate shapes
 // [Ericson 2005, 5.1]. m; noexcept, allocates nothing.
 #pragma once
 
@@ -11,21 +11,22 @@ namespace arthro::simulation {
 
 using TriangleCorners = std::array<glm::dvec3, 3>;
 
-// Barycentric coordinates of the point of a triangle that is nearest to x.
+// Returns the barycentric coordinates of the point of a triangle nearest to x.
 glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x) noexcept;
 
-// Barycentric coordinates of the point of a tetrahedron that is nearest to x (x itself, inside it).
-// Either handedness will do; a flat one is its faces.
+// Returns the barycentric coordinates of the point of a tetrahedron nearest to x (x itself if
+// inside). Either handedness is accepted; a flat tetrahedron counts as its faces.
 glm::dvec4 ClosestInTetrahedron(const std::array<glm::dvec3, 4>& corner,
                                 const glm::dvec3& x) noexcept;
 
-// The two nearest points of a segment and a triangle.
+// Closest points of a segment and a triangle.
 struct SegmentTriangle {
-  double along = 0;              // of the segment's point, 0 at a, 1 at b
-  glm::dvec3 triangle{1, 0, 0};  // barycentric, of the triangle's point
-  double distance2 = 0;          // m²; 0 where the segment goes through
+  double along = 0;              // position on the segment, 0 at a, 1 at b
+  glm::dvec3 triangle{1, 0, 0};  // barycentric coordinates in the triangle
+  double distance2 = 0;          // m²; 0 if the segment passes through
 };
-// Where a whole stretch of the segment is nearest (parallel to the face or an edge), its middle.
+// If a stretch of the segment is equally near (parallel to the face or an edge), returns its
+// middle.
 SegmentTriangle ClosestSegmentTriangle(const glm::dvec3& a, const glm::dvec3& b,
                                        const TriangleCorners& corner) noexcept;
 

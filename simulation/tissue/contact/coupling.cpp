@@ -9,28 +9,29 @@
 namespace arthro::simulation {
 namespace {
 
-// Of a flat end the force grows with the depth, of a round one faster [Hertz: 1.5], of tissue that
-// is thin under it faster still. Beyond these the depth was not that of the skin before it was
-// pressed: another tool holds it, or it hangs loose.
+// Range of the exponent of force over depth: 1 for a flat end, 1.5 for a round one [Hertz], more
+// for thin tissue. Outside this range the depth is not that of unpressed skin: another tool holds
+// the skin, or it hangs loose.
 constexpr double kLeastPower = 1.0, kMostPower = 2.0;
 
 constexpr double kLongestHold = 0.02;  // m
 
-// The skin's bend is known so far around the touch; a tool that is further off in a frame has left.
+// Radius around the touch within which the curvature is known; a tool that moves further in a frame
+// has left.
 constexpr double kBendReach = 2.5e-3;  // m
 
 constexpr double kSilence = 0.1, kFade = 0.05;  // s [method.md, Tissue coupling]
 
 bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 
-// |P|, at the depth x.
+// Returns |P| at the depth x.
 double PushAt(const TissueContact& c, double x) noexcept {
   if (!(x > 0.0)) return 0.0;
   if (c.power == 1.0 || !(c.depth > 0.0)) return c.stiffness * x;
   const auto push = [&c](double deep) noexcept {
     return c.stiffness * c.depth / c.power * std::pow(deep / c.depth, c.power);
   };
-  // Where it grows as fast as the hand's spring.
+  // Depth at which the push grows as fast as the hand's spring.
   const double most = c.depth * std::pow(c.spring / c.stiffness, 1.0 / (c.power - 1.0));
   return x < most ? push(x) : push(most) + c.spring * (x - most);
 }
@@ -47,19 +48,19 @@ void Keep(ToolCoupling& coupling, const TissueContact& contact) noexcept {
   if (push(contact) > push(*least)) *least = contact;
 }
 
-// `across` shortened to `most`.
+// Returns `across` shortened to the length `most`.
 glm::dvec3 AtMost(const glm::dvec3& across, double most) noexcept {
   const double length = glm::length(across);
   return length > most ? most / length * across : across;
 }
 
-// What silence leaves of the force.
-double FadeOf(const CouplingBlend& blend) noexcept {
+// Returns the fraction of the force left after a time without a new coupling.
+double FadeFactor(const CouplingBlend& blend) noexcept {
   return std::clamp(1.0 - (blend.passed - kSilence) / kFade, 0.0, 1.0);
 }
 
-// Where `from` and what was left of it go over into `to`.
-CoupledForce Mixed(const CouplingBlend& blend, const glm::dvec3& tip) noexcept {
+// Blends `from` and its remainder into `to`.
+CoupledForce EvaluateBlend(const CouplingBlend& blend, const glm::dvec3& tip) noexcept {
   CoupledForce now = ForceOf(blend.to, tip);
   if (blend.share >= 1.0) return now;
   const CoupledForce before = ForceOf(blend.from, tip);
@@ -100,7 +101,8 @@ void AddContacts(std::span<const ContactPoint> contacts, std::span<const Contact
   const double size = glm::length(push);
   const glm::dvec3 normal = size > 0.0 ? push / size : -contacts[nearest].normal;
   const double stiffness = glm::dot(normal, skin.stiffness * normal);
-  // A tool that tissue holds is held for some way, also where a step found it about to slip off.
+  // Keeps a minimum stiffness, so that a tool that a step found about to slip is still held for
+  // some distance.
   contact.stiffness = std::clamp(stiffness, std::min(size / kLongestHold, spring), spring);
   contact.spring = spring;
   contact.tissue = tissue;
@@ -115,7 +117,7 @@ void AddContacts(std::span<const ContactPoint> contacts, std::span<const Contact
   contact.rub = turn * rub;
   const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(contact.normal, contact.normal);
   contact.curvature = across * turn * skin.curvature * glm::transpose(turn) * across;
-  // The push turns as the tool goes across, by |P| C: no more than the spring to the hand bears.
+  // A sideways motion turns the push by |P| C; the limit is the spring to the hand.
   const double sharpest = glm::length(contact.curvature[0]) + glm::length(contact.curvature[1]) +
                           glm::length(contact.curvature[2]);
   if (size * sharpest > spring) contact.curvature *= spring / (size * sharpest);
@@ -156,8 +158,9 @@ void TakeCoupling(CouplingBlend& blend, const ToolCoupling& coupling) noexcept {
     blend.to.is_faulty = true;
     blend.left = glm::dvec3(0.0);
   } else {
-    // From what is felt: after a silence that is little, or nothing.
-    blend.left = FadeOf(blend) * Mixed(blend, blend.tip).force - ForceOf(blend.to, blend.tip).force;
+    // Starts from the force that is felt: after silence that is little or nothing.
+    blend.left = FadeFactor(blend) * EvaluateBlend(blend, blend.tip).force -
+                 ForceOf(blend.to, blend.tip).force;
     blend.from = blend.to;
     blend.to = coupling;
   }
@@ -170,8 +173,8 @@ CoupledForce BlendedForce(CouplingBlend& blend, const glm::dvec3& tip, double dt
   blend.passed += std::max(dt, 0.0);
   blend.share = time > 0.0 ? std::min(1.0, blend.passed / time) : 1.0;
   blend.tip = tip;
-  CoupledForce force = Mixed(blend, tip);
-  const double fade = FadeOf(blend);
+  CoupledForce force = EvaluateBlend(blend, tip);
+  const double fade = FadeFactor(blend);
   if (fade < 1.0) force.force *= fade;
   if (fade <= 0.0) force.tissue = -1;
   return force;

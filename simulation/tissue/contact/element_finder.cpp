@@ -12,16 +12,16 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kInside = 1e-7;    // of the mesh's size: what rounding and Newton's end leave
-constexpr double kArrived = 1e-12;  // change of a barycentric coordinate at which Newton ends
+constexpr double kInside = 1e-7;    // relative to the mesh's size: rounding and Newton's remainder
+constexpr double kArrived = 1e-12;  // change of a barycentric coordinate that ends Newton's method
 constexpr int kMaxNewton = 12;      // quadratic from a straight element; curved ones take 4 to 6
 
 constexpr std::array<std::array<int, 2>, 6> kEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
 struct Linearised {
-  glm::dvec3 at{0.0};                // where the element is at l
-  std::array<glm::dvec3, 4> corner;  // of the tetrahedron that touches it there
+  glm::dvec3 at{0.0};                // position of the element at l
+  std::array<glm::dvec3, 4> corner;  // tangent tetrahedron there
 };
 
 Linearised LineariseAt(int order, const std::array<glm::dvec3, 10>& x,
@@ -39,7 +39,7 @@ Linearised LineariseAt(int order, const std::array<glm::dvec3, 10>& x,
   return result;
 }
 
-glm::dmat3 JacobianOf(const Linearised& linear) noexcept {
+glm::dmat3 Jacobian(const Linearised& linear) noexcept {
   const auto& corner = linear.corner;
   return {corner[1] - corner[0], corner[2] - corner[0], corner[3] - corner[0]};
 }
@@ -74,8 +74,8 @@ std::array<glm::dvec3, 10> ElementFinder::PlacesOf(int element,
   return places;
 }
 
-// A quadratic element lies within the hull of its Bézier points: the corners, and 2m − (a + b)/2 of
-// each edge.
+// Returns the box of an element. A quadratic element lies within the hull of its Bézier points: the
+// corners, and 2m − (a + b)/2 for each edge.
 Box3 ElementFinder::BoxOf(int element, std::span<const glm::dvec3> x) const noexcept {
   const std::array<glm::dvec3, 10> place = PlacesOf(element, x);
   Box3 box{place[0], place[0]};
@@ -90,8 +90,8 @@ Box3 ElementFinder::BoxOf(int element, std::span<const glm::dvec3> x) const noex
   return box;
 }
 
-// Newton's method, each time on the straight tetrahedron that touches the element where it stands:
-// the nearest point of that is exact, so the bounds of the element are kept on the way.
+// Newton's method on the tangent tetrahedron of the element at each iterate. The nearest point of
+// that tetrahedron is exact, so the iterates stay within the element's bounds.
 ElementFinder::Local ElementFinder::Nearest(int element, std::span<const glm::dvec3> x,
                                             const glm::dvec3& place) const noexcept {
   const std::array<glm::dvec3, 10> places = PlacesOf(element, x);
@@ -116,10 +116,10 @@ EmbeddedPoint ElementFinder::PointAt(int element, const Local& local,
                                      const glm::dvec3& rest) const noexcept {
   const TetShape shape = ShapeAt(order_, local.l);
   EmbeddedPoint point{element, shape.value};
-  // What is left of the way goes on linearly from the nearest point.
+  // Extrapolates the rest of the path linearly from the nearest point.
   const Linearised linear = LineariseAt(order_, PlacesOf(element, rest_), local.l);
   const glm::dvec3 way = rest - linear.at;
-  const glm::dmat3 jacobian = JacobianOf(linear);
+  const glm::dmat3 jacobian = Jacobian(linear);
   const double det = glm::determinant(jacobian);
   if (glm::dot(way, way) == 0.0 || !(std::abs(det) > 0.0)) return point;
   const glm::dvec3 change = glm::inverse(jacobian) * way;
@@ -147,7 +147,7 @@ EmbeddedPoint ElementFinder::FindBeside(const glm::dvec3& rest,
   Local nearest;
   rest_tree_.ForNear(rest, limit2, [&](int i) noexcept {
     const Local local = Nearest(i, rest_, rest);
-    // Inside one is as good as inside another; outside, only nearer is better.
+    // All elements that contain the point are equal; outside, nearer is better.
     const double distance2 = local.distance2 <= inside2_ ? 0.0 : local.distance2;
     if (distance2 > limit2) return;
     const int shared = CommonNodes(i, beside);
@@ -188,7 +188,7 @@ void ElementFinder::Refit(std::span<const glm::dvec3> x) noexcept {
 bool ElementFinder::FindDeformed(const glm::dvec3& place, int& element,
                                  Local& local) const noexcept {
   element = -1;
-  double limit2 = 0.0;  // only boxes that hold the place
+  double limit2 = 0.0;  // only boxes that contain the place
   tree_.ForNear(place, limit2, [&](int i) noexcept {
     if (Distance2(BoxOf(i, x_), place) > 0.0) return;
     local = Nearest(i, x_, place);
@@ -216,8 +216,8 @@ bool ElementFinder::FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, 
   if (!FindDeformed(place, element, local)) return false;
   point = {element, ShapeAt(order_, local.l).value};
   rest = PlaceOf(point, NodesOf(element), rest_);
-  const glm::dmat3 before = JacobianOf(LineariseAt(order_, PlacesOf(element, rest_), local.l));
-  const glm::dmat3 now = JacobianOf(LineariseAt(order_, PlacesOf(element, x_), local.l));
+  const glm::dmat3 before = Jacobian(LineariseAt(order_, PlacesOf(element, rest_), local.l));
+  const glm::dmat3 now = Jacobian(LineariseAt(order_, PlacesOf(element, x_), local.l));
   gradient =
       std::abs(glm::determinant(before)) > 0.0 ? now * glm::inverse(before) : glm::dmat3(1.0);
   return true;

@@ -33,7 +33,7 @@ EmbeddedSkin EmbedSkin(SurfaceMesh surface, const TetMesh& mesh, const ElementFi
 
 namespace {
 
-// The count is known when compiled, so that the sum over nodes unrolls.
+// A compile-time count lets the compiler unroll the sum over nodes.
 template <std::size_t kNodes>
 void Place(const EmbeddedSkin& skin, const TetMesh& mesh, std::span<const glm::dvec3> x,
            std::span<glm::dvec3> positions) noexcept {

@@ -1,5 +1,5 @@
-// A fine surface carried by a coarse tetrahedral mesh: each vertex is a point of one element, moved
-// by its shape functions. What is drawn and what is touched. Mesh's own frame, m.
+// Fine surface carried by a coarse tetrahedral mesh: each vertex is a point of one element and
+// moves by its shape functions. It is both drawn and touched. Mesh's own frame, m.
 #pragma once
 
 #include <array>
@@ -16,32 +16,33 @@
 
 namespace arthro::simulation {
 
-// A point of the tissue: rest place, element and shape-function values there (4 or 10 of them).
+// Point of the tissue: its element and the shape-function values there (4 or 10).
 struct EmbeddedPoint {
   int element = -1;
   std::array<double, 10> weight{};
 };
 
-// Finds the element in which a rest position lies (curved T10 included); a point outside gets the
-// nearest element and weights that go on linearly from its nearest point, so that they give back
-// the point at rest and every affine motion of it exactly. Built once a mesh, which it copies.
+// Finds the element that contains a rest position (including curved T10). A point outside gets the
+// nearest element and weights that extrapolate linearly from its nearest point. These weights
+// reproduce the point at rest and every affine motion of it exactly. Built once per mesh, which it
+// copies.
 class ElementFinder {
  public:
   explicit ElementFinder(const TetMesh& mesh);
   EmbeddedPoint Find(const glm::dvec3& rest) const noexcept;
-  // Where elements lie on one another at rest, as the copies that a cut makes: of those that hold
-  // the point, the one with most nodes in common with the elements `beside`.
+  // Resolves elements that overlap at rest, such as the copies made by a cut: of the elements that
+  // contain the point, picks the one with most nodes in common with the elements `beside`.
   EmbeddedPoint FindBeside(const glm::dvec3& rest, std::span<const int> beside) const noexcept;
-  // In that of these elements which holds it, or is nearest; the first of equals.
+  // Picks the element among these that contains the point or is nearest; the first of equals.
   EmbeddedPoint FindAmong(const glm::dvec3& rest, std::span<const int> elements) const noexcept;
-  // In the deformed mesh `x`: which tissue is at this place now, and its rest position. False:
-  // outside all elements. Refit first when x has changed.
+  // Finds the tissue at this place in the deformed mesh `x`, and its rest position. Returns false
+  // outside all elements. Requires Refit after x has changed.
   void Refit(std::span<const glm::dvec3> x) noexcept;
   bool FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, glm::dvec3& rest) const noexcept;
-  // The same with the deformation gradient there, ∂x/∂X.
+  // The same with the deformation gradient ∂x/∂X.
   bool FindDeformed(const glm::dvec3& place, EmbeddedPoint& point, glm::dvec3& rest,
                     glm::dmat3& gradient) const noexcept;
-  // Where a point is since the last Refit.
+  // Returns the position of a point at the last Refit.
   glm::dvec3 PlaceNow(const EmbeddedPoint& point) const noexcept;
 
   std::span<const int> NodesOf(int element) const noexcept;
@@ -61,23 +62,23 @@ class ElementFinder {
   int order_ = 1, nodes_per_element_ = 4;
   std::vector<int> elements_;
   std::vector<glm::dvec3> rest_, x_;
-  double inside2_ = 0;  // m², nearer than this is inside
+  double inside2_ = 0;  // m²; a smaller squared distance counts as inside
   BoxTree rest_tree_, tree_;
 };
 
 struct EmbeddedSkin {
   SurfaceMesh rest;
-  std::vector<EmbeddedPoint> point;  // one a vertex
+  std::vector<EmbeddedPoint> point;  // one per vertex
 };
 
-// Where a point is when nodes are at `x`.
+// Returns the position of a point for nodes at `x`.
 glm::dvec3 PlaceOf(const EmbeddedPoint& point, std::span<const int> nodes,
                    std::span<const glm::dvec3> x) noexcept;
 
 // Throws Error(kBadMesh) for a mesh without elements.
 EmbeddedSkin EmbedSkin(SurfaceMesh surface, const TetMesh& mesh, const ElementFinder& finder);
 
-// Vertex positions and unit normals (area-weighted, smooth) of the skin when nodes are at `x`.
+// Computes vertex positions and unit normals (area-weighted, smooth) of the skin for nodes at `x`.
 void DeformSkin(const EmbeddedSkin& skin, const TetMesh& mesh, std::span<const glm::dvec3> x,
                 std::span<glm::dvec3> positions, std::span<glm::dvec3> normals) noexcept;
 

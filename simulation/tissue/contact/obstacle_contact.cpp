@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t kHeld = 7;
 
-// Far from an obstacle its gap may be an estimate (along a ray, not across): half of it is safe.
+// Usable fraction of a large gap, which may be an estimate along a ray instead of the distance.
 constexpr double kTrusted = 0.5;
 
 }  // namespace
@@ -64,8 +64,9 @@ ObstacleContact::ObstacleContact(const TetMesh& mesh, std::span<const std::uint8
   }
 }
 
-void ObstacleContact::LayAtRest(const RigidObstacle& obstacle, const Rigid3& portal_from_body,
-                                std::span<const glm::dvec3> rest) noexcept {
+void ObstacleContact::AcceptRestOverlap(const RigidObstacle& obstacle,
+                                        const Rigid3& portal_from_body,
+                                        std::span<const glm::dvec3> rest) noexcept {
   for (Node& node : nodes_) {
     glm::dvec3 normal(0, 0, 1);
     const double gap =

@@ -1,5 +1,5 @@
-// What tissue rests on and cannot enter: the backdrop's relief, a rigid model. Who knows the depth
-// field or the mesh gives one of these. Portal frame, m.
+// Rigid obstacle that supports tissue and cannot be entered: the backdrop's relief or a rigid
+// model. Implemented by the owner of the depth field or mesh. Portal frame, m.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,7 +9,8 @@ namespace arthro::simulation {
 class RigidObstacle {
  public:
   virtual ~RigidObstacle() = default;
-  // Distance of x above the surface (negative: inside), exact near it, and the unit normal there.
+  // Returns the distance of x above the surface (negative inside), exact near it, and the unit
+  // normal there.
   virtual double Gap(const glm::dvec3& x, glm::dvec3& normal) const noexcept = 0;
 };
 

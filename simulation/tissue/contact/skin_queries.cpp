@@ -1,5 +1,4 @@
-// What one piece of a tool touches: from outside exactly, from inside by the distance field at
-// rest.
+// Contacts of one piece of a tool: from outside exactly, from inside by the distance field at rest.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,16 +13,16 @@
 namespace arthro::simulation {
 namespace {
 
-// Nearer than this to the skin the way to it has no direction.
+// Distance to the skin below which the direction to it is undefined.
 constexpr double kOnSkin = 1e-9;  // m
 
 glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) noexcept {
   return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
 }
 
-// What keeps out of the skin while a held tool follows its hand: the rest of the radius is room to
-// slide on a skin that bends.
-constexpr double kCore = 0.5;  // of the radius
+// Part of a tool that must stay outside the skin while it follows its hand; the rest is room to
+// slide on a curved skin.
+constexpr double kCore = 0.5;  // fraction of the radius
 
 }  // namespace
 
@@ -52,7 +51,8 @@ SkinContact::OnSkin SkinContact::NearestTo(const glm::dvec3& x, double limit) co
     const glm::dvec3 l = ClosestOnTriangle(corner, x), way = x - At(corner, l);
     const double distance2 = glm::dot(way, way);
     if (!(distance2 <= limit2)) return;
-    // Where two triangles meet both are as near; the first by index, whatever the tree's order.
+    // Two adjacent triangles are equally near at their edge; the lower index wins, whatever the
+    // tree's order.
     if (distance2 == limit2 && nearest.triangle >= 0 && i > nearest.triangle) return;
     nearest = {i, l, distance2};
     limit2 = distance2;
@@ -81,8 +81,8 @@ bool SkinContact::IsInside(const glm::dvec3& x) const noexcept {
   return finder_.FindDeformed(x, point, rest) && field_->Distance(rest) < 0.0;
 }
 
-// The shortest way out at rest, carried into the deformed body: the skin's normal goes with the
-// cofactor of F (Nanson), n ∝ det(F) F⁻ᵀ ∇φ.
+// Finds the shortest way out at rest and maps it to the deformed body: the skin's normal transforms
+// with the cofactor of F (Nanson), n ∝ det(F) F⁻ᵀ ∇φ.
 bool SkinContact::TouchFromInside(const Piece& piece, Touch& touch) const noexcept {
   double deepest = 0.0;
   bool is_found = false;
@@ -93,7 +93,8 @@ bool SkinContact::TouchFromInside(const Piece& piece, Touch& touch) const noexce
     glm::dmat3 f;
     if (!finder_.FindDeformed(x, point, rest, f)) continue;
     if (!(field_->Distance(rest) < 0.0)) continue;
-    // Down to the surface by two steps along the gradient: φ is a distance, but only nearly.
+    // Projects onto the surface by two steps along the gradient, because φ is only approximately a
+    // distance.
     glm::dvec3 surface = rest, slope(0.0);
     for (int step = 0; step < 2; ++step) {
       slope = field_->Gradient(surface);
@@ -112,7 +113,7 @@ bool SkinContact::TouchFromInside(const Piece& piece, Touch& touch) const noexce
     if (has_way) {
       normal /= length;
     } else {
-      // Deeper than the field's band, or turned inside out: the nearest skin as it is now.
+      // Deeper than the field's band, or inverted: uses the nearest skin as it is now.
       const OnSkin nearest = NearestTo(x, std::numeric_limits<double>::max());
       if (nearest.triangle < 0) continue;
       const auto& triangle = skin_->rest.triangles[static_cast<std::size_t>(nearest.triangle)];

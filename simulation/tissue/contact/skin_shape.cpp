@@ -1,5 +1,4 @@
-// The skin as it is where nothing presses it, around a touch: how it bends, how deep a tool is in
-// it.
+// Shape of the unpressed skin around a touch: its curvature, and the depth of a tool in it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,16 +11,16 @@
 namespace arthro::simulation {
 namespace {
 
-// What a probe's end and its way in a step reach: the skin is known no finer than that.
+// Radius of a probe's end and its motion in a step; the skin is not resolved any finer.
 constexpr double kReach = 2.5e-3;  // m
 
-// Skin that faces further away than this (cosine) belongs to another side of the tissue.
+// Cosine limit: skin that faces further away belongs to another side of the tissue.
 constexpr double kSameSide = 0.5;
 
 constexpr int kMostAdvances = 20;
 constexpr double kOut = 1e-5, kDeepest = 0.02;  // m
 
-// The rotation of least angle that takes `from` to `to`, both unit.
+// Returns the rotation of least angle that maps `from` to `to`, both unit.
 glm::dmat3 Turn(const glm::dvec3& from, const glm::dvec3& to) noexcept {
   const glm::dvec3 axis = glm::cross(from, to);
   const double cosine = glm::dot(from, to);
@@ -32,8 +31,8 @@ glm::dmat3 Turn(const glm::dvec3& from, const glm::dvec3& to) noexcept {
 
 }  // namespace
 
-// Normals n of the skin at places s around the touch are told by n ≈ m − C s, least squares over
-// triangles by area and nearness.
+// Fits n ≈ m − C s to the normals n of the skin at offsets s from the touch: least squares over
+// triangles, weighted by area and nearness.
 glm::dmat3 SkinContact::Curvature(std::span<const ContactPoint> contacts,
                                   std::span<const ContactResult> results,
                                   int owner) const noexcept {
@@ -83,7 +82,7 @@ glm::dmat3 SkinContact::Curvature(std::span<const ContactPoint> contacts,
   const glm::dvec3 m = glm::normalize(sum.normal);
   const glm::dmat3 spread = sum.places - glm::outerProduct(sum.place, sum.place) / sum.weight;
   const glm::dmat3 turned = sum.mixed - glm::outerProduct(sum.normal, sum.place) / sum.weight;
-  // In the plane across m; a patch that is a line or a point does not say how it bends.
+  // Restricts to the plane across m; a patch that is a line or a point does not determine C.
   const glm::dvec3 aside = std::abs(m.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 e1 = glm::normalize(glm::cross(m, aside)), e2 = glm::cross(m, e1);
   const auto in_plane = [&](const glm::dmat3& full) noexcept {
@@ -95,7 +94,7 @@ glm::dmat3 SkinContact::Curvature(std::span<const ContactPoint> contacts,
   if (!(glm::determinant(places) > 1e-3 * trace * trace)) return flat;
   glm::dmat2 bend = -in_plane(turned) * glm::inverse(places);
   bend = 0.5 * (bend + glm::transpose(bend));
-  // No sharper than what was looked at: a rim is not a quadric.
+  // Limits the curvature to the radius of the fit: a rim is not a quadric.
   const double sharpest = std::abs(bend[0][0]) + std::abs(bend[0][1]) + std::abs(bend[1][1]);
   if (!std::isfinite(sharpest)) return flat;
   if (sharpest > 1.0 / kReach) bend *= 1.0 / (kReach * sharpest);
@@ -115,7 +114,7 @@ double SkinContact::DepthAtRest(std::span<const Capsule> capsules,
     for (int i = 0; i <= parts; ++i) {
       const glm::dvec3 x = capsule.a + static_cast<double>(i) / parts * way;
       if (Distance2(field_->box(), x) > capsule.radius * capsule.radius) continue;
-      // As far as no skin can be met, again and again.
+      // Advances repeatedly by the distance within which no skin can be met.
       double gone = 0.0;
       for (int round = 0; round < kMostAdvances && gone < kDeepest; ++round) {
         const double inside = capsule.radius - field_->Distance(x + gone * out);

@@ -11,23 +11,23 @@ namespace {
 
 constexpr double kPieceLength = 1.5e-3;  // m, the diameter of a probe's rod
 
-// A contact is as stiff as a layer of the tissue so thick: pressed by the tissue's whole modulus it
-// gives way that much.
+// Thickness of the tissue layer whose stiffness a contact has: a pressure equal to Young's modulus
+// compresses it by this much.
 constexpr double kLayer = 6e-5;  // m
 
-// Samples of the skin are so close together, beside the tool's radius: a round end that rests on
-// two of them sinks between them by a sixteenth of that.
+// Distance of skin samples relative to the tool's radius. A round end that rests on two samples
+// sinks between them by a sixteenth of that distance.
 constexpr double kSampling = 0.5;
-constexpr int kMostParts = 16;  // of a triangle's edge
+constexpr int kMostParts = 16;  // per edge of a triangle
 
-// Skin further off than this from the tool as held will not come to it within a step; skin that it
-// dented comes along with a tool that goes.
+// Distance from the held tool beyond which skin cannot reach it within a step. Dented skin follows
+// a tool that leaves.
 constexpr double kWatched = 3e-4;  // m
 
-constexpr int kMaxAdvances = 16;       // of the sweep; each goes as far as nothing can be met
+constexpr int kMaxAdvances = 16;       // per sweep; each goes as far as nothing can be met
 constexpr double kArrived = 1e-5;      // m
 constexpr double kLongestGrip = 0.02;  // m, 10 N; a tool further from its hand has slipped off
-constexpr double kSameWay = 0.9;       // cosine; normals that hold a tool less apart are one
+constexpr double kSameWay = 0.9;       // cosine; holding normals with a smaller angle count as one
 
 bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 
@@ -46,10 +46,10 @@ SkinContact::SkinContact(const EmbeddedSkin& skin, const TetMesh& mesh, const So
   std::vector<Box3> boxes(skin.rest.triangles.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = BoxOf(static_cast<int>(i));
   tree_ = BoxTree(boxes);
-  // Neighbours share corners: each is asked for once a leaf, as the skin moves.
+  // Neighbouring triangles share corners, so each corner is listed once per leaf.
   for (int leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
     leaf_begin_.push_back(static_cast<int>(leaf_vertex_.size()));
-    for (const int t : tree_.ItemsOf(leaf))
+    for (const int t : tree_.LeafItems(leaf))
       for (const int v : skin.rest.triangles[static_cast<std::size_t>(t)])
         if (std::find(leaf_vertex_.begin() + leaf_begin_.back(), leaf_vertex_.end(), v) ==
             leaf_vertex_.end())
@@ -86,8 +86,8 @@ bool SkinContact::IsNear(std::span<const Capsule> capsules, double distance) con
   return false;
 }
 
-// From where it was held the tool goes along with its hand, but not into what held it, and not
-// through any skin: on a free stretch as far as the nearest skin is away, again and again.
+// Moves the held tool with its hand, but not into what held it and not through any skin. A free
+// path is advanced repeatedly by the distance to the nearest skin.
 glm::dvec3 SkinContact::Follow(std::span<const Piece> pieces, const glm::dvec3& motion,
                                const ToolGrip& grip) const noexcept {
   const glm::dvec3 start = grip.offset - motion;
@@ -100,7 +100,7 @@ glm::dvec3 SkinContact::Follow(std::span<const Piece> pieces, const glm::dvec3& 
     }
   const double length = glm::length(way);
   if (!(length > kArrived)) return start + way;
-  // A tool that is in the tissue has no skin to be stopped by; it is found from inside.
+  // A tool inside the tissue is not stopped by skin; it is found from inside.
   for (const Piece& piece : pieces)
     if (IsInside(0.5 * (piece.a + piece.b) + start)) return start + way;
   double gone = 0.0;
@@ -113,7 +113,7 @@ glm::dvec3 SkinContact::Follow(std::span<const Piece> pieces, const glm::dvec3& 
     if (clear < kArrived) break;
     gone = std::min(length, gone + clear);
   }
-  // Into the wall of its own dent it is not led: the solve finds its way from where it was.
+  // Avoids the wall of the tool's own dent; the solver finds its path from the previous position.
   glm::dvec3 end = start + gone / length * way;
   for (int halving = 0; halving < 2; ++halving) {
     bool is_in = false;
@@ -143,7 +143,7 @@ void SkinContact::AddSamples(const Piece& piece, std::span<const Capsule> capsul
     const int parts = static_cast<int>(
         std::clamp(std::ceil(longest / (kSampling * piece.radius)), 1.0, double{kMostParts}));
     const double area = 0.5 * glm::length(glm::cross(b - a, c - a)) / (parts * parts);
-    // The middles of parts² equal triangles; a second one where the grid's cell has two.
+    // Samples the centres of parts² equal triangles; a grid cell has one or two.
     for (int u = 0; u < parts; ++u)
       for (int v = 0; u + v < parts; ++v)
         for (int second = 0; second < (u + v + 1 < parts ? 2 : 1); ++second) {
@@ -170,7 +170,7 @@ void SkinContact::AddSamples(const Piece& piece, std::span<const Capsule> capsul
           }
           const bool is_mine = sample.capsule == piece.capsule && where >= piece.from &&
                                (where < piece.to || piece.to == 1.0);
-          // The far skin of a thin tissue looks the other way.
+          // Skips the far skin of a thin tissue, which faces the other way.
           if (!is_mine || !(glm::dot(away, Blend({t, sample.at, 0}, normals_)) < 0.0)) continue;
           if (count < samples.size()) samples[count++] = sample;
         }
@@ -209,7 +209,7 @@ ContactPoint SkinContact::ContactAt(const Sample& sample) const noexcept {
 void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& motion, int owner,
                        const ToolContactOptions& options, std::vector<ContactPoint>& contacts,
                        ToolGrip* grip) const noexcept {
-  // The pieces that could touch, as the hand has them.
+  // Collects the pieces that could touch, at the commanded pose.
   std::array<Piece, kMaxPieces> pieces;
   std::size_t count = 0;
   int next = 0;
@@ -260,7 +260,7 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
   const double watched =
       kWatched +
       std::min(std::max(gone, std::min(glm::length(motion), options.margin)), kLongestGrip);
-  // A piece that is in the tissue is led out; others keep the skin out of the capsules.
+  // A piece inside the tissue is pushed out; others keep the skin out of the capsules.
   std::array<Sample, kMaxSamples> samples;
   std::size_t found = 0;
   for (Piece piece : near) {
@@ -282,7 +282,8 @@ void SkinContact::Find(std::span<const Capsule> capsules, const glm::dvec3& moti
     contact.start = finder_.PlaceNow(touch.point);
     add(contact);
   }
-  // Of too many the nearest; in the order of the skin, whatever the tree's.
+  // Keeps the nearest contacts if there are more than kMaxToolContacts; ties are broken by triangle
+  // index.
   const auto by_gap = [](const Sample& a, const Sample& b) noexcept {
     return a.gap != b.gap ? a.gap < b.gap : a.triangle < b.triangle;
   };
@@ -315,7 +316,7 @@ void UpdateGrip(std::span<const ContactPoint> contacts, std::span<const ContactR
   grip = {};
   if (!IsFinite(force)) return;
   grip.offset = force / options.stiffness;
-  // A tool that is still being led out has nothing to hold on to: the next step looks anew.
+  // A tool that is still being pushed out has no holding normals: the next step searches again.
   while (!is_led_out && grip.count < static_cast<int>(grip.normal.size())) {
     double most = 0.0;
     glm::dvec3 normal(0.0);

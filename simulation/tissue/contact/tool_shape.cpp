@@ -8,15 +8,15 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kShaftLength = 0.12;  // m, more than goes into a joint
+constexpr double kShaftLength = 0.12;  // m, longer than the part inside a joint
 
-// A rod about z whose round end touches z = end.
+// Returns a rod about z whose round end touches z = end.
 Capsule Rod(double radius, double end, double length) {
   return {{0, 0, end - length}, {0, 0, end - radius}, radius};
 }
 
-// A hook of 1.5 mm rod, 4.15 mm over all; the rod grows to a shaft of 3 mm in two steps, as the
-// picture's taper does evenly.
+// Probe with a hook of 1.5 mm rod, 4.15 mm long overall. The rod widens to a shaft of 3 mm in two
+// steps, where the picture shows an even taper.
 ToolShape Probe() {
   constexpr double kRod = 0.75e-3, kReach = 3.4e-3, kNeck = 0.005;
   constexpr double kTaper = 1.1e-3, kTaperEnd = 0.011, kShaft = 1.5e-3;
@@ -29,8 +29,8 @@ ToolShape Probe() {
   return shape;
 }
 
-// Basket forceps 3.4 mm wide: a fixed lower jaw that is a frame around a window, and a punch that
-// comes down into it from +y. Jaw 6 mm long, opening 45°.
+// Basket forceps 3.4 mm wide: a fixed lower jaw that frames a window, and a punch that closes into
+// it from +y. Jaw 6 mm long, opening 45°.
 ToolShape Punch() {
   constexpr double kHalfWidth = 1.7e-3, kSide = 0.5e-3, kJaw = 6e-3, kTooth = 0.6e-3;
   const double side = kHalfWidth - kSide;
@@ -48,8 +48,8 @@ ToolShape Punch() {
   return shape;
 }
 
-// Full-radius blade: tube of 4.5 mm with a round end and a window of 5 mm in its +y side, through
-// which tissue is taken up to 0.5 mm beyond the tube.
+// Full-radius blade: tube of 4.5 mm with a round end and a window of 5 mm in its +y side. Tissue up
+// to 0.5 mm outside the window is removed.
 ToolShape Shaver() {
   constexpr double kTube = 2.25e-3, kTaken = 1.6e-3, kBeyond = 0.5e-3;
   ToolShape shape;
@@ -60,7 +60,7 @@ ToolShape Shaver() {
   return shape;
 }
 
-// Two jaws of 10 mm, 2 mm wide, that close on one another; shaft 3.4 mm. Opening 40°.
+// Grasper with two jaws of 10 mm length and 2 mm width; shaft 3.4 mm. Opening 40°.
 ToolShape Grasper() {
   constexpr double kJaw = 0.01, kHalf = 0.8e-3, kShaft = 1.7e-3;
   ToolShape shape;
@@ -92,7 +92,7 @@ ToolShape ShapeOf(ToolKind kind) {
   return {};
 }
 
-ToolKind ToolKindOf(const std::string& word) {
+ToolKind ToolKindFromString(const std::string& word) {
   if (word == "punch") return ToolKind::kPunch;
   if (word == "shaver") return ToolKind::kShaver;
   if (word == "grasper") return ToolKind::kGrasper;
@@ -103,7 +103,7 @@ int PosedCapsules(const ToolShape& shape, const ToolInput& input,
                   std::span<Capsule> capsules) noexcept {
   const std::size_t count = std::min(capsules.size(), shape.capsules.size());
   if (!input.is_present) return 0;
-  // About −x the jaw's far end turns from +z towards +y: it opens.
+  // A rotation about −x turns the jaw's far end from +z towards +y, which opens it.
   const double angle = std::clamp(input.opening, 0.0, 1.0) * shape.max_opening;
   const glm::dquat turn = glm::angleAxis(angle, shape.hinge_axis);
   for (std::size_t i = 0; i < count; ++i) {

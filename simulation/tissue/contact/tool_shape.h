@@ -1,6 +1,6 @@
-// What an instrument's working end is, as capsules, so that hook and shaft touch and not only a
-// point. Tool frame: origin at the tip, +z along the rod into the joint, +y the way the hook points
-// at roll 0; m.
+// Working end of an instrument as capsules, so that hook and shaft touch and not only a point. Tool
+// frame: origin at the tip, +z along the rod into the joint, +y in the hook's direction at roll 0;
+// m.
 #pragma once
 
 #include <span>
@@ -23,20 +23,20 @@ enum class ToolKind { kNone, kProbe, kPunch, kShaver, kGrasper };
 
 struct ToolShape {
   ToolKind kind = ToolKind::kNone;
-  std::vector<Capsule> capsules;  // at opening 0 (closed); the jaw ones turn about `hinge`
-  std::vector<int> jaw;           // which capsules belong to the moving jaw
-  glm::dvec3 hinge{0.0}, hinge_axis{-1, 0, 0};  // opening turns by the right hand
+  std::vector<Capsule> capsules;  // at opening 0 (closed); the jaw's capsules rotate about `hinge`
+  std::vector<int> jaw;           // indices of the moving jaw's capsules
+  glm::dvec3 hinge{0.0}, hinge_axis{-1, 0, 0};  // right-handed rotation
   double max_opening = 0;                       // rad
-  Capsule bite;  // what a closing punch takes; of the shaver: its window
+  Capsule bite;  // volume removed by a closing punch; shaver: its window
 };
 
-// Real dimensions: probe hook 4 mm long of 1.5 mm rod (as app/view/instruments/probe_mesh draws
-// it), punch 3.4 mm wide, shaver 4.5 mm.
+// Returns the shape in real dimensions: probe with a hook 4 mm long of 1.5 mm rod (drawn by
+// app/view/instruments/probe_mesh), punch 3.4 mm wide, shaver 4.5 mm.
 ToolShape ShapeOf(ToolKind kind);
 // "probe", "punch", "shaver", "grasper" of Instrument::kind; another word: kProbe.
-ToolKind ToolKindOf(const std::string& word);
+ToolKind ToolKindFromString(const std::string& word);
 
-// A tool as it stands at a step, in the portal frame.
+// State of a tool at a step, in the portal frame.
 struct ToolInput {
   bool is_present = false;
   Rigid3 portal_from_tool;
@@ -44,9 +44,10 @@ struct ToolInput {
   bool is_running = false;  // shaver
 };
 
-inline constexpr int kMaxCapsules = 8;  // of a shape
+inline constexpr int kMaxCapsules = 8;  // per shape
 
-// The capsules as the tool stands, jaw opened, portal frame; how many. An absent tool has none.
+// Writes the capsules of the posed tool, jaw opened, in the portal frame, and returns their number.
+// An absent tool has none.
 int PosedCapsules(const ToolShape& shape, const ToolInput& input,
                   std::span<Capsule> capsules) noexcept;
 

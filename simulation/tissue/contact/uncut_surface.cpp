@@ -8,10 +8,11 @@
 namespace arthro::simulation {
 namespace {
 
-// Spacings of the field: how far its skin may be off, and how near a cut leaves it as it is.
+// In spacings of the field: largest error of its skin, and distance from a cut within which it
+// stays as it is.
 constexpr double kReach = 0.8, kNearCut = 1.0;
-// Lips of a cut run from cell to cell: relaxed too, but no further than this from where the grid
-// has them.
+// Largest displacement of vertices at a cut, in spacings. The lips of a cut follow grid cells, so
+// they are relaxed too.
 constexpr double kMostMoved = 0.4;
 constexpr int kRelaxations = 4;
 
@@ -46,8 +47,8 @@ glm::dvec3 UncutSurface::Nearest(const glm::dvec3& x, double reach) const noexce
   return nearest;
 }
 
-void LayOnto(const UncutSurface& uncut, const SolidField& field,
-             std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
+void ProjectOnto(const UncutSurface& uncut, const SolidField& field,
+                 std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
   const double reach = kReach * field.spacing(), near_cut = kNearCut * field.spacing(),
                most = kMostMoved * field.spacing();
   std::vector<std::size_t> free, at_cut;
@@ -57,7 +58,7 @@ void LayOnto(const UncutSurface& uncut, const SolidField& field,
   const std::vector<glm::dvec3> of_grid = skin.vertices;
   for (const std::size_t v : free) skin.vertices[v] = uncut.Nearest(skin.vertices[v], reach);
 
-  // Triangles that have a vertex to be moved.
+  // Triangles with a vertex that may move.
   std::vector<unsigned char> is_moved(skin.vertices.size(), 0);
   for (const auto* list : {&free, &at_cut})
     for (const std::size_t v : *list) is_moved[v] = 1;

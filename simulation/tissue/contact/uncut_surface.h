@@ -1,6 +1,6 @@
-// The surface of a tissue before anything was taken of it. The skin of what is left comes from a
-// grid, which makes thin edges lumpy; where no cut came near it is laid back onto this and relaxed
-// along it, so that vertices are spread evenly. m, the surface's own frame.
+// Surface of a tissue before any cut. The skin of the remaining tissue comes from a grid, which
+// makes thin edges lumpy. Away from cuts it is projected back onto this surface and relaxed along
+// it, so that vertices are evenly spaced. m, the surface's own frame.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class UncutSurface {
  public:
   explicit UncutSurface(const SurfaceMesh& surface);
 
-  // The nearest place within the reach; else x itself.
+  // Returns the nearest point within the reach, or x itself if there is none.
   glm::dvec3 Nearest(const glm::dvec3& x, double reach) const noexcept;
 
  private:
@@ -27,9 +27,9 @@ class UncutSurface {
   BoxTree tree_;
 };
 
-// Lays the vertices of a field's skin onto it that lie well away from what was cut, and evens out
-// the others by less than half a spacing; of both only the ones that are flagged (empty: all).
-void LayOnto(const UncutSurface& uncut, const SolidField& field,
-             std::span<const std::uint8_t> is_new, SurfaceMesh& skin);
+// Projects the vertices of a field's skin that lie well away from cuts onto the surface. Smooths
+// the others by less than half a spacing. Moves flagged vertices only (empty: all).
+void ProjectOnto(const UncutSurface& uncut, const SolidField& field,
+                 std::span<const std::uint8_t> is_new, SurfaceMesh& skin);
 
 }  // namespace arthro::simulation

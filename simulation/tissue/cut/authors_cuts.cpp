@@ -5,7 +5,7 @@
 
 namespace arthro::simulation {
 
-CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed) {
+CrumbReport RemoveDebris(SolidField& field, std::span<const Ball> fixed) {
   if (fixed.empty()) return {};
   const FieldPieces pieces = PiecesWithoutVolumes(field);
   std::vector<unsigned char> is_debris = HeldPieces(field, pieces, fixed);
@@ -23,7 +23,7 @@ MadeCuts MakeCuts(SolidField& field, std::span<const Cut> cuts, std::span<const 
     made.changed = Union(made.changed, edit.changed);
   }
   if (made.changed.empty()) return made;
-  made.washed = WashAway(field, fixed);
+  made.washed = RemoveDebris(field, fixed);
   made.changed = Union(made.changed, made.washed.edit.changed);
   if (!(field.Volume() > 0.0))
     throw Error(Code::kBadScene,

@@ -1,5 +1,5 @@
-// What a tissue is before anybody touches it: the author's cuts are made, and what then hangs on
-// nothing and is small is washed away as after a bite. Field's own frame, m, m³.
+// State of a tissue at the start: the author's cuts are made, then small loose fragments are
+// removed as after a bite. Field's frame, m, m³.
 #pragma once
 
 #include <span>
@@ -11,18 +11,19 @@
 
 namespace arthro::simulation {
 
-// A loose fragment of less is washed away; the largest that a 4.5 mm shaver's window lets through.
+// Largest volume of a loose fragment that is washed away: the largest that passes the window of a
+// 4.5 mm shaver.
 inline constexpr double kDebrisVolume = 60e-9;  // m³
 
-// Takes away loose fragments that are small; none where nothing holds the tissue (`fixed` empty).
-CrumbReport WashAway(SolidField& field, std::span<const Ball> fixed);
+// Removes small loose fragments; none if nothing holds the tissue (`fixed` empty).
+CrumbReport RemoveDebris(SolidField& field, std::span<const Ball> fixed);
 
 struct MadeCuts {
-  std::vector<double> removed;  // m³, one a cut: what it took that those before had left
+  std::vector<double> removed;  // m³ per cut: volume removed beyond that of the cuts before it
   CrumbReport washed;
   Box3 changed = kEmptyBox;
 };
-// Throws Error(kBadArgument) for a cut that is none and Error(kBadScene) where nothing is left.
+// Throws Error(kBadArgument) for an invalid cut and Error(kBadScene) if nothing is left.
 MadeCuts MakeCuts(SolidField& field, std::span<const Cut> cuts, std::span<const Ball> fixed);
 
 }  // namespace arthro::simulation

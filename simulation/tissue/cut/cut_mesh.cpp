@@ -51,7 +51,7 @@ MeshCutter::MeshCutter(TetMesh whole, double spacing, const CutOptions& options)
     for (std::size_t p = 0; p < lattice.point.size(); ++p)
       shapes.push_back(ShapeAt(order, lattice.BarycentricOf(static_cast<int>(p))).value);
   }
-  const auto& quadrature = QuadratureOf(order);
+  const auto& quadrature = QuadraturePoints(order);
   for (int e = 0; e < count; ++e) {
     const auto nodes = NodesOf(e);
     const auto x = [&](std::size_t i) { return whole_.rest_positions[At(nodes[i])]; };
@@ -60,7 +60,7 @@ MeshCutter::MeshCutter(TetMesh whole, double spacing, const CutOptions& options)
       box.low = glm::min(box.low, x(i));
       box.high = glm::max(box.high, x(i));
     }
-    // A curved side may bulge past its nodes.
+    // A curved face may bulge beyond its nodes.
     const glm::dvec3 slack = order == 2 ? 0.125 * (box.high - box.low) : glm::dvec3(0.0);
     box_.push_back({box.low - slack, box.high + slack});
     double longest = 0.0;
@@ -126,13 +126,13 @@ void MeshCutter::BuildFaces() {
 }
 
 const CutMesh& MeshCutter::Update(const SolidField& field, const Box3& changed) {
-  looked_at_ = 0;
+  elements_tested_ = 0;
   for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
     if (changed.empty() || !Meet(box_[At(e)], changed)) continue;
-    ++looked_at_;
+    ++elements_tested_;
     before_of_[At(e)] = static_cast<int>(before_.size());
     before_.push_back(elements_[At(e)]);
-    LookAt(field, e);
+    UpdateElement(field, e);
   }
   return Assemble(field);
 }
@@ -142,16 +142,17 @@ const CutMesh& MeshCutter::Rebuild(const SolidField& field) {
   return Update(field, {glm::dvec3(-kFar), glm::dvec3(kFar)});
 }
 
-// The part of element e that is left and nearest to a place in it, counted in lattice steps.
+// Returns the remaining part of element e nearest to a place in it, measured in lattice steps.
 int MeshCutter::PartNear(int e, const glm::dvec4& barycentric) const {
   const Element& element = elements_[At(e)];
   if (element.label.empty()) return element.parts.empty() || element.parts[0].copy < 0 ? -1 : 0;
-  // One part that is left is the nearest from anywhere, and a place in one that is left is its own.
+  // A single remaining part is the nearest from anywhere; a place inside a remaining part belongs
+  // to that part.
   int left = -1, count = 0;
   for (std::size_t p = 0; p < element.parts.size(); ++p)
     if (element.parts[p].copy >= 0) left = static_cast<int>(p), ++count;
   if (count <= 1) return left;
-  const TetLattice& lattice = LatticeOf(e);
+  const TetLattice& lattice = Lattice(e);
   const int nearest = lattice.Nearest(barycentric);
   if (const std::uint8_t label = element.label[At(nearest)];
       label != kNoPart && element.parts[label].copy >= 0)
@@ -182,7 +183,7 @@ ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest,
   ElementCopy found;
   int best = element, part = PartNear(element, own.barycentric);
   if (part < 0) {
-    // Around it, ring by ring: the element with the nearest solid point.
+    // Searches ring by ring around the element for the nearest solid point.
     double nearest2 = std::numeric_limits<double>::max();
     std::vector<int> ring{element}, seen{element};
     for (int step = 0; step < 3 && part < 0 && !ring.empty(); ++step) {
@@ -195,7 +196,7 @@ ElementCopy MeshCutter::FindCopy(int element, const glm::dvec3& rest,
           }
       for (const int e : next) {
         const Element& candidate = elements_[At(e)];
-        for (int p = 0; p < static_cast<int>(LatticeOf(e).point.size()); ++p) {
+        for (int p = 0; p < static_cast<int>(Lattice(e).point.size()); ++p) {
           const int label = candidate.label.empty() ? 0 : candidate.label[At(p)];
           if (label == kNoPart || candidate.parts.empty() || candidate.parts[At(label)].copy < 0)
             continue;

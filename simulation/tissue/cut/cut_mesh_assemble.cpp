@@ -1,4 +1,4 @@
-// From the parts of all elements to one mesh.
+// Assembly of one mesh from the parts of all elements.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -12,7 +12,7 @@ namespace {
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
-// Sets of numbers that are joined; the lowest of a set stands for it.
+// Disjoint sets of numbers; the lowest number of a set represents it.
 class Sets {
  public:
   explicit Sets(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
@@ -31,14 +31,14 @@ class Sets {
 
 }  // namespace
 
-// Copies of elements on their way to a mesh: one a part that has enough left in it.
+// Copies of elements before assembly: one per part with enough volume left.
 struct MeshCutter::Draft {
   struct Copy {
     int element, part;
   };
   std::vector<Copy> copies;
-  Sets pieces{0}, nodes{0};  // of copies; of nodes, copy by copy
-  std::vector<int> kept;     // copies that are in the mesh
+  Sets pieces{0}, nodes{0};  // pieces: sets of copies; nodes: sets of nodes, copy by copy
+  std::vector<int> kept;     // copies in the mesh
 };
 
 void MeshCutter::MakeCopies(Draft& draft) {
@@ -61,7 +61,7 @@ void MeshCutter::MakeCopies(Draft& draft) {
   draft.nodes = Sets(draft.copies.size() * At(whole_.NodesPerElement()));
 }
 
-// Pieces and nodes are joined where solid touches solid through a face.
+// Joins pieces and nodes where solid touches solid through a face.
 void MeshCutter::JoinCopies(Draft& draft) {
   const auto per_element = At(whole_.NodesPerElement());
   const std::size_t face_nodes = whole_.order == 2 ? 6 : 3;
@@ -87,8 +87,8 @@ void MeshCutter::JoinCopies(Draft& draft) {
   }
 }
 
-// Leaves out crumbs, pieces that edits left too small or of which nothing lies in the true shape
-// (flakes of the facets), and lists the others' elements in the whole mesh's order.
+// Leaves out crumbs: pieces that edits left too small, and pieces entirely outside the true shape
+// (flakes of the facets). Lists the elements of the others in the whole mesh's order.
 void MeshCutter::ListElements(const SolidField& field, Draft& draft) {
   const auto& copies = draft.copies;
   auto& pieces = draft.pieces;
@@ -151,7 +151,8 @@ void MeshCutter::ListElements(const SolidField& field, Draft& draft) {
     }
 }
 
-// Nodes in the whole mesh's order; those of one place in the order of their first element.
+// Numbers the nodes in the whole mesh's order; copies of one node stand in the order of their first
+// element.
 void MeshCutter::NumberNodes(const CutMesh& old, Draft& draft) {
   const auto& copies = draft.copies;
   const auto& kept = draft.kept;
@@ -177,7 +178,7 @@ void MeshCutter::NumberNodes(const CutMesh& old, Draft& draft) {
   for (const int c : kept) {
     const Element& now = elements_[At(copies[At(c)].element)];
     const int e = copies[At(c)].element, was_at = before_of_[At(e)];
-    // The element of the old mesh that had this part in it.
+    // Finds the element of the old mesh that contained this part.
     const Element& was = was_at >= 0 ? before_[At(was_at)] : now;
     const Part& part = now.parts[At(copies[At(c)].part)];
     int old_copy = -1;
@@ -196,7 +197,7 @@ void MeshCutter::NumberNodes(const CutMesh& old, Draft& draft) {
         cut.previous_node[node] = old.mesh.elements[At(old_copy) * per_element + i];
     }
   }
-  // A node of tissue that was put back: where another one of that place was.
+  // A node of restored tissue is placed where another copy of that node was.
   for (std::size_t i = 0; i < node_count; ++i) {
     if (cut.previous_node[i] >= 0) continue;
     const auto same =

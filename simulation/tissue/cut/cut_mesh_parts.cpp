@@ -1,4 +1,4 @@
-// In which parts an element's solid falls, and which parts of neighbours touch.
+// Parts of an element's solid, and contact between parts of neighbouring elements.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -22,9 +22,9 @@ glm::dvec3 MeshCutter::PlaceOf(int e, int point) const {
   return x;
 }
 
-// All lattice points of an element: along a row of them the map is a parabola.
+// Computes all lattice points of an element; along a row of points the map is a parabola.
 void MeshCutter::PlacesIn(int e, std::span<glm::dvec3> places) const {
-  const TetLattice& lattice = LatticeOf(e);
+  const TetLattice& lattice = Lattice(e);
   const int n = lattice.n;
   std::size_t p = 0;
   for (int k = 0; k <= n; ++k)
@@ -47,10 +47,10 @@ void MeshCutter::PlacesIn(int e, std::span<glm::dvec3> places) const {
     }
 }
 
-// What is still there of element e, and in which parts.
-void MeshCutter::LookAt(const SolidField& field, int e) {
+// Finds what is left of element e and its parts.
+void MeshCutter::UpdateElement(const SolidField& field, int e) {
   Element& element = elements_[At(e)];
-  const TetLattice& lattice = LatticeOf(e);
+  const TetLattice& lattice = Lattice(e);
   const std::size_t count = lattice.point.size();
   bool is_whole = !field.MayBeCut(box_[At(e)]);
   if (!is_whole) {
@@ -68,7 +68,7 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
     element.parts = {part};
     return;
   }
-  // Parts: solid points that are neighbours and hang together in the field's grid, too.
+  // Forms parts of solid neighbours that are also connected in the field's grid.
   element.parts.clear();
   element.label.assign(count, kNoPart);
   auto& front = front_;
@@ -91,7 +91,7 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
       }
     }
   }
-  // A lattice part's solid corners are all neighbours: but at a hinge they are of one part.
+  // The solid corners of a lattice part are all neighbours, hence of one part except at a hinge.
   const bool has_one_point = whole_.order == 1;
   const std::uint8_t* labels = element.label.data();
   for (const TetLattice::Cell& cell : lattice.cell) {
@@ -132,8 +132,8 @@ void MeshCutter::LookAt(const SolidField& field, int e) {
     }
 }
 
-// Which parts of the two elements touch through their common face: on at least one of the coarser
-// one's triangles all three points are solid in both.
+// Finds the parts of the two elements that touch through their common face: on at least one
+// triangle of the coarser lattice all three points are solid in both.
 void MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs) const {
   pairs.clear();
   const Element &a = elements_[At(face.first)], &b = elements_[At(face.second)];
@@ -142,9 +142,9 @@ void MeshCutter::Touch(const Face& face, std::vector<std::array<int, 2>>& pairs)
     pairs.push_back({0, 0});
     return;
   }
-  const TetLattice &la = LatticeOf(face.first), &lb = LatticeOf(face.second);
+  const TetLattice &la = Lattice(face.first), &lb = Lattice(face.second);
   const int n = std::min(la.n, lb.n);
-  // Corners of the face in the order of their nodes, in each element's own counting.
+  // Corners of the face in node order, in each element's own numbering.
   const auto corners = [&](int e, int f) {
     std::array<int, 3> local;
     for (std::size_t i = 0; i < 3; ++i) local[i] = kTetFaces[At(f)][i];

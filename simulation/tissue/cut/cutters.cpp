@@ -13,9 +13,10 @@
 namespace arthro::simulation {
 namespace {
 
-// A cut's distances are written this far around it, so that the new surface is smooth.
+// Margin around a cut in which distances are written, in spacings, so that the new surface is
+// smooth.
 constexpr double kMarginCells = 2.5;
-// A slot narrower than this may fall between nodes and not separate.
+// Minimum width of a slot in spacings; a narrower one may fall between nodes and not separate.
 constexpr double kMinSlotCells = 1.5;
 
 double DistanceToBox(const glm::dvec3& x, const glm::dvec3& half) noexcept {
@@ -23,7 +24,7 @@ double DistanceToBox(const glm::dvec3& x, const glm::dvec3& half) noexcept {
   return glm::length(glm::max(q, glm::dvec3(0.0))) + std::min(0.0, std::max({q.x, q.y, q.z}));
 }
 
-// To the parallelogram corner + s·u + t·v, 0 ≤ s, t ≤ 1.
+// Distance to the parallelogram corner + s·u + t·v, 0 ≤ s, t ≤ 1.
 double DistanceToParallelogram(const glm::dvec3& x, const glm::dvec3& corner, const glm::dvec3& u,
                                const glm::dvec3& v) noexcept {
   const glm::dvec3 w = x - corner;
@@ -157,7 +158,7 @@ FieldEdit SubtractDeformed(SolidField& field, const Box3& rest_box, const Deform
 FieldEdit Shave(SolidField& field, const Box3& rest_box, const Deformation& deformation,
                 const ToolDistance& distance, const ShaverOptions& options, double dt,
                 Shaver& shaver) {
-  // A shaver that found nothing for a while does not save up: what passed by is gone.
+  // An idle shaver does not accumulate allowance: that suction was lost.
   constexpr double kLongestSaved = 0.05;  // s
   if (!(dt > 0.0) || !std::isfinite(dt)) return {};
   shaver.allowance =
@@ -185,7 +186,7 @@ std::vector<RegionVolume> RemovedByRegion(const SolidField& original, const Soli
   std::vector<RegionVolume> volumes;
   for (const Region& region : regions) volumes.push_back({region.name, 0.0});
   volumes.push_back({kElsewhere, 0.0});
-  // Most rows of cells have four rows of nodes that no cut came near.
+  // Most rows of cells have four unchanged rows of nodes.
   const auto row = [&](const SolidField& field, int j, int k) {
     return field.values().subspan(grid.Index(0, j, k), static_cast<std::size_t>(grid.count[0]));
   };

@@ -1,7 +1,7 @@
-// What takes tissue away, as signed distances (negative inside the tool): the basket punch's bite,
-// the shaver's window, a tear along a path. An author's cut is a plain value (tissue_parts.h), so
-// that undo is cutting the original again with one value less, and a session's reset is the
-// original with all of them. Field's own frame, m, m³, s.
+// Shapes that remove tissue, as signed distances (negative inside the tool): the bite of a basket
+// punch, the window of a shaver, a tear along a path. An author's cut is a plain value
+// (tissue_parts.h). Undo cuts the original again with one cut less, and a session's reset applies
+// all of them. Field's frame, m, m³, s.
 #pragma once
 
 #include <functional>
@@ -23,20 +23,21 @@ double DistanceToCapsule(const glm::dvec3& x, const glm::dvec3& a, const glm::dv
 // Throws Error(kBadArgument) for a cut without extent or that is not finite.
 void CheckCut(const Cut& cut);
 double DistanceTo(const Cut& cut, const glm::dvec3& x) noexcept;
-// Of all that is nearer than `margin` to the cut.
+// Returns the box of all points nearer than `margin` to the cut.
 Box3 BoundsOf(const Cut& cut, double margin);
 
-// Takes the cut away; checked first.
+// Checks the cut and removes it from the field.
 FieldEdit Apply(SolidField& field, const Cut& cut);
-// The original with all of these cuts; undo leaves out the last.
+// Returns the original with all of these cuts; undo leaves out the last one.
 SolidField CutAll(const SolidField& original, std::span<const Cut> cuts);
 
-// Where a rest position is now. It must go on a few spacings past the surface (an element's
-// weights, extrapolated); false: nowhere near, left alone.
+// Maps a rest position to its present place. It must extend a few spacings beyond the surface (an
+// element's weights, extrapolated). Returns false far from the tissue and then leaves `place`
+// alone.
 using Deformation = std::function<bool(const glm::dvec3& rest, glm::dvec3& place)>;
 using ToolDistance = std::function<double(const glm::dvec3& place)>;
 
-// Takes away, within a box at rest, what is inside the tool where the tissue is now.
+// Removes the points of a box at rest whose present place is inside the tool.
 FieldEdit SubtractDeformed(SolidField& field, const Box3& rest_box, const Deformation& deformation,
                            const ToolDistance& distance);
 
@@ -45,15 +46,16 @@ struct ShaverOptions {
   template <class V>
   void Visit(V&& v) {
     v("shaver_rate", rate, Range{1e-12, 1e-6}, "m3/s",
-      "Tissue that a running shaver takes away while its window is full.");
+      "Tissue volume that a running shaver removes while its window is full.");
   }
 };
-// What a shaver may still take: grows with time while it runs, shrinks with what it took.
+// Volume that a shaver may still remove: it grows with running time and shrinks with the removed
+// volume.
 struct Shaver {
   double allowance = 0;  // m³
 };
-// One step of a running shaver. In the mean it takes no more than the rate: what a step took too
-// much by is taken from the next ones.
+// Does one step of a running shaver. The mean does not exceed the rate: an excess of one step is
+// subtracted from the next ones.
 FieldEdit Shave(SolidField& field, const Box3& rest_box, const Deformation& deformation,
                 const ToolDistance& distance, const ShaverOptions& options, double dt,
                 Shaver& shaver);
@@ -62,9 +64,9 @@ struct RegionVolume {
   std::string name;
   double removed = 0;  // m³
 };
-// What was taken from `original`, by region; a cell that lies in several counts for the first, one
-// in none for the last entry, "elsewhere". The sum is the difference of the volumes. Both fields
-// must have one grid: Error(kBadArgument).
+// Returns the volume removed from `original` per region. A cell in several regions counts for the
+// first, a cell in none for the last entry, "elsewhere". The sum is the difference of the volumes.
+// Throws Error(kBadArgument) unless both fields have the same grid.
 std::vector<RegionVolume> RemovedByRegion(const SolidField& original, const SolidField& now,
                                           std::span<const Region> regions);
 

@@ -12,7 +12,7 @@
 namespace arthro::simulation {
 namespace {
 
-// Into the tetrahedron: what is negative becomes zero, the rest is scaled to a sum of 1.
+// Clamps to the tetrahedron: negative coordinates become zero, the rest is scaled to a sum of 1.
 glm::dvec4 Clamped(const glm::dvec4& l) {
   glm::dvec4 in;
   double sum = 0.0;
@@ -32,8 +32,8 @@ ElementPoint PointIn(const TetMesh& mesh, int element, const glm::dvec3& rest) {
   point.barycentric = Clamped(BarycentricIn({node(0), node(1), node(2), node(3)}, rest));
   TetShape shape;
   glm::dvec3 step(0.0);
-  constexpr int kSteps = 8;  // quadratic convergence: 0.1, 1e-2, 1e-4, 1e-8, 1e-16 and to spare;
-                             // a straight element is met at once
+  constexpr int kSteps = 8;  // converges quadratically: 0.1, 1e-2, 1e-4, 1e-8, 1e-16;
+                             // a straight element needs one step
   for (int i = 0; i < kSteps; ++i) {
     shape = ShapeAt(mesh.order, point.barycentric);
     glm::dvec3 x(0.0);
@@ -47,7 +47,7 @@ ElementPoint PointIn(const TetMesh& mesh, int element, const glm::dvec3& rest) {
     const glm::dvec4 next =
         point.barycentric + glm::dvec4(-step.x - step.y - step.z, step.x, step.y, step.z);
     const glm::dvec4 held = Clamped(next), moved = held - point.barycentric;
-    if (glm::dot(moved, moved) < 1e-30) break;  // outside, as near as it comes
+    if (glm::dot(moved, moved) < 1e-30) break;  // outside: the nearest point is reached
     point.barycentric = held;
   }
   for (std::size_t a = 0; a < n; ++a)

@@ -1,4 +1,4 @@
-// Where in an element a rest position is, and with which weights its nodes carry it.
+// Position of a rest point in an element, and the weights of the element's nodes there.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 namespace arthro::simulation {
 
 struct ElementPoint {
-  glm::dvec4 barycentric{0.25};     // of the place itself or, outside, about where it is nearest
-  std::array<double, 10> weight{};  // outside: going on linearly from there
+  glm::dvec4 barycentric{0.25};  // the point, or if outside about the nearest point of the element
+  std::array<double, 10> weight{};  // outside: linear extrapolation from that nearest point
 };
 
-// By Newton's method on the isoparametric map. The weights give back `rest`, and every affine
+// Inverts the isoparametric map by Newton's method. The weights reproduce `rest`, and every affine
 // motion of it, exactly.
 ElementPoint PointIn(const TetMesh& mesh, int element, const glm::dvec3& rest);
 

@@ -27,8 +27,8 @@ TetLattice MakeTetLattice(int n) {
                                  static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
                                  static_cast<std::uint8_t>(k)});
       }
-  // At each point an upright tetrahedron, an octahedron (four parts about one diagonal) and one
-  // upside down, as far as they are inside.
+  // Each point starts an upright tetrahedron, an octahedron (four parts around one diagonal) and an
+  // inverted tetrahedron, as far as they lie inside.
   constexpr Step o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, xy{1, 1, 0}, xz{1, 0, 1},
       yz{0, 1, 1}, xyz{1, 1, 1};
   constexpr std::array<std::array<Step, 4>, 6> kParts{{{o, x, y, z},
@@ -54,7 +54,7 @@ TetLattice MakeTetLattice(int n) {
         }
         lattice.cell.push_back({first, static_cast<std::int32_t>(lattice.part.size()), {}, {}});
       }
-  // The region of a part is that of the largest coordinate of its middle; ties are shared.
+  // The region of a part is that of the largest coordinate of its centroid; ties are shared.
   for (const auto& part : lattice.part) {
     std::array<int, 4> sum{};
     for (const auto p : part)
@@ -92,7 +92,7 @@ TetLattice MakeTetLattice(int n) {
 }
 
 int TetLattice::Nearest(const glm::dvec4& barycentric) const {
-  // Rounded down, then what is left of n goes to the largest remainders.
+  // Rounds down, then adds the remainder of n to the coordinates with the largest fractions.
   std::array<int, 4> whole;
   std::array<double, 4> rest;
   double sum = 0.0;
@@ -124,7 +124,9 @@ double NegativePart(const std::array<double, 4>& value) noexcept {
     else
       out[outs++] = v;
   }
-  const auto reach = [](double a, double b) { return a / (a - b); };  // of the edge from a to b
+  const auto reach = [](double a, double b) {
+    return a / (a - b);
+  };  // fraction of the edge from a to b
   switch (ins) {
     case 0:
       return 0.0;
@@ -137,7 +139,7 @@ double NegativePart(const std::array<double, 4>& value) noexcept {
     default:
       break;
   }
-  // A wedge between the inner edge ab and its crossings with the four edges to c and d.
+  // Volume of the wedge between the inner edge ab and its crossings with the four edges to c and d.
   const double ac = reach(in[0], out[0]), ad = reach(in[0], out[1]);
   const double bc = reach(in[1], out[0]), bd = reach(in[1], out[1]);
   return ac * ad + bc * bd * (1.0 - ac) + bd * ac * (1.0 - ad);

@@ -11,9 +11,9 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kWornOut = 1.5;  // work a free axis, over what it was when an order was sought
+constexpr double kWornOut = 1.5;  // flops per free axis, relative to a freshly computed order
 
-// CHOLMOD's own state, its objects given back whatever happens.
+// CHOLMOD state that frees its objects in every case.
 struct Session {
   cholmod_common common;
   Session() {
@@ -41,7 +41,7 @@ struct Symbolic {
   Symbolic(Symbolic&& other) noexcept
       : session(other.session), value(std::exchange(other.value, nullptr)) {}
   Symbolic& operator=(Symbolic&& other) noexcept {
-    std::swap(value, other.value);  // of one session
+    std::swap(value, other.value);  // both of one session
     return *this;
   }
 };
@@ -51,7 +51,7 @@ struct Symbolic {
               "the mesh is too large to be factored in this computer's memory; use fewer elements");
 }
 
-// Lower triangle of the pattern, one row a node; nodes that are held altogether meet nobody.
+// Lower triangle of the pattern, one row per node; completely fixed nodes have no neighbours.
 Matrix NodeGraph(Session& session, const BlockPattern& pattern, const FixedAxes& fixed) {
   const auto n = pattern.node_count();
   Matrix graph{session, cholmod_allocate_sparse(n, n, pattern.column.size(), true, true, -1,
@@ -89,7 +89,7 @@ FactorPlan::FactorPlan(std::shared_ptr<const BlockPattern> pattern, FixedAxes fi
 void FactorPlan::Analyse(std::vector<int> order) {
   const int nodes = pattern_->node_count();
   if (fixed_.empty()) fixed_.assign(nodes, 0);
-  // Free axes in the mesh's order.
+  // Lists the free axes in the mesh's order.
   std::vector<int> index(nodes * 3, -1), axis;
   for (int i = 0; i < nodes; ++i)
     for (int a = 0; a < 3; ++a)
@@ -102,7 +102,7 @@ void FactorPlan::Analyse(std::vector<int> order) {
   if (size_ == 0) return;
 
   Session session;
-  // The scalar pattern, lower triangle.
+  // Builds the scalar pattern, lower triangle.
   std::size_t entries = 0;
   for (int j : axis) entries += 3 * (pattern_->row_begin[j / 3 + 1] - pattern_->row_begin[j / 3]);
   const auto n = size_;
@@ -127,7 +127,7 @@ void FactorPlan::Analyse(std::vector<int> order) {
   }
   begin[n] = count;
 
-  // Nodes are ordered, not axes: a third of the work, and a node's axes stay together.
+  // Orders nodes, not axes: this takes a third of the work and keeps a node's axes together.
   const auto analysis_of = [&](const std::vector<int>& of_nodes) {
     std::vector<int> scalars;
     for (int node : of_nodes)
@@ -140,12 +140,12 @@ void FactorPlan::Analyse(std::vector<int> order) {
   if (!order.empty()) {
     symbolic = analysis_of(order);
     flops_ = session.common.fl;
-    // Much dearer than it was: another order is due.
+    // Computes a new order if the old one has become much more expensive.
     if (flops_ > kWornOut * sought_flops_ * size_) order.clear();
   }
   if (order.empty()) {
-    // Nested dissection gives the smaller factor on volumes, minimum degree on thin sheets: both
-    // are tried.
+    // Tries both methods: nested dissection gives the smaller factor on volumes, minimum degree on
+    // thin sheets.
     const Matrix graph = NodeGraph(session, *pattern_, fixed_);
     for (const bool dissects : {true, false}) {
       std::vector<int> sought(nodes);
@@ -164,7 +164,7 @@ void FactorPlan::Analyse(std::vector<int> order) {
   if (!symbolic.value || !symbolic.value->is_super) GiveUp();
   for (int i = 0; i < nodes; ++i) rank_[order[i]] = i;
 
-  // Supernodes, with rows padded to strips.
+  // Builds the supernodes, with rows padded to strips.
   const cholmod_factor& l = *symbolic.value;
   const auto* permutation = static_cast<const int*>(l.Perm);
   const auto* first = static_cast<const int*>(l.super);
@@ -181,7 +181,7 @@ void FactorPlan::Analyse(std::vector<int> order) {
   for (std::size_t s = 0; s < l.nsuper; ++s) {
     Supernode node{first[s], first[s + 1] - first[s], rows_begin[s + 1] - rows_begin[s],
                    0,        rows_begin[s],           panel_size_};
-    node.stride = StripsOf(node.rows);
+    node.stride = RoundUpToStrip(node.rows);
     panel_size_ += static_cast<std::int64_t>(node.stride) * node.columns;
     widest_ = std::max(widest_, node.columns);
     tallest_ = std::max(tallest_, node.rows);
@@ -189,7 +189,7 @@ void FactorPlan::Analyse(std::vector<int> order) {
     supernode_.push_back(node);
   }
 
-  // Where each entry of the matrix goes.
+  // Finds the destination of each entry of the matrix.
   entry_.reserve(from.size());
   for (int j = 0; j < n; ++j)
     for (int k = begin[j]; k < begin[j + 1]; ++k) {
@@ -203,10 +203,10 @@ void FactorPlan::Analyse(std::vector<int> order) {
     }
 }
 
-std::shared_ptr<const FactorPlan> PlanAfter(const std::shared_ptr<const FactorPlan>& before,
-                                            std::span<const int> parent,
-                                            const std::shared_ptr<const BlockPattern>& pattern,
-                                            const FixedAxes& fixed) {
+std::shared_ptr<const FactorPlan> UpdatePlan(const std::shared_ptr<const FactorPlan>& before,
+                                             std::span<const int> parent,
+                                             const std::shared_ptr<const BlockPattern>& pattern,
+                                             const FixedAxes& fixed) {
   if (before->Fits(*pattern, fixed)) return before;
   return parent.empty() ? std::make_shared<const FactorPlan>(pattern, fixed)
                         : std::make_shared<const FactorPlan>(pattern, fixed, *before, parent);

@@ -1,5 +1,5 @@
-// Which axes of which nodes do not move by forces: they stay where they are, or go where they are
-// led. One byte a node; bits 1, 2, 4 are x, y, z of the mesh's own frame. Empty: none.
+// Axes of nodes that do not respond to forces: they are fixed or have a prescribed motion. One byte
+// per node; bits 1, 2, 4 are x, y, z of the mesh's own frame. Empty: no fixed axes.
 #pragma once
 
 #include <cstdint>

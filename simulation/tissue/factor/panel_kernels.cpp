@@ -11,13 +11,13 @@ typedef double Doubles __attribute__((vector_size(64)));
 typedef float Floats __attribute__((vector_size(64)));
 #define ARTHRO_INLINE __attribute__((always_inline)) inline
 
-// From and to memory that is aligned to its numbers only.
+// Loads and stores memory that is aligned only to its numbers.
 #define ARTHRO_LOAD(V, name, from) \
   V name;                          \
   std::memcpy(&name, from, sizeof name)
 #define ARTHRO_STORE(name, to) std::memcpy(to, &name, sizeof name)
 
-// 16 rows of kColumns columns of c at once, in registers.
+// Computes 16 rows of kColumns columns of c at once, in registers.
 template <int kColumns>
 ARTHRO_INLINE void Tile(int k, const double* a, int lda, const double* b, int ldb, double* c,
                         int ldc, double sign, bool adds) {
@@ -83,7 +83,7 @@ ARTHRO_INLINE void MultiplyBody(int m, int n, int k, const double* a, int lda, c
   }
 }
 
-// kColumns columns of a panel times kRight vectors, strip by strip.
+// Multiplies kColumns columns of a panel by kRight vectors, strip by strip.
 template <int kColumns, int kRight>
 ARTHRO_INLINE void AddColumns(const float* p, int stride, int first, const float* x, int xs,
                               float* t, int ts) {
@@ -196,7 +196,7 @@ Kernels Chosen() {
 }
 const Kernels kKernels = Chosen();
 
-// Up to this size the plain loops are as quick as the tiles.
+// Size up to which plain loops are as fast as tiles.
 constexpr int kSmall = 12;
 
 bool FactorSmall(int n, double* a, int lda, double* inverse, int ldi, double least) {
@@ -211,7 +211,7 @@ bool FactorSmall(int n, double* a, int lda, double* inverse, int ldi, double lea
       for (int i = k; i < n; ++i) next[i] -= column[i] * column[k];
     }
   }
-  // L⁻¹ column by column: L y = e_j.
+  // Computes L⁻¹ column by column: L y = e_j.
   for (int j = 0; j < n; ++j) {
     double* y = inverse + static_cast<long>(j) * ldi;
     for (int i = 0; i < n; ++i) y[i] = 0.0;
@@ -242,12 +242,12 @@ void MultiplyPanelTransposed(const Panel& p, int right, const float* t, int t_st
   kKernels.panel_transposed(p, right, t, t_stride, x, x_stride);
 }
 
-// By halves: L₂₁ = A₂₁ L₁₁⁻ᵀ, A₂₂ −= L₂₁ L₂₁ᵀ, and (L⁻¹)₂₁ = −L₂₂⁻¹ L₂₁ L₁₁⁻¹. Products are made in
-// `work` and copied, since whole strips would run over into what stands beside.
+// Divides the matrix into halves: L₂₁ = A₂₁ L₁₁⁻ᵀ, A₂₂ −= L₂₁ L₂₁ᵀ, and (L⁻¹)₂₁ = −L₂₂⁻¹ L₂₁ L₁₁⁻¹.
+// Products are computed in `work` and copied, because whole strips would overwrite adjacent memory.
 bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double* work,
                      double least) noexcept {
   if (n <= kSmall) return FactorSmall(n, a, lda, inverse, ldi, least);
-  const int n1 = n / 2, n2 = n - n1, stride = StripsOf(n2);
+  const int n1 = n / 2, n2 = n - n1, stride = RoundUpToStrip(n2);
   if (!FactorAndInvert(n1, a, lda, inverse, ldi, work, least)) return false;
   double* a21 = a + n1;
   double* a22 = a + static_cast<long>(n1) * lda + n1;
@@ -264,15 +264,15 @@ bool FactorAndInvert(int n, double* a, int lda, double* inverse, int ldi, double
       a22[static_cast<long>(j) * lda + i] += work[static_cast<long>(j) * stride + i];
   double* inverse22 = inverse + static_cast<long>(n1) * ldi + n1;
   if (!FactorAndInvert(n2, a22, lda, inverse22, ldi, work, least)) return false;
-  // First L₂₁ L₁₁⁻¹, with the transpose of L₁₁⁻¹ beyond the product.
+  // First L₂₁ L₁₁⁻¹, with the transpose of L₁₁⁻¹ stored after the product.
   double* transposed = work + static_cast<long>(n1) * stride;
-  const int stride1 = StripsOf(n1);
+  const int stride1 = RoundUpToStrip(n1);
   for (int j = 0; j < n1; ++j)
     for (int i = 0; i < n1; ++i)
       transposed[static_cast<long>(j) * stride1 + i] = inverse[static_cast<long>(i) * ldi + j];
   MultiplyTransposed(n2, n1, n1, a21, lda, transposed, stride1, work, stride, 1.0, false,
                      LeftOut::kBelowInB);
-  // Its transpose, to be what the kernel takes on the right.
+  // Transposes it as the right operand of the kernel.
   double* right = transposed;
   for (int j = 0; j < n2; ++j)
     for (int i = 0; i < n1; ++i)

@@ -51,7 +51,7 @@ void RotatedFactor::Inherit(std::span<const int> parent, const FixedAxes& fixed)
   fixed_ = fixed;
 }
 
-void RotatedFactor::TurnTo(std::span<const glm::dmat3> rotation) noexcept {
+void RotatedFactor::SetCurrentRotations(std::span<const glm::dmat3> rotation) noexcept {
   for (std::size_t i = 0; i < turn_.size(); ++i)
     turn_[i] = fixed_[i] ? glm::dmat3(1.0) : rotation[i] * glm::transpose(then_[i]);
 }
@@ -64,7 +64,7 @@ void RotatedFactor::SetDiagonal(const BlockMatrix& a, std::span<const double> ad
     const double most = std::abs(m[0][0]) + std::abs(m[1][1]) + std::abs(m[2][2]);
     for (int k = 0; k < 3; ++k) m[k][k] += added[i] + 1e-3 * most;
     const glm::dmat3 inverse = glm::inverse(m);
-    // Not positive: the trace alone.
+    // A block that is not positive definite is replaced by its trace.
     const bool is_good = m[0][0] > 0 && m[0][0] * m[1][1] > m[0][1] * m[0][1] &&
                          glm::determinant(m) > 0 && std::isfinite(inverse[0][0]);
     block_[i] = is_good ? 0.5 * (inverse + glm::transpose(inverse))
@@ -93,7 +93,7 @@ void RotatedFactor::Solve(std::span<const std::span<const glm::dvec3>> r,
       for (std::size_t i = 0; i < nodes; ++i) z[c][i] = turn_[i] * left_[c][i];
       continue;
     }
-    // Split nodes move together by the old factor, and apart by their own blocks.
+    // The old factor moves split nodes together; their own blocks move them apart.
     for (std::size_t i = 0; i < nodes; ++i) {
       glm::dvec3 zi = turn_[i] * left_[c][parent_[i]];
       if (is_split_[i]) zi += block_[i] * r[c][i];

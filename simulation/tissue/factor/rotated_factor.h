@@ -1,7 +1,6 @@
-// The preconditioner: a Cholesky factor of the body as it was some time ago, turned node by node to
-// where the body is now: P⁻¹ = Q A₀⁻¹ Qᵀ with Q the rotation of each node's neighbourhood since
-// then [method.md, Deformable tissue]. Through
-// `parent` it serves a body that has been cut since.
+// Preconditioner: a Cholesky factor of an earlier state of the body, rotated node by node to the
+// present state: P⁻¹ = Q A₀⁻¹ Qᵀ, with Q the rotation of each node's neighbourhood since then
+// [method.md, Deformable tissue]. With `parent` it also serves a body that has been cut since.
 #pragma once
 
 #include <array>
@@ -18,24 +17,26 @@ namespace arthro::simulation {
 
 class RotatedFactor {
  public:
-  // `rotation`: of the nodes when the matrix was taken.
+  // `rotation`: node rotations when the matrix was assembled.
   RotatedFactor(std::unique_ptr<SparseFactor> factor, std::span<const glm::dmat3> rotation);
 
   SparseFactor& factor() { return *factor_; }
-  // A node of the body: which one it is in the factor; empty: the same.
+  // Returns the factor's node of each node of the body; empty: the same nodes.
   std::span<const int> parent() const { return parent_; }
-  // After factoring anew into the same memory: a factor of its own plan's body again.
+  // Call after factoring again into the same memory: the factor belongs to its own plan's body
+  // again.
   void SetRotations(std::span<const glm::dmat3> rotation);
 
-  // Node i of the body is now what node parent[i] was before; `fixed` are its fixed axes.
+  // Declares that node i of the body is a copy of the former node parent[i]; `fixed` holds its
+  // fixed axes.
   void Inherit(std::span<const int> parent, const FixedAxes& fixed);
 
-  // The rotations of the body's nodes now.
-  void TurnTo(std::span<const glm::dmat3> rotation) noexcept;
-  // The body's block diagonal now; needed where nodes have split, does nothing where none have.
+  // Sets the present rotations of the body's nodes.
+  void SetCurrentRotations(std::span<const glm::dmat3> rotation) noexcept;
+  // Sets the present block diagonal of the body; has an effect only at split nodes.
   void SetDiagonal(const BlockMatrix& a, std::span<const double> added) noexcept;
 
-  // z = P⁻¹ r; 0 at fixed axes. Allocates nothing.
+  // Computes z = P⁻¹ r, 0 at fixed axes. Allocates nothing.
   void Solve(std::span<const glm::dvec3> r, std::span<glm::dvec3> z) noexcept {
     Solve(std::span(&r, 1), std::span(&z, 1));
   }
@@ -45,12 +46,12 @@ class RotatedFactor {
 
  private:
   std::unique_ptr<SparseFactor> factor_;
-  FixedAxes fixed_;                      // of the body
-  std::vector<glm::dmat3> then_, turn_;  // a node of the body: rotation when factored, Q
-  std::vector<int> parent_;              // empty: the body is as it was
-  std::vector<glm::dmat3> block_;        // where split: inverse of the diagonal block, else 0
+  FixedAxes fixed_;                      // fixed axes of the body
+  std::vector<glm::dmat3> then_, turn_;  // per node of the body: rotation when factored, Q
+  std::vector<int> parent_;              // empty: the body has not been cut
+  std::vector<glm::dmat3> block_;        // at split nodes: inverse of the diagonal block, else 0
   std::vector<unsigned char> is_split_;
-  std::array<std::vector<glm::dvec3>, 3> right_, left_;  // nodes of the factor
+  std::array<std::vector<glm::dvec3>, 3> right_, left_;  // per node of the factor
 };
 
 }  // namespace arthro::simulation

@@ -19,11 +19,11 @@ SparseFactor::SparseFactor(std::shared_ptr<const FactorPlan> plan) : plan_(std::
   panels_ = storage_.data();
   while (reinterpret_cast<std::uintptr_t>(panels_) % 64) ++panels_;
   vector_.resize(static_cast<std::size_t>(kMostRight) * p.size_);
-  strip_.resize(static_cast<std::size_t>(kMostRight) * StripsOf(p.tallest_));
+  strip_.resize(static_cast<std::size_t>(kMostRight) * RoundUpToStrip(p.tallest_));
   short_.resize(static_cast<std::size_t>(kMostRight) * p.widest_);
 }
 
-void SparseFactor::TakeMemory(SparseFactor& other) noexcept {
+void SparseFactor::TakeWorkMemory(SparseFactor& other) noexcept {
   for (auto buffer : {&SparseFactor::work_, &SparseFactor::inverse_, &SparseFactor::product_,
                       &SparseFactor::right_})
     std::swap(this->*buffer, other.*buffer);
@@ -31,11 +31,11 @@ void SparseFactor::TakeMemory(SparseFactor& other) noexcept {
 
 double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added) {
   const FactorPlan& p = *plan_;
-  const std::int64_t widest = p.widest_, tallest = StripsOf(p.tallest_);
+  const std::int64_t widest = p.widest_, tallest = RoundUpToStrip(p.tallest_);
   work_.resize(p.panel_size_ + kStrip);
-  inverse_.resize(widest * StripsOf(p.widest_) + kStrip);
+  inverse_.resize(widest * RoundUpToStrip(p.widest_) + kStrip);
   right_.resize(inverse_.size());
-  product_.resize(std::max(widest * tallest, 2 * widest * StripsOf(p.widest_)) + kStrip);
+  product_.resize(std::max(widest * tallest, 2 * widest * RoundUpToStrip(p.widest_)) + kStrip);
   map_.resize(p.size_);
   head_.resize(p.supernode_.size());
   next_.resize(p.supernode_.size());
@@ -48,7 +48,7 @@ double SparseFactor::Factor(const BlockMatrix& a, std::span<const double> added)
 
 bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added, double shift) {
   const FactorPlan& p = *plan_;
-  // The matrix into the panels.
+  // Copies the matrix into the panels.
   std::fill(work_.begin(), work_.end(), 0.0);
   for (const FactorPlan::Entry& e : p.entry_) work_[e.to] = a.block[e.from / 9][e.from % 9];
   double largest = 0;
@@ -63,7 +63,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
   for (const FactorPlan::Supernode& s : p.supernode_)
     for (int j = 0; j < s.columns && shift > 0; ++j)
       work_[s.value + static_cast<std::int64_t>(j) * s.stride + j] += 1e-3 * shift * largest;
-  constexpr double kLeastPivot = 1e-14;  // of the largest diagonal entry: below is rounding
+  constexpr double kLeastPivot = 1e-14;  // relative to the largest diagonal entry
   const double least = kLeastPivot * largest;
 
   const int count = static_cast<int>(p.supernode_.size());
@@ -73,7 +73,7 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
     const int* rows = p.row_.data() + s.row;
     double* panel = work_.data() + s.value;
     for (int r = 0; r < s.rows; ++r) map_[rows[r]] = r;
-    // What finished supernodes that have rows among these columns take away.
+    // Subtracts the contributions of finished supernodes with rows among these columns.
     for (int d = head_[i]; d >= 0;) {
       const int following = next_[d];
       const FactorPlan::Supernode& from = p.supernode_[d];
@@ -81,11 +81,11 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       const int begin = position_[d];
       int end = begin;
       while (end < from.rows && from_rows[end] < s.first + s.columns) ++end;
-      const int m = from.rows - begin, n = end - begin, stride = StripsOf(m);
+      const int m = from.rows - begin, n = end - begin, stride = RoundUpToStrip(m);
       const double* source = work_.data() + from.value + begin;
       MultiplyTransposed(m, n, from.columns, source, from.stride, source, from.stride,
                          product_.data(), stride, 1.0, false, LeftOut::kAboveInC);
-      // Rows that follow one another there do so here, mostly: stretch by stretch.
+      // Rows that are consecutive there are mostly consecutive here, so they are handled in runs.
       for (int r = 0; r < m;) {
         const int first = map_[from_rows[begin + r]], r0 = r++;
         while (r < m && map_[from_rows[begin + r]] == first + r - r0) ++r;
@@ -105,8 +105,8 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
       }
       d = following;
     }
-    // L₁₁ and its inverse; L₂₁ = A₂₁ L₁₁⁻ᵀ.
-    const int n = s.columns, m = s.rows - n, ldi = StripsOf(n);
+    // Computes L₁₁ and its inverse, then L₂₁ = A₂₁ L₁₁⁻ᵀ.
+    const int n = s.columns, m = s.rows - n, ldi = RoundUpToStrip(n);
     if (!FactorAndInvert(n, panel, s.stride, inverse_.data(), ldi, product_.data(), least))
       return false;
     float* kept = panels_ + s.value;
@@ -115,13 +115,13 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
         kept[static_cast<std::int64_t>(j) * s.stride + r] =
             static_cast<float>(inverse_[j * ldi + r]);
     if (m > 0) {
-      const int stride = StripsOf(m);
+      const int stride = RoundUpToStrip(m);
       MultiplyTransposed(m, n, n, panel + n, s.stride, inverse_.data(), ldi, product_.data(),
                          stride, 1.0, false, LeftOut::kAboveInB);
       for (int j = 0; j < n; ++j)
         std::copy_n(product_.data() + static_cast<std::int64_t>(j) * stride, m,
                     panel + static_cast<std::int64_t>(j) * s.stride + n);
-      // And what is kept of it: L₂₁ L₁₁⁻¹.
+      // Computes the stored form L₂₁ L₁₁⁻¹.
       for (int j = 0; j < n; ++j)
         for (int r = 0; r < n; ++r) right_[r * ldi + j] = inverse_[j * ldi + r];
       MultiplyTransposed(m, n, n, panel + n, s.stride, right_.data(), ldi, product_.data(), stride,
@@ -142,9 +142,9 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
 void SparseFactor::Solve(std::span<const std::span<const glm::dvec3>> b,
                          std::span<const std::span<glm::dvec3>> x) noexcept {
   const FactorPlan& p = *plan_;
-  const int right = static_cast<int>(b.size()), n = p.size_, tall = StripsOf(p.tallest_);
+  const int right = static_cast<int>(b.size()), n = p.size_, tall = RoundUpToStrip(p.tallest_);
   float *v = vector_.data(), *t = strip_.data();
-  // One scale a vector, so that neither tiny nor huge forces leave float's range.
+  // Scales each vector, so that neither tiny nor huge forces leave the range of float.
   std::array<double, kMostRight> scale{};
   for (int c = 0; c < right; ++c) {
     double largest = 0;

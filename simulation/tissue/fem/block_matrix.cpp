@@ -12,8 +12,8 @@ int BlockPattern::Find(int row, int i) const {
   return found != end && *found == i ? static_cast<int>(found - column.begin()) : -1;
 }
 
-BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int node_count) {
-  // Elements of each node, then their nodes sorted, row by row.
+BlockPattern MakePattern(std::span<const int> elements, int nodes_per_element, int node_count) {
+  // Lists the elements of each node, then collects and sorts their nodes, row by row.
   const int n = nodes_per_element;
   std::vector<int> begin(node_count + 1, 0);
   for (const int node : elements) ++begin[node + 1];
@@ -26,7 +26,7 @@ BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int
   pattern.row_begin.push_back(0);
   std::vector<int> row, seen_in(node_count, -1);
   for (int i = 0; i < node_count; ++i) {
-    row.assign(1, i);  // also where no element is, so that a mass has its place
+    row.assign(1, i);  // the diagonal also exists without an element: it holds the mass
     seen_in[i] = i;
     for (int k = begin[i]; k < begin[i + 1]; ++k)
       for (const int node : elements.subspan(static_cast<std::size_t>(element[k]) * n, n))

@@ -1,5 +1,5 @@
-// A sparse symmetric matrix of 3×3 blocks, one row a node, both triangles stored. The pattern is
-// shared and made once a mesh; the values change every step. Multiply allocates nothing.
+// Sparse symmetric matrix of 3×3 blocks: one block row per node, both triangles stored. The pattern
+// is made once per mesh and shared; the values change every step.
 #pragma once
 
 #include <array>
@@ -14,28 +14,28 @@ namespace arthro::simulation {
 struct BlockPattern {
   std::vector<int> row_begin;  // node_count + 1
   std::vector<int> column;     // rising within a row
-  std::vector<int> diagonal;   // where block (i, i) is
+  std::vector<int> diagonal;   // position of block (i, i)
   int node_count() const { return static_cast<int>(diagonal.size()); }
-  // Where block (row, column) is; −1: not there.
+  // Returns the position of block (row, column), or −1 if the pattern has none.
   int Find(int row, int column) const;
   bool operator==(const BlockPattern&) const = default;
 };
 
-// Every two nodes of one element meet.
-BlockPattern PatternOf(std::span<const int> elements, int nodes_per_element, int node_count);
+// Makes the pattern in which every two nodes of an element share a block.
+BlockPattern MakePattern(std::span<const int> elements, int nodes_per_element, int node_count);
 
 struct BlockMatrix {
   std::shared_ptr<const BlockPattern> pattern;
-  std::vector<std::array<double, 9>> block;  // row-major, one an entry of pattern->column
+  std::vector<std::array<double, 9>> block;  // row-major, one per entry of pattern->column
 };
 
 struct ElementKernel;
 
-// y = A x. Vectorised for the processor it runs on (`kernel`: null is the fastest); the same bits
-// on all of them.
+// Computes y = A x without allocating. The result has the same bits with every kernel; a null
+// `kernel` picks the fastest one for this processor.
 void Multiply(const BlockMatrix& a, std::span<const glm::dvec3> x, std::span<glm::dvec3> y,
               const ElementKernel* kernel = nullptr) noexcept;
-// Three products, the matrix read once for all; each is what Multiply gives.
+// Computes three products while reading the matrix once. Each result equals that of Multiply.
 void MultiplyThree(const BlockMatrix& a, const std::array<std::span<const glm::dvec3>, 3>& x,
                    const std::array<std::span<glm::dvec3>, 3>& y,
                    const ElementKernel* kernel = nullptr) noexcept;

@@ -16,9 +16,11 @@
 namespace arthro::simulation {
 namespace {
 
-// A node whose elements are all empty keeps this part of its mass, so that it can be divided by.
+// Fraction of the mass that a node keeps when all its elements are empty, so that division by the
+// mass stays possible.
 constexpr double kLeastMassShare = 1e-12;
-// Volume over the cube of the longest edge: what rounding alone makes of a flat element.
+// Volume divided by the cube of the longest edge; below this limit an element is flat up to
+// rounding.
 constexpr double kNoVolume = 1e-15;
 
 void CheckMaterial(const Material& m) {
@@ -68,7 +70,7 @@ void CheckMesh(const TetMesh& mesh) {
                               mesh.elements[i], count));
 }
 
-// ∂N_a/∂x at a quadrature point, rest position, and the Jacobian's determinant.
+// ∂N_a/∂x at a quadrature point, its rest position, and the determinant of the Jacobian.
 struct RestPoint {
   std::array<glm::dvec3, 10> gradient;
   glm::dvec3 x{0.0};
@@ -106,15 +108,15 @@ glm::dvec3 Circumferential(const glm::dvec3& x) {
   return radius > 0 ? glm::dvec3(-x.y, x.x, 0) / radius : glm::dvec3(0, 1, 0);
 }
 
-// Part of the element's mass [Hinton, Rock & Zienkiewicz 1976]: the scaled diagonal of the
-// consistent matrix. The four-point rule is too low for N², so its sums are scaled to the exact
-// ones of a straight element; what it still says is which node a point is nearest to.
+// Fraction of the element's mass, from the scaled diagonal of the consistent matrix [Hinton, Rock &
+// Zienkiewicz 1976]. The four-point rule is too low for N², so its sums are scaled to the exact
+// ones of a straight element. The unscaled values still tell which node a point is nearest to.
 double LumpShare(int order, const TetShape& shape, int a) {
   if (order == 1) return 0.25;
   constexpr double kCorner = 1.0 / 70, kMiddle = 8.0 / 105;  // ∫N²dV / V
   if (a < 4) return kCorner;
   double sum = 0;
-  for (const TetShape& point : QuadratureOf(2))
+  for (const TetShape& point : QuadraturePoints(2))
     sum += point.weight * point.value[a] * point.value[a];
   return kMiddle * shape.value[a] * shape.value[a] / sum;
 }
@@ -126,9 +128,9 @@ FemModel::FemModel(const TetMesh& mesh, const Material& material, std::span<cons
   CheckMaterial(material_);
   CheckMesh(mesh_);
   const int n = mesh_.NodesPerElement(), count = mesh_.ElementCount();
-  const auto& quadrature = QuadratureOf(mesh_.order);
+  const auto& quadrature = QuadraturePoints(mesh_.order);
   const int points = static_cast<int>(quadrature.size());
-  auto pattern = std::make_shared<BlockPattern>(PatternOf(mesh_.elements, n, node_count()));
+  auto pattern = std::make_shared<BlockPattern>(MakePattern(mesh_.elements, n, node_count()));
 
   ElementBatches& b = batches_;
   b.nodes = n;
@@ -186,7 +188,7 @@ void FemModel::SetShares(std::span<const double> share) {
   CheckShares(share, whole_volume_.size());
   share_.assign(share.begin(), share.end());
   const int n = mesh_.NodesPerElement(), points = points_per_element();
-  const auto& quadrature = QuadratureOf(mesh_.order);
+  const auto& quadrature = QuadraturePoints(mesh_.order);
   mass_.assign(node_count(), 0.0);
   volume_ = 0;
   std::vector<double> whole(node_count(), 0.0);
@@ -225,7 +227,7 @@ Assembly FemModel::Assemble(std::span<const glm::dvec3> x, Law law, Tangent tang
   if (stiffness == nullptr) tangent = Tangent::kNone;
   std::fill(force.begin(), force.end(), glm::dvec3(0.0));
   if (tangent != Tangent::kNone)
-    for (int row = 0; row < node_count(); ++row)  // the upper triangle, which the kernel fills
+    for (int row = 0; row < node_count(); ++row)  // only the upper triangle, which the kernel fills
       std::fill(stiffness->block.begin() + pattern_->diagonal[row],
                 stiffness->block.begin() + pattern_->row_begin[row + 1], std::array<double, 9>{});
   const Lame lame = LameOf(material_);
@@ -264,7 +266,7 @@ std::vector<double> FemModel::NodeShares() const {
 
 void FemModel::AddBodyForce(const glm::dvec3& per_volume, std::span<glm::dvec3> force) const {
   const int n = mesh_.NodesPerElement(), points = points_per_element();
-  const auto& quadrature = QuadratureOf(mesh_.order);
+  const auto& quadrature = QuadraturePoints(mesh_.order);
   for (std::size_t at = 0; at < whole_volume_.size(); ++at) {
     const int* node = &mesh_.elements[at / points * n];
     for (int a = 0; a < n; ++a)

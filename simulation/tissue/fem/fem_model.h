@@ -1,7 +1,9 @@
-// A tetrahedral mesh ready to be deformed: shape-function gradients and weights at the quadrature
-// points (one of T4, four of isoparametric T10), lumped masses, the block pattern, and the kernels
-// that turn positions into energy, forces and tangent. Positions in the mesh's own frame, m; N, J.
-// A cut body is the same mesh with shares: what part of each quadrature point's volume is still
+// Tetrahedral mesh ready for deformation. It holds shape-function gradients and weights at the
+// quadrature points (one per T4, four per isoparametric T10), lumped masses and the block pattern.
+// Its kernels turn positions into energy, forces and tangent. Positions are in the mesh's own
+// frame, m; forces in N, energy in J.
+// A cut body is the same mesh with a share per quadrature point: the fraction of its volume that
+// remains.
 // there.
 #pragma once
 
@@ -19,12 +21,12 @@
 
 namespace arthro::simulation {
 
-// How much of the tangent is asked for. kTrue is ∂²Ψ/∂F² as it is; kProjected has the negative
-// eigenvalues of each quadrature point's 9×9 set to zero, those of the matrix and of the fibres
-// each for themselves, so the sum is positive semidefinite.
+// Kind of tangent to compute. kTrue is ∂²Ψ/∂F² itself. kProjected sets the negative eigenvalues of
+// each quadrature point's 9×9 to zero, separately for matrix and fibres, so the sum is positive
+// semidefinite.
 enum class Tangent { kNone, kTrue, kProjected };
 
-struct ElementKernel;  // element_kernel.h: the inner loops, once an instruction set
+struct ElementKernel;  // element_kernel.h: the inner loops, one per instruction set
 
 struct Assembly {
   double energy = 0;     // J, elastic
@@ -34,9 +36,10 @@ struct Assembly {
 
 class FemModel {
  public:
-  // `share`: points_per_element() an element, 0 to 1; empty: whole. Throws Error(kBadArgument) for
-  // a material that cannot be computed with (ν ≥ 0.5, E ≤ 0, density ≤ 0, not finite) and
-  // Error(kBadMesh) for an element without volume at a quadrature point.
+  // `share` has points_per_element() values per element, each from 0 to 1; empty means 1
+  // everywhere. Throws Error(kBadArgument) for a material that cannot be computed with (ν ≥ 0.5, E
+  // ≤ 0, density ≤ 0, not finite). Throws Error(kBadMesh) for an element without volume at a
+  // quadrature point.
   FemModel(const TetMesh& mesh, const Material& material, std::span<const double> share = {});
 
   const TetMesh& mesh() const { return mesh_; }
@@ -44,29 +47,31 @@ class FemModel {
   int node_count() const { return static_cast<int>(mesh_.rest_positions.size()); }
   int points_per_element() const { return mesh_.order == 2 ? 4 : 1; }
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
-  std::span<const double> mass() const { return mass_; }  // kg a node, lumped (HRZ), positive
-  double volume() const { return volume_; }               // m³, with the shares
+  std::span<const double> mass() const { return mass_; }  // kg per node, lumped (HRZ), positive
+  double volume() const { return volume_; }               // m³, including the shares
   std::span<const double> shares() const { return share_; }
-  std::vector<double> NodeShares() const;  // a node: what part of its elements is still there
+  std::vector<double> NodeShares() const;  // per node: remaining volume fraction of its elements
 
-  // New shares on the same elements; masses follow.
+  // Sets new shares on the same elements and recomputes the masses.
   void SetShares(std::span<const double> share);
 
-  // Elastic energy, forces (−gradient; overwritten) and, unless kNone, the tangent −∂force/∂x
-  // (overwritten; its pattern must be pattern()). `law` may differ from the material's own: the
-  // fallback that recovers from any start is corotated. Allocates nothing, fixed order of sums: the
-  // same bits on every processor. Not finite in, not finite out, no crash. `kernel`: null is the
-  // fastest of this processor.
+  // Computes the elastic energy, the forces (−gradient) and, unless kNone, the tangent −∂force/∂x.
+  // Overwrites `force` and `stiffness`; the pattern of `stiffness` must be pattern(). `law` may
+  // differ from the material's own: the fallback that recovers from any start is corotated.
+  // Allocates nothing and sums in a fixed order, so every processor gives the same bits. Input that
+  // is not finite gives output that is not finite, without a crash. A null `kernel` picks the
+  // fastest one.
   Assembly Assemble(std::span<const glm::dvec3> x, Law law, Tangent tangent,
                     std::span<glm::dvec3> force, BlockMatrix* stiffness,
                     const ElementKernel* kernel = nullptr) const noexcept;
 
-  // Rotation of each node's neighbourhood, from the volume-weighted mean F of its elements (proper,
-  // also where that is inverted or flat).
+  // Computes the rotation of each node's neighbourhood from the volume-weighted mean F of its
+  // elements. The rotation is proper even where that mean is inverted or flat.
   void NodeRotations(std::span<const glm::dvec3> x, std::span<glm::dmat3> rotation,
                      const ElementKernel* kernel = nullptr) const noexcept;
 
-  // ∫ N b dV of a constant force a volume (N/m³), consistently integrated, with the shares.
+  // Adds ∫ N b dV for a constant force per volume b (N/m³), integrated consistently and with the
+  // shares.
   void AddBodyForce(const glm::dvec3& per_volume, std::span<glm::dvec3> force) const;
 
  private:
@@ -76,13 +81,14 @@ class FemModel {
   std::vector<double> mass_;
   double volume_ = 0;
   ElementBatches batches_;
-  std::vector<double> whole_volume_;  // m³ a quadrature point, without shares
-  std::vector<double> share_;         // a quadrature point
-  std::vector<int> mirror_;           // an entry of the pattern: where the transposed one is
+  std::vector<double> whole_volume_;  // m³ per quadrature point, without shares
+  std::vector<double> share_;         // per quadrature point
+  std::vector<int> mirror_;           // per pattern entry: position of the transposed entry
 };
 
-// `total` (N) as uniform traction over the surface triangles whose corners are all in `set` (0/1 a
-// node), consistently integrated, added to `force`. Returns the triangles' area, m²; 0: none.
+// Adds `total` (N) to `force` as a uniform traction, integrated consistently. It acts on the
+// surface triangles whose corners are all in `set` (0/1 per node). Returns the area of these
+// triangles in m², 0 if there are none.
 double AddSurfaceLoad(const TetMesh& mesh, std::span<const unsigned char> set,
                       const glm::dvec3& total, std::span<glm::dvec3> force);
 

@@ -1,11 +1,10 @@
-// What a tissue is made of: hyperelastic laws with energy density Ψ(F), first Piola-Kirchhoff
-// stress P = ∂Ψ/∂F, and optional fibres. Lamé μ = E/(2(1+ν)), λ = Eν/((1+ν)(1−2ν)), J = det F:
-//   stable neo-Hookean (Smith, de Goes, Kim 2018, no log term): Ψ = μ/2 (I₁−3) + (λ+μ)/2 (J−a)² +
-//   c,
-//     a = 1 + μ/(λ+μ), c chosen so that Ψ(I) = 0
+// Tissue material: hyperelastic laws with energy density Ψ(F), first Piola-Kirchhoff stress P =
+// ∂Ψ/∂F, and optional fibres. Lamé μ = E/(2(1+ν)), λ = Eν/((1+ν)(1−2ν)), J = det F:
+//   stable neo-Hookean (Smith, de Goes, Kim 2018, no log term):
+//     Ψ = μ/2 (I₁−3) + (λ+μ)/2 (J−a)² + c, a = 1 + μ/(λ+μ), c chosen so that Ψ(I) = 0
 //   corotated: Ψ = μ‖F−R‖² + λ/2 tr(RᵀF−I)²
 //   fibres along the unit vector d at rest: + k/2 (|F d| − 1)²
-// SI: Pa, kg/m³.
+// SI units: Pa, kg/m³.
 #pragma once
 
 #include "simulation/core/options.h"
@@ -13,7 +12,7 @@
 namespace arthro::simulation {
 
 enum class Law { kStableNeoHookean, kCorotated };
-// kCircumferentialZ: the unit tangent of circles about the mesh's own z axis, at rest.
+// kCircumferentialZ: unit tangent of circles about the mesh's z axis, at rest.
 enum class FibreAxis { kNone, kCircumferentialZ };
 
 struct Material {
@@ -32,16 +31,16 @@ struct Material {
       "", "Law of the matrix between the fibres.");
     v("young_modulus", young_modulus, Range{1.0, 1e12}, "Pa", "Stiffness at small strain.");
     v("poisson_ratio", poisson_ratio, Range{-0.9, 0.49999}, "",
-      "How little the volume changes; 0.5 would be not at all.");
-    v("density", density, Range{1e-3, 1e6}, "kg/m3", "Mass a volume.");
+      "Resistance to a change of volume; 0.5 would be incompressible.");
+    v("density", density, Range{1e-3, 1e6}, "kg/m3", "Mass per volume.");
     v("fibre_stiffness", fibre_stiffness, Range{0.0, 1e12}, "Pa",
-      "Of the fibres along fibre_axis; 0: none.");
+      "Stiffness of the fibres along fibre_axis; 0 means no fibres.");
     v("fibre_axis", fibre_axis,
       Choices<FibreAxis>{
           {{FibreAxis::kNone, "none"}, {FibreAxis::kCircumferentialZ, "circumferential_z"}}},
-      "", "Where the fibres run.");
+      "", "Direction of the fibres at rest.");
     v("fibres_bear_compression", fibres_bear_compression, Any{}, "",
-      "Off: fibres pull only when they are stretched.");
+      "When off, fibres pull only when they are stretched.");
   }
 };
 

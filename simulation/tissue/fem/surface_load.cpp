@@ -11,20 +11,20 @@
 namespace arthro::simulation {
 namespace {
 
-using Face = std::array<int, 6>;  // corners, then the middles of 01, 12, 20 (order 2)
+using Face = std::array<int, 6>;  // corners, then the midpoints of edges 01, 12, 20 (order 2)
 
 struct FacePoint {
   double weight;
   std::array<double, 3> l;
 };
 
-// Three points inside, degree 2: exact for a uniform traction on a straight face, and the rule that
-// the reference cases use on curved ones.
+// Three interior points, degree 2: exact for a uniform traction on a straight face. The reference
+// cases use the same rule on curved faces.
 constexpr std::array<FacePoint, 3> kFaceQuadrature{{{1.0 / 3, {2.0 / 3, 1.0 / 6, 1.0 / 6}},
                                                     {1.0 / 3, {1.0 / 6, 2.0 / 3, 1.0 / 6}},
                                                     {1.0 / 3, {1.0 / 6, 1.0 / 6, 2.0 / 3}}}};
 
-// Faces of one element only, in the order of the elements.
+// Returns the faces that belong to one element only, in element order.
 std::vector<Face> BoundaryFaces(const TetMesh& mesh) {
   struct Entry {
     std::array<int, 3> sorted;
@@ -59,7 +59,7 @@ std::vector<Face> BoundaryFaces(const TetMesh& mesh) {
   return faces;
 }
 
-// ∫ N_a dA over one face.
+// Returns ∫ N_a dA over one face.
 std::array<double, 6> FaceShares(const TetMesh& mesh, const Face& face) {
   const auto at = [&](int i) -> const glm::dvec3& { return mesh.rest_positions[face[i]]; };
   std::array<double, 6> share{};
@@ -69,7 +69,7 @@ std::array<double, 6> FaceShares(const TetMesh& mesh, const Face& face) {
     return share;
   }
   for (const auto& [weight, l] : kFaceQuadrature) {
-    // Shape functions and their slopes by l1 and l2, l0 = 1 − l1 − l2.
+    // Shape functions and their derivatives by l1 and l2, with l0 = 1 − l1 − l2.
     const std::array<double, 6> value{l[0] * (2 * l[0] - 1), l[1] * (2 * l[1] - 1),
                                       l[2] * (2 * l[2] - 1), 4 * l[0] * l[1],
                                       4 * l[1] * l[2],       4 * l[2] * l[0]};

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::array<int, 2>, 6> kEdges{
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
-// ∂L_i/∂(L1, L2, L3).
+// Returns ∂L_i/∂(L1, L2, L3).
 glm::dvec3 SlopeOf(int i) {
   if (i == 0) return {-1, -1, -1};
   glm::dvec3 slope(0.0);
@@ -20,7 +20,7 @@ glm::dvec3 SlopeOf(int i) {
 
 std::vector<TetShape> MakeQuadrature(int order) {
   if (order == 1) return {ShapeAt(1, glm::dvec4(0.25))};
-  // Degree 2: one coordinate a, the others b.
+  // Degree 2: one coordinate is a, the other three are b.
   const double b = (5.0 - std::sqrt(5.0)) / 20.0, a = 1.0 - 3.0 * b;
   std::vector<TetShape> points;
   for (int i = 0; i < 4; ++i) {
@@ -61,7 +61,7 @@ glm::dvec4 BarycentricIn(const std::array<glm::dvec3, 4>& corner, const glm::dve
   return {1.0 - l.x - l.y - l.z, l};
 }
 
-const std::vector<TetShape>& QuadratureOf(int order) {
+const std::vector<TetShape>& QuadraturePoints(int order) {
   static const std::vector<TetShape> linear = MakeQuadrature(1), quadratic = MakeQuadrature(2);
   return order == 2 ? quadratic : linear;
 }

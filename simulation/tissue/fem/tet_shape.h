@@ -1,6 +1,6 @@
-// Shape functions of T4 and T10 (VTK's node order) and of their faces, with the quadrature points
-// that this program uses: one for T4, four for T10 [Zienkiewicz & Taylor 2000]. Points of the
-// reference tetrahedron are given by barycentric coordinates.
+// Shape functions of T4 and T10 elements (VTK's node order) and their faces. Quadrature has one
+// point for T4 and four for T10 [Zienkiewicz & Taylor 2000]. Points of the reference tetrahedron
+// are given by barycentric coordinates.
 #pragma once
 
 #include <array>
@@ -12,21 +12,22 @@
 namespace arthro::simulation {
 
 struct TetShape {
-  double weight = 0;                 // part of the reference tetrahedron's volume
+  double weight = 0;                 // fraction of the reference tetrahedron's volume
   std::array<double, 10> value{};    // N_a
   std::array<glm::dvec3, 10> slope;  // ∂N_a/∂(L1, L2, L3), L0 = 1 − L1 − L2 − L3
 };
 
 TetShape ShapeAt(int order, const glm::dvec4& barycentric);
 
-// Coordinates of x in the straight tetrahedron of these corners, of either handedness: 1 in sum,
-// negative beyond a face. All −1 in a flat one, which has no inside.
+// Returns the barycentric coordinates of x in the straight tetrahedron with these corners, of
+// either handedness. They sum to 1 and are negative beyond a face. A flat tetrahedron has no inside
+// and gives −1 four times.
 glm::dvec4 BarycentricIn(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& x) noexcept;
 
-// The quadrature points of an element of that order.
-const std::vector<TetShape>& QuadratureOf(int order);
+// Returns the quadrature points of an element of this order.
+const std::vector<TetShape>& QuadraturePoints(int order);
 
-// Corners of the four faces, outwards, each followed by the middles of its edges 01, 12, 20.
+// Corners of the four outward-facing faces, each followed by the midpoints of its edges 01, 12, 20.
 inline constexpr std::array<std::array<int, 6>, 4> kTetFaces{
     {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}}};
 

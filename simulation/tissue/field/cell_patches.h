@@ -1,13 +1,13 @@
-// How the surface passes through one grid cell: which of the twelve crossed edges belong to the
-// same patch of it. Corner c stands at (c & 1, c >> 1 & 1, c >> 2 & 1); a configuration has bit c
-// set where corner c is solid. Edge 4 a + m runs along axis a; m's bits are the places on the axes
-// after it. Face 2 a + s is the side of axis a at s.
+// Topology of the surface in one grid cell: the patch to which each crossed edge belongs.
 //
-// On a face whose solid corners are the two ends of one diagonal they are kept apart, so what hangs
-// together is just what hangs together along grid edges. One exception keeps the surface a
-// manifold: where the patches on both sides of such a face would touch themselves across it, the
-// face is `joined` instead (as in Wenger, Isosurfaces, 3.3); in both cells the corners are
-// connected anyway.
+// Corner c stands at (c & 1, c >> 1 & 1, c >> 2 & 1); a configuration has bit c set where corner c
+// is solid. Edge 4 a + m runs along axis a; the bits of m are its positions on the axes after a.
+// Face 2 a + s is the side of axis a at s.
+//
+// Two solid corners at the ends of a face's diagonal are separated, so connectivity is that along
+// grid edges. One exception keeps the surface a manifold. Where the patches on both sides of such a
+// face would touch themselves across it, the face is `joined` instead (as in Wenger, Isosurfaces,
+// 3.3); in both cells the corners are connected anyway.
 #pragma once
 
 #include <array>
@@ -28,13 +28,13 @@ constexpr bool IsCrossed(int configuration, int edge) {
   const int low = LowCornerOfEdge(edge), high = low | 1 << edge / 4;
   return ((configuration >> low ^ configuration >> high) & 1) != 0;
 }
-// The edge between two corners that differ in one axis.
+// Returns the edge between two corners that differ in one axis.
 constexpr int EdgeBetween(int c, int d) {
   const int axis = (c ^ d) == 1 ? 0 : (c ^ d) == 2 ? 1 : 2;
   const int low = c & d;
   return 4 * axis + (low >> (axis + 1) % 3 & 1) + 2 * (low >> (axis + 2) % 3 & 1);
 }
-// The corners of a face, going round.
+// Returns the corners of a face in cyclic order.
 constexpr std::array<int, 4> CornersOfFace(int face) {
   const int a = face / 2, u = 1 << (a + 1) % 3, v = 1 << (a + 2) % 3, base = (face & 1) << a;
   return {base, base | u, base | u | v, base | v};
@@ -45,8 +45,8 @@ constexpr bool IsAmbiguous(int configuration, int face) {
   return solid(0) == solid(2) && solid(1) == solid(3) && solid(0) != solid(1);
 }
 
-// `joined`: bit f for face f.
-constexpr CellPatches PatchesOf(int configuration, int joined) {
+// `joined` has bit f set for face f.
+constexpr CellPatches FindPatches(int configuration, int joined) {
   std::array<int, 12> root{};
   for (int e = 0; e < 12; ++e) root[static_cast<std::size_t>(e)] = e;
   const auto find = [&](int e) {
@@ -60,7 +60,7 @@ constexpr CellPatches PatchesOf(int configuration, int joined) {
   for (int face = 0; face < 6; ++face) {
     const auto c = CornersOfFace(face);
     if (IsAmbiguous(configuration, face)) {
-      // Around each corner of the kind that is cut off, its two edges belong together.
+      // Connects the two edges at each corner of the kind that is cut off.
       const bool cut_off_solid = (joined >> face & 1) == 0;
       for (std::size_t i = 0; i < 4; ++i)
         if (((configuration >> c[i] & 1) != 0) == cut_off_solid)
@@ -82,16 +82,17 @@ constexpr CellPatches PatchesOf(int configuration, int joined) {
     auto& patch = patches.of_edge[static_cast<std::size_t>(e)];
     patch = -1;
     if (!IsCrossed(configuration, e)) continue;
-    const int r = find(e);  // the lowest edge of its patch, so it has its number already
+    const int r = find(e);  // the lowest edge of the patch, which is numbered already
     patch = r == e ? static_cast<std::int8_t>(patches.count++)
                    : patches.of_edge[static_cast<std::size_t>(r)];
   }
   return patches;
 }
 
-// Faces across which the patch touches itself while solid corners are kept apart; bit f for face f.
+// Returns the faces across which a patch touches itself while solid corners are separated; bit f
+// stands for face f.
 constexpr int SelfTouchingFaces(int configuration) {
-  const CellPatches patches = PatchesOf(configuration, 0);
+  const CellPatches patches = FindPatches(configuration, 0);
   int faces = 0;
   for (int face = 0; face < 6; ++face) {
     if (!IsAmbiguous(configuration, face)) continue;

@@ -10,7 +10,7 @@ double SolidPart(const std::array<double, 8>& corner) noexcept {
   for (const double value : corner) solid += value < 0.0;
   if (solid == 0) return 0.0;
   if (solid == 8) return 1.0;
-  // The axis along which the values change most: lines along it cross the surface most squarely.
+  // Picks the axis of the largest change, because lines along it cross the surface most squarely.
   std::size_t axis = 0;
   double steepest = -1.0;
   for (std::size_t a = 0; a < 3; ++a) {

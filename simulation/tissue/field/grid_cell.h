@@ -1,5 +1,5 @@
-// One cell of a field's grid: where a place is in it, and the trilinear interpolation of its
-// corners' values. Corners in the order x fastest, z slowest.
+// One cell of a field's grid: the position of a point in it, and the trilinear interpolation of its
+// corner values. Corners run x fastest, z slowest.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace arthro::simulation {
 
-// Where in the grid x is: cell and part of it, for x clamped into the grid.
+// Position of x in the grid: cell and fraction within the cell, for x clamped to the grid.
 struct CellPlace {
   std::size_t index;
   glm::dvec3 part, clamped;
@@ -25,7 +25,7 @@ inline CellPlace Locate(const FieldGrid& grid, const glm::dvec3& x) noexcept {
   const double per_spacing = 1.0 / grid.spacing;
   for (int a = 0; a < 3; ++a) {
     const int last = grid.count[static_cast<std::size_t>(a)] - 1;
-    // In this order NaN becomes 0.
+    // This order of min and max turns NaN into 0.
     const double t =
         std::min(std::max(0.0, (x[a] - grid.origin[a]) * per_spacing), static_cast<double>(last));
     const int i = std::min(static_cast<int>(t), last - 1);

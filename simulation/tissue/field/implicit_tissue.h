@@ -1,6 +1,6 @@
-// Tissue that is a function of space: a loose body, a synovial tuft [paper, 3.4]. A field with a
-// pose that tools take from and add to, and a skin that is made triangles of only where it changed.
-// Portal frame, m.
+// Tissue defined by an implicit function: a loose body, a synovial tuft [paper, 3.4]. Holds a field
+// with a pose, which tools cut and add to, and a skin whose triangles are rebuilt only where the
+// field changed. Portal frame, m.
 #pragma once
 
 #include <functional>
@@ -23,17 +23,17 @@ class ImplicitTissue {
   }
   double Distance(const glm::dvec3& x) const noexcept { return solid_.Distance(x); }
 
-  // Boolean edits by a distance in the portal frame, within a ball there.
+  // Edit the field by a distance in the portal frame, within a ball in that frame.
   FieldEdit Subtract(const glm::dvec3& centre, double radius,
                      const std::function<double(const glm::dvec3&)>& distance);
   FieldEdit Add(const glm::dvec3& centre, double radius,
                 const std::function<double(const glm::dvec3&)>& distance);
-  SolidField& field_to_edit() { return solid_.field; }  // its own frame
+  SolidField& field_to_edit() { return solid_.field; }  // in the field's frame
   SkinUpdate UpdateSkin() { return skin_.Update(solid_.field); }
 
   const PosedField& solid() const { return solid_; }
   const SolidField& field() const { return solid_.field; }
-  const FieldSkin& skin() const { return skin_; }  // field's own frame
+  const FieldSkin& skin() const { return skin_; }  // in the field's frame
   const Pose& portal_from_field() const { return solid_.portal_from_field; }
 
  private:

@@ -9,32 +9,32 @@ namespace arthro::simulation {
 
 namespace {
 
-// Solid nodes side by side in a row of the grid.
+// Consecutive solid nodes in a row of the grid.
 struct Run {
   std::size_t begin, end;  // nodes
-  int root;                // a run of the same piece, itself or one before it
+  int root;                // a run of the same piece: this one or an earlier one
 };
 
-int RootOf(std::vector<Run>& runs, int i) {
+int FindRoot(std::vector<Run>& runs, int i) {
   const auto run = [&](int r) -> Run& { return runs[static_cast<std::size_t>(r)]; };
   while (run(i).root != i) i = run(i).root = run(run(i).root).root;
   return i;
 }
 
-// Joins the runs of two neighbouring rows that lie beside one another; `step` from node to node.
+// Joins adjacent runs of two neighbouring rows; `step` is the index difference between the rows.
 void JoinRows(std::vector<Run>& runs, int a, int a_end, int b, int b_end, std::size_t step) {
   while (a < a_end && b < b_end) {
     const Run &in_a = runs[static_cast<std::size_t>(a)], &in_b = runs[static_cast<std::size_t>(b)];
     if (in_a.begin < in_b.end + step && in_b.begin + step < in_a.end) {
-      const int root_a = RootOf(runs, a), root_b = RootOf(runs, b);
+      const int root_a = FindRoot(runs, a), root_b = FindRoot(runs, b);
       runs[static_cast<std::size_t>(std::max(root_a, root_b))].root = std::min(root_a, root_b);
     }
     in_a.end < in_b.end + step ? ++a : ++b;
   }
 }
 
-// Adds, to the volume of each piece from `first` to `last`, what it has of the cells about the
-// nodes of an extent.
+// Adds to the volume of each piece from `first` to `last` its part of the cells around the nodes of
+// an extent.
 void AddVolumes(const SolidField& field, const FieldPieces& pieces,
                 const FieldPieces::Extent& within, int first, int last, double* volume) {
   const FieldGrid& grid = field.grid();
@@ -64,7 +64,7 @@ void AddVolumes(const SolidField& field, const FieldPieces& pieces,
         }
         for (std::size_t c = 0; c < 8; ++c) {
           if (corner[c] < first || corner[c] > last) continue;
-          // All corners of this piece at once.
+          // Handles all corners of this piece at once.
           const int piece = corner[c];
           int mine = 0;
           for (std::size_t d = c; d < 8; ++d)
@@ -81,7 +81,7 @@ FieldPieces PiecesWithoutVolumes(const SolidField& field) {
   const FieldGrid& grid = field.grid();
   const auto values = field.values();
   const auto [nx, ny, nz] = grid.count;
-  // Runs, row by row; those of a row begin at of_row[row].
+  // Collects the runs row by row; the runs of a row begin at of_row[row].
   std::vector<Run> runs;
   std::vector<int> of_row;
   of_row.reserve(static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz) + 1);
@@ -103,14 +103,14 @@ FieldPieces PiecesWithoutVolumes(const SolidField& field) {
       if (j > 0) join(row - 1, grid.Index(0, 1, 0));
       if (k > 0) join(row - ny, grid.Index(0, 0, 1));
     }
-  // A run's root comes before it.
+  // The root of a run precedes it.
   pieces.piece.assign(values.size(), -1);
   std::vector<int> number(runs.size(), -1);
   of_row.push_back(static_cast<int>(runs.size()));
   for (int row = 0; row < ny * nz; ++row)
     for (int r = of_row[static_cast<std::size_t>(row)];
          r < of_row[static_cast<std::size_t>(row) + 1]; ++r) {
-      const auto root = static_cast<std::size_t>(RootOf(runs, r));
+      const auto root = static_cast<std::size_t>(FindRoot(runs, r));
       if (number[root] < 0) {
         number[root] = pieces.count();
         pieces.extent.push_back({grid.count, {-1, -1, -1}});
@@ -152,7 +152,7 @@ std::vector<unsigned char> HeldPieces(const SolidField& field, const FieldPieces
     const auto node = [&](std::size_t a, double x) {
       const double last = grid.count[a] - 1;
       const auto axis = static_cast<glm::length_t>(a);
-      // In this order what is not a number becomes 0.
+      // This order of min and max turns NaN into 0.
       return static_cast<int>(std::min(
           std::max(0.0, (x + ball.centre[axis] - grid.origin[axis]) / grid.spacing), last));
     };

@@ -24,7 +24,7 @@ struct PatchTable {
 constexpr PatchTable MakeTable() {
   PatchTable table{};
   for (int c = 0; c < 256; ++c) {
-    table.patches[static_cast<std::size_t>(c)] = PatchesOf(c, 0);
+    table.patches[static_cast<std::size_t>(c)] = FindPatches(c, 0);
     table.touching[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(SelfTouchingFaces(c));
   }
   return table;
@@ -33,9 +33,10 @@ constexpr PatchTable kTable = MakeTable();
 
 using Cell = std::array<int, 3>;
 
-// A patch's vertex: the mean of its crossings, then along the gradient onto the zero of the
-// trilinear interpolation, in parts of the cell.
-glm::dvec3 VertexOf(const std::array<double, 8>& value, const CellPatches& patches, int patch) {
+// Computes a patch's vertex in units of the cell: the mean of its crossings, moved along the
+// gradient onto the zero of the trilinear interpolation.
+glm::dvec3 ComputeVertex(const std::array<double, 8>& value, const CellPatches& patches,
+                         int patch) {
   glm::dvec3 sum(0.0);
   int crossings = 0;
   for (int e = 0; e < 12; ++e) {
@@ -72,7 +73,7 @@ glm::dvec3 VertexOf(const std::array<double, 8>& value, const CellPatches& patch
 
 }  // namespace
 
-// Reads cells of a field.
+// Read access to the cells of a field.
 class FieldSkin::Cells {
  public:
   explicit Cells(const SolidField& field)
@@ -90,7 +91,7 @@ class FieldSkin::Cells {
       configuration |= (Value({c[0] + (n & 1), c[1] + (n >> 1 & 1), c[2] + (n >> 2)}) < 0) << n;
     return configuration;
   }
-  // The patches of a cell, with the faces joined that its neighbour agrees to join.
+  // Returns the patches of a cell; a face is joined only if the neighbour agrees.
   CellPatches Patches(const Cell& c, int configuration) const {
     const int touching = kTable.touching[static_cast<std::size_t>(configuration)];
     if (touching == 0) return kTable.patches[static_cast<std::size_t>(configuration)];
@@ -103,9 +104,9 @@ class FieldSkin::Cells {
           (kTable.touching[static_cast<std::size_t>(Configuration(other))] >> (face ^ 1) & 1) != 0)
         joined |= 1 << face;
     }
-    return PatchesOf(configuration, joined);
+    return FindPatches(configuration, joined);
   }
-  int BrickOf(const Cell& c) const {
+  int OwningBrick(const Cell& c) const {
     return (c[2] / kBrick * bricks_[1] + c[1] / kBrick) * bricks_[0] + c[0] / kBrick;
   }
   static std::size_t InBrick(const Cell& c) {
@@ -123,7 +124,7 @@ class FieldSkin::Cells {
         for (int i = brick[0] * kBrick; i < end[0]; ++i) visit(Cell{i, j, k});
   }
 
-  // How many cells it looked at.
+  // Computes the vertices of a brick and returns the number of cells visited.
   long MakeVertices(const Cell& at, Brick& brick) const {
     long looked = 0;
     brick.vertices.clear();
@@ -142,7 +143,7 @@ class FieldSkin::Cells {
       const CellPatches patches = Patches(c, configuration);
       for (int patch = 0; patch < patches.count; ++patch)
         brick.vertices.push_back(grid_.Place(c[0], c[1], c[2]) +
-                                 grid_.spacing * VertexOf(value, patches, patch));
+                                 grid_.spacing * ComputeVertex(value, patches, patch));
       const int touching = kTable.touching[static_cast<std::size_t>(configuration)];
       for (int face = 0; touching != 0 && face < 6; ++face)
         if ((touching >> face & 1) != 0 &&
@@ -152,7 +153,8 @@ class FieldSkin::Cells {
     return looked;
   }
 
-  // Edges belong to the brick of the cell whose lowest node is their lower end.
+  // Builds the quads of a brick; an edge belongs to the brick of the cell whose lowest node is its
+  // lower end.
   void MakeQuads(const std::vector<Brick>& bricks, const Cell& at, Brick& brick) const {
     brick.quads.clear();
     ForEach(at, [&](const Cell& node) {
@@ -161,7 +163,7 @@ class FieldSkin::Cells {
         Cell end = node;
         ++end[a];
         if ((Value(end) < 0) == is_solid) continue;
-        // The four cells about the edge, counter-clockwise seen from its upper end.
+        // Lists the four cells around the edge, counter-clockwise seen from its upper end.
         const std::size_t u = (a + 1) % 3, v = (a + 2) % 3;
         std::array<Corner, 4> quad;
         for (std::size_t q = 0; q < 4; ++q) {
@@ -171,7 +173,7 @@ class FieldSkin::Cells {
           cell[v] -= below_v;
           const CellPatches patches = Patches(cell, Configuration(cell));
           const int edge = static_cast<int>(4 * a) + below_u + 2 * below_v;
-          const int owner = BrickOf(cell);
+          const int owner = OwningBrick(cell);
           quad[is_solid ? q : 3 - q] = {
               owner, bricks[static_cast<std::size_t>(owner)].first_vertex[InBrick(cell)] +
                          patches.of_edge[static_cast<std::size_t>(edge)]};
@@ -209,8 +211,8 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
   const auto versions = field.brick_versions();
   const auto has_changed = [&](const Cell& b) { return is_new || versions[index(b)] > version_; };
 
-  // Bricks to redo: those that changed, and those beside one that may have agreed with it to join
-  // a face.
+  // Bricks to redo: those that changed, and neighbours that may have agreed to join a face with
+  // them.
   std::vector<Cell> redo, relink;
   std::vector<unsigned char> is_redone(bricks_.size(), 0);
   for_each_brick([&](const Cell& b) {
@@ -226,7 +228,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
     redo.push_back(b);
     is_redone[index(b)] = 1;
   });
-  // Triangles lie in bricks that reach back one cell to redone ones.
+  // Triangles of a brick also use vertices of the bricks that follow it by one cell.
   for_each_brick([&](const Cell& b) {
     for (int n = 0; n < 8; ++n) {
       const Cell other = {b[0] - (n & 1), b[1] - (n >> 1 & 1), b[2] - (n >> 2)};
@@ -254,7 +256,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
   }
   for (const Cell& b : relink) cells.MakeQuads(bricks_, b, bricks_[index(b)]);
 
-  // One surface of all bricks' pieces, in the bricks' order.
+  // Concatenates the parts of all bricks in brick order.
   surface_.vertices.clear();
   surface_.triangles.clear();
   previous_.clear();
@@ -270,7 +272,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
         previous_.push_back(old_first + static_cast<int>(v));
       continue;
     }
-    // In a redone brick the vertices of cells in which nothing moved are the same, too.
+    // In a redone brick, vertices of unchanged cells keep their index too.
     previous_.resize(surface_.vertices.size(), -1);
     const Brick& was = old[r++];
     if (brick.first_vertex.empty() || was.first_vertex.empty()) continue;
@@ -292,8 +294,8 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
                                surface_.vertices[static_cast<std::size_t>(v[p])];
         return glm::dot(way, way);
       };
-      // Along the shorter diagonal. The two cells at its ends share this grid edge alone, so no
-      // other triangle has that diagonal.
+      // Splits the quad along the shorter diagonal. The two cells at its ends share this grid edge
+      // only, so no other triangle has that diagonal.
       if (length2(0, 2) <= length2(1, 3)) {
         surface_.triangles.push_back({v[0], v[1], v[2]});
         surface_.triangles.push_back({v[0], v[2], v[3]});

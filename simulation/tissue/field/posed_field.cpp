@@ -8,14 +8,14 @@
 namespace arthro::simulation {
 namespace {
 
-// Values of neighbouring nodes differ by no more than their distance, so the interpolation is no
-// steeper than 1 along each axis.
+// Bound of the interpolation's slope: neighbouring values differ by at most their distance, so it
+// is at most 1 along each axis.
 const double kSteepest = std::sqrt(3.0);
-// Nearer than this part of a spacing is touching: 0.35 nm at 0.35 mm.
+// Contact distance in spacings: 0.35 nm at a spacing of 0.35 mm.
 constexpr double kTouch = 1e-6;
-// A ball that touches without approaching goes on by this part of a spacing.
+// Advance of a ball that touches without approaching, in spacings.
 constexpr double kCreep = 0.05;
-// A motion closer to parallel than this does not approach (as SurfaceBvh).
+// Limit below which a motion counts as parallel and does not approach (as in SurfaceBvh).
 constexpr double kParallel = 1e-9;
 constexpr int kMaxSteps = 1000;
 
@@ -60,7 +60,7 @@ bool PosedField::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
     const glm::dvec3 x = from + way / length * motion;
     const double distance = Distance(x), gap = distance - radius;
     if (gap > kTouch * spacing) {
-      // A distance cut off at the band is still a bound.
+      // A distance clamped to the band is still a lower bound.
       way += std::max(gap / kSteepest, 0.5 * kTouch * spacing);
       continue;
     }

@@ -1,4 +1,4 @@
-// A solid field where it stands among the tools: a ball is swept against it as against a mesh.
+// Solid field at its pose in the portal frame, against which a ball is swept as against a mesh.
 // Portal frame, m. Noexcept, allocates nothing.
 #pragma once
 
@@ -9,28 +9,29 @@
 
 namespace arthro::simulation {
 
-// As SweepHit of a mesh.
+// Contact of a swept ball, as SweepHit of a mesh.
 struct FieldHit {
-  double fraction = 1;         // of the way, 0..1, where the ball touches
+  double fraction = 1;         // fraction of the path, 0..1, at which the ball touches
   glm::dvec3 normal{0, 0, 1};  // unit, from the surface to the ball's centre
-  double gap = 0;              // m, negative where the ball was in the surface at the start
+  double gap = 0;              // m, negative if the ball penetrated the surface at the start
 };
 
 struct PosedField {
   SolidField field;
   Pose portal_from_field;  // scale above 0
 
-  // Does a ball going from `from` to `to` meet the surface? `hit` is changed only for a meeting
-  // earlier than hit.fraction; what leaves is let pass. Steps are no longer than the field says is
-  // free, so nothing is tunnelled through; a way that grazes so long that it runs out of steps ends
-  // there. Where edits left a crease the field gives a bound and the ball is held off a little.
+  // Returns whether a ball moving from `from` to `to` meets the surface. Changes `hit` only for a
+  // contact earlier than hit.fraction; a separating motion passes. Steps are no longer than the
+  // field's free distance, so the ball cannot tunnel. A grazing path that uses up its steps ends
+  // there. At a crease left by edits the field is a lower bound, so the ball stops slightly early.
   bool Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius,
              FieldHit& hit) const noexcept;
   double Distance(const glm::dvec3& x) const noexcept;  // m, negative inside
-  // Unit, outwards; from differences over a spacing, so that it turns without steps between cells.
+  // Returns the unit outward normal, from differences over one spacing, so that it varies smoothly
+  // between cells.
   glm::dvec3 Normal(const glm::dvec3& x) const noexcept;
 
-  // The field's own frame.
+  // Field's frame.
   glm::dvec3 ToField(const glm::dvec3& x) const noexcept;
   glm::dvec3 NormalInField(const glm::dvec3& x) const noexcept;
 };

@@ -16,16 +16,16 @@
 namespace arthro::simulation {
 namespace {
 
-// Distances are kept up to this many spacings: at 0.35 mm 5.6 mm, the depth of a whole meniscus.
+// Largest stored distance in spacings: 5.6 mm at 0.35 mm, the depth of a whole meniscus.
 constexpr double kBandCells = 16.0;
-// Nodes around the box of a surface, so that nearby queries find distances and not bounds.
+// Nodes around the box of a surface, so that queries near it find distances and not bounds.
 constexpr int kMargin = 4;
-// The grid stands off from the box by this part of a spacing, so that round coordinates of meshes
-// and planes do not fall on its nodes.
+// Offset of the grid from the box in spacings, so that round coordinates of meshes and planes do
+// not fall on grid nodes.
 constexpr double kOffset = 0.381966;
 constexpr std::int64_t kCellUnits = std::int64_t{1} << 30;
 
-double OutsideOf(const Box3& box, const glm::dvec3& x) noexcept {
+double DistanceOutside(const Box3& box, const glm::dvec3& x) noexcept {
   const glm::dvec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   const glm::dvec3 q = glm::abs(x - centre) - half;
   return glm::length(glm::max(q, glm::dvec3(0.0))) + std::min(0.0, std::max({q.x, q.y, q.z}));
@@ -92,8 +92,8 @@ SolidField SolidField::FromFunction(const Box3& box, double spacing,
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i) {
         const glm::dvec3 x = field.grid_.Place(i, j, k);
-        const double d = std::max(distance(x), OutsideOf(box, x));
-        // NaN becomes −band and is then outside of the box: not solid.
+        const double d = std::max(distance(x), DistanceOutside(box, x));
+        // A value that is not finite becomes the band, outside the solid.
         field.value_[field.grid_.Index(i, j, k)] =
             static_cast<float>(std::isfinite(d) ? std::clamp(d, -band, band) : band);
       }
@@ -122,8 +122,7 @@ double SolidField::Distance(const glm::dvec3& x) const noexcept {
   const double inside = Interpolate(CornersAt(value_, grid_, place.index), place.part);
   const glm::dvec3 beyond = x - place.clamped;
   const double outside2 = glm::dot(beyond, beyond);
-  // Nothing of the solid is outside the box, so of any point of it the place is at least as far as
-  // Pythagoras says.
+  // The solid lies within the box, so Pythagoras gives a lower bound of the distance.
   if (!(outside2 > 1e-18 * grid_.spacing * grid_.spacing)) return inside;
   return std::min(band(), std::sqrt(outside2 + inside * inside));
 }

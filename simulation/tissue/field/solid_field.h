@@ -1,13 +1,14 @@
-// Which part of space is solid, as a sampled signed distance (negative inside) on a regular grid of
-// float values: the shape of a tissue at rest, of which bites and shavings are taken by Boolean
-// subtraction, and the implicit-function tissue of paper 3.4. The surface that it stands for is the
-// zero of its trilinear interpolation; its resolution is the grid's spacing. m. Queries are
-// noexcept and allocate nothing. Edits touch only the nodes of their box, and bricks of 8³ cells
-// know when their surface last changed. The outermost nodes are never solid, so the surface is
-// closed.
+// Solid region of space as a sampled signed distance (negative inside) on a regular grid of floats.
+// It is the rest shape of a tissue, from which bites and shavings are removed by Boolean
+// subtraction, and the implicit-function tissue of [paper, 3.4]. The surface is the zero of the
+// trilinear interpolation; the resolution is the grid spacing. m.
 //
-// What edits took away is kept a second time on its own (CutDistance), without the original shape:
-// a mesh that only approximates the surface is cut by that, so that its facets alone change
+// Queries are noexcept and allocate nothing. Edits touch only the nodes of their box; bricks of 8³
+// cells record when their surface last changed. The outermost nodes are never solid, so the surface
+// is closed.
+//
+// The volume removed by edits is also kept separately (CutDistance), without the original shape. A
+// mesh that only approximates the surface is cut by that copy, so that its facets alone change
 // nothing.
 #pragma once
 
@@ -36,11 +37,11 @@ inline Box3 Union(const Box3& a, const Box3& b) {
 }
 
 struct FieldEdit {
-  double removed = 0;        // m³ that were solid and are not any more (sub-cell); negative: added
+  double removed = 0;        // m³ that were solid and are no longer (sub-cell); negative: added
   Box3 changed = kEmptyBox;  // empty: nothing changed
 };
 
-// The nodes of a field: node (i, j, k) stands at origin + spacing (i, j, k), i runs fastest.
+// Grid of the field: node (i, j, k) stands at origin + spacing (i, j, k), i runs fastest.
 struct FieldGrid {
   glm::dvec3 origin{0.0};
   double spacing = 1;
@@ -58,71 +59,75 @@ struct FieldGrid {
   glm::dvec3 Place(int i, int j, int k) const { return origin + spacing * glm::dvec3(i, j, k); }
 };
 
-// A place's node: the nearest corner of its cell that was not taken away.
+// Node of a point: the nearest corner of its cell that was not removed.
 struct NodeNear {
-  std::int32_t index = -1;    // in the grid; −1: all were, or none near was
-  bool is_cell_whole = true;  // no corner of the cell was
+  std::int32_t index = -1;    // in the grid; −1: all were removed, or none was near
+  bool is_cell_whole = true;  // no corner of the cell was removed
 };
 
 class SolidField {
  public:
-  static constexpr int kBrick = 8;  // cells an edge
+  static constexpr int kBrick = 8;  // cells per edge
 
   SolidField() = default;  // nothing solid anywhere
-  // Distance to a closed surface. `spacing`: of the grid, m. Throws Error(kBadMesh) for a surface
-  // that is empty, open or not finite and Error(kBadArgument) for a grid of more than `max_cells`.
-  // `around`: how far outside of the surface distances are still known, and not only a bound, m.
+  // Computes the distance to a closed surface with the given grid spacing (m). Distances up to
+  // `around` (m) outside the surface are exact; beyond that they are bounds. Throws Error(kBadMesh)
+  // for a surface that is empty, open or not finite. Throws Error(kBadArgument) for a grid of more
+  // than `max_cells`.
   static SolidField FromSurface(const SurfaceMesh& surface, double spacing,
                                 std::int64_t max_cells = 20'000'000, double around = 0);
-  // From a function, over a box, at whose sides the solid ends.
+  // Samples a function over a box; the solid ends at the sides of the box.
   static SolidField FromFunction(const Box3& box, double spacing,
                                  const std::function<double(const glm::dvec3&)>& distance,
                                  std::int64_t max_cells = 20'000'000);
 
-  // Clamped to ± band(). Outside box(): a lower bound, continuous at its sides.
+  // Returns the distance, clamped to ± band(). Outside box() it is a lower bound, continuous at the
+  // sides.
   double Distance(const glm::dvec3& x) const noexcept;
-  glm::dvec3 Gradient(const glm::dvec3& x) const noexcept;  // of the trilinear interpolation
-  // The same of what edits took away alone: positive where it was taken, negative elsewhere,
-  // −band() where no edit came near.
+  glm::dvec3 Gradient(
+      const glm::dvec3& x) const noexcept;  // gradient of the trilinear interpolation
+  // Returns the distance to the removed volume only: positive in it, negative elsewhere, −band()
+  // where no edit came near.
   double CutDistance(const glm::dvec3& x) const noexcept;
-  // CutDistance at many places and, where it is not positive, to which of the grid's nodes that
-  // were not taken away the place belongs.
+  // Evaluates CutDistance at many points. For points where it is not positive, also returns the
+  // remaining grid node to which the point belongs.
   void CutDistances(std::span<const glm::dvec3> x, std::span<double> distance,
                     std::span<NodeNear> node) const noexcept;
-  // Do two places no more than a spacing apart hang together along grid edges? What only touches
-  // at a corner of a cell does not, as in the skin and the pieces.
+  // Returns whether two points at most one spacing apart are connected along grid edges. Contact at
+  // a cell corner alone does not count, as in the skin and the pieces.
   bool AreJoined(const NodeNear& a, const NodeNear& b) const noexcept;
-  // Could CutDistance be positive anywhere in the box? False is certain.
+  // Returns whether CutDistance may be positive anywhere in the box; false is certain.
   bool MayBeCut(const Box3& box) const noexcept;
 
   double spacing() const { return grid_.spacing; }
-  double band() const;  // m, beyond which distances are only a sign
+  double band() const;  // m; beyond it only the sign of a distance is known
   Box3 box() const;
-  double Volume() const;  // m³ solid now
+  double Volume() const;  // m³ that are solid now
 
-  // Takes away, within `box`, what lies where distance(x) < 0 (max(old, −distance)). The box should
-  // reach two spacings past that, or the new surface ends at its sides.
+  // Removes, within `box`, the region with distance(x) < 0 (max(old, −distance)). The box should
+  // extend two spacings beyond that region; otherwise the new surface ends at the sides of the box.
   FieldEdit Subtract(const Box3& box, const std::function<double(const glm::dvec3&)>& distance);
-  // Puts back or adds (min(old, distance)), within box() too.
+  // Adds the region with distance(x) < 0 (min(old, distance)), also within box().
   FieldEdit Add(const Box3& box, const std::function<double(const glm::dvec3&)>& distance);
-  // Takes away about `volume` (m³) of what lies where distance(x) < 0, evenly from the surface
-  // inwards and no deeper than half a spacing at once: a shaver's window.
+  // Removes about `volume` (m³) of the region with distance(x) < 0, evenly from the surface inwards
+  // and at most half a spacing at once: the window of a shaver.
   FieldEdit Erode(const Box3& box, const std::function<double(const glm::dvec3&)>& distance,
                   double volume);
-  // Takes away these nodes (indices of grid()) whatever their value: crumbs.
+  // Removes these nodes (indices of grid()) whatever their value: crumbs.
   FieldEdit RemoveNodes(std::span<const std::size_t> nodes);
 
-  // Grows with every edit that changed something.
+  // Version that grows with every edit that changed something.
   std::uint64_t version() const { return version_; }
 
-  // Solid in one cell, m³, in the whole units that Volume() and FieldEdit::removed are sums of.
+  // Solid volume of one cell, m³, in the integer units in which Volume() and FieldEdit::removed are
+  // summed.
   double CellVolume(int i, int j, int k) const;
 
-  // For who walks the grid: polygoniser, pieces.
+  // Grid access for the polygoniser and the pieces.
   const FieldGrid& grid() const { return grid_; }
-  std::span<const float> values() const { return value_; }  // one a node
+  std::span<const float> values() const { return value_; }  // one per node
   std::array<int, 3> bricks() const { return bricks_; }
-  // version() when the surface in a brick of bricks(), i fastest, last changed.
+  // version() of the last change of the surface in each brick of bricks(), i fastest.
   std::span<const std::uint64_t> brick_versions() const { return brick_version_; }
 
  private:
@@ -145,8 +150,8 @@ class SolidField {
   FieldGrid grid_;
   std::vector<float> value_, cut_;  // cut_ is empty until the first edit
   std::array<int, 3> bricks_{0, 0, 0};
-  // Solid volume a brick, in 2^-30 of a cell: whole numbers, so that what is taken away and what
-  // remains are together exactly what was there.
+  // Solid volume per brick in units of 2^-30 of a cell. With integers, removed and remaining volume
+  // add up exactly.
   std::vector<std::int64_t> brick_volume_;
   std::vector<std::uint64_t> brick_version_;
   std::int64_t volume_ = 0;

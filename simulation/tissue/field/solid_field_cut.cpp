@@ -1,4 +1,4 @@
-// What edits took away, for who cuts meshes by it.
+// Queries of the volume removed by edits, used to cut meshes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +37,7 @@ void SolidField::CutDistances(std::span<const glm::dvec3> x, std::span<double> d
       node[i].index = index((t.x > 0.5 ? 1u : 0u) + (t.y > 0.5 ? 2u : 0u) + (t.z > 0.5 ? 4u : 0u));
       continue;
     }
-    // A value of zero or less has a corner of zero or less.
+    // An interpolated value ≤ 0 has a corner value ≤ 0.
     double largest = -1.0;
     for (std::size_t c = 0; c < 8; ++c) {
       const double weight = ((c & 1) != 0 ? t.x : 1 - t.x) * ((c & 2) != 0 ? t.y : 1 - t.y) *
@@ -50,7 +50,7 @@ void SolidField::CutDistances(std::span<const glm::dvec3> x, std::span<double> d
 }
 
 bool SolidField::AreJoined(const NodeNear& a, const NodeNear& b) const noexcept {
-  // Two cells a spacing apart have a corner in common.
+  // Cells of points at most one spacing apart share a corner.
   if (a.index == b.index || (a.is_cell_whole && b.is_cell_whole)) return true;
   if (a.index < 0 || b.index < 0) return false;
   const auto at = [&](std::int32_t node) {
@@ -59,7 +59,7 @@ bool SolidField::AreJoined(const NodeNear& a, const NodeNear& b) const noexcept 
   };
   const std::array<int, 3> from = at(a.index), to = at(b.index);
   std::array<int, 3> low, size;
-  int beside = 0;  // steps between them
+  int beside = 0;  // grid steps between the nodes
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = std::min(from[i], to[i]);
     size[i] = std::abs(from[i] - to[i]) + 1;
@@ -67,7 +67,7 @@ bool SolidField::AreJoined(const NodeNear& a, const NodeNear& b) const noexcept 
   }
   if (beside == 1) return true;
   if (size[0] * size[1] * size[2] > 64) return false;  // further apart than neighbours can be
-  // Flooded from a: one bit a node of the box.
+  // Flood fill from a, with one bit per node of the box.
   const auto bit = [&](int i, int j, int k) {
     return std::uint64_t{1} << ((k * size[1] + j) * size[0] + i);
   };
@@ -98,7 +98,7 @@ bool SolidField::AreJoined(const NodeNear& a, const NodeNear& b) const noexcept 
 
 bool SolidField::MayBeCut(const Box3& box) const noexcept {
   if (cut_.empty() || box.empty()) return false;
-  // All nodes of all cells that the box meets, clamped into the grid as queries are.
+  // Covers all nodes of all cells that the box meets, clamped to the grid as in queries.
   std::array<int, 3> first, last;
   for (int a = 0; a < 3; ++a) {
     const double end = grid_.count[static_cast<std::size_t>(a)] - 1;

@@ -1,4 +1,4 @@
-// Boolean edits of a field, and what they change.
+// Boolean edits of a field and the record of their changes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,14 +17,14 @@ SolidField::NodeBox SolidField::NodesIn(const Box3& box) const {
     const double last = grid_.count[i] - 1;
     const double low = std::ceil((box.low[a] - grid_.origin[a]) / grid_.spacing);
     const double high = std::floor((box.high[a] - grid_.origin[a]) / grid_.spacing);
-    // A box that is not finite in a direction is clamped; NaN makes it empty.
+    // Clamps a box that is not finite in a direction; NaN makes it empty.
     nodes.low[i] = low <= last ? static_cast<int>(std::max(0.0, low)) : grid_.count[i];
     nodes.high[i] = high >= 0.0 ? static_cast<int>(std::min(last, high)) : -1;
   }
   return nodes;
 }
 
-// Is any cell about node (i, j, k) crossed by the surface?
+// Returns whether the surface crosses any cell around node (i, j, k).
 bool SolidField::IsAtSurface(int i, int j, int k) const {
   const bool is_solid = value_[grid_.Index(i, j, k)] < 0;
   const auto& n = grid_.count;
@@ -35,18 +35,18 @@ bool SolidField::IsAtSurface(int i, int j, int k) const {
   return false;
 }
 
-// `change(i, j, k, value, cut)` gives a node its new values. A brick has changed when a node of one
-// of its cells changed sides, or a node of one that the surface passes through changed its value;
-// those bricks are summed anew.
+// Applies `change(i, j, k, value, cut)` to each node. A brick has changed if a node of its cells
+// changed sides, or if a node of a cell that the surface crosses changed its value. The volume of
+// such bricks is summed again.
 template <class Change>
 FieldEdit SolidField::Edit(const NodeBox& nodes, const Change& change) {
   FieldEdit edit;
   for (std::size_t a = 0; a < 3; ++a)
     if (nodes.low[a] > nodes.high[a]) return edit;
   if (cut_.empty()) cut_.assign(value_.size(), static_cast<float>(-band()));
-  NodeBox near{grid_.count, {-1, -1, -1}};  // where the surface or the cut may have moved
+  NodeBox near{grid_.count, {-1, -1, -1}};  // region in which the surface or the cut may have moved
   bool has_changed = false;
-  // A value deeper than the diagonals of two cells has no part in any cell of the surface.
+  // A value deeper than two cell diagonals affects no cell of the surface.
   const float deep = static_cast<float>(-2.0 * std::sqrt(3.0) * grid_.spacing);
   for (int k = nodes.low[2]; k <= nodes.high[2]; ++k)
     for (int j = nodes.low[1]; j <= nodes.high[1]; ++j)
@@ -103,7 +103,7 @@ FieldEdit SolidField::Subtract(const Box3& box,
   const double band_now = band();
   return Edit(NodesIn(box), [&](int i, int j, int k, float& value, float& cut) {
     const double d = distance(grid_.Place(i, j, k));
-    if (!std::isfinite(d)) return;  // no place for a tool to be
+    if (!std::isfinite(d)) return;  // the tool has no finite position
     const float taken = static_cast<float>(std::clamp(-d, -band_now, band_now));
     value = std::max(value, taken);
     cut = std::max(cut, taken);
@@ -149,8 +149,8 @@ FieldEdit SolidField::Erode(const Box3& box,
     for (int j = nodes.low[1]; j <= nodes.high[1]; ++j)
       for (int i = nodes.low[0]; i <= nodes.high[0]; ++i)
         tool[local(i, j, k)] = distance(grid_.Place(i, j, k));
-  // Area of the surface in the tool: a surface of unit normal n crosses |n_a|/h² grid edges along
-  // axis a on each unit of area, so |n_a| h², summed over all crossings, is the area.
+  // Estimates the area of the surface inside the tool. A surface of unit normal n crosses |n_a|/h²
+  // grid edges along axis a per unit of area, so |n_a| h², summed over all crossings, is the area.
   double area = 0.0;
   for (int k = nodes.low[2]; k <= nodes.high[2]; ++k)
     for (int j = nodes.low[1]; j <= nodes.high[1]; ++j)
@@ -200,7 +200,8 @@ FieldEdit SolidField::RemoveNodes(std::span<const std::size_t> nodes) {
       box.high[a] = std::max(box.high[a], at[a]);
     }
   }
-  // Half a spacing into the removed side, as if a surface passed between it and its neighbours.
+  // Places the values half a spacing outside, as if a surface passed between the node and its
+  // neighbours.
   const float gone = static_cast<float>(0.5 * grid_.spacing);
   return Edit(box, [&](int i, int j, int k, float& value, float& cut) {
     if (!std::binary_search(sorted.begin(), sorted.end(), grid_.Index(i, j, k))) return;

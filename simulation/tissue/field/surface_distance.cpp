@@ -22,8 +22,8 @@ struct Triangle {
   std::array<glm::dvec3, 3> corner;
 };
 
-// The squared distance of x to a triangle, by the regions of its plane (Ericson, Real-Time
-// Collision Detection, 5.1.5).
+// Returns the squared distance of x to a triangle, by the Voronoi regions of its plane (Ericson,
+// Real-Time Collision Detection, 5.1.5).
 double Distance2(const Triangle& triangle, const glm::dvec3& x) noexcept {
   const auto& [a, b, c] = triangle.corner;
   const glm::dvec3 ab = b - a, ac = c - a, ax = x - a;
@@ -47,13 +47,13 @@ double Distance2(const Triangle& triangle, const glm::dvec3& x) noexcept {
   return to(a + vb * whole * ab + vc * whole * ac);
 }
 
-std::vector<Triangle> TrianglesOf(const SurfaceMesh& surface) {
+std::vector<Triangle> CheckedTriangles(const SurfaceMesh& surface) {
   if (surface.triangles.empty())
     throw Error(Code::kBadMesh, "the surface has no triangles; a solid needs a closed one");
   for (const glm::dvec3& x : surface.vertices)
     if (!std::isfinite(x.x + x.y + x.z))
       throw Error(Code::kBadMesh, "the surface has a vertex that is not finite; repair it first");
-  // Closed: every edge is run through as often one way as the other.
+  // A closed surface uses every edge equally often in both directions.
   std::vector<std::array<int, 3>> edges;
   std::vector<Triangle> triangles;
   edges.reserve(3 * surface.triangles.size());
@@ -85,9 +85,9 @@ std::vector<Triangle> TrianglesOf(const SurfaceMesh& surface) {
   return triangles;
 }
 
-// Which side of the line from p to q the origin is on; where it is on the line, the answer is that
-// of a point beside it, the same for everybody who asks about that line (simulation of simplicity,
-// as in Bridson's SDFGen).
+// Returns the side of the line from p to q on which the origin lies. An origin on the line gets the
+// answer of a point beside it, always the same for that line (simulation of simplicity, as in
+// Bridson's SDFGen).
 int Side(double px, double py, double qx, double qy, double& twice_area) noexcept {
   twice_area = py * qx - px * qy;
   if (twice_area > 0) return 1;
@@ -99,12 +99,12 @@ int Side(double px, double py, double qx, double qy, double& twice_area) noexcep
   return 0;
 }
 
-// Adds one vote to every node about which the surface winds, as seen along `axis`.
+// Adds one vote to every node that the surface winds around, as seen along `axis`.
 void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axis,
           std::vector<std::uint8_t>& votes) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto count = [&](int a) { return grid.count[static_cast<std::size_t>(a)]; };
-  // crossing[(line, n)]: how much the winding grows between node n − 1 and node n of the line.
+  // crossing[(line, n)]: increase of the winding number between nodes n − 1 and n of the line.
   std::vector<std::int16_t> crossing(grid.NodeCount(), 0);
   const auto index = [&](int iu, int iv, int n) {
     std::array<int, 3> at{};
@@ -139,7 +139,7 @@ void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axi
         const double height =
             (area[0] * x[0][axis] + area[1] * x[1][axis] + area[2] * x[2][axis]) / whole;
         const int n = std::clamp(static_cast<int>(std::ceil(height)), 0, count(axis) - 1);
-        // Seen from below a counter-clockwise triangle turns clockwise: it is entered there.
+        // A counter-clockwise triangle appears clockwise from below, where the line enters it.
         crossing[index(iu, iv, n)] =
             static_cast<std::int16_t>(crossing[index(iu, iv, n)] + (side > 0 ? 1 : -1));
       }
@@ -158,9 +158,9 @@ void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axi
 }  // namespace
 
 std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& grid, double band) {
-  const std::vector<Triangle> triangles = TrianglesOf(surface);
+  const std::vector<Triangle> triangles = CheckedTriangles(surface);
   const auto& n = grid.count;
-  // Exact near the surface: each triangle is held against the nodes around it.
+  // Near the surface, compares each triangle with the nodes around it: exact.
   std::vector<double> distance2(grid.NodeCount(), std::numeric_limits<double>::max());
   std::vector<int> nearest(grid.NodeCount(), -1);
   const auto reach = [&](std::size_t node, int triangle, const glm::dvec3& x) {
@@ -172,7 +172,7 @@ std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& 
     const auto& corner = triangles[static_cast<std::size_t>(t)].corner;
     const glm::dvec3 across = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
     const double area = glm::length(across);
-    if (!(area > 0.0)) continue;  // its sides are those of its neighbours
+    if (!(area > 0.0)) continue;  // its neighbours cover its sides
     const glm::dvec3 normal = across / area;
     const glm::dvec3 low = glm::min(glm::min(corner[0], corner[1]), corner[2]) - exact;
     const glm::dvec3 high = glm::max(glm::max(corner[0], corner[1]), corner[2]) + exact;
@@ -193,7 +193,7 @@ std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& 
           if (height * height < std::min(distance2[node], exact * exact)) reach(node, t, x);
         }
   }
-  // Further off: eight sweeps, each from one corner of the grid, hand on the nearest triangle.
+  // Further off, eight sweeps, each from one corner of the grid, propagate the nearest triangle.
   for (int sweep = 0; sweep < 8; ++sweep) {
     std::array<int, 3> step;
     for (std::size_t a = 0; a < 3; ++a) step[a] = (sweep >> a & 1) ? -1 : 1;

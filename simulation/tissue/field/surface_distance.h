@@ -8,11 +8,12 @@
 
 namespace arthro::simulation {
 
-// Exact within two spacings of the surface. Further off the distance is to the nearest of the
-// triangles that are nearest to the node's neighbours, which errs where many are about as near: at
-// the core of a ring 6 mm thick by 0.09 mm with a spacing of 0.35 mm. Sides are told by how often
-// the surface winds about a node, along all three axes, two of three deciding: overlapping parts
-// are a union. Throws Error(kBadMesh) for a surface that is empty, open or not finite.
+// Computes the distances: exact within two spacings of the surface. Further off only the nearest
+// triangles of neighbouring nodes are tried. The error is largest where many triangles are about
+// equally near: 0.09 mm at the core of a ring 6 mm thick with a spacing of 0.35 mm.
+// The sign comes from the winding number along each of the three axes by a vote of two out of
+// three, so overlapping parts form a union. Throws Error(kBadMesh) for a surface that is empty,
+// open or not finite.
 std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& grid, double band);
 
 }  // namespace arthro::simulation

@@ -53,11 +53,11 @@ void ImplicitSolver::Compliance(std::span<const ContactPoint> points, double tol
                body.tool_vectors, body.tool_left[0]);
     for (std::size_t j = 0; j < points.size(); ++j)
       for (int c = 0; c < 3; ++c) {
-        const glm::dvec3 moved = PointOf(points[j], body.tool_left[0][c]);
+        const glm::dvec3 moved = ContactPosition(points[j], body.tool_left[0][c]);
         for (int a = 0; a < 3; ++a) w[(3 * j + a) * columns + 3 * k + c] = moved[a];
       }
   }
-  // Symmetric, as it is but for what the tolerance leaves.
+  // Symmetrises the matrix, which is symmetric up to the tolerance.
   for (std::size_t i = 0; i < columns; ++i)
     for (std::size_t j = 0; j < i; ++j)
       w[i * columns + j] = w[j * columns + i] = 0.5 * (w[i * columns + j] + w[j * columns + i]);
@@ -69,7 +69,7 @@ glm::dmat3 ImplicitSolver::ToolStiffness(int owner, double tolerance) noexcept {
   for (auto& column : body.tool_right) std::fill(column.begin(), column.end(), glm::dvec3(0.0));
   ContactSpring* nearest = nullptr;
   bool bears = false;
-  // The tool's own contacts without friction.
+  // Computes the tool's own contacts without friction.
   body.tool_springs.assign(body.springs.begin(), body.springs.end());
   for (ContactSpring& spring : body.tool_springs) {
     const ContactPoint& contact = *spring.contact;
@@ -120,7 +120,7 @@ glm::dmat3 ImplicitSolver::ToolStiffness(int owner, double tolerance) noexcept {
   auto& left = body.tool_left[static_cast<std::size_t>(owner) % body.tool_left.size()];
   SolveThree(system, *body.factor, body.tool_right, {tolerance, 0, kMostIterations, true},
              body.tool_vectors, left);
-  // Rᵀ A⁻¹ R = Rᵀ D + Dᵀ (R − A D) but for the square of D's own error.
+  // Rᵀ A⁻¹ R = Rᵀ D + Dᵀ (R − A D), up to the square of the error of D.
   stiffness = hold * glm::dmat3(1.0) - hold * hold * give;
   for (int a = 0; a < 3; ++a)
     for (int c = 0; c < 3; ++c)

@@ -19,7 +19,7 @@ void LinearSystem::ApplyThree(const std::array<std::span<const glm::dvec3>, 3>& 
   for (std::size_t c = 0; c < p.size(); ++c) Finish(p[c], y[c]);
 }
 
-// What is not elastic.
+// Adds the terms that are not elastic and clears the fixed axes.
 void LinearSystem::Finish(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept {
   if (!added.empty())
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += added[i] * p[i];
@@ -29,8 +29,8 @@ void LinearSystem::Finish(std::span<const glm::dvec3> p, std::span<glm::dvec3> y
 
 namespace {
 
-// r = b − A d, and what ‖r‖² by the preconditioner must come under: of zᵀr at d = 0, or of the
-// energy of the solution, 2 bᵀd − dᵀA d from below.
+// Computes r = b − A d and returns the bound for ‖r‖² in the preconditioner's norm. It is relative
+// to zᵀr at d = 0, or to a lower bound of the solution's energy, 2 bᵀd − dᵀA d.
 double Begin(const LinearSystem& system, std::span<const glm::dvec3> b, const CgGoal& goal,
              CgVectors& vectors, std::span<glm::dvec3> d) noexcept {
   auto& [r, z, p, q] = vectors;

@@ -1,5 +1,5 @@
-// Preconditioned conjugate gradients on a body's linear system (K + M/dt² + Σ JᵀkJ) d = b over its
-// free axes. Sums are in a fixed order; nothing is allocated.
+// Preconditioned conjugate gradients for a body's linear system (K + M/dt² + Σ JᵀkJ) d = b over its
+// free axes. Sums have a fixed order; nothing is allocated.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ namespace arthro::simulation {
 
 struct LinearSystem {
   const BlockMatrix* stiffness = nullptr;
-  std::span<const double> added;  // M/dt², N/m a node
+  std::span<const double> added;  // M/dt², N/m per node
   std::span<const ContactSpring> springs;
   std::span<const ToolHold> holds;
-  std::span<const glm::dvec3> is_free;  // 1 or 0 an axis
+  std::span<const glm::dvec3> is_free;  // 1 or 0 per axis
 
-  // y = A p, 0 at fixed axes; p may have values there.
+  // Computes y = A p, 0 at fixed axes; p may be non-zero there.
   void Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept;
   void ApplyThree(const std::array<std::span<const glm::dvec3>, 3>& p,
                   const std::array<std::span<glm::dvec3>, 3>& y) const noexcept;
@@ -32,19 +32,19 @@ struct LinearSystem {
 };
 
 struct CgGoal {
-  double relative = 1e-2;  // of the error's energy norm, as the preconditioner sees it
-  double residual = 0;     // and, unless 0, ‖b − A d‖ is to be under this, N
+  double relative = 1e-2;  // goal for the error's energy norm, as seen by the preconditioner
+  double residual = 0;     // unless 0, ‖b − A d‖ must also be below this, N
   int max_iterations = 200;
   bool starts_at_d =
-      false;  // instead of at 0; `relative` is then of the solution's own energy norm
-  // Goes on where the stiffness is negative: to a saddle, if the system is one's.
+      false;  // instead of at 0; `relative` then refers to the solution's energy norm
+  // Continues at negative stiffness, to a saddle point if the system has one.
   bool takes_saddles = false;
 };
 
 struct CgResult {
   int iterations = 0;
   bool converged = false;
-  bool is_positive = true;  // false: met a direction of no or negative stiffness; d is unfinished
+  bool is_positive = true;  // false: met a direction of stiffness ≤ 0; d is unfinished
 };
 
 struct CgVectors {
@@ -52,13 +52,13 @@ struct CgVectors {
   void Resize(int nodes);
 };
 
-// b, and d where it is begun with, must be 0 at fixed axes. vectors.r is left b − A d.
+// b, and an initial d, must be 0 at fixed axes. Leaves b − A d in vectors.r.
 CgResult SolveByGradients(const LinearSystem& system, RotatedFactor& preconditioner,
                           std::span<const glm::dvec3> b, const CgGoal& goal, CgVectors& vectors,
                           std::span<glm::dvec3> d) noexcept;
 
-// The same matrix with three right-hand sides, in step with one another: a factor's panels are then
-// read once for all three. Ends when all have reached the relative goal.
+// Solves for three right-hand sides in step, so that a factor's panels are read once for all three.
+// Ends when all have reached the relative goal.
 CgResult SolveThree(const LinearSystem& system, RotatedFactor& preconditioner,
                     std::span<const std::vector<glm::dvec3>, 3> b, const CgGoal& goal,
                     std::span<CgVectors, 3> vectors,

@@ -10,20 +10,20 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kHardens = 0.1;  // of a bar's radius: how deep a point is in it when k has doubled
-constexpr double kPastAxis = 0.25;  // of a bar's radius
-constexpr int kMostRounds = 60;     // of a tool's way to its balance
-constexpr double kFarthest = 1e-2;  // m, one of them
-constexpr double kBalanced = 1e-9;  // m, a last step of it
+constexpr double kHardens = 0.1;    // depth over a bar's radius at which k has doubled
+constexpr double kPastAxis = 0.25;  // fraction of a bar's radius
+constexpr int kMostRounds = 60;     // limit of iterations for a tool's equilibrium
+constexpr double kFarthest = 1e-2;  // m, limit per iteration
+constexpr double kBalanced = 1e-9;  // m, last iteration
 
 bool IsFinite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// How the point lies to what it touches.
+// Gap between a point and the object that it touches.
 struct Gap {
   double gap = 0;
-  glm::dvec3 normal{0, 0, 1};  // ∂g/∂x; unit but past a bar's axis
+  glm::dvec3 normal{0, 0, 1};  // ∂g/∂x; unit except past a bar's axis
   glm::dmat3 turn{0.0};        // ∂²g/∂x²
 };
 
@@ -35,8 +35,8 @@ Gap GapAt(const ContactPoint& contact, const glm::dvec3& at) noexcept {
   const bool is_beside = along > 0 && along < 1;
   const glm::dvec3 d = at - contact.a - std::clamp(along, 0.0, 1.0) * way;
   const double distance = glm::length(d), side = glm::dot(d, contact.normal);
-  // Past the axis the way back is the one it came by, and the sooner found the deeper it is: with
-  // t the distance beside it, g = t − r − side²/2c, from −c on falling evenly.
+  // Past the axis the way out is back the way it came, and found sooner the deeper the point is.
+  // With t the distance beside the axis, g = t − r − side²/2c; from −c on it falls linearly.
   if (!(side > 0)) {
     const glm::dvec3 beside = d - side * contact.normal;
     const double t = glm::length(beside), c = kPastAxis * contact.radius;
@@ -58,7 +58,8 @@ struct Push {
   double force = 0, stiffness = 0, energy = 0;
 };
 
-// k g; of a round bar k g (1 + (g/g₀)²), so that no hand forces it through between the points.
+// Returns k g; for a round bar k g (1 + (g/g₀)²), so that no hand forces it through between the
+// points.
 Push PushAt(const ContactPoint& contact, double gap) noexcept {
   if (!(gap < 0)) return {};
   const double k = contact.stiffness, g = -gap, g2 = g * g;
@@ -68,7 +69,7 @@ Push PushAt(const ContactPoint& contact, double gap) noexcept {
 }
 
 struct Balance {
-  glm::dvec3 force{0.0};  // on the tool, less is better
+  glm::dvec3 force{0.0};  // on the tool; zero in equilibrium
   glm::dmat3 stiffness{0.0}, turn{0.0};
   double energy = 0;
 };
@@ -76,7 +77,7 @@ struct Balance {
 }  // namespace
 
 bool InvertPositive(const glm::dmat3& m, glm::dmat3& inverse) noexcept {
-  // Sylvester's criterion.
+  // Sylvester's criterion for a positive definite matrix.
   const double first = m[0][0], second = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   const double third = glm::determinant(m);
   if (!(first > 0) || !(second > 0) || !(third > 0)) return false;
@@ -84,7 +85,7 @@ bool InvertPositive(const glm::dmat3& m, glm::dmat3& inverse) noexcept {
   return std::isfinite(glm::length(inverse[0]) + glm::length(inverse[1]) + glm::length(inverse[2]));
 }
 
-glm::dvec3 PointOf(const ContactPoint& contact, std::span<const glm::dvec3> x) noexcept {
+glm::dvec3 ContactPosition(const ContactPoint& contact, std::span<const glm::dvec3> x) noexcept {
   glm::dvec3 point(0.0);
   for (int i = 0; i < contact.count; ++i) point += contact.weight[i] * x[contact.node[i]];
   return point;
@@ -156,12 +157,11 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
   const auto offset_of = [&](int hold) noexcept {
     return hold < 0 ? glm::dvec3(0.0) : holds[static_cast<std::size_t>(hold)].offset;
   };
-  // Points that a tool has not reached bear nothing: a gap shrinks by less than twice the tool's
-  // way.
+  // Skips points that a tool has not reached: a gap shrinks by less than twice the tool's motion.
   std::array<glm::dvec3, kMostTools> began{};
   for (std::size_t h = 0; h < holds.size(); ++h) began[h] = holds[h].offset;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    springs[i].point = PointOf(contacts[i], x);
+    springs[i].point = ContactPosition(contacts[i], x);
     if (const int hold = hold_of(contacts[i]); hold >= 0)
       springs[i].gap = GapAt(contacts[i], springs[i].point - offset_of(hold)).gap;
   }
@@ -187,7 +187,7 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
       }
       return sum;
     };
-    // No further at once than leaves a point on the side of the tool that it is on.
+    // Limits the motion so that each point stays on its side of the tool.
     double reach = kFarthest;
     for (const ContactPoint& contact : contacts)
       if (contact.owner == tool.owner && contact.is_round)
@@ -230,7 +230,8 @@ void SetSprings(std::span<const ContactPoint> contacts, std::span<const glm::dve
   }
 }
 
-double EnergyOf(std::span<const ContactSpring> springs, std::span<const ToolHold> holds) noexcept {
+double SpringEnergy(std::span<const ContactSpring> springs,
+                    std::span<const ToolHold> holds) noexcept {
   double energy = 0;
   for (const ContactSpring& spring : springs) energy += spring.energy;
   for (const ToolHold& hold : holds)
@@ -244,12 +245,12 @@ void AddStiffness(std::span<const ContactSpring> springs, std::span<const ToolHo
   for (const ContactSpring& spring : springs)
     if (spring.hold >= 0 && spring.bears)
       pulled[static_cast<std::size_t>(spring.hold)] +=
-          (spring.stiffness + spring.turn) * PointOf(*spring.contact, p);
+          (spring.stiffness + spring.turn) * ContactPosition(*spring.contact, p);
   for (std::size_t h = 0; h < holds.size(); ++h) pulled[h] = holds[h].give * pulled[h];
   for (const ContactSpring& spring : springs) {
     if (!spring.bears) continue;
     const ContactPoint& contact = *spring.contact;
-    glm::dvec3 moved = PointOf(contact, p);
+    glm::dvec3 moved = ContactPosition(contact, p);
     if (spring.hold >= 0) moved -= pulled[static_cast<std::size_t>(spring.hold)];
     const glm::dvec3 pull = (spring.stiffness + spring.turn) * moved;
     for (int i = 0; i < contact.count; ++i) y[contact.node[i]] += contact.weight[i] * pull;

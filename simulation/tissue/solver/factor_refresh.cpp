@@ -7,18 +7,19 @@
 namespace arthro::simulation {
 namespace {
 
-// A little mass keeps the factor of a body that nothing holds, or one node, away from singular.
+// Time step of the small mass that keeps the factor of a free body, or of a loose node, from being
+// singular.
 constexpr double kStaticStep = 0.5;  // s
 
-// A tangent that needs more on its diagonal to be positive makes no preconditioner: on thin
-// remnants of a shaved meniscus on bone a system took up to 152 iterations with a shift of 1, up to
-// 67 with the projected tangent's factor.
+// Largest diagonal shift of a tangent that still makes a preconditioner. On thin remnants of a
+// shaved meniscus on bone a system took up to 152 iterations with a shift of 1. It took up to 67
+// with a factor of the projected tangent.
 constexpr double kMostShift = 1e-3;
 
 }  // namespace
 
-// Contact stiffness into its blocks, for a factor that knows of it. A tool gives way, and soon is
-// elsewhere: what it does to the tissue is left to the iterations.
+// Adds contact stiffness to its blocks, for a factor that includes contacts. The yielding of tools
+// is left to the iterations, because a tool soon moves on.
 void ImplicitSolver::Impl::AddSprings(BlockMatrix& to) const {
   for (const ContactSpring& spring : springs) {
     const ContactPoint& contact = *spring.contact;
@@ -35,9 +36,9 @@ void ImplicitSolver::Impl::AddSprings(BlockMatrix& to) const {
   }
 }
 
-// On this thread, of the last evaluation; where its tangent is far from positive, and unless it is
-// to be the true one, of the projected tangent there. Where memory does not do, the old factor is
-// better than none.
+// Factors the last evaluation on this thread. Unless the true tangent is requested, uses the
+// projected one if the true one is far from positive definite. Keeps the old factor if memory is
+// too small.
 void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true_tangent) noexcept {
   try {
     const auto mass = model->mass();
@@ -45,8 +46,8 @@ void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true
     std::vector<double> with(mass.size());
     for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (dt * dt);
     auto made = std::make_unique<SparseFactor>(
-        PlanAfter(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
-    made->TakeMemory(factor->factor());
+        UpdatePlan(factor->factor().shared_plan(), factor->parent(), stiffness.pattern, fixed));
+    made->TakeWorkMemory(factor->factor());
     const auto shift_needed = [&] {
       BlockMatrix matrix = stiffness;
       AddSprings(matrix);
@@ -68,7 +69,7 @@ void ImplicitSolver::Impl::FactorNow(std::span<const glm::dvec3> x, bool of_true
 
 void ImplicitSolver::BeginRefresh() {
   Impl& body = *impl_;
-  if (body.job == Impl::Job::kBegun) return;  // the one that is being made comes first
+  if (body.job == Impl::Job::kBegun) return;  // the factor in preparation comes first
   const Tangent tangent =
       body.met_negative || body.was_shifted ? Tangent::kProjected : Tangent::kTrue;
   if (!body.is_evaluated || body.at_tangent != tangent) {
@@ -100,13 +101,13 @@ void ImplicitSolver::RunRefresh() noexcept {
     if (!fits)
       body.spare = std::make_unique<RotatedFactor>(
           std::make_unique<SparseFactor>(
-              PlanAfter(body.job_plan, body.job_plan_parent, pattern, body.job_fixed)),
+              UpdatePlan(body.job_plan, body.job_plan_parent, pattern, body.job_fixed)),
           body.job_rotation);
     const double shift = body.spare->factor().Factor(body.job_stiffness, body.job_added);
     body.spare->SetRotations(body.job_rotation);
     body.job_is_shifted = shift > kMostShift;
     body.job = shift >= 0 && !body.job_is_shifted ? Impl::Job::kDone : Impl::Job::kFailed;
-  } catch (const std::exception&) {  // no memory for it: the old factor goes on
+  } catch (const std::exception&) {  // no memory: the old factor stays
     body.spare.reset();
     body.job = Impl::Job::kFailed;
   }
@@ -119,7 +120,7 @@ bool ImplicitSolver::TakeRefreshed() noexcept {
     body.job = Impl::Job::kNone;
   }
   if (body.job != Impl::Job::kDone) return false;
-  if (body.job_age > body.age) {  // a step has made a younger one meanwhile
+  if (body.job_age > body.age) {  // a step has made a newer one meanwhile
     body.job = Impl::Job::kNone;
     return false;
   }
@@ -152,7 +153,7 @@ void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fi
     x[i] = body.good_x[parent[i]];
     v[i] = body.good_v[parent[i]];
   }
-  body.recovery_factor.reset();  // made again should it be needed
+  body.recovery_factor.reset();  // rebuilt when needed
   body.model = std::move(model);
   body.fixed = std::move(fixed);
   body.Fit();
@@ -160,12 +161,12 @@ void ImplicitSolver::Replace(std::shared_ptr<const FemModel> model, FixedAxes fi
   body.job_parent = std::move(of_job);
   body.good_x = std::move(x);
   body.good_v = std::move(v);
-  body.springs.clear();  // they name nodes of before
+  body.springs.clear();  // they name old nodes
   body.contacts.clear();
   body.holds.clear();
   body.is_recovering = body.has_given_up = false;
-  // What a cut softens a hundredfold the old factor does not know: it took up to 200 iterations a
-  // step, dearer than a new one at once.
+  // The old factor does not know elements that a cut softens a hundredfold. It took up to 200
+  // iterations per step, which costs more than a new factor at once.
   body.needs_factor = true;
 }
 

@@ -15,10 +15,10 @@
 namespace arthro::simulation {
 namespace {
 
-// The factor is made for this step; others are so much stiffer than inertia at any rate that it
-// serves them too.
+// Time step for which the factor is made. It also serves other steps, because most of the stiffness
+// far exceeds inertia.
 constexpr double kUsualStep = 1.0 / 60;  // s
-// A node whose stiffness is under this part of the mean one belongs to nothing any more.
+// Fraction of the mean stiffness below which a node belongs to no tissue any more.
 constexpr double kNoStiffness = 1e-11;
 
 }  // namespace
@@ -55,14 +55,14 @@ void ImplicitSolver::Impl::Fit() {
   for (CgVectors& v : tool_vectors) v.Resize(model->node_count());
   is_evaluated = false;
 
-  // What counts as nothing: forces and energies that are rounding.
+  // Estimates rounding errors; smaller forces and energies count as zero.
   const Material& m = model->material();
   const double lambda = std::abs(LameOf(m).lambda) + LameOf(m).mu + m.fibre_stiffness;
   const double volume = std::max(model->volume(), 1e-30);
   least_force = 1e-12 * m.young_modulus * std::cbrt(volume * volume);
   energy_noise = 1e-15 * lambda * volume;
 
-  // Nodes of empty elements stay where they are.
+  // Fixes the nodes of empty elements.
   Evaluate(model->mesh().rest_positions, m.law, Tangent::kTrue);
   force_noise = 10 * Norm(force) + 1e-14 * m.young_modulus * std::cbrt(volume * volume);
   double mean = 0;
@@ -104,7 +104,8 @@ void ImplicitSolver::Impl::FinishReactions(const Problem& problem) {
 void ImplicitSolver::Impl::FillResults(std::span<const glm::dvec3> x,
                                        std::span<ContactResult> results) {
   for (std::size_t i = 0; i < std::min(results.size(), springs.size()); ++i)
-    results[i] = {PointOf(contacts[i], x), springs[i].force, springs[i].gap, springs[i].push};
+    results[i] = {ContactPosition(contacts[i], x), springs[i].force, springs[i].gap,
+                  springs[i].push};
 }
 
 bool ImplicitSolver::Impl::Take(const Problem& problem) {
@@ -154,7 +155,8 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
   const bool fits = state.x.size() == nodes && state.v.size() == nodes;
   const bool is_state_good = fits && AllFinite(state.x) && AllFinite(state.v);
   if (!is_state_good || !(dt > 0) || !std::isfinite(dt) || !body.Take(problem)) {
-    // The input is refused: the state stays, or is the last good one if it was the fault.
+    // Refuses invalid input: the state stays, or is reset to the last good one if it was invalid
+    // itself.
     if (!is_state_good) {
       state.x.assign(body.good_x.begin(), body.good_x.end());
       state.v.assign(body.good_v.begin(), body.good_v.end());
@@ -190,9 +192,9 @@ StepReport ImplicitSolver::Step(BodyState& state, std::span<const glm::dvec3> lo
   }
   body.FillResults(state.x, results);
   body.FinishReactions(problem);
-  // A body that was laid anew has not flown there.
+  // A body that was laid anew has no velocity.
   for (std::size_t i = 0; i < nodes; ++i)
-    state.v[i] = body.was_laid ? glm::dvec3(0.0) : (state.x[i] - body.begin_x[i]) / dt;
+    state.v[i] = body.was_refitted ? glm::dvec3(0.0) : (state.x[i] - body.begin_x[i]) / dt;
   report.clamped_speed = slow_down() || came_fast;
   std::copy(state.x.begin(), state.x.end(), body.good_x.begin());
   std::copy(state.v.begin(), state.v.end(), body.good_v.begin());

@@ -1,7 +1,7 @@
-// The inside of ImplicitSolver: the incremental potential
+// Implementation of ImplicitSolver: the incremental potential
 //   E(x) = Ψ(x) − f·x + Σ contact + ½ Σ m |x − y|²/dt²,   y = x₀ + dt v₀ (no last term when static)
-// and Newton's method on it. One evaluation a step: the tangent at a step's end is the next one's
-// beginning. SI, the mesh's own frame.
+// and Newton's method for it. One evaluation per step: the tangent at a step's end starts the next
+// one. SI, the mesh's own frame.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace arthro::simulation {
 
-// What a step is solved under.
+// Loads and constraints of a step.
 struct Problem {
   std::span<const glm::dvec3> load;
   std::span<const ContactPoint> contacts;
@@ -30,20 +30,21 @@ struct NewtonGoal {
   double tolerance = 1e-2;
   int max_newton = 2;
   int max_iterations = 200;
-  bool refactors = false;  // a new factor where the old one asks for many iterations
-  // Plain Newton: to the equilibrium next to the start, stable or not, instead of downhill.
+  bool refactors = false;  // makes a new factor if the old one needs many iterations
+  // Plain Newton: finds the equilibrium near the start, stable or not, instead of descending.
   bool follows = false;
-  int patience = 1 << 30;  // iterations after which a tangent that was not positive ends it
+  int patience = 1 << 30;  // iterations after which a tangent that is not positive definite ends it
 };
 
-// Newton iterations with the projected tangent after the true one was found not to be positive.
+// Newton iterations with the projected tangent after the true one was found not to be positive
+// definite.
 inline constexpr int kProjectedIterations = 3;
 
 struct ImplicitSolver::Impl {
   Impl(std::shared_ptr<const FemModel> model_in, FixedAxes fixed_in,
        const SolverOptions& options_in);
 
-  // Memory for the model, its pattern and its fixed axes.
+  // Allocates memory for the model, its pattern and its fixed axes.
   void Fit();
   void FactorRest();
 
@@ -60,7 +61,7 @@ struct ImplicitSolver::Impl {
 
   // shape_recovery.cpp
   void MakeRecovery();
-  void LayRestShape(std::span<glm::dvec3> x) const;
+  void FitRestShape(std::span<glm::dvec3> x) const;
   void RecoverShape(std::span<glm::dvec3> x, const Problem& problem);
 
   // compliance.cpp
@@ -72,17 +73,17 @@ struct ImplicitSolver::Impl {
 
   void FinishReactions(const Problem& problem);
   void FillResults(std::span<const glm::dvec3> x, std::span<ContactResult> results);
-  bool Take(const Problem& problem);  // false: it cannot be computed with
+  bool Take(const Problem& problem);  // false: invalid input
 
   std::shared_ptr<const FemModel> model;
   FixedAxes fixed;
   SolverOptions options;
   std::vector<glm::dvec3> is_free;
-  double least_force = 0;   // N, what counts as no load at all
-  double force_noise = 0;   // N, rounding of all elastic forces together
-  double energy_noise = 0;  // J, rounding of the elastic energy
+  double least_force = 0;   // N, below it a load counts as zero
+  double force_noise = 0;   // N, rounding error of all elastic forces together
+  double energy_noise = 0;  // J, rounding error of the elastic energy
 
-  // The last evaluation.
+  // State of the last evaluation.
   std::vector<glm::dvec3> at;
   Law at_law = Law::kStableNeoHookean;
   Tangent at_tangent = Tangent::kNone;
@@ -91,10 +92,10 @@ struct ImplicitSolver::Impl {
   std::vector<glm::dvec3> force;
   BlockMatrix stiffness;
 
-  // The step's.
+  // State of the present step.
   std::vector<ContactSpring> springs, tool_springs;
   std::vector<ToolHold> holds, tool_holds;
-  std::vector<glm::dvec3> pressing;    // push a contact, of the iteration before
+  std::vector<glm::dvec3> pressing;    // push per contact in the previous iteration
   std::vector<ContactPoint> contacts;  // copied, so that Compliance can leave some out
   std::vector<double> added;           // M/dt²
   double last_dt = 0;
@@ -103,21 +104,21 @@ struct ImplicitSolver::Impl {
   std::vector<glm::dvec3> gradient, direction, right, lead, trial, reaction, unit_load;
   std::vector<glm::dmat3> rotation;
   CgVectors vectors;
-  std::array<CgVectors, 3> tool_vectors;  // of ToolStiffness
+  std::array<CgVectors, 3> tool_vectors;  // for ToolStiffness
   std::array<std::vector<glm::dvec3>, 3> tool_right;
-  // How the tissue follows each tool, from step to step: a good start for the next.
+  // Response of the tissue to each tool, kept as a start for the next step.
   std::array<std::array<std::vector<glm::dvec3>, 3>, 2> tool_left;
   bool is_recovering = false;  // from inverted elements
-  bool was_laid = false;       // this step put the rest shape where the body was
+  bool was_refitted = false;   // this step replaced the body by its rest shape
   int recovery_rounds = 0, rounds_once_clean = 0;
-  bool has_given_up = false;  // recovering ended with elements inverted: they are meant to be
-  bool wants_factor = false;  // the last system asked for many iterations
-  bool was_shifted = false;   // the last factor that was made failed for that
-  bool needs_factor = false;  // the body was cut: the next system wants its own
-  bool met_negative = false;  // since Newton began, the true tangent was not positive
-  int projected_left = 0;     // Newton iterations that go on with the projected tangent
+  bool has_given_up = false;  // recovery ended with inverted elements, which are then accepted
+  bool wants_factor = false;  // the last system needed many iterations
+  bool was_shifted = false;   // the last factor failed: its tangent was far from positive definite
+  bool needs_factor = false;  // the body was cut: the next system needs a new factor
+  bool met_negative = false;  // the true tangent was not positive definite since Newton began
+  int projected_left = 0;     // remaining Newton iterations with the projected tangent
 
-  // The corotated law without sideways stiffness, and a factor that bounds its tangent everywhere.
+  // Corotated law without sideways stiffness, and a factor that bounds its tangent everywhere.
   std::unique_ptr<const FemModel> recovery_model;
   std::unique_ptr<SparseFactor> recovery_factor;
   std::vector<glm::dvec3> recovery_force;
@@ -125,19 +126,20 @@ struct ImplicitSolver::Impl {
   std::unique_ptr<RotatedFactor> factor;
   int age = 0;
 
-  // A factor being made: while begun, `job_*` and `spare` belong to whoever runs it.
+  // Factor in preparation: once begun, `job_*` and `spare` belong to the thread that runs it.
   enum class Job { kNone, kBegun, kDone, kFailed };
   std::atomic<Job> job{Job::kNone};
   std::unique_ptr<RotatedFactor> spare;
-  std::shared_ptr<const FactorPlan> job_plan;  // of the factor then, and its parent()
+  std::shared_ptr<const FactorPlan> job_plan;  // plan of the factor at that time, and its parent()
   std::vector<int> job_plan_parent;
   FixedAxes job_fixed;
-  bool job_is_shifted = false;  // the tangent was far from positive
+  bool job_is_shifted = false;  // the tangent was far from positive definite
   BlockMatrix job_stiffness;
   std::vector<double> job_added;
   std::vector<glm::dmat3> job_rotation;
-  // These are the step's own.
-  std::vector<int> job_parent;  // the body's nodes in the job's, where cut since it began; or empty
+  // Owned by the step.
+  std::vector<int>
+      job_parent;  // maps the body's nodes to the job's if cut since it began; else empty
   int job_age = 0;
 };
 

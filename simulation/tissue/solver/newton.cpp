@@ -10,17 +10,17 @@
 namespace arthro::simulation {
 namespace {
 
-// Beyond this residual, inverted elements are a state to be left; below, an answer under load.
+// Residual above which inverted elements are recovered; below it they are an answer to the load.
 constexpr double kFarFromRest = 0.2;
 constexpr int kFollowingIterations = 300;
-constexpr double kAsleep = 1e-4;  // of the tolerance: a step that begins there has nothing to do
-// A direction far from balance need not be exact: a tenth of what is left [Eisenstat & Walker
-// 1996].
+constexpr double kAsleep = 1e-4;  // fraction of the tolerance below which a step does nothing
+// Relative accuracy of a direction far from equilibrium: a tenth of the residual [Eisenstat &
+// Walker 1996].
 constexpr double kForcing = 0.1;
-// Nor, in energy, nearer than this: what the residual asks for besides is met on the way.
+// Relative accuracy in energy beyond which only the residual goal counts.
 constexpr double kEnergy = 0.03;
-constexpr int kManyIterations = 8;  // that call for a new factor where one may be made
-// As many take as long as a new factor: a system that is not solved by then gets one and begins
+constexpr int kManyIterations = 8;  // count that requests a new factor, where one may be made
+// Iterations that cost as much as a new factor: a system unsolved by then gets one and starts
 // again.
 constexpr int kIterationsOfAFactor = 36;
 
@@ -44,7 +44,8 @@ void ImplicitSolver::Impl::SetSprings(std::span<const glm::dvec3> x, bool renews
                          holds, springs);
 }
 
-// The value at the last evaluation; `magnitude` is the sum of its parts' sizes, for its rounding.
+// Returns the value at the last evaluation; `magnitude` is the sum of the absolute values of its
+// terms, for the rounding error.
 double ImplicitSolver::Impl::Potential(std::span<const glm::dvec3> x, const Problem& problem,
                                        double& magnitude) {
   double work = 0, inertia = 0;
@@ -55,12 +56,12 @@ double ImplicitSolver::Impl::Potential(std::span<const glm::dvec3> x, const Prob
       const glm::dvec3 off = (x[i] - goal_x[i]) * is_free[i];
       inertia += 0.5 * added[i] * glm::dot(off, off);
     }
-  const double contact = EnergyOf(springs, holds);
+  const double contact = SpringEnergy(springs, holds);
   magnitude = std::abs(assembly.energy) + std::abs(work) + inertia + contact;
   return assembly.energy - work + inertia + contact;
 }
 
-// Into `gradient`, 0 at fixed axes; and the size that residuals are held against.
+// Computes `gradient`, 0 at fixed axes, and returns the reference size for residuals.
 double ImplicitSolver::Impl::Gradient(std::span<const glm::dvec3> x, const Problem& problem) {
   double inertia = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -93,7 +94,7 @@ LinearSystem ImplicitSolver::Impl::System() const {
           springs, holds, is_free};
 }
 
-// Into `direction`: the Newton step, with the fixed axes' own way (`lead`) in it.
+// Computes the Newton step in `direction`, including the prescribed motion (`lead`) of fixed axes.
 void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Problem& problem,
                                          const NewtonGoal& goal, double scale, double residual,
                                          bool leads, StepReport& report) {
@@ -103,8 +104,8 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
   linear.residual = is_static ? 0.0 : std::max(0.5 * goal.tolerance, kForcing * residual) * scale;
   linear.max_iterations = goal.max_iterations;
   if (goal.follows) {
-    // The energy of an indefinite system's error says nothing, and plain Newton needs its whole
-    // step.
+    // In an indefinite system the energy norm of the error is meaningless, and plain Newton needs
+    // its whole step.
     linear.takes_saddles = true;
     linear.max_iterations = std::min(linear.max_iterations, kFollowingIterations);
     linear.relative = 1e-5;
@@ -123,7 +124,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
       system.Apply(lead, direction);
       for (std::size_t i = 0; i < x.size(); ++i) right[i] -= direction[i];
     }
-    factor->TurnTo(rotation);
+    factor->SetCurrentRotations(rotation);
     factor->SetDiagonal(stiffness, system.added);
     linear.max_iterations =
         may_factor && !goal.refactors ? std::min(most, kIterationsOfAFactor) : most;
@@ -132,7 +133,7 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     wants_factor = wants_factor || result.iterations > kManyIterations;
     met_negative = met_negative || !result.is_positive;
     if (!result.is_positive && !goal.follows) {
-      // What was found so far goes downhill all the same; the projected tangent gives a whole step.
+      // The direction found so far is still a descent; the projected tangent gives a whole step.
       projected_left = kProjectedIterations;
       if (at_tangent == Tangent::kProjected) break;
       Evaluate(x, at_law, Tangent::kProjected);
@@ -147,8 +148,8 @@ void ImplicitSolver::Impl::FindDirection(std::span<const glm::dvec3> x, const Pr
     for (std::size_t i = 0; i < x.size(); ++i) direction[i] += lead[i];
 }
 
-// Goes along `direction` as far as the potential falls [Armijo 1966]. The whole step is evaluated
-// with its tangent, since it is nearly always taken. False: nowhere.
+// Moves along `direction` as far as the potential falls [Armijo 1966]. Evaluates the whole step
+// with its tangent, since it is nearly always taken. Returns false if no step falls.
 bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& problem, Law law,
                                        Tangent tangent) {
   constexpr double kArmijo = 1e-4;
@@ -158,8 +159,8 @@ bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& p
   const double slope = Dot(gradient, direction);
   const double noise = energy_noise + 1e-13 * magnitude;
   if (!(slope < 0)) return false;
-  // Each try begins with the tools where they are: one that went too far may have left its tool on
-  // the other side of the tissue.
+  // Resets the tools for each trial: a step that was too long may have left its tool on the other
+  // side of the tissue.
   std::array<glm::dvec3, kMostTools> offset;
   for (std::size_t h = 0; h < holds.size(); ++h) offset[h] = holds[h].offset;
   const auto put_back = [&] {
@@ -176,7 +177,7 @@ bool ImplicitSolver::Impl::SearchAlong(std::span<glm::dvec3> x, const Problem& p
       std::copy(trial.begin(), trial.end(), x.begin());
       return true;
     }
-    // Where a parabola through both values and the slope is lowest.
+    // Goes to the minimum of the parabola through both values and the slope.
     const double rise = after - before - step * slope;
     const double lowest = std::isfinite(rise) && rise > 0 ? -0.5 * slope * step * step / rise : 0;
     step = std::clamp(lowest, 0.1 * step, 0.5 * step);
@@ -197,7 +198,7 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     }
   int stuck = 0;
   met_negative = false;
-  was_laid = false;
+  was_refitted = false;
   while (true) {
     const Tangent tangent =
         projected_left > 0 && !goal.follows ? Tangent::kProjected : Tangent::kTrue;
@@ -210,9 +211,9 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     report.inverted = assembly.inverted;
     report.energy = assembly.energy;
     const bool is_far = assembly.inverted > 0 && !has_given_up && residual > kFarFromRest;
-    if (is_far && goal.follows) return report;  // led astray: a shorter way may do
+    if (is_far && goal.follows) return report;  // diverged: a smaller load step may converge
     if ((is_far || is_recovering) && report.newton < goal.max_newton && std::isfinite(residual)) {
-      // Elements that are inside out: another way, until none is.
+      // Recovers inverted elements until none is left.
       report.used_fallback = true;
       report.newton += 1;
       for (std::size_t i = 0; i < x.size() && leads; ++i) x[i] += lead[i];
@@ -228,8 +229,8 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     const bool is_rounding = Norm(gradient) <= force_noise;
     const bool is_free_to_end = !leads && !is_recovering;
     report.converged = (residual <= goal.tolerance || is_rounding) && is_free_to_end;
-    // A step that begins nearly balanced has nothing to do; others go on by one Newton iteration at
-    // least, so that a settling body comes far closer than the tolerance of one step.
+    // A step that starts near equilibrium does nothing. Others take at least one Newton iteration,
+    // so that a settling body comes far closer than the tolerance of one step.
     const double enough =
         problem.dt > 0 && report.newton == 0 ? kAsleep * goal.tolerance : goal.tolerance;
     if ((residual <= enough || is_rounding) && is_free_to_end) return report;
@@ -240,10 +241,10 @@ StepReport ImplicitSolver::Impl::Newton(std::span<glm::dvec3> x, const Problem& 
     const Tangent used = at_tangent;
     projected_left = std::max(0, projected_left - 1);
     if (leads || goal.follows) {
-      // The fixed axes go where they are led, whatever that costs.
+      // Prescribed motions are applied in full, whatever they cost.
       for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] += direction[i];
-        if (leads && problem.target_share == 1)  // exactly
+        if (leads && problem.target_share == 1)  // exact
           x[i] += (glm::dvec3(1.0) - is_free[i]) * (problem.target[i] - x[i]);
       }
       leads = false;

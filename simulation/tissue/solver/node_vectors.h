@@ -1,5 +1,5 @@
-// Sums over vectors with three numbers a node, in an order that does not depend on the processor:
-// eight running sums, added in a fixed tree at the end.
+// Sums over vectors with three numbers per node, in an order that does not depend on the processor:
+// eight partial sums, added in a fixed tree at the end.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ inline double Dot(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) 
 
 inline double Norm(std::span<const glm::dvec3> a) noexcept { return std::sqrt(Dot(a, a)); }
 
-// True where no number is NaN or infinite: 0 · it is then 0.
+// Returns true if no number is NaN or infinite: 0 times each number is then 0.
 inline bool AllFinite(std::span<const glm::dvec3> a) noexcept {
   double sum = 0;
   for (const glm::dvec3& v : a) sum += 0.0 * v.x + 0.0 * v.y + 0.0 * v.z;

@@ -6,24 +6,25 @@
 #include "simulation/tissue/solver/implicit_solver_impl.h"
 #include "simulation/tissue/solver/node_vectors.h"
 
-// From any start to one without inverted elements. Where more than a fifth of them is inverted,
-// nothing of the shape can be trusted: the body begins again from its rest shape, laid on what
-// holds it. (Descending from there by the law below ended in knots, twisted by whole turns with no
-// element inverted: one of ten random starts on T4, five of ten on T10.) Else by the corotated law
-// with nu = 0,
+// Recovery from inverted elements. If more than a fifth of them are inverted, the shape cannot be
+// trusted. The body then starts again from its rest shape, fitted to the fixed nodes. Descending
+// from there by the law below ended in knots, twisted by whole turns without inverted elements: in
+// 1 of 10 random starts on T4, in 5 of 10 on T10.
+//
+// Otherwise it descends by the corotated law with nu = 0,
 //   Ψ = μ ‖F − R‖²,
-// whose tangent is nowhere larger than 2μ ∫ ∇N·∇N, the same for every shape: with that fixed matrix
-// each iteration lowers the energy without a line search [Bouaziz et al. 2014]: local and global
-// step. The tissue's own law takes over then.
+// whose tangent is bounded by 2μ ∫ ∇N·∇N for every shape. With that fixed matrix each iteration
+// lowers the energy without a line search [Bouaziz et al. 2014]: local and global step. The
+// tissue's own law takes over afterwards.
 
 namespace arthro::simulation {
 namespace {
 
-constexpr int kRounds = 8;               // a Newton iteration's worth of time; one solve each
-constexpr int kLongest = 4000;           // then inverted elements are taken as meant
-constexpr int kRoundsOnceClean = 16;     // or
-constexpr double kSettled = 0.1;         // residual of this law: it has done its part
-constexpr double kTrusted = 0.2;         // of the elements may be inverted
+constexpr int kRounds = 8;               // one solve each; cost of a Newton iteration
+constexpr int kLongest = 4000;           // rounds after which inverted elements are accepted
+constexpr int kRoundsOnceClean = 16;     // rounds after the last inverted element
+constexpr double kSettled = 0.1;         // residual of this law at which recovery ends
+constexpr double kTrusted = 0.2;         // fraction of elements that may be inverted
 constexpr double kUsualStep = 1.0 / 60;  // s
 
 }  // namespace
@@ -36,7 +37,7 @@ void ImplicitSolver::Impl::MakeRecovery() {
   material.fibre_axis = FibreAxis::kNone;
   recovery_model = std::make_unique<const FemModel>(model->mesh(), material, model->shares());
   recovery_force.assign(is_free.size(), glm::dvec3(0.0));
-  // At rest a block is μ(∇a·∇b 1 + ∇b ∇aᵀ), of trace 4μ ∇a·∇b.
+  // At rest a block is μ(∇a·∇b 1 + ∇b ∇aᵀ), with trace 4μ ∇a·∇b.
   BlockMatrix bound{model->pattern(), std::vector<std::array<double, 9>>(stiffness.block.size())};
   recovery_model->Assemble(model->mesh().rest_positions, Law::kCorotated, Tangent::kTrue,
                            recovery_force, &bound);
@@ -48,12 +49,13 @@ void ImplicitSolver::Impl::MakeRecovery() {
   std::vector<double> with(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) with[i] = mass[i] / (kUsualStep * kUsualStep);
   recovery_factor = std::make_unique<SparseFactor>(
-      PlanAfter(factor->factor().shared_plan(), factor->parent(), model->pattern(), fixed));
+      UpdatePlan(factor->factor().shared_plan(), factor->parent(), model->pattern(), fixed));
   recovery_factor->Factor(bound, with);
 }
 
-// The rest shape, moved rigidly to fit the held nodes best; all nodes where fewer than three are.
-void ImplicitSolver::Impl::LayRestShape(std::span<glm::dvec3> x) const {
+// Moves the rest shape rigidly to the best fit with the fixed nodes, or with all nodes if fewer
+// than three are fixed.
+void ImplicitSolver::Impl::FitRestShape(std::span<glm::dvec3> x) const {
   const auto& rest = model->mesh().rest_positions;
   const auto mass = model->mass();
   const auto held = std::count(fixed.begin(), fixed.end(), 7);
@@ -70,7 +72,7 @@ void ImplicitSolver::Impl::LayRestShape(std::span<glm::dvec3> x) const {
   }
   centre /= sum;
   rest_centre /= sum;
-  // The nearest rotation [Kabsch 1978].
+  // Finds the nearest rotation [Kabsch 1978].
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const glm::dvec3 a = weight_of(i) * (x[i] - centre), b = rest[i] - rest_centre;
@@ -88,18 +90,19 @@ void ImplicitSolver::Impl::LayRestShape(std::span<glm::dvec3> x) const {
   }
 }
 
-// A Newton iteration's worth of rounds. Contacts wait meanwhile: their springs are in no bound.
+// Does as many rounds as cost a Newton iteration. Contacts are ignored, because the bound excludes
+// their springs.
 void ImplicitSolver::Impl::RecoverShape(std::span<glm::dvec3> x, const Problem& problem) {
   if (!is_recovering) {
     recovery_rounds = rounds_once_clean = 0;
     if (assembly.inverted > kTrusted * model->mesh().ElementCount()) {
-      LayRestShape(x);
-      std::copy(x.begin(), x.end(), goal_x.begin());  // no inertia from where it was
-      was_laid = true;
+      FitRestShape(x);
+      std::copy(x.begin(), x.end(), goal_x.begin());  // no inertia from the old position
+      was_refitted = true;
     }
   }
   is_recovering = true;
-  // The bound was made with the inertia of a usual step: for shorter ones the way is shortened.
+  // The bound includes the inertia of a usual step, so for shorter steps the motion is shortened.
   const double inertia = problem.dt > 0 ? kUsualStep / problem.dt : 0.0;
   const double share = 1.0 / std::max(1.0, inertia * inertia);
   for (int round = 0; round < kRounds; ++round, ++recovery_rounds) {

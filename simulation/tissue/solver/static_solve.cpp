@@ -8,23 +8,24 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kNewtonWhole = 60;      // iterations before the load is taken in steps
-constexpr int kNewtonRecovery = 300;  // where elements start inverted
-// Newton's last iteration is the cheapest one: aiming under the tolerance costs at most one more.
+constexpr int kNewtonWhole = 60;      // iterations before the load is applied in steps
+constexpr int kNewtonRecovery = 300;  // for a start with inverted elements
+// Aim below the tolerance: Newton's last iteration is the cheapest, so this costs at most one more.
 constexpr double kMargin = 0.03;
-constexpr double kStepTolerance = 1e-3;        // on the way
-constexpr double kSmallestShare = 1.0 / 1024;  // of the load
+constexpr double kStepTolerance = 1e-3;        // for intermediate loads
+constexpr double kSmallestShare = 1.0 / 1024;  // fraction of the load
 constexpr int kPatienceAtSaddle = 8;           // Newton iterations
-constexpr int kNewtonFollowing = 30;           // plain ones, which converge soon or not at all
+constexpr int kNewtonFollowing = 30;           // plain Newton, which converges soon or not at all
 constexpr double kFarOff = 0.1;
-constexpr double kNearlyThere = 1e-7;  // residual at which another way there would end the same
-constexpr int kMostIterations = 2000;  // conjugate-gradient iterations a Newton iteration
+constexpr double kNearlyThere = 1e-7;  // residual near which another path ends at the same state
+constexpr int kMostIterations = 2000;  // conjugate-gradient iterations per Newton iteration
 
 }  // namespace
 
-// Newton's method to the whole load; where that fails, over equilibria under growing parts of load
-// and lead, whose step halves on failure and doubles on success. An equilibrium with inverted
-// elements counts as a failure; where no other is found it is returned with `converged` false.
+// Solves for the whole load by Newton's method. If that fails, follows equilibria under growing
+// fractions of load and prescribed motion; the increment halves on failure and doubles on success.
+// An equilibrium with inverted elements counts as a failure. If no other is found, it is returned
+// with `converged` false.
 StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dvec3> load,
                                        std::span<const ContactPoint> contacts,
                                        std::span<const glm::dvec3> target, double tolerance,
@@ -49,7 +50,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   StepReport inverted;
   const auto attempt = [&](double share, double from, bool is_last) {
     problem.load_share = share;
-    // The part of the way that is left of where the fixed axes are now.
+    // Fraction of the remaining motion of the fixed axes.
     problem.target_share = from < 1 ? (share - from) / (1 - from) : 1;
     goal.tolerance = kMargin * (is_last ? tolerance : std::max(tolerance, kStepTolerance));
     body.Evaluate(state.x, body.model->material().law, Tangent::kTrue);
@@ -67,9 +68,8 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     const bool is_balanced =
         one.is_finite &&
         (one.converged || (one.residual <= goal.tolerance / kMargin && !body.is_recovering));
-    // Balanced forces alone do not suffice at the whole load: a shape with elements inside out is
-    // not valid. It is kept, to be returned where no other equilibrium is found. On the way there
-    // it may be passed.
+    // At the whole load, balanced forces do not suffice: a shape with inverted elements is invalid.
+    // It is kept in case no other equilibrium is found. At intermediate loads it may be passed.
     total.converged = is_balanced && (one.inverted == 0 || !is_last);
     if (is_balanced && one.inverted > 0 && is_last && inverted_x.empty()) {
       inverted_x = state.x;
@@ -82,7 +82,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
     body.is_recovering = body.has_given_up = false;
     body.projected_left = 0;
   };
-  // Over growing parts of load and lead.
+  // Follows equilibria under growing fractions of load and prescribed motion.
   const auto climb = [&](double step) {
     from_start();
     double share = 0;
@@ -104,12 +104,12 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   goal.patience = kPatienceAtSaddle;
   bool is_done = attempt(1, 0, true);
   if (!is_done && body.met_negative && total.residual > kFarOff) {
-    // Too much at once: the tangent of where that leads says nothing.
+    // The first step was too large; the tangent at its end is meaningless.
     goal.patience = kNewtonRecovery;
     is_done = climb(0.25);
   }
   if (!is_done && body.met_negative) {
-    // Several equilibria: the one on the way that the load grows is asked for.
+    // If there are several equilibria, finds the one on the path of the growing load.
     goal.follows = true;
     is_done = climb(1.0);
     goal.follows = false;
@@ -120,7 +120,7 @@ StepReport ImplicitSolver::SolveStatic(BodyState& state, std::span<const glm::dv
   if (!is_done && (total.inverted > 0 || !(total.residual < kNearlyThere))) {
     const StepReport whole = total;
     const std::vector<glm::dvec3> whole_x = state.x;
-    // The nearer of the two is what there is.
+    // Keeps the nearer of the two results.
     if (!climb(0.5) && whole.is_finite) {
       state.x = whole_x;
       total = whole;

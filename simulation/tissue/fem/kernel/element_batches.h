@@ -1,7 +1,6 @@
-// The elements of a mesh as the kernels read them: eight side by side, structure of arrays, so that
-// one vector instruction does the same step for several elements. Rest gradients in 1/m, weights in
-// m³. Within an element the nodes stand in rising order: each pair a ≤ b of them is then a block of
-// the upper triangle.
+// Elements in the layout that the kernels read: eight side by side, structure of arrays, so that
+// one vector instruction handles several elements. Rest gradients are in 1/m, weights in m³. The
+// nodes of an element stand in rising order, so each pair a ≤ b is a block of the upper triangle.
 #pragma once
 
 #include <array>
@@ -20,15 +19,15 @@ struct alignas(64) Lanes {
 };
 
 struct ElementBatches {
-  int nodes = 4, points = 1;  // an element
+  int nodes = 4, points = 1;  // per element
   int elements = 0, batches = 0;
   std::vector<std::array<int, kLanes>> node;   // [batch][a]
   std::vector<std::array<int, kLanes>> block;  // [batch][pair]: (0,0), (0,1), … (1,1), …
   std::vector<Lanes> gradient;                 // [batch][point][a][3]
-  std::vector<Lanes> weight;                   // [batch][point], with the share
-  std::vector<Lanes> fibre;                    // [batch][point][3], unit; empty: no fibres
+  std::vector<Lanes> weight;                   // [batch][point], including the share
+  std::vector<Lanes> fibre;                    // [batch][point][3], unit vector; empty: no fibres
   int pairs() const { return nodes * (nodes + 1) / 2; }
-  // The last batch repeats its last element in the lanes that are left over.
+  // Number of lanes in use. The last batch repeats its last element in the unused lanes.
   int lanes_used(int batch) const {
     return elements - batch * kLanes < kLanes ? elements - batch * kLanes : kLanes;
   }

@@ -1,5 +1,5 @@
-// The inner loops, once for each instruction set. All of them do the same arithmetic lane by lane,
-// so that all give the same bits.
+// Inner loops of the elements, one set per instruction set. All sets do the same arithmetic lane by
+// lane, so all give the same bits.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace arthro::simulation {
 
-// What the laws need of the material, Pa.
+// Material constants of the laws, Pa.
 struct LawConstants {
   double mu = 0, lambda = 0;
   double fibre = 0;
@@ -28,8 +28,8 @@ struct AssemblyJob {
   Law law;
   Tangent tangent;
   const glm::dvec3* x;
-  glm::dvec3* force;             // added to
-  std::array<double, 9>* block;  // upper triangle, added to; null without a tangent
+  glm::dvec3* force;             // output, added to
+  std::array<double, 9>* block;  // output, upper triangle, added to; null without a tangent
 };
 
 struct MultiplyJob {
@@ -49,8 +49,8 @@ struct PointJob {
   std::array<double, 9> f;  // row-major
   std::array<double, 3> fibre;
 };
-// Everything a quadrature point answers.
-struct PointAnswer {
+// Response of a quadrature point.
+struct PointResponse {
   double psi = 0, j = 0;           // J/m³
   std::array<double, 9> p{};       // Pa, row-major
   std::array<double, 81> dp_df{};  // Pa, entry (3i+k, 3j+l) = ∂P_ik/∂F_jl
@@ -59,19 +59,19 @@ struct PointAnswer {
 struct ElementKernel {
   const char* name;
   Assembly (*assemble)(const AssemblyJob&) noexcept;
-  // Each matrix becomes the rotation next to it (proper, whatever the matrix).
+  // Replaces each matrix by the rotation nearest to it (proper for every matrix).
   void (*rotations)(std::span<glm::dmat3>) noexcept;
-  // The mean gradient of each element, weighted by volume, added to its nodes.
+  // Adds the mean gradient of each element, weighted by volume, to its nodes.
   void (*add_gradients)(const ElementBatches&, const glm::dvec3* x, glm::dmat3* at_node) noexcept;
-  // Fills the lower triangle; `mirror`: an entry of the pattern to the transposed one.
+  // Fills the lower triangle; `mirror` maps an entry of the pattern to the transposed entry.
   void (*mirror)(const BlockPattern&, const int* mirror, std::array<double, 9>* block) noexcept;
   void (*multiply)(const MultiplyJob&) noexcept;
-  PointAnswer (*point)(const PointJob&) noexcept;
+  PointResponse (*point)(const PointJob&) noexcept;
 };
 
-// Null: this processor does not have it.
+// Returns null if this processor lacks the instruction set.
 const ElementKernel* KernelOf(InstructionSet set) noexcept;
-// The fastest this processor has.
+// Returns the fastest kernel of this processor.
 const ElementKernel& BestKernel() noexcept;
 
 }  // namespace arthro::simulation

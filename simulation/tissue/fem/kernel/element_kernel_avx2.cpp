@@ -1,4 +1,4 @@
-// Four doubles at a time.
+// Element kernel with four doubles per vector (AVX2).
 #if defined(__x86_64__)
 #include <cmath>
 #include <immintrin.h>
@@ -26,7 +26,7 @@ ARTHRO_INLINE V LoadThree(const double* x) {
   return V(_mm256_maskload_pd(x, _mm256_setr_epi64x(-1, -1, -1, 0)));
 }
 typedef long long Index __attribute__((vector_size(8 * kWidth)));
-constexpr Index kColumnOf[2] = {{0, 1, 2, 0}, {1, 2, 0, 1}};  // of a block's entries
+constexpr Index kColumnOf[2] = {{0, 1, 2, 0}, {1, 2, 0, 1}};  // columns of a block's entries
 
 #include "simulation/tissue/fem/kernel/element_kernel.inc"
 

@@ -1,4 +1,5 @@
-// One double at a time: what the others are held against, and the only one on other processors.
+// Element kernel with one double: the reference for the others and the only one on other
+// processors.
 #include <cmath>
 #include <limits>
 #include <utility>

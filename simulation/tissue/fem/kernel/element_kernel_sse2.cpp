@@ -1,4 +1,4 @@
-// Two doubles at a time: every x86-64 processor has this.
+// Element kernel with two doubles per vector (SSE2), which every x86-64 processor has.
 #if defined(__x86_64__)
 #include <cmath>
 #include <immintrin.h>

@@ -1,5 +1,5 @@
-// A body that its author has cut: it begins so, it is reset to that, and only what a tool takes
-// counts as taken.
+// Body with author's cuts: it starts with them, a reset restores them, and only cuts by tools count
+// as removed volume.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@
 namespace arthro::simulation {
 namespace {
 
-// Along y through the middle of the slab's top, 4 of its 6 mm deep.
+// Tear along y through the middle of the slab's top, 4 mm deep of 6 mm.
 BodySpec TornSlab() {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
@@ -27,7 +27,7 @@ BodySpec TornSlab() {
   return spec;
 }
 
-// Volume under a closed surface.
+// Volume enclosed by a closed surface.
 double VolumeOf(const SurfaceMesh& surface) {
   double six = 0;
   for (const auto& [a, b, c] : surface.triangles)
@@ -37,7 +37,7 @@ double VolumeOf(const SurfaceMesh& surface) {
   return six / 6.0;
 }
 
-// Mean places of the pale vertices on either wall of the tear, well under the top.
+// Mean positions of the fresh vertices on each wall of the tear, well below the top.
 std::pair<double, double> Walls(const DeformableBody& body) {
   const BodySkin& skin = *body.skin();
   double sum[2] = {0, 0};
@@ -55,7 +55,7 @@ std::pair<double, double> Walls(const DeformableBody& body) {
   return {sum[0] / count[0], sum[1] / count[1]};
 }
 
-TEST(AuthorsCuts, TheBodyBeginsTornAndNothingCountsAsTaken) {
+TEST(AuthorsCuts, BodyStartsTornAndNothingCountsAsRemoved) {
   const BodySpec torn = TornSlab();
   DeformableBody body(torn, {});
   const CutReport& report = body.cut_report();
@@ -63,29 +63,29 @@ TEST(AuthorsCuts, TheBodyBeginsTornAndNothingCountsAsTaken) {
   EXPECT_EQ(report.cuts, 0);
   EXPECT_EQ(report.pieces, 1);
   ASSERT_EQ(body.skin()->is_fresh.size(), body.positions().size());
-  EXPECT_GT(std::ranges::count(body.skin()->is_fresh, 1), 100) << "its walls are to be seen";
-  // A slot 12 mm long, 4 deep, 0.8 wide with round ends and below that a round bottom. Elsewhere
-  // the skin is what the grid makes of the whole slab.
+  EXPECT_GT(std::ranges::count(body.skin()->is_fresh, 1), 100) << "its walls are fresh";
+  // Slot 12 mm long, 4 mm deep and 0.8 mm wide with round ends and, below, a round bottom.
+  // Elsewhere the skin is the grid's version of the whole slab.
   const double round = std::numbers::pi * 0.16e-6;
   const double slot = 12e-3 * (4e-3 * 0.8e-3 + 0.5 * round) + 4e-3 * round;
   const SolidField field = SolidField::FromSurface(torn.surface, BodyOptions{}.cut_spacing);
   SurfaceMesh whole = Polygonise(field);
-  LayOnto(UncutSurface(torn.surface), field, {}, whole);
+  ProjectOnto(UncutSurface(torn.surface), field, {}, whole);
   EXPECT_NEAR(VolumeOf(whole) - VolumeOf(body.skin()->surface), slot, 0.06 * slot);
   // At rest it stays at rest.
   const WorldTool none;
   EXPECT_TRUE(body.Step({&none, 1}, nullptr, test::kFrame, {}).is_asleep);
 }
 
-TEST(AuthorsCuts, AHookInTheTearDrawsOneLipAwayFromTheOther) {
+TEST(AuthorsCuts, HookInTheTearPullsTheLipsApart) {
   BodySpec spec = TornSlab();
   std::get<TearCut>(spec.cuts[0]).width = 2e-3;  // wider than the probe
   BodyOptions options;
-  options.contact.stiffness = 2e4;  // a hand that hardly gives way
+  options.contact.stiffness = 2e4;  // a stiff hand
   DeformableBody body(spec, options);
   const auto [left, right] = Walls(body);
   EXPECT_NEAR(right - left, 2e-3, 0.1e-3);
-  constexpr double kWay = 2e-3;  // of the probe's axis, of which it is free over a quarter
+  constexpr double kWay = 2e-3;  // distance of the probe's axis, a quarter of it free
   for (int i = 0; i <= 80; ++i) {
     const WorldTool probe = test::ToolAbove(spec, ToolKind::kProbe, 2e-3, std::min(kWay, i * 5e-5));
     ToolCoupling coupling;
@@ -94,13 +94,13 @@ TEST(AuthorsCuts, AHookInTheTearDrawsOneLipAwayFromTheOther) {
     ASSERT_EQ(report.step.inverted, 0);
   }
   const auto [left_now, right_now] = Walls(body);
-  std::printf("drawn by 1.75 mm, one wall moves by %.2f mm and the other by %.2f mm\n",
+  std::printf("pulled by 1.75 mm, one wall moves by %.2f mm and the other by %.2f mm\n",
               1e3 * (right_now - right), 1e3 * (left_now - left));
   EXPECT_GT(right_now - right, 1e-3);
   EXPECT_LT(std::abs(left_now - left), 0.2e-3);
 }
 
-TEST(AuthorsCuts, ABiteCountsByRegionAndResetLeavesTheTear) {
+TEST(AuthorsCuts, BiteCountsPerRegionAndResetKeepsTheTear) {
   BodySpec spec = TornSlab();
   spec.regions = {{"edge", {{0.01, 0, 0}, 6e-3}}, {"middle", {{0, 0, 0}, 3e-3}}};
   DeformableBody body(spec, {});
@@ -126,7 +126,7 @@ TEST(AuthorsCuts, ABiteCountsByRegionAndResetLeavesTheTear) {
   bite({0.008, 0.008, -0.003});
   const CutReport two = body.cut_report();
   EXPECT_GT(two.by_region[2], 1e-9) << "elsewhere";
-  EXPECT_EQ(two.by_region[1], 0.0) << "the tear is the author's";
+  EXPECT_EQ(two.by_region[1], 0.0) << "the author's tear does not count";
   EXPECT_NEAR(std::accumulate(two.by_region.begin(), two.by_region.end(), 0.0), two.removed,
               1e-12 * two.removed);
 
@@ -143,11 +143,11 @@ TEST(AuthorsCuts, ABiteCountsByRegionAndResetLeavesTheTear) {
   EXPECT_EQ(body.skin()->surface.triangles, torn.triangles);
 }
 
-// A fragment that a bite cuts free goes with it: where it lay, it counts.
-TEST(AuthorsCuts, DebrisCountsWhereItLay) {
+// A fragment that a bite cuts free is removed with it and counts in its region.
+TEST(AuthorsCuts, DebrisCountsInItsRegion) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
-  // A tongue of 4 × 1.8 × 2 mm at the edge x = 10 mm, free but for its root at x = 6 mm.
+  // Tongue of 4 × 1.8 × 2 mm at the edge x = 10 mm, free except at its root at x = 6 mm.
   spec.cuts = {BoxCut{{{1, 0, 0, 0}, {0.0085, 0, -0.0025}}, {0.0025, 0.0018, 0.0005}},
                TearCut{{{0.0055, -0.0012, 0}, {0.011, -0.0012, 0}}, {0, 0, -1}, 2.5e-3, 6e-4, 1e-3},
                TearCut{{{0.0055, 0.0012, 0}, {0.011, 0.0012, 0}}, {0, 0, -1}, 2.5e-3, 6e-4, 1e-3}};
@@ -165,7 +165,7 @@ TEST(AuthorsCuts, DebrisCountsWhereItLay) {
   punch.now.opening = 0.0;
   body.Step({&punch, 1}, nullptr, test::kFrame, {&coupling, 1});
   const CutReport& report = body.cut_report();
-  std::printf("taken %.2f mm3, of it %.2f as %d loose pieces; of the tongue %.2f\n",
+  std::printf("removed %.2f mm3, of which %.2f as %d loose pieces; tongue %.2f\n",
               1e9 * report.removed, 1e9 * report.debris_volume, report.debris,
               1e9 * report.by_region[0]);
   EXPECT_EQ(report.debris, 1);
@@ -174,7 +174,7 @@ TEST(AuthorsCuts, DebrisCountsWhereItLay) {
   EXPECT_NEAR(report.by_region[0] + report.by_region[1], report.removed, 1e-12 * report.removed);
 }
 
-TEST(AuthorsCuts, ThatLeaveNothingAreRefusedWithOneSentence) {
+TEST(AuthorsCuts, CutsThatLeaveNothingAreRefusedWithOneSentence) {
   BodySpec spec = test::SlabBody();
   spec.cuts = {CapsuleCut{{0, 0, 0}, {0, 0, 0}, 0.1}};
   EXPECT_THROW(DeformableBody(spec, {}), Error);

@@ -1,4 +1,4 @@
-// A living tissue under the punch and the shaver, while it is touched.
+// Simulated tissue under punch and shaver during contact.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,8 +16,7 @@
 namespace arthro::simulation {
 namespace {
 
-// The punch bites the slab's edge at x = 10 mm: the tool lies along −x with its mouth over the
-// edge.
+// Punch at the slab's edge x = 10 mm: the tool lies along −x with its jaws around the edge.
 WorldTool PunchAt(const BodySpec& spec, double reach, double opening) {
   WorldTool tool;
   tool.shape = ShapeOf(ToolKind::kPunch);
@@ -38,7 +37,7 @@ bool IsSound(const DeformableBody& body) {
   return true;
 }
 
-TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
+TEST(BodyCut, BiteRemovesTissueBetweenTheJawsAndTheBodyContinues) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
@@ -50,7 +49,7 @@ TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
   };
   const auto whole = body.skin();
   step(PunchAt(spec, 2e-3, 1.0));
-  EXPECT_EQ(body.cut_report().cuts, 0) << "open jaws take nothing";
+  EXPECT_EQ(body.cut_report().cuts, 0) << "open jaws remove nothing";
   const BodyReport bite = step(PunchAt(spec, 2e-3, 0.0));
   EXPECT_TRUE(bite.was_cut);
   const CutReport report = body.cut_report();
@@ -58,7 +57,7 @@ TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
   EXPECT_GT(report.removed, 1e-9) << "m³";
   EXPECT_LT(report.removed, 60e-9);
   EXPECT_NE(body.skin(), whole);
-  EXPECT_TRUE(std::ranges::count(body.skin()->is_fresh, 1) > 10) << "a cut face is to be seen";
+  EXPECT_TRUE(std::ranges::count(body.skin()->is_fresh, 1) > 10) << "the cut face is fresh";
   step(PunchAt(spec, 2e-3, 0.0));
   EXPECT_EQ(body.cut_report().cuts, 1) << "closed jaws bite once";
   for (int i = 0; i < 60; ++i) EXPECT_FALSE(step(PunchAt(spec, -5e-3, 0.0)).was_reset);
@@ -69,9 +68,9 @@ TEST(BodyCut, BiteTakesWhatIsBetweenTheJawsAndTheBodyGoesOn) {
   EXPECT_EQ(body.positions().size(), whole->surface.vertices.size());
 }
 
-// A tool that is pressed on tissue lies on its skin, millimetres above its hand. A bite takes some
-// of what held it; one that forgot the rest would find itself deep inside and be thrown out.
-TEST(BodyCut, ABiteUnderAPressedToolPushesNoHarder) {
+// A pressed tool lies on the skin, millimetres away from its hand. A bite removes some of the
+// tissue that held it. A tool without memory of the rest would start deep inside and be thrown out.
+TEST(BodyCut, BiteUnderAPressedToolAddsNoForce) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
@@ -101,12 +100,12 @@ TEST(BodyCut, ABiteUnderAPressedToolPushesNoHarder) {
   for (int i = 0; i < 10; ++i) most = std::max(most, force_of_step());
   ASSERT_EQ(body.cut_report().cuts, 1);
   fmt::print("pressed with {:.3f} N, after the bite {:.3f} N at most\n", pressed, most);
-  // The jaws' own closing moves some skin: a tenth for it.
+  // The closing jaws move some skin: allows a tenth.
   EXPECT_LT(most, 1.1 * pressed);
 }
 
-// The other thread works on what the body was until it hands it back.
-TEST(BodyCut, WithoutMemoryForABiteTheTissueIsWholeAgainButNotUnderARefresh) {
+// The other thread works on the old body until it returns it.
+TEST(BodyCut, BiteWithoutMemoryRestoresTheTissueAfterARefresh) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
@@ -140,7 +139,7 @@ TEST(BodyCut, WithoutMemoryForABiteTheTissueIsWholeAgainButNotUnderARefresh) {
   EXPECT_TRUE(IsSound(body));
 }
 
-TEST(BodyCut, ShaverTakesNoFasterThanItsRate) {
+TEST(BodyCut, ShaverRemovesNoFasterThanItsRate) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   BodyOptions options;
@@ -159,9 +158,9 @@ TEST(BodyCut, ShaverTakesNoFasterThanItsRate) {
   EXPECT_TRUE(IsSound(body));
 }
 
-// Jaws that were opened elsewhere bite only when the hand closes them: not where another instrument
-// was in between, and not for an opening that is not a number.
-TEST(BodyCut, OnlyJawsThatCloseBite) {
+// Jaws opened elsewhere bite only when the hand closes them: not after another instrument in
+// between, and not for an opening that is not finite.
+TEST(BodyCut, OnlyClosingJawsBite) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
@@ -172,16 +171,16 @@ TEST(BodyCut, OnlyJawsThatCloseBite) {
   };
   step(PunchAt(spec, 2e-3, 1.0));
   step(PunchAt(spec, 2e-3, std::nan("")));
-  EXPECT_EQ(body.cut_report().cuts, 0) << "not a number is not closed";
+  EXPECT_EQ(body.cut_report().cuts, 0) << "NaN does not count as closed";
   step(test::ToolAbove(spec, ToolKind::kProbe, 1e-3));
   step(PunchAt(spec, 2e-3, 0.0));
-  EXPECT_EQ(body.cut_report().cuts, 0) << "it came back closed";
+  EXPECT_EQ(body.cut_report().cuts, 0) << "it returned closed";
   step(PunchAt(spec, 2e-3, 1.0));
   step(PunchAt(spec, 2e-3, 0.0));
   EXPECT_EQ(body.cut_report().cuts, 1);
 }
 
-TEST(BodyCut, TissueThatMayNotBeCutIsLeftAlone) {
+TEST(BodyCut, ProtectedTissueIsNotCut) {
   const BodySpec spec = test::SlabBody();
   DeformableBody body(spec, {});
   ToolCoupling coupling;
@@ -192,8 +191,8 @@ TEST(BodyCut, TissueThatMayNotBeCutIsLeftAlone) {
   EXPECT_EQ(body.cut_report().cuts, 0);
 }
 
-// FEM-22, with the preconditioner handed on from cut to cut.
-TEST(HardCase22, CutsWhileTouchedStaySound) {
+// FEM-22, with the preconditioner passed on from cut to cut.
+TEST(Fem22, CutsDuringContactKeepAValidBody) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   DeformableBody body(spec, {});
@@ -222,8 +221,8 @@ TEST(HardCase22, CutsWhileTouchedStaySound) {
   EXPECT_LE(most, 60);
 }
 
-// FEM-22 where the tissue rests on something: what is nearly shaved away lies on it too.
-TEST(HardCase22, AShaverOnTissueThatLiesOnBoneAsksForFewIterations) {
+// FEM-22 on an obstacle: nearly removed tissue lies on it too.
+TEST(Fem22, ShavingTissueOnBoneNeedsFewIterations) {
   const BodySpec spec = test::MeniscusBody();
   DeformableBody body(spec, {});
   const test::Plateau plateau(spec.portal_from_body);
@@ -233,7 +232,7 @@ TEST(HardCase22, AShaverOnTissueThatLiesOnBoneAsksForFewIterations) {
   ToolCoupling coupling;
   int most = 0, cuts = 0;
   for (int i = 0; i < 240; ++i) {
-    // To and fro along the thin edge, down through it onto the bone.
+    // Moves to and fro along the thin edge, down through it onto the bone.
     const double angle = 0.3 * std::sin(0.04 * i), height = 1.5e-3 - std::min(i * 2e-5, 2.5e-3);
     const Rigid3 body_from_tool{glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)),
                                 {0.0115 * std::cos(angle), 0.0115 * std::sin(angle), height}};

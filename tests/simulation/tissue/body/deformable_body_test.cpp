@@ -1,4 +1,4 @@
-// A tissue among tools, step by step: 20 × 20 × 6 mm slab of T10, held at its underside.
+// One tissue among tools, step by step: a 20 × 20 × 6 mm slab of T10, fixed at its underside.
 #include "simulation/tissue/body/deformable_body.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ WorldTool ProbeAt(const BodySpec& spec, double depth, double x = 0.0) {
   return test::ToolAbove(spec, ToolKind::kProbe, depth, x);
 }
 
-TEST(DeformableBody, SleepsUntilItIsTouchedAndAgainAfterwards) {
+TEST(DeformableBody, SleepsUntilTouchedAndAgainAfterwards) {
   const BodySpec spec = SlabBody();
   DeformableBody body(spec, {});
   EXPECT_GT(body.held_nodes(), 100);
@@ -43,22 +43,23 @@ TEST(DeformableBody, SleepsUntilItIsTouchedAndAgainAfterwards) {
   EXPECT_GT(glm::dot(ForceOf(coupling, coupling.tip).force, up), 0.05) << "N";
   int steps = 0;
   while (!step(-0.02).is_asleep && steps < 600) ++steps;
-  EXPECT_LT(steps, 120) << "two seconds after it was let go";
+  EXPECT_LT(steps, 120) << "within two seconds after release";
   double off = 0;
   for (std::size_t i = 0; i < body.state().x.size(); ++i)
     off = std::max(off, glm::distance(body.state().x[i], spec.mesh.rest_positions[i]));
-  EXPECT_LT(off, 1e-5) << "m from its rest shape";
+  EXPECT_LT(off, 1e-5) << "distance from the rest shape, m";
 }
 
-TEST(DeformableBody, ForceGrowsWithDepthAndTheServoForetellsIt) {
+TEST(DeformableBody, ForceGrowsWithDepthAndTheCouplingPredictsIt) {
   const BodySpec spec = SlabBody();
   DeformableBody body(spec, {});
   ToolCoupling coupling;
   double before = 0;
   for (double depth = 0.25e-3; depth < 2.1e-3; depth += 0.25e-3) {
-    // What the coupling of the last depth says of this one, and what the tissue then gives.
+    // Compares the force that the coupling of the last depth predicts with the force after the
+    // step.
     const WorldTool tool = ProbeAt(spec, depth);
-    const double foretold =
+    const double predicted =
         glm::length(ForceOf(coupling, tool.now.portal_from_tool.translation).force);
     for (int i = 0; i < 40; ++i) {
       coupling = {};
@@ -69,15 +70,15 @@ TEST(DeformableBody, ForceGrowsWithDepthAndTheServoForetellsIt) {
         glm::length(ForceOf(coupling, tool.now.portal_from_tool.translation).force);
     EXPECT_GT(force, before);
     if (before > 0) {
-      EXPECT_NEAR(foretold / force, 1.0, 0.02) << "the asked 2 %, from a frame at 15 mm/s away";
-      printf("depth %.2f mm: %.4f N, foretold from 0.25 mm before %.4f N (%+.1f %%)\n", depth * 1e3,
-             force, foretold, 100 * (foretold / force - 1));
+      EXPECT_NEAR(predicted / force, 1.0, 0.02) << "2 % over one frame at 15 mm/s";
+      printf("depth %.2f mm: %.4f N, predicted from 0.25 mm before %.4f N (%+.1f %%)\n",
+             depth * 1e3, force, predicted, 100 * (predicted / force - 1));
     }
     before = force;
   }
 }
 
-TEST(DeformableBody, StepsAllocateNothingOnceWarm) {
+TEST(DeformableBody, StepsAllocateNothingAfterWarmUp) {
   const BodySpec spec = SlabBody();
   DeformableBody body(spec, {});
   ToolCoupling coupling;
@@ -94,7 +95,7 @@ TEST(DeformableBody, StepsAllocateNothingOnceWarm) {
   EXPECT_EQ(allocations, 0);
 }
 
-TEST(DeformableBody, PoseThatIsNotANumberIsNoTool) {
+TEST(DeformableBody, NonFinitePoseIsIgnored) {
   const BodySpec spec = SlabBody();
   DeformableBody body(spec, {});
   ToolCoupling coupling;
@@ -110,12 +111,12 @@ TEST(DeformableBody, PoseThatIsNotANumberIsNoTool) {
   for (const glm::dvec3& x : body.state().x) ASSERT_TRUE(std::isfinite(x.x + x.y + x.z));
 }
 
-TEST(DeformableBody, BallsThatHoldNothingAreRefused) {
+TEST(DeformableBody, BallsWithoutNodesAreRefused) {
   BodySpec spec = SlabBody();
   spec.fixed = {{{1.0, 0.0, 0.0}, 1e-3}};
   try {
     DeformableBody body(spec, {});
-    FAIL() << "was taken";
+    FAIL() << "was accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("hold"), std::string::npos) << error.what();
   }

@@ -1,4 +1,4 @@
-// Claims about cartilage as a thin elastic layer.
+// Cartilage as a thin elastic layer.
 #include "simulation/tissue/body/elastic_layer.h"
 
 #include <algorithm>
@@ -25,16 +25,15 @@ ElasticLayer LayerOf(double nu) {
   return ElasticLayer(material, kThickness);
 }
 
-// Force over that of a flat end on a half space, 2 E a δ / (1 − ν²).
+// Force relative to that of a flat end on a half space, 2 E a δ / (1 − ν²).
 double Kappa(const ElasticLayer& layer, double nu, double ratio) {
   const double a = ratio * kThickness;
   return layer.PressFlat(a, 1e-5).force * (1 - nu * nu) / (2 * kE * a * 1e-5);
 }
 
-TEST(ElasticLayer, AFlatEndFeelsTheScalingFactorOfHayes) {
+TEST(ElasticLayer, FlatEndMatchesTheScalingFactorOfHayes) {
   // Hayes, Keer, Herrmann & Mockros 1972, table 1: κ(a/h, ν). They solved the same equation with
-  // the numerical means of 1972; 1 % is what their last column differs by from the solution that
-  // no longer changes with finer steps.
+  // the numerical means of 1972. Their last column differs by 1 % from the converged solution.
   constexpr double kRatio[] = {0.2, 0.4, 0.6, 0.8, 1.0, 1.5, 2.0};
   constexpr struct {
     double nu, kappa[7];
@@ -54,24 +53,24 @@ TEST(ElasticLayer, AFlatEndFeelsTheScalingFactorOfHayes) {
   std::printf("[ layer ] largest difference from Hayes' table %.2g %%\n", 100 * worst);
 }
 
-TEST(ElasticLayer, AWidePressFeelsTheFoundationAndASmallOneAHalfSpace) {
+TEST(ElasticLayer, WideContactIsAFoundationAndSmallContactAHalfSpace) {
   const double nu = 0.3, ball = 0.02;
   const ElasticLayer layer = LayerOf(nu);
   const double aggregate = kE * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
   EXPECT_NEAR(layer.foundation(), aggregate / kThickness, 1e-9 * layer.foundation());
-  // Wide: what the edge adds falls as h/a: 2.5 % at 10, a quarter of that at 40.
+  // Wide contact: the edge adds a term that falls as h/a: 2.5 % at 10, a quarter of that at 40.
   const double wide = 10 * kThickness;
   EXPECT_NEAR(layer.PressFlat(wide, 1e-5).force /
                   (layer.foundation() * std::numbers::pi * wide * wide * 1e-5),
               1.0, 0.03);
-  // A very large ball: F = π (H_A/h) R δ², a² = 2 R δ.
+  // Very large ball: F = π (H_A/h) R δ², a² = 2 R δ.
   const double huge = 10.0, depth = 0.02e-3;
   const LayerTouch winkler = layer.PressBall(huge, depth);
   EXPECT_GT(winkler.contact_radius, 6 * kThickness);
   EXPECT_NEAR(winkler.force / (std::numbers::pi * layer.foundation() * huge * depth * depth), 1.0,
               0.03);
   EXPECT_NEAR(winkler.contact_radius / std::sqrt(2 * huge * depth), 1.0, 0.03);
-  // Small: Hertz, F = 4/3 E/(1−ν²) √R δ^1.5; a/h = 0.01 is 1 % of it away.
+  // Small contact: Hertz, F = 4/3 E/(1−ν²) √R δ^1.5; a/h = 0.01 differs by 1 %.
   const double tiny = 1e-7;
   const LayerTouch hertz = layer.PressBall(ball, tiny);
   EXPECT_LT(hertz.contact_radius, 0.02 * kThickness);
@@ -79,10 +78,10 @@ TEST(ElasticLayer, AWidePressFeelsTheFoundationAndASmallOneAHalfSpace) {
               1.0, 0.015);
 }
 
-TEST(ElasticLayer, NearlyIncompressibleItStaysSoftWhereTheFoundationDoesNot) {
-  // A probe's ball of 0.75 mm, 0.3 mm deep in 3 mm of cartilage. Water cannot leave a wide contact,
-  // so the foundation's modulus grows as 1 / (1 − 2ν); under a small one it goes aside, and the
-  // force can grow no more than 1 − ν² and the layer's finite thickness let it: some per cent.
+TEST(ElasticLayer, NearlyIncompressibleLayerIsSofterThanItsFoundation) {
+  // Probe's ball of 0.75 mm, 0.3 mm deep in 3 mm of cartilage. Water cannot leave a wide contact,
+  // so the foundation's modulus grows as 1 / (1 − 2ν). Under a small contact it moves sideways. The
+  // force then grows only with 1 − ν² and the finite thickness: some per cent.
   const auto force = [](double nu) { return LayerOf(nu).PressBall(0.75e-3, 0.3e-3).force; };
   EXPECT_NEAR(LayerOf(0.499).foundation() / LayerOf(0.49).foundation(), 10, 0.5);
   const double growth = force(0.499) / force(0.49);
@@ -93,7 +92,7 @@ TEST(ElasticLayer, NearlyIncompressibleItStaysSoftWhereTheFoundationDoesNot) {
   EXPECT_GT(force(0.49), hertz);  // bone behind it makes it stiffer than a half space
 }
 
-TEST(ElasticLayer, StiffnessIsTheDerivativeOfTheForceAndDepthItsInverse) {
+TEST(ElasticLayer, StiffnessIsTheDerivativeAndDepthTheInverseOfTheForce) {
   for (const double nu : {0.0, 0.3, 0.45, 0.499}) {
     const ElasticLayer layer = LayerOf(nu);
     for (const double radius : {0.2e-3, 0.75e-3, 2e-3, 20e-3})
@@ -103,16 +102,16 @@ TEST(ElasticLayer, StiffnessIsTheDerivativeOfTheForceAndDepthItsInverse) {
         const double slope = (layer.PressBall(radius, depth + step).force -
                               layer.PressBall(radius, depth - step).force) /
                              (2 * step);
-        // Central differences over 1e-5: rounding and curvature are both under 1e-8, but a step
-        // may straddle two samples, where the second derivative jumps.
+        // Central differences over 1e-5 have rounding and truncation errors below 1e-8. A step may
+        // span two samples, where the second derivative jumps.
         EXPECT_NEAR(touch.stiffness / slope, 1, 1e-5) << nu << " " << radius << " " << depth;
         EXPECT_NEAR(layer.BallDepth(radius, touch.force) / depth, 1, 1e-9);
         EXPECT_EQ(touch.is_deep, depth > 0.3 * kThickness || depth > 0.8 * radius);
         const LayerTouch flat = layer.PressFlat(radius, depth);
         EXPECT_NEAR(flat.force, flat.stiffness * depth, 1e-12 * flat.force);
         EXPECT_NEAR(layer.FlatDepth(radius, flat.force) / depth, 1, 1e-12);
-        // The theorem that gives the samples their slopes holds between them as well, for the
-        // paraboloid that a ball is where it is shallow.
+        // The theorem that gives the slopes at the samples also holds between them, for a ball
+        // shallow enough to be a paraboloid.
         if (depth < 0.02 * radius) {
           EXPECT_NEAR(touch.stiffness / layer.PressFlat(touch.contact_radius, depth).stiffness, 1,
                       0.01)
@@ -122,7 +121,7 @@ TEST(ElasticLayer, StiffnessIsTheDerivativeOfTheForceAndDepthItsInverse) {
   }
 }
 
-TEST(ElasticLayer, PressingAllocatesNothingAndTakesAnyNumber) {
+TEST(ElasticLayer, PressingAllocatesNothingAndAcceptsAnyNumber) {
   const ElasticLayer layer = LayerOf(0.45);
   const long before = test::Allocations();
   double sum = 0;
@@ -143,7 +142,7 @@ TEST(ElasticLayer, PressingAllocatesNothingAndTakesAnyNumber) {
   }
 }
 
-TEST(ElasticLayer, RefusesWhatIsNoLayer) {
+TEST(ElasticLayer, RefusesInvalidLayers) {
   Material material;
   EXPECT_THROW(ElasticLayer(material, 0), Error);
   EXPECT_THROW(ElasticLayer(material, std::numeric_limits<double>::quiet_NaN()), Error);
@@ -154,9 +153,9 @@ TEST(ElasticLayer, RefusesWhatIsNoLayer) {
   EXPECT_THROW(ElasticLayer(material, 1e-3), Error);
 }
 
-// Half plane: F' = π E* a²/4R [Johnson 1985, 4.45]. A line that is wide beside the thickness feels
-// the foundation, ∫ (δ − x²/2R) = 4/3 δ √(2Rδ) wide.
-TEST(ElasticLayer, ALyingRodIsHertzsLineWhenItIsThinAndTheFoundationWhenItIsThick) {
+// Half plane: F' = π E* a²/4R [Johnson 1985, 4.45]. A line wide relative to the thickness feels the
+// foundation, ∫ (δ − x²/2R) = 4/3 δ √(2Rδ) wide.
+TEST(ElasticLayer, LyingRodIsHertzLineContactIfThinAndFoundationIfThick) {
   for (double nu : {0.0, 0.3, 0.45}) {
     const ElasticLayer layer = LayerOf(nu);
     const LayerTouch thin = layer.PressLine(1e-4, 1e-5);

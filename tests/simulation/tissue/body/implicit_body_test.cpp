@@ -1,4 +1,4 @@
-// Claims about tissue that is a function of space under biting and shaving instruments.
+// Implicit tissue under biting and shaving instruments.
 #include "simulation/tissue/body/implicit_body.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMm = 1e-3, kFrame = 1.0 / 60.0;
 
-// A loose body, a ball of 5 mm about the origin, somewhere in the joint.
+// Loose body: a ball of 5 mm about the origin, somewhere in the joint.
 ImplicitSpec LooseBody() {
   ImplicitSpec spec;
   spec.name = "loose body";
@@ -30,7 +30,7 @@ ImplicitSpec LooseBody() {
   return spec;
 }
 
-// The tool with the middle of what it bites at `at`, its rod along the body's z.
+// Tool with the centre of its bite at `at` and its rod along the body's z.
 WorldTool ToolAt(ToolKind kind, const ImplicitSpec& spec, const glm::dvec3& at) {
   WorldTool tool;
   tool.shape = ShapeOf(kind);
@@ -51,8 +51,8 @@ int Bite(ImplicitBody& body, WorldTool tool) {
   return cuts;
 }
 
-// Of a ball of radius R and a capsule of radius r, half length l about the ball's z axis, its own
-// axis at distance d: by cells of 0.05 mm.
+// Overlap of a ball of radius R with a capsule of radius r and half length l along the ball's z
+// axis, at distance d of the axes: by cells of 0.05 mm.
 double Overlap(double R, double r, double l, double d) {
   constexpr double h = 0.05e-3;
   double sum = 0;
@@ -66,7 +66,7 @@ double Overlap(double R, double r, double l, double d) {
   return sum;
 }
 
-TEST(ImplicitBody, ABiteTakesWhatIsBetweenTheJawsOnceForEachTimeTheyClose) {
+TEST(ImplicitBody, BiteRemovesTissueOncePerClosing) {
   const ImplicitSpec spec = LooseBody();
   ImplicitBody body(spec, {});
   const Capsule bite = ShapeOf(ToolKind::kPunch).bite;
@@ -81,7 +81,7 @@ TEST(ImplicitBody, ABiteTakesWhatIsBetweenTheJawsOnceForEachTimeTheyClose) {
   EXPECT_NEAR(whole - body.solid().field.Volume(), body.cut_report().removed, 1e-12 * whole);
   EXPECT_EQ(body.cut_report().cuts, 1);
   EXPECT_EQ(body.cut_report().pieces, 1);
-  EXPECT_EQ(Bite(body, punch), 0) << "there is nothing left between the jaws";
+  EXPECT_EQ(Bite(body, punch), 0) << "nothing is left between the jaws";
 
   ImplicitSpec kept = spec;
   kept.is_cuttable = false;
@@ -89,7 +89,7 @@ TEST(ImplicitBody, ABiteTakesWhatIsBetweenTheJawsOnceForEachTimeTheyClose) {
   EXPECT_EQ(Bite(whole_body, punch), 0);
 }
 
-TEST(ImplicitBody, ARunningShaverTakesNoMoreThanItsRateAndAStillOneNothing) {
+TEST(ImplicitBody, RunningShaverObeysItsRateAndAStoppedOneRemovesNothing) {
   const ImplicitSpec spec = LooseBody();
   ImplicitBody body(spec, {});
   WorldTool shaver = ToolAt(ToolKind::kShaver, spec, {5.5 * kMm, 0, 0});
@@ -106,7 +106,7 @@ TEST(ImplicitBody, ARunningShaverTakesNoMoreThanItsRateAndAStillOneNothing) {
   EXPECT_EQ(body.cut_report().cuts, cuts);
 }
 
-TEST(ImplicitBody, OnlyWhatABiteReachesIsMadeTrianglesOfAnewAndItIsPaleThere) {
+TEST(ImplicitBody, BiteRebuildsOnlyNearbyTrianglesAndMarksThemFresh) {
   const ImplicitSpec spec = LooseBody();
   ImplicitBody body(spec, {});
   const auto whole = body.skin();
@@ -115,10 +115,10 @@ TEST(ImplicitBody, OnlyWhatABiteReachesIsMadeTrianglesOfAnewAndItIsPaleThere) {
   const glm::dvec3 at(4.8 * kMm, 0, 0);
   ASSERT_EQ(Bite(body, ToolAt(ToolKind::kPunch, spec, at)), 1);
   const SkinUpdate update = body.skin_update();
-  std::printf("[ field ] a bite made %ld cells in %d of %d bricks anew\n", update.cells_redone,
+  std::printf("[ field ] a bite rebuilt %ld cells in %d of %d bricks\n", update.cells_redone,
               update.bricks_redone, update.bricks_with_skin);
-  // What it reaches: the capsule and 2.5 spacings about it, in bricks of 8 cells that it may lie
-  // across by one more each way.
+  // Reach of the bite: the capsule and 2.5 spacings around it, in bricks of 8 cells, plus one brick
+  // each way.
   const SolidField& field = body.solid().field;
   const Capsule bite = ShapeOf(ToolKind::kPunch).bite;
   double bricks = 1;
@@ -139,23 +139,23 @@ TEST(ImplicitBody, OnlyWhatABiteReachesIsMadeTrianglesOfAnewAndItIsPaleThere) {
     const bool is_on_ball = std::abs(glm::length(x) - 5 * kMm) < 0.02 * kMm;
     if (cut->is_fresh[v] != 0) {
       ++fresh;
-      EXPECT_LT(off, 0.5 * field.spacing()) << "a cut face is where the bite was";
-    } else if (off > field.spacing()) {  // nearer the rim is rounded off
+      EXPECT_LT(off, 0.5 * field.spacing()) << "a fresh face lies on the bite";
+    } else if (off > field.spacing()) {  // the rim is rounded
       EXPECT_TRUE(is_on_ball) << glm::length(x);
     }
     EXPECT_NEAR(glm::length(body.normals()[v]), 1.0, 1e-12);
     if (is_on_ball && off > 3 * field.spacing()) {
-      EXPECT_GT(glm::dot(body.normals()[v], glm::normalize(x)), 0.999) << "smooth shaded";
+      EXPECT_GT(glm::dot(body.normals()[v], glm::normalize(x)), 0.999) << "smooth normals";
     }
   }
   EXPECT_GT(fresh, 50);
 
-  // Beside it nothing is touched: the picture stays the same one.
+  // A miss changes nothing: the picture stays the same.
   EXPECT_EQ(Bite(body, ToolAt(ToolKind::kPunch, spec, {20 * kMm, 0, 0})), 0);
   EXPECT_EQ(body.skin(), cut);
 }
 
-// Two balls of 2.2 mm with a neck of 0.7 mm: bitten through, one of them is loose.
+// Two balls of 2.2 mm joined by a neck of 0.7 mm: bitten through, one of them is loose.
 ImplicitSpec Dumbbell() {
   ImplicitSpec spec = LooseBody();
   const SolidField field = SolidField::FromFunction(
@@ -169,7 +169,7 @@ ImplicitSpec Dumbbell() {
   return spec;
 }
 
-TEST(ImplicitBody, WhatABiteLoosensIsWashedAwayAndTheLargestOrTheHeldPieceStays) {
+TEST(ImplicitBody, LoosePieceIsWashedAwayAndTheHeldOrLargestStays) {
   for (const bool is_held : {false, true}) {
     ImplicitSpec spec = Dumbbell();
     if (is_held) spec.fixed = {{{3.4 * kMm, 0, 0}, 0.5 * kMm}};  // the smaller one
@@ -179,7 +179,7 @@ TEST(ImplicitBody, WhatABiteLoosensIsWashedAwayAndTheLargestOrTheHeldPieceStays)
     const CutReport& report = body.cut_report();
     EXPECT_EQ(report.debris, 1);
     EXPECT_EQ(report.pieces, 1);
-    const double radius = is_held ? 2.2 * kMm : 2.0 * kMm;  // of the one that went
+    const double radius = is_held ? 2.2 * kMm : 2.0 * kMm;  // radius of the removed ball
     const double ball = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
     EXPECT_NEAR(report.debris_volume, ball, 0.1 * ball);
     EXPECT_NEAR(whole - body.solid().field.Volume(), report.removed, 1e-9 * whole);
@@ -190,7 +190,7 @@ TEST(ImplicitBody, WhatABiteLoosensIsWashedAwayAndTheLargestOrTheHeldPieceStays)
   }
 }
 
-TEST(ImplicitBody, ResetBringsEveryBitBackInLessThanASecond) {
+TEST(ImplicitBody, ResetRestoresEveryBitInLessThanASecond) {
   const ImplicitSpec spec = LooseBody();
   ImplicitBody body(spec, {});
   const auto whole = body.skin();
@@ -206,7 +206,7 @@ TEST(ImplicitBody, ResetBringsEveryBitBackInLessThanASecond) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("[ field ] reset in %.1f ms\n", 1e3 * took);
   EXPECT_LT(took, 1.0);
-  EXPECT_GT(body.shape_version(), version) << "the picture is to take it";
+  EXPECT_GT(body.shape_version(), version) << "the picture must be updated";
   EXPECT_TRUE(std::ranges::equal(body.solid().field.values(), values));
   EXPECT_EQ(body.skin()->surface.vertices, whole->surface.vertices);
   EXPECT_EQ(body.skin()->surface.triangles, whole->surface.triangles);
@@ -216,7 +216,7 @@ TEST(ImplicitBody, ResetBringsEveryBitBackInLessThanASecond) {
   EXPECT_EQ(body.cut_report().removed, 0.0);
 }
 
-TEST(ImplicitBody, AStepThatTakesNothingAllocatesNothing) {
+TEST(ImplicitBody, StepWithoutCutAllocatesNothing) {
   const ImplicitSpec spec = LooseBody();
   ImplicitBody body(spec, {});
   WorldTool shaver = ToolAt(ToolKind::kShaver, spec, {30 * kMm, 0, 0});
@@ -226,7 +226,7 @@ TEST(ImplicitBody, AStepThatTakesNothingAllocatesNothing) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-TEST(ImplicitBody, ToolsThatAreNotNumbersAndOpenSurfacesAreRefused) {
+TEST(ImplicitBody, NonFiniteToolsAndOpenSurfacesAreRefused) {
   ImplicitSpec spec = LooseBody();
   ImplicitBody body(spec, {});
   WorldTool punch = ToolAt(ToolKind::kPunch, spec, {std::nan(""), 0, 0});
@@ -234,7 +234,7 @@ TEST(ImplicitBody, ToolsThatAreNotNumbersAndOpenSurfacesAreRefused) {
   spec.surface.triangles.pop_back();
   try {
     ImplicitBody open(spec, {});
-    FAIL() << "an open surface has no inside";
+    FAIL() << "an open surface was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Code::kBadMesh);
     EXPECT_NE(error.sentence().find("loose body"), std::string::npos) << error.sentence();

@@ -1,5 +1,5 @@
-// A probe's hook under the free edge of a meniscus: it lifts the edge with the force of a surgeon's
-// hand, the edge stays on the hook or slips off it, and never goes through it.
+// Probe's hook under the free edge of a meniscus. It lifts the edge with a surgeon's force. The
+// edge stays on the hook or slips off, and never passes through it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,9 +16,8 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;  // s
 
-// The rod stands inside of the free edge, in the middle of the crescent (its own +x), and points
-// down; the hook points outwards, under the edge. The tip's height is that of the hook's lower
-// side.
+// The rod stands inside the free edge, in the middle of the crescent (its +x), and points down. The
+// hook points outwards, under the edge. The tip's height is that of the hook's underside.
 WorldTool HookAt(const BodySpec& spec, double radius, double height) {
   const glm::dvec3 hook(1, 0, 0), rod(0, 0, -1);
   WorldTool tool;
@@ -49,7 +48,7 @@ class Lift : public testing::Test {
     peak = std::max(peak, glm::length(force));
     deepest = std::max(deepest, DepthIn(tool, on_tool));
   }
-  // From one place to another in so many steps.
+  // Moves from one position to another in this number of steps.
   template <class At>
   void Move(int steps, At&& at) {
     for (int i = 1; i <= steps; ++i) Step(at(static_cast<double>(i) / steps));
@@ -59,7 +58,7 @@ class Lift : public testing::Test {
     for (const std::size_t i : edge) sum += body.positions()[i].z - spec.surface.vertices[i].z;
     return sum / static_cast<double>(edge.size());
   }
-  // How deep a vertex of the skin is in the tool as the tissue holds it: the hand's, moved by F/k.
+  // Depth of a skin vertex in the tool as the tissue holds it: the hand's tool moved by F/k.
   double DepthIn(const WorldTool& tool, const glm::dvec3& on_tool) const {
     std::array<Capsule, kMaxCapsules> capsules;
     const int count = PosedCapsules(tool.shape, tool.now, capsules);
@@ -86,10 +85,10 @@ class Lift : public testing::Test {
   double peak = 0, deepest = 0;  // N, m
 };
 
-TEST_F(Lift, AHookPulledUpUnderTheFreeEdgeRaisesItAndHoldsIt) {
+TEST_F(Lift, HookRaisesAndHoldsTheFreeEdge) {
   ASSERT_GT(edge.size(), 2u);
   Move(30, [&](double s) { return HookAt(spec, 0.0085, -0.004 + 0.0022 * s); });
-  EXPECT_LT(std::abs(Raised()), 1e-4) << "not touched yet";
+  EXPECT_LT(std::abs(Raised()), 1e-4) << "no contact yet";
   Move(120, [&](double s) { return HookAt(spec, 0.0085, -0.0018 + 0.005 * s); });
   Move(30, [&](double) { return HookAt(spec, 0.0085, 0.0032); });
   std::printf("hand 5 mm up: edge %.2f mm up, %.2f N on the hook (peak %.2f), skin %.3f mm in it\n",
@@ -97,18 +96,18 @@ TEST_F(Lift, AHookPulledUpUnderTheFreeEdgeRaisesItAndHoldsIt) {
   EXPECT_GT(Raised(), 1e-3);
   EXPECT_LT(force.z, -0.05) << "it pulls the hook down";
   EXPECT_LT(peak, 4.0) << "surgeons pull with 3.9 ± 2.0 N (PMC3023859)";
-  EXPECT_LT(deepest, 2e-4) << "and does not go through it";
-  // Held still it stays where it is.
+  EXPECT_LT(deepest, 2e-4) << "the skin does not pass through the hook";
+  // At rest it stays where it is.
   const double held = Raised();
   Move(120, [&](double) { return HookAt(spec, 0.0085, 0.0032); });
   EXPECT_NEAR(Raised(), held, 1e-4);
-  // Let down again.
+  // Lowers the hook again.
   Move(60, [&](double s) { return HookAt(spec, 0.0085, 0.0032 - 0.0072 * s); });
   Move(60, [&](double) { return HookAt(spec, 0.0085, -0.004); });
   EXPECT_LT(std::abs(Raised()), 1e-4);
 }
 
-TEST_F(Lift, AHookPulledInwardsSlipsOffTheEdgeWhichFallsBack) {
+TEST_F(Lift, HookPulledInwardsSlipsOffAndTheEdgeFallsBack) {
   Move(30, [&](double s) { return HookAt(spec, 0.0085, -0.004 + 0.0022 * s); });
   Move(90, [&](double s) { return HookAt(spec, 0.0085, -0.0018 + 0.004 * s); });
   EXPECT_GT(Raised(), 1e-3);
@@ -121,14 +120,14 @@ TEST_F(Lift, AHookPulledInwardsSlipsOffTheEdgeWhichFallsBack) {
   EXPECT_LT(deepest, 2e-4);
 }
 
-// The hook holds the edge far from where its hand would: forgotten over a cut, the tool would begin
-// at its hand anew and the edge would fall.
-TEST_F(Lift, TheEdgeStaysOnTheHookWhileAnotherToolBites) {
+// The hook holds the edge far from the hand's position. Without memory over a cut the tool would
+// start at its hand and the edge would fall.
+TEST_F(Lift, EdgeStaysOnTheHookWhileAnotherToolBites) {
   Move(30, [&](double s) { return HookAt(spec, 0.0085, -0.004 + 0.0022 * s); });
   Move(120, [&](double s) { return HookAt(spec, 0.0085, -0.0018 + 0.005 * s); });
   const glm::dvec3 held = force;
   ASSERT_LT(held.z, -0.05);
-  // A punch at 70 degrees along the crescent, from inside.
+  // Punch at 70 degrees along the crescent, from inside.
   const double angle = 70 * std::numbers::pi / 180;
   const glm::dvec3 out(std::cos(angle), std::sin(angle), 0), up(0, 0, 1);
   std::array<WorldTool, 2> tools{HookAt(spec, 0.0085, 0.0032), {}};
@@ -144,11 +143,11 @@ TEST_F(Lift, TheEdgeStaysOnTheHookWhileAnotherToolBites) {
     EXPECT_FALSE(body.Step(tools, nullptr, kFrame, couplings).was_reset);
     const glm::dvec3 on_hook = glm::conjugate(spec.portal_from_body.rotation) *
                                ForceOf(couplings[0], couplings[0].tip).force;
-    // The bite leaves the meniscus a little softer; half is a hook that has lost it.
+    // The bite makes the meniscus slightly softer; half the force means a lost edge.
     EXPECT_LT(on_hook.z, 0.5 * held.z) << "step " << i;
   }
   EXPECT_EQ(body.cut_report().cuts, 1);
-  std::printf("held with %.3f N, %.2f mm3 bitten beside it\n", -held.z,
+  std::printf("lift force %.3f N, %.2f mm3 bitten beside it\n", -held.z,
               1e9 * body.cut_report().removed);
 }
 

@@ -1,6 +1,6 @@
-// A meniscus crescent of 504 T10 in three layers as a living tissue: 10 to 20 mm from its axis, 1.5
-// mm high inside and 6 mm outside, both horns held [benchmarks.md, Tissue references]. Its skin is
-// finer than its elements. Own frame, m.
+// Meniscus crescent of 504 T10 in three layers as a simulated tissue: 10 to 20 mm from its axis,
+// 1.5 mm high inside and 6 mm outside, both horns fixed [benchmarks.md, Tissue references]. Its
+// skin is finer than its elements. Own frame, m.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace {
 constexpr glm::dvec3 kLow{-0.008, -0.008, -0.004}, kHigh{0.008, 0.008, 0.0};  // m
 constexpr double kThick = 0.004, kEnd = 0.002;                                // m
 
-// A plate of 16 × 16 × 4 mm and 192 T10, held around its rim, so that it cannot be squeezed out.
+// Plate of 16 × 16 × 4 mm with 192 T10, fixed around its rim, so that it cannot be squeezed out.
 BodySpec Plate() {
   BodySpec spec;
   spec.name = "plate";
@@ -33,7 +33,7 @@ BodySpec Plate() {
   return spec;
 }
 
-// Two round ends of 4 mm, one above and one below the middle, `gap` between them.
+// Two round ends of 4 mm, above and below the middle, `gap` apart.
 std::array<WorldTool, 2> Jaws(const BodySpec& spec, double gap, bool are_there = true) {
   std::array<WorldTool, 2> jaws;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -48,7 +48,7 @@ std::array<WorldTool, 2> Jaws(const BodySpec& spec, double gap, bool are_there =
   return jaws;
 }
 
-// Of the skin on the line between the jaws.
+// Thickness of the skin on the line between the jaws.
 double ThicknessBetween(const DeformableBody& body) {
   std::array<double, 2> nearest{1, 1}, z{0, 0};
   for (std::size_t v = 0; v < body.positions().size(); ++v) {
@@ -62,7 +62,7 @@ double ThicknessBetween(const DeformableBody& body) {
   return z[0] - z[1];
 }
 
-TEST(Pinch, HardCase10ToAFifthOfTheThicknessForFiveSecondsLeavesNothing) {
+TEST(Pinch, Fem10PinchToAFifthForFiveSecondsLeavesNoDamage) {
   const BodySpec spec = Plate();
   BodyOptions options;
   options.contact.stiffness = 2e5;  // rigid jaws: the gap is the tissue's, not the hand's
@@ -83,9 +83,9 @@ TEST(Pinch, HardCase10ToAFifthOfTheThicknessForFiveSecondsLeavesNothing) {
   };
   int inverted = 0, iterations = 0;
   const int closing = 30, holding = 300;  // half a second, five seconds
-  const double closed = 0.13 * kThick;    // past the fifth: the tissue gives way to jaws a little
+  const double closed = 0.13 * kThick;    // below a fifth: the tissue pushes the jaws apart
   std::vector<double> thick;              // while held
-  std::vector<double> tremble;            // from a second after closing: way of a point in a step
+  std::vector<double> jitter;  // motion of a point per step, from one second after closing
   std::vector<glm::dvec3> last;
   for (int i = 1; i <= closing + holding; ++i) {
     const double share = std::min(1.0, static_cast<double>(i) / closing);
@@ -97,7 +97,7 @@ TEST(Pinch, HardCase10ToAFifthOfTheThicknessForFiveSecondsLeavesNothing) {
       double moved = 0;
       for (std::size_t n = 0; n < last.size(); ++n)
         moved = std::max(moved, glm::distance(last[n], body.positions()[n]));
-      tremble.push_back(moved);
+      jitter.push_back(moved);
     }
     last.assign(body.positions().begin(), body.positions().end());
     if (i % 60 == 0)
@@ -108,10 +108,10 @@ TEST(Pinch, HardCase10ToAFifthOfTheThicknessForFiveSecondsLeavesNothing) {
   std::sort(thick.begin(), thick.end());
   std::printf("thickness while held: %.2f, median %.2f, %.2f mm\n", 1e3 * thick.front(),
               1e3 * thick[thick.size() / 2], 1e3 * thick.back());
-  std::sort(tremble.begin(), tremble.end());
+  std::sort(jitter.begin(), jitter.end());
   std::printf("a step moves no point by more than %.2e of the thickness, half of them %.2e\n",
-              tremble.back() / kThick, tremble[tremble.size() / 2] / kThick);
-  EXPECT_LT(tremble.back(), 0.01 * kThick);
+              jitter.back() / kThick, jitter[jitter.size() / 2] / kThick);
+  EXPECT_LT(jitter.back(), 0.01 * kThick);
   EXPECT_LT(thick.back(), 0.2 * kThick);
   double off = 0;
   int left = 0;

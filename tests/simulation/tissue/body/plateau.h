@@ -1,4 +1,4 @@
-// What a meniscus crescent (meniscus_body.h) lies on: the plane under it. Portal frame, m.
+// Plane that supports a meniscus crescent (meniscus_body.h). Portal frame, m.
 #pragma once
 
 #include "simulation/core/frames.h"

@@ -1,5 +1,6 @@
-// A tissue, a tool pressed into it, and two solvers: the session's, and one that converges, whose
-// answer at a pose is what the servo is held against. It may lie on a plane. Own frame, m, N.
+// Tissue with a tool pressed into it and two solvers: the session's, and one iterated to
+// convergence, with which the servo's force is compared. The tissue may lie on a plane. Own frame,
+// m, N.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +47,7 @@ inline void MoveBy(PressingTool& tool, const glm::dvec3& way) {
   tool.motion = way;
 }
 
-// Where everything is: copied to try a motion.
+// State of tissue and tool, copied to try a motion.
 struct PressedState {
   simulation::BodyState body;
   PressingTool tool;
@@ -104,7 +105,7 @@ class PressedTissue {
     for (std::size_t i = 0; i < of_tool; ++i) force -= results[i].force;
     return force;
   }
-  // Steps until the force stands still. How many it took.
+  // Steps until the force is constant; returns the number of steps.
   int Settle(PressingTool& tool, double tolerance = 1e-5, int most = 200) {
     glm::dvec3 last(1e9);
     tool.motion = glm::dvec3(0.0);

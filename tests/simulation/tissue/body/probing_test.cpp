@@ -1,4 +1,4 @@
-// Tools pressed into tissue that is solved: hard cases FEM of resources/doc/hard-cases.md.
+// Tools pressed into solved tissue: FEM cases of resources/doc/hard-cases.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60, kRadius = 0.75e-3;
 
-// A slab of 0.5 MPa, 20 × 20 mm, held where `is_held` says, and what is needed to press tools into
+// Slab of 0.5 MPa, 20 × 20 mm, fixed where `is_held` says, with what is needed to press tools into
 // it.
 struct Slab {
   template <class IsHeld>
@@ -44,7 +44,7 @@ struct Slab {
   }
   Slab(const Slab&) = delete;
 
-  // One step with a tool, which is owner `owner`.
+  // One step with a tool of owner `owner`.
   struct Tool {
     std::vector<Capsule> capsules;
     glm::dvec3 motion{0.0};
@@ -76,7 +76,7 @@ struct Slab {
       if (contacts[i].owner == owner) force -= results[i].force;
     return force;
   }
-  // How deep the tool as the tissue holds it still is in the skin as it is now.
+  // Remaining depth of the held tool in the present skin.
   double Penetration(const Tool& tool) const {
     std::vector<Capsule> held = tool.capsules;
     for (Capsule& capsule : held) capsule.a += tool.grip.offset, capsule.b += tool.grip.offset;
@@ -114,7 +114,7 @@ struct Slab {
 
 bool OnTheGround(const glm::dvec3& x) { return x.z < -0.0059; }
 
-// A probe whose hook lies level on the slab, its underside at height z.
+// Probe whose hook lies level on the slab, its underside at height z.
 Slab::Tool ProbeAt(double z, double x = 0.0003) {
   ToolInput input;
   input.is_present = true;
@@ -131,9 +131,9 @@ void MoveTo(Slab::Tool& tool, const Slab::Tool& place) {
 
 class Teleport : public testing::TestWithParam<bool> {};
 
-// FEM-09. A probe that was just above the tissue is 5 mm deep at the next step; or it was
-// nowhere before (its device came back), and nothing is known of its way.
-TEST_P(Teleport, HardCase9FiveMillimetresIntoTheTissueAreResolvedInFiveFrames) {
+// FEM-09: a probe that was just above the tissue is 5 mm deep in the next step. Or it was absent
+// before (its device returned), so nothing is known of its motion.
+TEST_P(Teleport, Fem09JumpOf5MmIsResolvedInFiveFrames) {
   // 12 mm thick: up is the shortest way out.
   Slab slab(0.012, {8, 8, 6}, [](const glm::dvec3& x) { return x.z < -0.0119; });
   const bool was_seen = GetParam();
@@ -160,20 +160,20 @@ TEST_P(Teleport, HardCase9FiveMillimetresIntoTheTissueAreResolvedInFiveFrames) {
     }
   }
   const double settled = glm::length(slab.ForceOn(0));
-  std::printf("%s: depth left %.3f %.3f %.3f %.3f %.3f mm, force %.2f … %.2f N, peak %.2f N\n",
+  std::printf("%s: remaining depth %.3f %.3f %.3f %.3f %.3f mm, force %.2f … %.2f N, peak %.2f N\n",
               was_seen ? "seen before" : "from nowhere", 1e3 * depth[0], 1e3 * depth[1],
               1e3 * depth[2], 1e3 * depth[3], 1e3 * depth[4], force[0], settled, peak);
   EXPECT_LT(depth[4], 2e-4);
   EXPECT_GT(settled, 0.5);
   EXPECT_LE(peak, 2.0 * settled);
-  EXPECT_GT(slab.ForceOn(0).z, 0.9 * settled) << "up, the way it came from";
+  EXPECT_GT(slab.ForceOn(0).z, 0.9 * settled) << "upwards, from where it came";
 }
 
 INSTANTIATE_TEST_SUITE_P(SeenBeforeAndFromNowhere, Teleport, testing::Values(true, false));
 
-// FEM-09, all over the mesh: on nodes, between them, along and across its lines.
-TEST(Probing, HardCase9AProbeFromNowhereIsOutInFiveFramesWhereverItAppears) {
-  constexpr double kSettled = 1.9;  // N, of all of them after a second, to 2 % [measured above]
+// FEM-09 all over the mesh: on nodes, between them, along and across its lines.
+TEST(Probing, Fem09ProbeThatAppearsInsideIsOutInFiveFrames) {
+  constexpr double kSettled = 1.9;  // N, settled force after one second, to 2 % (measured above)
   Slab slab(0.012, {8, 8, 6}, [](const glm::dvec3& x) { return x.z < -0.0119; });
   const BodyState rest = slab.state;
   double deepest = 0, hardest = 0;
@@ -195,8 +195,8 @@ TEST(Probing, HardCase9AProbeFromNowhereIsOutInFiveFramesWhereverItAppears) {
   EXPECT_LE(hardest, 2.0 * kSettled);
 }
 
-// FEM-16: no frame is lost, the tissue stays, the next good pose is felt.
-TEST(Probing, HardCase16APoseThatIsNotANumberLeavesTheTissueAsItIs) {
+// FEM-16: no frame is lost, the tissue stays, the next valid pose is felt.
+TEST(Probing, Fem16NonFinitePoseLeavesTheTissueUnchanged) {
   Slab slab(0.006, {8, 8, 4}, OnTheGround);
   std::vector<Slab::Tool> tool{ProbeAt(-0.001)};
   for (int i = 0; i < 10; ++i) slab.Step(tool);

@@ -1,8 +1,8 @@
-// A seeded hand that does to a meniscus crescent (meniscus_body.h) what a trainee may do in ten
-// minutes, and what a device may do when it fails: it wanders smoothly over, through and under the
-// tissue, changes instruments, bites, shaves, jumps, is away for a while, and now and then its pose
-// is not a number. Most of the time a punch and a shaver are led to the free edge, since a hand
-// that only wanders cuts hardly anything. Portal frame, m, s.
+// Seeded random hand on a meniscus crescent (meniscus_body.h) with the motions of a trainee in ten
+// minutes and the failures of a device. It moves smoothly over, through and under the tissue,
+// changes instruments, bites, shaves, jumps and disappears for a while. Now and then its pose is
+// not finite. A punch and a shaver are mostly guided to the free edge, because random motion hardly
+// cuts. Portal frame, m, s.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ class RandomHand {
       return 0.65 * std::sin(a.rate * t_ + a.phase) + 0.35 * std::sin(2.7 * b.rate * t_ + b.phase);
     };
     // Cylinder coordinates of the crescent: 120° to each side, 6 to 24 mm out, 6 mm below to 14 mm
-    // above its underside. The tip goes at some 30 mm/s, at most 100 mm/s.
+    // above its underside. The tip moves at about 30 mm/s, at most 100 mm/s.
     const double angle = 2.1 * wave(0), radius = 0.015 + 0.009 * wave(1);
     const double height = 0.004 + 0.010 * wave(2);
     const glm::dquat tilt = glm::angleAxis(0.9 * wave(3), glm::dvec3(1, 0, 0)) *
@@ -71,23 +71,23 @@ class RandomHand {
     double phase = 0, rate = 0;
   };
 
-  // Jaws about the free edge, 1.5 mm high at 10 mm from the axis: the rod points outwards, one jaw
-  // above and one below. They are furthest in, 4 mm past the edge, as they close.
+  // Jaws around the free edge, 1.5 mm high at 10 mm from the axis. The rod points outwards, one jaw
+  // above and one below. They reach furthest, 4 mm past the edge, when they close.
   static Rigid3 AtEdge(double angle, double jaw) {
     const glm::dvec3 out(std::cos(angle), std::sin(angle), 0), up(0, 0, 1);
     const double reach = 0.010 + 0.001 + 0.003 * std::cos(jaw - 1.2 * std::numbers::pi);
     return {glm::quat_cast(glm::dmat3(glm::cross(up, out), up, out)),
             reach * out + glm::dvec3(0, 0, 0.0006)};
   }
-  // Window on the free edge: the rod points down inside of it, the window outwards; now and then it
-  // leaves it.
+  // Window at the free edge: the rod points down inside the edge and the window faces outwards. It
+  // leaves the edge now and then.
   static Rigid3 AlongEdge(double angle, double wave) {
     const glm::dvec3 out(std::cos(angle), std::sin(angle), 0), down(0, 0, -1);
     return {glm::quat_cast(glm::dmat3(glm::cross(out, down), out, down)),
             (0.0085 + 0.002 * wave) * out + glm::dvec3(0, 0, -0.003)};
   }
 
-  // Every few seconds another instrument, or a jump, or nothing in the hand for a while.
+  // Changes the instrument, jumps or removes it every few seconds.
   void Change() {
     if (t_ < change_at_) return;
     change_at_ = t_ + random_.Uniform(0.8, 4.0);
@@ -140,7 +140,7 @@ class RandomHand {
   Random random_;
   Rigid3 portal_from_body_;
   std::array<Wave, 14> waves_{};
-  // A short session cuts, too: it begins with bites.
+  // Starts with bites, so that a short session also cuts.
   simulation::ToolKind kind_ = simulation::ToolKind::kPunch;
   bool is_aimed_ = true;
   double t_ = 0, change_at_ = 2.0, away_until_ = 0;

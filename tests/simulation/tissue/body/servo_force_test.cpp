@@ -1,6 +1,6 @@
-// How far the servo's force is from the whole solve at the same pose, by distance from the pose of
-// the last step and by direction; and how far a step itself is from what it would settle at. A hand
-// that probes goes 0.1 to 0.3 mm in a step of the tissue, a brisk one 1 mm, 1.7 mm at 100 mm/s.
+// Error of the servo's force relative to the converged solve at the same pose, by direction and by
+// distance from the last step's pose. Also the error of a single step relative to its converged
+// state. Per tissue step a probing hand moves 0.1 to 0.3 mm, a brisk one 1 mm, at 100 mm/s 1.7 mm.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,11 +29,11 @@ const Plane kPlateau;
 struct Case {
   std::string name;
   std::unique_ptr<test::PressedTissue> tissue;
-  glm::dvec3 touch{0.0};  // where the hook's end comes down on it, from above
+  glm::dvec3 touch{0.0};  // contact point of the hook's end, from above
   double depth = 0;       // m
 };
 
-// Flat, 0.5 MPa, on a rigid ground.
+// Flat, 0.5 MPa, on rigid ground.
 Case Slab() {
   return {"slab",
           std::make_unique<test::PressedTissue>(
@@ -43,8 +43,8 @@ Case Slab() {
           0.002};
 }
 
-// A meniscus as it is probed: a wedge that bends around, fibres along it, its horns held; it lies
-// on the plateau, or hangs free.
+// Meniscus as it is probed: a curved wedge with circumferential fibres and fixed horns, on the
+// plateau or free.
 Case Meniscus(bool lies) {
   Material material;
   material.fibre_stiffness = 2e7;
@@ -60,7 +60,7 @@ Case Meniscus(bool lies) {
           lies ? 0.001 : 0.003};
 }
 
-// A dome of 50 mm radius with fibres along circles about its middle.
+// Dome of 50 mm radius with fibres along circles about its centre.
 Case Dome() {
   Material material;
   material.fibre_stiffness = 5e6;
@@ -88,10 +88,10 @@ constexpr std::array<std::pair<const char*, glm::dvec3>, 8> kDirections{{{"in", 
                                                                          {"-y in", {0, -1, -1}}}};
 
 struct Errors {
-  std::array<double, 4> servo{}, step{};  // the largest of all directions, by distance
+  std::array<double, 4> servo{}, step{};  // maximum over all directions, by distance
 };
 
-// `turn`: of the hook about the vertical; at 0 it lies along y.
+// `turn`: rotation of the hook about the vertical; at 0 it lies along y.
 Errors Measure(Case c, double turn) {
   test::PressedTissue& tissue = *c.tissue;
   tissue.options.friction = 0.0;
@@ -131,12 +131,12 @@ Errors Measure(Case c, double turn) {
     double gone = 0;
     std::printf("  %-6s servo / step off by", name);
     for (std::size_t w = 0; w < kWays.size(); ++w) {
-      // The session's own step, the whole way at once.
+      // The session's own step over the whole distance at once.
       test::PressingTool at_once = go_to(start);
       test::MoveBy(at_once, kWays[w] * unit);
       tissue.Step(at_once, *tissue.solver);
       const glm::dvec3 step = tissue.Force();
-      // There by small steps, and settled.
+      // Reaches it by small steps until settled.
       test::PressingTool there = go_to(on_the_way);
       while (gone < kWays[w] - 1e-9) {
         const double go = std::min(1.5e-4, kWays[w] - gone);
@@ -165,12 +165,12 @@ Errors Measure(Case c, double turn) {
   return worst;
 }
 
-// Asked are 2 % of both. A step is there up to 0.5 mm at once. The servo is not: 1 to 3 % at 0.1
-// mm, 5 to 7 % at 0.5 mm and 7 to 10 % at 1 mm aside, where the force of the full solve itself goes
-// up and down by some 4 % within each element, whose edges a dent feels, and no pose that was
-// solved foretells it. What is held here is what was reached. Along edges a hook feels them most,
-// and a meniscus that hangs free tilts as well: printed last.
-TEST(ServoForce, AndThatOfAStepAreNearWhatTheWholeSolveSettlesAt) {
+// The goal is 2 % for both. A single step reaches it up to 0.5 mm. The servo does not: its sideways
+// error is 1 to 3 % at 0.1 mm, 5 to 7 % at 0.5 mm and 7 to 10 % at 1 mm. There the converged force
+// itself varies by about 4 % within each element, because a dent feels the element edges, and no
+// solved pose predicts that. The test holds what was reached. A hook along edges feels them most,
+// and a free meniscus also tilts: both are printed last.
+TEST(ServoForce, CouplingAndStepForcesAreNearTheConvergedForce) {
   for (Case (*make)() :
        {+[] { return Slab(); }, +[] { return Meniscus(true); }, +[] { return Dome(); }}) {
     const Errors worst = Measure(make(), 0.5);

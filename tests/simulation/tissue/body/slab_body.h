@@ -1,4 +1,4 @@
-// A slab of 648 T10, 20 × 20 × 6 mm, its top at z = 0, held at its underside, as a living tissue.
+// Slab of 648 T10, 20 × 20 × 6 mm, its top at z = 0, fixed at its underside, as a simulated tissue.
 #pragma once
 
 #include <numbers>
@@ -20,7 +20,7 @@ inline simulation::BodySpec SlabBody() {
   spec.mesh = SlabMesh(2);
   spec.surface = BoundaryOf(SlabMesh(1, {40, 40, 12}));
   spec.material.young_modulus = 5e5;
-  // Balls along the underside: all of its nodes, and none above.
+  // Balls along the underside contain all of its nodes and no others.
   for (double x = -0.01; x <= 0.0101; x += 0.5e-3)
     for (double y = -0.01; y <= 0.0101; y += 0.5e-3)
       spec.fixed.push_back({{x, y, kSlabLow.z}, 0.9e-3});
@@ -29,7 +29,7 @@ inline simulation::BodySpec SlabBody() {
   return spec;
 }
 
-// A tool that points straight down onto the top, its tip `depth` below the top at rest.
+// Tool that points straight down onto the top, its tip `depth` below the top at rest.
 inline simulation::WorldTool ToolAbove(const simulation::BodySpec& spec, simulation::ToolKind kind,
                                        double depth, double x = 0.0) {
   simulation::WorldTool tool;

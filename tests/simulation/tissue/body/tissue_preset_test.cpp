@@ -31,24 +31,24 @@ bool IsInSchema(const std::string& text) {
   return preset.Accept(validator);
 }
 
-TEST(TissuePreset, MeniscusAndCartilageHaveOneForProbingAndOneOfTheLiterature) {
+TEST(TissuePreset, MeniscusAndCartilageHaveAProbingAndALiteraturePreset) {
   const std::vector<TissuePreset> presets = ReadTissuePresets(kPresets);
   for (const char* name :
        {"meniscus-probe", "meniscus-literature", "cartilage-probe", "cartilage-literature"})
     ASSERT_NE(FindTissuePreset(presets, name), nullptr) << name;
-  // The words that scenes have used so far are the probing ones.
+  // The words used in existing scenes mean the probing presets.
   EXPECT_EQ(FindTissuePreset(kPresets, "meniscus").name, "meniscus-probe");
   EXPECT_EQ(FindTissuePreset(kPresets, "cartilage").name, "cartilage-probe");
   const Material& meniscus = FindTissuePreset(presets, "meniscus")->material;
   EXPECT_EQ(meniscus.young_modulus, 5e5);
   EXPECT_EQ(meniscus.fibre_stiffness, 2e7);
   EXPECT_EQ(meniscus.fibre_axis, FibreAxis::kCircumferentialZ);
-  // 140 MPa along the fibres in all.
+  // 140 MPa along the fibres in total.
   const Material& stiff = FindTissuePreset(presets, "meniscus-literature")->material;
   EXPECT_EQ(stiff.young_modulus + stiff.fibre_stiffness, 1.4e8);
 }
 
-TEST(TissuePreset, SaysOfEveryValueWhereItComesFrom) {
+TEST(TissuePreset, EveryValueHasASource) {
   for (const TissuePreset& preset : ReadTissuePresets(kPresets)) {
     EXPECT_TRUE(IsInSchema(ReadWholeFile(kPresets / (preset.name + ".json")))) << preset.name;
     std::vector<std::string> values = {"young_modulus", "poisson_ratio", "density", "friction"};
@@ -58,7 +58,7 @@ TEST(TissuePreset, SaysOfEveryValueWhereItComesFrom) {
       bool is_told = false;
       for (const std::string& line : preset.sources)
         is_told |= line.find(value) != std::string::npos;
-      EXPECT_TRUE(is_told) << preset.name << " says nothing of " << value;
+      EXPECT_TRUE(is_told) << preset.name << " has no source for " << value;
     }
   }
 }
@@ -82,7 +82,7 @@ TEST(TissuePreset, UnknownWordIsRefusedWithTheKnownNames) {
   }
 }
 
-TEST(TissuePreset, TakesWhatTheSceneSaysOtherwiseAndKeepsTheRest) {
+TEST(TissuePreset, SceneOverridesSingleValues) {
   Elasticity own;
   own.young_modulus = 3e5;
   own.fibre_axis = "none";
@@ -103,7 +103,7 @@ TEST(TissuePreset, TakesWhatTheSceneSaysOtherwiseAndKeepsTheRest) {
   EXPECT_EQ(other.layer_thickness, 0.001);
 }
 
-TEST(TissuePreset, BadFilesAreRefusedByTheKeyAtFault) {
+TEST(TissuePreset, BadFilesAreRefusedWithTheWrongKey) {
   const json good = json::parse(ReadWholeFile(kPresets / "cartilage-probe.json"));
   const auto fault_of = [](const std::string& text) -> std::string {
     test::TempFolder folder;
@@ -146,7 +146,7 @@ TEST(TissuePreset, BadFilesAreRefusedByTheKeyAtFault) {
   EXPECT_NE(fault_of(thin.dump()).find("a thin layer needs one"), std::string::npos);
 }
 
-TEST(TissuePreset, OneWordCannotStandForTwo) {
+TEST(TissuePreset, OneWordForTwoPresetsIsRefused) {
   test::TempFolder folder;
   const std::string text = ReadWholeFile(kPresets / "meniscus-probe.json");
   WriteAtomically(folder / "a.json", text);

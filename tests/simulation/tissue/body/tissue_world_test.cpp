@@ -1,5 +1,5 @@
-// All tissues of a scene under a hand that does what it likes: the same bits with and without the
-// second thread, and nothing taken from the heap once warm.
+// All tissues of a scene under a random hand: the same bits with and without the second thread, and
+// no allocation after warm-up.
 #include "simulation/tissue/body/tissue_world.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using test::kFrame;
 
-// A preconditioner is made anew as often as may be.
+// Refreshes the preconditioner as often as possible.
 BodyOptions Restless() {
   BodyOptions options;
   options.refresh_iterations = 1;
@@ -58,18 +58,18 @@ TEST(TissueWorld, SecondThreadChangesNoBit) {
     if (step == 600) alone.Reset(), beside.Reset();
   }
   std::printf("%d steps touched, %d cuts, youngest factor %d steps\n", touched, cuts, youngest);
-  EXPECT_GT(touched, 90) << "or nothing was compared";
+  EXPECT_GT(touched, 90) << "the comparison needs touched steps";
   EXPECT_GT(cuts, 0);
-  EXPECT_LT(youngest, 10) << "factors were made anew";
+  EXPECT_LT(youngest, 10) << "factors were refreshed";
 }
 
-TEST(TissueWorld, ResetWorldGoesOnAsANewOne) {
+TEST(TissueWorld, ResetWorldContinuesLikeANewOne) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueWorld used({spec}, {}, nullptr, true);
   test::RandomHand before(11, spec.portal_from_body);
   for (int step = 0; step < 300; ++step) used.Step(before.Next(kFrame), kFrame);
   used.Reset();
-  // The hand let go: what a tool in the tissue was held by is forgotten, too.
+  // The hand has let go: the memory of held tools is cleared, too.
   TissueWorld fresh({spec}, {}, nullptr, true);
   test::RandomHand one(5, spec.portal_from_body), other(5, spec.portal_from_body);
   WorldPicture of_used, of_fresh;
@@ -82,7 +82,7 @@ TEST(TissueWorld, ResetWorldGoesOnAsANewOne) {
   }
 }
 
-TEST(TissueWorld, StepsAllocateNothingOnceWarm) {
+TEST(TissueWorld, StepsAllocateNothingAfterWarmUp) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   for (const bool has_thread : {false, true}) {
     TissueWorld world({spec}, Restless(), nullptr, has_thread);
@@ -91,7 +91,7 @@ TEST(TissueWorld, StepsAllocateNothingOnceWarm) {
       long allocations = 0;
       int touched = 0;
       for (int i = 0; i < count; ++i) {
-        // A probe that strokes over the body's middle, 1 mm deep.
+        // Probe that strokes over the body's middle, 1 mm deep.
         Instrumentation hand;
         hand.kind = ToolKind::kProbe;
         hand.now.is_present = true;
@@ -109,7 +109,7 @@ TEST(TissueWorld, StepsAllocateNothingOnceWarm) {
     };
     EXPECT_GT(steps(90), 0) << "the first factors";
     EXPECT_EQ(steps(90), 0) << (has_thread ? "two threads" : "one thread");
-    EXPECT_LT(picture.bodies[0].report.factor_age, 20) << "factors were made anew meanwhile";
+    EXPECT_LT(picture.bodies[0].report.factor_age, 20) << "factors were refreshed meanwhile";
   }
 }
 

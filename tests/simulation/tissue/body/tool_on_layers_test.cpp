@@ -1,5 +1,5 @@
-// Claims about a whole instrument on thin layers, beside an independent solution of the contact
-// problem by boundary elements.
+// Whole instrument on thin layers, compared with an independent boundary-element solution of the
+// contact problem.
 #include "simulation/tissue/body/tool_on_layers.h"
 
 #include <algorithm>
@@ -30,10 +30,10 @@ ElasticLayer Cartilage() {
   return {material, kThick};
 }
 
-// Of pressure 1 on a disc of radius b on a bonded layer: how far the surface goes in at r. Hankel:
-// (1−ν)/μ b ∫ M(ξh) J₁(ξb) J₀(ξr)/ξ dξ, M of Jaffar 1989; 1 − M falls like exp(−2 ξh), and of the
-// rest, the half space, the mean over the disc and the far field are known well enough by elliptic
-// integrals.
+// Surface displacement at r under pressure 1 on a disc of radius b on a bonded layer. Hankel:
+// (1−ν)/μ b ∫ M(ξh) J₁(ξb) J₀(ξr)/ξ dξ, M of Jaffar 1989. 1 − M falls like exp(−2 ξh). For the
+// rest, the half space, elliptic integrals give the mean over the disc and the far field accurately
+// enough.
 double DiscOnLayer(double b, double r) {
   const double kappa = 3 - 4 * kNu, mu = kE / 2 / (1 + kNu);
   const auto less = [&](double k) {
@@ -58,13 +58,13 @@ double DiscOnLayer(double b, double r) {
   return (1 - kNu) / mu * b * (half_space + sum);
 }
 
-// A capsule whose near end stands lowest, `depth` under the surface, and that rises by `tilt`:
-// force by square elements of pressure, those that would pull left out one after the other.
+// Force of a capsule whose near end is lowest, `depth` below the surface, and that rises by `tilt`.
+// Uses square pressure elements; elements in tension are removed one after the other.
 double ForceByElements(double radius, double length, double depth, double tilt, double cell) {
-  std::vector<std::array<double, 3>> at;  // x, y, how deep the capsule is there
+  std::vector<std::array<double, 3>> at;  // x, y, depth of the capsule there
   const double end = tilt > 0 ? std::min(length, depth / std::sin(tilt)) : length;
   for (double x = -1.1 * radius + cell / 2; x < end + 1.1 * radius; x += cell)
-    for (double y = cell / 2; y < radius; y += cell) {  // one half: it is even in y
+    for (double y = cell / 2; y < radius; y += cell) {  // one half, because it is even in y
       double deepest = 0;
       for (int i = 0; i <= 400; ++i) {
         const double s = length * i / 400, off = x - s * std::cos(tilt);
@@ -110,20 +110,20 @@ double ForceByElements(double radius, double length, double depth, double tilt, 
   }
 }
 
-// A slab with its top at z = 0, far larger than what presses it. Its tool comes from +z.
+// Slab with its top at z = 0, much larger than the contact. Its tool comes from +z.
 LayerUnder Slab() {
   return {
       test::Box({-30 * kMm, -30 * kMm, -12 * kMm}, {30 * kMm, 30 * kMm, 0}), {}, Cartilage(), 3};
 }
 
-// What the law gives for one capsule on the slab.
+// Force of the closed forms for one capsule on the slab.
 double ForceByLaw(const LayerUnder& slab, double radius, double length, double depth, double tilt) {
   const glm::dvec3 along(std::cos(tilt), 0, std::sin(tilt));
   const std::array<Capsule, 1> tool{Capsule{{0, 0, 0}, length * along, radius}};
-  return ForceOfLayers({&slab, 1}, tool, {0, 0, radius - depth}).force.z;
+  return ComputeLayerForce({&slab, 1}, tool, {0, 0, radius - depth}).force.z;
 }
 
-TEST(ToolOnLayers, ARodThatLiesTiltsOrStandsIsFeltAsBoundaryElementsSay) {
+TEST(ToolOnLayers, RodForceAgreesWithBoundaryElementsAtAllTilts) {
   const LayerUnder slab = Slab();
   double worst = 0;
   for (const auto& [radius, length, depth, degrees] :
@@ -147,10 +147,10 @@ TEST(ToolOnLayers, ARodThatLiesTiltsOrStandsIsFeltAsBoundaryElementsSay) {
         "%+.1f %%\n",
         radius, length, depth, degrees, exact, law, 100 * (law / exact - 1));
   }
-  EXPECT_LT(worst, 0.1) << "as much as linear theory may err at a fifth of the thickness";
+  EXPECT_LT(worst, 0.1) << "error of linear theory at a fifth of the thickness";
 }
 
-// A basket punch over a condyle, half open: many capsules, side by side and one behind the other.
+// Basket punch over a condyle, half open: many capsules, side by side and one behind the other.
 std::vector<Capsule> PunchAt(const glm::dquat& turn, double opening) {
   ToolInput input;
   input.is_present = true;
@@ -161,13 +161,13 @@ std::vector<Capsule> PunchAt(const glm::dquat& turn, double opening) {
   return {capsules.begin(), capsules.begin() + count};
 }
 LayerUnder Condyle() { return {test::Sphere({0, 0, -18 * kMm}, 18 * kMm, 5), {}, Cartilage(), 0}; }
-// Along +x, its jaws over the top of the condyle; nose down by `tilt`, rolled by `roll`.
+// Punch along +x with its jaws over the top of the condyle, nose down by `tilt`, rolled by `roll`.
 glm::dquat Lying(double tilt, double roll) {
   return glm::angleAxis(kPi / 2 + tilt, glm::dvec3(0, 1, 0)) *
          glm::angleAxis(roll, glm::dvec3(0, 0, 1));
 }
 
-TEST(ToolOnLayers, ForcesGoOverFromPartToPartWithoutAStep) {
+TEST(ToolOnLayers, ForceIsContinuousAcrossParts) {
   const LayerUnder condyle = Condyle();
   double tilting = 0, rolling = 0, sliding = 0, least = 1e9, most = 0;
   const auto sweep = [&](double& largest, auto&& pose, int steps) {
@@ -186,8 +186,8 @@ TEST(ToolOnLayers, ForcesGoOverFromPartToPartWithoutAStep) {
       last = hold.force;
     }
   };
-  // 0.01° a step from nose down to heel down, about the middle of the jaws; all round in roll;
-  // and 1 µm a step across.
+  // Steps of 0.01° from nose down to heel down, about the middle of the jaws, and all around in
+  // roll; steps of 1 µm across.
   const auto hand_of = [](const glm::dquat& turn, const glm::dvec3& jaws) {
     return jaws - turn * glm::dvec3(0, 0, -4 * kMm);
   };
@@ -223,7 +223,7 @@ TEST(ToolOnLayers, ForcesGoOverFromPartToPartWithoutAStep) {
   EXPECT_GT(most, 0.5);
 }
 
-TEST(ToolOnLayers, SpringAndLayersBalanceAndNoPartIsDeeperThanItIsSaid) {
+TEST(ToolOnLayers, SpringAndLayersBalanceWithinTheReportedDepth) {
   const LayerUnder condyle = Condyle();
   for (const double deep : {0.2, 1.0, 3.0, 6.0, 10.0})
     for (const double tilt : {-0.4, 0.0, 0.3, 1.2}) {
@@ -234,13 +234,13 @@ TEST(ToolOnLayers, SpringAndLayersBalanceAndNoPartIsDeeperThanItIsSaid) {
       for (int tick = 0; tick < 60; ++tick)
         hold = HoldOnLayers({&condyle, 1}, tool, hand, hold.tip, kSpring, 0.0);
       ASSERT_EQ(hold.tissue, 0) << deep << " " << tilt;
-      const LayerForce force = ForceOfLayers({&condyle, 1}, tool, hold.tip);
-      // Pushed with more than a device has (3.3 N at 6.6 mm) it may rest where two cells of the
-      // distance field meet, whose normals differ: there is no exact balance.
+      const LayerForce force = ComputeLayerForce({&condyle, 1}, tool, hold.tip);
+      // Pushed harder than a device can (3.3 N at 6.6 mm), it may rest where two cells of the
+      // distance field meet. Their normals differ, so there is no exact balance.
       const double off = deep < 6.6 ? 1e-5 : 5e-3 * glm::length(hold.force);
       EXPECT_LT(glm::distance(hold.force, force.force), off) << deep << " " << tilt;
       EXPECT_NEAR(glm::length(hold.force - kSpring * (hold.tip - hand)), 0.0, 1e-12);
-      EXPECT_LT(hold.depth, kThick) << "the bone is there";
+      EXPECT_LT(hold.depth, kThick) << "not beyond the bone";
       for (const Capsule& c : tool)
         for (int i = 0; i <= 50; ++i) {
           const glm::dvec3 x = hold.tip + c.a + i / 50.0 * (c.b - c.a);
@@ -250,13 +250,13 @@ TEST(ToolOnLayers, SpringAndLayersBalanceAndNoPartIsDeeperThanItIsSaid) {
     }
 }
 
-TEST(ToolOnLayers, AToolThatAppearsBeyondAThinSheetIsHeldBeforeIt) {
+TEST(ToolOnLayers, ToolThatAppearsBehindAThinSheetIsHeldInFront) {
   const LayerUnder sheet{
       test::Box({-9 * kMm, -9 * kMm, -2 * kMm}, {9 * kMm, 9 * kMm, 0}), {}, Cartilage(), 0};
   std::array<Capsule, kMaxCapsules> capsules;
   ToolInput input;
   input.is_present = true;
-  input.portal_from_tool.rotation = glm::angleAxis(kPi, glm::dvec3(1, 0, 0));  // +z of it is down
+  input.portal_from_tool.rotation = glm::angleAxis(kPi, glm::dvec3(1, 0, 0));  // its +z points down
   const int count = PosedCapsules(ShapeOf(ToolKind::kProbe), input, capsules);
   const std::span<const Capsule> probe(capsules.data(), static_cast<std::size_t>(count));
   glm::dvec3 tip(0, 0, 60 * kMm);
@@ -264,14 +264,14 @@ TEST(ToolOnLayers, AToolThatAppearsBeyondAThinSheetIsHeldBeforeIt) {
     tip = HoldOnLayers({&sheet, 1}, probe, {0, 0, -20 * kMm}, tip, kSpring, 0.02).tip;
   EXPECT_GT(tip.z, -2 * kMm);
   EXPECT_LT(tip.z, 0);
-  // And let go it is free at once.
+  // Released, it is free at once.
   const LayerHold free = HoldOnLayers({&sheet, 1}, probe, {0, 0, 1 * kMm}, tip, kSpring, 0.02);
   EXPECT_EQ(free.tissue, -1);
   EXPECT_EQ(free.force, glm::dvec3(0.0));
   EXPECT_EQ(free.tip, glm::dvec3(0, 0, 1 * kMm));
 }
 
-TEST(ToolOnLayers, AHoldAllocatesNothingAndItsTimeIsBounded) {
+TEST(ToolOnLayers, HoldAllocatesNothingInBoundedTime) {
   const LayerUnder condyle = Condyle();
   const std::vector<Capsule> tool = PunchAt(Lying(0.0, 0.1), 0.0);
   glm::dvec3 tip(2 * kMm, 0, 5 * kMm);

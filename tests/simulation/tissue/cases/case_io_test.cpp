@@ -27,7 +27,7 @@ nlohmann::json GoodCase() {
 TissueCase Read(const nlohmann::json& json, TetMesh mesh = app::BeamMesh(1, {2, 1, 1})) {
   const test::TempFolder folder;
   mesh.sets["nobody"].assign(mesh.rest_positions.size(), 0);
-  // An edge of the clamped side: three axes of it are a hinge.
+  // Edge of the clamped side: fixing its three axes leaves a hinge.
   for (const glm::dvec3& x : mesh.rest_positions)
     mesh.sets["hinge"].push_back(x.x == 0 && x.y == 0 ? 1 : 0);
   WriteTetMesh(folder / "beam.vtu", mesh);
@@ -35,7 +35,7 @@ TissueCase Read(const nlohmann::json& json, TetMesh mesh = app::BeamMesh(1, {2, 
   return ReadCase(folder / "case.json");
 }
 
-TEST(CaseIo, ReadsWhatACaseSays) {
+TEST(CaseIo, ReadsACase) {
   const TissueCase c = Read(GoodCase());
   EXPECT_EQ(c.material.young_modulus, 1e6);
   EXPECT_EQ(c.fixed.at(0).axes, 1 | 4);
@@ -43,7 +43,7 @@ TEST(CaseIo, ReadsWhatACaseSays) {
   EXPECT_FALSE(c.is_dynamic);
 }
 
-TEST(CaseIo, AMiddleNodeIsInASetWhenBothEndsAre) {
+TEST(CaseIo, MidEdgeNodeBelongsToASetOfBothEnds) {
   auto json = GoodCase();
   json["order"] = 2;
   TetMesh mesh = app::BeamMesh(2, {2, 2, 2});
@@ -60,23 +60,23 @@ struct BadCase {
   const char* says;
 };
 
-TEST(CaseIo, ASetThatIsLedTwoWaysIsRefused) {
+TEST(CaseIo, ConflictingDisplacementsAreRefused) {
   auto json = GoodCase();
   json["fixed"] = R"([{"set": "clamp"}])"_json;
   json["displaced"] = R"([{"set": "end", "displacement": [0.001, 0, 0]},
                           {"set": "tip", "displacement": [0.001, 0, 0]}])"_json;
-  EXPECT_EQ(Read(json).displaced.size(), 2u) << "both lead the same way";
+  EXPECT_EQ(Read(json).displaced.size(), 2u) << "both prescribe the same motion";
   json["displaced"][1]["displacement"][0] = 0.002;
   try {
     Read(json);
-    FAIL() << "the last one won";
+    FAIL() << "a conflict was accepted";
   } catch (const Error& error) {
     EXPECT_NE(error.sentence().find("displaced[0] \"end\" leads elsewhere"), std::string::npos)
         << error.sentence();
   }
 }
 
-TEST(CaseIo, SaysWhatIsWrong) {
+TEST(CaseIo, NamesEachFault) {
   const std::vector<BadCase> bad = {
       {"/mesh", nullptr, "mesh is missing"},
       {"/mesh", "other.vtu", "other.vtu"},
@@ -121,7 +121,7 @@ TEST(CaseIo, SaysWhatIsWrong) {
       json[nlohmann::json::json_pointer(one.pointer)] = one.value;
     try {
       Read(json);
-      ADD_FAILURE() << one.pointer << " was let pass";
+      ADD_FAILURE() << one.pointer << " was accepted";
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(one.says), std::string::npos)
           << one.pointer << ": " << error.what();

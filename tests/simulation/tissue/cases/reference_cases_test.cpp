@@ -1,5 +1,5 @@
-// Every case of the reference set: the solver against the exact answer of the same mesh and law,
-// and what the mesh itself is off the continuum.
+// Every case of the reference set: compares the solver with the exact answer of the same mesh and
+// law, and prints the mesh's error relative to the continuum.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -23,7 +23,7 @@ double Measured(const CaseResult& result, const nlohmann::json& quantity) {
   return quantity["what"] == "reaction" ? set.reaction[axis] : set.mean_displacement[axis];
 }
 
-// The largest relative model error, of the first quantity of a case: the one a table would show.
+// Solves all cases and prints the relative model error of the first quantity, as a table would.
 void SolveAll(const char* part) {
   ARTHRO_REQUIRE_SHARED(folder, "reference/tissue");
   const auto expected = nlohmann::json::parse(std::ifstream(folder / "expected.json"));
@@ -39,14 +39,14 @@ void SolveAll(const char* part) {
     for (const auto& quantity : quantities) {
       const double got = Measured(result, quantity);
       const double continuum = quantity["continuum"];
-      // Components along which nothing much happens would make any mesh look bad.
+      // Skips components that hardly move, because their relative model error is meaningless.
       if (quantity["what"] == "energy" || quantity == quantities.front())
         model_error = std::max(model_error, std::abs(got / continuum - 1));
       if (quantity.contains("discrete"))
         solver_error =
             std::max(solver_error, std::abs(got / quantity["discrete"].get<double>() - 1));
     }
-    // As the reference values are given: to eight digits, six for the smallest.
+    // Accuracy of the reference values: eight digits, six for the smallest.
     EXPECT_LE(solver_error, 1e-6);
     fmt::print(
         "{:32} newton {:3} cg {:4} residual {:.0e} solver error {:.0e} model error {:.1f} % {:.0f} "

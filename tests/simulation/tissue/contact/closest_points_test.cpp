@@ -15,9 +15,9 @@ glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) {
   return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
 }
 
-// Nearest distance of a segment and a triangle by brute force: golden section over the segment of
-// the (convex) distance to the triangle, itself by the function under test for points, which the
-// first test holds against a grid.
+// Distance of a segment and a triangle by brute force: golden-section search along the segment of
+// the (convex) distance to the triangle. That distance is the function under test for points, which
+// the first test compares with a grid.
 double BruteDistance(const glm::dvec3& a, const glm::dvec3& b, const TriangleCorners& corner) {
   const auto distance = [&](double t) {
     const glm::dvec3 x = a + t * (b - a);
@@ -52,7 +52,7 @@ TEST(ClosestPoints, NoPointOfTheTriangleIsNearer) {
   }
 }
 
-TEST(ClosestPoints, SegmentAndTriangleAreAsNearAsTheBestOfAllPoints) {
+TEST(ClosestPoints, SegmentAndTriangleDistanceEqualsBruteForce) {
   Random random(2);
   double largest = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -72,17 +72,17 @@ TEST(ClosestPoints, SegmentAndTriangleAreAsNearAsTheBestOfAllPoints) {
   EXPECT_LT(largest, 1e-9);
 }
 
-TEST(ClosestPoints, ASegmentParallelToAFaceTouchesInItsMiddle) {
+TEST(ClosestPoints, SegmentParallelToAFaceTouchesAtItsMiddle) {
   const TriangleCorners corner{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
   const SegmentTriangle over = ClosestSegmentTriangle({-1, 1, 1}, {5, 1, 1}, corner);
-  EXPECT_NEAR(over.along, 2.5 / 6.0, 1e-12) << "over the face between x = 0 and x = 3";
+  EXPECT_NEAR(over.along, 2.5 / 6.0, 1e-12) << "above the face between x = 0 and x = 3";
   EXPECT_NEAR(over.distance2, 1.0, 1e-12);
   const SegmentTriangle beside = ClosestSegmentTriangle({1, -1, 0.5}, {3, -1, 0.5}, corner);
   EXPECT_NEAR(beside.along, 0.5, 1e-12) << "along an edge";
   EXPECT_NEAR(beside.distance2, 1.25, 1e-12);
 }
 
-TEST(ClosestPoints, DegenerateShapesAreFinite) {
+TEST(ClosestPoints, DegenerateShapesGiveFiniteResults) {
   const TriangleCorners flat{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},
       dot{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
   EXPECT_NEAR(ClosestSegmentTriangle({0, 1, 0}, {0, 1, 0}, flat).distance2, 1.0, 1e-12);
@@ -90,7 +90,7 @@ TEST(ClosestPoints, DegenerateShapesAreFinite) {
   EXPECT_NEAR(ClosestSegmentTriangle({1, 1, 0}, {1, 1, 2}, dot).distance2, 0.0, 1e-12);
 }
 
-TEST(ClosestPoints, PointsInATetrahedronAreTheirOwnNearestInEitherHandedness) {
+TEST(ClosestPoints, PointsInsideATetrahedronAreTheirOwnNearest) {
   Random random(3);
   for (int trial = 0; trial < 300; ++trial) {
     std::array<glm::dvec3, 4> corner;

@@ -1,4 +1,4 @@
-// What the servo is told, against surfaces of which the answer is known in closed form.
+// Coupling of the servo, compared with surfaces whose answer is known in closed form.
 #include "simulation/tissue/contact/coupling.h"
 
 #include <algorithm>
@@ -26,8 +26,8 @@ glm::dvec3 AnyUnit(Random& random) {
   return glm::normalize(glm::dvec3(u(), u(), u()) + glm::dvec3(1e-6));
 }
 
-// A tissue whose skin is a ball of radius `ball` about `centre` (negative: a hollow) and that gives
-// k (depth)^p / p δ^(p − 1) along the skin's normal where the tip is below it.
+// Tissue whose skin is a ball of radius `ball` about `centre` (negative: a hollow). A tip below the
+// skin feels k (depth)^p / p δ^(p − 1) along the normal.
 struct Bulge {
   glm::dvec3 centre{0.0};
   double ball = 0.02, k = 300, power = 1, unit = 1e-3;
@@ -43,7 +43,7 @@ struct Bulge {
   }
 };
 
-// What a step of such a tissue would say, its tool on one contact.
+// Coupling that a step of such a tissue would give, with its tool on one contact.
 ToolCoupling CouplingOf(const Bulge& bulge, const glm::dvec3& tip,
                         const glm::dquat& turn = {1, 0, 0, 0}, double friction = 0.0,
                         const glm::dvec3& rub = glm::dvec3(0.0)) {
@@ -70,7 +70,7 @@ ToolCoupling CouplingOf(const Bulge& bulge, const glm::dvec3& tip,
   return coupling;
 }
 
-TEST(Coupling, AtItsOwnTipItIsTheForceOfTheStep) {
+TEST(Coupling, ForceAtItsOwnTipEqualsTheStepForce) {
   Random random(11);
   for (int trial = 0; trial < 50; ++trial) {
     const glm::dvec3 out = AnyUnit(random);
@@ -86,8 +86,8 @@ TEST(Coupling, AtItsOwnTipItIsTheForceOfTheStep) {
   }
 }
 
-// A frame's motion is 1.7 mm at 100 mm/s. Skins from a flat one to the bulge of a condyle.
-TEST(Coupling, AToolThatSlidesOnABentSkinFeelsItBend) {
+// 1.7 mm is the motion per frame at 100 mm/s. Skins range from flat to the bulge of a condyle.
+TEST(Coupling, ForceFollowsTheCurvatureOfSlidingContact) {
   Random random(13);
   for (const double ball : {1e3, 0.05, 0.02, -0.02}) {
     std::array<double, 3> worst{};
@@ -106,12 +106,12 @@ TEST(Coupling, AToolThatSlidesOnABentSkinFeelsItBend) {
     }
     std::printf("radius %7.2f m: error at 0.1 / 0.5 / 1.7 mm: %.1e %.1e %.1e\n", ball, worst[0],
                 worst[1], worst[2]);
-    // Of the third order in way over radius, times the share of the force that a radian is.
+    // Third order in distance over radius, times the force fraction per radian.
     for (std::size_t w = 0; w < kWays.size(); ++w) EXPECT_LT(worst[w], 0.02);
   }
 }
 
-TEST(Coupling, ToolsThatPullAwayAreLetGo) {
+TEST(Coupling, ToolThatPullsAwayFeelsNoForce) {
   const Bulge bulge;
   const glm::dvec3 tip(0, 0, 0.019);
   const ToolCoupling coupling = CouplingOf(bulge, tip);
@@ -120,7 +120,7 @@ TEST(Coupling, ToolsThatPullAwayAreLetGo) {
   EXPECT_EQ(ForceOf(coupling, tip + glm::dvec3(0, 0, 0.005)).tissue, -1);
 }
 
-TEST(Coupling, AnOpenContactPushesOnceItsWayIsGone) {
+TEST(Coupling, OpenContactPushesAfterItsGapIsClosed) {
   const Bulge bulge;
   const ToolCoupling coupling = CouplingOf(bulge, {0, 0, 0.0204});  // 0.4 mm above the tissue
   ASSERT_EQ(coupling.count, 1);
@@ -132,10 +132,10 @@ TEST(Coupling, AnOpenContactPushesOnceItsWayIsGone) {
   EXPECT_NEAR(push(5e-4), bulge.k * 1e-4, 1e-9);
 }
 
-// However the skin bends and wherever the tip is sent: the session's own loop feeds what a force
-// moves the tip by back to it, so no force may grow faster than the springs that it comes from. By
-// the push along its normal h, by its turning h, by friction h and what it leans on.
-TEST(Coupling, NoForceGrowsFasterThanItsSprings) {
+// For any curvature and tip position, because the session's loop feeds the tip's motion back. No
+// force may grow faster than its springs: the push along its normal by h, by rotation h, friction h
+// and its normal force.
+TEST(Coupling, ForceGrowsNoFasterThanItsSprings) {
   Random random(17);
   double most = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -162,7 +162,7 @@ TEST(Coupling, NoForceGrowsFasterThanItsSprings) {
     const double growth =
         glm::distance(ForceOf(coupling, a).force, ForceOf(coupling, b).force) / glm::distance(a, b);
     most = std::max(most, growth);
-    // Far off the push along its normal is large and turns with the little that the tip is aside.
+    // Far away the push along its normal is large and rotates with the small sideways offset.
     const double turned = glm::length(ForceOf(coupling, a).force) / 2.5e-3;
     EXPECT_LE(growth, 3.0 * kSpring + turned) << "round " << round << ", " << far << " m off";
   }
@@ -179,9 +179,8 @@ TEST(Coupling, FrictionIsLimitedByTheNormalForce) {
   }
 }
 
-// Stiffness from outside may be anything: what the servo gets never grows faster than the spring
-// does, and pulls nothing in.
-TEST(Coupling, AStiffnessThatCouldGiveEnergyIsClamped) {
+// For any external stiffness the servo's force grows no faster than the spring and never pulls.
+TEST(Coupling, StiffnessThatCouldAddEnergyIsClamped) {
   Random random(16);
   for (int trial = 0; trial < 500; ++trial) {
     ContactPoint contact;
@@ -208,7 +207,7 @@ TEST(Coupling, AStiffnessThatCouldGiveEnergyIsClamped) {
   }
 }
 
-TEST(Coupling, WhatIsNotANumberIsFaultyAndGivesNoForce) {
+TEST(Coupling, NonFiniteValuesAreFaultyAndGiveNoForce) {
   const Bulge bulge;
   const glm::dvec3 tip(0, 0, 0.019);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -232,8 +231,8 @@ TEST(Coupling, WhatIsNotANumberIsFaultyAndGivesNoForce) {
   }
 }
 
-// A hand at 0.2 m/s; a step of the tissue every frame, one missed, and one that ends the contact.
-TEST(CouplingBlend, TheForceIsContinuousThroughStepsThatComeLateOrEarly) {
+// Hand at 0.2 m/s; one tissue step per frame, one missing, and one that ends the contact.
+TEST(CouplingBlend, ForceIsContinuousForLateAndEarlySteps) {
   constexpr double kTick = 0.001, kFrame = 1.0 / 60, kSpeed = 0.2;
   const Bulge bulge{{0.01, 0.02, 0.01}, 0.0205, 300, 1.3};
   CouplingBlend blend;
@@ -243,7 +242,7 @@ TEST(CouplingBlend, TheForceIsContinuousThroughStepsThatComeLateOrEarly) {
     return glm::dvec3(0.01, 0.02, 0.03 - 1e-3 * std::sin(kSpeed / 1e-3 * t));
   };
   std::uint64_t step = 0;
-  double largest_change = 0;  // between couplings, at the tip when the new one came
+  double largest_change = 0;  // between couplings, at the tip when the new one arrived
   for (int tick = 0; tick < 600; ++tick) {
     const double t = tick * kTick;
     if (t >= next) {
@@ -261,8 +260,8 @@ TEST(CouplingBlend, TheForceIsContinuousThroughStepsThatComeLateOrEarly) {
     largest_level = std::max(largest_level, glm::length(force));
     last = force;
   }
-  // A tick changes it by what the hand moved against the spring, and by a frame's part of the
-  // change from one coupling to the next.
+  // Bound per tick: the hand's motion against the spring, and a frame's fraction of the change
+  // between couplings.
   const double bound = kSpring * kSpeed * kTick + largest_change * kTick / kFrame;
   std::printf("blend: largest step %.4f N of %.2f N, bound %.4f N\n", largest, largest_level,
               bound);
@@ -270,7 +269,7 @@ TEST(CouplingBlend, TheForceIsContinuousThroughStepsThatComeLateOrEarly) {
   EXPECT_LT(largest, bound);
 }
 
-TEST(CouplingBlend, AFaultEndsTheForceAtOnceAndWhatComesAfterBeginsAnew) {
+TEST(CouplingBlend, FaultEndsTheForceAtOnceAndTheNextCouplingStartsAnew) {
   const ToolCoupling good = CouplingOf(Bulge{}, {0, 0, 0.019});
   CouplingBlend blend;
   TakeCoupling(blend, good);
@@ -283,10 +282,11 @@ TEST(CouplingBlend, AFaultEndsTheForceAtOnceAndWhatComesAfterBeginsAnew) {
   EXPECT_TRUE(blend.to.is_faulty);
   TakeCoupling(blend, good);
   const double first = glm::length(BlendedForce(blend, good.tip, 0.001, 0.0167).force);
-  EXPECT_LT(first, 0.07 * glm::length(ForceOf(good, good.tip).force)) << "a sixteenth of a frame";
+  EXPECT_LT(first, 0.07 * glm::length(ForceOf(good, good.tip).force))
+      << "one of sixteen ticks per frame";
 }
 
-TEST(CouplingBlend, ATissueThatFallsSilentFades) {
+TEST(CouplingBlend, ForceFadesWithoutNewCouplings) {
   const ToolCoupling good = CouplingOf(Bulge{}, {0, 0, 0.019});
   CouplingBlend blend;
   TakeCoupling(blend, good);

@@ -32,11 +32,11 @@ double SumOf(const EmbeddedPoint& point) {
 class Finder : public testing::TestWithParam<int> {
  protected:
   TetMesh Mesh() const { return GetParam() == 3 ? test::BentMesh() : test::SlabMesh(GetParam()); }
-  // A point of the tissue for a point of the slab.
+  // Maps a point of the slab to a point of the tissue.
   glm::dvec3 Place(const glm::dvec3& p) const { return GetParam() == 3 ? test::Bent(p) : p; }
 };
 
-TEST_P(Finder, PointsInsideComeBackFromTheirWeights) {
+TEST_P(Finder, WeightsReproducePointsInside) {
   const TetMesh mesh = Mesh();
   const ElementFinder finder(mesh);
   Random random(5);
@@ -50,11 +50,11 @@ TEST_P(Finder, PointsInsideComeBackFromTheirWeights) {
         largest,
         glm::length(PlaceOf(point, finder.NodesOf(point.element), mesh.rest_positions) - x));
   }
-  std::printf("inside: place of the weights off by at most %.1e m\n", largest);
+  std::printf("inside: error of the weights at most %.1e m\n", largest);
   EXPECT_LT(largest, 1e-15) << "1e-13 of the slab";
 }
 
-TEST_P(Finder, PointsOutsideGoOnFromTheNearestElementAndFollowAffineMotion) {
+TEST_P(Finder, PointsOutsideExtrapolateAndFollowAffineMotion) {
   const TetMesh mesh = Mesh();
   const ElementFinder finder(mesh);
   const glm::dmat3 a(1.1, 0.2, -0.1, 0.05, 0.9, 0.3, -0.2, 0.1, 1.2);
@@ -72,10 +72,10 @@ TEST_P(Finder, PointsOutsideGoOnFromTheNearestElementAndFollowAffineMotion) {
   EXPECT_LT(largest, 1e-14);
 }
 
-TEST_P(Finder, FindsWhatTissueIsAtAPlaceNow) {
+TEST_P(Finder, FindsTheTissueAtADeformedPosition) {
   const TetMesh mesh = Mesh();
   ElementFinder finder(mesh);
-  // A twist with shear: smooth, and far from the rest state.
+  // Twist with shear: smooth, and far from the rest state.
   const auto deform = [](const glm::dvec3& x) {
     const double angle = 60.0 * x.x;
     return glm::dvec3(x.x + 0.2 * x.z, std::cos(angle) * x.y - std::sin(angle) * x.z,
@@ -87,7 +87,7 @@ TEST_P(Finder, FindsWhatTissueIsAtAPlaceNow) {
   Random random(7);
   double largest = 0;
   for (int i = 0; i < 1000; ++i) {
-    // The tissue's place is that of its element, not of the smooth map between nodes.
+    // The tissue's position is that of its element, not of the smooth map between nodes.
     const glm::dvec3 rest = Place(Any(random, test::kSlabLow + 1e-5, test::kSlabHigh - 1e-5));
     const EmbeddedPoint at_rest = finder.Find(rest);
     const glm::dvec3 place = PlaceOf(at_rest, finder.NodesOf(at_rest.element), moved);
@@ -96,8 +96,8 @@ TEST_P(Finder, FindsWhatTissueIsAtAPlaceNow) {
     ASSERT_TRUE(finder.FindDeformed(place, point, back)) << i;
     largest = std::max(largest, glm::length(back - rest));
   }
-  std::printf("deformed: rest place off by at most %.1e m\n", largest);
-  EXPECT_LT(largest, 1e-8) << "elements that meet at a face agree to what counts as inside";
+  std::printf("deformed: error of the rest position at most %.1e m\n", largest);
+  EXPECT_LT(largest, 1e-8) << "adjacent elements agree within the tolerance of `inside`";
   EmbeddedPoint point;
   glm::dvec3 back;
   EXPECT_FALSE(finder.FindDeformed({0.1, 0, 0}, point, back));
@@ -106,8 +106,8 @@ TEST_P(Finder, FindsWhatTissueIsAtAPlaceNow) {
 
 INSTANTIATE_TEST_SUITE_P(StraightLinearStraightQuadraticCurved, Finder, testing::Values(1, 2, 3));
 
-TEST(ElementFinder, TakesTheCopyBesideTheSkin) {
-  // Two slabs on one another, as a cut leaves them: same rest places, own nodes.
+TEST(ElementFinder, PicksTheCopyNextToTheSkin) {
+  // Two coincident slabs, as after a cut: same rest positions, separate nodes.
   TetMesh mesh = test::SlabMesh(2, {2, 2, 2});
   const TetMesh one = mesh;
   const int nodes = static_cast<int>(one.rest_positions.size());
@@ -117,14 +117,14 @@ TEST(ElementFinder, TakesTheCopyBesideTheSkin) {
   const ElementFinder finder(mesh);
   const glm::dvec3 x(0.002, 0.003, -0.001);
   const int first = finder.Find(x).element;
-  EXPECT_LT(first, one.ElementCount()) << "the first, when nothing is said";
+  EXPECT_LT(first, one.ElementCount()) << "the first copy by default";
   for (int copy : {0, 1}) {
     const std::array<int, 1> beside{first + copy * one.ElementCount()};
     EXPECT_EQ(finder.FindBeside(x, beside).element, beside[0]);
   }
 }
 
-TEST(EmbeddedSkin, FollowsAffineMotionExactlyAndItsNormalsTurnWithIt) {
+TEST(EmbeddedSkin, FollowsAffineMotionExactlyIncludingNormals) {
   const TetMesh mesh = test::BentMesh();
   const ElementFinder finder(mesh);
   SurfaceMesh surface = test::SlabSkin(1e-3);
@@ -143,8 +143,8 @@ TEST(EmbeddedSkin, FollowsAffineMotionExactlyAndItsNormalsTurnWithIt) {
   EXPECT_LT(largest, 1e-14);
 }
 
-TEST(EmbeddedSkin, NormalsOfABallAreItsRadii) {
-  // A ball of 8 mm in a slab that is large enough.
+TEST(EmbeddedSkin, NormalsOfASphereAreRadial) {
+  // Ball of 8 mm in a slab that contains it.
   const TetMesh mesh = test::SlabMesh(2, {4, 4, 4}, glm::dvec3(-0.01), glm::dvec3(0.01));
   const ElementFinder finder(mesh);
   const EmbeddedSkin skin = EmbedSkin(test::Sphere({0, 0, 0}, 0.008, 5), mesh, finder);
@@ -159,9 +159,9 @@ TEST(EmbeddedSkin, NormalsOfABallAreItsRadii) {
     for (int corner : {a, b, c})
       of_faces = std::max(of_faces, glm::length(face - glm::normalize(positions[corner])));
   }
-  std::printf("normals of a ball of 8192 triangles off by at most %.2e, its faces' by %.2e\n",
+  std::printf("normals of a ball of 8192 triangles: error at most %.2e, of its faces %.2e\n",
               largest, of_faces);
-  EXPECT_LT(largest, 0.5 * of_faces) << "the errors of the faces about a vertex cancel";
+  EXPECT_LT(largest, 0.5 * of_faces) << "errors of the faces around a vertex cancel";
 }
 
 TEST(EmbeddedSkin, DeformingAllocatesNothing) {
@@ -181,7 +181,7 @@ TEST(EmbeddedSkin, DeformingAllocatesNothing) {
               mesh.ElementCount(), best);
 }
 
-TEST(EmbeddedSkin, AMeshWithoutElementsIsRefusedInWords) {
+TEST(EmbeddedSkin, MeshWithoutElementsIsRefusedWithASentence) {
   const TetMesh mesh;
   const ElementFinder finder(mesh);
   try {

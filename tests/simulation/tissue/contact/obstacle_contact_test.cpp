@@ -12,7 +12,7 @@
 namespace arthro::simulation {
 namespace {
 
-// A ball of bone below the slab, in the portal frame; counts how often it is asked.
+// Ball of bone below the slab, in the portal frame; counts its queries.
 struct Bone : RigidObstacle {
   double Gap(const glm::dvec3& x, glm::dvec3& normal) const noexcept override {
     ++asked;
@@ -24,7 +24,7 @@ struct Bone : RigidObstacle {
   mutable int asked = 0;
 };
 
-// How the slab lies in the portal frame, and a bone that reaches `depth` into its underside.
+// Pose of the slab in the portal frame, and a bone that reaches `depth` into its underside.
 const Rigid3 kPose{glm::angleAxis(0.8, glm::normalize(glm::dvec3(1, 2, 0.5))), {0.01, -0.02, 0.05}};
 Bone BoneAt(double depth) {
   Bone bone;
@@ -32,7 +32,7 @@ Bone BoneAt(double depth) {
   return bone;
 }
 
-TEST(SurfaceNodes, AreThoseOfTheOutside) {
+TEST(SurfaceNodes, AreTheNodesOfTheBoundary) {
   for (int order : {1, 2}) {
     const TetMesh mesh = test::SlabMesh(order, {4, 4, 4});
     std::vector<int> expected;
@@ -43,18 +43,18 @@ TEST(SurfaceNodes, AreThoseOfTheOutside) {
   }
 }
 
-TEST(ObstacleContact, WhatLayBelowAtRestIsNotPushed) {
+TEST(ObstacleContact, OverlapAtRestIsNotPushed) {
   const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
   ObstacleContact contact(mesh, {});
   const Bone bone = BoneAt(3e-4);
-  contact.LayAtRest(bone, kPose, mesh.rest_positions);
+  contact.AcceptRestOverlap(bone, kPose, mesh.rest_positions);
   std::vector<ContactPoint> found;
   contact.Find(bone, kPose, mesh.rest_positions, {}, found);
   double deepest = 0.0;
   for (const ContactPoint& c : found)
     deepest = std::min(deepest, glm::dot(c.normal, c.start - c.foot));
-  EXPECT_GT(deepest, -1e-12) << "nothing is below what it rests on";
-  // Pressed down by 0.1 mm, what lay below is that much deeper.
+  EXPECT_GT(deepest, -1e-12) << "no node is below the obstacle";
+  // Pressed down by 0.1 mm, these nodes are that much deeper.
   found.clear();
   std::vector<glm::dvec3> pressed = mesh.rest_positions;
   for (glm::dvec3& x : pressed) x.z -= 1e-4;
@@ -64,7 +64,7 @@ TEST(ObstacleContact, WhatLayBelowAtRestIsNotPushed) {
   EXPECT_NEAR(deepest, -1e-4, 2e-6);
 }
 
-TEST(ObstacleContact, NodesInTheMarginAreHeldOutOfTheirHalfSpace) {
+TEST(ObstacleContact, NodesInTheMarginAreKeptOutOfTheirHalfSpace) {
   const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
   ObstacleContact contact(mesh, {});
   const Bone bone = BoneAt(3e-4);
@@ -90,7 +90,7 @@ TEST(ObstacleContact, NodesInTheMarginAreHeldOutOfTheirHalfSpace) {
   }
 }
 
-TEST(ObstacleContact, NodesThatCannotMoveAreNotAsked) {
+TEST(ObstacleContact, FixedNodesAreNotTested) {
   const TetMesh mesh = test::SlabMesh(1);
   const std::vector<std::uint8_t> fixed(mesh.rest_positions.size(), 7);
   ObstacleContact contact(mesh, fixed);
@@ -102,9 +102,9 @@ TEST(ObstacleContact, NodesThatCannotMoveAreNotAsked) {
   EXPECT_EQ(bone.asked, 0);
 }
 
-// What a cut has left of a node's tissue rests by as much: a node that stands for nothing any more
-// would be held out by springs a hundred times stiffer than its elements.
-TEST(ObstacleContact, NodesAreHeldOutByWhatIsLeftOfTheirTissue) {
+// The stiffness at a node scales with the remaining tissue. Otherwise nodes of removed tissue would
+// have springs a hundred times stiffer than their elements.
+TEST(ObstacleContact, StiffnessScalesWithTheRemainingShare) {
   const TetMesh mesh = test::SlabMesh(2, {4, 4, 4});
   std::vector<double> share(mesh.rest_positions.size(), 1.0);
   for (std::size_t i = 0; i < share.size(); ++i)
@@ -113,7 +113,7 @@ TEST(ObstacleContact, NodesAreHeldOutByWhatIsLeftOfTheirTissue) {
   std::vector<glm::dvec3> pressed = mesh.rest_positions;
   for (glm::dvec3& x : pressed) x.z -= 1e-4;
   ObstacleContact contact(mesh, {}, share);
-  contact.LayAtRest(bone, kPose, mesh.rest_positions);
+  contact.AcceptRestOverlap(bone, kPose, mesh.rest_positions);
   std::vector<ContactPoint> found;
   const ObstacleContactOptions options;
   contact.Find(bone, kPose, pressed, options, found);
@@ -122,7 +122,7 @@ TEST(ObstacleContact, NodesAreHeldOutByWhatIsLeftOfTheirTissue) {
     EXPECT_EQ(c.stiffness, options.stiffness * share[static_cast<std::size_t>(c.node[0])]);
 }
 
-TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
+TEST(ObstacleContact, DistantNodesAreSkippedAndNoContactIsMissed) {
   const TetMesh mesh = test::SlabMesh(2, {10, 10, 3});
   ObstacleContact lazy(mesh, {});
   const Bone bone = BoneAt(0.0);
@@ -135,8 +135,8 @@ TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
   const long before = test::Allocations();
   lazy.Find(bone, kPose, x, {}, found);
   EXPECT_EQ(test::Allocations(), before);
-  EXPECT_LT(bone.asked - first, first / 5) << "a fifth of the nodes are near";
-  // The slab sinks onto the bone: both must always agree.
+  EXPECT_LT(bone.asked - first, first / 5) << "at most a fifth of the nodes is near";
+  // The slab sinks onto the bone; both must agree at every step.
   for (int step = 0; step < 30; ++step) {
     for (glm::dvec3& p : x) p.z -= 1e-4;
     ObstacleContact fresh(mesh, {});
@@ -149,7 +149,7 @@ TEST(ObstacleContact, FarNodesAreLeftAloneUntilTheyCouldBeNearAndNoneIsMissed) {
   }
 }
 
-TEST(ObstacleContact, AGapThatIsNotANumberHoldsNothing) {
+TEST(ObstacleContact, NonFiniteGapGivesNoContact) {
   struct Hole : RigidObstacle {
     double Gap(const glm::dvec3&, glm::dvec3&) const noexcept override {
       return std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,5 @@
-// A slab of tissue, 20 × 20 × 6 mm unless said otherwise, its top at z = 0: mesh, fine skin, field.
-// Curved meshes are slabs with a smooth bend in their rest shape. m.
+// Slab of tissue, by default 20 × 20 × 6 mm with its top at z = 0: mesh, fine skin, field. Curved
+// meshes are slabs with a smooth bend in their rest shape. m.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ inline TetMesh SlabMesh(int order, const app::Cells& cells = {6, 6, 3},
       [](const glm::dvec3& p) { return p; });
 }
 
-// The slab pushed up in the middle by 2 mm, as a paraboloid: T10 follows it exactly between nodes
-// along x and y, so that nothing but the curved map is tested.
+// Bends the slab upwards by 2 mm in the middle, as a paraboloid. T10 represents it exactly along x
+// and y, so only the curved map is tested.
 inline glm::dvec3 Bent(const glm::dvec3& p) {
   return {p.x, p.y, p.z + 0.002 - 10.0 * (p.x * p.x + p.y * p.y)};
 }
@@ -43,7 +43,7 @@ inline TetMesh BentMesh(const app::Cells& cells = {4, 4, 2}) {
                        Bent);
 }
 
-// The surface of a box in squares of about `size`, each cut in two, facing outwards.
+// Surface of a box with squares of about `size`, each split in two, facing outwards.
 inline SurfaceMesh SlabSkin(double size = 5e-4, const glm::dvec3& low = kSlabLow,
                             const glm::dvec3& high = kSlabHigh) {
   SurfaceMesh skin;

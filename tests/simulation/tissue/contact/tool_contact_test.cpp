@@ -1,4 +1,4 @@
-// Capsules against a slab and a ball of which the answers are known in closed form.
+// Capsules against a slab and a ball with closed-form answers.
 #include "simulation/tissue/contact/tool_contact.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRadius = 0.75e-3;
 
-// Mesh, skin, field and contact of one body; built in place, for they point at one another.
+// Mesh, skin, field and contact of one body; constructed in place because they refer to each other.
 struct Body {
   Body(TetMesh of, SurfaceMesh surface, SolidField shape)
       : mesh(std::move(of)),
@@ -47,7 +47,7 @@ struct Body {
       place += contact_point.weight[i] * x[contact_point.node[i]];
     return place;
   }
-  // Of the tool where the hand has it.
+  // Gap of the tool at its commanded position.
   double Gap(const ContactPoint& c, const std::vector<glm::dvec3>& x) const {
     if (!c.is_round) return glm::dot(c.normal, PlaceOf(c, x) - c.foot);
     const glm::dvec3 way = c.b - c.a, from = PlaceOf(c, x) - c.a;
@@ -61,7 +61,7 @@ struct Body {
     for (const ContactPoint& c : contacts) least = std::min(least, Gap(c));
     return least;
   }
-  // The force on a tool that hangs on its hand's spring, of this tissue if it were rigid.
+  // Force on a tool on its hand's spring if the tissue were rigid.
   glm::dvec3 HeldBy(const std::vector<ContactPoint>& contacts,
                     std::vector<ContactResult>& results) const {
     std::vector<glm::dvec3> pressing(contacts.size(), glm::dvec3(0.0));
@@ -88,7 +88,7 @@ struct Body {
 
 Box3 Around(const glm::dvec3& low, const glm::dvec3& high) { return {low - 2e-3, high + 2e-3}; }
 
-// 20 × 20 × 6 mm, its top at z = 0, or thinner.
+// Slab of 20 × 20 × 6 mm or thinner, its top at z = 0.
 struct Slab : Body {
   explicit Slab(double thickness = 0.006)
       : Body(test::SlabMesh(2, {6, 6, 2}, Low(thickness), test::kSlabHigh),
@@ -110,10 +110,10 @@ struct Ball : Body {
   }
 };
 
-// How deep a round end sinks between samples that are half its radius apart, at most.
+// Largest depth to which a round end sinks between samples half its radius apart.
 constexpr double kBetween = kRadius / 16;
 
-TEST(SkinContact, AShaftOnAFlatTopPenetratesAsItLies) {
+TEST(SkinContact, ShaftOnAFlatTopHasUniformDepth) {
   const Slab slab;
   for (double depth : {-2e-4, 0.0, 1e-4, 5e-4}) {
     const Capsule shaft{
@@ -131,11 +131,11 @@ TEST(SkinContact, AShaftOnAFlatTopPenetratesAsItLies) {
       low = std::min(low, slab.PlaceOf(c, slab.mesh.rest_positions).x);
       high = std::max(high, slab.PlaceOf(c, slab.mesh.rest_positions).x);
     }
-    EXPECT_GT(high - low, 0.0075) << "all along it";
+    EXPECT_GT(high - low, 0.0075) << "along its whole length";
   }
 }
 
-TEST(SkinContact, BeyondTheMarginNothingIsFound) {
+TEST(SkinContact, NoContactBeyondTheMargin) {
   const Slab slab;
   const Capsule shaft{{0, 0, 0.0018}, {0, 0, 0.01}, kRadius};
   EXPECT_TRUE(slab.Find(std::span(&shaft, 1)).empty());
@@ -143,7 +143,7 @@ TEST(SkinContact, BeyondTheMarginNothingIsFound) {
   EXPECT_TRUE(slab.contact.IsNear(std::span(&shaft, 1), 1.1e-3));
 }
 
-TEST(SkinContact, ATipTouchesWithItsEndOnly) {
+TEST(SkinContact, TipTouchesWithItsEndOnly) {
   const Slab slab;
   const Capsule rod{{0.001, 0.002, kRadius - 2e-4}, {0.001, 0.002, 0.02}, kRadius};
   const auto contacts = slab.Find(std::span(&rod, 1));
@@ -157,7 +157,7 @@ TEST(SkinContact, ATipTouchesWithItsEndOnly) {
     }
 }
 
-TEST(SkinContact, OnABallDepthAndNormalAreRightToTheSkinsSamples) {
+TEST(SkinContact, DepthAndNormalOnABallAreWithinTheSampling) {
   const Ball ball;
   double gap_error = 0, angle = 0;
   for (int i = 0; i < 200; ++i) {
@@ -180,13 +180,13 @@ TEST(SkinContact, OnABallDepthAndNormalAreRightToTheSkinsSamples) {
   EXPECT_LT(angle, 0.25 * kRadius / (Ball::kBall + kRadius) * 2.0);
 }
 
-TEST(SkinContact, AnEdgeIsNotMissed) {
-  // The long edge of the slab across a shaft, where the nearest point is on the edge itself.
+TEST(SkinContact, ShaftAcrossAnEdgeIsFound) {
+  // Long edge of the slab across a shaft: the nearest point is on the edge itself.
   const Slab slab;
   double off = 0;
   for (double at = -0.002; at <= 0.002; at += 1.7e-4) {
     const double lift = kRadius * std::sqrt(0.5) - 5e-5;
-    // A rod at 45° over the edge x = 10 mm, z = 0, shifted along itself.
+    // Rod at 45° over the edge x = 10 mm, z = 0, shifted along itself.
     const glm::dvec3 across = glm::normalize(glm::dvec3(1, 0, -1)),
                      out = glm::normalize(glm::dvec3(1, 0, 1));
     const glm::dvec3 middle = glm::dvec3(0.01, 0, 0) + std::sqrt(2.0) * lift * out + at * across;
@@ -194,13 +194,13 @@ TEST(SkinContact, AnEdgeIsNotMissed) {
     const double least = slab.LeastGap(slab.Find(std::span(&rod, 1)));
     off = std::max(off, std::abs(least + kRadius - std::sqrt(2.0) * lift));
   }
-  std::printf("shaft over an edge: depth of 71 um off by at most %.2e m\n", off);
+  std::printf("shaft over an edge: depth of 71 um, error at most %.2e m\n", off);
   // The nearest samples lie a third of a triangle's height off the edge.
   EXPECT_LT(off, 0.25 * kRadius / 3 + kBetween);
 }
 
-// FEM-09, its geometry: a tool that appears 5 mm deep is pushed out the shortest way.
-TEST(SkinContact, HardCase9ATeleportedToolFindsTheShortestWayOut) {
+// FEM-09, geometric part: a tool that appears 5 mm deep is pushed out the shortest way.
+TEST(SkinContact, Fem09JumpedToolFindsTheShortestWayOut) {
   const Slab slab(0.012);
   const Capsule rod{{0.001, 0.0003, -0.005}, {0.001, 0.0003, 0.02}, kRadius};
   const auto contacts = slab.Find(std::span(&rod, 1));
@@ -210,23 +210,23 @@ TEST(SkinContact, HardCase9ATeleportedToolFindsTheShortestWayOut) {
     deepest = std::min(deepest, slab.Gap(c));
     EXPECT_TRUE(slab.Gap(c) > 0 || glm::length(c.normal - glm::dvec3(0, 0, -1)) < 1e-6);
   }
-  EXPECT_NEAR(deepest, -0.005 - kRadius, 1e-5) << "a twenty-fifth of the grid's spacing";
+  EXPECT_NEAR(deepest, -0.005 - kRadius, 1e-5) << "within 1/25 of the grid spacing";
 }
 
-TEST(SkinContact, InsideABentBodyTheWayOutFollowsTheDeformation) {
+TEST(SkinContact, WayOutOfABentBodyFollowsTheDeformation) {
   Slab slab(0.012);
   std::vector<glm::dvec3> x = slab.mesh.rest_positions;
-  for (glm::dvec3& p : x) p = {p.x + 0.4 * p.z, p.y, 0.7 * p.z};  // sheared and pressed flat
+  for (glm::dvec3& p : x) p = {p.x + 0.4 * p.z, p.y, 0.7 * p.z};  // sheared and flattened
   slab.Move(x);
   const Capsule ball{{-0.0008, 0.0003, -0.0014}, {-0.0008, 0.0003, -0.0014}, kRadius};
   const auto contacts = slab.Find(std::span(&ball, 1));
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_LT(glm::length(contacts[0].normal - glm::dvec3(0, 0, -1)), 1e-6)
-      << "the top stays level under this shear";
+      << "this shear keeps the top level";
   EXPECT_NEAR(slab.Gap(contacts[0], x), -0.0014 - kRadius, 1e-5);
 }
 
-TEST(SkinContact, AToolThroughThinTissueIsPushedOutOnBothSidesAndStaysFinite) {
+TEST(SkinContact, ToolThroughThinTissueIsPushedFromBothSidesAndFinite) {
   const Slab slab(0.0015);
   const Capsule rod{{0.001, 0.0003, -0.006}, {0.001, 0.0003, 0.02}, kRadius};
   for (const ContactPoint& c : slab.Find(std::span(&rod, 1))) {
@@ -236,8 +236,8 @@ TEST(SkinContact, AToolThroughThinTissueIsPushedOutOnBothSidesAndStaysFinite) {
   }
 }
 
-// A hand goes on into tissue that is thinner than the way F/k; the grip keeps its side.
-TEST(SkinContact, AHeldToolStaysOnItsSideOfThinTissue) {
+// The hand moves on into tissue thinner than F/k; the grip keeps its side.
+TEST(SkinContact, HeldToolStaysOnItsSideOfThinTissue) {
   const Slab slab(0.0015);
   ToolGrip grip;
   glm::dvec3 motion(0.0);
@@ -248,8 +248,7 @@ TEST(SkinContact, AHeldToolStaysOnItsSideOfThinTissue) {
     std::vector<ContactResult> results;
     const glm::dvec3 force = slab.HeldBy(contacts, results);
     if (step > 1) {
-      // Of a tissue that does not dent the contacts' own layer gives all there is, under a round
-      // end.
+      // In rigid tissue the whole compliance is that of the contact layer, under a round end.
       EXPECT_NEAR(force.z, 500.0 * (kRadius - z), 500.0 * 0.5 * kRadius) << step;
       EXPECT_LT(std::hypot(force.x, force.y), 0.02 * force.z) << step;
     }
@@ -257,10 +256,10 @@ TEST(SkinContact, AHeldToolStaysOnItsSideOfThinTissue) {
     z -= 0.003;
     UpdateGrip(contacts, results, 0, slab.options, grip);
   }
-  EXPECT_LT(z, -0.012) << "the hand is far on the other side";
+  EXPECT_LT(z, -0.012) << "the hand is far beyond the tissue";
 }
 
-TEST(SkinContact, AHeldToolSlidesAlongTheSkin) {
+TEST(SkinContact, HeldToolSlidesAlongTheSkin) {
   const Slab slab;
   ToolGrip grip;
   const glm::dvec3 step(0.001, 0, 0);
@@ -274,12 +273,12 @@ TEST(SkinContact, AHeldToolSlidesAlongTheSkin) {
     ASSERT_FALSE(contacts.empty());
     for (const ContactPoint& c : contacts) {
       EXPECT_NEAR(slab.PlaceOf(c, slab.mesh.rest_positions).x, x, kRadius + 3e-4 + 0.001 + 1e-9)
-          << "round it, and as far again as it went";
+          << "around it, and as far again as it moved";
       if (i > 0) {
         EXPECT_LT(
             glm::length(c.start - (slab.PlaceOf(c, slab.mesh.rest_positions) + step - before)),
             1e-12)
-            << "friction drags the skin along";
+            << "friction acts along the motion";
       }
     }
     std::vector<ContactResult> results;
@@ -292,8 +291,8 @@ TEST(SkinContact, AHeldToolSlidesAlongTheSkin) {
   EXPECT_NEAR(high, 500.0 * (0.003 + kRadius), 500.0 * 0.5 * kRadius);
 }
 
-// Forces must not flicker: a hook drawn over a rigid ball in steps of 10 µm, pressed to 0.2 mm.
-TEST(SkinContact, ForcesGoOverEvenlyFromSampleToSample) {
+// Forces must not flicker: a hook is drawn over a rigid ball in steps of 10 µm, pressed to 0.2 mm.
+TEST(SkinContact, ForceIsSmoothAcrossSamples) {
   const Ball ball;
   std::array<Capsule, kMaxCapsules> capsules;
   ToolInput input;
@@ -303,7 +302,7 @@ TEST(SkinContact, ForcesGoOverEvenlyFromSampleToSample) {
   glm::dvec3 last(0.0);
   double largest = 0, force_level = 0;
   for (int i = 0; i < 600; ++i) {
-    // The rod lies level, the hook hangs down on the ball from +y... pressed from above.
+    // The rod is level; the hook hangs down on the ball from +y, pressed from above.
     const double s = -0.003 + 1e-5 * i;
     const glm::dvec3 top(s, 0.0, Ball::kBall - 2e-4 - s * s / (2 * Ball::kBall));
     input.portal_from_tool = {glm::angleAxis(1.0, glm::dvec3(0, 1, 0)), top};
@@ -318,11 +317,11 @@ TEST(SkinContact, ForcesGoOverEvenlyFromSampleToSample) {
     last = force;
   }
   std::printf("hook over a ball: %.3f N, largest change in 10 um %.4f N\n", force_level, largest);
-  // k times the way is 5 mN.
+  // k times the step is 5 mN.
   EXPECT_LT(largest, 500.0 * 1e-5 + 0.04 * force_level);
 }
 
-TEST(SkinContact, ALongShaftHasNoMoreContactsThanThereIsRoomForTheNearestOfAll) {
+TEST(SkinContact, LongShaftKeepsTheNearestContacts) {
   const Slab slab;
   const Capsule shaft{{-0.009, 0.0003, kRadius - 1e-4}, {0.05, 0.0003, kRadius - 1e-4}, kRadius};
   const auto contacts = slab.Find(std::span(&shaft, 1));
@@ -335,8 +334,8 @@ TEST(SkinContact, ALongShaftHasNoMoreContactsThanThereIsRoomForTheNearestOfAll) 
   EXPECT_GT(high - low, 0.018) << "spread over the 19 mm that touch";
 }
 
-TEST(SkinContact, PressedFromTwoSidesBothHold) {
-  // A closed pair of jaws whose gap is the slab's edge: normals up and down.
+TEST(SkinContact, PinchedTissueIsHeldFromBothSides) {
+  // Closed jaws whose gap is the slab's edge: normals up and down.
   const Slab slab(0.0015);
   const std::array<Capsule, 2> jaws{
       Capsule{{0.004, 0, kRadius - 1e-4}, {0.012, 0, kRadius - 1e-4}, kRadius},
@@ -349,11 +348,11 @@ TEST(SkinContact, PressedFromTwoSidesBothHold) {
     (result.push.z < 0 ? up : down) += std::abs(result.push.z);
   EXPECT_GT(up, 0.01);
   EXPECT_GT(down, 0.01);
-  EXPECT_LT(std::abs(force.z), 0.05 * up) << "they hold one another";
+  EXPECT_LT(std::abs(force.z), 0.05 * up) << "the forces cancel";
 }
 
-// FEM-16: a pose that is not a number touches nothing.
-TEST(SkinContact, HardCase16APoseThatIsNotANumberIsLeftOut) {
+// FEM-16: a pose that is not finite touches nothing.
+TEST(SkinContact, Fem16NonFinitePoseIsIgnored) {
   const Slab slab;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ToolGrip grip;
@@ -366,7 +365,7 @@ TEST(SkinContact, HardCase16APoseThatIsNotANumberIsLeftOut) {
     EXPECT_TRUE(std::isfinite(c.start.x));
 }
 
-TEST(SkinContact, FindsTheSameTwiceAndAllocatesNothing) {
+TEST(SkinContact, FindIsRepeatableAndAllocatesNothing) {
   Slab slab;
   std::array<Capsule, kMaxCapsules> capsules;
   ToolInput input;

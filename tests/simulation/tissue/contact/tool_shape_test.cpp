@@ -23,12 +23,12 @@ Extent ExtentOf(std::span<const Capsule> capsules) {
   return extent;
 }
 
-TEST(ToolShape, WordsOfTheSceneNameTools) {
-  EXPECT_EQ(ToolKindOf("probe"), ToolKind::kProbe);
-  EXPECT_EQ(ToolKindOf("punch"), ToolKind::kPunch);
-  EXPECT_EQ(ToolKindOf("shaver"), ToolKind::kShaver);
-  EXPECT_EQ(ToolKindOf("grasper"), ToolKind::kGrasper);
-  EXPECT_EQ(ToolKindOf("spoon"), ToolKind::kProbe);
+TEST(ToolShape, SceneWordsNameTools) {
+  EXPECT_EQ(ToolKindFromString("probe"), ToolKind::kProbe);
+  EXPECT_EQ(ToolKindFromString("punch"), ToolKind::kPunch);
+  EXPECT_EQ(ToolKindFromString("shaver"), ToolKind::kShaver);
+  EXPECT_EQ(ToolKindFromString("grasper"), ToolKind::kGrasper);
+  EXPECT_EQ(ToolKindFromString("spoon"), ToolKind::kProbe);
 }
 
 TEST(ToolShape, EveryToolEndsAtItsTip) {
@@ -53,10 +53,10 @@ TEST(ToolShape, HasRealDimensions) {
   EXPECT_NEAR(jaws.high.x - jaws.low.x, 3.4e-3, 1e-12);
   EXPECT_NEAR(2 * shaver.capsules[0].radius, 4.5e-3, 1e-12);
   EXPECT_GT(shaver.bite.b.y + shaver.bite.radius, shaver.capsules[0].radius)
-      << "the window takes what bulges into it";
+      << "the window removes tissue that bulges into it";
 }
 
-TEST(ToolShape, TheJawOpensAwayFromTheFixedOne) {
+TEST(ToolShape, JawOpensAwayFromTheFixedJaw) {
   for (ToolKind kind : {ToolKind::kPunch, ToolKind::kGrasper}) {
     const ToolShape shape = ShapeOf(kind);
     ToolInput input;
@@ -79,7 +79,7 @@ TEST(ToolShape, TheJawOpensAwayFromTheFixedOne) {
   }
 }
 
-TEST(ToolShape, AnAbsentToolHasNoCapsules) {
+TEST(ToolShape, AbsentToolHasNoCapsules) {
   std::array<Capsule, kMaxCapsules> capsules;
   EXPECT_EQ(PosedCapsules(ShapeOf(ToolKind::kProbe), {}, capsules), 0);
 }

@@ -18,14 +18,14 @@ namespace {
 constexpr double kMm = 1e-3;
 const glm::dvec3 kHalf = glm::dvec3(6, 4, 2) * kMm;
 
-// How far off the surface of the box.
+// Distance from the surface of the box.
 double OffBox(const glm::dvec3& x) {
   const glm::dvec3 q = glm::abs(x) - kHalf;
   return std::abs(glm::length(glm::max(q, glm::dvec3(0.0))) +
                   std::min(0.0, std::max({q.x, q.y, q.z})));
 }
 
-TEST(UncutSurface, TheSkinIsLaidBackAwayFromACutAndKeptNearItAtOne) {
+TEST(UncutSurface, SkinIsProjectedAwayFromCutsAndKeptNearThem) {
   const SurfaceMesh box = test::Box(-kHalf, kHalf);
   SolidField field = SolidField::FromSurface(box, 0.35 * kMm);
   const auto bite = [](const glm::dvec3& x) {
@@ -34,7 +34,7 @@ TEST(UncutSurface, TheSkinIsLaidBackAwayFromACutAndKeptNearItAtOne) {
   field.Subtract(field.box(), bite);
   const SurfaceMesh raw = Polygonise(field);
   SurfaceMesh laid = raw;
-  LayOnto(UncutSurface(box), field, {}, laid);
+  ProjectOnto(UncutSurface(box), field, {}, laid);
   double raw_worst = 0;
   for (std::size_t v = 0; v < raw.vertices.size(); ++v) {
     if (bite(raw.vertices[v]) < 0.3 * kMm) {  // relaxed
@@ -45,11 +45,11 @@ TEST(UncutSurface, TheSkinIsLaidBackAwayFromACutAndKeptNearItAtOne) {
     raw_worst = std::max(raw_worst, OffBox(raw.vertices[v]));
     EXPECT_LT(OffBox(laid.vertices[v]), 1e-9);
   }
-  EXPECT_GT(raw_worst, 0.02 * kMm) << "or there was nothing to put right";
+  EXPECT_GT(raw_worst, 0.02 * kMm) << "the test needs an uneven surface";
 }
 
-// The tree of a fine skin, much at one place of a curve through it, leaves nothing out.
-TEST(UncutSurface, TheNearestPlaceIsThatOfAllTriangles) {
+// The tree of a fine skin, of which many triangles share one cell of the curve, misses none.
+TEST(UncutSurface, NearestPointIsThatOfAllTriangles) {
   const SurfaceMesh skin = Polygonise(SolidField::FromSurface(test::Box(-kHalf, kHalf), 0.5 * kMm));
   const UncutSurface surface(skin);
   Random random(11);
@@ -69,7 +69,7 @@ TEST(UncutSurface, TheNearestPlaceIsThatOfAllTriangles) {
   }
 }
 
-TEST(UncutSurface, WhatIsOutOfReachStaysWhereItIs) {
+TEST(UncutSurface, PointsOutOfReachStay) {
   const UncutSurface box(test::Box(-kHalf, kHalf));
   const glm::dvec3 inside(0, 0, 1 * kMm), near(0, 0, 1.8 * kMm);
   EXPECT_EQ(box.Nearest(inside, 0.3 * kMm), inside);

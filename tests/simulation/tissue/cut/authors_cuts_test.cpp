@@ -1,4 +1,4 @@
-// What an author cuts before anybody touches the tissue: a tear that opens, what is washed away.
+// Author's cuts before a session: a tear that opens, and fragments that are washed away.
 #include "simulation/tissue/cut/authors_cuts.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using test::kMm;
 using test::kMm3;
 
-// Across the whole block at x = 6.1 mm, from its top at z = 4 mm down.
+// Tear across the whole block at x = 6.1 mm, from its top at z = 4 mm down.
 TearCut TearAcross(double depth) {
   return {{glm::dvec3(6.1, -1, 4) * kMm, glm::dvec3(6.1, 9, 4) * kMm},
           {0, 0, -1},
@@ -33,8 +33,8 @@ TearCut TearAcross(double depth) {
 
 using PlaceAt = std::function<glm::dvec3(std::span<const glm::dvec3> x, const glm::dvec3& rest)>;
 
-// By how much two places on either side of x = 6.1 mm, 1 mm apart at rest and just under the top,
-// come apart when the block's ends are pulled 2 mm apart; the least along y.
+// Opening of the tear: two points on either side of x = 6.1 mm, 1 mm apart at rest and just below
+// the top. The block's ends are pulled 2 mm apart; returns the minimum along y.
 double GapWhenPulled(const TetMesh& mesh, std::span<const double> share, const PlaceAt& place_at) {
   const auto model = std::make_shared<const FemModel>(mesh, Material{}, share);
   for (const double mass : model->mass()) EXPECT_GT(mass, 0.0);
@@ -57,7 +57,7 @@ double GapWhenPulled(const TetMesh& mesh, std::span<const double> share, const P
   return least;
 }
 
-// The block in elements of `edge`.
+// Meshes the block with elements of size `edge`.
 double GapOfCut(std::span<const Cut> cuts, double edge) {
   const auto ticks = [&](double length) {
     return app::EvenTicks(0, length, static_cast<int>(std::lround(length / edge)));
@@ -82,7 +82,7 @@ double GapOfCut(std::span<const Cut> cuts, double edge) {
   });
 }
 
-// A slot of 2 mm, its bottom square, between the elements of a finer mesh.
+// Slot of 2 mm with a square bottom, along faces of a finer mesh.
 double GapOfMeshedSlot() {
   const std::vector<double> x{0,         1.5 * kMm, 3 * kMm,   4.4 * kMm,  5.8 * kMm,
                               6.4 * kMm, 7.8 * kMm, 9.2 * kMm, 10.6 * kMm, 12 * kMm};
@@ -96,7 +96,7 @@ double GapOfMeshedSlot() {
     const bool is_slot = middle.x > 5.8 * kMm && middle.x < 6.4 * kMm && middle.z > 2 * kMm;
     if (!is_slot) kept.insert(kept.end(), &mesh.elements[e], &mesh.elements[e] + 10);
   }
-  // Nodes in the slot go.
+  // Removes the nodes in the slot.
   std::vector<int> number(mesh.rest_positions.size(), -1);
   TetMesh slotted;
   slotted.order = 2;
@@ -120,24 +120,24 @@ double GapOfMeshedSlot() {
   });
 }
 
-TEST(AuthorsCuts, ATearOpensWhenItsSidesArePulledApart) {
-  // With its round bottom 2.3 mm deep. What an element is not cut through by stays whole: it opens
-  // to z = 2 mm.
+TEST(AuthorsCuts, TearOpensWhenItsSidesArePulledApart) {
+  // Depth 2.3 mm with the round bottom. Elements that are not cut through stay whole, so it opens
+  // down to z = 2 mm.
   const std::vector<Cut> tear{TearAcross(2 * kMm)};
   const double whole = GapOfCut({}, kMm), torn = GapOfCut(tear, kMm);
   const double meshed = GapOfMeshedSlot();
   std::printf(
-      "pulled by 2 mm, places 1 mm apart come apart by %.3f mm whole, %.3f mm torn (%.3f "
+      "pulled by 2 mm, points 1 mm apart separate by %.3f mm whole, %.3f mm torn (%.3f "
       "mm in elements of 2 mm); with the slot in the mesh %.3f mm\n",
       whole / kMm, torn / kMm, GapOfCut(tear, 2 * kMm) / kMm, meshed / kMm);
-  EXPECT_NEAR(whole, 2.0 / 12.0 * kMm, 0.05 * kMm) << "the strain is even";
+  EXPECT_NEAR(whole, 2.0 / 12.0 * kMm, 0.05 * kMm) << "uniform strain";
   EXPECT_NEAR(torn, meshed, 0.1 * meshed);
 }
 
-TEST(AuthorsCuts, TellWhatEachTookAndWashAwayWhatTheyCutFree) {
+TEST(AuthorsCuts, ReportVolumesPerCutAndRemoveLooseFragments) {
   SolidField field = test::CutBlockField();
   const double before = field.Volume();
-  // The corner at the origin off, through the whole height; the third cut is beside the block.
+  // Cuts off the corner at the origin over the whole height; the third cut misses the block.
   const TearCut corner{
       {glm::dvec3(3, -1, 4) * kMm, glm::dvec3(3, 3, 4) * kMm, glm::dvec3(-1, 3, 4) * kMm},
       {0, 0, -1},
@@ -153,7 +153,7 @@ TEST(AuthorsCuts, TellWhatEachTookAndWashAwayWhatTheyCutFree) {
   EXPECT_GT(made.removed[0], 8 * kMm3);
   EXPECT_GT(made.removed[1], 2 * kMm3);
   EXPECT_EQ(made.removed[2], 0.0);
-  // Of 2.7 × 2.7 × 4 mm.
+  // Size 2.7 × 2.7 × 4 mm.
   EXPECT_EQ(made.washed.crumbs, 1);
   EXPECT_NEAR(made.washed.edit.removed, 2.7 * 2.7 * 4 * kMm3, 2 * kMm3);
   EXPECT_NEAR(made.removed[0] + made.removed[1] + made.washed.edit.removed, before - field.Volume(),
@@ -161,10 +161,10 @@ TEST(AuthorsCuts, TellWhatEachTookAndWashAwayWhatTheyCutFree) {
 
   SolidField free_one = test::CutBlockField();
   EXPECT_EQ(MakeCuts(free_one, std::vector<Cut>{corner}, {}).washed.crumbs, 0)
-      << "what nothing holds has no part that is loose";
+      << "without anchors no part is loose";
 }
 
-TEST(AuthorsCuts, ThatLeaveNothingAreRefused) {
+TEST(AuthorsCuts, CutsThatLeaveNothingAreRefused) {
   SolidField field = test::CutBlockField();
   const CapsuleCut all{glm::dvec3(6, 4, 2) * kMm, glm::dvec3(6, 4, 2) * kMm, 30 * kMm};
   try {

@@ -1,4 +1,4 @@
-// What every cut mesh must be, and a block to cut.
+// Checks that every cut mesh must pass, and a block to cut.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace arthro::test {
 
 inline constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
-// A block of 12 × 8 × 4 mm in cells of 2 mm, six elements each, and its field.
+// Block of 12 × 8 × 4 mm in cells of 2 mm, six elements each, and its field.
 inline TetMesh CutBlock(int order) {
   return app::GridMesh(order,
                        {app::EvenTicks(0, 12 * kMm, 6), app::EvenTicks(0, 8 * kMm, 4),
@@ -27,8 +27,8 @@ inline simulation::SolidField CutBlockField(double spacing = 0.35 * kMm) {
                                              spacing);
 }
 
-// Elements and nodes name their parents, no quadrature point is empty, no element is dust, no node
-// unused, and no more is left of an element than there was.
+// Checks that elements and nodes have parents, that no quadrature point is empty, no element tiny
+// and no node unused, and that shares do not exceed the original.
 inline void ExpectSound(const simulation::CutMesh& cut, const TetMesh& whole) {
   const std::size_t points = whole.order == 2 ? 4 : 1;
   const auto count = static_cast<std::size_t>(cut.mesh.ElementCount());
@@ -50,7 +50,7 @@ inline void ExpectSound(const simulation::CutMesh& cut, const TetMesh& whole) {
       mean += solid / static_cast<double>(points);
       share_of_parent[static_cast<std::size_t>(cut.parent_element[e]) * points + q] += solid;
     }
-    ASSERT_GE(mean, 0.9 * options.min_share) << "shares of curved elements are weighted by volume";
+    ASSERT_GE(mean, 0.9 * options.min_share) << "shares of curved elements, weighted by volume";
     for (std::size_t i = 0; i < n; ++i) {
       const int node = cut.mesh.elements[e * n + i];
       ++uses[static_cast<std::size_t>(node)];
@@ -58,7 +58,7 @@ inline void ExpectSound(const simulation::CutMesh& cut, const TetMesh& whole) {
                 whole.elements[static_cast<std::size_t>(cut.parent_element[e]) * n + i]);
     }
   }
-  for (const int use : uses) ASSERT_GT(use, 0) << "every node is some element's";
+  for (const int use : uses) ASSERT_GT(use, 0) << "every node belongs to an element";
   for (const double share : share_of_parent) ASSERT_LE(share, 1.0 + 1e-12);
 }
 
@@ -67,7 +67,7 @@ inline bool SameTopology(const simulation::CutMesh& a, const simulation::CutMesh
          a.parent_node == b.parent_node && a.piece == b.piece;
 }
 
-// Nodes of a piece.
+// Returns the nodes of a piece.
 inline std::set<int> NodesOfPiece(const simulation::CutMesh& cut, int piece) {
   std::set<int> nodes;
   const auto n = static_cast<std::size_t>(cut.mesh.NodesPerElement());

@@ -44,7 +44,7 @@ double Sum(const std::vector<double>& values) {
 
 double WholeVolume(const TetMesh& mesh) { return FemModel(mesh, {}).volume(); }
 
-TEST(TetLattice, PartsFillTheElementEvenlyAndEachRegionIsAQuarter) {
+TEST(TetLattice, PartsHaveEqualVolumeAndEachRegionIsAQuarter) {
   for (const int n : {2, 4, 8, 16}) {
     const TetLattice lattice = MakeTetLattice(n);
     EXPECT_EQ(lattice.point.size(), static_cast<std::size_t>((n + 1) * (n + 2) * (n + 3) / 6));
@@ -57,7 +57,7 @@ TEST(TetLattice, PartsFillTheElementEvenlyAndEachRegionIsAQuarter) {
         x[c] = {l[1], l[2], l[3]};
       }
       const double det = glm::dot(x[1] - x[0], glm::cross(x[2] - x[0], x[3] - x[0]));
-      ASSERT_EQ(std::abs(det), 1.0) << "all of one volume";
+      ASSERT_EQ(std::abs(det), 1.0) << "equal volumes";
       volume += std::abs(det);
     }
     EXPECT_EQ(volume, n * n * n);
@@ -68,9 +68,9 @@ TEST(TetLattice, PartsFillTheElementEvenlyAndEachRegionIsAQuarter) {
   }
 }
 
-// Against the closed form of a tetrahedron cut by a plane, in all sign patterns.
-TEST(TetLattice, NegativePartIsThatOfThePlane) {
-  // x + y + z < c in the unit corner tetrahedron: c³.
+// Compares with the closed form of a tetrahedron cut by a plane, for all sign patterns.
+TEST(TetLattice, NegativePartEqualsTheClosedFormForAPlane) {
+  // Volume with x + y + z < c in the unit corner tetrahedron: c³.
   for (const double c : {0.1, 0.5, 0.9})
     EXPECT_NEAR(NegativePart({-c, 1 - c, 1 - c, 1 - c}), c * c * c, 1e-15);
   std::mt19937 random(1);
@@ -83,10 +83,10 @@ TEST(TetLattice, NegativePartIsThatOfThePlane) {
   }
 }
 
-TEST(CutMesh, AFieldThatWasNotCutGivesBackTheSameMesh) {
+TEST(CutMesh, UncutFieldGivesTheSameMesh) {
   for (const int order : {1, 2}) {
     const TetMesh whole = Meniscus(order);
-    // The field of a much finer shape than the facets.
+    // Field of a shape much finer than the facets.
     const SolidField field = SolidField::FromSurface(
         test::BoundaryOf(app::MeniscusMesh(2, app::MeniscusTicks({48, 6, 3}))), 0.35 * kMm);
     const CutMesh cut = CutByField(whole, field);
@@ -103,7 +103,7 @@ TEST(CutMesh, AFieldThatWasNotCutGivesBackTheSameMesh) {
   }
 }
 
-TEST(CutMesh, ABiteTakesItsVolumeAndLeavesElementsFarFromItWhole) {
+TEST(CutMesh, BiteRemovesItsVolumeAndKeepsDistantElementsWhole) {
   for (const int order : {1, 2}) {
     const TetMesh whole = test::CutBlock(order);
     SolidField field = test::CutBlockField();
@@ -116,7 +116,7 @@ TEST(CutMesh, ABiteTakesItsVolumeAndLeavesElementsFarFromItWhole) {
     std::printf("T%d: half a ball of 2 mm: mesh lost %.3f mm3, field %.3f, closed form %.3f\n",
                 order == 2 ? 10 : 4, cut.removed_volume / kMm3, edit.removed / kMm3,
                 half_ball / kMm3);
-    // Lattice and grid have about the same spacing: 2 % of the ball each.
+    // Lattice and grid have about the same spacing: an error of 2 % of the ball each.
     EXPECT_NEAR(cut.removed_volume, half_ball, 0.03 * half_ball);
     EXPECT_EQ(cut.piece_count(), 1);
     EXPECT_NEAR(cut.removed_volume + Sum(cut.piece_volume), WholeVolume(whole),
@@ -143,8 +143,8 @@ TEST(CutMesh, ABiteTakesItsVolumeAndLeavesElementsFarFromItWhole) {
   }
 }
 
-// A slot of a grid spacing and a half through elements of 2 mm: no vertex, edge or face is near it.
-TEST(CutMesh, AThinSlotThroughTheMiddleOfElementsSeparates) {
+// A slot of 1.5 grid spacings through elements of 2 mm, away from vertices, edges and faces.
+TEST(CutMesh, ThinSlotThroughElementsSeparates) {
   for (const int order : {1, 2}) {
     const TetMesh whole = test::CutBlock(order);
     SolidField field = test::CutBlockField();
@@ -158,7 +158,7 @@ TEST(CutMesh, AThinSlotThroughTheMiddleOfElementsSeparates) {
                 left / kMm3, right / kMm3);
     EXPECT_NEAR(cut.piece_volume[0], left, 0.01 * left);
     EXPECT_NEAR(cut.piece_volume[1], right, 0.01 * right);
-    // The pieces have no node in common.
+    // The pieces share no node.
     std::vector<std::set<int>> nodes(2);
     const auto n = static_cast<std::size_t>(whole.NodesPerElement());
     for (std::size_t e = 0; e < cut.piece.size(); ++e)
@@ -168,8 +168,8 @@ TEST(CutMesh, AThinSlotThroughTheMiddleOfElementsSeparates) {
   }
 }
 
-// A slot that ends inside: one piece, but its two lips have nodes of their own.
-TEST(CutMesh, ATearThatEndsInsideOpensAndHoldsAtItsEnd) {
+// A slot that ends inside leaves one piece, but its lips have separate nodes.
+TEST(CutMesh, TearThatEndsInsideOpensAndStaysConnectedAtItsEnd) {
   const TetMesh whole = test::CutBlock(2);
   SolidField field = test::CutBlockField();
   const glm::dvec3 low = glm::dvec3(-1, -1, -1) * kMm, high = glm::dvec3(13, 4.2, 5) * kMm;
@@ -178,14 +178,15 @@ TEST(CutMesh, ATearThatEndsInsideOpensAndHoldsAtItsEnd) {
   ExpectSound(cut, whole);
   EXPECT_EQ(cut.piece_count(), 1);
   EXPECT_GT(cut.mesh.rest_positions.size(), whole.rest_positions.size());
-  // At the open end each split element's lips share no node; at the closed end they hang together.
+  // At the open end the lips of each split element share no node; at the closed end they are
+  // connected.
   int lips = 0;
   for (std::size_t e = 1; e < cut.parent_element.size(); ++e)
     lips += cut.parent_element[e] == cut.parent_element[e - 1];
   EXPECT_GT(lips, 4);
 }
 
-TEST(CutMesh, UpdatingWhereTheFieldChangedGivesWhatARebuildGives) {
+TEST(CutMesh, LocalUpdateEqualsARebuild) {
   const TetMesh whole = Meniscus(2);
   SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
   MeshCutter cutter(whole, field.spacing());
@@ -199,13 +200,13 @@ TEST(CutMesh, UpdatingWhereTheFieldChangedGivesWhatARebuildGives) {
     const FieldEdit edit = field.Subtract({centre - r - kMm, centre + r + kMm}, BallAt(centre, r));
     const CutMesh before = cutter.result();
     const CutMesh& now = cutter.Update(field, edit.changed);
-    looked_at += cutter.elements_looked_at();
+    looked_at += cutter.elements_tested();
     ExpectSound(now, whole);
     const CutMesh rebuilt = CutByField(whole, field);
     EXPECT_TRUE(SameTopology(now, rebuilt));
     EXPECT_TRUE(now.share == rebuilt.share);
     EXPECT_TRUE(now.piece_volume == rebuilt.piece_volume);
-    // Every node was one of the mesh before, at the same place, and none was lost to another piece.
+    // Every node was in the previous mesh at the same position, and none moved to another piece.
     for (std::size_t i = 0; i < now.previous_node.size(); ++i) {
       ASSERT_GE(now.previous_node[i], 0);
       ASSERT_EQ(before.parent_node[static_cast<std::size_t>(now.previous_node[i])],
@@ -215,15 +216,15 @@ TEST(CutMesh, UpdatingWhereTheFieldChangedGivesWhatARebuildGives) {
   EXPECT_LT(looked_at, 12 * whole.ElementCount() / 3) << "a bite is local";
 }
 
-// After a split, nodes of each half come from the one node that was both.
-TEST(CutMesh, NodesRememberWhichNodeTheyWereInTheMeshBefore) {
+// After a split, nodes of each half come from the same previous node.
+TEST(CutMesh, PreviousNodeMapsToTheMeshBefore) {
   const TetMesh whole = test::CutBlock(1);
   SolidField field = test::CutBlockField();
   MeshCutter cutter(whole, field.spacing());
   cutter.Update(field, field.Subtract(field.box(), Slab(0, 5.1 * kMm, 0.6 * kMm)).changed);
   const CutMesh first = cutter.result();
   ASSERT_EQ(first.piece_count(), 2);
-  // A second cut, through the left half alone: right-hand nodes must come from right-hand nodes.
+  // The second cut goes through the left half only: right-hand nodes must map to right-hand nodes.
   const Box3 left{field.box().low, glm::dvec3(5, 9, 5) * kMm};
   const CutMesh& second =
       cutter.Update(field, field.Subtract(left, Slab(0, 2.9 * kMm, 0.6 * kMm)).changed);
@@ -241,7 +242,7 @@ TEST(CutMesh, NodesRememberWhichNodeTheyWereInTheMeshBefore) {
     }
 }
 
-// A skin vertex on either lip of a slot is carried by the copy on its own side.
+// A skin vertex on either lip of a slot is carried by the copy on its side.
 TEST(CutMesh, PointsOnEachSideOfASlotFindTheirOwnCopy) {
   const TetMesh whole = test::CutBlock(2);
   SolidField field = test::CutBlockField();
@@ -266,7 +267,7 @@ TEST(CutMesh, PointsOnEachSideOfASlotFindTheirOwnCopy) {
     ASSERT_GE(copy.element, 0);
     EXPECT_EQ(cut.piece[static_cast<std::size_t>(copy.element)], rest.x < 5.1 * kMm ? 0 : 1)
         << rest.x;
-    // Its weights give the place back.
+    // The weights reproduce the point.
     glm::dvec3 place(0);
     for (std::size_t i = 0; i < 10; ++i)
       place +=
@@ -276,7 +277,7 @@ TEST(CutMesh, PointsOnEachSideOfASlotFindTheirOwnCopy) {
     ++tried;
   }
   EXPECT_GT(tried, 300);
-  // Where all elements are gone around, the nearest one that is left carries the point.
+  // If all elements around are gone, the nearest remaining element carries the point.
   const glm::dvec3 centre = glm::dvec3(9, 4, 4) * kMm;
   field.Subtract({centre - 4 * kMm, centre + 4 * kMm}, BallAt(centre, 2.5 * kMm));
   cutter.Rebuild(field);
@@ -284,10 +285,10 @@ TEST(CutMesh, PointsOnEachSideOfASlotFindTheirOwnCopy) {
     EXPECT_GE(cutter.FindCopy(e, centre - glm::dvec3(0, 0, 2.5 * kMm)).element, 0);
 }
 
-TEST(CutMesh, CrumbsGoWithTheCutAndAreCounted) {
+TEST(CutMesh, CrumbsAreRemovedWithTheCutAndCounted) {
   const TetMesh whole = test::CutBlock(2);
   SolidField field = test::CutBlockField(0.25 * kMm);
-  // All of one corner is taken but a ball of 0.25 mm radius: 0.065 mm³.
+  // Removes all of one corner except a ball of 0.25 mm radius: 0.065 mm³.
   const glm::dvec3 corner = glm::dvec3(11.2, 7.2, 3.2) * kMm;
   field.Subtract(field.box(), [&](const glm::dvec3& x) {
     return std::max(glm::length(x - corner) - 1.6 * kMm, 0.25 * kMm - glm::length(x - corner));
@@ -301,7 +302,7 @@ TEST(CutMesh, CrumbsGoWithTheCutAndAreCounted) {
   EXPECT_EQ(CutByField(whole, field, options).piece_count(), 2);
 }
 
-TEST(CutMesh, EverythingTakenLeavesAnEmptyMesh) {
+TEST(CutMesh, RemovingEverythingLeavesAnEmptyMesh) {
   const TetMesh whole = test::CutBlock(2);
   SolidField field = test::CutBlockField();
   field.Subtract(field.box(), [](const glm::dvec3&) { return -1.0; });
@@ -311,7 +312,7 @@ TEST(CutMesh, EverythingTakenLeavesAnEmptyMesh) {
   EXPECT_NEAR(cut.removed_volume, 12 * 8 * 4 * kMm3, 1e-12 * 12 * 8 * 4 * kMm3);
 }
 
-// Printed, not gated (targets 100 ms and 5 ms).
+// Timing is printed only (targets 100 ms and 5 ms).
 TEST(CutMesh, TimesOfAMeniscusOf600) {
   const TetMesh whole = Meniscus(2);
   SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
@@ -325,7 +326,7 @@ TEST(CutMesh, TimesOfAMeniscusOf600) {
   start = ThreadCpuMs();
   cutter.Update(field, edit.changed);
   const double bite = ms(start);
-  const int local = cutter.elements_looked_at();
+  const int local = cutter.elements_tested();
   start = ThreadCpuMs();
   cutter.Rebuild(field);
   std::printf("%d T10: made in %.1f ms; a bite of 3.4 mm %.2f ms (%d elements); all %.1f ms\n",

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMm = 1e-3, kMm3 = 1e-9, kPi = std::numbers::pi;
 
-// 12 × 8 × 4 mm, its top at z = 0.
+// Block of 12 × 8 × 4 mm with its top at z = 0.
 SolidField Block(double spacing = 0.3 * kMm) {
   return SolidField::FromSurface(test::Box(glm::dvec3(-6, -4, -4) * kMm, glm::dvec3(6, 4, 0) * kMm),
                                  spacing);
@@ -43,15 +43,15 @@ std::vector<Cut> SomeCuts() {
               1 * kMm}};
 }
 
-TEST(Cutters, CutsTakeTheirClosedFormVolumes) {
+TEST(Cutters, CutsRemoveTheirClosedFormVolumes) {
   const auto expect = [](const char* name, double got, double truth, double tolerance) {
-    std::printf("%-22s takes %7.3f mm3, closed form %7.3f\n", name, got / kMm3, truth / kMm3);
+    std::printf("%-22s removes %7.3f mm3, closed form %7.3f\n", name, got / kMm3, truth / kMm3);
     EXPECT_NEAR(got, truth, tolerance * truth) << name;
   };
   SolidField field = Block();
   const std::vector<Cut> cuts = SomeCuts();
   // Half a capsule; a box half in the block; a slot of two straight pieces with round ends and a
-  // round bottom. Edges round by 0.25 h² a length at most: 2 to 6 % of cuts this small.
+  // round bottom. Edges are rounded by at most 0.25 h² per length: 2 to 6 % of such small cuts.
   expect("half a capsule", Apply(field, cuts[0]).removed,
          (kPi * 1.5 * 1.5 * 2 + 4.0 / 3.0 * kPi * 1.5 * 1.5 * 1.5) / 2 * kMm3, 0.03);
   expect("half a box", Apply(field, cuts[1]).removed, 3 * 2 * 1 * kMm3, 0.06);
@@ -60,8 +60,8 @@ TEST(Cutters, CutsTakeTheirClosedFormVolumes) {
          (length * (2 * 0.6 + kPi * 0.09 / 2) + kPi * 0.09 * 2) * kMm3, 0.06);
 }
 
-// A slot said to be thinner than the grid can hold apart is made as wide as that takes.
-TEST(Cutters, ATearOfNoWidthSeparatesAtAnyPlaceAndSlant) {
+// A slot narrower than the grid can separate is widened to the minimum.
+TEST(Cutters, TearOfZeroWidthSeparatesAtAnyPositionAndAngle) {
   for (const double slant : {0.0, 0.3, 1.0})
     for (const double shift : {0.0, 0.07, 0.15, 0.22}) {
       SolidField field = Block();
@@ -75,7 +75,7 @@ TEST(Cutters, ATearOfNoWidthSeparatesAtAnyPlaceAndSlant) {
     }
 }
 
-TEST(Cutters, UndoIsTheOriginalCutWithOneLess) {
+TEST(Cutters, UndoEqualsTheOriginalWithOneCutLess) {
   const SolidField original = Block();
   const std::vector<Cut> cuts = SomeCuts();
   SolidField two = original;
@@ -88,8 +88,8 @@ TEST(Cutters, UndoIsTheOriginalCutWithOneLess) {
   EXPECT_EQ(CutAll(original, {}).Volume(), original.Volume());
 }
 
-// What a reset costs is counted: no node of the field is computed, it is copied.
-TEST(Cutters, ResettingADemoMeniscusAfter30BitesIsACopyOfTheOriginal) {
+// A reset computes no node of the field; it only copies.
+TEST(Cutters, ResetAfter30BitesCopiesTheOriginal) {
   const SolidField original = SolidField::FromSurface(
       ReadSurface(ARTHRO_SOURCE_DIR "/resources/demo/meniscus.ply", 1.0), 0.35 * kMm);
   const Box3 box = original.box();
@@ -111,8 +111,8 @@ TEST(Cutters, ResettingADemoMeniscusAfter30BitesIsACopyOfTheOriginal) {
   EXPECT_FALSE(field.MayBeCut(field.box()));
 }
 
-// Tissue that is bent: the tool cuts what lies in it now, and at rest that is another shape.
-TEST(Cutters, InDeformedTissueTheToolTakesWhatLiesInItNow) {
+// In bent tissue the tool cuts what is inside it now, which is another shape at rest.
+TEST(Cutters, ToolInDeformedTissueRemovesPointsInsideItNow) {
   const auto bend = [](const glm::dvec3& rest, glm::dvec3& place) {
     place = {rest.x, rest.y, rest.z + 20.0 * rest.x * rest.x};  // 0.72 mm up at the ends
     return true;
@@ -127,7 +127,7 @@ TEST(Cutters, InDeformedTissueTheToolTakesWhatLiesInItNow) {
       const glm::dvec3 rest(2.5 * kMm + i * 0.08 * kMm, 0.1 * kMm, -2.2 * kMm + k * 0.1 * kMm);
       glm::dvec3 place;
       bend(rest, place);
-      if (std::abs(tool(place)) < 0.05 * kMm) continue;  // within what the grid resolves
+      if (std::abs(tool(place)) < 0.05 * kMm) continue;  // within the grid's resolution
       ++solid;
       wrong += (field.Distance(rest) > 0) != (tool(place) < 0);
     }
@@ -135,7 +135,7 @@ TEST(Cutters, InDeformedTissueTheToolTakesWhatLiesInItNow) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(Cutters, AShaverTakesItsRateInTheMeanAndNoMore) {
+TEST(Cutters, ShaverMeanRateDoesNotExceedItsLimit) {
   const ShaverOptions options{20 * kMm3};
   SolidField field = Block();
   const double whole = field.Volume();
@@ -143,7 +143,7 @@ TEST(Cutters, AShaverTakesItsRateInTheMeanAndNoMore) {
   const double dt = 1.0 / 60.0;
   double most = 0;
   int steps = 0;
-  for (; steps < 45; ++steps) {  // pressed in slowly, so that it always has something to take
+  for (; steps < 45; ++steps) {  // pressed in slowly, so that tissue is always in reach
     const glm::dvec3 tip(0, 0, 1.3 * kMm - 0.02 * kMm * steps);
     const FieldEdit edit = Shave(
         field, {tip - 3 * kMm, tip + 3 * kMm}, Undeformed,
@@ -154,14 +154,14 @@ TEST(Cutters, AShaverTakesItsRateInTheMeanAndNoMore) {
   const double removed = whole - field.Volume(), allowed = options.rate * dt * steps;
   std::printf("shaver: %.2f mm3 in %.2f s, rate allows %.2f; most in one step %.3f (rate %.3f)\n",
               removed / kMm3, steps * dt, allowed / kMm3, most / kMm3, options.rate * dt / kMm3);
-  EXPECT_LE(removed, allowed * 1.02) << "one step's overshoot at the end";
+  EXPECT_LE(removed, allowed * 1.02) << "including the overshoot of the last step";
   EXPECT_GT(removed, 0.9 * allowed);
   // A step follows the rim of the tool, whose area is estimated from grid crossings.
   EXPECT_LT(most, 4 * options.rate * dt);
 }
 
-// The same shaver twice as often a second takes the same.
-TEST(Cutters, WhatAShaverTakesDoesNotDependOnTheStep) {
+// Half the time step removes the same volume.
+TEST(Cutters, ShavedVolumeDoesNotDependOnTheTimeStep) {
   const ShaverOptions options{20 * kMm3};
   const glm::dvec3 tip(0, 0, 0.5 * kMm);
   const auto after = [&](int steps) {
@@ -181,7 +181,7 @@ TEST(Cutters, WhatAShaverTakesDoesNotDependOnTheStep) {
   EXPECT_LE(fine, 10.2 * kMm3);
 }
 
-TEST(Cutters, AShaverThatTouchesNothingTakesNothingAndDoesNotSaveUp) {
+TEST(Cutters, IdleShaverRemovesNothingAndAccumulatesNoAllowance) {
   SolidField field = Block();
   Shaver shaver;
   const ShaverOptions options{20 * kMm3};
@@ -196,7 +196,7 @@ TEST(Cutters, AShaverThatTouchesNothingTakesNothingAndDoesNotSaveUp) {
   EXPECT_LE(shaver.allowance, options.rate * 0.05);
 }
 
-TEST(Cutters, RemovedVolumeIsToldByRegionAndSumsUp) {
+TEST(Cutters, RemovedVolumeIsReportedPerRegionAndSumsUp) {
   const SolidField original = Block();
   const std::vector<Cut> cuts = SomeCuts();
   const SolidField now = CutAll(original, cuts);

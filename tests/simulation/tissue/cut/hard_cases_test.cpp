@@ -1,5 +1,4 @@
-// FEM-13 to FEM-15, as far as they are geometry, and cuts
-// without end.
+// Geometric part of the cases FEM-13 to FEM-15, and the many cuts of FEM-22.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,8 +31,8 @@ double Sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// A piece that nothing holds: told apart, with its volume and what it moves with.
-TEST(HardCase13, APieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
+// A piece cut free is detected, with its volume and momentum.
+TEST(Fem13, PieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
   for (const int order : {1, 2}) {
     const TetMesh whole = test::CutBlock(order);
     const double volume = FemModel(whole, {}).volume();
@@ -45,15 +44,15 @@ TEST(HardCase13, APieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
     test::ExpectSound(cut, whole);
     ASSERT_EQ(cut.piece_count(), 2);
     EXPECT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
-    // Held at x = 0: the field knows the same piece to be loose.
+    // The body is held at x = 0: the field reports the same piece as loose.
     const FieldPieces pieces = PiecesOf(field);
     ASSERT_EQ(pieces.count(), 2);
     const std::vector<Ball> anchors{{glm::dvec3(0, 4, 2) * kMm, 1 * kMm}};
     EXPECT_EQ(HeldPieces(field, pieces, anchors), (std::vector<unsigned char>{1, 0}));
     EXPECT_NEAR(cut.piece_volume[1], pieces.volume[1], 0.03 * pieces.volume[1]);
 
-    // The body turns and drifts as the cut comes: velocities are handed on node by node, and each
-    // piece's momentum is that of the tissue it is, by its quadrature.
+    // The body rotates and drifts during the cut: velocities are passed on node by node. The
+    // momentum of each piece equals that of its tissue by quadrature.
     Material material;
     const glm::dvec3 drift(0.3, -0.2, 0.1);
     const FemModel model(cut.mesh, material, cut.solid_share);
@@ -71,13 +70,13 @@ TEST(HardCase13, APieceCutFreeIsDetectedAndKeepsVolumeAndMomentum) {
     EXPECT_LT(glm::length(momentum - mass * drift), 1e-12 * mass);
     EXPECT_LT(glm::length(of_free_piece - material.density * cut.piece_volume[1] * drift),
               1e-12 * mass)
-        << "mass does not leak between the pieces";
-    // No force crosses the cut: the free piece is moved away as a whole and nothing is strained.
+        << "no mass moves between the pieces";
+    // No force crosses the cut: moving the free piece as a whole causes no strain.
     std::vector<glm::dvec3> x = cut.mesh.rest_positions, force(x.size());
     for (const int node : free_nodes) x[static_cast<std::size_t>(node)].x += 5 * kMm;
     const Assembly assembly = model.Assemble(x, material.law, Tangent::kNone, force, nullptr);
     EXPECT_LT(assembly.energy, 1e-12 * material.young_modulus * volume);
-    // By rule it is debris when it is small enough.
+    // A small enough piece counts as debris.
     CutOptions options;
     options.crumb_volume = 1.1 * cut.piece_volume[1];
     const CutMesh clean = CutByField(whole, field, options);
@@ -94,10 +93,9 @@ struct Plane {
   double offset;  // m
 };
 
-// Planes that meet vertices, edges and faces of the mesh exactly. What is beyond is taken away; the
-// same planes moved by ±1e-9 m must give the same mesh. The field's 32-bit values move them by up
-// to that much themselves.
-TEST(HardCase14, PlanesThroughVerticesEdgesAndFacesGiveTheTopologyOfOnesMovedBy1e9) {
+// Planes that pass exactly through vertices, edges and faces of the mesh. The same planes moved by
+// ±1e-9 m must give the same mesh. The field's 32-bit values have errors of up to that size.
+TEST(Fem14, DegeneratePlanesGiveTheTopologyOfShiftedPlanes) {
   const double d = 1 / std::sqrt(2.0), t = 1 / std::sqrt(3.0);
   const std::vector<Plane> planes{
       {"coplanar with faces", {1, 0, 0}, 6 * kMm},
@@ -133,8 +131,7 @@ TEST(HardCase14, PlanesThroughVerticesEdgesAndFacesGiveTheTopologyOfOnesMovedBy1
         EXPECT_NEAR(Sum(other.piece_volume), Sum(cut.piece_volume), 1e-5 * volume) << plane.name;
       }
       EXPECT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
-      // No tetrahedron without volume: each is a whole one of the mesh, and it can be computed
-      // with.
+      // Each tetrahedron is a whole one of the mesh, with positive volume and a valid model.
       const FemModel cut_model(cut.mesh, {}, cut.share);
       for (const double mass : cut_model.mass()) EXPECT_GT(mass, 0.0);
       if (plane.normal.x == 1) {
@@ -144,8 +141,8 @@ TEST(HardCase14, PlanesThroughVerticesEdgesAndFacesGiveTheTopologyOfOnesMovedBy1
     }
 }
 
-// Two slots that cross exactly in the mesh's edges.
-TEST(HardCase14, CrossingSlotsCentredOnFacesSplitTheBlockInFour) {
+// Two slots that cross exactly along mesh edges.
+TEST(Fem14, CrossingSlotsOnFacesSplitTheBlockInFour) {
   const TetMesh whole = test::CutBlock(2);
   const double volume = FemModel(whole, {}).volume();
   SolidField field = test::CutBlockField();
@@ -161,20 +158,20 @@ TEST(HardCase14, CrossingSlotsCentredOnFacesSplitTheBlockInFour) {
   EXPECT_NEAR(Sum(cut.piece_volume) + cut.removed_volume, volume, 1e-12 * volume);
 }
 
-// What remains would hang together by one line of the mesh's edges, or by one of its nodes.
-TEST(HardCase15, AHingeOfAnEdgeOrANodeComesApart) {
+// The two remaining parts touch only along an edge of the mesh, or at one node.
+TEST(Fem15, HingeOfAnEdgeOrANodeComesApart) {
   for (const int order : {1, 2}) {
     const TetMesh whole = test::CutBlock(order);
     const glm::dvec3 middle = glm::dvec3(6, 4, 2) * kMm;
     const auto taken_away = [&](int axes) {
-      // Removed: all but the two opposite quadrants (octants) about `middle`.
+      // Removes all but two opposite quadrants (octants) about `middle`.
       return [=](const glm::dvec3& x) {
         double low = -1e3, high = -1e3;
         for (int a = 0; a < axes; ++a) {
           low = std::max(low, x[a] - middle[a]);
           high = std::max(high, middle[a] - x[a]);
         }
-        return -std::min(low, high);  // positive in either kept part
+        return -std::min(low, high);  // positive in both remaining parts
       };
     };
     for (const int axes : {2, 3}) {
@@ -185,11 +182,11 @@ TEST(HardCase15, AHingeOfAnEdgeOrANodeComesApart) {
       ASSERT_EQ(cut.piece_count(), 2) << axes;
       const std::set<int> first = test::NodesOfPiece(cut, 0), second = test::NodesOfPiece(cut, 1);
       for (const int node : first) EXPECT_FALSE(second.contains(node));
-      // The hinge's nodes are there twice.
+      // The nodes of the hinge are duplicated.
       std::vector<int> there(whole.rest_positions.size(), 0);
       for (const int parent : cut.parent_node) ++there[static_cast<std::size_t>(parent)];
       EXPECT_EQ(*std::max_element(there.begin(), there.end()), 2);
-      // Each piece turned about the hinge by itself strains nothing.
+      // Rotating each piece about the hinge causes no strain.
       const FemModel model(cut.mesh, {}, cut.share);
       std::vector<glm::dvec3> x = cut.mesh.rest_positions, force(x.size());
       const double angle = 0.5;
@@ -206,8 +203,8 @@ TEST(HardCase15, AHingeOfAnEdgeOrANodeComesApart) {
   }
 }
 
-// A hinge that lies anywhere in the elements: whether or not it holds, all stays finite.
-TEST(HardCase15, AHingeInsideElementsStaysFinite) {
+// A hinge anywhere in the elements: whether or not it holds, all values stay finite.
+TEST(Fem15, HingeInsideElementsStaysFinite) {
   const TetMesh whole = test::CutBlock(2);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -230,8 +227,8 @@ TEST(HardCase15, AHingeInsideElementsStaysFinite) {
   std::printf("hinges inside elements: %d of 8 came apart\n", apart);
 }
 
-// A cut body is a body: elements with a hundredth left in them do not spoil the system.
-TEST(HardCase22, CutBodiesAreSolvedInAboutAsManyIterationsAsWholeOnes) {
+// Elements with a hundredth of their volume left must not spoil the system's condition.
+TEST(Fem22, CutBodiesNeedAboutAsManyIterationsAsWholeOnes) {
   const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
   SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
   MeshCutter cutter(whole, field.spacing());
@@ -260,7 +257,7 @@ TEST(HardCase22, CutBodiesAreSolvedInAboutAsManyIterationsAsWholeOnes) {
       worst.iterations = std::max(worst.iterations, report.iterations);
       worst.residual = std::max(worst.residual, report.residual);
     }
-    std::printf("%3d bites, %d pieces: %d iterations a step at most, residual %.1e\n", cuts,
+    std::printf("%3d bites, %d pieces: %d iterations per step at most, residual %.1e\n", cuts,
                 cut.piece_count(), worst.iterations, worst.residual);
     if (cuts == 0) of_whole = worst.iterations;
     EXPECT_LE(worst.residual, SolverOptions().tolerance);
@@ -268,9 +265,9 @@ TEST(HardCase22, CutBodiesAreSolvedInAboutAsManyIterationsAsWholeOnes) {
   }
 }
 
-// 0 to 200 cuts of all kinds, twice from the original: sound after each, and the second round
-// leaves as much on the heap as the first.
-TEST(HardCase22, TwoHundredCutsStaySoundAndMemoryIsFlat) {
+// 0 to 200 cuts of all kinds, twice from the original: the mesh is valid after each cut, and the
+// second round leaves as much on the heap as the first.
+TEST(Fem22, TwoHundredCutsKeepAValidMeshAndFlatMemory) {
   const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
   const double volume = FemModel(whole, {}).volume();
   const SolidField original = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);

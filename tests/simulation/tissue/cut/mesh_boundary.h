@@ -1,4 +1,5 @@
-// The outer faces of a tetrahedral mesh as a closed surface; a quadratic face is four triangles.
+// Boundary faces of a tetrahedral mesh as a closed surface; a quadratic face becomes four
+// triangles.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +40,7 @@ inline SurfaceMesh BoundaryOf(const TetMesh& mesh) {
             std::array{f[5], f[4], f[2]}, std::array{f[3], f[4], f[5]}})
         surface.triangles.push_back(t);
   }
-  // Only the vertices on it, in the mesh's order: a skin is moved vertex by vertex.
+  // Keeps only the boundary vertices, in mesh order, since a skin is moved vertex by vertex.
   std::vector<int> number(surface.vertices.size(), -1);
   for (const auto& triangle : surface.triangles)
     for (const int v : triangle) number[static_cast<std::size_t>(v)] = 0;

@@ -13,7 +13,7 @@
 namespace arthro::simulation {
 namespace {
 
-// A grid of nodes coupled to all neighbours by random blocks, dominated by its diagonal.
+// Grid of nodes coupled to all neighbours by random blocks, diagonally dominant.
 BlockMatrix Grid(int nx, int ny, int nz) {
   auto pattern = std::make_shared<BlockPattern>();
   const auto node = [&](int x, int y, int z) { return (z * ny + y) * nx + x; };
@@ -82,10 +82,10 @@ Solved SolveGrid(const BlockMatrix& a, const FixedAxes& fixed, std::span<const d
   return solved;
 }
 
-// The panels are kept in float: 24 bits, a few sums.
+// The panels are stored as floats: 24 bits, a few sums.
 constexpr double kFloatPanels = 2e-6;
 
-TEST(SparseFactor, SolvesWhatItFactored) {
+TEST(SparseFactor, SolveInvertsTheMatrix) {
   for (const auto& [x, y, z] : {std::array{1, 1, 1}, {2, 1, 1}, {5, 4, 3}, {20, 9, 4}, {9, 9, 9}}) {
     const BlockMatrix a = Grid(x, y, z);
     const Solved solved = SolveGrid(a, {});
@@ -94,14 +94,14 @@ TEST(SparseFactor, SolvesWhatItFactored) {
   }
 }
 
-// 18 thousand axes: room for the pattern is counted by its entries, no more.
-TEST(SparseFactor, PlansMeshesBeyondTheLargestOfTheTissues) {
+// 18 thousand axes: memory for the pattern is allocated by its number of entries.
+TEST(SparseFactor, PlansMeshesLargerThanAnyTissue) {
   const FactorPlan plan(Grid(45, 15, 9).pattern, {});
   EXPECT_EQ(plan.size(), 3 * 45 * 15 * 9);
   EXPECT_GT(plan.stored(), plan.size());
 }
 
-TEST(SparseFactor, LeavesFixedAxesOutOneByOne) {
+TEST(SparseFactor, LeavesFixedAxesOutIndividually) {
   const BlockMatrix a = Grid(7, 5, 4);
   FixedAxes fixed(7 * 5 * 4, 0);
   for (std::size_t i = 0; i < fixed.size(); ++i)
@@ -109,7 +109,7 @@ TEST(SparseFactor, LeavesFixedAxesOutOneByOne) {
   EXPECT_LE(SolveGrid(a, fixed).residual, kFloatPanels);
 }
 
-TEST(SparseFactor, AllFixedIsNothingToDo) {
+TEST(SparseFactor, AllAxesFixedGivesZero) {
   const BlockMatrix a = Grid(3, 2, 2);
   const Solved solved = SolveGrid(a, FixedAxes(12, 7));
   for (const glm::dvec3& x : solved.x) EXPECT_EQ(x, glm::dvec3(0.0));
@@ -121,13 +121,13 @@ TEST(SparseFactor, AddsToTheDiagonal) {
   EXPECT_LE(SolveGrid(a, {}, added).residual, kFloatPanels);
 }
 
-TEST(SparseFactor, AnIndefiniteMatrixIsShiftedUntilItIsNot) {
+TEST(SparseFactor, IndefiniteMatrixIsShiftedUntilPositiveDefinite) {
   BlockMatrix a = Grid(6, 5, 4);
   for (std::size_t i = 0; i < 120; ++i)
     for (int c = 0; c < 3; ++c) a.block[a.pattern->diagonal[i]][4 * c] -= 5.5;
   SparseFactor factor(std::make_shared<FactorPlan>(a.pattern, FixedAxes{}));
   EXPECT_GT(factor.Factor(a, {}), 0.0);
-  // Of a shifted, positive matrix: xᵀ A⁻¹ x > 0.
+  // xᵀ A⁻¹ x > 0 for the shifted, positive definite matrix.
   std::vector<glm::dvec3> b(120), x(120);
   Random random(5);
   for (int trial = 0; trial < 20; ++trial) {
@@ -141,11 +141,11 @@ TEST(SparseFactor, AnIndefiniteMatrixIsShiftedUntilItIsNot) {
   }
 }
 
-// Cells of 8 nodes in a row of 20 × 6 × 6; from `cut` on they have nodes of their own.
+// Row of 20 × 6 × 6 cells with 8 nodes each; from `cut` on they have separate nodes.
 struct Row {
-  std::vector<int> cells, parent;  // parent: which node of the whole row
+  std::vector<int> cells, parent;  // parent: node of the whole row
   std::shared_ptr<const BlockPattern> Pattern() const {
-    return std::make_shared<BlockPattern>(PatternOf(cells, 8, static_cast<int>(parent.size())));
+    return std::make_shared<BlockPattern>(MakePattern(cells, 8, static_cast<int>(parent.size())));
   }
 };
 Row RowCutAt(int cut) {
@@ -169,17 +169,17 @@ Row RowCutAt(int cut) {
   return row;
 }
 
-TEST(FactorPlan, OfACutBodyKeepsTheOrderItHad) {
+TEST(FactorPlan, PlanOfACutBodyKeepsTheOrder) {
   const Row whole = RowCutAt(100), cut = RowCutAt(7);
   const auto before = std::make_shared<const FactorPlan>(whole.Pattern(), FixedAxes{});
-  const auto after = PlanAfter(before, cut.parent, cut.Pattern(), FixedAxes(cut.parent.size(), 0));
+  const auto after = UpdatePlan(before, cut.parent, cut.Pattern(), FixedAxes(cut.parent.size(), 0));
   const FactorPlan sought(cut.Pattern(), FixedAxes{});
   EXPECT_EQ(after->size(), 3 * static_cast<int>(cut.parent.size()));
-  EXPECT_LE(after->flops(), 1.1 * before->flops()) << "a cut row is no more work than a whole one";
+  EXPECT_LE(after->flops(), 1.1 * before->flops()) << "a cut row costs no more than a whole one";
   printf("work of the cut row: %.3g, with an order of its own %.3g, of the whole row %.3g\n",
          after->flops(), sought.flops(), before->flops());
 
-  // A matrix of that pattern: −1 to each neighbour, and what outweighs them.
+  // Matrix of that pattern: −1 to each neighbour and a dominant diagonal.
   BlockMatrix a{cut.Pattern(), {}};
   for (int i = 0; i < a.pattern->node_count(); ++i)
     for (int k = a.pattern->row_begin[i]; k < a.pattern->row_begin[i + 1]; ++k) {
@@ -194,23 +194,23 @@ TEST(FactorPlan, OfACutBodyKeepsTheOrderItHad) {
   factor.Solve(b, y);
   double off = 0;
   for (std::size_t i = 0; i < x.size(); ++i) off = std::max(off, glm::length(y[i] - x[i]));
-  EXPECT_LT(off, 1e-5) << "kept in float";
+  EXPECT_LT(off, 1e-5) << "stored as float";
 }
 
-TEST(FactorPlan, IsTheSameWhereNothingBecameOfTheCut) {
+TEST(FactorPlan, PlanIsReusedWhenTheCutChangedNothing) {
   const Row whole = RowCutAt(100);
   const auto before = std::make_shared<const FactorPlan>(whole.Pattern(), FixedAxes{});
   const FixedAxes free(whole.parent.size(), 0);
-  EXPECT_EQ(PlanAfter(before, whole.parent, whole.Pattern(), free), before);
+  EXPECT_EQ(UpdatePlan(before, whole.parent, whole.Pattern(), free), before);
   FixedAxes held = free;
   held[3] = 7;
-  EXPECT_EQ(PlanAfter(before, {}, whole.Pattern(), held)->size(), before->size() - 3);
+  EXPECT_EQ(UpdatePlan(before, {}, whole.Pattern(), held)->size(), before->size() - 3);
 }
 
-TEST(PanelKernels, WhatIsLeftOutOfAProductChangesNoBitOfTheRest) {
+TEST(PanelKernels, SkippedPartsOfAProductChangeNoOtherBit) {
   Random random(3);
   for (const int n : {1, 5, 16, 23, 47}) {
-    const int stride = StripsOf(n);
+    const int stride = RoundUpToStrip(n);
     const auto made = [&](auto&& is_there) {
       std::vector<double> m(static_cast<std::size_t>(stride * stride + kStrip), 0.0);
       for (int j = 0; j < n; ++j)
@@ -241,7 +241,7 @@ TEST(PanelKernels, WhatIsLeftOutOfAProductChangesNoBitOfTheRest) {
   }
 }
 
-TEST(SparseFactor, NotFiniteIsSaid) {
+TEST(SparseFactor, NonFiniteMatrixIsReported) {
   BlockMatrix a = Grid(3, 3, 3);
   a.block[a.pattern->diagonal[4]][4] = std::nan("");
   SparseFactor factor(std::make_shared<FactorPlan>(a.pattern, FixedAxes{}));

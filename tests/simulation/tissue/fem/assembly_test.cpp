@@ -1,4 +1,4 @@
-// Whole meshes: energy, force and tangent, for both orders and laws.
+// Energy, force and tangent of whole meshes, for both orders and laws.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(, EachOrderAndLaw,
                                                                                : "NeoHookean");
                          });
 
-// Fourth-order differences with h = 1e-4 of an edge: method and rounding both under 1e-9.
+// Fourth-order differences with h = 1e-4 of an edge: truncation and rounding errors are below 1e-9.
 TEST_P(EachOrderAndLaw, ForceAndTangentAreDerivativesOfTheEnergyOnACurvedMesh) {
   const TetMesh mesh = Crescent(order());
   const FemModel model(mesh, Fibred(law()));
@@ -65,7 +65,7 @@ TEST_P(EachOrderAndLaw, ForceAndTangentAreDerivativesOfTheEnergyOnACurvedMesh) {
     }
 }
 
-TEST_P(EachOrderAndLaw, RestAndRigidMotionHaveNoForceAndNoEnergy) {
+TEST_P(EachOrderAndLaw, RestAndRigidMotionGiveZeroForceAndEnergy) {
   for (const TetMesh& mesh : {Block(order()), Crescent(order())}) {
     const FemModel model(mesh, Fibred(law()));
     const double modulus = 2.2e7;  // matrix and fibres together
@@ -75,8 +75,8 @@ TEST_P(EachOrderAndLaw, RestAndRigidMotionHaveNoForceAndNoEnergy) {
             return rotation * at + glm::dvec3(0.1, -0.2, 0.05);
           })}) {
       const Assembled a = AssembleAt(model, x, Tangent::kNone);
-      // Positions of 0.2 m over edges of 1 mm: 200 ε of strain at most, 1e-13; energy its square
-      // but for rounding of its own, ε.
+      // Positions of 0.2 m with edges of 1 mm: strain errors of at most 200 ε, 1e-13. The energy
+      // has their square and its own rounding, ε.
       EXPECT_LT(std::abs(a.sum.energy), 1e-14 * modulus * model.volume());
       EXPECT_LT(Largest(a.force), 1e-12 * modulus * kSide * kSide);
       EXPECT_EQ(a.sum.inverted, 0);
@@ -85,9 +85,9 @@ TEST_P(EachOrderAndLaw, RestAndRigidMotionHaveNoForceAndNoEnergy) {
   }
 }
 
-// A linear displacement has the same F everywhere: energy is volume times Ψ(F) and nodes inside
-// feel nothing.
-TEST_P(EachOrderAndLaw, PatchOfLinearDisplacementHasOneStress) {
+// A linear displacement has the same F everywhere: the energy is volume times Ψ(F), and inner nodes
+// feel no force.
+TEST_P(EachOrderAndLaw, PatchTestGivesUniformStress) {
   const TetMesh mesh = Block(order());
   const FemModel model(mesh, Rubber(law()));
   const glm::dmat3 f = glm::dmat3(1.1, 0.05, -0.02, 0.1, 0.9, 0.07, -0.04, 0.03, 1.05);
@@ -98,7 +98,7 @@ TEST_P(EachOrderAndLaw, PatchOfLinearDisplacementHasOneStress) {
                Tangent::kNone,
                {f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]},
                {}};
-  const PointAnswer point = KernelOf(InstructionSet::kScalar)->point(job);
+  const PointResponse point = KernelOf(InstructionSet::kScalar)->point(job);
   EXPECT_NEAR(a.sum.energy, point.psi * model.volume(), 1e-12 * point.psi * model.volume());
   EXPECT_NEAR(a.sum.min_ratio, point.j, 1e-13);
   EXPECT_NEAR(model.volume(), kSide * kSide * kSide, 1e-15 * kSide);
@@ -109,8 +109,8 @@ TEST_P(EachOrderAndLaw, PatchOfLinearDisplacementHasOneStress) {
     if (!is_inside(at.x) || !is_inside(at.y) || !is_inside(at.z)) continue;
     EXPECT_LT(glm::length(a.force[i]), 1e-12 * scale) << "node " << i;
   }
-  // Cut at any height, what the upper half does to the lower one is P·n A: here by the moment of
-  // the forces, Σ force ⊗ x = −P V.
+  // Moment of the forces: at any cross-section the upper half acts on the lower one with P·n A,
+  // hence Σ force ⊗ x = −P V.
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
       double moment = 0;
@@ -120,7 +120,7 @@ TEST_P(EachOrderAndLaw, PatchOfLinearDisplacementHasOneStress) {
     }
 }
 
-TEST_P(EachOrderAndLaw, MatrixIsSymmetricToTheBitAndKeepsItsPattern) {
+TEST_P(EachOrderAndLaw, MatrixIsExactlySymmetricAndKeepsItsPattern) {
   const TetMesh mesh = Crescent(order());
   const FemModel model(mesh, Fibred(law()));
   for (const Tangent tangent : {Tangent::kTrue, Tangent::kProjected}) {
@@ -141,8 +141,8 @@ TEST_P(EachOrderAndLaw, MatrixIsSymmetricToTheBitAndKeepsItsPattern) {
   }
 }
 
-// xᵀ A x ≥ 0 for any x, also where elements are inside out.
-TEST_P(EachOrderAndLaw, ProjectedMatrixIsPositive) {
+// xᵀ A x ≥ 0 for any x, also for inverted elements.
+TEST_P(EachOrderAndLaw, ProjectedMatrixIsPositiveSemidefinite) {
   const TetMesh mesh = Crescent(order());
   const FemModel model(mesh, Fibred(law()));
   const Assembled a = AssembleAt(model, Shaken(mesh, 2e-3), Tangent::kProjected);
@@ -159,7 +159,7 @@ TEST_P(EachOrderAndLaw, ProjectedMatrixIsPositive) {
   }
 }
 
-TEST_P(EachOrderAndLaw, NotFiniteInIsNotFiniteOut) {
+TEST_P(EachOrderAndLaw, NonFiniteInputGivesNonFiniteOutput) {
   const TetMesh mesh = Crescent(order());
   const FemModel model(mesh, Fibred(law()));
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
@@ -192,7 +192,7 @@ TEST_P(EachOrderAndLaw, AllocatesNothing) {
 TEST_P(EachOrderAndLaw, EveryInstructionSetGivesTheSameBits) {
   const TetMesh mesh = Crescent(order());
   const FemModel model(mesh, Fibred(law()));
-  for (const double shake : {1e-4, 2e-3})  // the second with elements inside out
+  for (const double shake : {1e-4, 2e-3})  // the second inverts elements
     for (const Tangent tangent : {Tangent::kNone, Tangent::kTrue, Tangent::kProjected}) {
       const std::vector<glm::dvec3> x = Shaken(mesh, shake);
       const auto all_of = [&](const ElementKernel* kernel) {

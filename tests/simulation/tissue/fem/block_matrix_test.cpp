@@ -13,7 +13,7 @@
 namespace arthro::simulation {
 namespace {
 
-TEST(BlockMatrix, MultipliesAsTheSumOfItsBlocks) {
+TEST(BlockMatrix, ProductEqualsTheSumOverBlocks) {
   const TetMesh mesh = Crescent(2);
   const FemModel model(mesh, Rubber());
   const Assembled a = AssembleAt(model, Shaken(mesh, 1e-4));
@@ -36,7 +36,7 @@ TEST(BlockMatrix, MultipliesAsTheSumOfItsBlocks) {
   EXPECT_LT(worst, 1e-14);
 }
 
-TEST(BlockMatrix, ThreeProductsAtOnceAreWhatEachIsAloneBitForBit) {
+TEST(BlockMatrix, ThreeProductsAtOnceEqualSingleProductsBitForBit) {
   const TetMesh mesh = Crescent(2);
   const FemModel model(mesh, Rubber());
   const Assembled a = AssembleAt(model, Shaken(mesh, 1e-4));
@@ -58,9 +58,9 @@ TEST(BlockMatrix, ThreeProductsAtOnceAreWhatEachIsAloneBitForBit) {
   }
 }
 
-TEST(BlockMatrix, PatternHasNodesOfNoElementAndNothingTwice) {
+TEST(BlockMatrix, PatternIncludesUnusedNodesAndHasNoDuplicates) {
   const std::vector<int> elements{0, 1, 2, 4, 1, 2, 4, 5};
-  const BlockPattern p = PatternOf(elements, 4, 7);
+  const BlockPattern p = MakePattern(elements, 4, 7);
   EXPECT_EQ(p.node_count(), 7);
   EXPECT_EQ(p.row_begin, (std::vector<int>{0, 4, 9, 14, 15, 20, 24, 25}));
   EXPECT_EQ(p.column[p.diagonal[3]], 3);

@@ -1,4 +1,4 @@
-// Masses, loads, shares, rotations, bad input.
+// Masses, loads, shares, rotations and invalid input.
 #include "simulation/tissue/fem/fem_model.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class EachOrder : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(, EachOrder, testing::Values(1, 2),
                          [](const auto& which) { return which.param == 1 ? "T4" : "T10"; });
 
-TEST_P(EachOrder, CountsElementsThatAreInsideOut) {
+TEST_P(EachOrder, CountsInvertedElements) {
   const TetMesh mesh = Block(GetParam());
   const FemModel model(mesh, Rubber());
   const auto mirrored = AssembleAt(
@@ -28,7 +28,7 @@ TEST_P(EachOrder, CountsElementsThatAreInsideOut) {
   const auto flat = AssembleAt(
       model, Moved(mesh, [](const glm::dvec3& at) { return glm::dvec3(at.x, at.y, 0); }));
   EXPECT_EQ(flat.sum.inverted, mesh.ElementCount());
-  // A corner pulled through the body: the elements at that corner and no others.
+  // Pulls a corner through the body, which inverts the elements at that corner only.
   std::vector<glm::dvec3> x = mesh.rest_positions;
   const int corner = mesh.elements[0];
   x[corner] += 3.0 * (glm::dvec3(kSide / 2) - x[corner]);
@@ -54,7 +54,7 @@ TEST_P(EachOrder, MassesSumToDensityTimesVolume) {
   }
 }
 
-TEST_P(EachOrder, BodyForceSumsToItsTotalAndItsMoment) {
+TEST_P(EachOrder, BodyForceHasTheRightTotalAndMoment) {
   const TetMesh mesh = Block(GetParam());
   const FemModel model(mesh, Rubber());
   std::vector<glm::dvec3> force(mesh.rest_positions.size(), glm::dvec3(0.0));
@@ -67,7 +67,7 @@ TEST_P(EachOrder, BodyForceSumsToItsTotalAndItsMoment) {
   EXPECT_LT(glm::length(centre - glm::dvec3(kSide / 2)), 1e-12 * kSide);
 }
 
-TEST_P(EachOrder, SurfaceLoadSumsToItsTotalAndIsUniform) {
+TEST_P(EachOrder, SurfaceLoadHasTheRightTotalAndIsUniform) {
   const TetMesh mesh = Block(GetParam());
   std::vector<glm::dvec3> force(mesh.rest_positions.size(), glm::dvec3(0.0));
   const glm::dvec3 total(0.1, 0.2, -0.3);
@@ -87,7 +87,7 @@ TEST_P(EachOrder, SurfaceLoadSumsToItsTotalAndIsUniform) {
   EXPECT_EQ(AddSurfaceLoad(mesh, one_node, total, force), 0);
 }
 
-// Inner faces of the mesh bear nothing, though all their corners are in the set.
+// Inner faces carry no load, although all their corners are in the set.
 TEST_P(EachOrder, SurfaceLoadActsOnTheBoundaryOnly) {
   const TetMesh mesh = Block(GetParam());
   std::vector<glm::dvec3> force(mesh.rest_positions.size(), glm::dvec3(0.0));
@@ -95,7 +95,7 @@ TEST_P(EachOrder, SurfaceLoadActsOnTheBoundaryOnly) {
   EXPECT_NEAR(AddSurfaceLoad(mesh, all, {0, 0, 1}, force), 6 * kSide * kSide, 1e-12 * kSide);
 }
 
-TEST_P(EachOrder, SharesScaleWhatIsThere) {
+TEST_P(EachOrder, SharesScaleEnergyForceAndMass) {
   const TetMesh mesh = Crescent(GetParam());
   const FemModel whole(mesh, Fibred(Law::kStableNeoHookean));
   FemModel half = whole;
@@ -112,7 +112,7 @@ TEST_P(EachOrder, SharesScaleWhatIsThere) {
   }
 }
 
-TEST_P(EachOrder, ACopyWithOtherSharesIsAModelMadeWithThemToTheBit) {
+TEST_P(EachOrder, ChangedSharesEqualANewModelBitForBit) {
   const TetMesh mesh = Block(GetParam());
   FemModel whole(mesh, Rubber());
   std::vector<double> share(whole.shares().size());
@@ -127,9 +127,9 @@ TEST_P(EachOrder, ACopyWithOtherSharesIsAModelMadeWithThemToTheBit) {
   EXPECT_TRUE(std::ranges::equal(made.mass(), copy.mass()));
 }
 
-// Elements of no share are as if they were not there: the rest answers as the mesh of the rest,
-// their own nodes keep a mass above nothing, and inside out they do not count.
-TEST(FemModel, ANodeKnowsWhatIsLeftOfItsElements) {
+// Elements with zero share have no effect: the rest answers like a mesh of the rest. Their own
+// nodes keep a positive mass, and inverted ones do not count.
+TEST(FemModel, NodeSharesAreTheRemainingVolumeFractions) {
   TetMesh mesh;
   mesh.order = 1;
   mesh.rest_positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -3}};
@@ -143,7 +143,7 @@ TEST(FemModel, ANodeKnowsWhatIsLeftOfItsElements) {
   EXPECT_NEAR(share[0], (0.2 * 1 + 3) / 4, 1e-15) << "by volume";
 }
 
-TEST_P(EachOrder, WhatHasNoShareIsGone) {
+TEST_P(EachOrder, ElementsWithZeroShareHaveNoEffect) {
   const TetMesh mesh = Block(GetParam());
   const int n = mesh.NodesPerElement(), points = n == 10 ? 4 : 1, kept = mesh.ElementCount() - 13;
   std::vector<double> share(static_cast<std::size_t>(mesh.ElementCount()) * points, 1.0);
@@ -164,7 +164,7 @@ TEST_P(EachOrder, WhatHasNoShareIsGone) {
   EXPECT_LE(AssembleAt(cut, mirrored).sum.inverted, kept);
 }
 
-TEST_P(EachOrder, NodeRotationsFollowARigidOneAndStayProperWhenFlat) {
+TEST_P(EachOrder, NodeRotationsFollowARigidRotationAndStayProperWhenFlat) {
   const TetMesh mesh = Crescent(GetParam());
   const FemModel model(mesh, Rubber());
   const glm::dmat3 turn = SomeRotation();
@@ -181,7 +181,7 @@ TEST_P(EachOrder, NodeRotationsFollowARigidOneAndStayProperWhenFlat) {
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(glm::length(r[k]), 1, 1e-12);
     }
   }
-  // Nothing says how a point or a line along x is turned: not at all.
+  // A point, or a line along x, does not determine a rotation: expects the identity.
   for (const double width : {0.0, 1.0}) {
     model.NodeRotations(
         Moved(mesh, [&](const glm::dvec3& at) { return glm::dvec3(width * at.x, 0, 0); }),
@@ -191,8 +191,8 @@ TEST_P(EachOrder, NodeRotationsFollowARigidOneAndStayProperWhenFlat) {
   }
 }
 
-// Hinton, Rock & Zienkiewicz: corners of a straight T10 have 1/36 of its mass each, middles 4/27.
-TEST(FemModel, LumpsAStraightT10AsTheExactIntegralsSay) {
+// Hinton, Rock & Zienkiewicz: corners of a straight T10 have 1/36 of its mass each, midpoints 4/27.
+TEST(FemModel, LumpedMassOfAStraightT10EqualsTheExactIntegrals) {
   TetMesh mesh;
   mesh.order = 2;
   mesh.rest_positions = {{0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, 0, 0},
@@ -203,7 +203,7 @@ TEST(FemModel, LumpsAStraightT10AsTheExactIntegralsSay) {
     EXPECT_NEAR(model.mass()[i], 1100.0 / 6 * (i < 4 ? 1.0 / 36 : 4.0 / 27), 1e-10);
 }
 
-TEST(FemModel, RefusesWhatCannotBeComputedWith) {
+TEST(FemModel, RefusesInvalidMaterialsAndMeshes) {
   const TetMesh mesh = Block(1);
   const auto says = [&](const TetMesh& m, const Material& material,
                         std::span<const double> share = {}) -> std::string {

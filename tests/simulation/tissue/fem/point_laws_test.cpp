@@ -1,6 +1,5 @@
-// The laws at one point: energy, stress and tangent against one another by differences, and the
-// projection against an eigensolver that is not ours. Every number is over μ or over the largest
-// entry of what is compared.
+// Laws at one point: energy, stress and tangent are compared by differences, and the projection
+// with Eigen's eigensolver. Every error is relative to μ or to the largest entry compared.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -45,7 +44,7 @@ Answer At(const Matrix3& f, Law law, Tangent tangent = Tangent::kTrue,
                {},
                {kDirection.x(), kDirection.y(), kDirection.z()}};
   for (int i = 0; i < 9; ++i) job.f[i] = f(i / 3, i % 3);
-  const PointAnswer raw = KernelOf(set)->point(job);
+  const PointResponse raw = KernelOf(set)->point(job);
   Answer answer{raw.psi, raw.j, Vector9(raw.p.data()), Matrix9(raw.dp_df.data())};
   return answer;
 }
@@ -90,8 +89,8 @@ std::vector<Deformation> Deformations() {
   return all;
 }
 
-// The smallest sum of two of the (signed) singular values: where it is 0 the rotation of the polar
-// decomposition has no derivative.
+// Smallest sum of two (signed) singular values; at 0 the rotation of the polar decomposition has no
+// derivative.
 double LeastStretchSum(const Matrix3& f) {
   const Eigen::Vector3d s = f.jacobiSvd().singularValues();
   return s[1] + std::copysign(s[2], f.determinant());
@@ -108,7 +107,7 @@ T Difference(const std::function<T(const Matrix3&)>& value, const Matrix3& f, in
   return (8.0 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
 }
 
-// Largest relative differences of P to ∂Ψ and of the tangent to ∂P.
+// Largest relative differences of P from ∂Ψ and of the tangent from ∂P.
 struct Mismatch {
   double stress = 0, tangent = 0;
 };
@@ -128,9 +127,9 @@ Mismatch Compare(const Matrix3& f, Law law, const Fibres& fibres, double h) {
   return off;
 }
 
-// h = 1e-3 and derivatives of order 1 leave 1e-12 of method and 1e-12 of rounding; singular values
-// that lie close, or are small, make the derivatives of R larger: 1e-8.
-TEST(PointLaws, StressAndTangentAreTheDerivativesOfTheEnergy) {
+// h = 1e-3 and derivatives of order 1 leave truncation and rounding errors of 1e-12 each. Singular
+// values that are small or close together make the derivatives of R larger: 1e-8.
+TEST(PointLaws, StressAndTangentAreDerivativesOfTheEnergy) {
   Mismatch worst;
   int compared = 0;
   for (const Law law : {Law::kStableNeoHookean, Law::kCorotated})
@@ -148,9 +147,8 @@ TEST(PointLaws, StressAndTangentAreTheDerivativesOfTheEnergy) {
   EXPECT_GT(compared, 100);
 }
 
-// Corotated where the sum of two stretches is small: still its derivative, as far as differences
-// with a step well under that sum can tell: 1e-5.
-TEST(PointLaws, CorotatedTangentHoldsCloseToWhereTheRotationTurnsOver) {
+// Corotated law at a small sum of two stretches, with a difference step well below that sum: 1e-5.
+TEST(PointLaws, CorotatedTangentIsTheDerivativeNearASingularRotation) {
   Random random(3);
   for (const double sum : {0.05, 0.01, 0.003})
     for (int i = 0; i < 5; ++i) {
@@ -161,25 +159,25 @@ TEST(PointLaws, CorotatedTangentHoldsCloseToWhereTheRotationTurnsOver) {
     }
 }
 
-// Lengths of the fibre on both sides of 1 (tension only has a kink in its tangent there, not
-// tested) and of the guard at 1e-3 of its length, and exactly nothing.
-TEST(PointLaws, FibresPullAsTheirEnergySays) {
+// Fibre lengths on both sides of 1, of the guard at 1e-3, and exactly 0. The kink of tension-only
+// fibres at 1 is not tested.
+TEST(PointLaws, FibreStressIsTheDerivativeOfItsEnergy) {
   Random random(11);
   for (const Fibres& fibres : {kFibres, kTensionOnly})
     for (const double length : {2.0, 1.1, 0.9, 0.3, 0.02, 5e-4, 0.0}) {
-      // F d = length · n: F without its part along d, plus that.
+      // F without its part along d, plus length · n: F d = length · n.
       Matrix3 f = Matrix3::Identity() + RandomMatrix(random, 0.3);
       const Eigen::Vector3d n = RandomRotation(random).col(0);
       f += (length * n - f * kDirection) * kDirection.transpose();
       const double h = length > 0.1 ? 1e-3 : length > 1e-3 ? 1e-4 : 1e-4;
       const Mismatch off = Compare(f, Law::kStableNeoHookean, fibres, h);
-      // At 0.02 the tangent grows as 1/l and the step is l/200: 1e-7 of method.
+      // At 0.02 the tangent grows as 1/l and the step is l/200: truncation error 1e-7.
       EXPECT_LT(off.stress, 1e-7) << fibres.name << ", length " << length;
       EXPECT_LT(off.tangent, 1e-7) << fibres.name << ", length " << length;
     }
 }
 
-TEST(PointLaws, TensionOnlyFibresBeginToPullWithoutAStep) {
+TEST(PointLaws, TensionOnlyFibreStressIsContinuous) {
   const auto stress = [](double length, const Fibres& fibres) {
     const Matrix3 f = Matrix3::Identity() + (length - 1) * kDirection * kDirection.transpose();
     return (At(f, Law::kCorotated, Tangent::kNone, fibres).p -
@@ -191,11 +189,11 @@ TEST(PointLaws, TensionOnlyFibresBeginToPullWithoutAStep) {
   EXPECT_NEAR(stress(0.5, kFibres), 20, 1e-12);
 }
 
-TEST(PointLaws, RestAndRotationHaveNeitherEnergyNorStress) {
+TEST(PointLaws, RestAndRotationGiveZeroEnergyAndStress) {
   Random random(5);
   for (const Law law : {Law::kStableNeoHookean, Law::kCorotated}) {
     const Answer rest = At(Matrix3::Identity(), law, Tangent::kTrue, kFibres);
-    EXPECT_EQ(rest.psi, 0) << "exactly, at rest";
+    EXPECT_EQ(rest.psi, 0) << "exactly zero at rest";
     EXPECT_EQ(rest.p.cwiseAbs().maxCoeff(), 0);
     for (int i = 0; i < 20; ++i) {
       const Answer turned = At(RandomRotation(random), law, Tangent::kTrue, kFibres);
@@ -206,7 +204,7 @@ TEST(PointLaws, RestAndRotationHaveNeitherEnergyNorStress) {
 }
 
 // Both laws are linear elasticity at rest: P = 2μ ε + λ tr ε.
-TEST(PointLaws, BothLawsAreLinearElasticityAtRest) {
+TEST(PointLaws, BothLawsReduceToLinearElasticityAtRest) {
   for (const Law law : {Law::kStableNeoHookean, Law::kCorotated}) {
     const Matrix9 a = At(Matrix3::Identity(), law).a;
     for (int i = 0; i < 3; ++i)
@@ -220,8 +218,9 @@ TEST(PointLaws, BothLawsAreLinearElasticityAtRest) {
   }
 }
 
-// The 9×9 with its negative eigenvalues set to zero by Eigen, matrix and fibres each for itself.
-TEST(PointLaws, ProjectedTangentIsTheTrueOneWithoutItsNegativeEigenvalues) {
+// Compares with the 9×9 whose negative eigenvalues Eigen sets to zero, for matrix and fibres
+// separately.
+TEST(PointLaws, ProjectedTangentDropsOnlyNegativeEigenvalues) {
   const auto project = [](const Matrix9& a) {
     const Eigen::SelfAdjointEigenSolver<Matrix9> eigen(0.5 * (a + a.transpose()));
     return Matrix9(eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
@@ -237,7 +236,7 @@ TEST(PointLaws, ProjectedTangentIsTheTrueOneWithoutItsNegativeEigenvalues) {
         const Matrix9 ours = At(d.f, law, Tangent::kProjected, fibres).a;
         const double scale = matrix.cwiseAbs().maxCoeff() + fibre.cwiseAbs().maxCoeff();
         const double off = (ours - expected).cwiseAbs().maxCoeff() / scale;
-        // Both eigensolvers are good to some 1e-15 of the largest eigenvalue.
+        // Both eigensolvers are accurate to about 1e-15 of the largest eigenvalue.
         EXPECT_LT(off, 1e-13) << d.name << "\n" << d.f;
         EXPECT_LT((ours - ours.transpose()).cwiseAbs().maxCoeff(), 1e-15 * scale) << d.name;
         const double least =
@@ -249,9 +248,9 @@ TEST(PointLaws, ProjectedTangentIsTheTrueOneWithoutItsNegativeEigenvalues) {
   std::printf("off by %.1e, least eigenvalue %.1e of the largest entry\n", worst, most_negative);
 }
 
-TEST(PointLaws, ProjectedTangentIsTheTrueOneWhereThatIsPositive) {
-  // J = a: the pressure is zero and every eigenvalue of stable neo-Hookean is μ or more; stretched
-  // a little, so is that of corotated.
+TEST(PointLaws, ProjectedTangentEqualsAPositiveTrueTangent) {
+  // At J = a the pressure is zero and every eigenvalue of stable neo-Hookean is at least μ.
+  // Slightly stretched, the same holds for the corotated law.
   const Matrix3 f = Matrix3::Identity() * std::cbrt(1 + kMu / (kMu + kLambda));
   for (const Law law : {Law::kStableNeoHookean, Law::kCorotated}) {
     const Matrix9 exact = At(f, law, Tangent::kTrue, kFibres).a;
@@ -260,7 +259,7 @@ TEST(PointLaws, ProjectedTangentIsTheTrueOneWhereThatIsPositive) {
   }
 }
 
-TEST(PointLaws, NothingIsInfiniteWhereEverythingIsFlat) {
+TEST(PointLaws, ResponseToZeroDeformationIsFinite) {
   for (const Law law : {Law::kStableNeoHookean, Law::kCorotated})
     for (const Tangent tangent : {Tangent::kTrue, Tangent::kProjected})
       for (const Deformation& d : Deformations()) {
@@ -271,7 +270,7 @@ TEST(PointLaws, NothingIsInfiniteWhereEverythingIsFlat) {
       }
 }
 
-TEST(PointLaws, NotANumberDoesNotBecomeOne) {
+TEST(PointLaws, NanInputGivesNanOutput) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
     for (int entry = 0; entry < 9; ++entry)
       for (const Law law : {Law::kStableNeoHookean, Law::kCorotated}) {
@@ -283,8 +282,7 @@ TEST(PointLaws, NotANumberDoesNotBecomeOne) {
       }
 }
 
-// Every instruction set gives the same bits, at every deformation.
-TEST(PointLaws, AreTheSameBitsOnEveryInstructionSet) {
+TEST(PointLaws, EveryInstructionSetGivesTheSameBits) {
   int sets = 0;
   for (const InstructionSet set :
        {InstructionSet::kSse2, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
@@ -300,7 +298,7 @@ TEST(PointLaws, AreTheSameBitsOnEveryInstructionSet) {
           ASSERT_EQ(one.a, other.a) << KernelOf(set)->name << ", " << d.name;
         }
   }
-  std::printf("%d instruction sets beside the scalar one\n", sets);
+  std::printf("%d instruction sets compared with the scalar one\n", sets);
   EXPECT_GE(sets, 1);
 }
 

@@ -1,5 +1,5 @@
-// Reference cases solved by plain Newton with a direct solver that is not ours, so that what is
-// compared with the reference is the elements and laws alone.
+// Reference cases solved by plain Newton with Eigen's direct solver, so that the comparison tests
+// only elements and laws.
 #include <cmath>
 #include <fstream>
 #include <ostream>
@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 struct Solution {
-  std::vector<glm::dvec3> x, force;  // force: elastic
+  std::vector<glm::dvec3> x, force;  // elastic forces
   double energy = 0, residual = 0;
   int newton = 0;
 };
@@ -54,7 +54,7 @@ class Newton {
     matrix_.block.resize(matrix_.pattern->column.size());
   }
 
-  // The load in `steps` parts, each to a residual of 1e-11 of it.
+  // Applies the load in `steps` parts, each solved to a relative residual of 1e-11.
   Solution Solve(int steps) {
     Solution s;
     s.x = model_.mesh().rest_positions;
@@ -108,7 +108,7 @@ class Newton {
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(a);
     ASSERT_EQ(factor.info(), Eigen::Success);
     const Eigen::VectorXd move = factor.solve(right);
-    // Halved until no element turns inside out.
+    // Halves the step until no element is inverted.
     const std::vector<glm::dvec3> before = s.x;
     double step = 1;
     for (int tries = 0; tries < 20; ++tries, step *= 0.5) {
@@ -135,8 +135,8 @@ void PrintTo(const Reference& r, std::ostream* out) { *out << r.name; }
 
 class ReferenceCase : public testing::TestWithParam<Reference> {};
 
-// 1e-6: what the reference promises of its own values; they are written with 8 digits.
-TEST_P(ReferenceCase, IsReachedToOneInAMillion) {
+// 1e-6 is the accuracy of the reference values, which have 8 digits.
+TEST_P(ReferenceCase, MatchesTheReferenceToOneInAMillion) {
   ARTHRO_REQUIRE_SHARED(folder, "reference/tissue");
   const std::string name = GetParam().name;
   const json the_case = json::parse(std::ifstream(folder / (name + ".json")));
@@ -163,7 +163,7 @@ TEST_P(ReferenceCase, IsReachedToOneInAMillion) {
       double sum = 0, count = 0;
       for (std::size_t i = 0; i < set.size(); ++i)
         if (set[i]) {
-          // What holds the nodes is minus what the elements push them with.
+          // The reaction is minus the force of the elements.
           sum += q.at("what") == "reaction" ? -s.force[i][axis]
                                             : s.x[i][axis] - mesh.rest_positions[i][axis];
           count += 1;

@@ -10,7 +10,7 @@
 namespace arthro::simulation {
 namespace {
 
-TEST(TetShape, BarycentricCoordinatesGiveBackThePlaceInsideAndOutOfEitherHandedness) {
+TEST(TetShape, BarycentricCoordinatesReproducePointsForEitherHandedness) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> in(-1.0, 2.0);
   double worst = 0;
@@ -28,11 +28,11 @@ TEST(TetShape, BarycentricCoordinatesGiveBackThePlaceInsideAndOutOfEitherHandedn
     EXPECT_NEAR(found.x + found.y + found.z + found.w, 1.0, 1e-9);
     worst = std::max(worst, glm::distance(back, x));
   }
-  // Rounding, 1e-16 of some mm, times how flat the flattest of a thousand is, 1e5 or less.
+  // Rounding of 1e-16 of some mm, times the flatness of the flattest of a thousand, at most 1e5.
   EXPECT_LT(worst, 1e-13);
 }
 
-TEST(TetShape, AFlatTetrahedronHasNoInside) {
+TEST(TetShape, FlatTetrahedronContainsNoPoint) {
   const std::array<glm::dvec3, 4> flat{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   EXPECT_EQ(BarycentricIn(flat, {0.25, 0.25, 0}), glm::dvec4(-1.0));
 }

@@ -1,4 +1,4 @@
-// Small bodies and what the tests of this folder ask of them.
+// Small bodies for the tests of this folder.
 #pragma once
 
 #include <algorithm>
@@ -30,9 +30,9 @@ inline Material Fibred(Law law) {
   return m;
 }
 
-// A block of 2×2×3 cells, straight.
+// Straight block of 2×2×3 cells.
 inline TetMesh Block(int order) { return app::BlockMesh(order, {2, 2, 3}); }
-// A crescent, middle nodes on the curved boundary.
+// Crescent with mid-edge nodes on the curved boundary.
 inline TetMesh Crescent(int order) {
   return app::MeniscusMesh(order, app::MeniscusTicks(app::Cells{6, 2, 1}));
 }

@@ -1,5 +1,5 @@
-// Is a triangle surface closed, consistently oriented and a manifold, and which volume does it
-// enclose?
+// Checks whether a triangle surface is a closed, consistently oriented manifold, and computes its
+// volume.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 namespace arthro::test {
 
 struct SurfaceFaults {
-  int edges = 0;     // directed edges that are not there exactly once with their opposite
-  int vertices = 0;  // whose triangles are not one closed fan
+  int edges = 0;     // directed edges that do not occur exactly once with their opposite
+  int vertices = 0;  // vertices whose triangles are not one closed fan
 };
 
 inline SurfaceFaults FaultsOf(const SurfaceMesh& surface) {
   SurfaceFaults faults;
   std::map<std::pair<int, int>, int> uses;
-  std::vector<std::map<int, int>> next(surface.vertices.size());  // round each vertex
+  std::vector<std::map<int, int>> next(surface.vertices.size());  // next vertex around each vertex
   for (const auto& t : surface.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       ++uses[{t[i], t[(i + 1) % 3]}];

@@ -40,8 +40,9 @@ glm::dvec3 AnyDirection(std::mt19937& random) {
   return glm::normalize(glm::dvec3(any(random), any(random), any(random)));
 }
 
-// Force is along the normal where the ball touches: place and direction against the analytic shape.
-TEST(ImplicitTissue, AProbeBallStopsWhereTheAnalyticBallIsAndIsPushedItsWay) {
+// The force is along the normal at the contact; compares position and direction with the analytic
+// shape.
+TEST(ImplicitTissue, ProbeStopsAtTheAnalyticSphereWithItsNormal) {
   const double radius = 4 * kMm, probe = 0.5 * kMm, scale = Somewhere().scale;
   for (const double h : {0.5 * kMm, 0.25 * kMm}) {
     const ImplicitTissue tissue(BallField(radius, h), Somewhere());
@@ -59,16 +60,16 @@ TEST(ImplicitTissue, AProbeBallStopsWhereTheAnalyticBallIsAndIsPushedItsWay) {
       worst_angle = std::max(
           worst_angle, std::acos(std::min(1.0, glm::dot(hit.normal, glm::normalize(at - centre)))));
     }
-    std::printf("ball 5.2 mm, spacing %.3f mm: place off by %.1f um, force direction by %.3f deg\n",
+    std::printf("ball 5.2 mm, spacing %.3f mm: position error %.1f um, direction error %.3f deg\n",
                 scale * h / kMm, 1e6 * worst_place, worst_angle * 180 / std::numbers::pi);
-    // Interpolation: h²/8 of the sum of curvatures; direction: differences over h see the third
-    // derivative, about (h/R)²/8, and its change within a cell, about as much again.
+    // Interpolation error: h²/8 of the sum of curvatures. Direction error: differences over h have
+    // the third derivative's error, about (h/R)²/8, and its change within a cell, about the same.
     EXPECT_LT(worst_place, scale * h * h / 8 * 2 / radius * 1.2);
     EXPECT_LT(worst_angle, 0.5 * (h / radius) * (h / radius));
   }
 }
 
-TEST(ImplicitTissue, ForceDirectionOnATorusAgreesWithTheAnalyticOne) {
+TEST(ImplicitTissue, NormalOnATorusAgreesWithTheAnalyticNormal) {
   for (const double h : {0.5 * kMm, 0.25 * kMm}) {
     const ImplicitTissue tissue(TorusField(h), {});
     std::mt19937 random(2);
@@ -88,16 +89,15 @@ TEST(ImplicitTissue, ForceDirectionOnATorusAgreesWithTheAnalyticOne) {
           worst_angle, std::acos(std::min(1.0, glm::dot(hit.normal, glm::normalize(at - core)))));
     }
     EXPECT_GT(hits, 150);
-    std::printf(
-        "torus 5/2 mm, spacing %.2f mm: place off by %.1f um, force direction by %.3f deg\n",
-        h / kMm, 1e6 * worst_place, worst_angle * 180 / std::numbers::pi);
+    std::printf("torus 5/2 mm, spacing %.2f mm: position error %.1f um, direction error %.3f deg\n",
+                h / kMm, 1e6 * worst_place, worst_angle * 180 / std::numbers::pi);
     EXPECT_LT(worst_place, h * h / 8 * (1 / (2 * kMm) + 1 / (3 * kMm)) * 1.2);
     EXPECT_LT(worst_angle, 0.5 * h / (2 * kMm) * h / (2 * kMm));
   }
 }
 
-TEST(ImplicitTissue, NothingIsTunnelledThrough) {
-  // A disc as thin as the grid allows: 1.5 spacings.
+TEST(ImplicitTissue, SweepDoesNotTunnelThroughAThinDisc) {
+  // A disc as thin as the grid permits: 1.5 spacings.
   const double h = 0.3 * kMm;
   const ImplicitTissue disc(SolidField::FromFunction({glm::dvec3(-6 * kMm), glm::dvec3(6 * kMm)}, h,
                                                      [&](const glm::dvec3& x) {
@@ -118,7 +118,7 @@ TEST(ImplicitTissue, NothingIsTunnelledThrough) {
   }
 }
 
-TEST(ImplicitTissue, WhatLeavesIsLetPassAndALaterHitDoesNotCount) {
+TEST(ImplicitTissue, SweepIgnoresSeparatingMotionAndLaterHits) {
   const ImplicitTissue ball(BallField(4 * kMm, 0.25 * kMm), {});
   FieldHit hit;
   EXPECT_FALSE(ball.Sweep({0, 0, 3.8 * kMm}, {0, 0, 10 * kMm}, 0.5 * kMm, hit));
@@ -143,7 +143,7 @@ TEST(ImplicitTissue, SweepsAllocateNothing) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-TEST(ImplicitTissue, EditsInThePortalFrameShapeItAndItsSkinWhereTheyAre) {
+TEST(ImplicitTissue, EditsInThePortalFrameChangeFieldAndSkinThere) {
   ImplicitTissue tissue(BallField(4 * kMm, 0.25 * kMm), Somewhere());
   const Pose pose = Somewhere();
   const glm::dvec3 bite = pose * glm::dvec3(4 * kMm, 0, 0);
@@ -154,12 +154,12 @@ TEST(ImplicitTissue, EditsInThePortalFrameShapeItAndItsSkinWhereTheyAre) {
   EXPECT_GT(update.bricks_redone, 0);
   EXPECT_LT(update.bricks_redone, update.bricks_with_skin / 3);
   EXPECT_GT(tissue.Distance(pose * glm::dvec3(3.5 * kMm, 0, 0)), 0.0);
-  // A ball that comes from the bite's side now goes a radius of the bite further.
+  // A ball from the bite's side now moves further by the bite's radius.
   FieldHit hit;
   const glm::dvec3 from = pose * glm::dvec3(9 * kMm, 0, 0), to = pose.position;
   ASSERT_TRUE(tissue.Sweep(from, to, 0.0, hit));
   EXPECT_NEAR(glm::length(from + hit.fraction * (to - from) - to), 1.3 * (4 - 1) * kMm, 0.02 * kMm);
-  // Put back: touched where it was.
+  // After filling, contact is at the original position.
   tissue.Add(bite, 2.5 * kMm,
              [&](const glm::dvec3& x) { return glm::length(x - pose.position) - 1.3 * 4 * kMm; });
   hit = {};

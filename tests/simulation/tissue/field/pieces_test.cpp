@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
-// A bar of 12 × 4 × 4 mm.
+// Bar of 12 × 4 × 4 mm.
 SolidField Bar() {
   return SolidField::FromSurface(test::Box(glm::dvec3(0), glm::dvec3(12, 4, 4) * kMm), 0.3 * kMm);
 }
@@ -27,7 +27,7 @@ double Sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// How many surfaces the skin is made of.
+// Counts the connected surfaces of the skin.
 int SurfacesOf(const SurfaceMesh& surface) {
   std::vector<int> root(surface.vertices.size());
   std::iota(root.begin(), root.end(), 0);
@@ -44,7 +44,7 @@ int SurfacesOf(const SurfaceMesh& surface) {
   return count;
 }
 
-TEST(Pieces, CutsMakePiecesWhoseVolumesAreTheFieldsVolume) {
+TEST(Pieces, PieceVolumesSumToTheFieldVolume) {
   SolidField bar = Bar();
   EXPECT_EQ(PiecesOf(bar).count(), 1);
   EXPECT_NEAR(PiecesOf(bar).volume[0], bar.Volume(), 1e-12 * bar.Volume());
@@ -54,12 +54,12 @@ TEST(Pieces, CutsMakePiecesWhoseVolumesAreTheFieldsVolume) {
   ASSERT_EQ(pieces.count(), 3);
   EXPECT_NEAR(Sum(pieces.volume), bar.Volume(), 1e-12 * bar.Volume());
   const std::array<double, 3> lengths{3.1 - 0.25, 7.7 - 3.1 - 0.5, 12 - 7.7 - 0.25};
-  for (std::size_t i = 0; i < 3; ++i)  // edges are rounded by 0.25 h² a length at most (see field)
+  for (std::size_t i = 0; i < 3; ++i)  // edges are rounded by at most 0.25 h² per length
     EXPECT_NEAR(pieces.volume[i], lengths[i] * 16 * kMm3, 0.03 * lengths[i] * 16 * kMm3);
-  EXPECT_EQ(SurfacesOf(Polygonise(bar)), 3) << "the skin falls apart as the solid does";
+  EXPECT_EQ(SurfacesOf(Polygonise(bar)), 3) << "the skin has as many parts as the solid";
 }
 
-TEST(Pieces, WhatNoAnchorHoldsIsLoose) {
+TEST(Pieces, PiecesWithoutAnchorAreLoose) {
   SolidField bar = Bar();
   CutAcross(bar, 3.1 * kMm);
   CutAcross(bar, 7.7 * kMm);
@@ -80,16 +80,17 @@ TEST(Pieces, CrumbsAreRemovedByVolumeAndCounted) {
   const double whole = bar.Volume();
   const CrumbReport report = RemoveCrumbs(bar, 20 * kMm3);
   EXPECT_EQ(report.crumbs, 1);
-  // A slot of a spacing and more has no cell with corners of both sides, so just its volume goes.
+  // A slot of at least one spacing has no cell with corners on both sides, so exactly its volume is
+  // removed.
   EXPECT_NEAR(report.edit.removed, before.volume[0], 1e-12 * whole);
   EXPECT_NEAR(report.edit.removed + bar.Volume(), whole, 1e-12 * whole);
   EXPECT_EQ(PiecesOf(bar).count(), 2);
   EXPECT_EQ(RemoveCrumbs(bar, 20 * kMm3).crumbs, 0);
 }
 
-// Against a flood from node to node, on a foam of drops that meet along edges, corners and not at
-// all.
-TEST(Pieces, HangTogetherAlongGridEdgesAndAreMeasuredOneByOneAsAllAtOnce) {
+// Compares with a flood fill from node to node, on a foam of drops that touch along edges, at
+// corners or not at all.
+TEST(Pieces, ConnectivityFollowsGridEdgesAndSingleVolumesAgree) {
   const SolidField foam = SolidField::FromFunction(
       {glm::dvec3(0), glm::dvec3(5 * kMm)}, 0.2 * kMm, [](const glm::dvec3& x) {
         const glm::dvec3 at = x / kMm;
@@ -127,7 +128,7 @@ TEST(Pieces, HangTogetherAlongGridEdgesAndAreMeasuredOneByOneAsAllAtOnce) {
     EXPECT_EQ(VolumeOfPiece(foam, unmeasured, i), pieces.volume[static_cast<std::size_t>(i)]);
 }
 
-TEST(Pieces, AnEmptyFieldHasNone) {
+TEST(Pieces, EmptyFieldHasNoPieces) {
   SolidField none;
   EXPECT_EQ(PiecesOf(none).count(), 0);
   EXPECT_EQ(RemoveCrumbs(none, 1.0).crumbs, 0);

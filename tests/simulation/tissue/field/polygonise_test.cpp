@@ -46,8 +46,9 @@ void ExpectSameSurface(const SurfaceMesh& a, const SurfaceMesh& b) {
   EXPECT_TRUE(a.triangles == b.triangles);
 }
 
-// What makes joining a face safe: it is the cell's only ambiguous one, and then splits the patch.
-TEST(CellPatches, APatchThatTouchesItselfDoesSoOnTheOnlyAmbiguousFaceAndIsSplitByJoining) {
+// Precondition of joining a face: it is the cell's only ambiguous one, and joining splits the
+// patch.
+TEST(CellPatches, JoiningTheOnlyAmbiguousFaceSplitsASelfTouchingPatch) {
   int touching = 0;
   for (int c = 0; c < 256; ++c) {
     const int faces = SelfTouchingFaces(c);
@@ -56,12 +57,12 @@ TEST(CellPatches, APatchThatTouchesItselfDoesSoOnTheOnlyAmbiguousFaceAndIsSplitB
     int ambiguous = 0;
     for (int face = 0; face < 6; ++face) ambiguous += IsAmbiguous(c, face);
     EXPECT_EQ(ambiguous, 1) << c;
-    EXPECT_EQ(PatchesOf(c, faces).count, PatchesOf(c, 0).count + 1) << c;
+    EXPECT_EQ(FindPatches(c, faces).count, FindPatches(c, 0).count + 1) << c;
   }
   EXPECT_GT(touching, 0);
 }
 
-TEST(Polygonise, VerticesLieOnTheShapeToSecondOrderInTheSpacing) {
+TEST(Polygonise, VertexErrorIsSecondOrderInTheSpacing) {
   struct Case {
     const char* name;
     Shape shape;
@@ -80,12 +81,13 @@ TEST(Polygonise, VerticesLieOnTheShapeToSecondOrderInTheSpacing) {
           "%-13s spacing %.2f mm: %6zu vertices, off by %.2f um at most, %.2f in the mean\n",
           c.name, h / kMm, surface.vertices.size(), 1e6 * worst,
           1e6 * sum / static_cast<double>(surface.vertices.size()));
-      // Linear interpolation over h errs by at most h²/8 times the second derivative an axis.
+      // Linear interpolation over h has an error of at most h²/8 times the second derivative per
+      // axis.
       EXPECT_LT(worst, h * h / 8 * c.curvature * 1.2);
       const test::SurfaceFaults faults = test::FaultsOf(surface);
       EXPECT_EQ(faults.edges + faults.vertices, 0);
     }
-  // Off its edges a box is flat and exact to the 32-bit values; an edge is cut off within its cell.
+  // Away from its edges a box is exact to the 32-bit values; an edge is cut off within its cell.
   const double h = 0.35 * kMm;
   const SurfaceMesh box = Polygonise(Sampled(Box, h));
   double worst_face = 0, worst_edge = 0;
@@ -95,14 +97,14 @@ TEST(Polygonise, VerticesLieOnTheShapeToSecondOrderInTheSpacing) {
     double& worst = second > 2 * h ? worst_face : worst_edge;
     worst = std::max(worst, std::abs(Box(x)));
   }
-  std::printf("box: faces off by %.4f um, edges by %.1f um (spacing 350 um)\n", 1e6 * worst_face,
+  std::printf("box: face error %.4f um, edge error %.1f um (spacing 350 um)\n", 1e6 * worst_face,
               1e6 * worst_edge);
   EXPECT_LT(worst_face, 2e-9);
   EXPECT_LT(worst_edge, 0.5 * h);
 }
 
-// No arrangement of signs breaks the surface: noise has them all.
-TEST(Polygonise, NoiseGivesAClosedManifoldThatEnclosesItsSolid) {
+// Noise contains all arrangements of signs; none may break the surface.
+TEST(Polygonise, NoiseGivesAClosedManifoldAroundItsSolid) {
   for (unsigned seed = 0; seed < 6; ++seed) {
     const SolidField field = Noise(seed);
     const SurfaceMesh surface = Polygonise(field);
@@ -114,12 +116,12 @@ TEST(Polygonise, NoiseGivesAClosedManifoldThatEnclosesItsSolid) {
   }
 }
 
-TEST(Polygonise, SurfaceEnclosesWhatTheFieldCounts) {
+TEST(Polygonise, EnclosedVolumeEqualsTheFieldVolume) {
   const SolidField field = Sampled(Torus, 0.25 * kMm);
   EXPECT_NEAR(test::EnclosedVolume(Polygonise(field)), field.Volume(), 0.005 * field.Volume());
 }
 
-TEST(Polygonise, OnlyBricksThatChangedAreRedoneAndTheResultIsThatOfAll) {
+TEST(Polygonise, UpdateRedoesChangedBricksOnlyAndEqualsAFullRun) {
   SolidField field = Sampled(Box, 0.25 * kMm);
   FieldSkin skin(field);
   std::mt19937 random(5);
@@ -139,7 +141,7 @@ TEST(Polygonise, OnlyBricksThatChangedAreRedoneAndTheResultIsThatOfAll) {
     EXPECT_EQ(update.bricks_redone, changed);
     EXPECT_LE(changed, 8) << "1.4 mm + margins meets at most 2 bricks of 2 mm along each axis";
     ExpectSameSurface(skin.surface(), Polygonise(field));
-    // Vertices that were there before are named, and are where they were.
+    // Vertices with a previous index are at the same position.
     ASSERT_EQ(skin.previous().size(), skin.surface().vertices.size());
     std::size_t kept = 0;
     for (std::size_t v = 0; v < skin.previous().size(); ++v)
@@ -152,8 +154,8 @@ TEST(Polygonise, OnlyBricksThatChangedAreRedoneAndTheResultIsThatOfAll) {
   EXPECT_EQ(skin.Update(field).bricks_redone, 0);
 }
 
-// The neighbours of a changed brick may have joined a face with it: noise, changed in one brick.
-TEST(Polygonise, ChangesInNoiseAreFollowedAcrossBricks) {
+// Neighbours of a changed brick may have joined a face with it: changes noise in one brick.
+TEST(Polygonise, UpdateFollowsChangesAcrossBricksInNoise) {
   SolidField field = Noise(11);
   FieldSkin skin(field);
   std::mt19937 random(3);
@@ -170,12 +172,12 @@ TEST(Polygonise, ChangesInNoiseAreFollowedAcrossBricks) {
   }
 }
 
-TEST(Polygonise, NothingSolidGivesNoTriangles) {
+TEST(Polygonise, EmptyFieldGivesNoTriangles) {
   EXPECT_TRUE(Polygonise(SolidField()).triangles.empty());
   EXPECT_TRUE(Polygonise(Sampled([](const glm::dvec3&) { return 1.0; }, kMm)).triangles.empty());
 }
 
-// Printed, not gated.
+// Timing is printed only.
 TEST(Polygonise, DemoMeniscusIsAClosedManifold) {
   SolidField field = SolidField::FromSurface(
       ReadSurface(ARTHRO_SOURCE_DIR "/resources/demo/meniscus.ply", 1.0), 0.35 * kMm);

@@ -30,8 +30,8 @@ SolidField Ball(double radius, double spacing) {
                                   [=](const glm::dvec3& x) { return ToBall(x, {}, radius); });
 }
 
-// The grid holds 32-bit values; what is linear is interpolated to their rounding (1e-9 m).
-TEST(SolidField, DistanceToABoxIsExactBesideItsFacesAndKnowsTheSide) {
+// The grid holds 32-bit values; a linear function is interpolated to their rounding (1e-9 m).
+TEST(SolidField, DistanceToABoxIsExactBesideItsFacesAndSigned) {
   const SolidField box =
       SolidField::FromSurface(test::Box(glm::dvec3(-5 * kMm), glm::dvec3(5 * kMm)), 0.35 * kMm);
   EXPECT_NEAR(box.Distance({5.4 * kMm, 1 * kMm, 2 * kMm}), 0.4 * kMm, 2e-9);
@@ -39,13 +39,13 @@ TEST(SolidField, DistanceToABoxIsExactBesideItsFacesAndKnowsTheSide) {
   EXPECT_NEAR(box.Distance({0, -4.9 * kMm, 0}), -0.1 * kMm, 2e-9);
   EXPECT_LT(glm::length(box.Gradient({3 * kMm, 0.1 * kMm, -0.2 * kMm}) - glm::dvec3(1, 0, 0)),
             1e-5);
-  // Off an edge the distance is curved: interpolation errs by less than h²/(8 d).
+  // Beyond an edge the distance is curved; interpolation errs by less than h²/(8 d).
   EXPECT_NEAR(box.Distance({5.5 * kMm, 5.5 * kMm, 0}), std::sqrt(0.5) * kMm, 0.025 * kMm);
 }
 
-// Thin wedges are where distance fields lose sides: every node of a crescent-like thin ring is
-// held against the closed form.
-TEST(SolidField, SidesAndDistancesOfATorusAgreeWithTheClosedForm) {
+// Thin wedges may give wrong signs: compares every node of a thin crescent-like ring with the
+// closed form.
+TEST(SolidField, SignsAndDistancesOfATorusAgreeWithTheClosedForm) {
   const double ring = 15 * kMm, tube = 3 * kMm;
   const SolidField field = SolidField::FromSurface(test::Torus(ring, tube, 256, 96), 0.35 * kMm);
   const auto truth = [&](const glm::dvec3& x) {
@@ -67,14 +67,14 @@ TEST(SolidField, SidesAndDistancesOfATorusAgreeWithTheClosedForm) {
       }
   std::printf("torus of 49 152 facets: worst distance %.2f um, near the surface %.2f um\n",
               1e6 * worst, 1e6 * worst_near);
-  // Facets stand off the torus by (1 - cos(π/256)) 18 mm + (1 - cos(π/96)) 3 mm = 3 µm.
+  // Facets deviate from the torus by (1 - cos(π/256)) 18 mm + (1 - cos(π/96)) 3 mm = 3 µm.
   EXPECT_LT(worst_near, 3.5e-6);
-  // Further off than two spacings it is a depth to push out by, not a shape: half a spacing will
-  // do.
+  // Further off than two spacings the distance is only a depth for pushing out: half a spacing
+  // suffices.
   EXPECT_LT(worst, 0.175e-3);
 }
 
-TEST(SolidField, OverlappingPartsAreAUnion) {
+TEST(SolidField, OverlappingPartsFormAUnion) {
   const SolidField field =
       SolidField::FromSurface(test::Together(test::Sphere({-2 * kMm, 0, 0}, 4 * kMm, 4),
                                              test::Sphere({2 * kMm, 0, 0}, 4 * kMm, 4)),
@@ -90,7 +90,7 @@ TEST(SolidField, VolumesAgreeWithClosedForms) {
                 truth / kMm3, 100 * (got / truth - 1));
     return std::abs(got / truth - 1);
   };
-  // Interpolation lays the ball's surface inwards by about h²/(6 R): 3·h²/(6 R²) of the volume.
+  // Interpolation moves the ball's surface inwards by about h²/(6 R): 3·h²/(6 R²) of the volume.
   const double r = 5 * kMm;
   for (const double h : {0.7 * kMm, 0.35 * kMm, 0.175 * kMm}) {
     const double error = report(h > 0.5 * kMm   ? "ball 5 mm, spacing 0.70 mm"
@@ -99,8 +99,8 @@ TEST(SolidField, VolumesAgreeWithClosedForms) {
                                 Ball(r, h).Volume(), 4.0 / 3.0 * kPi * r * r * r);
     EXPECT_LT(error, h * h / (r * r)) << "second order in the spacing";
   }
-  // Flat faces are exact. Edges are rounded: by the bilinear zero sets around one, depending on
-  // where in its cell it lies, between -0.02 and 0.25 h² a length are lost; here 12 edges of 10 mm.
+  // Flat faces are exact. Edges are rounded by the bilinear zero sets: depending on their position
+  // in the cell, -0.02 to 0.25 h² per length are lost. Here 12 edges of 10 mm.
   EXPECT_LT(report("box 10 mm, spacing 0.35 mm",
                    SolidField::FromSurface(test::Box(glm::dvec3(-5 * kMm), glm::dvec3(5 * kMm)),
                                            0.35 * kMm)
@@ -114,7 +114,7 @@ TEST(SolidField, VolumesAgreeWithClosedForms) {
       0.005);
 }
 
-TEST(SolidField, WhatIsTakenAndWhatRemainsAreTogetherWhatWas) {
+TEST(SolidField, RemovedAndRemainingVolumeAddUpExactly) {
   SolidField field = Ball(5 * kMm, 0.35 * kMm);
   const double whole = field.Volume();
   std::mt19937 random(7);
@@ -132,13 +132,13 @@ TEST(SolidField, WhatIsTakenAndWhatRemainsAreTogetherWhatWas) {
   }
   EXPECT_NEAR(removed + field.Volume(), whole, 1e-12 * whole);
   EXPECT_GT(removed, 0.3 * whole);
-  // Filling everything up again: the same ball, to the last unit.
+  // Fills the same ball again, exactly.
   const FieldEdit back =
       field.Add(field.box(), [](const glm::dvec3& x) { return ToBall(x, {}, 5 * kMm); });
   EXPECT_NEAR(-back.removed, removed, 1e-12 * whole);
 }
 
-TEST(SolidField, ABiteTakesItsClosedFormVolumeAndOnlyItsBricksChange) {
+TEST(SolidField, BiteRemovesItsClosedFormVolumeAndChangesOnlyItsBricks) {
   SolidField field = SolidField::FromFunction({glm::dvec3(-8 * kMm), glm::dvec3(8 * kMm)},
                                               0.25 * kMm, [](const glm::dvec3& x) { return x.z; });
   const glm::dvec3 centre(0.3 * kMm, -0.2 * kMm, 0.0);
@@ -152,13 +152,13 @@ TEST(SolidField, ABiteTakesItsClosedFormVolumeAndOnlyItsBricksChange) {
   int changed = 0;
   for (const auto version : field.brick_versions()) changed += version == field.version();
   EXPECT_GT(changed, 0);
-  EXPECT_LE(changed, 27) << "a bite of 4 mm meets at most 3 bricks of 2 mm along each axis";
+  EXPECT_LE(changed, 27) << "a bite of 4 mm overlaps at most 3 bricks of 2 mm along each axis";
   EXPECT_GT(field.CutDistance({0, 0, -0.5 * kMm}), 0.0);
   EXPECT_LT(field.CutDistance({5 * kMm, 0, -0.5 * kMm}), 0.0);
-  EXPECT_GT(field.CutDistance({0, 0, 0.5 * kMm}), 0.0) << "also where nothing was";
+  EXPECT_GT(field.CutDistance({0, 0, 0.5 * kMm}), 0.0) << "also outside the original solid";
 }
 
-TEST(SolidField, AToolThatTouchesNothingChangesNothing) {
+TEST(SolidField, ToolOutsideTheSolidChangesNothing) {
   SolidField field = Ball(5 * kMm, 0.35 * kMm);
   const auto version = field.version();
   const glm::dvec3 centre(6.5 * kMm, 0, 0);
@@ -170,7 +170,7 @@ TEST(SolidField, AToolThatTouchesNothingChangesNothing) {
   EXPECT_EQ(field.version(), version);
 }
 
-TEST(SolidField, QueriesAllocateNothingAndBearAnything) {
+TEST(SolidField, QueriesAllocateNothingAndAcceptAnyNumber) {
   const SolidField field = Ball(5 * kMm, 0.5 * kMm), none;
   const double nan = std::nan(""), far = 1e30;
   const long before = test::Allocations();
@@ -182,12 +182,12 @@ TEST(SolidField, QueriesAllocateNothingAndBearAnything) {
   }
   EXPECT_EQ(test::Allocations(), before);
   EXPECT_GT(field.Distance({far, 0, 0}), 0.0);
-  EXPECT_GT(field.Distance({nan, nan, nan}), 0.0) << "NaN is nowhere in the solid";
+  EXPECT_GT(field.Distance({nan, nan, nan}), 0.0) << "NaN is outside the solid";
   (void)sum;
 }
 
-// Outside its box a field gives a bound that spheres can be traced with.
-TEST(SolidField, OutsideItsBoxTheDistanceIsALowerBoundAndContinuous) {
+// Outside its box a field gives a bound that suffices for sphere tracing.
+TEST(SolidField, DistanceOutsideTheBoxIsAContinuousLowerBound) {
   const SolidField field = Ball(5 * kMm, 0.35 * kMm);
   const glm::dvec3 way = glm::normalize(glm::dvec3(1, 0.4, -0.3));
   double last = field.Distance(way * (5 * kMm));
@@ -199,7 +199,7 @@ TEST(SolidField, OutsideItsBoxTheDistanceIsALowerBoundAndContinuous) {
   }
 }
 
-TEST(SolidField, BadInputIsRefusedWithASentence) {
+TEST(SolidField, RefusesBadInputWithASentence) {
   const auto code = [](auto&& make) {
     try {
       make();
@@ -222,7 +222,7 @@ TEST(SolidField, BadInputIsRefusedWithASentence) {
   EXPECT_EQ(code([&] { SolidField::FromSurface(box, std::nan("")); }), Code::kBadArgument);
 }
 
-// The demo's meniscus: printed, not gated (target 0.3 s).
+// Timing of the demo's meniscus is printed only (target 0.3 s).
 TEST(SolidField, DemoMeniscusIsSampledAndKeepsItsVolume) {
   const SurfaceMesh surface = ReadSurface(ARTHRO_SOURCE_DIR "/resources/demo/meniscus.ply", 1.0);
   double volume = 0;

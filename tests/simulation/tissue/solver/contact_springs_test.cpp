@@ -1,5 +1,5 @@
-// A contact's spring is the slope of its energy, wherever the point lies to the bar, and a tool
-// always ends where its forces balance: what a line search along the energy relies on.
+// Contact forces are derivatives of their energy at every position relative to the bar, and a tool
+// ends in equilibrium. A line search along the energy relies on both.
 #include "simulation/tissue/solver/contact_springs.h"
 
 #include <cmath>
@@ -13,14 +13,14 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kRadius = 5e-4;  // m, of a punch's side
+constexpr double kRadius = 5e-4;  // m, bar at the side of a punch
 
 glm::dvec3 Any(Random& random, double size) {
   const auto u = [&] { return random.Uniform(-size, size); };
   return {u(), u(), u()};
 }
 
-// A bar along x that skin below it, at −z, is kept out of.
+// Bar along x that keeps out the skin below it, at −z.
 ContactPoint BarOver(Random& random) {
   ContactPoint contact;
   contact.count = 1;
@@ -37,8 +37,8 @@ ContactPoint BarOver(Random& random) {
   return contact;
 }
 
-// Points all about the bar: outside, inside, past its axis, beyond its ends.
-TEST(ContactSpring, ForceIsTheSlopeOfItsEnergyAllAboutABar) {
+// Points all around the bar: outside, inside, past its axis, beyond its ends.
+TEST(ContactSpring, ForceIsTheDerivativeOfTheEnergyAroundABar) {
   Random random(5);
   constexpr double kStep = 1e-9;  // m
   int past = 0, inside = 0;
@@ -52,8 +52,8 @@ TEST(ContactSpring, ForceIsTheSlopeOfItsEnergyAllAboutABar) {
       step[axis] = kStep;
       const double after = SpringAt(contact, point + step, glm::dvec3(0.0), pressing).energy;
       const double before = SpringAt(contact, point - step, glm::dvec3(0.0), pressing).energy;
-      // Of central differences over 1e-9 m: a stiffness of at most 1e8 N/m changes the force by a
-      // tenth of a newton between the two, of forces up to 1e3 N.
+      // Error of central differences over 1e-9 m: a stiffness of at most 1e8 N/m changes the force
+      // by 0.1 N in between, for forces up to 1e3 N.
       EXPECT_NEAR(-(after - before) / (2 * kStep), spring.force[axis],
                   1e-4 * (1.0 + glm::length(spring.force)))
           << "point " << point.x << " " << point.y << " " << point.z;
@@ -65,7 +65,7 @@ TEST(ContactSpring, ForceIsTheSlopeOfItsEnergyAllAboutABar) {
   EXPECT_GT(past, 200);
 }
 
-TEST(ContactSpring, EnergyHasNoStepWhereAPointPassesTheAxis) {
+TEST(ContactSpring, EnergyIsContinuousAcrossTheAxis) {
   Random random(7);
   for (int i = 0; i < 500; ++i) {
     const ContactPoint contact = BarOver(random);
@@ -78,14 +78,14 @@ TEST(ContactSpring, EnergyHasNoStepWhereAPointPassesTheAxis) {
                       glm::dvec3(0.0), glm::dvec3(0.0))
           .energy;
     };
-    // A force of at most 1e3 N over 2e-9 m.
+    // Force of at most 1e3 N over 2e-9 m.
     EXPECT_NEAR(energy(1e-9), energy(-1e-9), 2e-6);
   }
 }
 
-// Skin that a tool's bars have gone into at random: wherever its hand is, forces balance at the
-// tool, and once more from there changes nothing.
-TEST(ContactSpring, AToolEndsWhereItsForcesBalance) {
+// Random skin inside a tool's bars: for any hand position the forces on the tool balance, and
+// another solve from there changes nothing.
+TEST(ContactSpring, ToolReachesItsEquilibrium) {
   Random random(11);
   for (int round = 0; round < 200; ++round) {
     std::vector<ContactPoint> contacts;
@@ -111,14 +111,14 @@ TEST(ContactSpring, AToolEndsWhereItsForcesBalance) {
       left += spring.force;
       size += glm::length(spring.force);
     }
-    // The last step of its way is 1e-9 m; contacts' stiffness together is under 1e6 N/m.
+    // The last iteration moves 1e-9 m; the contacts' total stiffness is below 1e6 N/m.
     EXPECT_LT(glm::length(left), 1e-3 + 1e-6 * size) << "round " << round;
   }
 }
 
-// Between skin below, which it is in, and skin above, which it is not yet at: driven out of the one
-// it ends against both, where what it had not touched at first bears too.
-TEST(ContactSpring, AToolFeelsWhatItIsDrivenInto) {
+// Skin below, which the tool penetrates, and skin above, which it does not touch yet. Pushed out of
+// the first it ends between both, so skin that was not touched at first also bears.
+TEST(ContactSpring, ToolFeelsSkinItIsPushedInto) {
   Random random(13);
   int met = 0;
   for (int round = 0; round < 200; ++round) {
@@ -149,7 +149,7 @@ TEST(ContactSpring, AToolFeelsWhatItIsDrivenInto) {
       size += glm::length(alone.force);
       met += i % 2 == 1 && alone.gap < 0;
     }
-    // As above.
+    // The same bound as above.
     EXPECT_LT(glm::length(left), 1e-3 + 1e-6 * size) << "round " << round;
   }
   EXPECT_GT(met, 200);

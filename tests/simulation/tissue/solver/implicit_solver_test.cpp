@@ -27,7 +27,7 @@ double CpuMs() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-TEST(ImplicitSolver, ABodyAtRestStaysBitForBit) {
+TEST(ImplicitSolver, BodyAtRestStaysBitForBit) {
   const SolverBody body = Meniscus(2, {24, 4, 1});
   ImplicitSolver solver(body.model, body.fixed);
   BodyState state = body.Rest();
@@ -39,7 +39,7 @@ TEST(ImplicitSolver, ABodyAtRestStaysBitForBit) {
   EXPECT_EQ(state.x, body.mesh.rest_positions);
 }
 
-TEST(ImplicitSolver, ABodyThatNothingHoldsFallsAsImplicitEulerSays) {
+TEST(ImplicitSolver, FreeBodyFallsAsImplicitEulerPredicts) {
   SolverBody body = test::MakeBody(app::BlockMesh(2, {2, 2, 2}), "", test::MeniscusMaterial());
   for (std::size_t i = 0; i < body.load.size(); ++i) body.load[i].z = -9.81 * body.model->mass()[i];
   SolverOptions options;
@@ -49,14 +49,14 @@ TEST(ImplicitSolver, ABodyThatNothingHoldsFallsAsImplicitEulerSays) {
   BodyState state = body.Rest();
   constexpr int kSteps = 30;
   for (int step = 0; step < kSteps; ++step) solver.Step(state, body.load, {}, {}, kFrame, {});
-  // x = −g dt² (1 + 2 + … + n); nothing deforms. To the tolerance, summed.
+  // x = −g dt² (1 + 2 + … + n) without deformation, up to the summed tolerance.
   const double fall = 9.81 * kFrame * kFrame * kSteps * (kSteps + 1) / 2;
   for (std::size_t i = 0; i < state.x.size(); ++i)
     EXPECT_NEAR((body.mesh.rest_positions[i].z - state.x[i].z) / fall, 1, 1e-7);
 }
 
-// What the issue asks of speed: one or two steps from rest to 5 %; times are printed, not gated.
-TEST(ImplicitSolver, AStepLoadIsWithinFivePercentAfterOneFrame) {
+// Goal: one or two steps from rest to 5 %. Times are printed only.
+TEST(ImplicitSolver, StepLoadIsWithinFivePercentAfterThreeFrames) {
   for (const auto& [name, order, cells] : {std::tuple{"T4 S", 1, app::Cells{24, 4, 2}},
                                            {"T4 M", 1, app::Cells{48, 8, 4}},
                                            {"T10 576", 2, app::Cells{24, 4, 1}}}) {
@@ -80,10 +80,10 @@ TEST(ImplicitSolver, AStepLoadIsWithinFivePercentAfterOneFrame) {
     }
     const double error = LargestDistance(state.x, rest.x) / -answer;
     fmt::print(
-        "{:8} to 5 %: {} steps, {:.1f} ms; to 1 %: {} steps, {:.1f} ms CPU; after 12 steps off by "
-        "{:.1e}; at most {} cg a step\n",
+        "{:8} to 5 %: {} steps, {:.1f} ms; to 1 %: {} steps, {:.1f} ms CPU; after 12 steps error "
+        "{:.1e}; at most {} cg per step\n",
         name, five, five_ms, one, one_ms, error, most_iterations);
-    EXPECT_LE(five, 3) << name;  // T10, softer, rings once by 5.4 % in the second frame
+    EXPECT_LE(five, 3) << name;  // the softer T10 rings once by 5.4 % in the second frame
     EXPECT_LE(one, 4) << name;
     EXPECT_LE(error, 1e-4) << name;  // final solver error at most 0.01 % [benchmarks.md, Goals]
     EXPECT_LE(most_iterations, 20) << name;
@@ -111,7 +111,7 @@ TEST(ImplicitSolver, StepAllocatesNothing) {
   EXPECT_EQ(test::Allocations() - before, 0);
 }
 
-TEST(ImplicitSolver, AContactBalancesItsSpring) {
+TEST(ImplicitSolver, ContactBalancesItsSpring) {
   const SolverBody body = Meniscus(2, {24, 4, 1});
   ImplicitSolver solver(body.model, body.fixed);
   BodyState state = body.Rest();
@@ -124,18 +124,18 @@ TEST(ImplicitSolver, AContactBalancesItsSpring) {
   glm::dvec3 held(0.0);
   for (const glm::dvec3& r : solver.reactions()) held += r;
   EXPECT_NEAR(held.z, -result.force.z, 1e-8 * std::abs(result.force.z));
-  fmt::print("pushed 1 mm by 500 N/m: {:.4f} N, tissue gave way {:.3f} mm\n", -result.force.z,
+  fmt::print("pushed 1 mm by 500 N/m: {:.4f} N, tissue yielded {:.3f} mm\n", -result.force.z,
              1 + 1e3 * result.gap);
 }
 
-TEST(ImplicitSolver, FrictionHoldsUpToItsConeAndSlipsBeyond) {
+TEST(ImplicitSolver, FrictionSticksInsideItsConeAndSlipsBeyond) {
   const SolverBody body = Meniscus(2, {24, 4, 1});
   for (const double mu : {0.02, 5.0}) {
     ImplicitSolver solver(body.model, body.fixed);
     BodyState state = body.Rest();
     ContactPoint contact = PressAt(body, state.x, {0.0137, 0, 0.0025}, {0, 0, -1}, 500, 1e-3);
     contact.friction = mu;
-    contact.start.x += 5e-5;  // what touches it has gone sideways
+    contact.start.x += 5e-5;  // the touching object moved sideways
     ContactResult result;
     for (int step = 0; step < 30; ++step)
       solver.Step(state, {}, {&contact, 1}, {}, kFrame, {&result, 1});
@@ -150,7 +150,7 @@ TEST(ImplicitSolver, FrictionHoldsUpToItsConeAndSlipsBeyond) {
   }
 }
 
-TEST(ImplicitSolver, ComplianceIsWhatASmallForceDoes) {
+TEST(ImplicitSolver, ComplianceEqualsTheResponseToASmallForce) {
   const SolverBody body = Meniscus(2, {24, 4, 1}, -0.05);
   SolverOptions options;
   options.tolerance = 1e-8;
@@ -164,7 +164,7 @@ TEST(ImplicitSolver, ComplianceIsWhatASmallForceDoes) {
   std::array<double, 36> w{};
   const std::array<ContactPoint, 2> points{first, second};
   solver.Compliance(points, 1e-7, w);
-  // Against two equilibria, ±1e-4 N, of the second point along x.
+  // Compares with two equilibria, at ±1e-4 N on the second point along x.
   std::array<glm::dvec3, 2> moved{};
   for (const double sign : {-1.0, 1.0}) {
     std::vector<glm::dvec3> load = body.load;
@@ -178,7 +178,8 @@ TEST(ImplicitSolver, ComplianceIsWhatASmallForceDoes) {
   }
   const double size = w[3 * 6 + 3];
   for (int c = 0; c < 3; ++c) {
-    // Equilibria are known to 1e-9 of the load, 0.05 N: 5e-7 of the difference; curvature cancels.
+    // Equilibria are accurate to 1e-9 of the load of 0.05 N: 5e-7 of the difference. Curvature
+    // cancels.
     EXPECT_NEAR(w[c * 6 + 3], moved[0][c] / 2e-4, 1e-4 * size);
     EXPECT_NEAR(w[(3 + c) * 6 + 3], moved[1][c] / 2e-4, 1e-4 * size);
   }
@@ -186,8 +187,8 @@ TEST(ImplicitSolver, ComplianceIsWhatASmallForceDoes) {
 
 class ToolStiffness : public testing::TestWithParam<bool> {};
 
-// Half spaces, or round bars whose normals turn; all on one tool that hangs on its hand's spring.
-TEST_P(ToolStiffness, IsHowItsForceGrows) {
+// Half spaces, or round bars with rotating normals; all on one tool on its hand's spring.
+TEST_P(ToolStiffness, EqualsTheDerivativeOfTheForce) {
   const SolverBody body = Meniscus(2, {24, 4, 1});
   ImplicitSolver solver(body.model, body.fixed);
   BodyState state = body.Rest();
@@ -235,14 +236,14 @@ TEST_P(ToolStiffness, IsHowItsForceGrows) {
     }
   fmt::print("tool stiffness {:.1f} N/m along z, off by {:.1e}; {:.2f} ms CPU for {} T10\n",
              k[2][2], off / size, ms, body.mesh.ElementCount());
-  // The square of the tolerance, of the hand's 500 N/m; what is left of them is 48 N/m.
+  // Square of the tolerance, relative to the hand's 500 N/m, of which 48 N/m remain.
   if (!GetParam()) {
     EXPECT_LE(off / size, kTolerance * kTolerance * 500 / size);
   }
-  EXPECT_LE(off / size, 2e-2);  // the servo's force is to be within 2 % [benchmarks.md, Goals]
-  EXPECT_EQ(solver.ToolStiffness(1, kTolerance), glm::dmat3(0.0));  // nobody's
+  EXPECT_LE(off / size, 2e-2);  // the servo's force must be within 2 % [benchmarks.md, Goals]
+  EXPECT_EQ(solver.ToolStiffness(1, kTolerance), glm::dmat3(0.0));  // no such owner
 
-  // A step on, what was found here is only where the search begins.
+  // One step later the result only serves as a starting value.
   for (ContactPoint& contact : contacts) {
     const glm::dvec3 on(3e-4, 0, -1e-4);
     contact.foot += on, contact.a += on, contact.b += on;
@@ -256,7 +257,7 @@ TEST_P(ToolStiffness, IsHowItsForceGrows) {
 
 INSTANTIATE_TEST_SUITE_P(FlatAndRound, ToolStiffness, testing::Values(false, true));
 
-TEST(ImplicitSolver, ARefreshedFactorSavesIterationsAndChangesNoAnswer) {
+TEST(ImplicitSolver, RefreshedFactorSavesIterationsAndChangesNoResult) {
   const SolverBody body = Meniscus(2, {24, 4, 1});
   SolverOptions options;
   options.tolerance = 1e-6;
@@ -282,17 +283,18 @@ TEST(ImplicitSolver, ARefreshedFactorSavesIterationsAndChangesNoAnswer) {
     }
     EXPECT_LE(LargestDistance(a.x, b.x), 1e-5 * body.Diagonal());
   }
-  fmt::print("cg in 14 steps: {} with the rest factor, {} with a new one\n", with_old, with_new);
+  fmt::print("cg iterations in 14 steps: {} with the rest factor, {} with a new one\n", with_old,
+             with_new);
   EXPECT_LT(with_new, with_old);
 }
 
-// How many iterations the old factor needs after a cut clean through is printed, not claimed.
-TEST(ImplicitSolver, ABodyCutInTwoGoesOnUntilItHasANewFactor) {
+// The iterations that the old factor needs after a complete cut are printed only.
+TEST(ImplicitSolver, BodyCutInTwoContinuesUntilANewFactor) {
   SolverBody body = Meniscus(2, {24, 4, 1}, -0.05);
   ImplicitSolver solver(body.model, body.fixed);
   BodyState state = body.Rest();
   for (int step = 0; step < 5; ++step) solver.Step(state, body.load, {}, {}, kFrame, {});
-  // Elements beyond y = 4 mm get nodes of their own: a cut right through.
+  // Elements beyond y = 4 mm get separate nodes: a cut through the body.
   TetMesh cut = body.mesh;
   std::vector<int> parent(cut.rest_positions.size()), twin(parent.size(), -1);
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
@@ -348,14 +350,14 @@ TEST(ImplicitSolver, ABodyCutInTwoGoesOnUntilItHasANewFactor) {
   ImplicitSolver statics(model, fixed);
   ASSERT_TRUE(statics.SolveStatic(exact, load, {}, {}, 1e-10, {}).converged);
   fmt::print(
-      "cut in two: {} cg a Newton step with the old factor, {} with the new one; off by {:.1e} of "
+      "cut in two: {} cg per Newton step with the old factor, {} with the new one; error {:.1e} of "
       "the size\n",
       most, fresh, LargestDistance(after.x, exact.x) / body.Diagonal());
   EXPECT_LE(fresh, 12);
   EXPECT_LE(LargestDistance(after.x, exact.x), 1e-4 * body.Diagonal());
 }
 
-TEST(ImplicitSolver, RefusesWhatDoesNotFit) {
+TEST(ImplicitSolver, RefusesInputOfTheWrongSize) {
   const SolverBody body = Meniscus(1, {24, 4, 2});
   EXPECT_THROW(ImplicitSolver(body.model, FixedAxes(3, 7)), Error);
   SolverOptions options;

@@ -1,4 +1,4 @@
-// The meniscus that solver tests deform: horns held, 1 MPa, nu 0.45.
+// Meniscus for the solver tests: horns fixed, 1 MPa, nu 0.45.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct SolverBody {
   simulation::BodyState Rest() const {
     return {mesh.rest_positions, std::vector<glm::dvec3>(mesh.rest_positions.size())};
   }
-  // m, along the bounding box.
+  // m, of the bounding box
   double Diagonal() const {
     glm::dvec3 low = mesh.rest_positions[0], high = low;
     for (const glm::dvec3& x : mesh.rest_positions) {
@@ -80,8 +80,8 @@ inline double LargestDistance(const std::vector<glm::dvec3>& a, const std::vecto
   return most;
 }
 
-// A spring of `k` that presses on the middle of the element whose centre is nearest to `place`,
-// pushing along `normal`, pushed in by `depth`.
+// Spring of stiffness `k` at the centre of the element nearest to `place`, which pushes along
+// `normal` with the initial depth `depth`.
 inline simulation::ContactPoint PressAt(const SolverBody& body, const std::vector<glm::dvec3>& x,
                                         const glm::dvec3& place, const glm::dvec3& normal, double k,
                                         double depth) {
