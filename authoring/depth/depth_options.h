@@ -1,21 +1,22 @@
-// How a panorama's brightness becomes relief [paper, 3.4].
+// Options of the relief from a panorama's brightness [paper, 3.4].
 #pragma once
 
 #include "simulation/core/options.h"
 
 namespace arthro::authoring {
 
-// What stands between brightness and distance. All of them rank what is nearer; none measures.
+// Estimator of distance from brightness. Each of them ranks depth; none measures it.
 enum class DepthEstimator {
   kPaper,             // grey with little red, median, law [paper, 3.4]
-  kInverseSquareRed,  // red, which blood hides least, tissue colour divided out, 1/sqrt(I)
-  kShading,           // the same, and slopes away from the light taken into account
+  kInverseSquareRed,  // red, which blood hides least, without the tissue colour, by 1/sqrt(I)
+  kShading,           // the same, corrected for slopes away from the light
 };
 
-// How the distance to a surface follows from its brightness under a light at the scope.
+// Law that gives the distance of a surface from its brightness under a light at the scope.
 enum class DepthLaw {
-  kLinear,         // the paper's: relief grows in step with grey
-  kInverseSquare,  // light I falls with the distance squared, so distance goes as 1/sqrt(I)
+  kLinear,         // relief is linear in grey [paper, 3.4]
+  kInverseSquare,  // light I falls with the square of distance, so distance is proportional to
+                   // 1/sqrt(I)
 };
 
 struct DepthOptions {

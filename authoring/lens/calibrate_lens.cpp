@@ -16,12 +16,13 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kClearlyBetter = 0.95;  // of the residual: what another model must come down to
-constexpr double kPaysWell = 0.5;        // the same, where it is judged by its own points
-constexpr double kAsGood = 1.05;         // up to here two models cannot be told apart
-constexpr double kRimShare = 0.95;       // of the rim: beyond it the picture is cut anyway
+constexpr double kClearlyBetter = 0.95;  // share of the residual; a better model must stay below it
+constexpr double kPaysWell =
+    0.5;                          // the same, when a model is judged by the points it was fitted to
+constexpr double kAsGood = 1.05;  // ratio of residuals; up to it two models are indistinguishable
+constexpr double kRimShare = 0.95;  // share of the rim's radius; the picture is cut beyond it
 constexpr double kSigmas = 3;
-constexpr double kHopeless = 0.10;  // rim error over rim radius: a lens not worth writing
+constexpr double kHopeless = 0.10;  // rim error over rim radius; a lens beyond it is not written
 
 struct Candidate {
   LensFit fit;
@@ -63,7 +64,7 @@ std::vector<FitModel> ModelsFor(ModelChoice choice) {
   return {};
 }
 
-// One calibration, step by step; `result_` grows on the way.
+// One calibration, in steps; `result_` grows with them.
 class Calibration {
  public:
   Calibration(const std::vector<TargetView>& views, cv::Size picture, const LensCircle& circle,
@@ -82,7 +83,7 @@ class Calibration {
       used_.push_back(view);
       place_.push_back(result_.views.size() - 1);
     }
-    // Without a round window the picture's nearer edge stands for the rim.
+    // Without a round window the nearer edge of the picture replaces the rim.
     result_.rim_radius_px = circle.r > 0 ? circle.r : 0.5 * std::min(picture.width, picture.height);
   }
 
@@ -114,10 +115,11 @@ class Calibration {
     return result_;
   }
 
-  // Points that even the better of two unlike models cannot explain are counted wrongly or hang on
-  // a glint. They go before models are compared, so that all are asked about the same points.
+  // Removes points that even the better of two unlike models cannot explain: they are counted
+  // wrongly or lie on a highlight. This happens before models are compared, so that all models see
+  // the same points.
   void LeaveOutWrongPoints(LensFit& start) {
-    constexpr double kFarOff = 8;  // times the fit's residual: a poor model must not cost points
+    constexpr double kFarOff = 8;  // times the fit's residual; a poor model must not cost points
     std::optional<LensFit> better;
     for (const FitModel model : {FitModel::kEquisolid, FitModel::kKannalaBrandt}) {
       LensFit fit = FitLens(used_, model, start, fit_options_);
@@ -170,7 +172,7 @@ class Calibration {
       trial.parameters = candidate.fit.parameters;
       trial.fitted = candidate.fit.converged && std::isfinite(candidate.fit.rms_px) &&
                      candidate.fit.points_used * 2 > candidate.fit.parameters;
-      // All points count here, also those that this model left out for itself.
+      // All points count here, including outliers of this model.
       trial.rms_px = trial.fitted ? WholeRms(candidate.fit) : 0;
       trial.held_out_px = trial.rms_px;
       if (trial.fitted && used_.size() >= 3)
@@ -198,20 +200,20 @@ class Calibration {
     return nullptr;
   }
 
-  // In the order of ModelsFor, which is that of growing freedom, the paper's first: a later one is
-  // taken where it is clearly better than the one before.
+  // Models come in the order of ModelsFor, by growing freedom, the paper's model first. A later
+  // model is taken when it is clearly better than the one before.
   const Candidate* Choose() {
     const Candidate* best = nullptr;
     for (const FitModel model : ModelsFor(options_.model)) {
       const Candidate* other = Find(model);
       if (!other) continue;
-      // Without held out pictures more freedom always fits better; it has to pay well.
+      // Without held-out pictures more freedom always fits better, so the gain must be large.
       const bool is_richer = best && other->trial.parameters > best->trial.parameters;
       const double needed = is_richer && used_.size() < 3 ? kPaysWell : kClearlyBetter;
       if (!best || other->trial.held_out_px < needed * best->trial.held_out_px) best = other;
     }
     const Candidate* paper = Find(FitModel::kEquisolid);
-    const double noise = 0.05;  // px; below it corners are not known
+    const double noise = 0.05;  // px; corners are not known more exactly
     for (const Candidate& other : candidates_)
       if (paper && other.trial.fitted &&
           other.trial.held_out_px + noise < kClearlyBetter * paper->trial.held_out_px)
@@ -262,8 +264,8 @@ class Calibration {
     result_.rim_error_px = RimError(best);
   }
 
-  // The largest of three doubts up to the rim: what noise leaves open, what the corners themselves
-  // may all be off by, and what an equally good model says instead.
+  // Largest of three uncertainties up to the rim: the noise of the fit, a systematic error of the
+  // corners, and the difference from an equally good model.
   double RimError(const Candidate& best) const {
     const Lens& lens = result_.lens;
     const auto rim = AngleFromRadius(lens, kRimShare * result_.rim_radius_px);
@@ -286,8 +288,8 @@ class Calibration {
         worst = std::max(worst, std::abs(there.r - here.r));
       }
     }
-    // Corners share an error of position (lines curve within their window), which tilts to all
-    // sides partly balance and one picture does not.
+    // Corners share an error of position, since lines curve within their window. Tilts to all sides
+    // partly balance it; a single picture does not.
     const double shared = used_.size() == 1 ? 4 : 2;  // times the residual
     return std::hypot(worst, shared * best.fit.rms_px);
   }
@@ -320,7 +322,7 @@ class Calibration {
     }
     if (!(result_.rim_error_px < kHopeless * result_.rim_radius_px)) {
       Refuse(fmt::format(
-          "the pictures do not determine the lens: at the rim it may be off by {:.0f} px; take "
+          "the pictures do not determine the lens: its error at the rim may be {:.0f} px. Take "
           "pictures with the target tilted by 20 degrees and more, and filling the window",
           std::min(result_.rim_error_px, 9999.0)));
       return;
@@ -387,7 +389,7 @@ class Calibration {
            axis * glm::dot(axis, v) * (1 - std::cos(angle));
   }
 
-  // Where the fit puts a point, less where it was seen.
+  // Difference between the point by the fit and the measured point.
   double ResidualOf(const LensFit& fit, std::size_t v, const LatticePoint& point) const {
     const BoardPose& pose = fit.poses[v];
     const glm::dvec3 at = TurnedBy({pose[0], pose[1], pose[2]}, {static_cast<double>(point.i),
@@ -410,7 +412,7 @@ class Calibration {
   const Progress& progress_;
   FitOptions fit_options_;
   std::vector<TargetView> used_;
-  std::vector<std::size_t> place_;  // of each used view among the pictures
+  std::vector<std::size_t> place_;  // index of each used view among the pictures
   std::vector<Candidate> candidates_;
   LensCalibration result_;
 };

@@ -1,5 +1,5 @@
-// Every choice between footage and panorama, in one list: the stages' own options, each under its
-// stage's name where two stages could mean different things by one word.
+// All options from footage to panorama in one list: the stages' own options, under the stage's name
+// when two stages share an option's name.
 #pragma once
 
 #include "authoring/footage/choose_frames.h"

@@ -113,7 +113,7 @@ void WritePanorama(const fs::path& file, const RgbaPicture& picture) {
   const bool is_png = file == "-" || file.extension() == ".png";
   cv::Mat bgr;
   cv::cvtColor(rgba, bgr, is_png ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGBA2BGR);
-  // Who drops the alpha should find black, as beyond the round window of a frame.
+  // A viewer that ignores alpha should show black, as beyond the round window of a frame.
   cv::Mat alpha;
   cv::extractChannel(rgba, alpha, 3);
   bgr.setTo(cv::Scalar::all(0), alpha == 0);

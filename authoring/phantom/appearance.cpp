@@ -15,17 +15,18 @@ namespace {
 
 constexpr double kMm = kMetrePerMillimetre;
 
-// The light leaves the scope beside its lens.
+// Position of the light, beside the scope's lens.
 constexpr glm::dvec3 kLight(0.8 * kMm, -2.6 * kMm, 0.0);
-constexpr double kLightReference = 30.0 * kMm;  // distance at which the light counts as 1
-// The camera's own exposure control and light scattered within the joint soften the inverse square.
+constexpr double kLightReference = 30.0 * kMm;  // distance of unit light
+// Exponent of the falloff with distance. It is below 2 because of the camera's exposure control and
+// of light scattered within the joint.
 constexpr double kFalloff = 1.05;
 
 struct Tissue {
   glm::dvec3 colour{0.5};
   double wetness = 0.5;    // strength of highlights
   double roughness = 0.1;  // slope of the wet film's ripples
-  double depth = 0.2;      // how far light wraps round inside the tissue
+  double depth = 0.2;      // share by which light wraps round inside the tissue
 };
 
 glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double t) {
@@ -39,7 +40,7 @@ const glm::dvec3 kFat(0.86, 0.58, 0.12), kFatPale(0.90, 0.72, 0.30), kFatCrease(
 const glm::dvec3 kSinew(0.82, 0.68, 0.50), kBone(0.70, 0.47, 0.36);
 const glm::dvec3 kVesselRed(0.30, 0.020, 0.026), kVesselDeep(0.25, 0.050, 0.075);
 
-// Faint clouds, with a few paler and yellower islands; the cartilage of a middle-aged knee.
+// Faint clouds with a few paler and yellower islands, as in the cartilage of a middle-aged knee.
 Tissue Cartilage(const glm::dvec3& x, const Look& look, double wall_gap, std::uint32_t seed) {
   const glm::dvec3 mm = x / kMm;
   const double cloud = FractalNoise(mm / 9.0, 3, seed + 51),
@@ -47,7 +48,7 @@ Tissue Cartilage(const glm::dvec3& x, const Look& look, double wall_gap, std::ui
   Tissue t;
   t.colour = Mix(kPearl, kIvory, 0.42 + look.texture * 0.75 * cloud);
   t.colour *= 1.0 + look.texture * (0.10 * grain + 0.07 * cloud);
-  // Where synovium creeps over its margin it blushes.
+  // Reddens the margin that synovium creeps over.
   const double ragged = 2.4 * FractalNoise(mm / 3.0, 3, seed + 53) + 1.2 * grain;
   t.colour = Mix(t.colour, kBlush, 0.9 * SmoothStep(7.5, 0.5, wall_gap / kMm + 1.6 * ragged));
   t.wetness = 0.55;
@@ -62,7 +63,7 @@ Tissue Synovium(const Cavity& cavity, const VesselTrees& vessels, const Look& lo
   const glm::dvec3& d = p.direction;
   const double region = FractalNoise(2.2 * d, 3, seed + 61),
                patch = FractalNoise(7.5 * d, 3, seed + 62);
-  // Villi: a short nap, combed this way and that.
+  // Villi: a short nap with varying direction.
   const glm::dvec3 comb(GradientNoise(3.0 * d, seed + 63), GradientNoise(3.0 * d, seed + 64), 0.0);
   const double nap = FractalNoise(58.0 * d + 6.0 * comb, 3, seed + 65);
   Tissue t;
@@ -87,11 +88,10 @@ Tissue Fat(const Cavity& cavity, const VesselTrees& vessels, const Look& look,
                grain = FractalNoise(34.0 * d, 2, seed + 72);
   Tissue t;
   t.colour = Mix(kFat, kFatPale, 0.40 + look.texture * (1.3 * cloud + 0.25 * grain));
-  // The light comes from the viewer, so creases are told by their colour: dark, with vessels in
-  // them.
+  // The light comes from the viewer, so creases are dark and hold vessels instead of shadows.
   const double crease = SmoothStep(0.55, 0.12, FatLobule(cavity, d));
   t.colour = Mix(t.colour, kFatCrease, 0.45 * crease) * (1.0 - 0.38 * crease);
-  // A red veil of synovium runs over the pad and is thickest at its border.
+  // A red film of synovium covers the pad and is thickest at its border.
   const double veil = 0.30 * FractalNoise(4.0 * d, 3, seed + 73);
   t.colour = Mix(t.colour, kFatCrease, look.texture * SmoothStep(-0.02, 0.22, veil));
   t.colour =
@@ -126,12 +126,12 @@ Tissue PlateauTissue(const Cavity& cavity, const Look& look, const SurfacePoint&
   Tissue t = Cartilage(p.x, look, p.wall_gap, cavity.seed + 5);
   const glm::dvec3 q = Inverse(cavity.plateau.portal_from_plateau) * p.x;
   const glm::dvec3 mm = p.x / kMm;
-  // The bed: bone shows through what is left of the cartilage.
+  // Bed of the cartilage layer: bone shows through the remaining cartilage.
   const double ragged = 0.10 * FractalNoise(mm / 1.6, 3, cavity.seed + 91);
   const double bed = SmoothStep(1.0, 0.80, BedShare(cavity.plateau.bed, q.x, q.y) + ragged);
   const double speckle = FractalNoise(mm / 0.8, 3, cavity.seed + 92);
   t.colour = Mix(t.colour, kBone * (1.0 + 0.5 * look.texture * speckle), 0.45 * bed);
-  // The spine and the outer rim wear synovium and fibres.
+  // Synovium and fibres cover the spine and the outer rim.
   const glm::dvec2 from_spine =
       (glm::dvec2(q.x, q.y) - cavity.plateau.spine) / cavity.plateau.spine_radii;
   const double fringe = 0.5 * FractalNoise(mm / 2.5, 3, cavity.seed + 93);
@@ -155,7 +155,7 @@ Tissue Meniscus(const Cavity& cavity, const Look& look, const SurfacePoint& p) {
   Tissue t;
   t.colour = Mix(kPearl, kIvory, 0.55 + look.texture * (0.7 * cloud));
   t.colour *= 1.0 + look.texture * 0.20 * fibre;
-  // Blood reaches the outer third.
+  // Blood vessels reach the outer third.
   t.colour = Mix(t.colour, kBlush, 0.75 * SmoothStep(0.62, 1.05, p.rim + 0.35 * cloud));
   t.wetness = 0.65;
   t.roughness = 0.05;
@@ -183,8 +183,8 @@ Tissue TissueAt(const Cavity& cavity, const VesselTrees& vessels, const Look& lo
   }
 }
 
-// Share of the surroundings that is open, from how quickly free space runs out along the normal.
-// The bed shades nothing: its points are taken as high as the cartilage around it.
+// Ambient occlusion: open share of the surroundings, from the rate at which free space ends along
+// the normal. The bed shades nothing: its points are raised to the cartilage around it.
 double Openness(const Cavity& cavity, const SurfacePoint& p) {
   glm::dvec3 x = p.x;
   if (p.surface == Surface::kPlateau) {
@@ -202,7 +202,7 @@ double Openness(const Cavity& cavity, const SurfacePoint& p) {
   return 0.16 + 0.84 * std::exp(-0.72 * blocked);
 }
 
-// Ripples of the wet film; they bend highlights only.
+// Normal with the ripples of the wet film; they affect highlights only.
 glm::dvec3 Rippled(const SurfacePoint& p, double roughness, std::uint32_t seed) {
   const glm::dvec3 q = p.x / (0.9 * kMm);
   const glm::dvec3 slope(FractalNoise(q, 3, seed + 111), FractalNoise(q, 3, seed + 112),
@@ -211,7 +211,7 @@ glm::dvec3 Rippled(const SurfacePoint& p, double roughness, std::uint32_t seed) 
                         2.0 * roughness * (slope - glm::dot(slope, p.normal) * p.normal));
 }
 
-// The uneven surface under the film, like the peel of an orange.
+// Normal with the dimples of the surface under the film.
 glm::dvec3 Dimpled(const SurfacePoint& p, std::uint32_t seed) {
   const glm::dvec3 q = p.x / (2.2 * kMm);
   const glm::dvec3 slope(FractalNoise(q, 2, seed + 131), FractalNoise(q, 2, seed + 132),
@@ -219,7 +219,7 @@ glm::dvec3 Dimpled(const SurfacePoint& p, std::uint32_t seed) {
   return glm::normalize(p.normal + 0.16 * (slope - glm::dot(slope, p.normal) * p.normal));
 }
 
-// Fluid gathers here and there; between the pools the film is thin and hardly glints.
+// Pools of fluid; between them the film is thin and has hardly any highlights.
 double Pool(const SurfacePoint& p, std::uint32_t seed) {
   return SmoothStep(0.05, 0.40, FractalNoise(p.x / (4.5 * kMm), 3, seed + 121));
 }
@@ -247,11 +247,11 @@ glm::dvec3 Radiance(const Cavity& cavity, const VesselTrees& vessels, const Look
   const glm::dvec3 lit = glm::max((glm::dvec3(facing) + wrap) / (1.0 + wrap), glm::dvec3(0.0));
   const glm::dvec3 recess =
       glm::pow(glm::dvec3(std::max(open, 1e-3)), glm::dvec3(0.80, 1.10, 1.25));
-  // What the other walls throw back: pink.
+  // Pink light reflected by the other walls.
   const glm::dvec3 bounce = glm::dvec3(0.115, 0.066, 0.054) * open;
   glm::dvec3 radiance = tissue.colour * (fall * lit * recess + bounce);
 
-  // Wet film: a broad sheen and a few small glints, seen from the portal.
+  // Wet film: a broad sheen and a few small highlights, seen from the portal.
   const glm::dvec3 half = glm::normalize(l - p.direction);
   const double sheen = std::pow(std::max(glm::dot(Dimpled(p, cavity.seed), half), 0.0), 40.0);
   double glint = 0.0;
@@ -261,7 +261,7 @@ glm::dvec3 Radiance(const Cavity& cavity, const VesselTrees& vessels, const Look
         (tissue.roughness < 0.05 ? 1.0 : Pool(p, cavity.seed));
   radiance += glm::dvec3(fall * open * tissue.wetness * (0.11 * sheen + 0.9 * glint));
 
-  // Haze grows with the water between; the veil is the colour of scattered light.
+  // Haze grows with the depth of water; its veil has the colour of scattered light.
   const double veil = 1.0 - std::pow(1.0 - look.haze, glm::length(p.x) / cavity.radius);
   radiance = Mix(radiance, glm::dvec3(0.40, 0.31, 0.27), veil);
   return look.light * radiance;
@@ -270,7 +270,7 @@ glm::dvec3 Radiance(const Cavity& cavity, const VesselTrees& vessels, const Look
 glm::dvec3 Develop(const glm::dvec3& radiance, double exposure) {
   glm::dvec3 out;
   for (int i = 0; i < 3; ++i) {
-    // Straight up to the knee, then a shoulder that reaches white late.
+    // Linear up to the knee, then a shoulder that reaches white slowly.
     constexpr double kKnee = 0.60;
     double v = exposure * std::max(radiance[i], 0.0);
     if (v > kKnee) v = kKnee + (1.0 - kKnee) * (1.0 - std::exp(-(v - kKnee) / (1.0 - kKnee)));

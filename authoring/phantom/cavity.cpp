@@ -40,10 +40,11 @@ double CastBundle(const Bundle& bundle, const glm::dvec3& d) {
   return nearest;
 }
 
-// The slab of heights that holds all of the plateau worth seeing; m.
+// Range of heights that holds the visible plateau; m.
 constexpr double kPlateauTop = 17.0 * kMm, kPlateauBottom = -16.0 * kMm;
 
-// Steps down through the slab until under the height field, then halves the step to a picometre.
+// Steps down through the range of heights until below the height field, then bisects the step to a
+// picometre.
 double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double limit) {
   const Rigid3 plateau_from_portal = Inverse(plateau.portal_from_plateau);
   const glm::dvec3 o = plateau_from_portal.translation,
@@ -71,8 +72,8 @@ double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double l
   return 0.5 * (last + inside);
 }
 
-// Folds run one way and are long: noise stretched along a slowly turning direction, its zero lines
-// rounded into ridges.
+// Folds are long and run in one direction: noise stretched along a slowly turning direction, its
+// zero lines rounded into ridges.
 double Folds(const glm::dvec3& d, std::uint32_t seed) {
   const glm::dvec3 warp(GradientNoise(1.7 * d, seed + 11), GradientNoise(1.7 * d, seed + 12),
                         GradientNoise(1.7 * d, seed + 13));
@@ -84,18 +85,17 @@ double Folds(const glm::dvec3& d, std::uint32_t seed) {
   return 0.72 * broad + 0.28 * narrow * (0.4 + 0.6 * broad);
 }
 
-// Smooth stand-ins for the star-shaped surfaces, for Clearance.
+// Smooth approximations of the star-shaped surfaces, for Clearance.
 double CapsuleBase(const Cavity& cavity, const glm::dvec3& d) {
   const double front = SmoothStep(0.58, 0.96, d.z - 0.08 * d.x);
   const double base = cavity.capsule_side + (cavity.capsule_front - cavity.capsule_side) * front;
-  // Overhead the synovium hangs down to where it joins the condyle.
+  // Overhead the synovium reaches down to its junction with the condyle.
   if (d.y > -0.45) return base;
   const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + 21);
   return base - cavity.overhang * SmoothStep(0.74, 1.0, -d.y + ragged);
 }
 
-// How much of the fat pad there is in a direction, 0 to 1: below and in front, more on the lateral
-// side.
+// Share of the fat pad in a direction, 0 to 1: below and in front, more on the lateral side.
 double FatShare(const Cavity& cavity, const glm::dvec3& d) {
   const double edge = 0.24 * GradientNoise(2.3 * d, cavity.seed + 31) +
                       0.08 * GradientNoise(6.0 * d, cavity.seed + 32);
@@ -115,7 +115,7 @@ Cavity MakeCavity(std::uint32_t seed) {
   cavity.fat_distance = random.Near(21.8, 0.03) * kMm;
   cavity.lobe_height = random.Near(2.4, 0.12) * kMm;
 
-  // The plateau faces the scope a little: the scope looks down on it by its tilt.
+  // The plateau is tilted towards the scope, which looks down on it.
   Plateau& plateau = cavity.plateau;
   const double tilt = RadiansFromDegrees(random.Uniform(12.5, 15.0));
   const double yaw = RadiansFromDegrees(random.Uniform(-5.0, 5.0));
@@ -140,7 +140,7 @@ Cavity MakeCavity(std::uint32_t seed) {
   plateau.bed.wobble = {random.Uniform(0.0, 6.28), random.Uniform(0.0, 6.28)};
   plateau.bed.depth = random.Near(2.3, 0.06) * kMm;
 
-  // The condyle hangs over the dish with the joint opened by a valgus push.
+  // The condyle lies over the dish; a valgus load opens the joint.
   cavity.condyle.radii =
       glm::dvec3(random.Near(19.0, 0.03), random.Near(22.0, 0.02), random.Near(20.5, 0.02)) * kMm;
   const double gap = random.Uniform(7.0, 7.8) * kMm;
@@ -152,7 +152,7 @@ Cavity MakeCavity(std::uint32_t seed) {
   cavity.condyle.centre =
       lowest + cavity.condyle.portal_from_body * glm::dvec3(0.0, -cavity.condyle.radii.y, 0.0);
 
-  // A cruciate-like band, fanned out where it leaves the tibia.
+  // Ligament similar to a cruciate, with fibres that fan out at the tibia.
   const glm::dvec3 foot =
       plateau.portal_from_plateau * glm::dvec3(-18.0 * kMm, 3.0 * kMm, -0.5 * kMm);
   const glm::dvec3 roof = glm::dvec3(-22.0, -26.0, 37.0) * kMm + Jitter(random, 0.8 * kMm);
@@ -186,7 +186,7 @@ double BedDepth(const CartilageBed& bed, double share) {
 
 double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) {
   double z = 0.5 * plateau.curvature_x * x * x + 0.5 * plateau.curvature_y * y * y;
-  // The outline is a rounded box; past nine tenths of it the edge rolls off.
+  // Outline of a rounded box, with an edge that rolls off beyond nine tenths of it.
   const double u = x / (x > 0.0 ? plateau.half_width_medial : plateau.half_width_lateral),
                v = y / plateau.half_depth;
   const double past = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v)) - 0.9;
@@ -203,7 +203,7 @@ double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) 
 }
 
 double CapsuleDistance(const Cavity& cavity, const glm::dvec3& d) {
-  // Folds fade towards the back of the joint, and where the instrument comes in.
+  // Folds fade towards the back of the joint and at the instrument's portal.
   const double portal_side = SmoothStep(0.75, 0.97, d.x);
   const double strength = (1.0 - 0.75 * SmoothStep(0.7, 0.95, d.z)) * (1.0 - 0.6 * portal_side);
   return CapsuleBase(cavity, d) - cavity.fold_height * strength * Folds(d, cavity.seed);
@@ -218,8 +218,8 @@ double FatLobule(const Cavity& cavity, const glm::dvec3& d) {
 
 double FatDistance(const Cavity& cavity, const glm::dvec3& d) {
   const double share = FatShare(cavity, d);
-  if (share <= 0.0) return 2.0 * cavity.radius;  // behind everything
-  // Lobules with small ones on them, on lumps four times their size.
+  if (share <= 0.0) return 2.0 * cavity.radius;  // behind all other surfaces
+  // Lobules carry smaller ones and lie on lumps four times their size.
   const double lobulet = LobeNoise(14.0 * d, cavity.seed + 46);
   const double lump = 0.5 + 0.5 * GradientNoise(2.6 * d, cavity.seed + 45);
   const double base = cavity.capsule_front + (cavity.fat_distance - cavity.capsule_front) * share;
@@ -257,7 +257,8 @@ glm::dvec3 EllipsoidNormal(const Ellipsoid& e, const glm::dvec3& x) {
   return glm::normalize(e.portal_from_body * (body / (e.radii * e.radii)));
 }
 
-// Towards the portal from a surface at distance R(direction): -∇(|x| - R(x/|x|)); x lies on it.
+// Normal towards the portal of a surface at distance R(direction): -∇(|x| - R(x/|x|)); x lies on
+// it.
 template <class Distance>
 glm::dvec3 StarNormal(const glm::dvec3& x, const Distance& distance) {
   const double length = glm::length(x);

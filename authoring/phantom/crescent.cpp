@@ -42,8 +42,8 @@ Wedge WedgeAt(const Crescent& c, double angle) {
                   anterior * (c.anterior_width - c.body_width),
               c.body_height + posterior * (c.posterior_height - c.body_height) +
                   anterior * (c.anterior_height - c.body_height)};
-  // 1 at 29° from a horn's end. The taper is never so steep that rings, which keep their number of
-  // points, would shear into slivers.
+  // Equals 1 at 29° from a horn's end. A steeper taper would shear the rings, whose number of
+  // points is fixed, into slivers.
   const double from_end = std::clamp(std::min(angle - c.from, c.to - angle) / 0.50, 0.0, 1.0);
   const double full = std::sin(0.5 * std::numbers::pi * from_end);
   wedge.width *= 0.36 + 0.64 * full;

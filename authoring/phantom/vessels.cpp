@@ -15,7 +15,7 @@ namespace {
 constexpr double kStep = RadiansFromDegrees(0.45);  // length of one segment
 constexpr double kThinnest =
     RadiansFromDegrees(0.06);      // a capillary of 0.04 mm at 40 mm; thinner is not drawn
-constexpr double kSoftness = 2.2;  // reach of a deep vessel's blur, in radii
+constexpr double kSoftness = 2.2;  // blur of a deep vessel, in radii
 
 // Cells of two degrees over the whole sphere.
 constexpr int kColumns = 180, kRows = 90;
@@ -35,7 +35,7 @@ double LatitudeOf(const glm::dvec3& d) { return -std::asin(std::clamp(d.y, -1.0,
 
 VesselTrees::VesselTrees(std::uint32_t seed) {
   Random random(0x7E55E1ull + seed);
-  // Deep trunks first: few, broad, soft. Then the crisp net on the surface.
+  // Deep trunks first: few, broad, blurred. Then the sharp network on the surface.
   constexpr int kDeepTrees = 18, kSurfaceTrees = 42;
   for (int i = 0; i < kDeepTrees + kSurfaceTrees; ++i) {
     const bool deep = i < kDeepTrees;
@@ -62,7 +62,7 @@ void VesselTrees::Grow(std::uint64_t seed, glm::dvec3 at, glm::dvec3 heading, do
   double curl = 0.0;
   int until_branch = static_cast<int>(random.Uniform(5.0, 14.0));
   for (int step = 0; step < 90 && radius > kThinnest; ++step) {
-    // A vessel meanders: its curvature, not its heading, is what wanders.
+    // A vessel meanders: its curvature, not its heading, is random.
     curl = 0.80 * curl + random.Uniform(-0.11, 0.11);
     heading = turned(heading, curl);
     const glm::dvec3 next = std::cos(kStep) * at + std::sin(kStep) * heading;
@@ -72,7 +72,7 @@ void VesselTrees::Grow(std::uint64_t seed, glm::dvec3 at, glm::dvec3 heading, do
     at = next;
     radius = thinner;
     if (--until_branch > 0 || generation >= 6) continue;
-    // Murray's law: the cubes of the radii add up.
+    // Murray's law: the cube of a radius is the sum of the cubes of its branches' radii.
     const double share = random.Uniform(0.18, 0.5);
     const double side = random.Uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
     const double angle = random.Uniform(0.4, 0.95);
@@ -119,7 +119,7 @@ VesselTrees::Cover VesselTrees::At(const glm::dvec3& d) const {
     const double inner = radius * (0.75 - 0.75 * s.depth),
                  outer = radius * (1.25 + (kSoftness - 1.25) * s.depth);
     if (distance >= outer) continue;
-    // Thin ones are fainter: they hold less blood.
+    // Thin vessels are fainter: they hold less blood.
     const double strength =
         std::min(1.0, 0.12 + radius / RadiansFromDegrees(0.22)) * (1.0 - 0.45 * s.depth);
     const double amount = strength * SmoothStep(outer, inner, distance);

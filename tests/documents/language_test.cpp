@@ -34,6 +34,7 @@ TEST(Language, RefusesCommentsThatOpenWithoutSubject) {
     EXPECT_TRUE(IsRefused(std::string("# ") + opening + " the tissue.\n", TextKind::kScript));
   }
   EXPECT_TRUE(IsRefused("int a = 0;  // of the tissue\n"));
+  EXPECT_TRUE(IsRefused("  int a = 0;  // m\n  // of the tissue\n"));
   EXPECT_TRUE(IsRefused("f(a,  // Where it lies\n  b);\n"));
   EXPECT_TRUE(IsRefused("// Keeps the nearest.\n// Of too many the first.\n"));
   EXPECT_TRUE(IsRefused("const char* shader = R\"(\n  // what lies far\n  float a;)\";\n"));

@@ -74,11 +74,14 @@ class Reader {
     std::size_t begin = at_ + 2;
     while (begin < end && source_[begin] == '/') ++begin;
     Line line{line_, Trimmed(source_.substr(begin, end - begin))};
-    const bool goes_on =
-        !line_has_code_ && !parts_.comments.empty() && last_comment_line_ == line_ - 1;
+    const std::size_t column = at_ - std::min(source_.rfind('\n', at_) + 1, at_);
+    const bool goes_on = !line_has_code_ && !parts_.comments.empty() &&
+                         last_comment_line_ == line_ - 1 &&
+                         (!parts_.comments.back().is_trailing || column == last_comment_column_);
     if (!goes_on) parts_.comments.push_back({line_has_code_, {}});
     parts_.comments.back().lines.push_back(std::move(line));
     last_comment_line_ = line_;
+    last_comment_column_ = column;
     at_ = end;
   }
 
@@ -116,6 +119,7 @@ class Reader {
 
   std::string_view source_;
   std::size_t at_ = 0;
+  std::size_t last_comment_column_ = 0;
   int line_ = 1, last_comment_line_ = -1;
   bool line_has_code_ = false, literal_goes_on_ = false;
   SourceParts parts_;

@@ -25,7 +25,7 @@ struct Line {
 };
 
 // Comment lines that follow one another, without their slashes. A trailing comment opens a comment
-// of its own; lines below it that hold nothing but a comment continue it.
+// of its own; lines below it that hold nothing but a comment, in the same column, continue it.
 struct Comment {
   bool is_trailing = false;
   std::vector<Line> lines;

@@ -94,7 +94,7 @@ bool EvaluateRadius(FitModel model, double focal, std::span<const double> own, d
 std::array<double, kMostOwnParameters> StartOf(FitModel model, double& focal) {
   switch (model) {
     case FitModel::kDoubleSphere: {
-      // Within 0.2 % of equisolid up to 60 degrees: found by least squares over that range.
+      // Least-squares fit to the equisolid profile up to 60 degrees, to within 0.2 %.
       constexpr double kXi = -0.21, kAlpha = 0.634;
       focal *= 1 + kXi;
       return {kXi, kAlpha, 0, 0};

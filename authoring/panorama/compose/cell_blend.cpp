@@ -66,7 +66,7 @@ cv::Mat BlendCells(const std::vector<FrameCells>& cells, const std::vector<cv::M
   cv::copyMakeBorder(consensus.colour, ground, 0, padded.height - layout.cells.height, 0,
                      padded.width - layout.cells.width, cv::BORDER_REPLICATE);
 
-  // The consensus with next to no weight, so that something is everywhere.
+  // The consensus has a very small weight, so that every cell has a value.
   Add(bands, ground, cv::Mat(padded, CV_32F, cv::Scalar(1e-4)), {0, 0});
   for (std::size_t f = 0; f < cells.size(); ++f) {
     if (shares[f].empty()) continue;

@@ -1,4 +1,4 @@
-// How placed frames become one picture.
+// Options of composition.
 #pragma once
 
 #include "simulation/core/options.h"

@@ -8,8 +8,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kResidueSteps = 10;  // of a grey level
-constexpr double kDark = 8;        // grey levels: differences below are noise, whatever their share
+constexpr int kResidueSteps = 10;  // steps per grey level
+constexpr double kDark =
+    8;  // grey levels; smaller differences are noise, whatever their relative size
 
 struct Vote {
   float value, weight;
@@ -21,7 +22,8 @@ float WeightedMedian(std::vector<Vote>& votes) {
   });
   float all = 0;
   for (const Vote& vote : votes) all += vote.weight;
-  // Between the two votes around the half, so that two frames of equal say meet in their middle.
+  // Interpolates between the two samples around half of the weight, so that two frames of equal
+  // weight give their mean.
   float sum = 0;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     sum += votes[i].weight;
@@ -91,7 +93,7 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
     consensus.residue = static_cast<double>(i) / kResidueSteps;
   }
 
-  // What is next to an outlier is often part of it, dimmed: its soft rim.
+  // A cell beside an outlier often shows its soft rim.
   for (FrameCells& frame : cells) {
     if (!frame.is_seen()) continue;
     cv::Mat least;
@@ -104,7 +106,7 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
 }
 
 void FillSmoothly(cv::Mat& colour, const cv::Mat& is_known) {
-  // Pull: halves until everything is known; push: each level fills the next finer one's gaps.
+  // Pull: halves until everything is known. Push: each level fills the gaps of the next finer one.
   std::vector<cv::Mat> sums, weights;
   cv::Mat weight;
   is_known.convertTo(weight, CV_32F);

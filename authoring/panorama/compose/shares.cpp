@@ -8,11 +8,11 @@
 namespace arthro::authoring {
 namespace {
 
-// Of the quality; measured on clips with known truth: 1 and 5 are up to 0.3 dB worse than 2.
+// Exponents of the quality; on clips with known truth 1 and 5 are up to 0.3 dB worse than 2.
 constexpr double kSharing = 2, kTakesAll = 12;
 constexpr double kSoftEdge = 48;  // px over which a frame fades in from its rim
 
-// 0 at the rim of what a frame shows, 1 from `reach` cells on inside.
+// Ramp from 0 at the rim of the frame's visible area to 1 at `reach` cells inside.
 cv::Mat EdgeOf(const cv::Mat& say, double reach) {
   cv::Mat padded, distance;
   cv::copyMakeBorder(say > 0, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
@@ -26,7 +26,7 @@ cv::Mat EdgeOf(const cv::Mat& say, double reach) {
 std::vector<cv::Mat> ShareCells(const std::vector<FrameCells>& cells,
                                 const std::vector<CellRays>& rays, const Layout& layout,
                                 const ComposeOptions& options, const Progress& progress) {
-  // From plain weighting by quality towards "the best takes it all".
+  // Exponent from weighting by quality to "the best frame takes all".
   const double power = kSharing + (1 - options.averaging) * (kTakesAll - kSharing);
   std::vector<cv::Mat> score(cells.size());
   for (std::size_t f = 0; f < cells.size(); ++f) {

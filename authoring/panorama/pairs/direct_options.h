@@ -1,5 +1,5 @@
-// How two frames are laid over each other by all of their pixels at once: the search for a start,
-// the least squares, and what is believed.
+// Options of direct alignment: the search for a start, the least squares, and the limits of
+// acceptance.
 #pragma once
 
 #include "simulation/core/options.h"

@@ -1,4 +1,4 @@
-// Which points of a frame are looked for and how two frames' points are held together.
+// Options for finding and matching the points of frames.
 #pragma once
 
 #include "simulation/core/options.h"

@@ -1,6 +1,6 @@
-// Turns a rectified colour frame into what is matched [paper, 3.1]: one grey without light,
-// vignette and exposure, its contrast raised as far as the noise lets it, and a mask of the tissue
-// in it.
+// Converts a rectified colour frame to the picture that is matched [paper, 3.1]: one grey without
+// light, vignetting and exposure, with contrast raised as far as the noise allows, and a mask of
+// its tissue.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -49,8 +49,8 @@ struct PrepareOptions {
   }
 };
 
-// `working_rgb` CV_8UC3, RGB, rectified at `scale`; `lens_mask` CV_8UC1 of the same size, 255 where
-// the lens shows something. Throws Error(kBadImage) when sizes or types do not fit.
+// `working_rgb` CV_8UC3, RGB, rectified at `scale`; `lens_mask` CV_8UC1 of the same size, 255
+// inside the lens's visible area. Throws Error(kBadImage) when sizes or types do not match.
 WorkingFrame Prepare(int index, const cv::Mat& working_rgb, double scale, const cv::Mat& lens_mask,
                      const ClipLook& look, const PrepareOptions& options);
 

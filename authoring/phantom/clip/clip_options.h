@@ -1,4 +1,4 @@
-// What a rendered clip shows and what spoils it. Lengths on the plane and in the picture are shares
+// Content and disturbances of a rendered clip. Lengths on the plane and in the picture are shares
 // of the round window's radius, so that a small picture shows the same scene as a large one.
 #pragma once
 
@@ -8,8 +8,8 @@ namespace arthro::authoring {
 
 enum class ClipPath { kLoop, kRaster, kStrip, kWander, kStill };
 
-// easy … hard: measured sequences of rising difficulty. The others are easy or medium ones with one
-// thing that goes wrong.
+// easy … hard: measured sequences of rising difficulty. The others are easy or medium sequences
+// with one disturbance.
 enum class ClipPreset {
   kEasy,
   kMedium,
@@ -115,7 +115,7 @@ struct ClipOptions {
   }
 };
 
-// The options of a preset, for frames of the given size; everything else may be changed afterwards.
+// Options of a preset for frames of the given size; all others may be changed afterwards.
 ClipOptions ClipOptionsOf(ClipPreset preset, int width = 800, int height = 640);
 
 }  // namespace arthro::authoring
