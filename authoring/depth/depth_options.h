@@ -47,10 +47,8 @@ struct DepthOptions {
                                {DepthEstimator::kShading, "shading"}}},
       "",
       "paper: grey by the weights and the law below. The other two follow a light at the scope: "
-      "red "
-      "light over distance squared, and with shading also the slope. On a panorama, whose light "
-      "was "
-      "evened out, they tell how far a place stands out from its surroundings.");
+      "red light over distance squared, and with shading also the slope. On a panorama, with "
+      "evened-out light, they measure how far a place stands out from its surroundings.");
     v("red_weight", red_weight, Range{0, 1}, "",
       "Share of red in the grey; small, since muscle and synovium are redder, not nearer.");
     v("green_weight", green_weight, Range{0, 1}, "", "Share of green in the grey.");
@@ -68,23 +66,22 @@ struct DepthOptions {
     v("high_percentile", high_percentile, Range{0, 100}, "%",
       "Grey above which everything counts as nearest.");
     v("median_radius", median_radius, Range{0, 15}, "px",
-      "Noise smaller than this is removed, by a median in the paper's way, else by a smoothing "
-      "that "
-      "keeps edges; 0 leaves it.");
+      "Radius of noise removal: a median for the paper's estimator, otherwise an edge-preserving "
+      "smoothing. 0 removes none.");
     v("surround_threshold", surround_threshold, Range{0, 255}, "",
-      "Darker than this and joined to the picture's edge is surround, not tissue.");
+      "Pixels darker than this and connected to the picture's edge are surround, not tissue.");
     v("border_margin", border_margin, Range{0, 100}, "px",
-      "Rim of the imaged area, next to the surround, that is left out.");
+      "Width of the rim of the imaged area that is left out.");
     v("fill_highlights", fill_highlights, Any{}, "",
-      "Fill glints from around them, so that they are no peaks.");
+      "Fill highlights from their surroundings, so that they make no peaks.");
     v("correct_tissue", correct_tissue, Any{}, "",
-      "Divide out how red a tissue is; not used by the paper's estimator.");
+      "Divide by the tissue's own colour; not used by the paper's estimator.");
     v("field_of_view", field_of_view, Range{RadiansFromDegrees(10), RadiansFromDegrees(360)}, "rad",
-      "Angle across the picture's shorter side, for slopes and vignette; up to 120 degrees as a "
-      "pinhole sees it, above in equal angles.");
+      "Angle across the picture's shorter side, for slopes and vignetting. Up to 120 degrees the "
+      "picture is a pinhole's, above it angles are proportional to pixels.");
     v("vignette", vignette, Range{0, 0.95}, "",
       "Share of light that the lens loses at the rim of a single frame; 0 for a panorama.");
-    v("iterations", iterations, Range{1, 30}, "", "Rounds of the shading estimator.");
+    v("iterations", iterations, Range{1, 30}, "", "Iterations of the shading estimator.");
   }
 };
 

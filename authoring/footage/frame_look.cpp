@@ -178,7 +178,7 @@ void MarkBlanks(std::vector<FrameLook>& looks) {
     const double colour = std::abs(std::log(look.redness / redness));
     const double light = std::abs(std::log((look.brightness + 1) / (brightness + 1)));
     if (std::max(colour, light) > std::log(kOther))
-      look.blank = "it shows hardly any detail, in another light than the rest of the clip";
+      look.blank = "it shows hardly any detail, and its light differs from the rest of the clip";
   }
 }
 

@@ -96,8 +96,7 @@ class Calibration {
     const double before = ProcessCpuMs();
     auto start = StartFit(used_, picture_, centre, result_.rim_radius_px);
     const double start_ms = ProcessCpuMs() - before;
-    if (!start)
-      return Refuse("the points found do not lie as a flat target's would under any lens");
+    if (!start) return Refuse("the points found fit a flat target under no lens");
     LeaveOutWrongPoints(*start);
     TryModels(*start);
     const Candidate* best = Choose();
@@ -295,7 +294,7 @@ class Calibration {
   }
 
   void Judge(const Candidate& best) {
-    auto& say = result_.sentences;
+    auto& sentences = result_.sentences;
     bool doubtful = false;
     const double cover = result_.covered_radius_px / result_.rim_radius_px;
     if (best.trial.rms_px > options_.largest_rms && result_.is_paper_model_refuted &&
@@ -332,46 +331,48 @@ class Calibration {
     if (result_.is_paper_model_refuted) {
       doubtful = doubtful || chosen_paper || options_.model != ModelChoice::kAuto;
       const Candidate* paper = Find(FitModel::kEquisolid);
-      say.push_back(
+      sentences.push_back(
           fmt::format("wrong model: equisolid leaves {:.2f} px where another leaves {:.2f}{}",
                       paper->trial.held_out_px, LowestResidual(),
                       chosen_paper ? "; let the model be chosen, or the rim will be wrong"
-                                   : fmt::format("; {} was taken", WordOf(result_.model))));
+                                   : fmt::format("; {} was taken", ToString(result_.model))));
     }
     if (single) {
       doubtful = true;
-      say.push_back(
-          "one picture only: focal length and the target's distance go together, and which model "
-          "is right was judged from this picture alone; take six, tilted to all sides");
+      sentences.push_back(
+          "one picture only: it cannot separate focal length from distance, and the choice of the "
+          "model rests on it alone; take six, tilted to all sides");
       const ViewReport& view = result_.views[place_[0]];
       if (view.tilt < RadiansFromDegrees(8))
-        say.push_back(fmt::format(
-            "its target faces the lens (tilt {:.0f} degrees), so the focal length rests on the "
-            "lens's bend alone: with another model it would come out differently",
-            DegreesFromRadians(view.tilt)));
+        sentences.push_back(
+            fmt::format("its target faces the lens (tilt {:.0f} degrees), so the focal length "
+                        "follows from the distortion alone and depends on the model",
+                        DegreesFromRadians(view.tilt)));
     } else if (used_.size() == 2) {
       doubtful = true;
-      say.push_back("two pictures only: no picture is left to test the model on; take six");
+      sentences.push_back("two pictures only: no picture is left to test the model on; take six");
     }
     if (cover < 0.85)
-      say.push_back(fmt::format(
-          "the targets reach {:.0f} % of the {}; beyond that the model is taken at its word",
+      sentences.push_back(fmt::format(
+          "the targets reach {:.0f} % of the {}; beyond that the model is extrapolated",
           100 * cover, circle_.r > 0 ? "round window's radius" : "way to the picture's edge"));
     if (result_.rim_error_px > 1.0) {
       doubtful = true;
-      say.push_back(
+      sentences.push_back(
           fmt::format("at the rim the lens may be off by {:.1f} px", result_.rim_error_px));
     }
     if (result_.points_left_out * 5 > result_.points) {
       doubtful = true;
-      say.push_back(fmt::format("{} of {} points were left out as wrong", result_.points_left_out,
-                                result_.points_left_out + result_.points));
+      sentences.push_back(fmt::format("{} of {} points were left out as wrong",
+                                      result_.points_left_out,
+                                      result_.points_left_out + result_.points));
     }
     result_.verdict = doubtful ? LensVerdict::kDoubtful : LensVerdict::kGood;
     if (!doubtful)
-      say.insert(say.begin(),
-                 fmt::format("{} views of {} points bear out the {} model to {:.2f} px",
-                             used_.size(), result_.points, WordOf(result_.model), best.fit.rms_px));
+      sentences.insert(
+          sentences.begin(),
+          fmt::format("{} views of {} points agree with the {} model to {:.2f} px", used_.size(),
+                      result_.points, ToString(result_.model), best.fit.rms_px));
   }
 
   double LowestResidual() const {
@@ -419,7 +420,7 @@ class Calibration {
 
 }  // namespace
 
-const char* WordOf(LensVerdict verdict) {
+const char* ToString(LensVerdict verdict) {
   return verdict == LensVerdict::kGood       ? "good"
          : verdict == LensVerdict::kDoubtful ? "doubtful"
                                              : "refused";

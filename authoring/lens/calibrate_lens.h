@@ -31,8 +31,9 @@ struct CalibrateOptions {
                             {ModelChoice::kKannalaBrandt, "kannala_brandt"},
                             {ModelChoice::kDoubleSphere, "double_sphere"},
                             {ModelChoice::kPinhole, "pinhole"}}},
-      "", "Lens model; auto takes the simplest that the pictures bear out.");
-    v("aspect", aspect, Any{}, "", "Also fit the shape of the pixels (needs several views).");
+      "", "Lens model; auto takes the simplest that agrees with the pictures.");
+    v("aspect", aspect, Any{}, "",
+      "Also fit the aspect ratio of the pixels (needs several views).");
     v("largest_rms", largest_rms, Range{0.1, 20.0}, "px",
       "A lens that leaves a larger residual is refused.");
     v("least_cover", least_cover, Range{0.1, 1.0}, "",
@@ -80,6 +81,6 @@ LensCalibration CalibrateLens(const std::vector<TargetView>& views, cv::Size pic
                               const LensCircle& circle, double spacing,
                               const CalibrateOptions& options, const Progress& progress);
 
-const char* WordOf(LensVerdict verdict);  // "good", "doubtful", "refused"
+const char* ToString(LensVerdict verdict);  // "good", "doubtful", "refused"
 
 }  // namespace arthro::authoring

@@ -27,7 +27,7 @@ struct RectifyOptions {
     v("rim_margin", rim_margin, Range{0.0, 0.5}, "",
       "Share of the round window's radius that is left out at its rim.");
     v("largest_half_angle", largest_half_angle, Range{0.05, 1.4}, "rad",
-      "Rays further off the axis are left out: a flat picture would stretch them too far.");
+      "Rays further off the axis are left out, since a flat picture would stretch them too far.");
   }
 };
 

@@ -78,10 +78,10 @@ FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Pro
     found.lens = GuessedLens(found.part.size(), window);
     found.is_guessed = true;
     found.wanders = circle.wanders;
-    found.warnings.push_back(fmt::format(
-        "no lens was given: the pictures are taken as they are, and the focal length of {:.0f} px "
-        "is a guess",
-        found.lens.focal_px));
+    found.warnings.push_back(
+        fmt::format("no lens was given: the pictures are not rectified, and the focal length of "
+                    "{:.0f} px is a guess",
+                    found.lens.focal_px));
   } else {
     found.lens = *given;
     const bool has_circle = given->circle.r > 0;

@@ -198,8 +198,8 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   const auto counts = FramesByComponent(made.placed);
   if (const auto main = counts.find(0); main == counts.end() || main->second < 2)
     throw Error(Code::kBadImage,
-                fmt::format("no two of its {} usable frames could be laid over each other{}; take "
-                            "footage that moves slowly over tissue with some texture",
+                fmt::format("no two of its {} usable frames could be aligned{}; take footage that "
+                            "moves slowly over tissue with some texture",
                             made.placed.size(), FirstReason(made.placed)),
                 request.footage);
 

@@ -93,8 +93,7 @@ void CheckPanoramaName(const fs::path& file) {
   const std::string ending = file.extension().string();
   if (ending != ".png" && ending != ".jpg" && ending != ".jpeg")
     throw Error(Code::kBadArgument,
-                "a panorama is written as .png, which keeps what was imaged as alpha, or as .jpg",
-                file);
+                "a panorama is written as .png, with the imaged area as alpha, or as .jpg", file);
   std::error_code ignored;
   if (fs::is_directory(file, ignored))
     throw Error(Code::kFile, "this is a folder; give the name of a file", file);

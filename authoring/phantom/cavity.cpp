@@ -15,6 +15,25 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMm = kMetrePerMillimetre;
 
+// Noise channels: each draws its own values from the cavity's seed. Noise of k d, d a unit
+// direction, has about k features per rad.
+enum NoiseChannel : std::uint32_t {
+  kFoldWarpX = 11,
+  kFoldWarpY = 12,
+  kFoldWarpZ = 13,
+  kFoldBroad = 14,
+  kFoldNarrow = 15,
+  kOverhangMargin = 21,
+  kFatMarginBroad = 31,
+  kFatMarginFine = 32,
+  kLobuleWarpX = 41,
+  kLobuleWarpY = 42,
+  kLobuleWarpZ = 43,
+  kLobules = 44,
+  kLumps = 45,
+  kSmallLobules = 46,
+};
+
 glm::dvec3 Jitter(Random& random, double size) {
   return {random.Uniform(-size, size), random.Uniform(-size, size), random.Uniform(-size, size)};
 }
@@ -75,14 +94,19 @@ double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double l
 // Folds are long and run in one direction: noise stretched along a slowly turning direction, its
 // zero lines rounded into ridges.
 double Folds(const glm::dvec3& d, std::uint32_t seed) {
-  const glm::dvec3 warp(GradientNoise(1.7 * d, seed + 11), GradientNoise(1.7 * d, seed + 12),
-                        GradientNoise(1.7 * d, seed + 13));
-  const glm::dvec3 q = d + 0.45 * warp;
-  const double n = GradientNoise(glm::dvec3(2.1 * q.x, 3.9 * q.y, 2.1 * q.z), seed + 14);
-  const double broad = std::exp(-n * n * 14.0);
-  const double m = GradientNoise(glm::dvec3(5.3 * q.x, 8.7 * q.y, 5.3 * q.z), seed + 15);
-  const double narrow = std::exp(-m * m * 9.0);
-  return 0.72 * broad + 0.28 * narrow * (0.4 + 0.6 * broad);
+  constexpr double kTurns = 1.7, kWarp = 0.45;  // per rad; strength of the warp
+  constexpr double kBroadSharpness = 14.0, kNarrowSharpness = 9.0;
+  constexpr double kBroadShare = 0.72, kNarrowShare = 0.28;  // of the height
+  const glm::dvec3 warp(GradientNoise(kTurns * d, seed + kFoldWarpX),
+                        GradientNoise(kTurns * d, seed + kFoldWarpY),
+                        GradientNoise(kTurns * d, seed + kFoldWarpZ));
+  const glm::dvec3 q = d + kWarp * warp;
+  // Folds per rad along x, y and z: closer together from top to bottom.
+  const double n = GradientNoise(glm::dvec3(2.1 * q.x, 3.9 * q.y, 2.1 * q.z), seed + kFoldBroad);
+  const double broad = std::exp(-n * n * kBroadSharpness);
+  const double m = GradientNoise(glm::dvec3(5.3 * q.x, 8.7 * q.y, 5.3 * q.z), seed + kFoldNarrow);
+  const double narrow = std::exp(-m * m * kNarrowSharpness);
+  return kBroadShare * broad + kNarrowShare * narrow * (0.4 + 0.6 * broad);
 }
 
 // Smooth approximations of the star-shaped surfaces, for Clearance.
@@ -91,15 +115,19 @@ double CapsuleBase(const Cavity& cavity, const glm::dvec3& d) {
   const double base = cavity.capsule_side + (cavity.capsule_front - cavity.capsule_side) * front;
   // Overhead the synovium reaches down to its junction with the condyle.
   if (d.y > -0.45) return base;
-  const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + 21);
-  return base - cavity.overhang * SmoothStep(0.74, 1.0, -d.y + ragged);
+  constexpr double kOverheadFrom = 0.74;  // sine of the elevation
+  const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + kOverhangMargin);
+  return base - cavity.overhang * SmoothStep(kOverheadFrom, 1.0, -d.y + ragged);
 }
 
 // Share of the fat pad in a direction, 0 to 1: below and in front, more on the lateral side.
 double FatShare(const Cavity& cavity, const glm::dvec3& d) {
-  const double edge = 0.24 * GradientNoise(2.3 * d, cavity.seed + 31) +
-                      0.08 * GradientNoise(6.0 * d, cavity.seed + 32);
-  return SmoothStep(0.38, 0.80, d.y - 0.16 * d.x + edge);
+  constexpr double kFatFrom = 0.38,
+                   kFatTo = 0.80;    // sine of the depression; full pad from kFatTo on
+  constexpr double kLateral = 0.16;  // preference of the lateral side
+  const double edge = 0.24 * GradientNoise(2.3 * d, cavity.seed + kFatMarginBroad) +
+                      0.08 * GradientNoise(6.0 * d, cavity.seed + kFatMarginFine);
+  return SmoothStep(kFatFrom, kFatTo, d.y - kLateral * d.x + edge);
 }
 
 }  // namespace
@@ -108,6 +136,8 @@ Cavity MakeCavity(std::uint32_t seed) {
   Random random(0xA27450000ull + seed);
   Cavity cavity;
   cavity.seed = static_cast<std::uint32_t>(random.Next());
+  // Near(mean, share): a mean in mm and its relative spread. Sizes are chosen so that the joint
+  // holds the scope and the instrument and fills its view; none is measured.
   cavity.capsule_side = random.Near(41.5, 0.01) * kMm;
   cavity.capsule_front = 47.6 * kMm;
   cavity.fold_height = random.Near(3.2, 0.15) * kMm;
@@ -187,9 +217,10 @@ double BedDepth(const CartilageBed& bed, double share) {
 double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) {
   double z = 0.5 * plateau.curvature_x * x * x + 0.5 * plateau.curvature_y * y * y;
   // Outline of a rounded box, with an edge that rolls off beyond nine tenths of it.
+  constexpr double kRollFrom = 0.9;
   const double u = x / (x > 0.0 ? plateau.half_width_medial : plateau.half_width_lateral),
                v = y / plateau.half_depth;
-  const double past = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v)) - 0.9;
+  const double past = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v)) - kRollFrom;
   if (past > 0.0) z -= plateau.roll_off * past * past;
   const double su = (x - plateau.spine.x) / plateau.spine_radii.x,
                sv = (y - plateau.spine.y) / plateau.spine_radii.y;
@@ -210,18 +241,18 @@ double CapsuleDistance(const Cavity& cavity, const glm::dvec3& d) {
 }
 
 double FatLobule(const Cavity& cavity, const glm::dvec3& d) {
-  const glm::dvec3 wobble(GradientNoise(4.0 * d, cavity.seed + 41),
-                          GradientNoise(4.0 * d, cavity.seed + 42),
-                          GradientNoise(4.0 * d, cavity.seed + 43));
-  return LobeNoise(6.2 * d + 0.45 * wobble, cavity.seed + 44);
+  const glm::dvec3 wobble(GradientNoise(4.0 * d, cavity.seed + kLobuleWarpX),
+                          GradientNoise(4.0 * d, cavity.seed + kLobuleWarpY),
+                          GradientNoise(4.0 * d, cavity.seed + kLobuleWarpZ));
+  return LobeNoise(6.2 * d + 0.45 * wobble, cavity.seed + kLobules);
 }
 
 double FatDistance(const Cavity& cavity, const glm::dvec3& d) {
   const double share = FatShare(cavity, d);
   if (share <= 0.0) return 2.0 * cavity.radius;  // behind all other surfaces
   // Lobules carry smaller ones and lie on lumps four times their size.
-  const double lobulet = LobeNoise(14.0 * d, cavity.seed + 46);
-  const double lump = 0.5 + 0.5 * GradientNoise(2.6 * d, cavity.seed + 45);
+  const double lobulet = LobeNoise(14.0 * d, cavity.seed + kSmallLobules);
+  const double lump = 0.5 + 0.5 * GradientNoise(2.6 * d, cavity.seed + kLumps);
   const double base = cavity.capsule_front + (cavity.fat_distance - cavity.capsule_front) * share;
   return base -
          share * cavity.lobe_height * (1.3 * FatLobule(cavity, d) + 0.25 * lobulet + 0.9 * lump);

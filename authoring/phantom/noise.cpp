@@ -19,6 +19,7 @@ inline std::uint32_t Whole(double floored) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(floored));
 }
 
+// Quintic blend with zero first and second derivatives at 0 and 1 [Perlin 2002].
 inline double Fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
 // Directions spread evenly over the sphere along a spiral; each lattice point selects one.
@@ -92,14 +93,16 @@ double LobeNoise(const glm::dvec3& p, std::uint32_t seed) {
         const glm::dvec3 d = cell + jitter - p;
         const double d2 = (d.x * d.x + d.y * d.y + d.z * d.z) / (share * share);
         // The bell reaches zero at 1.3 cells, inside the 27 cells searched.
-        const double fade = 1.0 - d2 / 1.69;
+        constexpr double kReach = 1.69;  // squared cells
+        const double fade = 1.0 - d2 / kReach;
         if (fade <= 0.0) continue;
         sum += fade * fade * std::exp(-kSharpness * d2);
       }
   constexpr double kSpread = 1.8;  // brings creases near 0
   const double height = 1.0 + kSpread * std::log(sum + 1e-3) / kSharpness;
   // Rounded minimum away from all lobes.
-  return std::min(0.5 * (height + std::sqrt(height * height + 0.06)), 1.0);
+  constexpr double kRounding = 0.06;  // squared height
+  return std::min(0.5 * (height + std::sqrt(height * height + kRounding)), 1.0);
 }
 
 double SmoothStep(double from, double to, double x) {

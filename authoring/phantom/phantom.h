@@ -29,7 +29,7 @@ struct PhantomOptions {
   template <class V>
   void Visit(V&& v) {
     v("seed", seed, Range{0, 2147483647}, "",
-      "Which knee: sizes, folds, vessels and colours follow from it.");
+      "Seed of the knee: sizes, folds, vessels and colours follow from it.");
     v("size", size,
       Choices<PhantomSize>{
           {{PhantomSize::kSmall, "S"}, {PhantomSize::kMedium, "M"}, {PhantomSize::kLarge, "L"}}},
@@ -52,7 +52,7 @@ struct PhantomOptions {
       Choices<PictureFormat>{{{PictureFormat::kPng, "png"}, {PictureFormat::kJpg, "jpg"}}}, "",
       "Panoramas as lossless PNG, or as JPEG of a tenth of the size.");
     v("threads", threads, Range{0, 256}, "",
-      "Threads that draw; 0: one per processor. The result is the same.");
+      "Drawing threads; 0 takes one per processor. The result does not depend on it.");
   }
 };
 

@@ -143,7 +143,7 @@ void RequirePhantomFolder(const fs::path& wanted) {
   try {
     ours = fs::is_empty(folder) || IsEarlierPhantom(folder);
   } catch (const fs::filesystem_error&) {
-    throw Error(Code::kFile, "cannot be looked into; name another place with -o", folder);
+    throw Error(Code::kFile, "cannot be read; name another place with -o", folder);
   }
   if (!ours)
     throw Error(Code::kFile,

@@ -18,7 +18,7 @@ constexpr double kMm = kMetrePerMillimetre;
 constexpr double kDuration = 12.0, kRate = 100.0;       // s, Hz
 constexpr double kViewAngle = 30.0 * kRadianPerDegree;  // oblique view of the phantom's scope
 
-// Minimum-jerk interpolation between two rests.
+// Minimum-jerk interpolation between two rests [Flash & Hogan 1985].
 double Ease(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);

@@ -35,7 +35,7 @@ bool KannalaBrandt(double focal, std::span<const double> k, double theta, Radial
 
 }  // namespace
 
-const char* WordOf(FitModel model) {
+const char* ToString(FitModel model) {
   switch (model) {
     case FitModel::kEquisolid:
       return "equisolid";

@@ -23,7 +23,7 @@ enum class FitModel {
 inline constexpr int kMostOwnParameters = 4;
 
 // "equisolid", "equidistant", …
-const char* WordOf(FitModel model);
+const char* ToString(FitModel model);
 
 int OwnParametersOf(FitModel model);  // parameters besides f
 

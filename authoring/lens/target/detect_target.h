@@ -22,7 +22,7 @@ struct DetectOptions {
                              {TargetChoice::kLines, "lines"},
                              {TargetChoice::kChessboard, "chessboard"},
                              {TargetChoice::kDots, "dots"}}},
-      "", "What the pictures show; any finds it out.");
+      "", "Kind of target; any recognises it.");
     v("smallest_step", smallest_step, Range{4.0, 100.0}, "px",
       "Points that lie closer together are left out.");
     v("fewest_points", fewest_points, Range{9, 10000}, "",

@@ -47,7 +47,7 @@ bool IsCheckered(const cv::Mat& smooth, const cv::Point2d& at, double radius) {
 
 }  // namespace
 
-const char* WordOf(TargetKind kind) {
+const char* ToString(TargetKind kind) {
   switch (kind) {
     case TargetKind::kLines:
       return "line grid";

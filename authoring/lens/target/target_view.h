@@ -26,6 +26,6 @@ struct TargetView {
 };
 
 // "line grid", "chessboard", "dot grid" or "none".
-const char* WordOf(TargetKind kind);
+const char* ToString(TargetKind kind);
 
 }  // namespace arthro::authoring

@@ -83,7 +83,7 @@ class Preview {
     if (!observer_) return;
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
-        if (cells.say.at<uchar>(y, x) < 64) continue;
+        if (cells.blend_weight.at<uchar>(y, x) < 64) continue;
         auto& pixel = rgba_.at<cv::Vec4b>(box.y + y, box.x + x);
         const auto& colour = cells.colour.at<cv::Vec3w>(y, x);
         for (int c = 0; c < 3; ++c) {

@@ -31,7 +31,8 @@ void ForEachCell(const std::vector<FrameCells>& cells, const Layout& layout, int
     views.clear();
     for (const int f : here) {
       const cv::Rect& box = layout.frames[f].cells;
-      if (x >= box.x && x < box.x + box.width && cells[f].say.at<uchar>(row - box.y, x - box.x) > 0)
+      if (x >= box.x && x < box.x + box.width &&
+          cells[f].blend_weight.at<uchar>(row - box.y, x - box.x) > 0)
         views.push_back(f);
     }
     if (!views.empty()) visit(x, views);

@@ -87,9 +87,9 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
     for (int x = 0; x < box.width; ++x) {
       const int share = cell_good.at<uchar>(y, x);
       const bool is_inside = cell_lens.at<uchar>(y, x) >= 255 * kLeastShown;
-      uchar& say = cells.say.at<uchar>(y, x);
+      uchar& blend_weight = cells.blend_weight.at<uchar>(y, x);
       auto& out = cells.colour.at<cv::Vec3w>(y, x);
-      say = 0;
+      blend_weight = 0;
       out = cv::Vec3w(0, 0, 0);
       if (!is_inside) continue;
       const cv::Vec3f& sum = cell_colour.at<cv::Vec3f>(y, x);
@@ -97,7 +97,7 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
       for (int c = 0; c < 3; ++c)
         out[c] = cv::saturate_cast<ushort>(
             kGreySteps * (share >= 64 ? std::min(255.f, sum[c] * 255.f / share) : glare[c]));
-      say = static_cast<uchar>(share >= 64 ? share : 1);
+      blend_weight = static_cast<uchar>(share >= 64 ? share : 1);
     }
   return cells;
 }

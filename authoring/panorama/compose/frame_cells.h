@@ -14,9 +14,9 @@ namespace arthro::authoring {
 constexpr double kGreySteps = 100.0;
 
 struct FrameCells {
-  cv::Mat colour;  // CV_16UC3, grey level times kGreySteps, mean over the cell
-  cv::Mat say;     // CV_8UC1, blend weight: 255 for a good view of the whole cell, 0 for none
-  bool is_seen() const { return !say.empty(); }
+  cv::Mat colour;        // CV_16UC3, grey level times kGreySteps, mean over the cell
+  cv::Mat blend_weight;  // CV_8UC1, blend weight: 255 for a good view of the whole cell, 0 for none
+  bool is_seen() const { return !blend_weight.empty(); }
 };
 
 // Ray of a cell in the frame, by the inverse homography.

@@ -23,7 +23,7 @@ struct View {
   std::array<double, 4> light;  // u, u^2, u^3, ln w
   std::array<double, 6> field;  // x, y, x^2 - y^2, xy, x^2 + y^2 as in FrameLight, and 1
   std::array<double, 3> y;      // channels, 0 to 1
-  double say = 0;
+  double blend_weight = 0;
 };
 
 struct Place {
@@ -58,7 +58,7 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
     const cv::Rect& box = layout.frames[f].cells;
     for (int y = 0; cells[f].is_seen() && y < box.height; y += 2)
       for (int x = 0; x < box.width; x += 2)
-        if (cells[f].say.at<uchar>(y, x) >= 128)
+        if (cells[f].blend_weight.at<uchar>(y, x) >= 128)
           reach = std::max(reach, SquaredSine(rays[f].At(box.x + x, box.y + y)));
   }
   reach = std::max(reach, 1e-6);
@@ -69,8 +69,8 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
       for (std::size_t f = 0; f < cells.size(); ++f) {
         const cv::Rect& box = layout.frames[f].cells;
         if (!cells[f].is_seen() || !box.contains({x, y})) continue;
-        const int say = cells[f].say.at<uchar>(y - box.y, x - box.x);
-        if (say < 128) continue;
+        const int blend_weight = cells[f].blend_weight.at<uchar>(y - box.y, x - box.x);
+        if (blend_weight < 128) continue;
         const auto& colour = cells[f].colour.at<cv::Vec3w>(y - box.y, x - box.x);
         View view;
         view.frame = static_cast<int>(f);
@@ -78,7 +78,7 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
         view.light = LightTerms(ray, reach);
         view.field = FieldTerms(ray, reach);
         for (int c = 0; c < 3; ++c) view.y[c] = std::max(1.0, colour[c] / kGreySteps) / 255.0;
-        view.say = say / 255.0;
+        view.blend_weight = blend_weight / 255.0;
         views.push_back(view);
       }
       const int last = static_cast<int>(views.size());
@@ -255,7 +255,7 @@ class Solver {
       for (int i = place.first; i < place.last; ++i) {
         const double r = (Reading(views_[i], c) - mean) / sigma;
         const double robust = round == 0 ? 1 : 1 / ((1 + r * r) * (1 + r * r));
-        const double w = robust * views_[i].say * Trust(views_[i].y[c], light_.response);
+        const double w = robust * views_[i].blend_weight * Trust(views_[i].y[c], light_.response);
         weight[i - place.first] = w;
         sum += w;
         all += w * Reading(views_[i], c);
@@ -347,7 +347,7 @@ void EvenLight(FrameCells& cells, const CellRays& rays, const cv::Rect& box,
                const LightModel& light, int f, const ToneCurve& tone) {
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
-      if (cells.say.at<uchar>(y, x) == 0) continue;
+      if (cells.blend_weight.at<uchar>(y, x) == 0) continue;
       auto& colour = cells.colour.at<cv::Vec3w>(y, x);
       const float gain =
           static_cast<float>(std::exp(-light.Excess(f, rays.At(box.x + x, box.y + y))));

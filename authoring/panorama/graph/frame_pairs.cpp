@@ -48,7 +48,7 @@ FramePairs::FramePairs(const std::vector<WorkingFrame>& frames, const RegisterOp
                  if (options.method != PairMethod::kDirect)
                    features_[i].emplace(DetectFeatures(frames[i], options.features));
                  if (!pyramids_[i]->HasTexture())
-                   unusable_[i] = "shows no texture that another frame could be laid over";
+                   unusable_[i] = "shows no texture that could be aligned with another frame";
                });
 }
 

@@ -207,7 +207,7 @@ class Placer {
       is_false[i] = still[i] && book_.pairs()[i].similarity < options_.bridge_similarity;
       result_.bridges_refused += is_false[i];
     }
-    Drop(is_false, "is all that joins two parts, and not sure enough for it");
+    Drop(is_false, "is the only link of two parts and too uncertain");
     Place();
   }
 
@@ -218,7 +218,7 @@ class Placer {
     if (here > 0) why = book_.WhyNot(usable_[At(static_cast<int>(here)) - 1], frame);
     if (why.empty() && At(static_cast<int>(here)) + 1 < usable_.size())
       why = book_.WhyNot(frame, usable_[At(static_cast<int>(here)) + 1]);
-    if (usable_.size() < 2) return "there is no other frame to lay it beside";
+    if (usable_.size() < 2) return "there is no other frame to compare it with";
     return "agrees with no other frame" + (why.empty() ? std::string() : ": " + why);
   }
 

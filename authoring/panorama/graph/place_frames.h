@@ -35,13 +35,16 @@ struct GraphOptions {
       Choices<GraphStages>{{{GraphStages::kPairs, "pairs"},
                             {GraphStages::kLoops, "loops"},
                             {GraphStages::kRefinement, "refinement"}}},
-      "", "How far to go: neighbours only, with loops, with the refinement of all frames at once.");
+      "",
+      "Extent of registration: neighbours only, with loops, or with the refinement of all frames "
+      "together.");
     v("loop_rounds", loop_rounds, Range{0, 10}, "",
-      "Times that loops are looked for, each with the places of the one before.");
+      "Number of searches for loops, each with the positions of the one before.");
     v("loops_per_frame", loops_per_frame, Range{0.0, 20.0}, "",
-      "Pairs beside the neighbours that may be tried, per frame and round.");
+      "Pairs besides the neighbours that are tried, per frame and round.");
     v("least_gain", least_gain, Range{0.0, 100.0}, "",
-      "A loop is tried when the variance that it would check is at least this times its own.");
+      "A loop is tried when the variance that it would check is at least this multiple of its "
+      "own.");
     v("loop_overlap", loop_overlap, Range{0.1, 1.0}, "",
       "Share of the window that two frames must have in common to be tried as a loop.");
     v("searches_per_gap", searches_per_gap, Range{0, 100}, "",
@@ -50,7 +53,8 @@ struct GraphOptions {
       "A pair that alone joins two pieces must be at least this similar.");
     v("most_surprise", most_surprise, Range{1.0, 100.0}, "",
       "A pair that the places contradict by more than this times its error is false.");
-    v("most_misfit", most_misfit, Range{0.1, 100.0}, "px", "And by more than this.");
+    v("most_misfit", most_misfit, Range{0.1, 100.0}, "px",
+      "The contradiction must also exceed this.");
   }
 };
 

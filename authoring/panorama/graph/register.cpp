@@ -77,7 +77,8 @@ void Warn(const RegisterOptions& options, const Lens* lens, RegisterReport& told
         lens->focal_px * told.focal.factor, 100 * std::abs(off), off > 0 ? "more" : "less"));
   } else if (told.drift_factor > kMostDriftFactor || told.variance_factor > kMostVarianceFactor) {
     told.warnings.push_back(
-        "loops do not close as pairs promise: check the lens file, its focal length above all");
+        "loops miss by more than their pairs predict: check the lens file, above all its focal "
+        "length");
   } else if (!is_flat) {
     told.warnings.push_back(
         "surfaces at different depths (parallax): no flat panorama is true to all frames; expect "

@@ -36,7 +36,7 @@ struct RegisterOptions {
       Choices<PairMethod>{{{PairMethod::kFeaturesThenDirect, "features_then_direct"},
                            {PairMethod::kDirect, "direct"},
                            {PairMethod::kFeatures, "features"}}},
-      "", "How pairs of frames are laid over each other.");
+      "", "Method of aligning pairs of frames.");
     v("threads", threads, Range{1, 64}, "", "Frames and pairs worked on at once.");
     features.Visit(v);
     direct.Visit(PartVisitor<V>{v, "direct_"});

@@ -315,17 +315,17 @@ Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a, bool with_response) {
     Likeness& part = parts[3 * third((y - patch.centre.y) / patch.reach_y) +
                            third((x - patch.centre.x) / patch.reach_x)];
     Vec8 score = Vec8::zeros();
-    bool has_say = false;
+    bool is_counted = false;
     for (const Texture texture : {kColour, kRelief}) {
       const BandSolver::Cell& cell = bands_[texture].cells()[i];
       if (!(cell.aa > 0 && cell.bb > 0)) continue;
-      has_say = true;
+      is_counted = true;
       whole.Add(texture, cell);
       part.Add(texture, cell);
       for (int j = 0; j < 8; ++j)
         score(j) += static_cast<double>(cell.score[j]) * bands_[texture].importance();
     }
-    evidence.cells += has_say;
+    evidence.cells += is_counted;
     evidence.scatter += score * score.t();
   }
   evidence.similarity = whole.Similarity();

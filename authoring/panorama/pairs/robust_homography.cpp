@@ -183,7 +183,7 @@ std::string Degeneracy(const Points& a, const std::vector<int>& inliers, const c
     const double w = h(2, 0) * p.x + h(2, 1) * p.y + h(2, 2);
     const double area = cv::determinant(h) / (w * w * w);
     if (!(area > 1 / kMostArea && area < kMostArea))
-      return "the matches fold or stretch the frame as no camera does";
+      return "the matches fold or stretch the frame in a way that no camera does";
   }
   const double n = static_cast<double>(inliers.size());
   const double mean = 0.5 * (xx + yy) / n, half = std::hypot(0.5 * (xx - yy), xy) / n;
@@ -262,7 +262,7 @@ RobustHomography FindHomography(const Points& a, const Points& b, double reach,
                                 const FeatureOptions& options) {
   RobustHomography result;
   if (a.size() < static_cast<std::size_t>(options.fewest_inliers)) {
-    result.why_not = fmt::format("only {} points look alike", a.size());
+    result.why_not = fmt::format("only {} points are similar", a.size());
     return result;
   }
   const cv::Matx33d norm_a = Normalisation(a), norm_b = Normalisation(b);

@@ -109,7 +109,7 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
   if (verdict.overlap < options.smallest_overlap)
     return refuse(fmt::format("only {:.0f} % of the frame is shared", 100 * verdict.overlap));
   if (verdict.certainty < options.least_certainty)
-    return refuse(fmt::format("the frames do not look alike (certainty {:.1f}, {:.1f} asked)",
+    return refuse(fmt::format("the frames are not similar (certainty {:.1f}, {:.1f} required)",
                               verdict.certainty, options.least_certainty));
   // Each of nine equal parts has a third of the whole's certainty; a much lower one shows another
   // place. Pairs far above any wrong one observed (19 and 0.57) may have a part under debris.
@@ -118,7 +118,7 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
       std::max(options.least_part_certainty,
                std::min(kPlainPart, options.least_part_share * verdict.certainty / 3));
   if (!is_sure && verdict.weakest_part < asked)
-    return refuse(fmt::format("only part of the shared view looks alike (certainty {:.1f})",
+    return refuse(fmt::format("only part of the overlap is similar (certainty {:.1f})",
                               verdict.weakest_part));
   const FourPoints control = ControlOf(middle.patch);
   if (!IsPlausible(pair.b_from_a, middle.patch, control))

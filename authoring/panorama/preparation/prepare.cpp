@@ -35,7 +35,7 @@ void Check(const cv::Mat& rgb, double scale, const cv::Mat& mask, const ClipLook
   if ((!look.light.empty() && look.light.size() != rgb.size()) ||
       (!look.static_marks.empty() && look.static_marks.size() != rgb.size()))
     throw Error(Code::kBadImage,
-                "what the clip's frames share was learned at another size; learn it at this scale");
+                "the clip's common light was learned at another size; learn it at this scale");
 }
 
 cv::Mat Eroded(const cv::Mat& mask, int radius) {

@@ -17,7 +17,7 @@ struct PhantomFootageOptions {
   template <class V>
   void Visit(V&& v) {
     v("footage_frames", footage_frames, Range{0, 2000}, "",
-      "Frames of a clip over the panorama, with its lens, a grid and every frame's truth; 0: "
+      "Frames of a clip over the panorama, with its lens, a grid and every frame's truth; 0 writes "
       "none.");
   }
 };

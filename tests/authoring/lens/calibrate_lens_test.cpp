@@ -86,7 +86,8 @@ TEST(LensResidual, DerivativesAreThoseOfTheResidual) {
       const ceres::GradientChecker checker(
           &residual, static_cast<std::vector<const ceres::Manifold*>*>(nullptr), numeric);
       ceres::GradientChecker::ProbeResults results;
-      EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results)) << WordOf(model) << results.error_log;
+      EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results))
+          << ToString(model) << results.error_log;
     }
 }
 

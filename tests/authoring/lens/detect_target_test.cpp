@@ -73,9 +73,9 @@ TEST(DetectTarget, KindAndPointsOfEveryTarget) {
     const BoardPlace place = Tilted(c.distance);
     const cv::Mat picture = BoardPicture({320, 256}, RaysOf(lens), place, c.look);
     const TargetView view = DetectTarget(picture, lens.circle, {});
-    EXPECT_EQ(view.kind, c.kind) << WordOf(view.kind) << " for " << WordOf(c.kind);
-    EXPECT_GE(view.points.size(), c.fewest) << WordOf(c.kind);
-    EXPECT_LT(UsualDistance(view, lens, place), 0.3) << WordOf(c.kind) << view.points.size();
+    EXPECT_EQ(view.kind, c.kind) << ToString(view.kind) << " for " << ToString(c.kind);
+    EXPECT_GE(view.points.size(), c.fewest) << ToString(c.kind);
+    EXPECT_LT(UsualDistance(view, lens, place), 0.3) << ToString(c.kind) << view.points.size();
     EXPECT_NEAR(view.dot_radius, c.kind == TargetKind::kDots ? 0.2 : 0.0, 0.02);
   }
 }

@@ -23,13 +23,13 @@ struct RefineOptions {
   template <class V>
   void Visit(V&& v) {
     v("pair_floor", pair_floor, Range{0.0, 2.0}, "px",
-      "Error that no pair is free of, beside what its own covariance says.");
+      "Least error of every pair, added to its covariance.");
     v("loss_scale", loss_scale, Range{1.0, 100.0}, "",
-      "Times its expected error at which a pair begins to lose weight (Cauchy).");
+      "Multiple of its expected error at which a pair begins to lose weight (Cauchy).");
     v("camera_deviation", camera_deviation, Range{0.0, 1.0}, "",
-      "How far a frame may stray from what a calibrated scope sees of a plane; widened where the "
-      "tissue is not flat. 0: any homography will do.");
-    v("refine_iterations", refine_iterations, Range{1, 1000}, "", "Steps before giving up.");
+      "Deviation of a frame from the view of a calibrated scope onto a plane; widened for tissue "
+      "that is not flat. 0 allows any homography.");
+    v("refine_iterations", refine_iterations, Range{1, 1000}, "", "Iterations before giving up.");
   }
 };
 

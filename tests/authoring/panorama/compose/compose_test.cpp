@@ -167,8 +167,8 @@ TEST(Compose, SameBytesAtAnyThreadCount) {
 
 TEST(Compose, HardCase20StopsInEveryStage) {
   const SmallClip clip = Row(4, 40);
-  for (const char* stage : {"look at frames", "even light", "what most frames show",
-                            "choose frames", "blend slow changes", "blend", "finish"}) {
+  for (const char* stage : {"look at frames", "even light", "consensus of the frames",
+                            "choose frames", "blend low frequencies", "blend", "finish"}) {
     std::atomic<bool> stop = false;
     Progress progress;
     progress.stop = &stop;
