@@ -20,7 +20,8 @@ constexpr double kLeastDetail = 0.025;
 
 double Percentile(std::vector<float>& values, double share) {
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1.0));
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(share * (static_cast<double>(values.size()) - 1.0));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }

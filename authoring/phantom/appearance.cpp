@@ -267,7 +267,7 @@ glm::dvec3 Rippled(const SurfacePoint& p, double roughness, std::uint32_t seed) 
 // Normal with the dimples of the surface under the film.
 glm::dvec3 Dimpled(const SurfacePoint& p, std::uint32_t seed) {
   constexpr double kDimple = 2.2 * kMm;  // wavelength
-  constexpr double kSlope = 0.16;        // of the dimples, dimensionless
+  constexpr double kSlope = 0.16;        // slope of the dimples, dimensionless
   const glm::dvec3 q = p.x / kDimple;
   const glm::dvec3 slope(FractalNoise(q, 2, seed + kDimpleX), FractalNoise(q, 2, seed + kDimpleY),
                          FractalNoise(q, 2, seed + kDimpleZ));

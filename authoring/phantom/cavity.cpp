@@ -96,7 +96,7 @@ double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double l
 double Folds(const glm::dvec3& d, std::uint32_t seed) {
   constexpr double kTurns = 1.7, kWarp = 0.45;  // per rad; strength of the warp
   constexpr double kBroadSharpness = 14.0, kNarrowSharpness = 9.0;
-  constexpr double kBroadShare = 0.72, kNarrowShare = 0.28;  // of the height
+  constexpr double kBroadShare = 0.72, kNarrowShare = 0.28;  // shares of the height
   const glm::dvec3 warp(GradientNoise(kTurns * d, seed + kFoldWarpX),
                         GradientNoise(kTurns * d, seed + kFoldWarpY),
                         GradientNoise(kTurns * d, seed + kFoldWarpZ));

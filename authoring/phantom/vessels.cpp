@@ -16,7 +16,7 @@ constexpr double kStep = RadiansFromDegrees(0.45);  // length of one segment
 constexpr double kThinnest =
     RadiansFromDegrees(0.06);      // a capillary of 0.04 mm at 40 mm; thinner is not drawn
 constexpr int kLongest = 90;       // segments of one branch
-constexpr int kGenerations = 6;    // of branches
+constexpr int kGenerations = 6;    // generations of branches
 constexpr double kSoftness = 2.2;  // blur of a deep vessel, in radii
 
 // Cells of two degrees over the whole sphere.

@@ -70,7 +70,8 @@ cv::Mat BlendCells(const std::vector<FrameCells>& cells, const std::vector<cv::M
   Add(bands, ground, cv::Mat(padded, CV_32F, cv::Scalar(1e-4)), {0, 0});
   for (std::size_t f = 0; f < cells.size(); ++f) {
     if (shares[f].empty()) continue;
-    progress.Step("blend low frequencies", static_cast<double>(f) / cells.size());
+    progress.Step("blend low frequencies",
+                  static_cast<double>(f) / static_cast<double>(cells.size()));
     // The frame in a box aligned to the coarsest band, with one coarse pixel around it.
     const cv::Rect& own = layout.frames[f].cells;
     const int margin = 1 << kBands;

@@ -53,7 +53,7 @@ double WriteAlpha(const Layout& layout, const std::vector<char>& is_seen, double
                               static_cast<int>(std::lround(p.y * (1 << kShift))));
     cv::fillPoly(imaged, polygon, cv::Scalar(255), cv::LINE_8, kShift);
   }
-  const double share = static_cast<double>(cv::countNonZero(imaged)) / imaged.total();
+  const double share = cv::countNonZero(imaged) / static_cast<double>(imaged.total());
   const int reach = static_cast<int>(std::lround(feather));
   cv::Mat alpha = imaged;
   if (reach > 0) {

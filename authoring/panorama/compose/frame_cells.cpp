@@ -96,7 +96,8 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
       const cv::Vec3b& glare = cell_glaring.at<cv::Vec3b>(y, x);
       for (int c = 0; c < 3; ++c)
         out[c] = cv::saturate_cast<ushort>(
-            kGreySteps * (share >= 64 ? std::min(255.f, sum[c] * 255.f / share) : glare[c]));
+            kGreySteps *
+            (share >= 64 ? std::min(255.f, sum[c] * 255.f / static_cast<float>(share)) : glare[c]));
       blend_weight = static_cast<uchar>(share >= 64 ? share : 1);
     }
   return cells;

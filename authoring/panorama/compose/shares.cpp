@@ -31,7 +31,8 @@ std::vector<cv::Mat> ShareCells(const std::vector<FrameCells>& cells,
   std::vector<cv::Mat> score(cells.size());
   for (std::size_t f = 0; f < cells.size(); ++f) {
     if (!cells[f].is_seen()) continue;
-    progress.Step("choose frames", 0.5 * static_cast<double>(f) / cells.size());
+    progress.Step("choose frames",
+                  0.5 * static_cast<double>(f) / static_cast<double>(cells.size()));
     const cv::Rect& box = layout.frames[f].cells;
     cv::Mat s = EdgeOf(cells[f].blend_weight, kSoftEdge / layout.cell);
     for (int y = 0; y < box.height; ++y)
