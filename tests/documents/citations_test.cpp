@@ -1,6 +1,6 @@
-// Reads every bracketed citation in the sources and every link in the documents, and fails when its
-// target does not exist. Targets are headings of resources/doc/*.md, rows of references.md,
-// sections of the publication, and labels of hard-cases.md.
+// Reads every bracketed citation in the sources and every link and path in the documents, and fails
+// when its target does not exist. Targets are headings of resources/doc/*.md, rows of
+// references.md, sections of the publication, and labels of hard-cases.md.
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -117,6 +117,29 @@ TEST(Citations, ScanCatchesDanglingOnes) {
        {"// [method.md, No such heading]", "// [Nobody 1999]", "// [paper 3.4]", "// [design §4]",
         "// see PAN-77", "// Hard case 13.", "// [notes on\n// haptics, 3]", "// [paper, 3.9]"})
     EXPECT_EQ(FaultsOf(dangling, targets).empty(), false) << dangling;
+}
+
+// "a/{b,c}" stands for "a/b" and "a/c".
+std::vector<std::string> Expanded(const std::string& text) {
+  const std::size_t open = text.find('{'), close = text.find('}');
+  if (open == std::string::npos || close == std::string::npos) return {text};
+  std::vector<std::string> all;
+  std::istringstream words(text.substr(open + 1, close - open - 1));
+  for (std::string word; std::getline(words, word, ',');)
+    for (const std::string& path : Expanded(text.substr(0, open) + word + text.substr(close + 1)))
+      all.push_back(path);
+  return all;
+}
+
+TEST(Documents, NamedPathsExist) {
+  const std::regex path(
+      R"(`((\.ci|app|authoring|simulation|resources|tests|packaging)/[^`\s*<]*)`)");
+  for (const fs::path& page : DocumentFiles(kRoot)) {
+    const std::string text = TextOf(page);
+    for (std::sregex_iterator found(text.begin(), text.end(), path), end; found != end; ++found)
+      for (const std::string& name : Expanded((*found)[1]))
+        EXPECT_TRUE(fs::exists(kRoot / name)) << page.filename() << " names " << name;
+  }
 }
 
 TEST(Documents, RelativeLinksResolve) {
