@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/jobs.h"
-#include "app/editor/editor.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 
@@ -29,11 +28,10 @@ int RunCommandLine(int argc, char** argv) {
   program.set_version_flag("--version", "arthroscene " ARTHRO_VERSION);
   program.set_help_all_flag("--help-all", "Help of every job");
   program.footer("`arthroscene JOB --help` says what a job takes.");
-  program.require_subcommand(0, 1);
+  program.require_subcommand(1);
   AddEveryJob(program);
   try {
     program.parse(argc, argv);
-    if (program.get_subcommands().empty()) RunEditor({});
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? kDone : kUsage;
   } catch (const std::system_error& fault) {

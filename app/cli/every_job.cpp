@@ -27,12 +27,16 @@ void AddEveryJob(CLI::App& program) {
   AddDemoJob(program);
   AddDepthJob(program);
   AddDevicesJob(program);
+#ifdef ARTHRO_EDITOR
   AddEditJob(program);
+#endif
   AddLensJob(program);
   AddPanoramaJob(program);
   AddPhantomJob(program);
   AddPivotJob(program);
+#ifdef ARTHRO_EDITOR
   AddPractiseJob(program);
+#endif
   AddRectifyJob(program);
   AddReplayJob(program);
   AddSolveJob(program);

@@ -17,7 +17,7 @@ void AddCheckJob(CLI::App& program);
 void AddDemoJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);
 void AddDevicesJob(CLI::App& program);
-void AddEditJob(CLI::App& program);
+void AddEditJob(CLI::App& program);  // runs without a job as well
 void AddLensJob(CLI::App& program);
 void AddPanoramaJob(CLI::App& program);
 void AddPhantomJob(CLI::App& program);

@@ -22,7 +22,7 @@ namespace {
 
 using Histogram = std::vector<std::uint64_t>;  // pixels by grey, kWhite + 1 entries
 
-// More than this much is overexposed tissue rather than glints.
+// Share of the imaged pixels; a larger area is overexposed tissue, not highlights.
 constexpr double kMostHighlights = 0.25;
 
 std::size_t Count(const std::vector<std::uint8_t>& marks) {
@@ -39,7 +39,7 @@ void MaskSurround(GreyPlane& plane, const std::vector<std::uint8_t>& flags,
   for (std::size_t i = 0; i < outside.size(); ++i) plane.imaged[i] = outside[i] ? 0 : 1;
 }
 
-// What is to be filled; empty where there is nothing, or too much.
+// Mask of the pixels to fill; empty when there are none, or too many.
 std::vector<std::uint8_t> HighlightsOf(const GreyPlane& plane,
                                        const std::vector<std::uint8_t>& flags, std::size_t imaged,
                                        DepthReport& report) {
@@ -52,7 +52,7 @@ std::vector<std::uint8_t> HighlightsOf(const GreyPlane& plane,
 
 Histogram HistogramOf(const GreyPlane& plane) {
   Histogram histogram(kWhite + 1, 0);
-  std::mutex mutex;  // sums of whole numbers, so the order of strips does not matter
+  std::mutex mutex;  // sums are integers, so the order of strips does not matter
   ForStripsOfRows(plane.height, [&](int first, int last) {
     std::vector<std::uint32_t> own(kWhite + 1, 0);
     for (std::size_t i = plane.Index(0, first); i < plane.Index(0, last); ++i)
@@ -63,7 +63,7 @@ Histogram HistogramOf(const GreyPlane& plane) {
   return histogram;
 }
 
-// The least grey that at least `percent` of the pixels do not pass.
+// Smallest grey such that at least `percent` of the pixels do not exceed it.
 int Percentile(const Histogram& histogram, std::uint64_t pixels, double percent) {
   const auto wanted = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(std::ceil(percent / 100.0 * static_cast<double>(pixels))));
@@ -73,15 +73,15 @@ int Percentile(const Histogram& histogram, std::uint64_t pixels, double percent)
   return kWhite;
 }
 
-// How far away a grey lies, in the law's own unit: falls as grey grows.
+// Distance by grey, in the law's own unit; decreases as grey grows.
 double DistanceOf(int grey, const DepthOptions& options) {
-  constexpr double kDarkest = 1.0 / 255.0;  // one step of the camera; below it there is no light
+  constexpr double kDarkest = 1.0 / 255.0;  // one step of the camera; darker pixels hold no light
   const double share = static_cast<double>(grey) / kWhite;
   if (options.law == DepthLaw::kLinear) return 1.0 - share;
   return 1.0 / std::sqrt(std::pow(std::max(share, kDarkest), options.gamma));
 }
 
-// Relief by grey. Exactly `far_relief` up to `low`, exactly `near_relief` from `high` on.
+// Relief by grey: exactly `far_relief` up to `low`, exactly `near_relief` from `high` on.
 std::vector<float> ReliefByGrey(int low, int high, const DepthOptions& options) {
   std::vector<float> relief(kWhite + 1);
   const double furthest = DistanceOf(low, options), nearest = DistanceOf(high, options);
@@ -107,8 +107,8 @@ DepthMap Apply(const std::vector<float>& relief, const GreyPlane& plane) {
   return depth;
 }
 
-// Relative distances onto the range of relief: linear, exactly `far_relief` from the high distance
-// on and exactly `near_relief` up to the low one.
+// Maps relative distances linearly to the range of relief: exactly `far_relief` from the high
+// distance on, exactly `near_relief` up to the low one.
 DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& plane,
                           std::size_t imaged, const DepthOptions& options, DepthReport& report) {
   DepthMap depth(plane.width, plane.height, std::numeric_limits<float>::quiet_NaN());
@@ -117,7 +117,7 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
   known.reserve(imaged);
   for (std::size_t i = 0; i < distance.size(); ++i)
     if (plane.imaged[i]) known.push_back(distance[i]);
-  // Nearest comes first, so the greys' percentiles count from the other end.
+  // The nearest distance is the lowest, so the percentiles of grey count from the other end.
   const auto at = [&](double percent) {
     const auto rank = static_cast<std::ptrdiff_t>(
         std::clamp(std::floor(percent / 100.0 * static_cast<double>(imaged)), 0.0,
@@ -131,7 +131,7 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
     nearest = at(0.0);
     furthest = at(100.0);
   }
-  report.is_flat = !(furthest > nearest * (1 + 1e-5f));  // smoothing leaves this much of nothing
+  report.is_flat = !(furthest > nearest * (1 + 1e-5f));  // smoothing leaves a residue of this size
   report.distance_ratio = furthest / nearest;
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (!plane.imaged[i]) continue;
@@ -170,7 +170,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   told = {};
   if (panorama.empty()) return {};
 
-  // What was imaged, in one grey.
+  // Grey of the imaged area.
   progress.Step("grey", 0.0);
   std::vector<std::uint8_t> flags;
   GreyPlane plane = GreyFromColour(panorama, options, flags);
@@ -178,7 +178,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   const std::size_t imaged = Count(plane.imaged);
   told.imaged_share = static_cast<double>(imaged) / static_cast<double>(plane.imaged.size());
 
-  // What is not depth: glints and noise.
+  // Highlights and noise, which say nothing about depth, are removed.
   progress.Step("highlights", 0.2);
   std::vector<std::uint8_t> highlight;
   if (options.fill_highlights && imaged > 0) highlight = HighlightsOf(plane, flags, imaged, told);
@@ -193,8 +193,8 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   progress.Step("median", 0.3);
   MaskedMedian(plane, options.median_radius);
 
-  // The range of greys onto the range of relief. Where the percentiles meet although there is more
-  // than one grey, all greys count.
+  // Normalises the range of greys to the range of relief. All greys count when the percentiles are
+  // equal although there is more than one grey.
   progress.Step("normalise", 0.8);
   const Histogram histogram = HistogramOf(plane);
   int low = Percentile(histogram, imaged, options.low_percentile);

@@ -1,21 +1,22 @@
-// How a panorama's brightness becomes relief [paper, 3.4].
+// Options of the relief from a panorama's brightness [paper, 3.4].
 #pragma once
 
 #include "simulation/core/options.h"
 
 namespace arthro::authoring {
 
-// What stands between brightness and distance. All of them rank what is nearer; none measures.
+// Estimator of distance from brightness. Each of them ranks depth; none measures it.
 enum class DepthEstimator {
   kPaper,             // grey with little red, median, law [paper, 3.4]
-  kInverseSquareRed,  // red, which blood hides least, tissue colour divided out, 1/sqrt(I)
-  kShading,           // the same, and slopes away from the light taken into account
+  kInverseSquareRed,  // red, which blood hides least, without the tissue colour, by 1/sqrt(I)
+  kShading,           // the same, corrected for slopes away from the light
 };
 
-// How the distance to a surface follows from its brightness under a light at the scope.
+// Law that gives the distance of a surface from its brightness under a light at the scope.
 enum class DepthLaw {
-  kLinear,         // the paper's: relief grows in step with grey
-  kInverseSquare,  // light I falls with the distance squared, so distance goes as 1/sqrt(I)
+  kLinear,         // relief is linear in grey [paper, 3.4]
+  kInverseSquare,  // light I falls with the square of distance, so distance is proportional to
+                   // 1/sqrt(I)
 };
 
 struct DepthOptions {
@@ -46,10 +47,8 @@ struct DepthOptions {
                                {DepthEstimator::kShading, "shading"}}},
       "",
       "paper: grey by the weights and the law below. The other two follow a light at the scope: "
-      "red "
-      "light over distance squared, and with shading also the slope. On a panorama, whose light "
-      "was "
-      "evened out, they tell how far a place stands out from its surroundings.");
+      "red light over distance squared, and with shading also the slope. On a panorama, with "
+      "evened-out light, they measure how far a place stands out from its surroundings.");
     v("red_weight", red_weight, Range{0, 1}, "",
       "Share of red in the grey; small, since muscle and synovium are redder, not nearer.");
     v("green_weight", green_weight, Range{0, 1}, "", "Share of green in the grey.");
@@ -67,23 +66,22 @@ struct DepthOptions {
     v("high_percentile", high_percentile, Range{0, 100}, "%",
       "Grey above which everything counts as nearest.");
     v("median_radius", median_radius, Range{0, 15}, "px",
-      "Noise smaller than this is removed, by a median in the paper's way, else by a smoothing "
-      "that "
-      "keeps edges; 0 leaves it.");
+      "Radius of noise removal: a median for the paper's estimator, otherwise an edge-preserving "
+      "smoothing. 0 removes none.");
     v("surround_threshold", surround_threshold, Range{0, 255}, "",
-      "Darker than this and joined to the picture's edge is surround, not tissue.");
+      "Pixels darker than this and connected to the picture's edge are surround, not tissue.");
     v("border_margin", border_margin, Range{0, 100}, "px",
-      "Rim of the imaged area, next to the surround, that is left out.");
+      "Width of the rim of the imaged area that is left out.");
     v("fill_highlights", fill_highlights, Any{}, "",
-      "Fill glints from around them, so that they are no peaks.");
+      "Fill highlights from their surroundings, so that they make no peaks.");
     v("correct_tissue", correct_tissue, Any{}, "",
-      "Divide out how red a tissue is; not used by the paper's estimator.");
+      "Divide by the tissue's own colour; not used by the paper's estimator.");
     v("field_of_view", field_of_view, Range{RadiansFromDegrees(10), RadiansFromDegrees(360)}, "rad",
-      "Angle across the picture's shorter side, for slopes and vignette; up to 120 degrees as a "
-      "pinhole sees it, above in equal angles.");
+      "Angle across the picture's shorter side, for slopes and vignetting. Up to 120 degrees the "
+      "picture is a pinhole's, above it angles are proportional to pixels.");
     v("vignette", vignette, Range{0, 0.95}, "",
       "Share of light that the lens loses at the rim of a single frame; 0 for a panorama.");
-    v("iterations", iterations, Range{1, 30}, "", "Rounds of the shading estimator.");
+    v("iterations", iterations, Range{1, 30}, "", "Iterations of the shading estimator.");
   }
 };
 

@@ -9,11 +9,11 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kLeastPixels = 1 << 14;  // smaller than this nothing is gained
+constexpr int kLeastPixels = 1 << 14;  // halving a smaller picture gains nothing
 constexpr int kSaturation = 250;
 
-// The mean of a block of pixels, rounded. Saturated ones count only where there is nothing else,
-// and black ones only where they are the most, so that glints and surround keep their edges.
+// Mean of a block of pixels, rounded. Saturated pixels count only when there are no others, and
+// black ones only when they are the majority, so that highlights and surround keep their edges.
 std::array<std::uint8_t, 3> MeanOfBlock(const ColourImage& fine, int x0, int y0) {
   std::array<int, 3> tissue{}, glint{};
   int tissues = 0, glints = 0, blacks = 0;
@@ -53,7 +53,7 @@ std::int64_t Pixels(const ColourImage& image) { return std::int64_t{image.width}
 }  // namespace
 
 DepthPreview::DepthPreview(const ColourImage& panorama) {
-  // The panorama itself is only kept when it is small: its owner has it already.
+  // Keeps the panorama itself only when it is small, since its owner has it already.
   Level level{panorama, 1};
   while (Pixels(level.picture) > kMostPixels) level = {Halve(level.picture), level.factor * 2};
   levels_.push_back(level);

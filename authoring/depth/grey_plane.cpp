@@ -9,7 +9,8 @@ namespace arthro::authoring {
 namespace {
 
 constexpr int kStripRows = 64;
-constexpr int kSaturation = 250;  // a little under 255: JPEG rings around the sensor's end
+constexpr int kSaturation =
+    250;  // grey level, a little below 255, because JPEG rings around saturated areas
 
 }  // namespace
 
@@ -28,7 +29,7 @@ GreyPlane GreyFromColour(const ColourImage& panorama, const DepthOptions& option
   plane.grey.resize(count);
   plane.imaged.resize(count);
   flags.resize(count);
-  // Whole numbers that sum to 2^16, so that white is white and every machine agrees.
+  // Integer weights that sum to 2^16, so that white stays white and every machine agrees.
   const double sum = options.red_weight + options.green_weight + options.blue_weight;
   const auto red = static_cast<std::uint32_t>(std::lround(65536.0 * options.red_weight / sum));
   const auto blue = static_cast<std::uint32_t>(std::lround(65536.0 * options.blue_weight / sum));

@@ -1,4 +1,4 @@
-// A picture on its way from colour to relief: one grey of 16 bits and what is known of each pixel.
+// Intermediate picture between colour and relief: one grey of 16 bits and the flags of each pixel.
 // Grey is 256 times the weighted 8-bit channels, so three channels give finer steps than one.
 #pragma once
 
@@ -22,21 +22,21 @@ struct GreyPlane {
   std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-// What one look at the colours tells of a pixel.
+// Flags of a pixel by its colours alone.
 enum PixelFlag : std::uint8_t {
   kDark = 1,       // every channel below the surround's threshold
   kBlack = 2,      // every channel 0
-  kSaturated = 4,  // every channel at the sensor's end
+  kSaturated = 4,  // every channel saturated
   kPale = 8,       // no channel below half of another: the colour of the light, not of tissue
 };
 
-// Greys by the weights of `options` (only their ratio counts) and the flags of every pixel; nothing
-// is imaged yet.
+// Computes greys by the weights of `options` (only their ratio counts) and the flags of every
+// pixel. Marks no pixel as imaged.
 GreyPlane GreyFromColour(const ColourImage& panorama, const DepthOptions& options,
                          std::vector<std::uint8_t>& flags);
 
-// Runs `rows(first, last)` on strips of rows, in parallel. Which strips there are does not depend
-// on the number of threads, and each writes only its own rows, so results do not either.
+// Runs `rows(first, last)` on strips of rows, in parallel. The strips do not depend on the number
+// of threads, and each call writes only its own rows, so neither do the results.
 void ForStripsOfRows(int height, const std::function<void(int first, int last)>& rows);
 
 }  // namespace arthro::authoring

@@ -14,7 +14,7 @@ cv::Mat Weighted(const cv::Mat& values, const cv::Mat& weight, const Smooth& smo
   cv::Mat sum, total;
   smooth(values.mul(weight), sum);
   smooth(weight, total);
-  constexpr double kNothing = 1e-6;  // running sums leave about this much of nothing
+  constexpr double kNothing = 1e-6;  // residue of running sums that should be zero
   total.setTo(1.0, total < kNothing);
   cv::divide(sum, total, sum);
   return sum;
@@ -48,7 +48,7 @@ cv::Mat GuidedSmoothing(const cv::Mat& values, const cv::Mat& weight, int radius
 }
 
 double NoiseOf(const cv::Mat& values, const cv::Mat& weight) {
-  constexpr int kStride = 3;  // rows; enough of them
+  constexpr int kStride = 3;  // rows; enough samples remain
   std::vector<float> differences;
   for (int y = 0; y < values.rows; y += kStride) {
     const float *v = values.ptr<float>(y), *w = weight.ptr<float>(y);

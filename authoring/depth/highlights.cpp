@@ -10,17 +10,17 @@
 namespace arthro::authoring {
 namespace {
 
-// A glint is at most twice this share of the picture's shorter side across…
+// Radius of the largest highlight, as a share of the picture's shorter side.
 constexpr double kGlintRadius = 0.0125;
-// …and at least this much brighter than the brightest ground it stands on: a sixth of the range.
+// Least contrast of a highlight with the brightest background around it: a sixth of the range.
 constexpr int kGlintContrast = kWhite / 6;
-// The rim around it that it brightens.
+// Radius of the glow around a highlight, as a share of the picture's shorter side.
 constexpr double kGlow = 0.003;
 
-// Pixels of a block's side in which the ground is looked at; finer is slower and no better.
+// px, side of the blocks in which the background is estimated; finer is slower without gain.
 constexpr int kBlock = 4;
 
-// Mean grey of the imaged pixels of each block; white where there is none, which erosion ignores.
+// Mean grey of the imaged pixels of each block; white without any, which erosion ignores.
 cv::Mat BlockMeans(const GreyPlane& plane) {
   cv::Mat means((plane.height + kBlock - 1) / kBlock, (plane.width + kBlock - 1) / kBlock, CV_16U);
   ForStripsOfRows(means.rows, [&](int first, int last) {
@@ -40,8 +40,8 @@ cv::Mat BlockMeans(const GreyPlane& plane) {
   return means;
 }
 
-// The ground under small bright things: a morphological opening of the block means, a block wider
-// when it grows back than when it shrinks, so that the edge of large bright tissue is ground.
+// Background without small bright areas: a morphological opening of the block means. The dilation
+// is one block wider than the erosion, so that the edge of large bright tissue is background.
 cv::Mat GroundOf(const GreyPlane& plane) {
   const int radius =
       static_cast<int>(std::ceil(kGlintRadius * std::min(plane.width, plane.height) / kBlock));
@@ -54,7 +54,7 @@ cv::Mat GroundOf(const GreyPlane& plane) {
   return ground;
 }
 
-// A plane at half the size of the one below; weight 0 where nothing is known yet.
+// Plane at half the size of the one below; weight 0 where the value is unknown.
 struct Level {
   int width = 0, height = 0;
   std::vector<float> grey, weight;
@@ -67,7 +67,7 @@ struct Level {
   std::size_t Index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-// Each pixel is the mean of the known ones among its four; `known(x, y, grey)` reads the finer
+// Sets each pixel to the mean of the known ones among its four; `known(x, y, grey)` reads the finer
 // plane.
 template <class Known>
 Level Halve(int width, int height, const Known& known) {
@@ -91,8 +91,7 @@ Level Halve(int width, int height, const Known& known) {
   return half;
 }
 
-// The value of a level between its pixels, for pixel (x, y) of the plane below, over its known
-// pixels.
+// Interpolates a level at pixel (x, y) of the plane below, over the known pixels.
 bool Between(const Level& level, int x, int y, float& grey) {
   const float u = (static_cast<float>(x) - 0.5f) / 2.0f, v = (static_cast<float>(y) - 0.5f) / 2.0f;
   const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
@@ -137,7 +136,7 @@ std::vector<std::uint8_t> FindHighlights(const GreyPlane& plane,
 }
 
 void FillHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& highlight) {
-  // Push: halve until one pixel is left.
+  // Push: halves the plane until one pixel is left.
   std::vector<Level> levels;
   levels.push_back(Halve(plane.width, plane.height, [&](int x, int y, float& grey) {
     const std::size_t i = plane.Index(x, y);
@@ -151,7 +150,7 @@ void FillHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& highlight
       return fine.weight[fine.Index(x, y)] > 0.0f;
     }));
   }
-  // Pull: what a level does not know it takes from the next coarser one.
+  // Pull: fills unknown pixels of a level from the next coarser one.
   for (std::size_t i = levels.size() - 1; i-- > 0;) {
     Level& fine = levels[i];
     ForStripsOfRows(fine.height, [&](int first, int last) {

@@ -1,6 +1,6 @@
-// Glints: where the light mirrors straight into the scope the grey says nothing of depth. They are
-// pale, small and much brighter than what is around them, whether or not the sensor is at its end.
-// They are filled from the tissue around them, smoothly.
+// Specular highlights: the light is reflected straight into the scope there, so the grey says
+// nothing about depth. They are pale, small and much brighter than their surroundings, saturated or
+// not. They are filled smoothly from the tissue around them.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace arthro::authoring {
 
-// 1 at glints and their glow among the imaged pixels. Sizes are shares of the picture's, so that a
-// smaller picture of the same scene has the same glints.
+// Returns 1 at highlights and their glow among the imaged pixels. Sizes are shares of the
+// picture's, so that a smaller picture of the same scene has the same highlights.
 std::vector<std::uint8_t> FindHighlights(const GreyPlane& plane,
                                          const std::vector<std::uint8_t>& flags);
 
-// Fills the imaged pixels that have `highlight` set from the imaged ones that have not, by averages
-// over growing squares (push-pull). Nothing changes where there is nothing to fill from.
+// Fills the imaged pixels with `highlight` set from the imaged ones without, by averages over
+// growing squares (push-pull). Changes nothing when there is no pixel to fill from.
 void FillHighlights(GreyPlane& plane, const std::vector<std::uint8_t>& highlight);
 
 }  // namespace arthro::authoring

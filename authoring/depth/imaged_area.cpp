@@ -7,8 +7,8 @@
 namespace arthro::authoring {
 namespace {
 
-// Sets of runs that touch, by union-find with path halving; the lowest index stands for a set, so
-// the result does not depend on the order of joining.
+// Sets of touching runs, by union-find with path halving. The lowest index represents a set, so the
+// result does not depend on the order of joining.
 class Components {
  public:
   explicit Components(std::size_t count) : parent_(count) {
@@ -53,11 +53,11 @@ RowRuns RunsOf(const std::vector<std::uint8_t>& flags, int width, int height, Pi
 
 RowRuns SurroundOf(const RowRuns& dark, const std::vector<std::uint8_t>& flags, int width,
                    int height) {
-  constexpr std::size_t kLeastHole = 64;  // px; a mosaic's gaps are larger, dead pixels smaller
+  constexpr std::size_t kLeastHole = 64;  // px; gaps of a mosaic are larger, dead pixels smaller
   std::vector<std::size_t> start(static_cast<std::size_t>(height) + 1);
   for (int y = 0; y < height; ++y) start[y + 1] = start[y] + dark[y].size();
 
-  // Join each run with those that overlap it in the row above.
+  // Joins each run with those that overlap it in the row above.
   Components components(start[height]);
   for (int y = 1; y < height; ++y) {
     std::size_t above = 0;
@@ -69,7 +69,7 @@ RowRuns SurroundOf(const RowRuns& dark, const std::vector<std::uint8_t>& flags, 
     }
   }
 
-  // What each component is: at the edge, how large, and black throughout.
+  // Properties of a component: whether it touches the edge, its size, whether it is all black.
   struct Kind {
     bool is_at_edge = false, is_black = true;
     std::size_t area = 0;

@@ -1,6 +1,5 @@
-// Which pixels of a panorama show tissue: not the black surround that is joined to the picture's
-// edge, not its dim rim, not the holes that a mosaic left black. And where glints have wiped the
-// tissue out.
+// Area of a panorama that shows tissue: without the black surround that touches the picture's edge,
+// its dim rim, and the holes that a mosaic left black.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ using RowRuns = std::vector<std::vector<Run>>;
 
 RowRuns RunsOf(const std::vector<std::uint8_t>& flags, int width, int height, PixelFlag flag);
 
-// Of all dark runs those that are surround: joined (up, down, left, right) to the picture's edge,
+// Selects the dark runs that are surround: connected (up, down, left, right) to the picture's edge,
 // or a hole of pure black. A dark recess inside the joint is tissue.
 RowRuns SurroundOf(const RowRuns& dark, const std::vector<std::uint8_t>& flags, int width,
                    int height);

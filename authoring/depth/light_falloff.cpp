@@ -14,20 +14,21 @@
 namespace arthro::authoring {
 namespace {
 
-// Linear albedos of pale cartilage and of red synovium; tissue is taken for a mix of the two.
+// Linear albedos of pale cartilage and of red synovium; tissue is modelled as a mixture of the two.
 constexpr float kPaleRed = 0.86f, kPaleGreen = 0.80f, kRedRed = 0.72f, kRedGreen = 0.36f;
-constexpr float kDarkest = 2e-3f;      // linear light below which there is only noise
+constexpr float kDarkest = 2e-3f;      // linear light; darker pixels hold only noise
 constexpr double kEdge = 0.10;         // share of brightness; half of it in distance
 constexpr double kChromaBlur = 1.5;    // px
-constexpr double kNormalBlur = 4;      // px at kSlopeSize: what is finer is texture, not slope
-constexpr float kLeastCosine = 0.45f;  // steeper is an edge between two surfaces
-// Share of the way taken in one round. More is no faster: beyond a half, steep places swing.
+constexpr double kNormalBlur = 4;      // px at kSlopeSize; finer structure is texture, not slope
+constexpr float kLeastCosine = 0.45f;  // cosine; a steeper place is an edge between two surfaces
+// Relaxation factor of one iteration. Above a half, steep places oscillate.
 constexpr float kTrust = 0.3f;
-// Shorter side at which slopes are taken, so that a picture and its preview have the same ones.
+// Shorter side at which slopes are computed, so that a picture and its preview have the same
+// slopes.
 constexpr int kSlopeSize = 240;                    // px
-constexpr double kWide = RadiansFromDegrees(120);  // beyond it a picture is no pinhole's
+constexpr double kWide = RadiansFromDegrees(120);  // a wider picture is not a pinhole's
 
-// Linear light of a grey of 16 bits.
+// Linear light by 16-bit grey.
 std::vector<float> Decoding(double gamma) {
   std::vector<float> linear(kWhite + 1);
   for (std::size_t grey = 0; grey < linear.size(); ++grey)
@@ -36,7 +37,7 @@ std::vector<float> Decoding(double gamma) {
   return linear;
 }
 
-// One channel with its highlights filled, linear.
+// One linear channel with its highlights filled.
 cv::Mat LinearChannel(const ColourImage& picture, const GreyPlane& plane,
                       const std::vector<std::uint8_t>& highlight, int channel,
                       const std::vector<float>& linear) {
@@ -51,7 +52,7 @@ cv::Mat LinearChannel(const ColourImage& picture, const GreyPlane& plane,
   return light;
 }
 
-// How the picture looks out: pixels a radian in its middle, and whether as a pinhole's.
+// Angular scale of the picture: pixels per radian in its middle, and whether it is a pinhole's.
 struct Geometry {
   float focal = 1, cx = 0, cy = 0;
   bool is_pinhole = true;
@@ -68,7 +69,7 @@ Geometry GeometryOf(int width, int height, double field_of_view) {
   return g;
 }
 
-// What the lens lost towards the rim, 1 in the middle.
+// Vignetting of the lens, 1 in the middle.
 cv::Mat VignetteOf(const cv::Size& size, const DepthOptions& options) {
   const Geometry g = GeometryOf(size.width, size.height, options.field_of_view);
   cv::Mat share(size, CV_32F);
@@ -83,8 +84,7 @@ cv::Mat VignetteOf(const cv::Size& size, const DepthOptions& options) {
   return share;
 }
 
-// Brightness with the tissue's own colour divided out: the less green against red, the more
-// synovium.
+// Brightness divided by the tissue's albedo: the lower green is against red, the more synovium.
 cv::Mat WithoutTissue(const cv::Mat& red, const cv::Mat& green, const cv::Mat& weight) {
   cv::Mat ratio;
   cv::divide(green, red, ratio);
@@ -102,10 +102,10 @@ cv::Mat WithoutTissue(const cv::Mat& red, const cv::Mat& green, const cv::Mat& w
   return light;
 }
 
-// Of the angle between ray and surface. On a range map it is 1/√(1 + |∇ log distance|²), with the
-// gradient a radian of the ray's direction.
+// Cosine of the angle between ray and surface normal. On a range map it is 1/√(1 + |∇ log
+// distance|²), with the gradient per radian of the ray's direction.
 float CosineAt(const cv::Mat& log_distance, const cv::Mat& known, const Geometry& g, int x, int y) {
-  // Differences only between known pixels.
+  // Differences are taken between known pixels only.
   const cv::Point here(x, y);
   const auto slope = [&](cv::Point a, cv::Point b) {
     if (known.at<float>(a) == 0) a = here;
@@ -127,7 +127,7 @@ float CosineAt(const cv::Mat& log_distance, const cv::Mat& known, const Geometry
 }
 
 // Fixed point of log distance = ½ log(cosine / brightness): a slope away from the light is darker
-// than its distance alone makes it.
+// than its distance alone explains.
 cv::Mat Shaded(const cv::Mat& from_light, const cv::Mat& weight, const DepthOptions& options,
                const Progress& progress) {
   const double scale = static_cast<double>(kSlopeSize) / std::min(from_light.rows, from_light.cols);

@@ -1,13 +1,12 @@
-// Distance from the light that comes back, for a light at the scope: brightness = albedo × cosine /
-// distance² [method.md, Depth from brightness]. An estimate that ranks what is nearer, not a
-// measurement of shape: tissue colour, light that bounces and what composition did to the light
-// remain in it.
+// Distance from reflected light, for a light at the scope: brightness = albedo × cosine / distance²
+// [method.md, Depth from brightness]. The estimate ranks depth and does not measure shape: errors
+// by tissue colour, interreflection and the composition of the panorama remain.
 //
-// On a single rectified frame the law holds as written. A panorama has had its light evened out:
-// each frame's falloff over its mean plane was divided away, so slow depth is gone, and what is
-// left is how much nearer or further than that plane a place is: brightness = albedo × cosine ×
-// (plane / distance)². The same formula then gives distance relative to the plane, seen along the
-// panorama's own rays, which is why there is no vignette to undo (its default is 0).
+// On a single rectified frame the law holds as written. A panorama has evened-out light: each frame
+// was divided by its falloff over its mean plane, so slow changes of depth are lost. The remainder
+// is the position relative to that plane: brightness = albedo × cosine × (plane / distance)². The
+// same formula then gives distance relative to the plane along the panorama's own rays. A panorama
+// therefore has no vignetting to correct (its default is 0).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@
 namespace arthro::authoring {
 
 // Distance relative to the median of the imaged pixels, NaN elsewhere; row-major. `highlight` marks
-// pixels that say nothing and are filled from around them; empty: none.
+// pixels that are filled from their surroundings; empty: none.
 std::vector<float> DistanceFromLight(const ColourImage& picture, const GreyPlane& plane,
                                      const std::vector<std::uint8_t>& highlight,
                                      const DepthOptions& options, const Progress& progress = {});

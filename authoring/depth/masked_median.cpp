@@ -15,7 +15,7 @@ namespace {
 // Largest radius for which OpenCV sorts 16-bit windows by a network of vector instructions.
 constexpr int kNetworkRadius = 2;
 
-// Above this share of pixels near the surround, moving histograms are faster than sorting each.
+// Share of pixels near the surround above which moving histograms are faster than sorting.
 constexpr double kSortedShare = 0.05;
 
 std::uint16_t SortedMedian(const GreyPlane& plane, int x, int y, int radius) {
@@ -29,8 +29,8 @@ std::uint16_t SortedMedian(const GreyPlane& plane, int x, int y, int radius) {
   return *middle;
 }
 
-// Huang's moving histogram: 256 bins that remember where the median was, each of 16 groups of 16
-// greys, so that both a change and a look cost few steps.
+// Huang's moving histogram: 256 bins, each of 16 groups of 16 greys. It keeps the bin of the last
+// median, so that an update and a query cost few steps.
 class MovingHistogram {
  public:
   void Add(std::uint16_t value) { Change(value, 1); }
@@ -83,7 +83,7 @@ void MedianByHistogram(const GreyPlane& plane, int radius, std::vector<std::uint
         const std::size_t i = plane.Index(x, y);
         result[i] = plane.imaged[i] ? histogram->Median() : plane.grey[i];
       }
-      // Empties the histogram by taking out what is still in it, which is less than clearing it.
+      // Removes the remaining values, which is less work than clearing the histogram.
       for (int x = plane.width - radius - 1; x < plane.width; ++x) column(x, remove);
     }
   });
@@ -101,7 +101,7 @@ void MedianByNetwork(const GreyPlane& plane, int radius, std::vector<std::uint16
   });
 }
 
-// 1 where the window holds a pixel that does not count.
+// Returns 1 where the window holds a pixel that does not count.
 std::vector<std::uint8_t> NearSurround(const GreyPlane& plane, int radius) {
   std::vector<std::uint8_t> outside(plane.imaged.size());
   std::transform(plane.imaged.begin(), plane.imaged.end(), outside.begin(),

@@ -8,8 +8,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kLeastStep = 1e-3;  // of the window: so that a scope at rest still counts a little
-constexpr double kUnknownStep = 0.1;  // where the motion cannot be told, it may have been this much
+constexpr double kLeastStep = 1e-3;  // share of the window's width; counts a scope at rest a little
+constexpr double kUnknownStep =
+    0.1;  // share of the window's width, assumed when the motion is unknown
 
 }  // namespace
 
@@ -19,7 +20,7 @@ std::vector<std::string> ReasonsAgainst(const std::vector<FrameLook>& looks,
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (i % static_cast<std::size_t>(options.every) != 0)
-      reasons[i] = fmt::format("not looked at: one frame in {} is used", options.every);
+      reasons[i] = fmt::format("skipped: one frame in {} is used", options.every);
     else if (options.skip_blank && !looks[i].blank.empty())
       reasons[i] = "blank: " + looks[i].blank;
     else
@@ -28,7 +29,8 @@ std::vector<std::string> ReasonsAgainst(const std::vector<FrameLook>& looks,
   const auto most = static_cast<std::size_t>(options.most_frames);
   if (left.size() <= most) return reasons;
 
-  // How far along the way each frame lies, cut into as many equal stretches as frames are wanted.
+  // Position of each frame along the accumulated motion. The motion is cut into as many equal
+  // stretches as frames are wanted.
   std::vector<double> way(left.size(), 0.0);
   for (std::size_t k = 1; k < left.size(); ++k) {
     const double moved = looks[left[k]].moved;

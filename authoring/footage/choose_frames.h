@@ -1,6 +1,6 @@
-// Which frames of a clip are worth placing. All of them, as long as there are not too many: an
-// overlap more costs little and holds the mosaic together. Beyond that, the sharpest of each
-// stretch over which the view moved equally far.
+// Chooses the frames of a clip that are registered. A short clip keeps all its frames, since
+// additional overlap costs little and stabilises the mosaic. A longer clip keeps the sharpest frame
+// of each stretch over which the view moved equally far.
 #pragma once
 
 #include <string>
@@ -18,16 +18,16 @@ struct ChooseOptions {
 
   template <class V>
   void Visit(V&& v) {
-    v("every", every, Range{1, 1000}, "", "Take every so-manieth frame of the clip; 1 takes all.");
+    v("every", every, Range{1, 1000}, "", "Take every N-th frame of the clip; 1 takes all.");
     v("most_frames", most_frames, Range{2, 5000}, "",
-      "Of a longer clip, the sharpest frame of each stretch is taken.");
+      "Most frames that are used; a longer clip gives the sharpest frame of each stretch.");
     v("skip_blank", skip_blank, Any{}, "",
       "Leave out frames that show nothing: black, white or red throughout.");
   }
 };
 
-// For each frame "" when it is to be used, else why not. `looks` has one entry a frame; those that
-// `every` passes over are not looked at.
+// Returns one reason per frame: "" for a frame that is used, otherwise why it is not. `looks` has
+// one entry per frame; entries that `every` skips are not read.
 std::vector<std::string> ReasonsAgainst(const std::vector<FrameLook>& looks,
                                         const ChooseOptions& options);
 

@@ -15,16 +15,17 @@ namespace arthro::authoring {
 namespace {
 
 constexpr int kRays = 720;
-constexpr int kLeastSide = 16;     // px; a smaller picture has no rim to speak of
+constexpr int kLeastSide = 16;     // px; a smaller picture has no usable rim
 constexpr double kLeastRise = 20;  // grey levels between the surround and the window
-constexpr int kTrials = 600;       // 3 points right with 25 % of them on the rim: 1 - 1e-4
+constexpr int kTrials =
+    600;  // samples of 3 points; P(all on the rim) = 1 - 1e-4 when 25 % of the points are
 
-// What a ray from inside the window outwards met.
+// Result of one ray cast outwards from a point inside the window.
 struct RimRay {
   cv::Point2d direction;
-  double reach = 0;  // to the picture's edge, px
+  double reach = 0;  // px, distance to the picture's edge
   bool has_edge = false;
-  double distance = 0;  // of the edge from the origin of the ray
+  double distance = 0;  // px, distance of the edge from the origin of the ray
   cv::Point2d point;
 };
 
@@ -45,7 +46,8 @@ Levels LevelsOf(const cv::Mat& grey) {
       if ((sum += counts[static_cast<std::size_t>(i)]) >= share * total) return i;
     return 255;
   };
-  // Corners alone may be all that is dark, a tiny window all that is bright.
+  // Low and high percentiles: the dark area may be the corners alone, the bright area a small
+  // window.
   const int dark = percentile(0.005, 0);
   const int lit = std::min(255, dark + static_cast<int>(kLeastRise));
   return {static_cast<double>(dark), static_cast<double>(percentile(0.5, lit))};
@@ -71,7 +73,8 @@ double ReachOf(const cv::Size& size, cv::Point2d origin, cv::Point2d direction) 
   return std::max(0.0, reach);
 }
 
-// Walks in from the picture's edge to the first lasting light, and takes the steepest place there.
+// Walks inwards from the picture's edge to the first lasting light and returns the steepest
+// position there.
 RimRay CastRay(const cv::Mat& grey, cv::Point2d origin, double angle, const Levels& levels) {
   RimRay ray;
   ray.direction = {std::cos(angle), std::sin(angle)};
@@ -94,18 +97,20 @@ RimRay CastRay(const cv::Mat& grey, cv::Point2d origin, double angle, const Leve
     lit = at(i) > threshold ? lit + 1 : 0;
     if (lit == kLasting) first = i + kLasting - 1;
   }
-  if (first < 0 || first >= count - 3) return ray;  // black throughout, or lit to the very edge
+  if (first < 0 || first >= count - 3)
+    return ray;  // black throughout, or lit up to the picture's edge
 
-  // The steepest fall within the rim's blur, to a fraction of a pixel by a parabola.
+  // Steepest fall within the rim's blur, refined to a fraction of a pixel by a parabola.
   const int blur = std::max(4, static_cast<int>(0.012 * std::min(grey.cols, grey.rows)));
   const auto fall = [&](int i) { return at(i - 2) + at(i - 1) - at(i + 1) - at(i + 2); };
   int steepest = first;
   for (int i = first - 2 * blur; i <= first + blur; ++i)
     if (i >= 2 && i < count - 2 && fall(i) > fall(steepest)) steepest = i;
-  double inside = 0;  // what the window shows a little further in
+  double inside = 0;  // grey level of the window a little further inside
   for (int i = 1; i <= 12; ++i) inside += at(steepest - blur - i) / 12.0;
   const double rise = at(steepest - blur) - at(steepest + blur);
-  if (rise < std::max(0.5 * kLeastRise, 0.4 * (inside - levels.dark))) return ray;  // a soft shade
+  if (rise < std::max(0.5 * kLeastRise, 0.4 * (inside - levels.dark)))
+    return ray;  // a soft shadow, not a rim
   const double a = fall(steepest - 1), b = fall(steepest), c = fall(steepest + 1);
   const double bend = a - 2 * b + c;
   const double shift = bend < -1e-9 ? std::clamp(0.5 * (a - c) / bend, -0.5, 0.5) : 0.0;
@@ -137,7 +142,7 @@ std::optional<LensCircle> Through(cv::Point2d a, cv::Point2d b, cv::Point2d c) {
   return LensCircle{a.x + o.x, a.y + o.y, std::hypot(o.x, o.y)};
 }
 
-// Least squares of the distances to the rim by Gauss-Newton, far points counted less and less.
+// Gauss-Newton least squares of the distances to the rim, with decreasing weight for far points.
 LensCircle Refine(LensCircle circle, const std::vector<cv::Point2d>& points) {
   for (int step = 0; step < 12; ++step) {
     cv::Matx33d normal = cv::Matx33d::zeros();
@@ -189,15 +194,15 @@ std::optional<LensCircle> FitCircle(const std::vector<RimRay>& rays, const cv::S
   return Refine(best, points);
 }
 
-// A window lets no light out beyond its rim, but something straight may cut into it.
+// Checks that no light lies beyond the rim. A straight obstruction may cut into the window.
 bool IsWindow(const LensCircle& circle, const std::vector<RimRay>& rays, cv::Point2d origin) {
   int visible = 0, on_rim = 0, beyond = 0;
   for (const RimRay& ray : rays) {
-    // Where this ray leaves the circle.
+    // Point at which this ray leaves the circle.
     const cv::Point2d o = origin - cv::Point2d(circle.cx, circle.cy);
     const double along = o.dot(ray.direction);
     const double under = along * along - o.dot(o) + circle.r * circle.r;
-    if (under < 0) return false;  // the origin would lie outside
+    if (under < 0) return false;  // the origin would lie outside the circle
     const double leaves = -along + std::sqrt(under);
     if (leaves > ray.reach - 4) continue;  // cut off by the sensor
     ++visible;
@@ -209,7 +214,7 @@ bool IsWindow(const LensCircle& circle, const std::vector<RimRay>& rays, cv::Poi
   return visible >= kRays / 12 && on_rim >= 0.3 * visible && beyond <= 0.15 * visible;
 }
 
-// Middle of what is lit; any point inside the window will do to cast rays from.
+// Middle of the lit pixels. Any point inside the window serves as an origin of rays.
 cv::Point2d LitMiddle(const cv::Mat& grey, const Levels& levels) {
   const cv::Mat lit = grey > 0.6 * levels.dark + 0.4 * levels.bright;
   const cv::Moments m = cv::moments(lit, true);
@@ -217,15 +222,15 @@ cv::Point2d LitMiddle(const cv::Mat& grey, const Levels& levels) {
   return {m.m10 / m.m00, m.m01 / m.m00};
 }
 
-// Less the rows and columns along the edges that stay black over the clip, or are half black and
-// half picture.
+// Picture without the rows and columns along its edges that stay black over the clip, or that are
+// half black and half picture.
 cv::Rect LitPart(const cv::Mat& brightest) {
   if (brightest.empty()) return {};
   cv::Mat rows, columns;
   cv::reduce(brightest, rows, 1, cv::REDUCE_MAX);
   cv::reduce(brightest, columns, 0, cv::REDUCE_MAX);
-  constexpr int kBlack = 40;  // even the brightest pixel of a bar stays under it
-  constexpr int kBlur = 2;    // px next to a bar that it darkens
+  constexpr int kBlack = 40;  // grey level; the brightest pixel of a black bar stays below it
+  constexpr int kBlur = 2;    // px beside a bar that the bar darkens
   const auto part = [](const cv::Mat& line) {
     const int count = static_cast<int>(line.total());
     int first = 0, last = count;
@@ -249,7 +254,7 @@ LensCircle FindCircle(const cv::Mat& picture) {
   const Levels levels = LevelsOf(grey);
   if (levels.bright - levels.dark < kLeastRise) return {};
 
-  // The first rays start from a guess; the next from the circle that they gave.
+  // The first rays start from a guess, the next from the circle found with the guess.
   cv::Point2d origin = LitMiddle(grey, levels);
   std::vector<RimRay> rays;
   std::optional<LensCircle> circle;
@@ -262,7 +267,7 @@ LensCircle FindCircle(const cv::Mat& picture) {
     if (!cv::Rect2d(0, 0, grey.cols, grey.rows).contains(middle)) break;
     origin = middle;
   }
-  // A window that holds the whole picture cuts nothing off.
+  // A window that contains the whole picture cuts nothing off.
   const double farthest = std::max(
       {std::hypot(circle->cx, circle->cy), std::hypot(grey.cols - 1 - circle->cx, circle->cy),
        std::hypot(circle->cx, grey.rows - 1 - circle->cy),
@@ -272,7 +277,7 @@ LensCircle FindCircle(const cv::Mat& picture) {
 
 void CircleFinder::Add(const cv::Mat& rgb) {
   if (rgb.empty() || (!brightest_.empty() && rgb.size() != brightest_.size())) return;
-  cv::extractChannel(rgb, grey_, 0);  // tissue is never dark in red alone
+  cv::extractChannel(rgb, grey_, 0);  // green: tissue may be dark in it, but never in red alone
   if (brightest_.empty())
     grey_.copyTo(brightest_);
   else
@@ -290,7 +295,7 @@ ClipCircle CircleFinder::Find() const {
 ClipCircle CircleFinder::FindRound() const {
   if (2 * circles_.size() < static_cast<std::size_t>(frames_) || circles_.empty())
     return {FindCircle(brightest_), 0};
-  // The sensor's window keeps its size; a circle of another size is a mistake.
+  // The window on the sensor keeps its size, so a circle of another radius is an error.
   std::vector<double> radii;
   for (const LensCircle& circle : circles_) radii.push_back(circle.r);
   std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
@@ -306,7 +311,7 @@ ClipCircle CircleFinder::FindRound() const {
   cv::Point2f middle;
   float reach = 0;
   cv::minEnclosingCircle(middles, middle, reach);
-  constexpr double kStill = 1.0;  // px: less is the scatter of the finding
+  constexpr double kStill = 1.0;  // px; smaller movements are scatter of the detection
   if (reach < kStill) return {{mean.x, mean.y, radius}, 0};
   return {{middle.x, middle.y, radius - reach}, 2.0 * reach};
 }

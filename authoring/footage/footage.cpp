@@ -21,11 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostFrames = 1e7;  // more is a broken header
+constexpr double kMostFrames = 1e7;  // a larger count comes from a broken header
 
-// File backends only: a name must never open a camera or a network address. OpenCV's own reader of
-// AVI prints what it meets on stderr and knows nothing that FFmpeg does not, so it is asked only
-// where there is no FFmpeg.
+// Opens files only: a name must never open a camera or a network address. OpenCV's own AVI reader
+// prints to stderr and reads nothing that FFmpeg does not, so it is used only without FFmpeg.
 cv::VideoCapture OpenVideo(const fs::path& file) {
   RequireVideoContainer(file);
   QuietDecoders();
@@ -34,7 +33,7 @@ cv::VideoCapture OpenVideo(const fs::path& file) {
   try {
     cv::VideoCapture video(fs::absolute(file).string(), backend);
     if (video.isOpened()) return video;
-  } catch (const cv::Exception&) {  // does not know the format
+  } catch (const cv::Exception&) {  // the format is unknown
   }
   throw Error(Code::kBadImage,
               "this video cannot be opened: it is cut off, empty or in a format that is not known; "
@@ -144,7 +143,7 @@ Footage Footage::Open(const fs::path& path) {
     info.frames = static_cast<int>(source->pictures.size());
   }
 
-  // The first readable frame says the size, and that there is something to read at all.
+  // The first readable frame gives the size and shows that the footage can be read at all.
   cv::Mat first;
   while (source->Read(first) && first.empty()) {
   }
@@ -176,7 +175,8 @@ std::string Footage::NameOf(int index) const {
 std::string Footage::CutShort() const {
   const FootageInfo& info = source_->info;
   if (!info.is_video || !source_->has_ended || info.frames < 0) return "";
-  // Containers count by duration and are a few frames off without anything being wrong.
+  // Frame counts that a container derives from its duration may be a few frames off in a sound
+  // file.
   constexpr int kTolerated = 3;
   constexpr double kToleratedShare = 0.02;
   const int read = source_->index + 1;

@@ -1,9 +1,9 @@
-// The frames of a clip, one after the other: a video file, a folder of pictures, a printf pattern
-// ("frames/%04d.png") or one picture. Whatever the file holds (grey, alpha, 16 bit), a frame comes
-// out as 8-bit RGB; the one place in authoring where a video's BGR is swapped.
+// Reads the frames of a clip in order: a video file, a folder of pictures, a printf pattern
+// ("frames/%04d.png") or one picture. Every frame is returned as 8-bit RGB, whatever the file holds
+// (grey, alpha, 16 bit). This is the only place in authoring that converts a video's BGR.
 //
-// A frame that cannot be read does not end the clip: it comes out empty, with the reason. Frames
-// may differ in size; who needs one size has to look.
+// An unreadable frame does not end the clip: it is returned empty, with a reason. Frames may differ
+// in size; a caller that needs one size must check.
 #pragma once
 
 #include <filesystem>
@@ -15,16 +15,17 @@
 namespace arthro::authoring {
 
 struct FootageInfo {
-  std::string name;              // of the file or folder, without its path
-  int frames = -1;               // as the container claims; -1: unknown until read
-  int width = 0, height = 0;     // of the first readable frame, px
-  double frames_per_second = 0;  // 0: pictures, or not known
+  std::string name;              // file or folder, without its path
+  int frames = -1;               // number that the container claims; -1: unknown until read
+  int width = 0, height = 0;     // px, size of the first readable frame
+  double frames_per_second = 0;  // 0: pictures, or unknown
   bool is_video = false;
 };
 
 class Footage {
  public:
-  // Throws Error: nothing there, no picture in it, a video that no decoder takes, nothing readable.
+  // Throws Error when nothing is there, no picture is in it, no decoder takes the video or no frame
+  // can be read.
   static Footage Open(const std::filesystem::path& path);
   Footage(Footage&&) noexcept;
   Footage& operator=(Footage&&) noexcept;
@@ -32,17 +33,18 @@ class Footage {
 
   const FootageInfo& info() const;
 
-  // The next frame; false at the end. `rgb` is empty where it could not be read: see fault().
+  // Reads the next frame; false at the end. `rgb` is empty when the frame is unreadable: see
+  // fault().
   bool Next(cv::Mat& rgb);
-  // Passes over the next frame at the least cost; false at the end.
+  // Skips the next frame at the least cost; false at the end.
   bool Skip();
   void Rewind();
 
-  int index() const;                 // of the frame that Next or Skip passed last; -1: none yet
+  int index() const;                 // last frame that Next or Skip passed; -1: none yet
   const std::string& fault() const;  // why the last frame is empty; "" when it is not
   std::string NameOf(int index) const;
 
-  // After the end: a sentence when a video ended well before the length it claims; else "".
+  // After the end: a sentence when a video ended well before its claimed length, otherwise "".
   std::string CutShort() const;
 
  private:

@@ -11,21 +11,22 @@ namespace arthro::authoring {
 namespace {
 
 constexpr int kThumbWidth = 200;  // px
-constexpr double kBlack = 14;     // grey level that 90 % of a black frame stay under
-constexpr double kWhite = 244;    // and that more than half of a white one is over
-// A frame that shows anything has the light's falloff in it: at least 0.34 over ten made clips and
-// one real one, 0.003 in a red-out.
+constexpr double kBlack = 14;     // grey level; 90 % of a black frame lies below it
+constexpr double kWhite = 244;    // grey level; more than half of a white frame lies above it
+// Least spread of the light in a useful frame. The light's falloff alone gives at least 0.34 over
+// ten synthetic clips and one real clip; a red-out gives 0.003.
 constexpr double kLeastSpread = 0.08;
 constexpr double kLeastDetail = 0.025;
 
 double Percentile(std::vector<float>& values, double share) {
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1.0));
+  const auto at = values.begin() +
+                  static_cast<std::ptrdiff_t>(share * (static_cast<double>(values.size()) - 1.0));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
-// Of what the mask lets through; outside it there is black that must not bleed in.
+// Blurs the pixels that the mask lets through; the black outside must not bleed in.
 cv::Mat MaskedBlur(const cv::Mat& picture, const cv::Mat& weight, double sigma) {
   cv::Mat blurred, weights;
   cv::GaussianBlur(picture.mul(weight), blurred, {}, sigma);
@@ -33,7 +34,7 @@ cv::Mat MaskedBlur(const cv::Mat& picture, const cv::Mat& weight, double sigma) 
   return blurred / (weights + 1e-3);
 }
 
-// Standard deviation of white noise: what remains when planes and edges cancel [Immerkaer 1996].
+// Standard deviation of white noise: the residual after planes and edges cancel [Immerkaer 1996].
 double NoiseOf(const cv::Mat& picture, const cv::Mat& mask) {
   const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
   cv::Mat response;
@@ -60,7 +61,7 @@ void FrameLooker::MakeMask(cv::Size raw) {
   double cx = 0.5 * (size.width - 1), cy = 0.5 * (size.height - 1);
   double half = 0.5 * std::min(size.width, size.height);
   if (circle_.r > 0) {
-    constexpr double kInside = 0.94;  // of the radius: clear of the rim and its blur
+    constexpr double kInside = 0.94;  // share of the radius, clear of the rim and its blur
     cx = (circle_.cx + 0.5) * scale - 0.5;
     cy = (circle_.cy + 0.5) * scale - 0.5;
     cv::circle(mask_, {static_cast<int>(std::lround(cx)), static_cast<int>(std::lround(cy))},
@@ -86,7 +87,7 @@ FrameLook FrameLooker::Look(const cv::Mat& rgb) {
   look.brightness = mean[1];
   look.redness = (mean[0] + 1) / (mean[1] + 1);
 
-  // Black and white first: nothing else means much there.
+  // Black and white frames are recognised first: no other measure is meaningful for them.
   int pixels = 0, lit = 0, white = 0;
   for (int y = 0; y < thumb.rows; ++y)
     for (int x = 0; x < thumb.cols; ++x) {
@@ -104,7 +105,7 @@ FrameLook FrameLooker::Look(const cv::Mat& rgb) {
   }
   if (white > 0.5 * pixels) look.blank = "more than half of it is saturated white";
 
-  // Light and detail, on green: tissue is hardly ever saturated in it.
+  // Brightness and detail use green, which tissue hardly ever saturates.
   cv::Mat green;
   cv::extractChannel(thumb, green, 1);
   green.convertTo(green, CV_32F);
@@ -124,7 +125,7 @@ FrameLook FrameLooker::Look(const cv::Mat& rgb) {
     look.blank = look.redness > 1.5 ? "it is red throughout: the lens lies on tissue or in blood"
                                     : "it is one colour throughout";
 
-  // Sharpness at half size, on every other row.
+  // Sharpness is measured at half size, on every other row.
   cv::Mat half, edges;
   cv::extractChannel(rgb, half, 1);
   if (half.cols > 2 * kThumbWidth) cv::resize(half, half, mask_.size() * 2, 0, 0, cv::INTER_AREA);
@@ -135,13 +136,14 @@ FrameLook FrameLooker::Look(const cv::Mat& rgb) {
     const int row = std::min(mask_.rows - 1, y * mask_.rows / edges.rows);
     for (int x = 2; x < edges.cols - 2; ++x) {
       if (!mask_.at<uchar>(row, std::min(mask_.cols - 1, x * mask_.cols / edges.cols))) continue;
-      sum += std::min(60, std::abs(static_cast<int>(edges.at<short>(y, x))));  // glints are capped
+      sum +=
+          std::min(60, std::abs(static_cast<int>(edges.at<short>(y, x))));  // highlights are capped
       ++counted;
     }
   }
   look.sharpness = counted > 0 ? sum / counted / level : 0;
 
-  // Motion, by phase correlation of what is left when the light is taken out.
+  // Motion by phase correlation of the picture after the lighting is removed.
   look.moved = -1;
   if (!taper_.empty() && look.blank.empty()) {
     cv::Mat even = fine(middle_) / (light(middle_) + 8.0f);
@@ -149,7 +151,7 @@ FrameLook FrameLooker::Look(const cv::Mat& rgb) {
     if (!previous_.empty()) {
       double response = 0;
       const cv::Point2d shift = cv::phaseCorrelate(previous_, even, taper_, &response);
-      constexpr double kLeastResponse = 0.04;  // below, the peak is noise
+      constexpr double kLeastResponse = 0.04;  // response of the correlation; a lower peak is noise
       if (response > kLeastResponse) look.moved = std::hypot(shift.x, shift.y) / middle_.width;
     }
     previous_ = even;
@@ -167,17 +169,17 @@ void MarkBlanks(std::vector<FrameLook>& looks) {
     rednesses.push_back(look.redness);
     brightnesses.push_back(look.brightness);
   }
-  if (details.size() < 5) return;  // too few to say what the clip is like
+  if (details.size() < 5) return;  // too few frames to characterise the clip
   const double detail = Median(details), redness = Median(rednesses),
                brightness = Median(brightnesses);
-  constexpr double kHardly = 0.3;  // of the clip's usual detail
-  constexpr double kOther = 1.6;   // times redder, or darker, or brighter than usual
+  constexpr double kHardly = 0.3;  // share of the clip's usual detail
+  constexpr double kOther = 1.6;   // factor of redness or brightness from the clip's usual value
   for (FrameLook& look : looks) {
     if (!look.blank.empty() || look.detail > kHardly * detail) continue;
     const double colour = std::abs(std::log(look.redness / redness));
     const double light = std::abs(std::log((look.brightness + 1) / (brightness + 1)));
     if (std::max(colour, light) > std::log(kOther))
-      look.blank = "it shows hardly any detail, in another light than the rest of the clip";
+      look.blank = "it shows hardly any detail, and its light differs from the rest of the clip";
   }
 }
 

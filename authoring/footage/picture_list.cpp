@@ -45,7 +45,7 @@ std::vector<std::string> FilesIn(const fs::path& folder) {
   return names;
 }
 
-// What stands around the number of a pattern, and the least digits it has.
+// Text before and after the number of a pattern, and the least number of its digits.
 struct Pattern {
   std::string before, after;
   std::size_t width = 1;
@@ -56,7 +56,8 @@ struct Pattern {
       return false;
     const auto digits = name.substr(before.size(), name.size() - before.size() - after.size());
     return DigitsAt(digits, 0).size() == digits.size() &&
-           (digits.size() == width || digits.front() != '0');  // as printf would write it
+           (digits.size() == width ||
+            digits.front() != '0');  // printf writes no leading zero beyond the width
   }
 };
 

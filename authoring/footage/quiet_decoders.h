@@ -1,6 +1,6 @@
-// Readers and writers of video talk on stderr, where our one sentence belongs. OpenCV reads
-// FFmpeg's level from the environment when it first opens a video, so call this before; a level
-// that the user has set stays.
+// Silences readers and writers of video, which otherwise print to stderr beside the program's own
+// message. OpenCV reads FFmpeg's log level from the environment when it first opens a video, so
+// call this before. A level that the user has set is kept.
 #pragma once
 
 namespace arthro::authoring {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Signature of a format: these bytes at this place.
+// Signature of a format: these bytes at this offset.
 struct Mark {
   std::size_t at;
   std::string_view bytes;
@@ -42,7 +42,8 @@ constexpr std::array kMarks = {
     Mark{0, "GIF8"sv},              // animation
 };
 
-// Packets of an MPEG transport stream begin with this byte; a recorder's (M2TS) put a time before.
+// Packets of an MPEG transport stream begin with this byte; in a recorder's stream (M2TS) a time
+// stamp precedes it.
 bool IsTransportStream(std::string_view bytes) {
   constexpr char kSync = 0x47;
   constexpr std::size_t kPackets = 4;

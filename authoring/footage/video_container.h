@@ -1,5 +1,5 @@
-// Is a file a video by its first bytes? Playlists (HLS, DASH, concat, SDP) name other files or
-// addresses, which the decoder would open whatever the playlist itself is called.
+// Recognises a video by its first bytes. Playlists (HLS, DASH, concat, SDP) are refused: they name
+// other files or addresses, which the decoder would open whatever the playlist itself is called.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace arthro::authoring {
 
-inline constexpr std::size_t kContainerBytes = 1024;  // as many as IsVideoContainer looks at
+inline constexpr std::size_t kContainerBytes = 1024;  // bytes that IsVideoContainer reads
 
-// `beginning`: the file's first kContainerBytes, or all of it where it is shorter.
+// `beginning`: the file's first kContainerBytes, or the whole of a shorter file.
 bool IsVideoContainer(std::string_view beginning);
 
-// Throws Error(kBadImage) for a file that is no video, and Error(kFile) for one that is no regular
-// file. Call it before a video library opens the file by its name.
+// Throws Error(kBadImage) for a file that is not a video, and Error(kFile) for one that is not a
+// regular file. Call it before a video library opens the file by its name.
 void RequireVideoContainer(const std::filesystem::path& file);
 
 }  // namespace arthro::authoring

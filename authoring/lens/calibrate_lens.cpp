@@ -16,12 +16,13 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kClearlyBetter = 0.95;  // of the residual: what another model must come down to
-constexpr double kPaysWell = 0.5;        // the same, where it is judged by its own points
-constexpr double kAsGood = 1.05;         // up to here two models cannot be told apart
-constexpr double kRimShare = 0.95;       // of the rim: beyond it the picture is cut anyway
+constexpr double kClearlyBetter = 0.95;  // share of the residual; a better model must stay below it
+constexpr double kPaysWell =
+    0.5;                          // the same, when a model is judged by the points it was fitted to
+constexpr double kAsGood = 1.05;  // ratio of residuals; up to it two models are indistinguishable
+constexpr double kRimShare = 0.95;  // share of the rim's radius; the picture is cut beyond it
 constexpr double kSigmas = 3;
-constexpr double kHopeless = 0.10;  // rim error over rim radius: a lens not worth writing
+constexpr double kHopeless = 0.10;  // rim error over rim radius; a lens beyond it is not written
 
 struct Candidate {
   LensFit fit;
@@ -63,7 +64,7 @@ std::vector<FitModel> ModelsFor(ModelChoice choice) {
   return {};
 }
 
-// One calibration, step by step; `result_` grows on the way.
+// One calibration, in steps; `result_` grows with them.
 class Calibration {
  public:
   Calibration(const std::vector<TargetView>& views, cv::Size picture, const LensCircle& circle,
@@ -82,7 +83,7 @@ class Calibration {
       used_.push_back(view);
       place_.push_back(result_.views.size() - 1);
     }
-    // Without a round window the picture's nearer edge stands for the rim.
+    // Without a round window the nearer edge of the picture replaces the rim.
     result_.rim_radius_px = circle.r > 0 ? circle.r : 0.5 * std::min(picture.width, picture.height);
   }
 
@@ -95,8 +96,7 @@ class Calibration {
     const double before = ProcessCpuMs();
     auto start = StartFit(used_, picture_, centre, result_.rim_radius_px);
     const double start_ms = ProcessCpuMs() - before;
-    if (!start)
-      return Refuse("the points found do not lie as a flat target's would under any lens");
+    if (!start) return Refuse("the points found fit a flat target under no lens");
     LeaveOutWrongPoints(*start);
     TryModels(*start);
     const Candidate* best = Choose();
@@ -114,10 +114,11 @@ class Calibration {
     return result_;
   }
 
-  // Points that even the better of two unlike models cannot explain are counted wrongly or hang on
-  // a glint. They go before models are compared, so that all are asked about the same points.
+  // Removes points that even the better of two unlike models cannot explain: they are counted
+  // wrongly or lie on a highlight. This happens before models are compared, so that all models see
+  // the same points.
   void LeaveOutWrongPoints(LensFit& start) {
-    constexpr double kFarOff = 8;  // times the fit's residual: a poor model must not cost points
+    constexpr double kFarOff = 8;  // times the fit's residual; a poor model must not cost points
     std::optional<LensFit> better;
     for (const FitModel model : {FitModel::kEquisolid, FitModel::kKannalaBrandt}) {
       LensFit fit = FitLens(used_, model, start, fit_options_);
@@ -170,7 +171,7 @@ class Calibration {
       trial.parameters = candidate.fit.parameters;
       trial.fitted = candidate.fit.converged && std::isfinite(candidate.fit.rms_px) &&
                      candidate.fit.points_used * 2 > candidate.fit.parameters;
-      // All points count here, also those that this model left out for itself.
+      // All points count here, including outliers of this model.
       trial.rms_px = trial.fitted ? WholeRms(candidate.fit) : 0;
       trial.held_out_px = trial.rms_px;
       if (trial.fitted && used_.size() >= 3)
@@ -198,20 +199,20 @@ class Calibration {
     return nullptr;
   }
 
-  // In the order of ModelsFor, which is that of growing freedom, the paper's first: a later one is
-  // taken where it is clearly better than the one before.
+  // Models come in the order of ModelsFor, by growing freedom, the paper's model first. A later
+  // model is taken when it is clearly better than the one before.
   const Candidate* Choose() {
     const Candidate* best = nullptr;
     for (const FitModel model : ModelsFor(options_.model)) {
       const Candidate* other = Find(model);
       if (!other) continue;
-      // Without held out pictures more freedom always fits better; it has to pay well.
+      // Without held-out pictures more freedom always fits better, so the gain must be large.
       const bool is_richer = best && other->trial.parameters > best->trial.parameters;
       const double needed = is_richer && used_.size() < 3 ? kPaysWell : kClearlyBetter;
       if (!best || other->trial.held_out_px < needed * best->trial.held_out_px) best = other;
     }
     const Candidate* paper = Find(FitModel::kEquisolid);
-    const double noise = 0.05;  // px; below it corners are not known
+    const double noise = 0.05;  // px; corners are not known more exactly
     for (const Candidate& other : candidates_)
       if (paper && other.trial.fitted &&
           other.trial.held_out_px + noise < kClearlyBetter * paper->trial.held_out_px)
@@ -262,8 +263,8 @@ class Calibration {
     result_.rim_error_px = RimError(best);
   }
 
-  // The largest of three doubts up to the rim: what noise leaves open, what the corners themselves
-  // may all be off by, and what an equally good model says instead.
+  // Largest of three uncertainties up to the rim: the noise of the fit, a systematic error of the
+  // corners, and the difference from an equally good model.
   double RimError(const Candidate& best) const {
     const Lens& lens = result_.lens;
     const auto rim = AngleFromRadius(lens, kRimShare * result_.rim_radius_px);
@@ -286,14 +287,14 @@ class Calibration {
         worst = std::max(worst, std::abs(there.r - here.r));
       }
     }
-    // Corners share an error of position (lines curve within their window), which tilts to all
-    // sides partly balance and one picture does not.
+    // Corners share an error of position, since lines curve within their window. Tilts to all sides
+    // partly balance it; a single picture does not.
     const double shared = used_.size() == 1 ? 4 : 2;  // times the residual
     return std::hypot(worst, shared * best.fit.rms_px);
   }
 
   void Judge(const Candidate& best) {
-    auto& say = result_.sentences;
+    auto& sentences = result_.sentences;
     bool doubtful = false;
     const double cover = result_.covered_radius_px / result_.rim_radius_px;
     if (best.trial.rms_px > options_.largest_rms && result_.is_paper_model_refuted &&
@@ -320,7 +321,7 @@ class Calibration {
     }
     if (!(result_.rim_error_px < kHopeless * result_.rim_radius_px)) {
       Refuse(fmt::format(
-          "the pictures do not determine the lens: at the rim it may be off by {:.0f} px; take "
+          "the pictures do not determine the lens: its error at the rim may be {:.0f} px. Take "
           "pictures with the target tilted by 20 degrees and more, and filling the window",
           std::min(result_.rim_error_px, 9999.0)));
       return;
@@ -330,46 +331,48 @@ class Calibration {
     if (result_.is_paper_model_refuted) {
       doubtful = doubtful || chosen_paper || options_.model != ModelChoice::kAuto;
       const Candidate* paper = Find(FitModel::kEquisolid);
-      say.push_back(
+      sentences.push_back(
           fmt::format("wrong model: equisolid leaves {:.2f} px where another leaves {:.2f}{}",
                       paper->trial.held_out_px, LowestResidual(),
                       chosen_paper ? "; let the model be chosen, or the rim will be wrong"
-                                   : fmt::format("; {} was taken", WordOf(result_.model))));
+                                   : fmt::format("; {} was taken", ToString(result_.model))));
     }
     if (single) {
       doubtful = true;
-      say.push_back(
-          "one picture only: focal length and the target's distance go together, and which model "
-          "is right was judged from this picture alone; take six, tilted to all sides");
+      sentences.push_back(
+          "one picture only: it cannot separate focal length from distance, and the choice of the "
+          "model rests on it alone; take six, tilted to all sides");
       const ViewReport& view = result_.views[place_[0]];
       if (view.tilt < RadiansFromDegrees(8))
-        say.push_back(fmt::format(
-            "its target faces the lens (tilt {:.0f} degrees), so the focal length rests on the "
-            "lens's bend alone: with another model it would come out differently",
-            DegreesFromRadians(view.tilt)));
+        sentences.push_back(
+            fmt::format("its target faces the lens (tilt {:.0f} degrees), so the focal length "
+                        "follows from the distortion alone and depends on the model",
+                        DegreesFromRadians(view.tilt)));
     } else if (used_.size() == 2) {
       doubtful = true;
-      say.push_back("two pictures only: no picture is left to test the model on; take six");
+      sentences.push_back("two pictures only: no picture is left to test the model on; take six");
     }
     if (cover < 0.85)
-      say.push_back(fmt::format(
-          "the targets reach {:.0f} % of the {}; beyond that the model is taken at its word",
+      sentences.push_back(fmt::format(
+          "the targets reach {:.0f} % of the {}; beyond that the model is extrapolated",
           100 * cover, circle_.r > 0 ? "round window's radius" : "way to the picture's edge"));
     if (result_.rim_error_px > 1.0) {
       doubtful = true;
-      say.push_back(
+      sentences.push_back(
           fmt::format("at the rim the lens may be off by {:.1f} px", result_.rim_error_px));
     }
     if (result_.points_left_out * 5 > result_.points) {
       doubtful = true;
-      say.push_back(fmt::format("{} of {} points were left out as wrong", result_.points_left_out,
-                                result_.points_left_out + result_.points));
+      sentences.push_back(fmt::format("{} of {} points were left out as wrong",
+                                      result_.points_left_out,
+                                      result_.points_left_out + result_.points));
     }
     result_.verdict = doubtful ? LensVerdict::kDoubtful : LensVerdict::kGood;
     if (!doubtful)
-      say.insert(say.begin(),
-                 fmt::format("{} views of {} points bear out the {} model to {:.2f} px",
-                             used_.size(), result_.points, WordOf(result_.model), best.fit.rms_px));
+      sentences.insert(
+          sentences.begin(),
+          fmt::format("{} views of {} points agree with the {} model to {:.2f} px", used_.size(),
+                      result_.points, ToString(result_.model), best.fit.rms_px));
   }
 
   double LowestResidual() const {
@@ -387,7 +390,7 @@ class Calibration {
            axis * glm::dot(axis, v) * (1 - std::cos(angle));
   }
 
-  // Where the fit puts a point, less where it was seen.
+  // Difference between the point by the fit and the measured point.
   double ResidualOf(const LensFit& fit, std::size_t v, const LatticePoint& point) const {
     const BoardPose& pose = fit.poses[v];
     const glm::dvec3 at = TurnedBy({pose[0], pose[1], pose[2]}, {static_cast<double>(point.i),
@@ -410,14 +413,14 @@ class Calibration {
   const Progress& progress_;
   FitOptions fit_options_;
   std::vector<TargetView> used_;
-  std::vector<std::size_t> place_;  // of each used view among the pictures
+  std::vector<std::size_t> place_;  // index of each used view among the pictures
   std::vector<Candidate> candidates_;
   LensCalibration result_;
 };
 
 }  // namespace
 
-const char* WordOf(LensVerdict verdict) {
+const char* ToString(LensVerdict verdict) {
   return verdict == LensVerdict::kGood       ? "good"
          : verdict == LensVerdict::kDoubtful ? "doubtful"
                                              : "refused";

@@ -1,6 +1,7 @@
-// The lens of a camera from pictures of a flat target: which model, its numbers, how sure they are,
-// and in words what the pictures leave open. Fewer parameters win unless more of them foretell held
-// out pictures better: a board seldom reaches the rim, and there a rich model goes where it likes.
+// Calibrates the lens of a camera from pictures of a flat target: model, parameters, their
+// uncertainty, and a verdict in words. A model with fewer parameters wins unless one with more
+// predicts held-out pictures better. A target seldom reaches the rim, and a flexible model
+// extrapolates badly there.
 #pragma once
 
 #include <string>
@@ -20,7 +21,7 @@ struct CalibrateOptions {
   ModelChoice model = ModelChoice::kAuto;
   bool aspect = false;
   double largest_rms = 2.0;  // px
-  double least_cover = 0.5;  // of the round window's radius
+  double least_cover = 0.5;  // share of the round window's radius
 
   template <class V>
   void Visit(V&& v) {
@@ -30,8 +31,9 @@ struct CalibrateOptions {
                             {ModelChoice::kKannalaBrandt, "kannala_brandt"},
                             {ModelChoice::kDoubleSphere, "double_sphere"},
                             {ModelChoice::kPinhole, "pinhole"}}},
-      "", "Lens model; auto takes the simplest that the pictures bear out.");
-    v("aspect", aspect, Any{}, "", "Also fit the shape of the pixels (needs several views).");
+      "", "Lens model; auto takes the simplest that agrees with the pictures.");
+    v("aspect", aspect, Any{}, "",
+      "Also fit the aspect ratio of the pixels (needs several views).");
     v("largest_rms", largest_rms, Range{0.1, 20.0}, "px",
       "A lens that leaves a larger residual is refused.");
     v("least_cover", least_cover, Range{0.1, 1.0}, "",
@@ -44,7 +46,7 @@ enum class LensVerdict { kGood, kDoubtful, kRefused };
 struct ModelTrial {
   FitModel model;
   int parameters = 0;
-  double rms_px = 0, held_out_px = 0;  // held out: only from three views on, else as rms
+  double rms_px = 0, held_out_px = 0;  // px; held out: from three views on, otherwise equal to rms
   bool fitted = false;
 };
 
@@ -53,7 +55,7 @@ struct ViewReport {
   double rms_px = 0;
   int points_left_out = 0;
   double distance = 0;  // m, from the lens to the middle of the target
-  double tilt = 0;      // rad, between the target's normal and the lens's axis
+  double tilt = 0;      // rad, between the target's normal and the optical axis
 };
 
 struct LensCalibration {
@@ -64,21 +66,21 @@ struct LensCalibration {
       false;  // another profile than equisolid explains the pictures better
   double focal_sigma_px = 0, centre_sigma_px = 0;
   double covered_radius_px = 0, rim_radius_px = 0;
-  double rim_error_px = 0;  // estimate: up to 95 % of the rim
+  double rim_error_px = 0;  // estimate up to 95 % of the rim
   int points = 0, points_left_out = 0;
-  std::vector<std::string> sentences;  // the verdict in words, most important first
+  std::vector<std::string> sentences;  // the verdict in words, most important sentence first
   std::vector<ModelTrial> trials;
-  std::vector<ViewReport> views;  // one a picture
-  double fit_ms = 0;              // CPU: start and fit of the model taken
+  std::vector<ViewReport> views;  // one per picture
+  double fit_ms = 0;              // processor time: start and fit of the chosen model
 };
 
-// `views`: one a picture, of kind none where no target was found. `spacing`: of the target's
-// lattice, m. A circle of radius 0: no round window. Throws only for bad options; pictures that do
-// not make a lens give the verdict kRefused with the reason.
+// `views`: one per picture, of kind none when no target was found. `spacing`: step of the target's
+// lattice, m. A circle of radius 0 means no round window. Throws only for bad options; pictures
+// that do not determine a lens give the verdict kRefused with the reason.
 LensCalibration CalibrateLens(const std::vector<TargetView>& views, cv::Size picture,
                               const LensCircle& circle, double spacing,
                               const CalibrateOptions& options, const Progress& progress);
 
-const char* WordOf(LensVerdict verdict);  // "good", "doubtful", "refused"
+const char* ToString(LensVerdict verdict);  // "good", "doubtful", "refused"
 
 }  // namespace arthro::authoring

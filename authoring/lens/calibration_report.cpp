@@ -19,17 +19,17 @@ std::string TableOf(const LensCalibration& calibration, const std::vector<std::s
     else
       text += fmt::format(
           "{}: {}, {} points, {} left out, {:.3f} px, {:.1f} mm away, tilt {:.0f} deg\n", names[v],
-          WordOf(view.target.kind), view.target.points.size(), view.points_left_out, view.rms_px,
+          ToString(view.target.kind), view.target.points.size(), view.points_left_out, view.rms_px,
           MmFromMetres(view.distance), DegreesFromRadians(view.tilt));
   }
   if (calibration.lens.focal_px > 0) {
     text += "model            parameters  residual px  held out px\n";
     for (const ModelTrial& trial : calibration.trials)
       text += trial.fitted
-                  ? fmt::format("{:<16} {:>10} {:>12.3f} {:>12.3f}{}\n", WordOf(trial.model),
+                  ? fmt::format("{:<16} {:>10} {:>12.3f} {:>12.3f}{}\n", ToString(trial.model),
                                 trial.parameters, trial.rms_px, trial.held_out_px,
                                 trial.model == calibration.model ? "  <- taken" : "")
-                  : fmt::format("{:<16} could not be fitted\n", WordOf(trial.model));
+                  : fmt::format("{:<16} could not be fitted\n", ToString(trial.model));
     const Lens& lens = calibration.lens;
     text += fmt::format(
         "focal length     {:.3f} px, sigma {:.3f}\n"
@@ -43,7 +43,7 @@ std::string TableOf(const LensCalibration& calibration, const std::vector<std::s
         DegreesFromRadians(lens.field_of_view), lens.rms_px, calibration.covered_radius_px,
         calibration.rim_radius_px, calibration.rim_error_px, calibration.fit_ms);
   }
-  text += fmt::format("verdict          {}\n", WordOf(calibration.verdict));
+  text += fmt::format("verdict          {}\n", ToString(calibration.verdict));
   for (const std::string& sentence : calibration.sentences) text += "  " + sentence + "\n";
   return text;
 }
@@ -55,9 +55,9 @@ std::string JsonOf(const LensCalibration& calibration, const std::vector<std::st
   };
   ordered_json json;
   json["schema"] = "arthroscene.lens_report/1";
-  json["verdict"] = WordOf(calibration.verdict);
+  json["verdict"] = ToString(calibration.verdict);
   json["sentences"] = calibration.sentences;
-  json["model"] = WordOf(calibration.model);
+  json["model"] = ToString(calibration.model);
   json["wrong_model"] = calibration.is_paper_model_refuted;
   json["focal_px"] = calibration.lens.focal_px;
   json["focal_sigma_px"] = Known(calibration.focal_sigma_px);
@@ -74,7 +74,7 @@ std::string JsonOf(const LensCalibration& calibration, const std::vector<std::st
   json["fit_ms"] = calibration.fit_ms;
   json["models"] = ordered_json::array();
   for (const ModelTrial& trial : calibration.trials)
-    json["models"].push_back({{"model", WordOf(trial.model)},
+    json["models"].push_back({{"model", ToString(trial.model)},
                               {"fitted", trial.fitted},
                               {"parameters", trial.parameters},
                               {"rms_px", Known(trial.rms_px)},
@@ -83,7 +83,7 @@ std::string JsonOf(const LensCalibration& calibration, const std::vector<std::st
   for (std::size_t v = 0; v < calibration.views.size(); ++v) {
     const ViewReport& view = calibration.views[v];
     json["views"].push_back({{"picture", names[v]},
-                             {"target", WordOf(view.target.kind)},
+                             {"target", ToString(view.target.kind)},
                              {"reason", view.target.reason},
                              {"points", view.target.points.size()},
                              {"points_left_out", view.points_left_out},

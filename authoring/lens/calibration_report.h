@@ -1,4 +1,4 @@
-// A lens calibration for people (a table on the terminal) and for programs (JSON).
+// Reports of a lens calibration: a table for the terminal and JSON for programs.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace arthro::authoring {
 
-// `names`: of the pictures, in the order of calibration.views.
+// `names`: one per picture, in the order of calibration.views.
 std::string TableOf(const LensCalibration& calibration, const std::vector<std::string>& names);
 
-// {schema, verdict, sentences, model, focal_px, …, models:[…], views:[…]}; the angles in degrees.
+// {schema, verdict, sentences, model, focal_px, …, models:[…], views:[…]}; angles in degrees.
 std::string JsonOf(const LensCalibration& calibration, const std::vector<std::string>& names);
 
 }  // namespace arthro::authoring

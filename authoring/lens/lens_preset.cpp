@@ -32,7 +32,7 @@ LensPreset ReadLensPreset(const std::filesystem::path& file) {
   reader.RefuseOtherKeys(true);
   if (schema != "arthroscene.lens_preset/1" && !schema.empty())
     reader.Fault("schema", "must be \"arthroscene.lens_preset/1\"");
-  // Only models of one number follow from a field of view.
+  // Only models with one parameter follow from a field of view.
   if (model == "pinhole")
     preset.model = LensModel::kPinhole;
   else if (model == "equidistant")
@@ -70,7 +70,7 @@ Lens LensFromPreset(const LensPreset& preset, cv::Size picture, const LensCircle
   lens.aspect = preset.aspect;
   lens.circle = circle;
   lens.field_of_view = preset.field_of_view;
-  // Every model here is linear in f: the radius at f = 1 tells it.
+  // Every model here is linear in f, so the radius at f = 1 determines f.
   lens.focal_px = 1;
   const auto radius = RadiusFromAngle(lens, preset.field_of_view / 2);
   if (!radius)

@@ -1,6 +1,6 @@
-// Lenses by name, for footage whose camera cannot be calibrated any more. A preset says the model
-// and the field of view; where the window lies is measured in the footage. It also says what is
-// known of the lens and what is only assumed.
+// Named lenses for footage whose camera can no longer be calibrated. A preset gives the model and
+// the field of view; the position of the window is measured in the footage. A preset also states
+// which of its properties are known and which are assumed.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@
 namespace arthro::authoring {
 
 struct LensPreset {
-  std::string name;  // of the file, without .json
+  std::string name;  // name of the file, without .json
   std::string title, known, assumed;
   LensModel model = LensModel::kEquisolid;
   double field_of_view = 0;  // full, rad
   double aspect = 1;
 };
 
-// Throws Error(kBadData) that names the key at fault.
+// Throws Error(kBadData) that names the faulty key.
 LensPreset ReadLensPreset(const std::filesystem::path& file);
-// All of a folder (resources/presets/lenses), by name.
+// Reads all presets of a folder (resources/presets/lenses), by name.
 std::vector<LensPreset> ReadLensPresets(const std::filesystem::path& folder);
 
-// The preset's lens on pictures of this size. Throws Error(kBadArgument) without a round window,
-// which alone says where the field of view ends.
+// Lens of the preset for pictures of this size. Throws Error(kBadArgument) without a round window,
+// which alone shows where the field of view ends.
 Lens LensFromPreset(const LensPreset& preset, cv::Size picture, const LensCircle& circle);
 
 }  // namespace arthro::authoring

@@ -17,16 +17,16 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMostPixels = 100e6;  // of a rectified picture
-constexpr int kNowhere = -10;          // a map entry that cv::remap fills with black
+constexpr double kMostPixels = 100e6;  // pixels of a rectified picture
+constexpr int kNowhere = -10;          // map entry that cv::remap fills with black
 
-// Whether a raw pixel belongs to what may be shown, but for the angle.
+// Raw pixels that may be shown, apart from the limit on the angle.
 class Window {
  public:
   Window(const Lens& lens, const RectifyOptions& options)
       : lens_(lens), radius_(lens.circle.r * (1 - options.rim_margin)) {}
 
-  // Bilinear sampling needs the neighbours, so half a pixel at the border is left out.
+  // Bilinear sampling reads the neighbours, so half a pixel at the border is excluded.
   bool Holds(const glm::dvec2& raw) const {
     if (!(raw.x >= 0 && raw.y >= 0 && raw.x <= lens_.width - 1 && raw.y <= lens_.height - 1))
       return false;
@@ -39,7 +39,7 @@ class Window {
   double radius_;
 };
 
-// How far from the axis the window reaches in one direction of the raw picture, as tan θ.
+// Extent of the window from the axis in one direction of the raw picture, as tan θ.
 double Reach(const Lens& lens, const Window& window, const RectifyOptions& options,
              const glm::dvec2& direction) {
   double inside = 0, outside = std::hypot(lens.width, lens.height);
@@ -54,8 +54,8 @@ double Reach(const Lens& lens, const Window& window, const RectifyOptions& optio
   return std::tan(AngleFromRadius(lens, inside).value_or(0));
 }
 
-// The lens's profile as raw px per rectified px at unit focal length, tabled by tan²θ: the maps ask
-// it for every pixel, and Newton's method there would take a second for a large picture.
+// Profile of the lens as raw px per rectified px at unit focal length, tabulated by tan²θ. The maps
+// read it for every pixel, and Newton's method there would take a second for a large picture.
 class RadialTable {
  public:
   RadialTable(const Lens& lens, double largest_tangent)
@@ -67,8 +67,8 @@ class RadialTable {
     }
   }
 
-  // Catmull-Rom between the entries: the scale is smooth in tan²θ, so that 4096 of them leave less
-  // than 1e-6 px.
+  // Catmull-Rom interpolation: the scale is smooth in tan²θ, so that 4096 entries leave an error
+  // below 1e-6 px.
   double At(double squared_tangent) const {
     const double at = squared_tangent / step_;
     const int i = std::clamp(static_cast<int>(at), 1, kEntries - 3);
@@ -95,7 +95,8 @@ RectifiedView ViewOf(const Lens& lens, const RectifyOptions& options) {
         fmt::format("the lens's axis meets its {} x {} picture at ({:.0f}, {:.0f}), outside "
                     "of what it shows; calibrate it again",
                     lens.width, lens.height, lens.cx, lens.cy));
-  // What is seen has no dents as seen from the axis, so its box follows from the reach all round.
+  // The visible area is star-shaped about the axis, so its bounding box follows from its extent in
+  // all directions.
   constexpr int kDirections = 1440;
   glm::dvec2 low(0), high(0);
   for (int i = 0; i < kDirections; ++i) {
@@ -140,13 +141,13 @@ Rectifier::Rectifier(const Lens& lens, const RectifyOptions& options, double sca
   const double largest = std::tan(options.largest_half_angle);
   const RadialTable table(lens, 1.01 * largest);
 
-  // Exact maps of the samples, then the fixed point that cv::remap works in (1/32 px).
+  // Computes exact maps of the samples, then the fixed-point maps that cv::remap uses (1/32 px).
   mask_ = cv::Mat(height, width, CV_8UC1, cv::Scalar(255));
   cv::Mat map(height * samples_, width * samples_, CV_32FC2);
   for (int y = 0; y < map.rows; ++y) {
     cv::Vec2f* row = map.ptr<cv::Vec2f>(y);
     uchar* mask = mask_.ptr<uchar>(y / samples_);
-    // x_work = (x + 0.5) s - 0.5, and a sample is such a pixel at the scale s·samples.
+    // Position x_work = (x + 0.5) s - 0.5; a sample is such a pixel at the scale s·samples.
     const double sample = scale_ * samples_;
     const double ry = ((y + 0.5) / sample - 0.5 - view_.cy) / view_.focal_px;
     for (int x = 0; x < map.cols; ++x) {
@@ -181,7 +182,7 @@ void Rectifier::Rectify(const cv::Mat& raw, cv::Mat& rectified) const {
     cv::remap(raw, rectified, map_xy_, map_fraction_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
     return;
   }
-  // In strips that stay in the cache between the two steps.
+  // Processes strips that stay in the cache between the two steps.
   const int strip = std::max(1, 64 / samples_);
   rectified.create(mask_.size(), raw.type());
   cv::Mat samples;

@@ -1,6 +1,7 @@
-// Takes the fisheye out of a raw frame: the picture that a pinhole camera with the lens's focal
-// length (at the axis) would have taken. A pixel of the rectified picture (x right, y down, origin
-// at the centre of the top-left pixel) is the ray ((x - cx)/f, (y - cy)/f, 1) in the camera frame.
+// Removes the distortion of a raw frame: computes the picture that a pinhole camera with the lens's
+// focal length (at the axis) would have taken. A pixel of the rectified picture (x right, y down,
+// origin at the centre of the top-left pixel) is the ray ((x - cx)/f, (y - cy)/f, 1) in the camera
+// frame.
 //
 // A working picture is the same view at a smaller scale s: x_work = (x + 0.5) s - 0.5, likewise y.
 #pragma once
@@ -18,42 +19,42 @@ struct RectifiedView {
 };
 
 struct RectifyOptions {
-  double rim_margin = 0.03;            // of the circle's radius, left out at the rim
-  double largest_half_angle = 1.2217;  // rad (70°): rays further off the axis are left out
+  double rim_margin = 0.03;            // share of the circle's radius, excluded at the rim
+  double largest_half_angle = 1.2217;  // rad (70°); rays further off the axis are excluded
 
   template <class V>
   void Visit(V&& v) {
     v("rim_margin", rim_margin, Range{0.0, 0.5}, "",
       "Share of the round window's radius that is left out at its rim.");
     v("largest_half_angle", largest_half_angle, Range{0.05, 1.4}, "rad",
-      "Rays further off the axis are left out: a flat picture would stretch them too far.");
+      "Rays further off the axis are left out, since a flat picture would stretch them too far.");
   }
 };
 
-// The view that just holds what the lens sees: inside its circle less the margin, inside the
-// picture, and not too far off the axis. Throws Error(kBadArgument) for a lens that sees nothing,
-// or so much that no picture could hold it.
+// Smallest view that contains all that the lens sees: inside its circle minus the margin, inside
+// the picture, and within the largest half angle. Throws Error(kBadArgument) when the lens sees
+// nothing, or so much that no picture could hold it.
 RectifiedView ViewOf(const Lens& lens, const RectifyOptions& options);
 
-// Maps worked out once, then applied to every frame. Safe to call from several threads.
+// Maps that are computed once and applied to every frame. Safe to call from several threads.
 class Rectifier {
  public:
   Rectifier(const Lens& lens, const RectifyOptions& options, double scale = 1.0);
 
   const RectifiedView& view() const { return view_; }
-  cv::Size size() const { return mask_.size(); }  // of the pictures at this scale
+  cv::Size size() const { return mask_.size(); }  // size of the pictures at this scale
   // CV_8UC1, 255 where the lens shows something.
   const cv::Mat& mask() const { return mask_; }
 
   // 8-bit, one or three channels; black outside the mask. Below scale 1 the raw pixels are
-  // averaged, not skipped. Throws Error(kBadImage) when `raw` does not have the lens's size.
+  // averaged, not skipped. Throws Error(kBadImage) when the size of `raw` is not the lens's.
   void Rectify(const cv::Mat& raw, cv::Mat& rectified) const;
 
  private:
   RectifiedView view_;
   int raw_width_ = 0, raw_height_ = 0;
   double scale_ = 1.0;
-  int samples_ = 1;                       // a side, averaged for one pixel of this scale
+  int samples_ = 1;                       // samples per side, averaged for one pixel of this scale
   cv::Mat map_xy_, map_fraction_, mask_;  // the maps at `samples_` times the size
 };
 

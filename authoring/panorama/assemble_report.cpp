@@ -51,8 +51,8 @@ PanoramaReport AssembleReport(const PreparedClip& clip, const std::vector<FrameR
   report.wanders_px = lens.wanders;
   report.rectified = PlainView(clip.view);
   report.drift_px = registration.drift_px;
-  // A guessed pinhole leaves the pictures as they are, so what is "rectified" is the raw picture
-  // and not the part of it that the round window shows.
+  // With a guessed pinhole the rectified picture is the whole raw picture, not the part inside the
+  // round window.
   cv::Matx33d view_from_rectified = cv::Matx33d::eye();
   if (lens.is_guessed) {
     Lens& raw = report.lens;

@@ -1,4 +1,4 @@
-// What the stages found, put together as one report.
+// Combines the results of the stages into one report.
 #pragma once
 
 #include <set>
@@ -10,8 +10,8 @@
 
 namespace arthro::authoring {
 
-// All of the report but what is not in the products: footage, options, costs. `placed` has a result
-// for each usable frame that was not excluded.
+// Fills the report except for what is not in the products: footage, options, costs. `placed` has a
+// result for each usable frame that was not excluded.
 PanoramaReport AssembleReport(const PreparedClip& clip, const std::vector<FrameResult>& placed,
                               const RegisterReport& registration,
                               const std::vector<ComposedPiece>& pieces,

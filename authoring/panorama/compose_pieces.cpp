@@ -9,7 +9,7 @@
 namespace arthro::authoring {
 namespace {
 
-// The placed frames' raw pictures in order; begins again after its end.
+// Raw pictures of the placed frames in order; begins again after the last.
 class PlacedPictures {
  public:
   PlacedPictures(const std::filesystem::path& path, const std::vector<FrameResult>& frames)
@@ -25,7 +25,7 @@ class PlacedPictures {
         continue;
       }
       if (!footage_.Next(rgb)) break;
-      if (rgb.empty()) continue;  // it could be read before; what changed is not ours
+      if (rgb.empty()) continue;  // the file has changed since the first reading
       index = footage_.index();
       return true;
     }
@@ -38,7 +38,7 @@ class PlacedPictures {
   std::set<int> wanted_;
 };
 
-// A component's frames as if it were the panorama.
+// Renumbers a component's frames as component 0.
 std::vector<FrameResult> AsPanorama(std::vector<FrameResult> frames, int component) {
   for (FrameResult& frame : frames) {
     if (frame.component == component && component >= 0) {
@@ -66,7 +66,7 @@ std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, c
                                          const std::vector<FrameResult>& frames, int least_piece,
                                          const ComposeOptions& options, const Progress& progress,
                                          const ComposeObserver& observer) {
-  // Each piece is a part of the stage, by its frames.
+  // Each piece has a part of the stage's progress, by its number of frames.
   const auto counts = FramesByComponent(frames);
   double all = 0, before = 0;
   for (const auto& [component, count] : counts)

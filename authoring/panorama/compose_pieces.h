@@ -1,5 +1,5 @@
-// The second half of the way: the placed frames drawn as one panorama, and as one more for each
-// piece that does not join it.
+// Composes the placed frames to the panorama, and to one additional picture for each piece that is
+// not joined to it.
 #pragma once
 
 #include <filesystem>
@@ -18,12 +18,12 @@ struct ComposedPiece {
   ComposeReport report;
 };
 
-// How many frames each component has; those that are not placed do not count.
+// Number of frames per component; frames that are not placed do not count.
 std::map<int, int> FramesByComponent(const std::vector<FrameResult>& frames);
 
-// Component 0 first, then every other that has `least_piece` frames. Reads the footage again for
-// each. `part` of a raw picture goes to `rectifier`, which must have scale 1. Throws
-// Error(kCancelled) and what reading throws.
+// Composes component 0 first, then every other component with `least_piece` frames. Reads the
+// footage again for each. `part` of a raw picture goes to `rectifier`, which must have scale 1.
+// Throws Error(kCancelled) and the errors of reading.
 std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, const cv::Rect& part,
                                          const Rectifier& rectifier,
                                          const std::vector<FrameResult>& frames, int least_piece,

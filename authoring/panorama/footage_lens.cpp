@@ -16,7 +16,7 @@ constexpr const char* kStage = "finding the round window";
 
 // Reads about `count` frames, spread over the clip.
 ClipCircle CircleOf(Footage& footage, int count, const Progress& progress) {
-  constexpr int kUnknownLength = 250;  // frames; where the container does not say
+  constexpr int kUnknownLength = 250;  // frames; used when the container does not give a length
   const int frames = footage.info().frames > 0 ? footage.info().frames : kUnknownLength;
   const int stride = std::max(1, frames / count);
   CircleFinder finder;
@@ -35,14 +35,14 @@ ClipCircle CircleOf(Footage& footage, int count, const Progress& progress) {
   return finder.Find();
 }
 
-// A picture's own width is all that is known of how wide it sees.
+// Lens without calibration: only the picture's width hints at the field of view.
 Lens GuessedLens(const cv::Size& size, const LensCircle& circle) {
   constexpr double kHalfField = 37.5;  // degrees; arthroscopes see 70 to 80 across
   Lens lens;
   lens.model = LensModel::kPinhole;
   lens.width = size.width;
   lens.height = size.height;
-  // Whole numbers, so that the rectified picture has the very pixels of the raw one.
+  // Integer centre, so that the rectified picture has exactly the pixels of the raw one.
   lens.cx = std::round(circle.r > 0 ? circle.cx : 0.5 * (size.width - 1));
   lens.cy = std::round(circle.r > 0 ? circle.cy : 0.5 * (size.height - 1));
   lens.cx = std::clamp(lens.cx, 0.0, size.width - 1.0);
@@ -69,8 +69,8 @@ FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Pro
                     given->width, given->height, info.name, info.width, info.height));
   if (!given) {
     const ClipCircle circle = CircleOf(footage, kFramesToFind, progress);
-    // Black bars are no tissue, and where they end is no edge of it.
-    constexpr int kLeastPart = 32;  // px a side
+    // Black bars are no tissue, and their edge is no edge of tissue.
+    constexpr int kLeastPart = 32;  // px per side
     if (circle.lit.width >= kLeastPart && circle.lit.height >= kLeastPart) found.part = circle.lit;
     LensCircle window = circle.circle;
     window.cx -= found.part.x;
@@ -78,10 +78,10 @@ FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Pro
     found.lens = GuessedLens(found.part.size(), window);
     found.is_guessed = true;
     found.wanders = circle.wanders;
-    found.warnings.push_back(fmt::format(
-        "no lens was given: the pictures are taken as they are, and the focal length of {:.0f} px "
-        "is a guess",
-        found.lens.focal_px));
+    found.warnings.push_back(
+        fmt::format("no lens was given: the pictures are not rectified, and the focal length of "
+                    "{:.0f} px is a guess",
+                    found.lens.focal_px));
   } else {
     found.lens = *given;
     const bool has_circle = given->circle.r > 0;
@@ -90,7 +90,8 @@ FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Pro
     found.wanders = circle.wanders;
     if (circle.circle.r > 0) {
       const LensCircle &ours = circle.circle, &theirs = given->circle;
-      constexpr double kAgree = 0.03;  // of the radius; the margin that is left out at the rim
+      constexpr double kAgree =
+          0.03;  // share of the radius; equals the margin that is excluded at the rim
       const double off = std::max(std::hypot(ours.cx - theirs.cx, ours.cy - theirs.cy),
                                   std::abs(ours.r - theirs.r));
       if (!has_circle) {

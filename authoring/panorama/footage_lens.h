@@ -1,5 +1,5 @@
-// The lens that a clip is taken out of: the one that was given, held against the footage, or where
-// none was given a pinhole, which leaves the pictures as they are.
+// Lens for the rectification of a clip: the given one, checked against the footage. Without a given
+// lens it is a pinhole, which leaves the pictures unchanged.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,16 @@
 namespace arthro::authoring {
 
 struct FootageLens {
-  Lens lens;                // its circle is what every frame shows
-  bool is_guessed = false;  // no lens was given: a pinhole whose focal length is a guess
-  double wanders = 0;       // px, how far the round window moves over the clip
-  cv::Rect part;            // of the raw picture that `lens` describes; all of it if it was given
+  Lens lens;                // its circle is the area that every frame shows
+  bool is_guessed = false;  // no lens was given: a pinhole with a guessed focal length
+  double wanders = 0;       // px, range of the round window's centre over the clip
+  cv::Rect
+      part;  // part of the raw picture that `lens` describes; the whole picture for a given lens
   std::vector<std::string> warnings;
 };
 
-// Looks at a few frames and rewinds. Throws Error(kBadArgument) when the given lens is for pictures
-// of another size.
+// Reads a few frames and rewinds. Throws Error(kBadArgument) when the given lens is for pictures of
+// another size.
 FootageLens LensOf(Footage& footage, const std::optional<Lens>& given, const Progress& progress);
 
 }  // namespace arthro::authoring

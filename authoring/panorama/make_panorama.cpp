@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A focal length that is far off is found less well than one that is nearly right.
+// Limit on corrections: a focal length far from the right one is estimated less well than a nearby
+// one.
 constexpr int kMostCorrections = 3;
 
 RgbaPicture PlainPicture(const cv::Mat& rgba) {
@@ -44,7 +45,7 @@ ColourImage PlainColour(const cv::Mat& picture) {
   return image;
 }
 
-// What a stage's product depends on, as text.
+// Text of everything that a stage's product depends on.
 template <class Options>
 std::string KeyOf(const Options& options) {
   return JsonFromOptions(options).dump();
@@ -64,7 +65,7 @@ std::string KeyOf(const std::optional<Lens>& lens) {
                      l.k[3], l.field_of_view, l.circle.cx, l.circle.cy, l.circle.r);
 }
 
-// A product holds as long as its key stays.
+// A product is valid as long as its key is unchanged.
 struct Keys {
   std::string clip, places, pieces;
 };
@@ -81,7 +82,7 @@ Keys KeysOf(const PanoramaRequest& request) {
   return keys;
 }
 
-// What registration cost, by its own parts; the rest of it is the graph's.
+// Cost of registration by its parts; the remainder belongs to the graph.
 std::vector<StageCost> RegisterCosts(const RegisterReport& report, double whole_ms) {
   std::vector<StageCost> costs = {
       {"features", report.features_ms}, {"pairs", report.pairs_ms}, {"refine", report.refine_ms}};
@@ -100,7 +101,7 @@ std::string FirstReason(const std::vector<FrameResult>& frames) {
 }  // namespace
 
 struct PanoramaSession::Products {
-  PanoramaRequest request;  // of the last run
+  PanoramaRequest request;  // the last request
   std::string clip_key, register_key, compose_key;
   PreparedClip clip;
   std::vector<StageCost> clip_costs, register_costs, compose_costs;
@@ -135,12 +136,12 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   const PanoramaOptions& options = request.options;
   made.request = request;
 
-  // Which products still hold.
+  // Products that are still valid.
   const Keys keys = KeysOf(request);
   const bool has_clip = made.clip_key == keys.clip,
              has_places = has_clip && made.register_key == keys.places,
              has_pieces = has_places && made.compose_key == keys.pieces;
-  // CPU ms a frame, roughly; only their ratio counts.
+  // Processor ms per frame, approximate; only the ratios matter.
   StageClock clock(progress, {{"read", has_clip ? 0 : 20},
                               {"prepare", has_clip ? 0 : 10},
                               {"register", has_places ? 0 : 60},
@@ -174,7 +175,7 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
                               frames.size() == 1 ? " is" : "s are"),
                   request.footage);
     made.registration = {};
-    // A guessed focal length says nothing of what the scope can see of a plane.
+    // A guessed focal length gives no constraint on the views of a plane.
     RegisterOptions registration = options.registration;
     if (clip.lens.is_guessed) registration.refine.camera_deviation = 0;
     made.placed =
@@ -184,7 +185,7 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
     made.register_costs = RegisterCosts(made.registration, clock.costs().back().cpu_ms);
     made.register_key = keys.places;
   }
-  // Once more through the focal length that the frames agree on.
+  // Registers again with the focal length that the frames agree on.
   const FocalFit focal = made.registration.focal;
   if (options.self_calibrate && request.lens && focal.is_determined && corrections_left > 0 &&
       std::abs(focal.factor - 1) > kFocalIsWrong) {
@@ -197,12 +198,12 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   const auto counts = FramesByComponent(made.placed);
   if (const auto main = counts.find(0); main == counts.end() || main->second < 2)
     throw Error(Code::kBadImage,
-                fmt::format("no two of its {} usable frames could be laid over each other{}; take "
-                            "footage that moves slowly over tissue with some texture",
+                fmt::format("no two of its {} usable frames could be aligned{}; take footage that "
+                            "moves slowly over tissue with some texture",
                             made.placed.size(), FirstReason(made.placed)),
                 request.footage);
 
-  // Where every frame lies, before the panorama is drawn.
+  // Reports the position of every frame before the panorama is drawn.
   if (observer.frame && !has_pieces)
     for (const FrameReport& row :
          AssembleReport(clip, made.placed, made.registration, {}, request.excluded).frames)
@@ -241,7 +242,7 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   report.peak_memory_mb = PeakMemoryMb();
   for (const ComposedPiece& piece : made.pieces)
     if (piece.component == 0) result.picture = PlainPicture(piece.composed.rgba);
-  // One entry a piece of the report, empty where it has too few frames.
+  // One entry per piece of the report, empty for a piece of too few frames.
   for (const PieceReport& row : report.pieces) {
     RgbaPicture& picture = result.pieces.emplace_back();
     for (const ComposedPiece& piece : made.pieces)

@@ -1,8 +1,8 @@
-// Footage to panorama [paper, 3.1]: reads, evens out the light, finds how the frames lie to each
-// other, composes. Each stage's product is kept, so that a window can change an option or leave a
-// frame out and only what depends on it is done again.
+// Footage to panorama [paper, 3.1]: reads, evens out the light, finds the relative positions of the
+// frames, composes. Keeps the product of each stage, so that after a change of an option or an
+// exclusion of a frame only the dependent stages run again.
 //
-// Plain types only: what is inside is OpenCV's, who calls need not be.
+// The interface has plain types only; OpenCV stays inside.
 #pragma once
 
 #include <filesystem>
@@ -23,27 +23,28 @@ namespace arthro::authoring {
 
 struct PanoramaRequest {
   std::filesystem::path footage;
-  std::optional<Lens> lens;  // none: the pictures are taken as they are, through a guessed pinhole
+  std::optional<Lens>
+      lens;  // none: the pictures are unchanged, as from a pinhole with a guessed focal length
   PanoramaOptions options;
-  std::set<int> excluded;  // frames that a person leaves out, by index in the footage
+  std::set<int> excluded;  // frames that a person excludes, by index in the footage
 };
 
 struct PanoramaResult {
-  RgbaPicture picture;              // of component 0
-  std::vector<RgbaPicture> pieces;  // of the report's pieces, in their order; empty: too few frames
+  RgbaPicture picture;              // component 0
+  std::vector<RgbaPicture> pieces;  // the report's pieces, in their order; empty: too few frames
   PanoramaReport report;
 };
 
-// What a window shows while the job runs. Called from the job's thread; any may be empty.
+// Callbacks of a window while the job runs. Called from the job's thread; any may be empty.
 struct PanoramaObserver {
-  // As frames are read, with a small picture (empty where there is none); again, without one, when
-  // it is known where they lie, and at the end.
+  // Called for each frame read, with a small picture (empty when there is none). Called again
+  // without a picture when the frame's position is known, and at the end.
   std::function<void(const FrameReport&, const ColourImage& small)> frame;
-  // The panorama as it grows, small.
+  // Called with the growing panorama, small.
   std::function<void(const RgbaPicture&)> mosaic;
 };
 
-// A frame as the stages see it: as it was filmed, without the fisheye, with even light.
+// Stage of a frame's picture: as recorded, without distortion, with evened-out light.
 enum class FrameStage { kRaw, kRectified, kEvenLight };
 
 class PanoramaSession {
@@ -53,18 +54,17 @@ class PanoramaSession {
   PanoramaSession& operator=(PanoramaSession&&) noexcept;
   ~PanoramaSession();
 
-  // Does what the request changes since the last one. Throws Error for footage that gives no
-  // panorama, for a wrong lens or option, and Error(kCancelled) within half a second of being told;
-  // stages that were over by then are kept.
+  // Runs the stages that the request changes since the last run. Throws Error for footage that
+  // gives no panorama and for a wrong lens or option, and Error(kCancelled) within half a second of
+  // a stop. Completed stages are kept.
   PanoramaResult Run(const PanoramaRequest& request, const PanoramaObserver& observer,
                      const Progress& progress);
 
-  // The first stage that Run would do again for this request: "read", "register", "compose"; ""
-  // when it would do none.
+  // First stage that Run would repeat for this request: "read", "register", "compose"; "" for none.
   std::string NextStage(const PanoramaRequest& request) const;
 
-  // A frame of the last request that got as far as "prepare"; kEvenLight of usable frames only.
-  // Nothing where there is no such picture. Reads the footage again for the other two.
+  // Picture of a frame of the last request after the stage "prepare"; kEvenLight of usable frames
+  // only. Returns nothing when there is no such picture. Reads the footage again for the other two.
   std::optional<ColourImage> PictureOf(int index, FrameStage stage) const;
 
  private:
@@ -75,7 +75,7 @@ class PanoramaSession {
   std::unique_ptr<Products> products_;
 };
 
-// The same in one go.
+// Runs all stages in one call.
 PanoramaResult MakePanorama(const PanoramaRequest& request, const Progress& progress);
 
 }  // namespace arthro::authoring

@@ -1,5 +1,5 @@
-// Every choice between footage and panorama, in one list: the stages' own options, each under its
-// stage's name where two stages could mean different things by one word.
+// All options from footage to panorama in one list: the stages' own options, under the stage's name
+// when two stages share an option's name.
 #pragma once
 
 #include "authoring/footage/choose_frames.h"
@@ -24,12 +24,13 @@ struct PanoramaOptions {
   template <class V>
   void Visit(V&& v) {
     v("working_scale", working_scale, Range{0, 2}, "",
-      "Size at which frames are matched, of their rectified size; 0: by the size of the picture.");
+      "Scale of matching, relative to the rectified size; 0 chooses it by the size of the "
+      "picture.");
     v("least_piece", least_piece, Range{2, 1000}, "frames",
-      "A separate piece that does not join the panorama is composed when it has this many.");
+      "Least number of frames of a separate piece that is composed.");
     v("self_calibrate", self_calibrate, Any{}, "",
-      "Where the frames agree on a focal length more than 1 % off the lens file's, begin anew with "
-      "theirs.");
+      "Repeat with the focal length of the frames when it differs from the lens file's by more "
+      "than 1 %.");
     choose.Visit(v);
     registration.Visit(v);
     rectify.Visit(PartVisitor<V>{v, "rectify_"});

@@ -1,5 +1,5 @@
-// What became of a clip: the panorama's geometry and, for every frame of the footage, where it lies
-// or why it does not. Plain types, so that a window can show it. File: report_io.h [method.md, File
+// Report on a clip: the panorama's geometry and, for every frame of the footage, its position or
+// the reason for its absence. Plain types, for use by a window. File: report_io.h [method.md, File
 // formats].
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace arthro::authoring {
 
-// A picture that pinholes take: x right, y down, origin at the centre of the top-left pixel, px.
+// Pinhole picture: x right, y down, origin at the centre of the top-left pixel, px.
 struct PinholeView {
   int width = 0, height = 0;
   double focal_px = 0, cx = 0, cy = 0;
@@ -21,17 +21,17 @@ struct PinholeView {
 
 struct FrameReport {
   int index = 0;       // in the footage
-  std::string source;  // the file, or the video and the frame's number
+  std::string source;  // name of the file, or the video and the frame's number
   bool is_placed = false;
   bool is_usable = false;  // it was tried: readable, of the right size, not blank, not left out
-  std::string reason;      // why it is not placed; "" when it is
-  int component = -1;      // 0: the panorama; 1…: a piece that does not join it; -1: none
-  std::array<double, 9> panorama_from_rectified{1, 0, 0, 0, 1, 0, 0, 0, 1};  // of its component
+  std::string reason;      // why it is not placed; "" for a placed frame
+  int component = -1;      // 0: the panorama; 1…: a piece that is not joined to it; -1: none
+  std::array<double, 9> panorama_from_rectified{1, 0, 0, 0, 1, 0, 0, 0, 1};  // in its component
   int inliers = 0;
   double rms_px = 0, expected_error_px = 0;
 };
 
-// Frames that hold together but do not join the panorama.
+// Frames that are connected with each other but not with the panorama.
 struct PieceReport {
   int component = 0;
   int frames = 0;
@@ -42,21 +42,21 @@ struct PieceReport {
 struct PanoramaReport {
   std::string footage;
   bool is_partial = false;
-  std::string summary;  // one sentence; begins with "partial:" when it is
+  std::string summary;  // one sentence; begins with "partial:" for a partial panorama
   Lens lens;
   bool is_lens_guessed = false;
   PinholeView rectified, panorama;
   std::vector<FrameReport> frames;
-  double mean_error_px = 0, max_error_px = 0;  // of what is expected of the placed frames
+  double mean_error_px = 0, max_error_px = 0;  // expected errors of the placed frames
   double drift_px = 0;
-  double wanders_px = 0;  // how far the round window moved over the clip
+  double wanders_px = 0;  // range of the round window's centre over the clip
   std::string detector;
   int seed = 0;
   std::vector<StageCost> stages;
   double peak_memory_mb = 0;
   std::vector<std::string> warnings;
   std::vector<PieceReport> pieces;
-  std::string options;  // as JSON
+  std::string options;  // JSON
 };
 
 struct RgbaPicture {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostBuffered = 200'000'000;  // bytes of working pictures kept while reading
 constexpr int kThumbWidth = 120;                    // px
 
-// The rectified working pictures of the usable frames: from memory where they fitted, else read
+// Rectified working pictures of the usable frames: from memory as far as they fit, otherwise read
 // again.
 class WorkingPictures {
  public:
@@ -32,13 +32,13 @@ class WorkingPictures {
     kept_.clear();
   }
 
-  // Begins at the first; `wanted` must be in order.
+  // Begins at the first frame; `wanted` must be in order.
   void Start(std::vector<int> wanted) {
     wanted_ = std::move(wanted);
     next_ = 0;
     if (overflowed_) footage_.Rewind();
   }
-  // False at the end. With `release` a kept picture is given away for good.
+  // Returns false at the end. With `release` a kept picture is moved out.
   bool Next(int& index, cv::Mat& working, bool release) {
     if (next_ >= wanted_.size()) return false;
     index = wanted_[next_++];
@@ -74,7 +74,8 @@ cv::Mat SmallOf(const cv::Mat& working) {
   return small;
 }
 
-// Reads the clip once: rows, looks, and working pictures as far as they fit.
+// Reads the clip once: report rows, measures of the frames, and working pictures as far as they
+// fit.
 std::vector<FrameLook> ReadAll(Footage& footage, const Rectifier& rectifier,
                                const PanoramaOptions& options, const FrameObserver& observer,
                                const Progress& progress, PreparedClip& clip,
@@ -93,7 +94,7 @@ std::vector<FrameLook> ReadAll(Footage& footage, const Rectifier& rectifier,
     FrameLook look;
     cv::Mat working;
     if (i % options.choose.every != 0) {
-      if (!footage.Skip()) break;  // its reason comes with the choice
+      if (!footage.Skip()) break;  // its reason is set by the choice
     } else {
       if (!footage.Next(raw)) break;
       if (raw.empty()) {
@@ -117,11 +118,11 @@ std::vector<FrameLook> ReadAll(Footage& footage, const Rectifier& rectifier,
   return looks;
 }
 
-// Fills in who is usable, and returns their indices.
+// Marks the usable frames and returns their indices.
 std::vector<int> Choose(std::vector<FrameLook>& looks, const PanoramaOptions& options,
                         PreparedClip& clip) {
   if (options.choose.skip_blank) MarkBlanks(looks);
-  // A frame that could not be read must not win its stretch.
+  // An unreadable frame must not be chosen for its stretch.
   for (std::size_t i = 0; i < looks.size(); ++i)
     if (!clip.reports[i].reason.empty()) looks[i].sharpness = -1;
   const auto reasons = ReasonsAgainst(looks, options.choose);
@@ -135,7 +136,7 @@ std::vector<int> Choose(std::vector<FrameLook>& looks, const PanoramaOptions& op
   return chosen;
 }
 
-// "12 blank, 3 unreadable": what stands before the colon of each reason, counted.
+// Text such as "12 blank, 3 unreadable": the parts of the reasons before the colon, counted.
 std::string CountedReasons(const std::vector<FrameReport>& rows) {
   std::map<std::string, int> counts;
   for (const FrameReport& row : rows)
@@ -151,8 +152,9 @@ std::string CountedReasons(const std::vector<FrameReport>& rows) {
 }  // namespace
 
 double WorkingScaleOf(const RectifiedView& view) {
-  // Half, where accuracy and cost were measured (600 to 1100 px); large pictures come down to the
-  // same size, and small ones up to what the search for pairs needs (224 px were too few for it).
+  // Half scale, as in the measurements of accuracy and cost (600 to 1100 px). Large pictures are
+  // reduced to the same size, and small ones enlarged to the size that the search for pairs needs
+  // (224 px were too few).
   constexpr double kLeast = 400, kSmall = 480, kLarge = 1100, kMostEnlarged = 2;
   const double side = std::max(view.width, view.height);
   if (side < kLeast) return std::min(kMostEnlarged, kLeast / side);
@@ -199,7 +201,7 @@ PreparedClip PrepareClip(const std::filesystem::path& path, const std::optional<
   }
   const ClipLook look = builder.Finish();
 
-  // A few at a time, side by side.
+  // A few at a time, in parallel.
   constexpr std::size_t kBatch = 4;
   pictures.Start(chosen);
   for (bool has_more = true; has_more;) {

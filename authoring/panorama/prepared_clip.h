@@ -1,5 +1,5 @@
-// The first half of the way from footage to panorama: which frames are usable, and what of them is
-// matched. One reading of the clip; a second and third where its pictures would not fit in memory.
+// First half of the path from footage to panorama: selects the usable frames and prepares them for
+// matching. Reads the clip once, or up to three times when its pictures do not fit in memory.
 #pragma once
 
 #include <filesystem>
@@ -24,21 +24,21 @@ struct PreparedClip {
   FootageLens lens;
   RectifiedView view;
   double scale = 0.5;                // working px per rectified px
-  cv::Mat mask;                      // CV_8UC1, what the lens shows, at the working scale
-  std::vector<WorkingFrame> frames;  // of the usable ones, in order
-  std::vector<FrameReport> reports;  // of all, in order; the usable ones are not placed yet
+  cv::Mat mask;                      // CV_8UC1, visible area of the lens at the working scale
+  std::vector<WorkingFrame> frames;  // usable frames, in order
+  std::vector<FrameReport> reports;  // all frames, in order; the usable ones are not placed yet
   std::vector<std::string> warnings;
 };
 
-// Called for each frame as it is read: its row, and a small picture (RGB), empty where none could
-// be read.
+// Called for each frame as it is read, with its row and a small picture (RGB), empty for an
+// unreadable frame.
 using FrameObserver = std::function<void(const FrameReport&, const cv::Mat& small_rgb)>;
 
-// The scale at which a view of this size is matched when the options leave it open.
+// Scale of matching for a view of this size, when the options leave it open.
 double WorkingScaleOf(const RectifiedView& view);
 
-// Stages "read" and "prepare" of the clock. Throws Error when nothing is usable; see footage.h and
-// footage_lens.h for the rest.
+// Runs the stages "read" and "prepare" of the clock. Throws Error when no frame is usable; see
+// footage.h and footage_lens.h for other errors.
 PreparedClip PrepareClip(const std::filesystem::path& footage, const std::optional<Lens>& lens,
                          const PanoramaOptions& options, const FrameObserver& observer,
                          StageClock& clock);

@@ -93,8 +93,7 @@ void CheckPanoramaName(const fs::path& file) {
   const std::string ending = file.extension().string();
   if (ending != ".png" && ending != ".jpg" && ending != ".jpeg")
     throw Error(Code::kBadArgument,
-                "a panorama is written as .png, which keeps what was imaged as alpha, or as .jpg",
-                file);
+                "a panorama is written as .png, with the imaged area as alpha, or as .jpg", file);
   std::error_code ignored;
   if (fs::is_directory(file, ignored))
     throw Error(Code::kFile, "this is a folder; give the name of a file", file);
@@ -113,7 +112,7 @@ void WritePanorama(const fs::path& file, const RgbaPicture& picture) {
   const bool is_png = file == "-" || file.extension() == ".png";
   cv::Mat bgr;
   cv::cvtColor(rgba, bgr, is_png ? cv::COLOR_RGBA2BGRA : cv::COLOR_RGBA2BGR);
-  // Who drops the alpha should find black, as beyond the round window of a frame.
+  // A viewer that ignores alpha should show black, as beyond the round window of a frame.
   cv::Mat alpha;
   cv::extractChannel(rgba, alpha, 3);
   bgr.setTo(cv::Scalar::all(0), alpha == 0);

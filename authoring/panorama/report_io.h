@@ -1,5 +1,5 @@
-// A panorama and its report as files. The report is JSON [method.md, File formats], by
-// resources/schemas/panorama-1.schema.json; with `panorama` in it a scene knows its projection.
+// Panorama and report as files. The report is JSON [method.md, File formats], by
+// resources/schemas/panorama-1.schema.json; its entry `panorama` gives a scene its projection.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@ namespace arthro::authoring {
 
 std::string JsonFromReport(const PanoramaReport& report);
 
-// Written whole or not at all; "-" is standard output.
+// Writes the whole file or none; "-" is standard output.
 void WriteReport(const std::filesystem::path& file, const PanoramaReport& report);
 
-// PNG keeps what was imaged as alpha; JPEG has none, and shows the rest black. "-" is PNG on
-// standard output. Throws Error(kBadArgument) for another ending, Error(kFile).
+// Writes PNG with the imaged area as alpha, or JPEG, which has no alpha and is black elsewhere. "-"
+// is PNG on standard output. Throws Error(kBadArgument) for another extension, Error(kFile).
 void WritePanorama(const std::filesystem::path& file, const RgbaPicture& picture);
 
-// Throws what WritePanorama would for this name, without writing: an hour of work should not end
-// on a wrong folder.
+// Throws the errors of WritePanorama for this name, without writing: a wrong folder must not end an
+// hour of work.
 void CheckPanoramaName(const std::filesystem::path& file);
 
 }  // namespace arthro::authoring

@@ -41,7 +41,7 @@ void StageClock::End() {
 
 void StageClock::Report(std::string_view words, double done) {
   if (!whole_.report) return;
-  // The last step belongs to whoever writes the result.
+  // The last step belongs to the writer of the result.
   constexpr double kMost = 0.99;
   const double share = (before_ + share_ * std::clamp(done, 0.0, 1.0)) / std::max(total_, 1e-9);
   done_ = std::max(done_, std::min(share, kMost));

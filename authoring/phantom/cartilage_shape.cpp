@@ -9,10 +9,10 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kMm = kMetrePerMillimetre;
-constexpr int kRings = 13;  // about 0.6 mm apart; ring k has 6k vertices, so triangles are even
-constexpr double kShare = 0.95;        // of the bed: its very rim has no depth to fill
-constexpr double kProud = 0.10 * kMm;  // by which its middle stands over the cartilage around it
-constexpr double kGlue = 0.05 * kMm;   // between it and the bed
+constexpr int kRings = 13;  // spaced by about 0.6 mm; ring k has 6k vertices, so triangles are even
+constexpr double kShare = 0.95;        // share of the bed's radius; its rim has no depth to fill
+constexpr double kProud = 0.10 * kMm;  // height of the layer's middle over the cartilage around it
+constexpr double kGlue = 0.05 * kMm;   // gap between the layer and the bed
 
 int FirstOfRing(int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); }
 int OfRing(int ring, int i) { return ring == 0 ? 0 : FirstOfRing(ring) + i % (6 * ring); }
@@ -35,7 +35,7 @@ PhantomTissue MakeCartilage(const Cavity& cavity) {
   PhantomTissue tissue;
   tissue.name = "tibial cartilage";
   tissue.portal_from_tissue = {portal_from_tissue.translation, portal_from_tissue.rotation, 1.0};
-  // Top first, then bottom: discs of rings with the same plan.
+  // Top first, then bottom: two discs of rings with the same plan.
   for (const bool top : {true, false})
     for (int ring = 0; ring <= kRings; ++ring)
       for (int i = 0; i < std::max(6 * ring, 1); ++i) {

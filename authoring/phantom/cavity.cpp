@@ -15,6 +15,25 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kMm = kMetrePerMillimetre;
 
+// Noise channels: each draws its own values from the cavity's seed. Noise of k d, d a unit
+// direction, has about k features per rad.
+enum NoiseChannel : std::uint32_t {
+  kFoldWarpX = 11,
+  kFoldWarpY = 12,
+  kFoldWarpZ = 13,
+  kFoldBroad = 14,
+  kFoldNarrow = 15,
+  kOverhangMargin = 21,
+  kFatMarginBroad = 31,
+  kFatMarginFine = 32,
+  kLobuleWarpX = 41,
+  kLobuleWarpY = 42,
+  kLobuleWarpZ = 43,
+  kLobules = 44,
+  kLumps = 45,
+  kSmallLobules = 46,
+};
+
 glm::dvec3 Jitter(Random& random, double size) {
   return {random.Uniform(-size, size), random.Uniform(-size, size), random.Uniform(-size, size)};
 }
@@ -40,10 +59,11 @@ double CastBundle(const Bundle& bundle, const glm::dvec3& d) {
   return nearest;
 }
 
-// The slab of heights that holds all of the plateau worth seeing; m.
+// Range of heights that holds the visible plateau; m.
 constexpr double kPlateauTop = 17.0 * kMm, kPlateauBottom = -16.0 * kMm;
 
-// Steps down through the slab until under the height field, then halves the step to a picometre.
+// Steps down through the range of heights until below the height field, then bisects the step to a
+// picometre.
 double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double limit) {
   const Rigid3 plateau_from_portal = Inverse(plateau.portal_from_plateau);
   const glm::dvec3 o = plateau_from_portal.translation,
@@ -71,35 +91,43 @@ double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double l
   return 0.5 * (last + inside);
 }
 
-// Folds run one way and are long: noise stretched along a slowly turning direction, its zero lines
-// rounded into ridges.
+// Folds are long and run in one direction: noise stretched along a slowly turning direction, its
+// zero lines rounded into ridges.
 double Folds(const glm::dvec3& d, std::uint32_t seed) {
-  const glm::dvec3 warp(GradientNoise(1.7 * d, seed + 11), GradientNoise(1.7 * d, seed + 12),
-                        GradientNoise(1.7 * d, seed + 13));
-  const glm::dvec3 q = d + 0.45 * warp;
-  const double n = GradientNoise(glm::dvec3(2.1 * q.x, 3.9 * q.y, 2.1 * q.z), seed + 14);
-  const double broad = std::exp(-n * n * 14.0);
-  const double m = GradientNoise(glm::dvec3(5.3 * q.x, 8.7 * q.y, 5.3 * q.z), seed + 15);
-  const double narrow = std::exp(-m * m * 9.0);
-  return 0.72 * broad + 0.28 * narrow * (0.4 + 0.6 * broad);
+  constexpr double kTurns = 1.7, kWarp = 0.45;  // per rad; strength of the warp
+  constexpr double kBroadSharpness = 14.0, kNarrowSharpness = 9.0;
+  constexpr double kBroadShare = 0.72, kNarrowShare = 0.28;  // shares of the height
+  const glm::dvec3 warp(GradientNoise(kTurns * d, seed + kFoldWarpX),
+                        GradientNoise(kTurns * d, seed + kFoldWarpY),
+                        GradientNoise(kTurns * d, seed + kFoldWarpZ));
+  const glm::dvec3 q = d + kWarp * warp;
+  // Folds per rad along x, y and z: closer together from top to bottom.
+  const double n = GradientNoise(glm::dvec3(2.1 * q.x, 3.9 * q.y, 2.1 * q.z), seed + kFoldBroad);
+  const double broad = std::exp(-n * n * kBroadSharpness);
+  const double m = GradientNoise(glm::dvec3(5.3 * q.x, 8.7 * q.y, 5.3 * q.z), seed + kFoldNarrow);
+  const double narrow = std::exp(-m * m * kNarrowSharpness);
+  return kBroadShare * broad + kNarrowShare * narrow * (0.4 + 0.6 * broad);
 }
 
-// Smooth stand-ins for the star-shaped surfaces, for Clearance.
+// Smooth approximations of the star-shaped surfaces, for Clearance.
 double CapsuleBase(const Cavity& cavity, const glm::dvec3& d) {
   const double front = SmoothStep(0.58, 0.96, d.z - 0.08 * d.x);
   const double base = cavity.capsule_side + (cavity.capsule_front - cavity.capsule_side) * front;
-  // Overhead the synovium hangs down to where it joins the condyle.
+  // Overhead the synovium reaches down to its junction with the condyle.
   if (d.y > -0.45) return base;
-  const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + 21);
-  return base - cavity.overhang * SmoothStep(0.74, 1.0, -d.y + ragged);
+  constexpr double kOverheadFrom = 0.74;  // sine of the elevation
+  const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + kOverhangMargin);
+  return base - cavity.overhang * SmoothStep(kOverheadFrom, 1.0, -d.y + ragged);
 }
 
-// How much of the fat pad there is in a direction, 0 to 1: below and in front, more on the lateral
-// side.
+// Share of the fat pad in a direction, 0 to 1: below and in front, more on the lateral side.
 double FatShare(const Cavity& cavity, const glm::dvec3& d) {
-  const double edge = 0.24 * GradientNoise(2.3 * d, cavity.seed + 31) +
-                      0.08 * GradientNoise(6.0 * d, cavity.seed + 32);
-  return SmoothStep(0.38, 0.80, d.y - 0.16 * d.x + edge);
+  constexpr double kFatFrom = 0.38,
+                   kFatTo = 0.80;    // sine of the depression; full pad from kFatTo on
+  constexpr double kLateral = 0.16;  // preference of the lateral side
+  const double edge = 0.24 * GradientNoise(2.3 * d, cavity.seed + kFatMarginBroad) +
+                      0.08 * GradientNoise(6.0 * d, cavity.seed + kFatMarginFine);
+  return SmoothStep(kFatFrom, kFatTo, d.y - kLateral * d.x + edge);
 }
 
 }  // namespace
@@ -108,6 +136,8 @@ Cavity MakeCavity(std::uint32_t seed) {
   Random random(0xA27450000ull + seed);
   Cavity cavity;
   cavity.seed = static_cast<std::uint32_t>(random.Next());
+  // Near(mean, share): a mean in mm and its relative spread. Sizes are chosen so that the joint
+  // holds the scope and the instrument and fills its view; none is measured.
   cavity.capsule_side = random.Near(41.5, 0.01) * kMm;
   cavity.capsule_front = 47.6 * kMm;
   cavity.fold_height = random.Near(3.2, 0.15) * kMm;
@@ -115,7 +145,7 @@ Cavity MakeCavity(std::uint32_t seed) {
   cavity.fat_distance = random.Near(21.8, 0.03) * kMm;
   cavity.lobe_height = random.Near(2.4, 0.12) * kMm;
 
-  // The plateau faces the scope a little: the scope looks down on it by its tilt.
+  // The plateau is tilted towards the scope, which looks down on it.
   Plateau& plateau = cavity.plateau;
   const double tilt = RadiansFromDegrees(random.Uniform(12.5, 15.0));
   const double yaw = RadiansFromDegrees(random.Uniform(-5.0, 5.0));
@@ -140,7 +170,7 @@ Cavity MakeCavity(std::uint32_t seed) {
   plateau.bed.wobble = {random.Uniform(0.0, 6.28), random.Uniform(0.0, 6.28)};
   plateau.bed.depth = random.Near(2.3, 0.06) * kMm;
 
-  // The condyle hangs over the dish with the joint opened by a valgus push.
+  // The condyle lies over the dish; a valgus load opens the joint.
   cavity.condyle.radii =
       glm::dvec3(random.Near(19.0, 0.03), random.Near(22.0, 0.02), random.Near(20.5, 0.02)) * kMm;
   const double gap = random.Uniform(7.0, 7.8) * kMm;
@@ -152,7 +182,7 @@ Cavity MakeCavity(std::uint32_t seed) {
   cavity.condyle.centre =
       lowest + cavity.condyle.portal_from_body * glm::dvec3(0.0, -cavity.condyle.radii.y, 0.0);
 
-  // A cruciate-like band, fanned out where it leaves the tibia.
+  // Ligament similar to a cruciate, with fibres that fan out at the tibia.
   const glm::dvec3 foot =
       plateau.portal_from_plateau * glm::dvec3(-18.0 * kMm, 3.0 * kMm, -0.5 * kMm);
   const glm::dvec3 roof = glm::dvec3(-22.0, -26.0, 37.0) * kMm + Jitter(random, 0.8 * kMm);
@@ -186,10 +216,11 @@ double BedDepth(const CartilageBed& bed, double share) {
 
 double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) {
   double z = 0.5 * plateau.curvature_x * x * x + 0.5 * plateau.curvature_y * y * y;
-  // The outline is a rounded box; past nine tenths of it the edge rolls off.
+  // Outline of a rounded box, with an edge that rolls off beyond nine tenths of it.
+  constexpr double kRollFrom = 0.9;
   const double u = x / (x > 0.0 ? plateau.half_width_medial : plateau.half_width_lateral),
                v = y / plateau.half_depth;
-  const double past = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v)) - 0.9;
+  const double past = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v)) - kRollFrom;
   if (past > 0.0) z -= plateau.roll_off * past * past;
   const double su = (x - plateau.spine.x) / plateau.spine_radii.x,
                sv = (y - plateau.spine.y) / plateau.spine_radii.y;
@@ -203,25 +234,25 @@ double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) 
 }
 
 double CapsuleDistance(const Cavity& cavity, const glm::dvec3& d) {
-  // Folds fade towards the back of the joint, and where the instrument comes in.
+  // Folds fade towards the back of the joint and at the instrument's portal.
   const double portal_side = SmoothStep(0.75, 0.97, d.x);
   const double strength = (1.0 - 0.75 * SmoothStep(0.7, 0.95, d.z)) * (1.0 - 0.6 * portal_side);
   return CapsuleBase(cavity, d) - cavity.fold_height * strength * Folds(d, cavity.seed);
 }
 
 double FatLobule(const Cavity& cavity, const glm::dvec3& d) {
-  const glm::dvec3 wobble(GradientNoise(4.0 * d, cavity.seed + 41),
-                          GradientNoise(4.0 * d, cavity.seed + 42),
-                          GradientNoise(4.0 * d, cavity.seed + 43));
-  return LobeNoise(6.2 * d + 0.45 * wobble, cavity.seed + 44);
+  const glm::dvec3 wobble(GradientNoise(4.0 * d, cavity.seed + kLobuleWarpX),
+                          GradientNoise(4.0 * d, cavity.seed + kLobuleWarpY),
+                          GradientNoise(4.0 * d, cavity.seed + kLobuleWarpZ));
+  return LobeNoise(6.2 * d + 0.45 * wobble, cavity.seed + kLobules);
 }
 
 double FatDistance(const Cavity& cavity, const glm::dvec3& d) {
   const double share = FatShare(cavity, d);
-  if (share <= 0.0) return 2.0 * cavity.radius;  // behind everything
-  // Lobules with small ones on them, on lumps four times their size.
-  const double lobulet = LobeNoise(14.0 * d, cavity.seed + 46);
-  const double lump = 0.5 + 0.5 * GradientNoise(2.6 * d, cavity.seed + 45);
+  if (share <= 0.0) return 2.0 * cavity.radius;  // behind all other surfaces
+  // Lobules carry smaller ones and lie on lumps four times their size.
+  const double lobulet = LobeNoise(14.0 * d, cavity.seed + kSmallLobules);
+  const double lump = 0.5 + 0.5 * GradientNoise(2.6 * d, cavity.seed + kLumps);
   const double base = cavity.capsule_front + (cavity.fat_distance - cavity.capsule_front) * share;
   return base -
          share * cavity.lobe_height * (1.3 * FatLobule(cavity, d) + 0.25 * lobulet + 0.9 * lump);
@@ -257,7 +288,8 @@ glm::dvec3 EllipsoidNormal(const Ellipsoid& e, const glm::dvec3& x) {
   return glm::normalize(e.portal_from_body * (body / (e.radii * e.radii)));
 }
 
-// Towards the portal from a surface at distance R(direction): -∇(|x| - R(x/|x|)); x lies on it.
+// Normal towards the portal of a surface at distance R(direction): -∇(|x| - R(x/|x|)); x lies on
+// it.
 template <class Distance>
 glm::dvec3 StarNormal(const glm::dvec3& x, const Distance& distance) {
   const double length = glm::length(x);

@@ -18,6 +18,7 @@ constexpr double kMm = kMetrePerMillimetre;
 Crescent MakeCrescent(const Cavity& cavity) {
   Random random(0x3E415C05ull + cavity.seed);
   Crescent c;
+  // Near(mean, share): a mean in mm and its relative spread. The sizes are chosen, not measured.
   c.centre = glm::dvec2(random.Uniform(-0.3, 0.6), random.Uniform(-0.2, 0.4)) * kMm;
   c.outer_x = random.Near(16.4, 0.015) * kMm;
   c.outer_y = random.Near(15.6, 0.015) * kMm;
@@ -42,12 +43,14 @@ Wedge WedgeAt(const Crescent& c, double angle) {
                   anterior * (c.anterior_width - c.body_width),
               c.body_height + posterior * (c.posterior_height - c.body_height) +
                   anterior * (c.anterior_height - c.body_height)};
-  // 1 at 29° from a horn's end. The taper is never so steep that rings, which keep their number of
-  // points, would shear into slivers.
-  const double from_end = std::clamp(std::min(angle - c.from, c.to - angle) / 0.50, 0.0, 1.0);
+  // Equals 1 at 29° from a horn's end. A steeper taper would shear the rings, whose number of
+  // points is fixed, into slivers.
+  constexpr double kTaper = 0.50;                        // rad from a horn's end
+  constexpr double kEndWidth = 0.36, kEndHeight = 0.38;  // shares of the body's at the end
+  const double from_end = std::clamp(std::min(angle - c.from, c.to - angle) / kTaper, 0.0, 1.0);
   const double full = std::sin(0.5 * std::numbers::pi * from_end);
-  wedge.width *= 0.36 + 0.64 * full;
-  wedge.height *= 0.38 + 0.62 * full;
+  wedge.width *= kEndWidth + 0.64 * full;
+  wedge.height *= kEndHeight + 0.62 * full;
   return wedge;
 }
 

@@ -1,5 +1,5 @@
-// The crescent that the phantom's meniscus is made from, as formulas over its angle: what its fine
-// surface and its tetrahedra have in common. Plateau frame, m, rad.
+// Crescent shape of the phantom's meniscus, as formulas over its angle; the fine surface and the
+// tetrahedra share it. Plateau frame, m, rad.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,7 +11,7 @@
 
 namespace arthro::authoring {
 
-// Sizes; angles from medial (0) to posterior (90°).
+// Dimensions; angles from medial (0) to posterior (90°).
 struct Crescent {
   glm::dvec2 centre{0.0};
   double outer_x = 0, outer_y = 0;  // radii of the outer rim
@@ -19,7 +19,7 @@ struct Crescent {
   double body_width = 0, posterior_width = 0, anterior_width = 0;
   double body_height = 0, posterior_height = 0, anterior_height = 0;
   double edge = 0.42 * kMetrePerMillimetre;  // thickness of the free edge
-  double film = 0.10 * kMetrePerMillimetre;  // of fluid between meniscus and plateau
+  double film = 0.10 * kMetrePerMillimetre;  // film of fluid between meniscus and plateau
   Rigid3 plateau_from_tissue;
 };
 Crescent MakeCrescent(const Cavity& cavity);
@@ -31,18 +31,18 @@ struct Wedge {
 Wedge WedgeAt(const Crescent& crescent, double angle);
 
 double OuterRadius(const Crescent& crescent, double angle);
-// A place over the plateau, at a distance from the crescent's centre.
+// Point of the plateau at a distance from the crescent's centre.
 glm::dvec3 OnPlateau(const Cavity& cavity, const Crescent& crescent, double angle, double r,
                      double lift);
-// Of the free edge; thin where the wedge is low.
+// Thickness of the free edge; smaller where the wedge is low.
 double EdgeThickness(const Crescent& crescent, const Wedge& wedge);
-// Height of the upper face over the plateau at a share q of the width, 0 at the free edge: a wedge
-// with a slightly hollow back, that turns over at its outer shoulder.
+// Height of the upper face over the plateau at a share q of the width, 0 at the free edge. The face
+// is slightly concave and turns over at its outer shoulder.
 double TopOf(const Crescent& crescent, const Wedge& wedge, double q);
-// How far the rim stands out at a share of its height.
+// Outward bulge of the rim at a share of its height.
 double RimBulge(const Wedge& wedge, double up);
 
-// The tetrahedra of the same crescent and where it is held.
+// Fills the same crescent with tetrahedra and sets its fixed regions.
 void FillMeniscus(const Cavity& cavity, const Crescent& crescent, PhantomTissue& tissue);
 
 }  // namespace arthro::authoring

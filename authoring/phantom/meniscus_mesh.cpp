@@ -1,6 +1,6 @@
-// The crescent filled with quadratic tetrahedra: a cross-section of eleven triangles, finer towards
-// the free edge where instruments work, swept from horn to horn. Middles of edges lie on the same
-// formulas as the surface, so elements are curved as it is.
+// Fills the crescent with quadratic tetrahedra: a cross-section of eleven triangles, finer towards
+// the free edge at which instruments work, swept from horn to horn. Middles of edges lie on the
+// formulas of the surface, so elements have the same curvature.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr double kMm = kMetrePerMillimetre;
 struct SectionPoint {
   double q, t;
 };
-// Two points a column while the wedge is thin, three where it is thick.
+// Two points per column in the thin part of the wedge, three in the thick part.
 constexpr std::array<SectionPoint, 12> kSection = {{{0.0, 0.0},
                                                     {0.0, 1.0},
                                                     {0.20, 0.0},
@@ -54,7 +54,7 @@ struct Parameters {
 glm::dvec3 PlaceOf(const Cavity& cavity, const Crescent& c, const Parameters& p) {
   const Wedge wedge = WedgeAt(c, p.angle);
   const double bottom = c.film, top = TopOf(c, wedge, p.q);
-  // The bulge of the rim fades inwards, so that elements beside it keep their shape.
+  // The bulge of the rim decreases inwards, so that elements beside it keep their shape.
   const double share = std::max(0.0, (p.q - 0.72) / 0.28);
   const double r =
       OuterRadius(c, p.angle) - (1.0 - p.q) * wedge.width + share * RimBulge(wedge, p.t);
@@ -81,9 +81,9 @@ double SixVolumes(const std::vector<glm::dvec3>& x, const std::array<int, 4>& e)
   return glm::dot(glm::cross(x[e[1]] - x[e[0]], x[e[2]] - x[e[0]]), x[e[3]] - x[e[0]]);
 }
 
-// Each prism between two slices as three tetrahedra. The corners of a triangle are climbed in the
-// order of their numbers, so that neighbours agree on the diagonal between them; every second slice
-// is climbed the other way, so that no direction is stiffer.
+// Splits each prism between two slices into three tetrahedra. A prism takes its corners in the
+// order of their numbers, so that neighbours agree on the diagonal between them. Every second slice
+// reverses the order, so that no direction is stiffer.
 std::vector<std::array<int, 4>> CornersOfElements(const std::vector<glm::dvec3>& x) {
   std::vector<std::array<int, 4>> elements;
   for (int slice = 0; slice < kSlices; ++slice)
@@ -115,7 +115,7 @@ void FillMeniscus(const Cavity& cavity, const Crescent& c, PhantomTissue& tissue
   for (int node = 0; node < (kSlices + 1) * kInSection; ++node)
     mesh.rest_positions.push_back(place(CornerOf(c, node)));
 
-  // Curved on the surface, straight inside, where a curve would only cost shape.
+  // Curved on the surface; straight inside, since a curve there would only distort elements.
   const auto middle_of = [&](const std::pair<int, int>& edge) {
     const Parameters u = CornerOf(c, edge.first), v = CornerOf(c, edge.second);
     const bool is_outside =
@@ -140,15 +140,15 @@ void FillMeniscus(const Cavity& cavity, const Crescent& c, PhantomTissue& tissue
     }
   }
 
-  // Held as in the knee: the horns at their roots, the rim along the capsule. The balls of the rim
-  // stand outside and reach in by 1 mm.
+  // Fixed as in the knee: the horns at their roots, the rim along the capsule. The balls of the rim
+  // are centred outside and reach in by 1 mm.
   const auto hold = [&](const glm::dvec3& centre, double radius) {
-    constexpr double kStep = 1e-5;  // m; finer figures would say nothing
+    constexpr double kStep = 1e-5;  // m, resolution of the file
     tissue.fixed.push_back({glm::round(centre / kStep) * kStep, radius});
   };
   for (const double angle : {c.from, c.to}) hold(place({angle, 0.5, 0.5}), 2.2 * kMm);
   constexpr int kRimBalls = 22;
-  constexpr double kFromHorn = 0.4;  // rad; the roots end there
+  constexpr double kFromHorn = 0.4;  // rad, length of the roots
   constexpr double kRadius = 2.5 * kMm, kReach = 1.0 * kMm;
   for (int i = 0; i < kRimBalls; ++i) {
     const double share = (i + 0.5) / kRimBalls;

@@ -58,12 +58,12 @@ PhantomTissue MakeMeniscus(const Cavity& cavity) {
   tissue.name = "medial meniscus";
   tissue.portal_from_tissue = {portal_from_tissue.translation, portal_from_tissue.rotation, 1.0};
   FillMeniscus(cavity, c, tissue);
-  // Rings from the anterior to the posterior horn, about as far apart as the points of a ring.
+  // Rings from the anterior to the posterior horn, spaced about as the points of a ring.
   constexpr int kRings = 76;
   constexpr double kBevel = 0.5 * kMm;
   for (int ring = 0; ring < kRings; ++ring) {
-    // The first and the last are the bevels of the horns' ends: their neighbours, shrunk and pushed
-    // on.
+    // The first and the last ring are the bevels of the horns' ends: their neighbours, shrunk and
+    // displaced.
     const int drawn = std::clamp(ring, 1, kRings - 2);
     const double angle = c.from + (c.to - c.from) * (drawn - 1) / (kRings - 3);
     std::array<ProfilePoint, kProfile> profile;
@@ -95,7 +95,7 @@ PhantomTissue MakeMeniscus(const Cavity& cavity) {
         triangles.push_back({b, d, e});
       }
     }
-  // The horns' ends: bottom and top of the profile zipped together.
+  // Triangles of the horns' ends, between bottom and top of the profile.
   for (const int ring : {0, kRings - 1}) {
     const auto face = [&](int i, int j, int k) {
       if (ring != 0)
@@ -108,8 +108,8 @@ PhantomTissue MakeMeniscus(const Cavity& cavity) {
       face(i, i + 1, top(i + 1));
       face(i, top(i + 1), top(i));
     }
-    // The rim's lower half hangs on the last but one point of the bottom, its upper half on that of
-    // the top.
+    // Triangles of the rim's lower half share the second last point of the bottom, those of its
+    // upper half the second last of the top.
     constexpr int kLow = kFlat - 1, kMiddle = kFlat + (kRim + 1) / 2;
     for (int i = kFlat; i < kMiddle; ++i) face(kLow, i, i + 1);
     face(kLow, kMiddle, top(kLow));

@@ -6,7 +6,7 @@
 namespace arthro::authoring {
 namespace {
 
-// A lattice point's random bits, from its coordinates times these factors.
+// Factors that turn a lattice point's coordinates into its random bits.
 constexpr std::uint32_t kLatticeX = 0x85EBCA6Bu, kLatticeY = 0xC2B2AE35u, kLatticeZ = 0x27D4EB2Fu;
 inline std::uint32_t Bits(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t seed) {
   std::uint32_t h = x ^ (y + seed) ^ (z + seed * 0x9E3779B1u);
@@ -19,9 +19,10 @@ inline std::uint32_t Whole(double floored) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(floored));
 }
 
+// Quintic blend with zero first and second derivatives at 0 and 1 [Perlin 2002].
 inline double Fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
-// Directions spread evenly over the sphere along a spiral; lattice points pick theirs from here.
+// Directions spread evenly over the sphere along a spiral; each lattice point selects one.
 constexpr std::uint32_t kDirections = 64;
 struct Directions {
   glm::dvec3 of[kDirections];
@@ -65,7 +66,7 @@ double FractalNoise(const glm::dvec3& p, int octaves, std::uint32_t seed) {
   glm::dvec3 q = p;
   for (int octave = 0; octave < octaves; ++octave) {
     sum += strength * GradientNoise(q, seed + static_cast<std::uint32_t>(octave) * 101u);
-    // Turned between octaves, so that their lattices never line up.
+    // Rotation between octaves, so that their lattices never align.
     q = 2.03 * glm::dvec3(0.8 * q.x - 0.6 * q.z, 0.6 * q.x * 0.28 + 0.96 * q.y + 0.8 * q.z * 0.28,
                           0.6 * q.x + 0.8 * q.z);
     strength *= 0.5;
@@ -74,8 +75,8 @@ double FractalNoise(const glm::dvec3& p, int octaves, std::uint32_t seed) {
 }
 
 double LobeNoise(const glm::dvec3& p, std::uint32_t seed) {
-  // A soft maximum of bells, one a lattice cell: log Σ exp(-k d²) / k is -d² to the nearest point
-  // with its creases rounded. Lobes differ in size by `share`.
+  // Soft maximum of bells, one per lattice cell: log Σ exp(-k d²) / k is -d² to the nearest point
+  // with rounded creases. Lobes differ in size by `share`.
   constexpr double kSharpness = 7.0;
   const glm::dvec3 base(std::floor(p.x), std::floor(p.y), std::floor(p.z));
   double sum = 0.0;
@@ -91,15 +92,17 @@ double LobeNoise(const glm::dvec3& p, std::uint32_t seed) {
         const double share = 0.85 + 0.3 * static_cast<double>(h >> 24) / 255.0;
         const glm::dvec3 d = cell + jitter - p;
         const double d2 = (d.x * d.x + d.y * d.y + d.z * d.z) / (share * share);
-        // The bell is brought to zero at 1.3 cells, inside the 27 cells searched.
-        const double fade = 1.0 - d2 / 1.69;
+        // The bell reaches zero at 1.3 cells, inside the 27 cells searched.
+        constexpr double kReach = 1.69;  // squared cells
+        const double fade = 1.0 - d2 / kReach;
         if (fade <= 0.0) continue;
         sum += fade * fade * std::exp(-kSharpness * d2);
       }
-  constexpr double kSpread = 1.8;  // so that creases come near 0
+  constexpr double kSpread = 1.8;  // brings creases near 0
   const double height = 1.0 + kSpread * std::log(sum + 1e-3) / kSharpness;
-  // A rounded floor, where no lobe is near.
-  return std::min(0.5 * (height + std::sqrt(height * height + 0.06)), 1.0);
+  // Rounded minimum away from all lobes.
+  constexpr double kRounding = 0.06;  // squared height
+  return std::min(0.5 * (height + std::sqrt(height * height + kRounding)), 1.0);
 }
 
 double SmoothStep(double from, double to, double x) {

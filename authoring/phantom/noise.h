@@ -1,5 +1,5 @@
-// Small seeded noise: the same seed and point give the same value on every thread. Points are in
-// whatever unit the caller scales by; a feature is about one unit wide.
+// Seeded noise: the same seed and point give the same value on every thread. The caller scales the
+// points; a feature is about one unit wide.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace arthro::authoring {
 // Gradient noise, smooth to the second derivative, within about ±1 and zero on average.
 double GradientNoise(const glm::dvec3& p, std::uint32_t seed);
 
-// Octaves of gradient noise, each twice as fine and half as strong; within about ±1.
+// Octaves of gradient noise, each with half the size and half the amplitude of the one before;
+// within about ±1.
 double FractalNoise(const glm::dvec3& p, int octaves, std::uint32_t seed);
 
 // Rounded lobes around scattered points, 0 in the creases to about 1 at the tops; creases are
 // smooth.
 double LobeNoise(const glm::dvec3& p, std::uint32_t seed);
 
-// 0 below `from`, 1 above `to`, smooth between; `from` may be the larger.
+// Returns 0 below `from`, 1 above `to`, a smooth value between; `from` may be the larger.
 double SmoothStep(double from, double to, double x);
 
 }  // namespace arthro::authoring

@@ -11,10 +11,11 @@
 namespace arthro::authoring {
 namespace {
 
-// A micrometre, near enough, as a power of two: finer bits of the relief would only swell the file.
+// Resolution of the relief, about a micrometre as a power of two; finer bits would only enlarge the
+// file.
 constexpr double kDepthStep = 0x1p-20;   // m
-constexpr double kSilhouette = 0.25e-3;  // m by which depth breaks
-constexpr int kSubpixels = 3;            // a side
+constexpr double kSilhouette = 0.25e-3;  // m, least step of depth at a silhouette
+constexpr int kSubpixels = 3;            // per side
 
 SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
   const CavityHit hit = CastFromPortal(view.cavity, direction);
@@ -29,7 +30,7 @@ SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
       point.surface = tissue->surface;
       point.wall_gap = hit.wall_distance - tissue->distance;
       point.x = tissue->distance * direction;
-      // The layer lies flush: its seam shows in colour, not in shading.
+      // The layer is flush: its seam shows in colour, not in shading.
       point.normal = tissue->surface == Surface::kCartilage
                          ? NormalAt(view.cavity, Surface::kPlateau, point.x, false)
                          : tissue->normal;
@@ -39,7 +40,7 @@ SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
     point.shade = view.tissues->ShadeAt(hit.surface, point.x);
   }
   point.normal = NormalAt(view.cavity, hit.surface, point.x, false);
-  // Translucent walls: the empty bed shows as a gentle dimple, however deep it is.
+  // Visible share of the bed's depth: translucent walls show the empty bed as a shallow dimple.
   constexpr double kDimple = 0.22;
   if (hit.surface == Surface::kPlateau && !view.tissues)
     point.normal = glm::normalize(
@@ -76,20 +77,19 @@ float ReliefOf(const Cavity& cavity, const SurfacePoint& point) {
                             kDepthStep);
 }
 
-// Would this point look otherwise without the tissues?
+// True when the tissues change the appearance of this point.
 bool ConcernsTissue(const Cavity& cavity, const SurfacePoint& point) {
   if (point.surface == Surface::kMeniscus || point.surface == Surface::kCartilage ||
       point.shade < 1.0)
     return true;
   if (point.surface != Surface::kPlateau) return false;
-  // The bed, filled or not, changes the light around it.
+  // Reach of the bed's effect on the light around it, filled or empty.
   constexpr double kLightReach = 1.9;  // radii of the bed
   const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * point.x;
   return BedShare(cavity.plateau.bed, p.x, p.y) < kLightReach;
 }
 
-// A quick no: neither can a ray in this direction meet a tissue, nor does one shade what it does
-// meet.
+// Fast rejection: a ray in this direction meets no tissue, and no tissue shades the point it meets.
 bool IsFarFromTissues(const TissueCaster& tissues, const PhantomPicture& without,
                       const glm::dvec3& direction, std::size_t pixel) {
   const Surface surface = without.surfaces[pixel];
@@ -115,7 +115,7 @@ double ExposureOf(const PhantomView& view, const Projection& projection, int wid
           Radiance(view.cavity, view.vessels, view.look, point) / view.look.light;
       brightness.push_back(glm::dot(radiance, glm::dvec3(0.30, 0.59, 0.11)));
     }
-  // The brightest tenth may roll off.
+  // The brightest tenth may be compressed.
   const auto bright = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() * 9 / 10);
   std::nth_element(brightness.begin(), bright, brightness.end());
   constexpr double kTarget = 0.74;
@@ -150,8 +150,7 @@ PhantomPicture RenderPanorama(const PhantomView& view, const Projection& project
       }
     }
   });
-  // A silhouette runs where the surface changes or its depth breaks; a slope, however steep, is
-  // none.
+  // A silhouette is a change of surface or a discontinuity of depth; a steep slope is neither.
   const auto on_silhouette = [&](int x, int y) {
     const auto breaks = [&](int dx, int dy) {
       const std::size_t here = index(x, y), next = index(x + dx, y + dy),

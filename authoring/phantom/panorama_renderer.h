@@ -1,4 +1,4 @@
-// Draws the phantom as the panorama of a scene: colours smoothed at silhouettes, relief exact at
+// Draws the phantom as the panorama of a scene: colours antialiased at silhouettes, relief exact at
 // pixel centres.
 #pragma once
 
@@ -22,14 +22,14 @@ struct PhantomView {
 struct PhantomPicture {
   ColourImage colour;
   DepthMap depth;  // relief D - distance, rounded to 2⁻²⁰ m (0.95 µm) so that it packs well
-  std::vector<Surface> surfaces;  // what is seen at each pixel centre
+  std::vector<Surface> surfaces;  // visible surface at each pixel centre
 };
 
-// The exposure at which the cavity's bright parts come out bright but not white.
+// Exposure that makes the cavity's bright parts bright but not white.
 double ExposureOf(const PhantomView& view, const Projection& projection, int width, int height);
 
-// The same bytes for any number of threads; 0 takes one per processor. Given the picture of the
-// same view without its tissues, only what they change is coloured anew.
+// Gives the same bytes for any number of threads; 0 takes one per processor. Given the picture of
+// the same view without its tissues, only the pixels that they change are coloured again.
 PhantomPicture RenderPanorama(const PhantomView& view, const Projection& projection, int width,
                               int height, double exposure, int threads, const Progress& progress,
                               const char* stage, const PhantomPicture* without = nullptr);

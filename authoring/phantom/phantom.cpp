@@ -10,7 +10,8 @@
 namespace arthro::authoring {
 namespace {
 
-// The portal lies outside the ellipsoid: walk down the distance until the surface faces the portal.
+// The portal lies outside the ellipsoid: follows the gradient of distance until the surface faces
+// the portal.
 glm::dvec3 NearestToPortal(const Cavity& cavity) {
   glm::dvec3 direction = glm::normalize(cavity.condyle.centre);
   for (int i = 0; i < 200; ++i) {

@@ -1,4 +1,4 @@
-// A digital phantom: from a seed, a knee cavity whose truth is known exactly, as a scene, with
+// A digital phantom: makes from a seed a knee cavity with exactly known truth, as a scene, with
 // deformable models and the hand motions of a short session. Portal frame, m.
 #pragma once
 
@@ -29,7 +29,7 @@ struct PhantomOptions {
   template <class V>
   void Visit(V&& v) {
     v("seed", seed, Range{0, 2147483647}, "",
-      "Which knee: sizes, folds, vessels and colours follow from it.");
+      "Seed of the knee: sizes, folds, vessels and colours follow from it.");
     v("size", size,
       Choices<PhantomSize>{
           {{PhantomSize::kSmall, "S"}, {PhantomSize::kMedium, "M"}, {PhantomSize::kLarge, "L"}}},
@@ -52,7 +52,7 @@ struct PhantomOptions {
       Choices<PictureFormat>{{{PictureFormat::kPng, "png"}, {PictureFormat::kJpg, "jpg"}}}, "",
       "Panoramas as lossless PNG, or as JPEG of a tenth of the size.");
     v("threads", threads, Range{0, 256}, "",
-      "Threads that draw; 0: one per processor. The result is the same.");
+      "Drawing threads; 0 takes one per processor. The result does not depend on it.");
   }
 };
 
@@ -62,23 +62,22 @@ struct Phantom {
   Projection projection;
   PhantomPicture without_tissues, with_tissues;
   PhantomTissue meniscus, cartilage;
-  std::vector<Landmark> landmarks;  // of the bones and of both tissues
+  std::vector<Landmark> landmarks;  // on the bones and on both tissues
   // m. The instrument comes from the scope's medial side, as through an anteromedial portal beside
   // the patellar tendon: so near that its shaft passes behind the anterior horn, over the plateau's
-  // dish. From 25 mm and further it would come to lie on the anterior rim before a hook is under
-  // the free edge.
+  // dish. From 25 mm on it would lie on the anterior rim before a hook is under the free edge.
   double incision_spacing = 0.018;
   std::vector<TraceRow> trace;
 };
 
-// Width and height of the panorama, and how its pixels look out from the portal.
+// Width and height of the panorama, and its projection from the portal.
 struct PhantomFrame {
   int width = 0, height = 0;
   Projection projection;
 };
 PhantomFrame FrameOf(const PhantomOptions& options);
 
-// The same options but `threads` give the same phantom, bit for bit.
+// Makes the same phantom, bit for bit, from the same options, whatever `threads` is.
 Phantom MakePhantom(const PhantomOptions& options, const Progress& progress = {});
 
 }  // namespace arthro::authoring

@@ -55,7 +55,7 @@ Json JsonOf(const Pose& pose) {
           {"scale", pose.scale}};
 }
 
-// The frames of a clip and nothing else: 0000.png, 0001.png …
+// True for a folder that holds only the frames of a clip: 0000.png, 0001.png …
 bool IsFootage(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
@@ -79,7 +79,7 @@ bool IsEarlierPhantom(const fs::path& folder) {
   return truth.is_object() && truth.value("schema", Json()) == kSchema;
 }
 
-// Of "out", "out/" and "./out" alike.
+// Same path for "out", "out/" and "./out".
 fs::path Plain(const fs::path& folder) {
   fs::path plain = folder.lexically_normal();
   return plain.has_filename() ? plain : plain.parent_path();
@@ -102,14 +102,14 @@ void WriteFiles(const fs::path& folder, const Phantom& phantom, const FootageWri
   WriteScene(folder / "scene.json", SceneOf(phantom));
 }
 
-// The name that stands beside `folder` while it is written or replaced.
+// Temporary name beside `folder`, used while it is written or replaced.
 fs::path Beside(const fs::path& folder, const char* what) {
   fs::path path = folder;
   path.replace_filename(fmt::format(".{}.{}.{}", folder.filename().string(), ::getpid(), what));
   return path;
 }
 
-// Makes what WritePhantom will make, and takes it back.
+// Creates the folder that WritePhantom will create, and removes it again.
 void RequireRoomBeside(const fs::path& folder) {
   std::error_code fault;
   const fs::path trial = Beside(folder, "partial");
@@ -143,7 +143,7 @@ void RequirePhantomFolder(const fs::path& wanted) {
   try {
     ours = fs::is_empty(folder) || IsEarlierPhantom(folder);
   } catch (const fs::filesystem_error&) {
-    throw Error(Code::kFile, "cannot be looked into; name another place with -o", folder);
+    throw Error(Code::kFile, "cannot be read; name another place with -o", folder);
   }
   if (!ours)
     throw Error(Code::kFile,
@@ -161,7 +161,7 @@ void WritePhantom(const fs::path& wanted, const Phantom& phantom, const FootageW
   try {
     fs::create_directory(partial);
     WriteFiles(partial, phantom, footage);
-    // An earlier phantom steps aside first, and comes back should the last step fail.
+    // Renames an earlier phantom first and restores it when the last step fails.
     const bool replaces = fs::exists(folder);
     if (replaces) fs::rename(folder, old);
     try {
@@ -193,7 +193,7 @@ Scene SceneOf(const Phantom& phantom) {
   scene.author = "arthroscene phantom";
   scene.backdrop = {"panorama" + extension, "depth.tiff", phantom.cavity.radius, phantom.projection,
                     rights};
-  // It is lit from the portal when it is computed; a trainee sees it by the scope's lamp.
+  // The picture is computed with light from the portal; a trainee sees it lit from the scope.
   scene.backdrop.relight = 0.6;
   scene.portals.incision_spacing = phantom.incision_spacing;
   Tissue meniscus;
@@ -230,7 +230,8 @@ Json TruthOf(const Phantom& phantom) {
     Json entry{{"name", landmark.name}, {"x_in_portal", JsonOf(landmark.x_in_portal)}};
     if (const auto pixel = PixelFromDirection(phantom.projection, landmark.x_in_portal)) {
       entry["pixel"] = JsonOf(*pixel);
-      // Seen in the picture with the tissues, or behind something nearer?
+      // Checks whether the landmark is visible in the picture with the tissues, or hidden by a
+      // nearer surface.
       const int u = static_cast<int>(std::lround(pixel->x)),
                 v = static_cast<int>(std::lround(pixel->y));
       const DepthMap& depth = phantom.with_tissues.depth;
@@ -251,7 +252,7 @@ Json TruthOf(const Phantom& phantom) {
                 {"triangles", t.surface.triangles.size()}};
   };
   PhantomOptions recorded = phantom.options;
-  recorded.threads = 0;  // changes nothing, so it is not part of the truth
+  recorded.threads = 0;  // has no effect, so it is not part of the truth
   Json options = JsonFromOptions(recorded);
   options.erase("threads");
   return Json{{"schema", kSchema},
@@ -305,7 +306,7 @@ std::string TraceCsv(const Phantom& phantom) {
   for (const TraceRow& row : phantom.trace) {
     const glm::dvec3& h = row.hip_in_device;
     const glm::dquat& q = row.handle_in_device;
-    // A tenth of a micrometre and a microradian: finer than any device.
+    // Resolution of 0.1 micrometre and 1 microradian, finer than any device's.
     fmt::format_to(std::back_inserter(csv),
                    "{:.3f},{},{:.7f},{:.7f},{:.7f},{:.7f},{:.7f},{:.7f},{:.7f},{}\n", row.t,
                    row.is_scope ? "scope" : "instrument", h.x, h.y, h.z, q.w, q.x, q.y, q.z,

@@ -1,4 +1,4 @@
-// A phantom as a folder: a whole scene (scene.json, panorama, depth.tiff, meniscus.ply,
+// Phantom as a folder: a whole scene (scene.json, panorama, depth.tiff, meniscus.ply,
 // cartilage.ply), the ground truth (truth.json, panorama_with_tissue, depth_with_tissue.tiff) and
 // trace.csv. Depths are relief in m.
 #pragma once
@@ -14,15 +14,15 @@
 
 namespace arthro::authoring {
 
-// Throws Error(kFile) unless `folder` is new, empty, or holds an earlier phantom and nothing else;
-// a phantom may then take its place. Call before the work, so that nobody waits in vain.
+// Throws Error(kFile) unless `folder` is new, empty, or holds nothing but an earlier phantom, which
+// a phantom may replace. Called before the work starts, so that a refusal costs no time.
 void RequirePhantomFolder(const std::filesystem::path& folder);
 
-// Writes more files into the folder, and returns what truth.json says of them under "footage"; null
-// for nothing. See clip/phantom_footage.h.
+// Writes more files into the folder and returns their description for "footage" in truth.json; null
+// without any. See clip/phantom_footage.h.
 using FootageWriter = std::function<nlohmann::json(const std::filesystem::path& folder)>;
 
-// All files or none: written into a folder beside, which then takes the name.
+// Writes all files or none: into a temporary folder beside, which then takes the name.
 void WritePhantom(const std::filesystem::path& folder, const Phantom& phantom,
                   const FootageWriter& footage = {});
 

@@ -1,5 +1,5 @@
-// The phantom's deformable models: closed, outward-facing surfaces in frames of their own, and
-// where they truly lie.
+// Deformable models of the phantom: closed, outward-facing surfaces in frames of their own, and
+// their true poses.
 #pragma once
 
 #include <string>
@@ -25,21 +25,22 @@ struct PhantomTissue {
   SurfaceMesh surface;      // own frame, m
   Pose portal_from_tissue;  // scale 1
   std::vector<double>
-      rims;      // a vertex: 0 at the meniscus' free edge, 1 at its outer rim; else empty
-  TetMesh mesh;  // quadratic; empty: a thin layer, which needs none
-  std::vector<Ball> fixed;  // where it is held
+      rims;  // one per vertex: 0 at the meniscus' free edge, 1 at its outer rim; otherwise empty
+  TetMesh mesh;             // quadratic; empty for a thin layer, which needs no mesh
+  std::vector<Ball> fixed;  // regions at which it is fixed
   std::vector<Landmark> landmarks;
 };
 
-// The medial meniscus: a crescent wedge on the plateau, thin at its free inner edge, thick at its
-// outer rim. Its frame stands in the crescent's middle, x medial and z up, turned a little about z.
+// Medial meniscus: a crescent wedge on the plateau, thin at its free inner edge, thick at its outer
+// rim. The origin of its frame is the crescent's middle, x medial and z up, rotated a little about
+// z.
 PhantomTissue MakeMeniscus(const Cavity& cavity);
 
-// The layer of cartilage that fills the plateau's bed flush. Its frame stands in the layer's
+// Layer of cartilage that fills the plateau's bed flush. The origin of its frame is the layer's
 // middle, z up.
 PhantomTissue MakeCartilage(const Cavity& cavity);
 
-// A surface as it lies in the scene.
+// Surface of a tissue in the portal frame.
 SurfaceMesh InPortal(const PhantomTissue& tissue);
 
 }  // namespace arthro::authoring

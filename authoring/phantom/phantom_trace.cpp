@@ -16,9 +16,9 @@ namespace {
 using simulation::RodPose;
 constexpr double kMm = kMetrePerMillimetre;
 constexpr double kDuration = 12.0, kRate = 100.0;       // s, Hz
-constexpr double kViewAngle = 30.0 * kRadianPerDegree;  // of the phantom's scope
+constexpr double kViewAngle = 30.0 * kRadianPerDegree;  // oblique view of the phantom's scope
 
-// Least jerk between two rests.
+// Minimum-jerk interpolation between two rests [Flash & Hogan 1985].
 double Ease(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
@@ -51,10 +51,9 @@ RodPose PoseOfTip(const glm::dvec3& tip_from_portal, double roll) {
           roll, depth};
 }
 
-// Where to hold a scope of view angle α at depth ρ so that `target` is in the middle of its
-// picture, from the side `from` of it: the rod passes the target at δ = α − asin(ρ sin α /
-// |target|), and is rolled until the view leans back to it. Of all turns the one nearest to
-// `near_roll`.
+// Pose of a scope with view angle α at depth ρ that centres `target` in its picture, from the side
+// `from` of it. The rod passes the target at δ = α − asin(ρ sin α / |target|), and is rolled until
+// the view leans back to it. Among equivalent turns, takes the one nearest to `near_roll`.
 RodPose AimAt(const glm::dvec3& target, double depth, double view_angle, const glm::dvec3& from,
               double near_roll) {
   const double distance = glm::length(target);
@@ -69,21 +68,21 @@ RodPose AimAt(const glm::dvec3& target, double depth, double view_angle, const g
   return pose;
 }
 
-// How the instrument is held: its tip in the portal frame and the turn of its hook.
+// Pose of the instrument: its tip in the portal frame and the turn of its hook.
 struct HandPose {
   glm::dvec3 tip{0.0};
   double roll = 0;
 };
 
-// Down beside the edge with the hook dipped below it, outwards under it, turned level, up, held,
-// and drawn in until the edge slips off.
+// Motion of the lift: down beside the edge with the hook dipped below it, outwards under it, turned
+// level, up, held, and drawn in until the edge slips off.
 std::vector<Key<HandPose>> HookKeys(const EdgeLift& lift, const Cavity& cavity,
                                     const glm::dvec3& instrument_portal) {
-  constexpr double kReach = 3.4 * kMm;                   // of a probe's hook, from its rod
-  constexpr double kDip = 35.0 * kRadianPerDegree;       // the hook's end goes 2 mm down
-  constexpr double kRaise = 10.0 * kRadianPerDegree;     // over level
-  constexpr double kUnder = 3.2 * kMm, kUp = 2.0 * kMm;  // of the hook's end, of the hand
-  // The hook stands square to the rod: as far outwards as that lets it.
+  constexpr double kReach = 3.4 * kMm;                   // reach of a probe's hook from its rod
+  constexpr double kDip = 35.0 * kRadianPerDegree;       // lowers the hook's end by 2 mm
+  constexpr double kRaise = 10.0 * kRadianPerDegree;     // above level
+  constexpr double kUnder = 3.2 * kMm, kUp = 2.0 * kMm;  // under the edge; rise of the hand
+  // The hook is perpendicular to the rod; this is the most outward direction that allows.
   const RodPose rod = PoseOfTip(lift.x_in_portal - instrument_portal, 0.0);
   const simulation::RodBasis basis = BasisOf(rod);
   const glm::dvec3 level =
@@ -94,7 +93,7 @@ std::vector<Key<HandPose>> HookKeys(const EdgeLift& lift, const Cavity& cavity,
     const glm::dvec3 hook = std::cos(angle) * level + std::sin(angle) * raised;
     return std::atan2(glm::dot(hook, basis.east), glm::dot(hook, basis.north));
   };
-  // The tip, with the hook's end this far past the edge and this high over the plateau.
+  // Position of the tip with the hook's end this far past the edge and this high over the plateau.
   const glm::dvec3 reach = kReach * (level - glm::dot(level, lift.up) * lift.up);
   const Rigid3 plateau_from_portal = Inverse(cavity.plateau.portal_from_plateau);
   const auto tip_at = [&](double past, double height) {
@@ -117,19 +116,19 @@ std::vector<Key<HandPose>> HookKeys(const EdgeLift& lift, const Cavity& cavity,
 
 std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissue& meniscus) {
   std::vector<ProbeContact> contacts;
-  // The condyle low on its medial side, seen from the instrument's portal.
+  // Low point of the condyle on its medial side, seen from the instrument's portal.
   const Ellipsoid& condyle = cavity.condyle;
   const glm::dvec3 body = glm::normalize(glm::dvec3(0.45, 0.62, -0.65));
   const glm::dvec3 on_condyle = condyle.centre + condyle.portal_from_body * (body * condyle.radii);
   contacts.push_back({on_condyle, NormalAt(cavity, Surface::kCondyle, on_condyle), 1.5 * kMm,
                       5.0 * kMm, 3.75, 4.5});
-  // The plateau in front of the cartilage layer.
+  // Point of the plateau in front of the cartilage layer.
   const double x = -1.0 * kMm, y = -16.0 * kMm;
   const glm::dvec3 on_plateau =
       cavity.plateau.portal_from_plateau * glm::dvec3(x, y, PlateauHeight(cavity.plateau, x, y));
   contacts.push_back({on_plateau, NormalAt(cavity, Surface::kPlateau, on_plateau), 2.0 * kMm,
                       5.0 * kMm, 5.1, 5.9});
-  // The body of the meniscus, nearer to its free edge.
+  // Body of the meniscus, nearer to its free edge.
   const auto named = [&](const char* name) {
     return std::find_if(meniscus.landmarks.begin(), meniscus.landmarks.end(),
                         [&](const Landmark& l) { return l.name == name; })
@@ -154,8 +153,8 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
 }
 
 EdgeLift LiftOfEdge(const Cavity& cavity) {
-  // Between body and posterior horn, where most tears are and a hook that comes from the front
-  // stands nearly across the edge.
+  // Angle between body and posterior horn: most tears lie there, and a hook from the front is
+  // nearly perpendicular to the edge.
   constexpr double kAngle = 55.0 * kRadianPerDegree;
   const Crescent crescent = MakeCrescent(cavity);
   const double edge = OuterRadius(crescent, kAngle) - WedgeAt(crescent, kAngle).width;
@@ -173,7 +172,8 @@ std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& menis
   const glm::dvec3 instrument_portal(incision_spacing, 0.0, 0.0);
   const std::vector<ProbeContact> touches = ProbeContacts(cavity, meniscus);
   const EdgeLift lift = LiftOfEdge(cavity);
-  // In, a look at the whole joint with a full roll, then after the probe from touch to touch.
+  // The scope goes in, surveys the whole joint with a full roll, and follows the probe from touch
+  // to touch.
   std::vector<Key<RodPose>> scope{{0.0, Pose4(8, -4, 0, 2)},
                                   {0.7, Pose4(6, -2, 20, 9)},
                                   {1.4, Pose4(4, 6, 110, 11)},
@@ -207,7 +207,7 @@ std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& menis
   hand.insert(hand.end(), hook.begin(), hook.end());
   hand.push_back({12.0, outside});
 
-  const DeviceRig rig;  // the rig of a scene that names none
+  const DeviceRig rig;  // rig of a scene that names none
   std::vector<TraceRow> rows;
   for (int i = 0; i <= static_cast<int>(kDuration * kRate); ++i) {
     const double t = i / kRate;

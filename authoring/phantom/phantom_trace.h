@@ -1,6 +1,6 @@
-// The hand motions of a short session in the phantom: the scope goes in, looks round and rolls; the
-// instrument comes in, probes condyle, plateau and meniscus, lifts the meniscus' free edge on its
-// hook, lets it go, and leaves. As both devices would report it (TRACE.csv [method.md, File
+// Hand motions of a short session in the phantom. The scope goes in, surveys the joint and rolls.
+// The instrument comes in, probes condyle, plateau and meniscus, lifts the meniscus' free edge on
+// its hook, releases it, and leaves. The rows are those of both devices (TRACE.csv [method.md, File
 // formats]), for rigs with the pivot at the device's origin, portal axes and rods of 0.2 m.
 #pragma once
 
@@ -22,24 +22,24 @@ struct TraceRow {
   unsigned buttons = 0;
 };
 
-// 12 s at 100 Hz, rows of both devices in turn. Speeds are continuous.
+// Makes 12 s at 100 Hz, rows of both devices in turn. Speeds are continuous.
 std::vector<TraceRow> MakeTrace(const Cavity& cavity, const PhantomTissue& meniscus,
                                 double incision_spacing);
 
-// Where the probe is meant to touch: a point of a surface and its outward normal.
+// Target of the probe: a point of a surface and its outward normal.
 struct ProbeContact {
   glm::dvec3 x_in_portal{0.0}, normal{0.0};
-  double press = 0;             // m, how deep the tip goes in
-  double lift = 0;              // m, over the surface before and after
-  double from_t = 0, to_t = 0;  // s, between which the tip may be inside
+  double press = 0;             // m, depth of the tip in the tissue
+  double lift = 0;              // m, height over the surface before and after
+  double from_t = 0, to_t = 0;  // s, interval in which the tip may be inside
 };
 std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissue& meniscus);
 
-// Where the probe's hook goes under the free edge of the meniscus: the place on the plateau below
-// the edge, the way outwards under it, and up.
+// Place of the probe's hook under the free edge of the meniscus: the point on the plateau below the
+// edge, the outward direction under it, and up.
 struct EdgeLift {
   glm::dvec3 x_in_portal{0.0}, outwards{0.0}, up{0.0};
-  double from_t = 8.1, to_t = 11.1;  // s, between which the tip is on the plateau or near it
+  double from_t = 8.1, to_t = 11.1;  // s, interval in which the tip is on the plateau or near it
 };
 EdgeLift LiftOfEdge(const Cavity& cavity);
 

@@ -40,10 +40,10 @@ constexpr int kBoxes = 56;
 int BoxOf(double coordinate) {
   return std::clamp(static_cast<int>(std::floor(coordinate / kBox)) + kBoxes / 2, 0, kBoxes - 1);
 }
-constexpr double kReach = 1.9e-3;  // m, of a contact shadow
+constexpr double kReach = 1.9e-3;  // m, reach of a contact shadow
 
-// Squared distance of a point from a triangle: to its plane where the foot lies inside, else to its
-// edges.
+// Squared distance of a point from a triangle: to its plane when the foot lies inside, otherwise to
+// its edges.
 double Distance2(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b,
                  const glm::dvec3& c) {
   const glm::dvec3 normal = glm::cross(b - a, c - a);
@@ -74,7 +74,7 @@ void TissueCaster::Add(const SurfaceMesh& mesh, Surface surface, const std::vect
     corners_.push_back({mesh.vertices[i], glm::dvec3(0.0), rims.empty() ? 0.0 : rims[i]});
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles_.push_back({base + a, base + b, base + c, surface});
-    // Area-weighted, as the cross product is.
+    // Area-weighted by the length of the cross product.
     const glm::dvec3 normal =
         glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
     for (const int corner : {a, b, c}) corners_[base + corner].normal += normal;
@@ -116,8 +116,8 @@ std::optional<TissueHit> TissueCaster::Cast(const glm::dvec3& d) const {
   for (const int index : cells_[CellOf(d)]) {
     const Triangle& triangle = triangles_[index];
     const Corner &a = corners_[triangle.a], &b = corners_[triangle.b], &c = corners_[triangle.c];
-    // Signed volumes of the ray with each edge: the barycentric coordinates, up to scale. Outward
-    // faces that look at the portal have all three negative.
+    // Signed volumes of the ray with each edge: the barycentric coordinates, up to scale. For
+    // outward faces towards the portal all three are negative.
     const double u = glm::dot(d, glm::cross(b.x, c.x)), v = glm::dot(d, glm::cross(c.x, a.x));
     const double w = glm::dot(d, glm::cross(a.x, b.x));
     if (u > 0.0 || v > 0.0 || w > 0.0 || u + v + w == 0.0) continue;
@@ -137,7 +137,7 @@ double TissueCaster::ShadeAt(Surface surface, const glm::dvec3& x) const {
   double nearest2 = kReach * kReach;
   for (const int index : boxes_[BoxIndex(BoxOf(x.x), BoxOf(x.y), BoxOf(x.z))]) {
     const Triangle& t = triangles_[index];
-    // The layer fills its bed flush and throws no shadow.
+    // The layer fills its bed flush and casts no shadow.
     if (t.surface == Surface::kCartilage) continue;
     nearest2 = std::min(nearest2, Distance2(x, corners_[t.a].x, corners_[t.b].x, corners_[t.c].x));
   }

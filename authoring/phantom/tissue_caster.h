@@ -1,4 +1,4 @@
-// Rays from the portal against the deformable models as they lie in the scene. Portal frame, m.
+// Casts rays from the portal to the deformable models in their poses in the scene. Portal frame, m.
 #pragma once
 
 #include <optional>
@@ -20,17 +20,17 @@ struct TissueHit {
 
 class TissueCaster {
  public:
-  // A model in the portal frame; `rims` gives each vertex its place between free edge and outer
-  // rim, and may be empty.
+  // Adds a model in the portal frame. `rims` gives each vertex its place between free edge and
+  // outer rim, and may be empty.
   void Add(const SurfaceMesh& mesh_in_portal, Surface surface, const std::vector<double>& rims);
   // Call once, after the last Add.
   void Sort();
 
-  // False where Cast is sure to find nothing.
+  // Returns false when Cast is certain to find nothing.
   bool MayHit(const glm::dvec3& direction) const;
   std::optional<TissueHit> Cast(const glm::dvec3& direction) const;
 
-  // What is left of the light on a point of the cavity beside a model: the contact shadow.
+  // Share of the light that reaches a point of the cavity beside a model: the contact shadow.
   double ShadeAt(Surface surface, const glm::dvec3& x) const;
 
  private:

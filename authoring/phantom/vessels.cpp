@@ -15,7 +15,9 @@ namespace {
 constexpr double kStep = RadiansFromDegrees(0.45);  // length of one segment
 constexpr double kThinnest =
     RadiansFromDegrees(0.06);      // a capillary of 0.04 mm at 40 mm; thinner is not drawn
-constexpr double kSoftness = 2.2;  // reach of a deep vessel's blur, in radii
+constexpr int kLongest = 90;       // segments of one branch
+constexpr int kGenerations = 6;    // generations of branches
+constexpr double kSoftness = 2.2;  // blur of a deep vessel, in radii
 
 // Cells of two degrees over the whole sphere.
 constexpr int kColumns = 180, kRows = 90;
@@ -35,16 +37,18 @@ double LatitudeOf(const glm::dvec3& d) { return -std::asin(std::clamp(d.y, -1.0,
 
 VesselTrees::VesselTrees(std::uint32_t seed) {
   Random random(0x7E55E1ull + seed);
-  // Deep trunks first: few, broad, soft. Then the crisp net on the surface.
+  // Deep trunks first: few, broad, blurred. Then the sharp network on the surface.
   constexpr int kDeepTrees = 18, kSurfaceTrees = 42;
+  constexpr double kLongitude = 115.0, kLatitude = 80.0;  // degrees, limits of the roots
   for (int i = 0; i < kDeepTrees + kSurfaceTrees; ++i) {
     const bool deep = i < kDeepTrees;
-    const double longitude = RadiansFromDegrees(random.Uniform(-115.0, 115.0));
-    const double latitude = RadiansFromDegrees(random.Uniform(-80.0, 80.0));
+    const double longitude = RadiansFromDegrees(random.Uniform(-kLongitude, kLongitude));
+    const double latitude = RadiansFromDegrees(random.Uniform(-kLatitude, kLatitude));
     const glm::dvec3 at(std::cos(latitude) * std::sin(longitude), -std::sin(latitude),
                         std::cos(latitude) * std::cos(longitude));
     const glm::dvec3 other(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
     const glm::dvec3 heading = glm::normalize(glm::cross(at, other));
+    // Radii in degrees of the sphere; depths from 0 on the surface to 1.
     const double radius =
         RadiansFromDegrees(deep ? random.Uniform(0.30, 0.55) : random.Uniform(0.11, 0.27));
     Grow(random.Next(), at, heading, radius,
@@ -59,23 +63,25 @@ void VesselTrees::Grow(std::uint64_t seed, glm::dvec3 at, glm::dvec3 heading, do
   const auto turned = [&at](const glm::dvec3& from, double angle) {
     return std::cos(angle) * from + std::sin(angle) * glm::cross(at, from);
   };
-  double curl = 0.0;
-  int until_branch = static_cast<int>(random.Uniform(5.0, 14.0));
-  for (int step = 0; step < 90 && radius > kThinnest; ++step) {
-    // A vessel meanders: its curvature, not its heading, is what wanders.
-    curl = 0.80 * curl + random.Uniform(-0.11, 0.11);
+  constexpr double kMemory = 0.80, kBend = 0.11;       // curvature: memory per step; change, rad
+  constexpr double kTaper = 0.962, kStraight = 0.996;  // range of the radius ratio per step
+  double curl = 0.0;                                   // rad per step
+  int until_branch = static_cast<int>(random.Uniform(5.0, 14.0));  // steps
+  for (int step = 0; step < kLongest && radius > kThinnest; ++step) {
+    // A vessel meanders: its curvature, not its heading, is random.
+    curl = kMemory * curl + random.Uniform(-kBend, kBend);
     heading = turned(heading, curl);
     const glm::dvec3 next = std::cos(kStep) * at + std::sin(kStep) * heading;
-    const double thinner = radius * random.Uniform(0.962, 0.996);
+    const double thinner = radius * random.Uniform(kTaper, kStraight);
     segments_.push_back({at, next, radius, thinner, depth});
     heading = glm::normalize(heading - glm::dot(heading, next) * next);
     at = next;
     radius = thinner;
-    if (--until_branch > 0 || generation >= 6) continue;
-    // Murray's law: the cubes of the radii add up.
+    if (--until_branch > 0 || generation >= kGenerations) continue;
+    // The cube of a radius is the sum of the cubes of its branches' radii [Murray 1926].
     const double share = random.Uniform(0.18, 0.5);
     const double side = random.Uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
-    const double angle = random.Uniform(0.4, 0.95);
+    const double angle = random.Uniform(0.4, 0.95);  // rad between the smaller branch and the trunk
     Grow(random.Next(), at, turned(heading, side * angle), radius * std::cbrt(share), depth,
          generation + 1);
     heading = turned(heading, -side * angle * share * 0.6);
@@ -119,9 +125,10 @@ VesselTrees::Cover VesselTrees::At(const glm::dvec3& d) const {
     const double inner = radius * (0.75 - 0.75 * s.depth),
                  outer = radius * (1.25 + (kSoftness - 1.25) * s.depth);
     if (distance >= outer) continue;
-    // Thin ones are fainter: they hold less blood.
+    // Thin vessels are fainter: they hold less blood.
+    constexpr double kFaintest = 0.12, kFullRadius = RadiansFromDegrees(0.22);
     const double strength =
-        std::min(1.0, 0.12 + radius / RadiansFromDegrees(0.22)) * (1.0 - 0.45 * s.depth);
+        std::min(1.0, kFaintest + radius / kFullRadius) * (1.0 - 0.45 * s.depth);
     const double amount = strength * SmoothStep(outer, inner, distance);
     if (amount > cover.amount) cover = {amount, s.depth};
   }

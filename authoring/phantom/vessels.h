@@ -1,6 +1,6 @@
-// Blood vessels on the star-shaped surfaces of the phantom: trees that branch and thin out as they
-// grow, laid down as short arcs of the unit sphere of directions about the portal. Radii are angles
-// seen from the portal.
+// Blood vessels on the star-shaped surfaces of the phantom: trees with branches that grow thinner,
+// as short arcs of the unit sphere of directions about the portal. Radii are angles seen from the
+// portal.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class VesselTrees {
  public:
   explicit VesselTrees(std::uint32_t seed);
 
-  // How much a vessel covers a direction, 0 to 1, and how deep the vessel lies.
+  // Share of a direction that a vessel covers, 0 to 1, and the depth of the vessel.
   struct Cover {
     double amount = 0, depth = 0;
   };

@@ -9,7 +9,7 @@ std::vector<std::uint8_t> HeldNodes(std::span<const glm::dvec3> nodes,
   std::vector<std::uint8_t> held(nodes.size(), 0);
   for (const Ball& ball : balls)
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      held[i] |= glm::distance(nodes[i], ball.centre) <= ball.radius ? 1 : 0;
+      if (glm::distance(nodes[i], ball.centre) <= ball.radius) held[i] = 1;
   return held;
 }
 

@@ -1,8 +1,7 @@
-// Reads every bracketed citation in the sources and every link in the documents, and fails when its
-// target does not exist. Targets are headings of resources/doc/*.md, rows of references.md,
-// sections of the publication, and labels of hard-cases.md.
+// Reads every bracketed citation in the sources and every link and path in the documents, and fails
+// when its target does not exist. Targets are headings of resources/doc/*.md, rows of
+// references.md, sections of the publication, and labels of hard-cases.md.
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -11,19 +10,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/documents/source_text.h"
+
+namespace arthro::test {
 namespace {
 
 namespace fs = std::filesystem;
 
 const fs::path kRoot = ARTHRO_SOURCE_DIR;
 const fs::path kDocuments = kRoot / "resources/doc";
-
-std::string TextOf(const fs::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 struct Targets {
   std::set<std::string> headings;  // "method.md, Oblique view"
@@ -53,26 +48,6 @@ Targets TargetsOf(const fs::path& documents) {
   targets.works = FirstCells(TextOf(documents / "references.md"));
   targets.labels = FirstCells(TextOf(documents / "hard-cases.md"));
   return targets;
-}
-
-// The comments of one source; lines that follow one another are one comment.
-std::vector<std::string> CommentsOf(const std::string& source) {
-  std::vector<std::string> comments;
-  std::istringstream lines(source);
-  bool is_open = false;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t begin = line.find("//");
-    if (begin == std::string::npos || (begin > 0 && line[begin - 1] == ':')) {
-      is_open = false;
-      continue;
-    }
-    std::size_t text = begin + 2;
-    while (text < line.size() && line[text] == ' ') ++text;
-    if (!is_open) comments.emplace_back();
-    comments.back() += (comments.back().empty() ? "" : " ") + line.substr(text);
-    is_open = true;
-  }
-  return comments;
 }
 
 // The citations within one comment: every part between brackets and semicolons that begins with the
@@ -106,7 +81,8 @@ std::vector<std::string> FaultsOf(const std::string& source, const Targets& targ
   static const std::regex label(R"(\b(PAN|LENS|FEM|HAP|VIEW|FILE)-\d+\b)");
   static const std::regex retired(R"((design §|[Hh]ard case \d|notes on (haptics|deform)))");
   std::vector<std::string> faults;
-  for (const std::string& comment : CommentsOf(source)) {
+  for (const Comment& lines : PartsOfSource(source).comments) {
+    const std::string comment = lines.Joined();
     for (const std::string& citation : CitationsOf(comment))
       if (!Exists(citation, targets)) faults.push_back("[" + citation + "]");
     for (std::sregex_iterator found(comment.begin(), comment.end(), label), end; found != end;
@@ -121,17 +97,14 @@ std::vector<std::string> FaultsOf(const std::string& source, const Targets& targ
 TEST(Citations, EachTargetExists) {
   const Targets targets = TargetsOf(kDocuments);
   std::size_t count = 0;
-  for (const char* top : {"app", "authoring", "simulation", "tests"})
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
-      const std::string extension = entry.path().extension().string();
-      if (extension != ".h" && extension != ".cpp" && extension != ".inc") continue;
-      const std::string source = TextOf(entry.path());
-      for (const std::string& comment : CommentsOf(source)) count += CitationsOf(comment).size();
-      if (entry.path().filename() == "citations_test.cpp") continue;
-      for (const std::string& fault : FaultsOf(source, targets))
-        ADD_FAILURE() << fs::relative(entry.path(), kRoot).string() << ": " << fault
-                      << " has no target in resources/doc";
-    }
+  for (const fs::path& file : SourceFiles(kRoot)) {
+    const std::string source = TextOf(file);
+    for (const Comment& comment : PartsOfSource(source).comments)
+      count += CitationsOf(comment.Joined()).size();
+    for (const std::string& fault : FaultsOf(source, targets))
+      ADD_FAILURE() << fs::relative(file, kRoot).string() << ": " << fault
+                    << " has no target in resources/doc";
+  }
   EXPECT_GT(count, 80u) << "the scan found too few citations to mean anything";
 }
 
@@ -146,11 +119,32 @@ TEST(Citations, ScanCatchesDanglingOnes) {
     EXPECT_EQ(FaultsOf(dangling, targets).empty(), false) << dangling;
 }
 
+// "a/{b,c}" stands for "a/b" and "a/c".
+std::vector<std::string> Expanded(const std::string& text) {
+  const std::size_t open = text.find('{'), close = text.find('}');
+  if (open == std::string::npos || close == std::string::npos) return {text};
+  std::vector<std::string> all;
+  std::istringstream words(text.substr(open + 1, close - open - 1));
+  for (std::string word; std::getline(words, word, ',');)
+    for (const std::string& path : Expanded(text.substr(0, open) + word + text.substr(close + 1)))
+      all.push_back(path);
+  return all;
+}
+
+TEST(Documents, NamedPathsExist) {
+  const std::regex path(
+      R"(`((\.ci|app|authoring|simulation|resources|tests|packaging)/[^`\s*<]*)`)");
+  for (const fs::path& page : DocumentFiles(kRoot)) {
+    const std::string text = TextOf(page);
+    for (std::sregex_iterator found(text.begin(), text.end(), path), end; found != end; ++found)
+      for (const std::string& name : Expanded((*found)[1]))
+        EXPECT_TRUE(fs::exists(kRoot / name)) << page.filename() << " names " << name;
+  }
+}
+
 TEST(Documents, RelativeLinksResolve) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
-  std::vector<fs::path> pages = {kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
-  for (const auto& entry : fs::directory_iterator(kDocuments)) pages.push_back(entry.path());
-  for (const fs::path& page : pages) {
+  for (const fs::path& page : DocumentFiles(kRoot)) {
     const std::string text = TextOf(page);
     for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found)
       EXPECT_TRUE(fs::exists(page.parent_path() / (*found)[1].str()))
@@ -159,3 +153,4 @@ TEST(Documents, RelativeLinksResolve) {
 }
 
 }  // namespace
+}  // namespace arthro::test

@@ -119,6 +119,10 @@ void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
 }  // namespace
 
 void AddEditJob(CLI::App& program) {
+  program.require_subcommand(0, 1);
+  program.callback([&program] {
+    if (program.get_subcommands().empty()) RunEditor({});
+  });
   const auto options = std::make_shared<EditorOptions>();
   CLI::App* job = program.add_subcommand("edit", "Open the editor");
   const auto files = JobFiles::Of(*job);

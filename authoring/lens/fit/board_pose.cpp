@@ -8,7 +8,7 @@ namespace arthro::authoring {
 
 std::optional<BoardPose> PoseFromRays(std::span<const BoardRay> rays) {
   if (rays.size() < 4) return std::nullopt;
-  // Coordinates about their mean, of size one, so that the system is well scaled.
+  // Coordinates relative to their mean, scaled to unit size for a well-conditioned system.
   Eigen::Vector2d middle(0, 0);
   for (const BoardRay& at : rays) middle += Eigen::Vector2d(at.on_board.x, at.on_board.y);
   middle /= static_cast<double>(rays.size());
@@ -17,7 +17,7 @@ std::optional<BoardPose> PoseFromRays(std::span<const BoardRay> rays) {
     spread += (Eigen::Vector2d(at.on_board.x, at.on_board.y) - middle).norm();
   spread /= static_cast<double>(rays.size());
   if (!(spread > 0)) return std::nullopt;
-  // ray × (H X) = 0: the normal matrix of its three rows a point, of which two are independent.
+  // ray × (H X) = 0: normal matrix of three rows per point, two of which are independent.
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const BoardRay& at : rays) {
     const Eigen::Vector3d x((at.on_board.x - middle.x()) / spread,
@@ -42,7 +42,7 @@ std::optional<BoardPose> PoseFromRays(std::span<const BoardRay> rays) {
                  .dot(h * Eigen::Vector3d((at.on_board.x - middle.x()) / spread,
                                           (at.on_board.y - middle.y()) / spread, 1));
   if (ahead < 0) h = -h;
-  // Columns to unit length in the mean; the nearest rotation; back to steps.
+  // Scales columns to unit mean length, takes the nearest rotation, and converts back to steps.
   h /= 0.5 * (h.col(0).norm() + h.col(1).norm());
   Eigen::Matrix3d raw;
   raw << h.col(0), h.col(1), h.col(0).cross(h.col(1));

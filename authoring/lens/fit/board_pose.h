@@ -1,6 +1,6 @@
-// Where a flat target stands before the camera, from rays alone. camera_from_board takes lattice
-// coordinates (steps, in the plane z = 0) to the camera frame, in steps; the rotation is a vector
-// (axis times angle, rad).
+// Pose of a flat target relative to the camera, from rays alone. camera_from_board takes lattice
+// coordinates (steps, in the plane z = 0) to the camera frame, in steps. The rotation is a vector:
+// axis times angle, rad.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct BoardRay {
   cv::Vec3d ray;         // unit, camera frame
 };
 
-// Direct linear transformation over rays, which may point beyond 90 degrees; then the nearest rigid
-// pose. Nothing where the points lie on one line or fewer than four are given.
+// Direct linear transformation over rays, which may lie beyond 90 degrees from the axis, then the
+// nearest rigid pose. Returns nothing when the points are collinear or fewer than four.
 std::optional<BoardPose> PoseFromRays(std::span<const BoardRay> rays);
 
 }  // namespace arthro::authoring

@@ -13,9 +13,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kRobustScale = 1.0;   // px: beyond it a point pulls with constant force
+constexpr double kRobustScale = 1.0;   // px; a residual beyond it pulls with constant force
 constexpr double kOutlier = 5.0;       // times the robust sigma
-constexpr double kLeastOutlier = 0.6;  // px; sharper than this no corner needs to be
+constexpr double kLeastOutlier = 0.6;  // px; smaller residuals are never outliers
 
 std::vector<double> ParametersOf(const LensNumbers& lens, bool has_aspect) {
   std::vector<double> values = {lens.focal, lens.cx, lens.cy};
@@ -33,7 +33,7 @@ void Store(const std::vector<double>& values, bool has_aspect, LensNumbers& lens
     lens.own[n] = values[n + (has_aspect ? 4 : 3)];
 }
 
-// The problem of one fit: which points are in, and what they cost.
+// One fit: the points that are used, and their cost.
 class Solver {
  public:
   Solver(const std::vector<TargetView>& views, LensFit& fit, const FitOptions& options)
@@ -72,7 +72,7 @@ class Solver {
     ceres::Solver::Options solve;
     solve.linear_solver_type = ceres::DENSE_SCHUR;
     solve.linear_solver_ordering = ordering;
-    solve.num_threads = 1;  // the same bytes each time
+    solve.num_threads = 1;  // one thread: the same bytes on every run
     solve.max_num_iterations = 30;
     solve.function_tolerance = 1e-8;
     solve.logging_type = ceres::SILENT;
@@ -81,14 +81,14 @@ class Solver {
     return summary.IsSolutionUsable();
   }
 
-  // A pinhole, for one, has no pixel for a point beside the camera.
+  // A pinhole model, for example, has no pixel for a point beside the camera.
   bool IsDefinedEverywhere() const {
     return std::all_of(terms_.begin(), terms_.end(), [this](const Term& term) {
       return !term.used || std::isfinite(ResidualOf(term));
     });
   }
 
-  // Keeps what lies within a few robust sigmas; true when that changed anything.
+  // Keeps points within a few robust sigmas; true when that changed the selection.
   bool LeaveOutOutliers() {
     std::vector<double> sizes;
     for (const Term& term : terms_) sizes.push_back(ResidualOf(term));
@@ -138,7 +138,8 @@ class Solver {
     return std::hypot(residual[0], residual[1]);
   }
 
-  // The lens's part of the inverse normal matrix: the poses are eliminated view by view.
+  // Block of the inverse normal matrix that belongs to the lens: the poses are eliminated view by
+  // view.
   void FindCovariance(double sum) {
     const int n = static_cast<int>(lens_.size());
     Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(n, n);
@@ -186,7 +187,7 @@ std::vector<BoardRay> RaysOf(const TargetView& view, const Lens& lens) {
   return rays;
 }
 
-// Poses of all views under a lens, and how badly they fit: the mean residual, each cut at 20 px.
+// Poses of all views under a lens, and their error: the mean residual, each cut at 20 px.
 std::optional<std::vector<BoardPose>> PosesUnder(const std::vector<TargetView>& views,
                                                  const LensNumbers& numbers, cv::Size picture,
                                                  double& cost) {
@@ -232,7 +233,7 @@ std::optional<LensFit> StartFit(const std::vector<TargetView>& views, cv::Size p
                                 const cv::Point2d& centre, double window_radius) {
   std::optional<LensFit> best;
   double lowest = 0;
-  // Full fields of view from 15 to 200 degrees, in steps of a fifth.
+  // Full fields of view from 15 to 200 degrees, each 20 % larger than the last.
   for (double degrees = 15; degrees <= 200; degrees *= 1.2) {
     LensFit fit;
     fit.lens.cx = centre.x;

@@ -86,7 +86,7 @@ bool LensResidual::Evaluate(double const* const* parameters, double* residuals,
     }
   }
   if (wants_pose) {
-    // By the point in the camera frame, then by rotation and translation.
+    // Derivatives by the point in the camera frame, then by rotation and translation.
     Eigen::Matrix<double, 2, 3> by_point = Eigen::Matrix<double, 2, 3>::Zero();
     if (on_axis) {
       by_point(0, 0) = by_point(1, 1) = scale;

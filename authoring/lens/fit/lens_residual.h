@@ -1,4 +1,4 @@
-// Where a board's point falls in the picture, less where it was seen, with all derivatives.
+// Residual of a target point: projected pixel minus measured pixel, with all derivatives.
 #pragma once
 
 #include <ceres/cost_function.h>

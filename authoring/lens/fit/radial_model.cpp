@@ -35,7 +35,7 @@ bool KannalaBrandt(double focal, std::span<const double> k, double theta, Radial
 
 }  // namespace
 
-const char* WordOf(FitModel model) {
+const char* ToString(FitModel model) {
   switch (model) {
     case FitModel::kEquisolid:
       return "equisolid";
@@ -94,7 +94,7 @@ bool EvaluateRadius(FitModel model, double focal, std::span<const double> own, d
 std::array<double, kMostOwnParameters> StartOf(FitModel model, double& focal) {
   switch (model) {
     case FitModel::kDoubleSphere: {
-      // Within 0.2 % of equisolid up to 60 degrees: found by least squares over that range.
+      // Least-squares fit to the equisolid profile up to 60 degrees, to within 0.2 %.
       constexpr double kXi = -0.21, kAlpha = 0.634;
       focal *= 1 + kXi;
       return {kXi, kAlpha, 0, 0};

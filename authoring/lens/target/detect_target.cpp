@@ -25,13 +25,14 @@ double MedianOf(std::vector<double> values) {
   return *middle;
 }
 
-// Brightness where the kinds of target differ, 0 (darkest about) to 1 (brightest about): at a
-// lattice point, half way between two, and in the cells of either colour of a chessboard.
+// Brightness at the places that distinguish the kinds of target, from 0 (darkest nearby) to 1
+// (brightest nearby): at a lattice point, half way between two, and in the cells of either colour
+// of a chessboard.
 struct CellLook {
   double point, between, cell_even, cell_odd;
 };
 
-// Medians over the cells, so that glints and shadows on some of them do not decide.
+// Takes medians over the cells, so that highlights and shadows on some of them have no effect.
 std::optional<CellLook> LookOf(const cv::Mat& picture, const Lattice& lattice) {
   std::vector<double> point, between, cells[2];
   const auto At = [&](const cv::Point2d& p) {
@@ -47,14 +48,14 @@ std::optional<CellLook> LookOf(const cv::Mat& picture, const Lattice& lattice) {
     if (right == lattice.end() || down == lattice.end() || far == lattice.end() ||
         left == lattice.end() || low == lattice.end())
       continue;
-    // Two cells beside one another: one of either colour, under nearly the same light.
+    // Two neighbouring cells: one of either colour, under nearly the same light.
     const double here = 0.25 * (At(p) + At(right->second) + At(down->second) + At(far->second));
     const double middle = 0.5 * (At(0.5 * (p + down->second)) + At(0.5 * (p + right->second)));
     const double cell = At(0.25 * (p + right->second + down->second + far->second));
     const double other = At(0.25 * (p + left->second + down->second + low->second));
     const double dark = std::min({here, middle, cell, other});
     const double bright = std::max({here, middle, cell, other});
-    if (!(bright - dark > 0.03)) continue;  // no contrast to judge by
+    if (!(bright - dark > 0.03)) continue;  // too little contrast to judge
     const auto Share = [&](double value) { return (value - dark) / (bright - dark); };
     const int colour = (i + j) & 1;
     point.push_back(Share(here));
@@ -90,7 +91,7 @@ bool Wanted(TargetKind kind, TargetChoice choice) {
          (choice == TargetChoice::kDots && kind == TargetKind::kDots);
 }
 
-// Dot radius in lattice steps, by the share of a cell that is dark.
+// Dot radius in lattice steps, from the dark share of a cell.
 double DotRadius(const cv::Mat& picture, const Lattice& lattice) {
   std::vector<double> radii;
   for (const auto& [place, p] : lattice) {
@@ -112,7 +113,7 @@ double DotRadius(const cv::Mat& picture, const Lattice& lattice) {
   return radii.empty() ? 0 : MedianOf(radii);
 }
 
-// The lattice with exact points; those too near to the rim or too close together are left out.
+// Lattice with exact points. Points too near to the rim or to one another are left out.
 Lattice Refined(const cv::Mat& picture, TargetKind kind, const Lattice& rough,
                 const LensCircle& circle, double smallest_step) {
   const PointRefiner refiner(picture, kind);
@@ -154,7 +155,7 @@ TargetView DetectTarget(const cv::Mat& raw, const LensCircle& circle,
   const cv::Mat picture = GreyOf(raw);
   cv::Mat calm;
   cv::GaussianBlur(picture, calm, {}, 0.7);
-  // Small lattices need a fine scale, unsharp or noisy ones a coarse one.
+  // Small lattices need a fine scale, blurred or noisy ones a coarse one.
   const double size = std::clamp(std::min(raw.cols, raw.rows) / 640.0, 0.6, 4.0);
   Lattice best;
   std::size_t rough_most = 0;

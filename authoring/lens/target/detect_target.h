@@ -1,5 +1,5 @@
-// Finds a calibration target in a raw picture: a Cartesian grid of dark lines (the paper's), a
-// chessboard or a grid of dark dots, of any size and also in part. Its kind is found out as well.
+// Finds a calibration target in a raw picture and recognises its kind: a Cartesian grid of dark
+// lines [paper, 3.1], a chessboard or a grid of dark dots, of any size and also in part.
 #pragma once
 
 #include "authoring/lens/target/target_view.h"
@@ -12,7 +12,7 @@ enum class TargetChoice { kAny, kLines, kChessboard, kDots };
 
 struct DetectOptions {
   TargetChoice target = TargetChoice::kAny;
-  double smallest_step = 7;  // px; lattice points closer together run into one another
+  double smallest_step = 7;  // px; closer lattice points merge
   int fewest_points = 16;
 
   template <class V>
@@ -22,7 +22,7 @@ struct DetectOptions {
                              {TargetChoice::kLines, "lines"},
                              {TargetChoice::kChessboard, "chessboard"},
                              {TargetChoice::kDots, "dots"}}},
-      "", "What the pictures show; any finds it out.");
+      "", "Kind of target; any recognises it.");
     v("smallest_step", smallest_step, Range{4.0, 100.0}, "px",
       "Points that lie closer together are left out.");
     v("fewest_points", fewest_points, Range{9, 10000}, "",
@@ -31,7 +31,7 @@ struct DetectOptions {
 };
 
 // `raw`: 8-bit, grey or RGB. Points near the rim of `circle` (r = 0: none) are left out, since the
-// rim's own edge would draw them. Without a target the result says why.
+// edge of the rim would bias them. A result without a target gives the reason.
 TargetView DetectTarget(const cv::Mat& raw, const LensCircle& circle, const DetectOptions& options);
 
 }  // namespace arthro::authoring

@@ -14,14 +14,15 @@ namespace {
 using Place = std::pair<int, int>;
 
 constexpr std::array<Place, 4> kSides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-constexpr double kGuessTolerance = 0.28;  // of a step: where a neighbour may lie round its guess
+constexpr double kGuessTolerance =
+    0.28;  // share of a step, tolerance about the guess of a neighbour
 constexpr int kSeeds = 12;
 
 Place Plus(const Place& a, const Place& b, int times = 1) {
   return {a.first + times * b.first, a.second + times * b.second};
 }
 
-// Candidates in square cells, so that a look-up reads a few of them only.
+// Candidates in square cells, so that a look-up reads few of them.
 class PointField {
  public:
   PointField(const std::vector<cv::Point2d>& points, cv::Size picture)
@@ -31,7 +32,7 @@ class PointField {
       cells_[CellOf(points[n])].push_back(n);
   }
 
-  // The nearest candidate within `radius`, or -1.
+  // Returns the nearest candidate within `radius`, or -1.
   int Nearest(const cv::Point2d& at, double radius) const {
     int best = -1;
     double nearest = radius;
@@ -44,7 +45,7 @@ class PointField {
     return best;
   }
 
-  // Its up to 12 nearest neighbours, nearest first.
+  // Returns up to 12 nearest neighbours, nearest first.
   std::vector<int> Around(int n) const {
     constexpr std::size_t kWanted = 12;
     std::vector<std::pair<double, int>> found;
@@ -88,7 +89,7 @@ struct Seed {
   double unevenness;
 };
 
-// Two steps whose opposites exist as well: the shortest such pair round a candidate.
+// Finds two steps from a candidate whose opposites exist as well: the shortest such pair.
 std::optional<Seed> SeedAt(const std::vector<cv::Point2d>& points, const PointField& field, int n) {
   const std::vector<int> around = field.Around(n);
   std::optional<Seed> best;
@@ -123,11 +124,11 @@ class Grower {
   Grower(const std::vector<cv::Point2d>& points, const PointField& field, double smallest_step)
       : points_(points), field_(field), smallest_step_(smallest_step) {}
 
-  // The candidates taken are marked in `used`, so that no later seed begins there.
+  // Marks the candidates taken in `used`, so that no later seed begins there.
   Lattice Grow(const Seed& seed, std::vector<char>& used) {
     Put({0, 0}, seed.centre);
     for (int k = 0; k < 4; ++k) Put(kSides[k], seed.sides[k]);
-    // Steps over a missing point only where no plain step is left: they are less sure.
+    // Steps over a missing point are less certain, so they wait until no plain step is left.
     while (!queue_.empty() || !ends_.empty()) {
       std::deque<Place>& next = queue_.empty() ? ends_ : queue_;
       const int times = queue_.empty() ? 2 : 1;
@@ -152,7 +153,8 @@ class Grower {
     return found == lattice_.end() ? nullptr : &found->second;
   }
 
-  // One step from `place` to `side`: as the last one went, bent as it bent; else as a neighbour's.
+  // Guesses one step from `place` to `side`: continues the last step with its curvature, or copies
+  // a neighbour's step.
   std::optional<cv::Point2d> Guess(const Place& place, const Place& side) const {
     const cv::Point2d& here = lattice_.at(place);
     if (const auto* back = Find(Plus(place, side, -1))) {
@@ -176,16 +178,16 @@ class Grower {
     const cv::Point2d& here = lattice_.at(place);
     const double length = cv::norm(*step);
     if (length < smallest_step_) return;
-    // A place is missing only where nothing lies about it: else the guess was bad, not the point.
+    // A point is missing only when no candidate lies nearby; otherwise the guess was wrong.
     if (times > 1 && field_.Nearest(here + *step, 0.7 * length) >= 0) return;
     const int n = field_.Nearest(here + times * *step, kGuessTolerance * length);
     if (n >= 0 && !taken_.contains(n) && AgreesAllRound(target, points_[n])) Put(target, n);
   }
 
-  // Whether every neighbour already there would have guessed this point: two parts of a lattice
-  // that met with different counts would tear here.
+  // Checks that every existing neighbour predicts this point. Two parts of a lattice that meet with
+  // different counts would tear here.
   bool AgreesAllRound(const Place& place, const cv::Point2d& point) const {
-    constexpr double kTear = 0.45;  // of a step
+    constexpr double kTear = 0.45;  // share of a step
     for (const Place& side : kSides) {
       const auto* beside = Find(Plus(place, side, -1));
       if (!beside) continue;
@@ -227,7 +229,7 @@ void PruneLattice(Lattice& lattice, double tolerance) {
       changed |= neighbours < 2;
       at = neighbours < 2 ? lattice.erase(at) : std::next(at);
     }
-    // The most crooked alone, since it makes its neighbours look crooked too.
+    // Removes the worst point alone, since it distorts the residuals of its neighbours.
     auto worst = lattice.end();
     double most = tolerance;
     for (auto at = lattice.begin(); at != lattice.end(); ++at)

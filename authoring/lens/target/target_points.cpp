@@ -12,7 +12,7 @@ namespace arthro::authoring {
 namespace {
 
 constexpr std::size_t kMostCandidates = 6000;
-constexpr float kWeakest = 0.1f;  // contrast, of the strong ones: what a dim rim still has
+constexpr float kWeakest = 0.1f;  // contrast of a dim rim, as a share of the strong ones
 
 const cv::Point2d kNothing(std::numeric_limits<double>::quiet_NaN(),
                            std::numeric_limits<double>::quiet_NaN());
@@ -26,8 +26,8 @@ float At(const cv::Mat& picture, double x, double y) {
   return (1 - fy) * ((1 - fx) * a[0] + fx * a[1]) + fy * ((1 - fx) * b[0] + fx * b[1]);
 }
 
-// Whether a ring round the point is dark, bright, dark, bright: its second harmonic outweighs the
-// first, third and fourth. An edge, a corner or a line's crossing is not.
+// Checks that a ring round the point is dark, bright, dark, bright: its second harmonic exceeds the
+// first, third and fourth. An edge, a corner or a crossing of lines has no such ring.
 bool IsCheckered(const cv::Mat& smooth, const cv::Point2d& at, double radius) {
   constexpr int kSamples = 24;
   std::array<double, 5> re{}, im{};
@@ -47,7 +47,7 @@ bool IsCheckered(const cv::Mat& smooth, const cv::Point2d& at, double radius) {
 
 }  // namespace
 
-const char* WordOf(TargetKind kind) {
+const char* ToString(TargetKind kind) {
   switch (kind) {
     case TargetKind::kLines:
       return "line grid";
@@ -92,7 +92,7 @@ std::vector<cv::Point2d> CandidatePoints(const cv::Mat& picture, TargetKind kind
         found.push_back({s, cv::Point2d(x, y)});
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.strength > b.strength; });
-  // Not against the very strongest, which may be a glint or the rim.
+  // Compares with a percentile, since the strongest response may be a highlight or the rim.
   const float strong =
       found.empty() ? 0 : found[std::min<std::size_t>(30, found.size() / 4)].strength;
   std::vector<cv::Point2d> points;
@@ -145,7 +145,7 @@ cv::Point2d PointRefiner::MeetingOfEdges(cv::Point2d at, double reach) const {
       }
     }
     const double det = a * c - b * b;
-    // One direction of edges alone does not hold a point.
+    // Edges in one direction alone do not fix a point.
     if (!(det > 0.01 * (a + c) * (a + c))) return kNothing;
     const cv::Point2d step((c * u - b * v) / det, (a * v - b * u) / det);
     at += step;
@@ -158,7 +158,8 @@ cv::Point2d PointRefiner::MeetingOfEdges(cv::Point2d at, double reach) const {
 cv::Point2d PointRefiner::CentreOfDarkness(cv::Point2d at, double reach) const {
   const cv::Point2d start = at;
   for (int round = 0; round < 8; ++round) {
-    // The ground is a plane through the ring at the window's edge: light falls off across a dot.
+    // Background: a plane through the ring at the window's edge, since the light varies across a
+    // dot.
     constexpr int kRing = 16;
     double ground = 0, slope_x = 0, slope_y = 0;
     if (at.x < reach + 1 || at.y < reach + 1 || at.x > picture_.cols - 2 - reach ||

@@ -1,4 +1,4 @@
-// Where a lattice point might be, and where exactly it is. Pictures are CV_32FC1, 0 to 1.
+// Candidates for lattice points, and their exact positions. Pictures are CV_32FC1, 0 to 1.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,15 @@
 
 namespace arthro::authoring {
 
-// Places that look like a point of such a target at one scale (Gaussian sigma in px), the strongest
-// first: saddles of a chessboard, dark spots where lines cross or where a dot lies. To about 0.5
-// px.
+// Positions that resemble a point of such a target at one scale (Gaussian sigma in px), the
+// strongest first: saddles of a chessboard, or dark spots at a crossing of lines or at a dot.
+// Accuracy about 0.5 px.
 std::vector<cv::Point2d> CandidatePoints(const cv::Mat& picture, TargetKind kind, double sigma);
 
-// The point itself. Chessboard and lines: where all edges in the window would meet, since each
-// gradient stands across its edge [Förstner & Gülch 1987]; the two edges of a line balance. Dots:
-// the centre of darkness. `reach` is half the window, px; NaN where nothing can be made out.
+// Exact position of a point. Chessboard and lines: the point that best lies on all edges in the
+// window, since each gradient is perpendicular to its edge [Förstner & Gülch 1987]; the two edges
+// of a line balance. Dots: the centroid of darkness. `reach` is half the window, px; the result is
+// NaN when nothing can be found.
 class PointRefiner {
  public:
   PointRefiner(const cv::Mat& picture, TargetKind kind);

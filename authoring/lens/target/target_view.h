@@ -1,7 +1,7 @@
-// A flat calibration target as one raw picture shows it: points of a square lattice, each with its
-// whole-numbered place (column i, row j) and its pixel (centre of the top-left pixel is the
-// origin). The lattice is right-handed as the picture is: turning from +i to +j is clockwise on the
-// screen. Its origin is arbitrary, since the target's pose takes it up.
+// View of a flat calibration target in one raw picture: points of a square lattice, each with its
+// integer place (column i, row j) and its pixel (origin at the centre of the top-left pixel). The
+// lattice is right-handed like the picture: turning from +i to +j is clockwise on the screen. Its
+// origin is arbitrary, since the target's pose absorbs it.
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ struct TargetView {
   TargetKind kind = TargetKind::kNone;
   std::vector<LatticePoint> points;
   double dot_radius = 0;  // dots only: in lattice steps
-  std::string reason;     // why there is none, as a sentence without its first capital
+  std::string reason;     // why there is no target, as a sentence without its first capital
 };
 
 // "line grid", "chessboard", "dot grid" or "none".
-const char* WordOf(TargetKind kind);
+const char* ToString(TargetKind kind);
 
 }  // namespace arthro::authoring

@@ -49,7 +49,7 @@ int RoundUp(int value) { return (value + (1 << kBands) - 1) >> kBands << kBands;
 cv::Mat FilledCells(const FrameCells& cells, const Consensus& consensus, const cv::Rect& box) {
   cv::Mat colour = consensus.colour(box).clone(), own;
   cells.colour.convertTo(own, CV_32F, 1.0 / kGreySteps);
-  own.copyTo(colour, cells.say);
+  own.copyTo(colour, cells.blend_weight);
   return colour;
 }
 
@@ -66,11 +66,12 @@ cv::Mat BlendCells(const std::vector<FrameCells>& cells, const std::vector<cv::M
   cv::copyMakeBorder(consensus.colour, ground, 0, padded.height - layout.cells.height, 0,
                      padded.width - layout.cells.width, cv::BORDER_REPLICATE);
 
-  // The consensus with next to no weight, so that something is everywhere.
+  // The consensus has a very small weight, so that every cell has a value.
   Add(bands, ground, cv::Mat(padded, CV_32F, cv::Scalar(1e-4)), {0, 0});
   for (std::size_t f = 0; f < cells.size(); ++f) {
     if (shares[f].empty()) continue;
-    progress.Step("blend slow changes", static_cast<double>(f) / cells.size());
+    progress.Step("blend low frequencies",
+                  static_cast<double>(f) / static_cast<double>(cells.size()));
     // The frame in a box aligned to the coarsest band, with one coarse pixel around it.
     const cv::Rect& own = layout.frames[f].cells;
     const int margin = 1 << kBands;

@@ -38,8 +38,8 @@ int PositionOf(const Layout& layout, int index) {
   return static_cast<int>(found - layout.frames.begin());
 }
 
-// 255 inside what any frame shows, falling to 0 over `feather` px towards its border. Returns the
-// share of the picture that is imaged.
+// Alpha: 255 inside the union of the frames, falling to 0 over `feather` px towards its border.
+// Returns the imaged share of the picture.
 double WriteAlpha(const Layout& layout, const std::vector<char>& is_seen, double feather,
                   cv::Mat& rgba) {
   cv::Mat imaged(layout.size, CV_8U, cv::Scalar(0));
@@ -53,11 +53,11 @@ double WriteAlpha(const Layout& layout, const std::vector<char>& is_seen, double
                               static_cast<int>(std::lround(p.y * (1 << kShift))));
     cv::fillPoly(imaged, polygon, cv::Scalar(255), cv::LINE_8, kShift);
   }
-  const double share = static_cast<double>(cv::countNonZero(imaged)) / imaged.total();
+  const double share = cv::countNonZero(imaged) / static_cast<double>(imaged.total());
   const int reach = static_cast<int>(std::lround(feather));
   cv::Mat alpha = imaged;
   if (reach > 0) {
-    // Of a square window, half is imaged at a straight border and all of it further inside.
+    // Half of a square window is imaged at a straight border, all of it further inside.
     const cv::Size window(2 * reach + 1, 2 * reach + 1);
     cv::boxFilter(imaged, alpha, -1, window, {-1, -1}, true, cv::BORDER_CONSTANT);
     cv::Mat table(1, 256, CV_8U);
@@ -71,7 +71,7 @@ double WriteAlpha(const Layout& layout, const std::vector<char>& is_seen, double
   return share;
 }
 
-// The growing panorama, a pixel a cell: frames as they come, then what they were blended to.
+// Growing panorama with a pixel per cell: frames as they are read, later the blended cells.
 class Preview {
  public:
   Preview(const Layout& layout, const ComposeOptions& options, const ComposeObserver& observer)
@@ -83,7 +83,7 @@ class Preview {
     if (!observer_) return;
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
-        if (cells.say.at<uchar>(y, x) < 64) continue;
+        if (cells.blend_weight.at<uchar>(y, x) < 64) continue;
         auto& pixel = rgba_.at<cv::Vec4b>(box.y + y, box.x + x);
         const auto& colour = cells.colour.at<cv::Vec3w>(y, x);
         for (int c = 0; c < 3; ++c) {
@@ -139,7 +139,7 @@ class Composer {
       if (f < 0 || is_seen_[f]) continue;
       try {
         rectifier_.Rectify(raw, rectified);
-      } catch (const Error& error) {  // one odd frame does not stop a clip
+      } catch (const Error& error) {  // one faulty frame does not stop a clip
         report_.left_out.push_back({index, error.sentence()});
         continue;
       }
@@ -169,7 +169,7 @@ class Composer {
     report_.gain_spread = std::exp(most - least);
   }
 
-  // Which frames each place is taken from, and the slow part of the picture.
+  // Chooses the frames of each cell and computes the low frequencies.
   void Decide(Preview& preview) {
     const CpuTimer timer(report_.seams_ms);
     consensus_ = FindConsensus(cells_, rays_, layout_, options_, progress_);
@@ -183,7 +183,7 @@ class Composer {
     preview.Show(slow_, consensus_.is_known, 0.5);
   }
 
-  // Second pass: the detail.
+  // Second pass: adds the detail.
   cv::Mat Draw() {
     const CpuTimer timer(report_.second_pass_ms);
     const ToneCurve tone(light_);

@@ -8,8 +8,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kResidueSteps = 10;  // of a grey level
-constexpr double kDark = 8;        // grey levels: differences below are noise, whatever their share
+constexpr int kResidueSteps = 10;  // steps per grey level
+constexpr double kDark =
+    8;  // grey levels; smaller differences are noise, whatever their relative size
 
 struct Vote {
   float value, weight;
@@ -21,7 +22,8 @@ float WeightedMedian(std::vector<Vote>& votes) {
   });
   float all = 0;
   for (const Vote& vote : votes) all += vote.weight;
-  // Between the two votes around the half, so that two frames of equal say meet in their middle.
+  // Interpolates between the two samples around half of the weight, so that two frames of equal
+  // weight give their mean.
   float sum = 0;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     sum += votes[i].weight;
@@ -44,7 +46,7 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
   std::vector<double> residues(256 * kResidueSteps, 0);  // histogram
   std::vector<Vote> votes;
   for (int y = 0; y < layout.cells.height; ++y) {
-    if (y % 16 == 0) progress.Step("what most frames show", double(y) / layout.cells.height);
+    if (y % 16 == 0) progress.Step("consensus of the frames", double(y) / layout.cells.height);
     ForEachCell(cells, layout, y, [&](int x, const std::vector<int>& views) {
       cv::Vec3f median;
       int best = 0;
@@ -52,13 +54,13 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
         votes.clear();
         for (const int f : views) {
           const cv::Rect& box = layout.frames[f].cells;
-          const int say = cells[f].say.at<uchar>(y - box.y, x - box.x);
+          const int blend_weight = cells[f].blend_weight.at<uchar>(y - box.y, x - box.x);
           const float grey = static_cast<float>(
               cells[f].colour.at<cv::Vec3w>(y - box.y, x - box.x)[c] / kGreySteps);
-          const float weight =
-              static_cast<float>(say * say * std::min(1.0, rays[f].At(x, y).sharpness));
+          const float weight = static_cast<float>(blend_weight * blend_weight *
+                                                  std::min(1.0, rays[f].At(x, y).sharpness));
           votes.push_back({grey, weight});
-          best = std::max(best, say);
+          best = std::max(best, blend_weight);
         }
         median[c] = WeightedMedian(votes);
       }
@@ -72,7 +74,7 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
           off = std::max(
               off, std::abs(std::log((colour[c] / kGreySteps + kDark) / (median[c] + kDark))));
         const double ratio = off / options.outlier, agreement = 1 / (1 + std::pow(ratio, 4));
-        uchar& say = cells[f].say.at<uchar>(y - box.y, x - box.x);
+        uchar& blend_weight = cells[f].blend_weight.at<uchar>(y - box.y, x - box.x);
         all += 1;
         if (agreement < 0.5)
           dropped += 1;
@@ -80,7 +82,7 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
           ++residues[std::min(residues.size() - 1,
                               static_cast<std::size_t>(
                                   kResidueSteps * std::abs(colour[1] / kGreySteps - median[1])))];
-        say = static_cast<uchar>(std::max(1.0, say * agreement));
+        blend_weight = static_cast<uchar>(std::max(1.0, blend_weight * agreement));
       }
     });
   }
@@ -91,20 +93,20 @@ Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRa
     consensus.residue = static_cast<double>(i) / kResidueSteps;
   }
 
-  // What is next to an outlier is often part of it, dimmed: its soft rim.
+  // A cell beside an outlier often shows its soft rim.
   for (FrameCells& frame : cells) {
     if (!frame.is_seen()) continue;
     cv::Mat least;
-    cv::erode(frame.say, least, cv::Mat::ones(3, 3, CV_8U));
+    cv::erode(frame.blend_weight, least, cv::Mat::ones(3, 3, CV_8U));
     cv::max(least, cv::Scalar(1), least);
-    least.copyTo(frame.say, frame.say);
+    least.copyTo(frame.blend_weight, frame.blend_weight);
   }
   FillSmoothly(consensus.colour, consensus.is_known);
   return consensus;
 }
 
 void FillSmoothly(cv::Mat& colour, const cv::Mat& is_known) {
-  // Pull: halves until everything is known; push: each level fills the next finer one's gaps.
+  // Pull: halves until everything is known. Push: each level fills the gaps of the next finer one.
   std::vector<cv::Mat> sums, weights;
   cv::Mat weight;
   is_known.convertTo(weight, CV_32F);

@@ -1,5 +1,5 @@
-// What most frames show at each cell, and how far each frame agrees: debris, tool and glints move
-// against the tissue, so that they are few among the frames that see a place.
+// Consensus of the frames at each cell, and the agreement of each frame with it. Debris, tool and
+// highlights move relative to the tissue, so they are a minority among the frames that see a cell.
 #pragma once
 
 #include <vector>
@@ -12,13 +12,13 @@
 namespace arthro::authoring {
 
 struct Consensus {
-  cv::Mat colour;            // CV_32FC3, grey levels; filled smoothly where nothing is known
-  cv::Mat is_known;          // CV_8UC1, 255: seen well by a frame; 128: only glaring; 0: not at all
-  double outlier_share = 0;  // of what frames show
-  double residue = 0;        // grey levels: median distance of what agrees
+  cv::Mat colour;    // CV_32FC3, grey levels; unknown cells are filled smoothly
+  cv::Mat is_known;  // CV_8UC1, 255: seen well by a frame; 128: only overexposed; 0: not seen
+  double outlier_share = 0;  // share of the frames' cells
+  double residue = 0;        // grey levels: median distance of cells that agree
 };
 
-// Views (frame, and its box's row and column) of one cell after another, row by row.
+// Samples (frame, and row and column in its box) of one cell after another, row by row.
 template <class F>
 void ForEachCell(const std::vector<FrameCells>& cells, const Layout& layout, int row, F&& visit) {
   std::vector<int> here, views;
@@ -31,19 +31,20 @@ void ForEachCell(const std::vector<FrameCells>& cells, const Layout& layout, int
     views.clear();
     for (const int f : here) {
       const cv::Rect& box = layout.frames[f].cells;
-      if (x >= box.x && x < box.x + box.width && cells[f].say.at<uchar>(row - box.y, x - box.x) > 0)
+      if (x >= box.x && x < box.x + box.width &&
+          cells[f].blend_weight.at<uchar>(row - box.y, x - box.x) > 0)
         views.push_back(f);
     }
     if (!views.empty()) visit(x, views);
   }
 }
 
-// Lowers the say of what does not agree.
+// Lowers the blend weight of cells that disagree with the consensus.
 Consensus FindConsensus(std::vector<FrameCells>& cells, const std::vector<CellRays>& rays,
                         const Layout& layout, const ComposeOptions& options,
                         const Progress& progress);
 
-// Fills what `is_known` (non-zero) leaves open, smoothly, from around it.
+// Fills unknown cells (`is_known` zero) smoothly from their surroundings.
 void FillSmoothly(cv::Mat& colour, const cv::Mat& is_known);
 
 }  // namespace arthro::authoring

@@ -8,15 +8,15 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr float kDetailSteps = 96;  // of a grey level: +-341 grey levels fit into 16 bits
-constexpr int kTile = 384;          // px; a multiple of every cell
-constexpr int kHalo = 16;           // px around a tile, so that its bands know their surroundings
+constexpr float kDetailSteps = 96;  // steps per grey level: +-341 grey levels fit into 16 bits
+constexpr int kTile = 384;          // px; a multiple of every cell width
+constexpr int kHalo = 16;           // px around a tile, for the bands at its border
 
-// The part of a picture on cells that a box of panorama px covers, at 2^-band of their scale.
-// The cells' picture starts at `origin`; the box at `at`. All multiples of a cell.
+// Part of a picture on cells that a box of panorama px covers, at 2^-band of their scale. The
+// cells' picture starts at `origin`, the box at `at`; all are multiples of a cell.
 cv::Mat Enlarge(const cv::Mat& cells, int cell, const cv::Point& origin, const cv::Rect& box,
                 int band) {
-  // One cell more around, so that interpolation at the box's border has its neighbours.
+  // One additional cell around, so that interpolation at the box's border has its neighbours.
   const cv::Rect wanted(box.x / cell - 1 - origin.x, box.y / cell - 1 - origin.y,
                         box.width / cell + 2, box.height / cell + 2);
   const cv::Rect held = wanted & cv::Rect({0, 0}, cells.size());
@@ -32,7 +32,7 @@ cv::Mat Enlarge(const cv::Mat& cells, int cell, const cv::Point& origin, const c
   return large(cv::Rect(factor, factor, box.width >> band, box.height >> band));
 }
 
-// `detail` (CV_32FC3) times `share` (CV_32FC1) onto `sum` (CV_16SC3).
+// Adds `detail` (CV_32FC3) times `share` (CV_32FC1) to `sum` (CV_16SC3).
 void Accumulate(const cv::Mat& detail, const cv::Mat& share, cv::Mat sum) {
   for (int y = 0; y < sum.rows; ++y) {
     const auto* d = detail.ptr<float>(y);
@@ -69,7 +69,7 @@ void DetailBlend::Add(const DetailSource& source, const LaidFrame& frame, const 
       const cv::Rect tile_cells = cv::Rect(column, row, step, step) & cells;
       if (cv::countNonZero(source.share(tile_cells - cells.tl())) == 0) continue;
 
-      // The tile with its surroundings, drawn from the frame.
+      // The tile and its surroundings, drawn from the frame.
       const cv::Rect tile(tile_cells.tl() * cell_, tile_cells.size() * cell_);
       const int halo = (kHalo + cell_ - 1) / cell_ * cell_;
       const cv::Rect box =
@@ -121,7 +121,7 @@ void DetailBlend::Add(const DetailSource& source, const LaidFrame& frame, const 
 }
 
 void DetailBlend::Finish(const cv::Mat& slow, cv::Mat& rgba, const Progress& progress) const {
-  // Strip by strip, with rows to spare for the bands.
+  // Processes strips with additional rows for the bands.
   const int halo = (kHalo + cell_ - 1) / cell_ * cell_;
   const int strip = std::max(cell_, 256 / cell_ * cell_);
   const cv::Size whole = bands_[0].size();

@@ -1,5 +1,5 @@
-// The fine part of the panorama: what frames show beyond their cells' colours, gathered frame by
-// frame in three bands. Nothing is kept of a frame but its sum.
+// High frequencies of the panorama: the frames minus their cells' colours, accumulated frame by
+// frame in three bands. Only the sums are kept.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,13 +10,13 @@
 
 namespace arthro::authoring {
 
-// A frame, ready to be drawn.
+// A frame with everything that drawing it needs.
 struct DetailSource {
   cv::Mat rectified_rgb;  // CV_8UC3
-  cv::Mat tissue;         // CV_8UC1, 255 where its detail may be used
-  cv::Mat slow;           // CV_32FC3 over the frame's box of cells: its own cells, light taken out
-  cv::Mat share;          // CV_8UC1 over the box of cells
-  cv::Mat gain;           // CV_32FC1 over the box: what its linear tone is multiplied by
+  cv::Mat tissue;         // CV_8UC1, 255 at pixels whose detail may be used
+  cv::Mat slow;   // CV_32FC3 over the frame's box of cells: its own cells with evened-out light
+  cv::Mat share;  // CV_8UC1 over the box of cells
+  cv::Mat gain;   // CV_32FC1 over the box: factor on its linear tone
 };
 
 class DetailBlend {
@@ -26,7 +26,7 @@ class DetailBlend {
   void Add(const DetailSource& source, const LaidFrame& frame, const ToneCurve& tone,
            const Progress& progress, double done);
 
-  // Adds the slow part (CV_32FC3, cells) and writes RGB into `rgba`, whose alpha is left alone.
+  // Adds the low frequencies (CV_32FC3, cells) and writes RGB into `rgba`; alpha stays unchanged.
   void Finish(const cv::Mat& slow, cv::Mat& rgba, const Progress& progress) const;
 
  private:

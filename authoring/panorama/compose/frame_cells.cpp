@@ -8,11 +8,11 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kGlare = 246;        // grey levels: no colour is left above this
-constexpr int kGlareReach = 5;        // px: the glow around a glint
-constexpr double kLeastShown = 0.97;  // of a cell, inside the lens's mask
+constexpr double kGlare = 246;        // grey levels: above it no colour is left
+constexpr int kGlareReach = 5;        // px: glow around a highlight
+constexpr double kLeastShown = 0.97;  // share of a cell, inside the lens's mask
 
-// target = (source + 0.5) / factor - 0.5, both ways.
+// Position in the target: (source + 0.5) / factor - 0.5, in both directions.
 cv::Matx33d Shrink(double factor) {
   return {1 / factor, 0, 0.5 / factor - 0.5, 0, 1 / factor, 0.5 / factor - 0.5, 0, 0, 1};
 }
@@ -33,7 +33,7 @@ CellRays::Ray CellRays::At(int column, int row) const {
   ray.y = (py - view_.cy) / view_.focal_px;
   const auto& c = composed_from_rectified_;
   ray.w = std::max(1e-6, c(2, 0) * px + c(2, 1) * py + c(2, 2));
-  // A fisheye puts about cos^3 as many pixels into the tangent plane's unit of area.
+  // A fisheye has about cos^3 as many pixels per unit of area in the tangent plane.
   const double cosine = 1 / std::sqrt(1 + ray.x * ray.x + ray.y * ray.y);
   ray.sharpness = std::sqrt(ray.w * ray.w * ray.w / det_ * cosine * cosine * cosine);
   return ray;
@@ -53,7 +53,7 @@ cv::Mat TissueMask(const cv::Mat& rectified_rgb, const cv::Mat& lens_mask) {
 
 FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
                    const cv::Mat& lens_mask, const LaidFrame& frame, int cell) {
-  // Down to about the cells' size by averaging whole pixels, so that nothing is skipped.
+  // Reduces to about the cells' size by averaging whole pixels, so that none is skipped.
   const cv::Matx33d& h = frame.composed_from_rectified;
   const double at_middle =
       h(2, 0) * rectified_rgb.cols / 2 + h(2, 1) * rectified_rgb.rows / 2 + h(2, 2);
@@ -78,7 +78,7 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
   cv::warpPerspective(colour, cell_colour, cell_from_small, box);
   cv::warpPerspective(good, cell_good, cell_from_small, box);
   cv::warpPerspective(lens, cell_lens, cell_from_small, box);
-  // Cells that only glare keep their colour, for want of a better one.
+  // Overexposed cells keep their colour, since there is no better one.
   cv::resize(rectified_rgb(whole), glaring, small, 0, 0, cv::INTER_AREA);
   cv::warpPerspective(glaring, cell_glaring, cell_from_small, box);
 
@@ -87,17 +87,18 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
     for (int x = 0; x < box.width; ++x) {
       const int share = cell_good.at<uchar>(y, x);
       const bool is_inside = cell_lens.at<uchar>(y, x) >= 255 * kLeastShown;
-      uchar& say = cells.say.at<uchar>(y, x);
+      uchar& blend_weight = cells.blend_weight.at<uchar>(y, x);
       auto& out = cells.colour.at<cv::Vec3w>(y, x);
-      say = 0;
+      blend_weight = 0;
       out = cv::Vec3w(0, 0, 0);
       if (!is_inside) continue;
       const cv::Vec3f& sum = cell_colour.at<cv::Vec3f>(y, x);
       const cv::Vec3b& glare = cell_glaring.at<cv::Vec3b>(y, x);
       for (int c = 0; c < 3; ++c)
         out[c] = cv::saturate_cast<ushort>(
-            kGreySteps * (share >= 64 ? std::min(255.f, sum[c] * 255.f / share) : glare[c]));
-      say = static_cast<uchar>(share >= 64 ? share : 1);
+            kGreySteps *
+            (share >= 64 ? std::min(255.f, sum[c] * 255.f / static_cast<float>(share)) : glare[c]));
+      blend_weight = static_cast<uchar>(share >= 64 ? share : 1);
     }
   return cells;
 }

@@ -1,4 +1,5 @@
-// A frame as the decisions see it: one colour for each cell of the panorama that it shows.
+// A frame at the resolution of the decisions: one colour for each cell of the panorama that it
+// shows.
 #pragma once
 
 #include <vector>
@@ -9,25 +10,26 @@
 
 namespace arthro::authoring {
 
-// Grey levels are kept in 16 bits with this many steps each, with room above 255.
+// Number of steps per grey level; 16 bits leave room above 255.
 constexpr double kGreySteps = 100.0;
 
 struct FrameCells {
-  cv::Mat colour;  // CV_16UC3, grey level times kGreySteps, mean over the cell
-  cv::Mat say;     // CV_8UC1, 255: a good view of the whole cell; 0: does not show it
-  bool is_seen() const { return !say.empty(); }
+  cv::Mat colour;        // CV_16UC3, grey level times kGreySteps, mean over the cell
+  cv::Mat blend_weight;  // CV_8UC1, blend weight: 255 for a good view of the whole cell, 0 for none
+  bool is_seen() const { return !blend_weight.empty(); }
 };
 
-// Where a cell lies in the frame, by the homography back.
+// Ray of a cell in the frame, by the inverse homography.
 class CellRays {
  public:
   CellRays(const LaidFrame& frame, int cell, const RectifiedView& view);
   struct Ray {
     double x, y;       // tan of the angle off the optical axis, right and down
-    double w;          // the homography's denominator: goes with the distance along the axis
-    double sharpness;  // raw px per panorama px, about; 1 on the axis of a frame drawn at scale 1
+    double w;          // the homography's denominator, proportional to the distance along the axis
+    double sharpness;  // raw px per panorama px, approximate; 1 on the axis of a frame drawn at
+                       // scale 1
   };
-  Ray At(int column, int row) const;  // of the cell, in the panorama's grid
+  Ray At(int column, int row) const;  // the cell in the panorama's grid
 
  private:
   cv::Matx33d rectified_from_cell_, composed_from_rectified_;
@@ -35,7 +37,7 @@ class CellRays {
   double det_;
 };
 
-// Marks what is burnt out or a glint: CV_8UC1, 255 where tissue shows.
+// Masks overexposure and highlights: CV_8UC1, 255 at tissue.
 cv::Mat TissueMask(const cv::Mat& rectified_rgb, const cv::Mat& lens_mask);
 
 FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,

@@ -12,16 +12,16 @@
 namespace arthro::authoring {
 namespace {
 
-// Cells of all frames together: 8 bytes each in the first pass's store.
+// Number of cells of all frames together: 8 bytes each in the memory of the first pass.
 constexpr double kMostCells = 8e6;
-constexpr int kSmallestCell = 4;      // px; finer detail than this is left to the second pass
-constexpr int kLongestSide = 30000;   // px; cv::remap counts in 16 bits
+constexpr int kSmallestCell = 4;      // px; the second pass holds finer detail
+constexpr int kLongestSide = 30000;   // px; cv::remap uses 16-bit coordinates
 constexpr double kBeyondOthers = 30;  // times the median area
-constexpr double kUsualError = 2;     // px: a frame whose place is this uncertain has half a say
+constexpr double kUsualError = 2;     // px: a frame with this expected error has half the weight
 
 using Outline = std::vector<cv::Point2d>;
 
-// The border of what the lens shows, with corners kept and curves cut into short chords.
+// Border of the lens's visible area, with its corners kept and curves cut into short chords.
 Outline OutlineOf(const cv::Mat& mask) {
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
@@ -52,7 +52,7 @@ double Area(const Outline& outline) {
   return area / 2;
 }
 
-// Why this homography cannot be drawn; empty when it can. Makes its last row positive.
+// Reason why this homography cannot be drawn; empty when it can. Makes its last row positive.
 std::string Reject(cv::Matx33d& h, const Outline& outline, const cv::Point2d& middle,
                    double most_stretch) {
   for (const double value : h.val)
@@ -62,7 +62,7 @@ std::string Reject(cv::Matx33d& h, const Outline& outline, const cv::Point2d& mi
   if (!(at_middle > 0) || std::abs(cv::determinant(h)) < 1e-12 * std::pow(cv::norm(h), 3))
     return "its place is degenerate";
   if (cv::determinant(h) < 0) return "its place mirrors it";
-  // The area of a pixel goes with w^-3.
+  // Scales the area of a pixel by w^-3.
   for (const cv::Point2d& p : outline)
     if (!(W(h, p) > at_middle / std::cbrt(most_stretch)))
       return fmt::format("it would be stretched more than {:g} times at its rim", most_stretch);
@@ -70,8 +70,8 @@ std::string Reject(cv::Matx33d& h, const Outline& outline, const cv::Point2d& mi
   return {};
 }
 
-// The frame that looks at the panorama's plane the straightest has its optical axis on the
-// panorama's, nearly; exactly when the plane is that of a frame, as registration chooses it.
+// The frame with the most frontal view of the panorama's plane has its optical axis nearly on the
+// panorama's. The two coincide when the plane is that of a frame, as registration chooses it.
 RectifiedView ViewOfPlane(const Layout& layout, const RectifiedView& view) {
   const LaidFrame* straightest = nullptr;
   double least = std::numeric_limits<double>::max();
@@ -84,7 +84,7 @@ RectifiedView ViewOfPlane(const Layout& layout, const RectifiedView& view) {
   }
   const cv::Matx33d& h = straightest->composed_from_rectified;
   const cv::Point2d centre(view.cx, view.cy), axis = Map(h, centre);
-  // How many panorama px a rectified one has there.
+  // Panorama px per rectified px at that point.
   const double zoom = std::sqrt(std::abs(cv::determinant(h)) / std::pow(std::abs(W(h, centre)), 3));
   return {layout.size.width, layout.size.height, view.focal_px * zoom, axis.x, axis.y};
 }
@@ -99,7 +99,7 @@ Layout LayOut(const cv::Mat& mask, const RectifiedView& view,
   const cv::Moments moments = cv::moments(mask, true);
   const cv::Point2d middle(moments.m10 / moments.m00, moments.m01 / moments.m00);
 
-  // Frames that can be drawn at all, then those whose size is like the others'.
+  // Selects frames that can be drawn at all, then those of a size similar to the others'.
   std::vector<double> areas;
   for (const FrameResult& frame : frames) {
     if (!frame.is_placed || frame.component != 0) continue;
@@ -132,7 +132,7 @@ Layout LayOut(const cv::Mat& mask, const RectifiedView& view,
   std::sort(kept.begin(), kept.end(), [](auto& a, auto& b) { return a.index < b.index; });
   layout.frames = std::move(kept);
 
-  // Their bounds, and the scale at which these fit the limit.
+  // Bounds of the frames, and the scale at which they fit the limit.
   cv::Point2d low(std::numeric_limits<double>::max(), std::numeric_limits<double>::max()),
       high = -low;
   for (const LaidFrame& frame : layout.frames)
@@ -150,7 +150,7 @@ Layout LayOut(const cv::Mat& mask, const RectifiedView& view,
   layout.composed_from_panorama = {
       scale, 0, shift - low.x * scale, 0, scale, shift - low.y * scale, 0, 0, 1};
 
-  // The cells: as small as the store allows.
+  // Cell width: as small as memory allows.
   double pixels = 0;
   for (LaidFrame& frame : layout.frames) {
     frame.composed_from_rectified = layout.composed_from_panorama * frame.composed_from_rectified;

@@ -10,24 +10,24 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kShared = 6;            // unknowns that all frames have in common: b, v, t
-constexpr double kMostSamples = 6e4;  // views of cells that are used
-constexpr int kRounds = 8;            // of reweighting
-constexpr double kFieldPrior = 0.02;  // of a frame's views: pulls its field to 0
-constexpr double kDarkNoise = 0.06;   // of white: below it the logarithm is mostly noise
-constexpr double kTooBright = 0.95;   // of white: above it a channel may be clipped
+constexpr int kShared = 6;            // unknowns common to all frames: b, v, t
+constexpr double kMostSamples = 6e4;  // number of samples that are used
+constexpr int kRounds = 8;            // iterations of reweighting
+constexpr double kFieldPrior = 0.02;  // share of a frame's samples: pulls its field to 0
+constexpr double kDarkNoise = 0.06;   // share of white: below it the logarithm is mostly noise
+constexpr double kTooBright = 0.95;   // share of white: above it a channel may be clipped
 
-// A view of a cell: how its three channels depend on the unknowns, and what they are.
+// Sample of a cell: dependence of its three channels on the unknowns, and their values.
 struct View {
   int frame = 0;
   std::array<double, 4> light;  // u, u^2, u^3, ln w
-  std::array<double, 6> field;  // of FrameLight, and 1
+  std::array<double, 6> field;  // x, y, x^2 - y^2, xy, x^2 + y^2 as in FrameLight, and 1
   std::array<double, 3> y;      // channels, 0 to 1
-  double say = 0;
+  double blend_weight = 0;
 };
 
 struct Place {
-  int first = 0, last = 0;  // views
+  int first = 0, last = 0;  // range of samples
 };
 
 double SquaredSine(const CellRays::Ray& ray) {
@@ -46,7 +46,7 @@ std::array<double, 6> FieldTerms(const CellRays::Ray& ray, double reach) {
   return {x, y, x * x - y * y, x * y, x * x + y * y, 1};
 }
 
-// Views by place, on every `stride`-th cell each way.
+// Samples by place, on every `stride`-th cell in both directions.
 void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& rays,
             const Layout& layout, double& reach, std::vector<View>& views,
             std::vector<Place>& places) {
@@ -58,7 +58,7 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
     const cv::Rect& box = layout.frames[f].cells;
     for (int y = 0; cells[f].is_seen() && y < box.height; y += 2)
       for (int x = 0; x < box.width; x += 2)
-        if (cells[f].say.at<uchar>(y, x) >= 128)
+        if (cells[f].blend_weight.at<uchar>(y, x) >= 128)
           reach = std::max(reach, SquaredSine(rays[f].At(box.x + x, box.y + y)));
   }
   reach = std::max(reach, 1e-6);
@@ -69,8 +69,8 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
       for (std::size_t f = 0; f < cells.size(); ++f) {
         const cv::Rect& box = layout.frames[f].cells;
         if (!cells[f].is_seen() || !box.contains({x, y})) continue;
-        const int say = cells[f].say.at<uchar>(y - box.y, x - box.x);
-        if (say < 128) continue;
+        const int blend_weight = cells[f].blend_weight.at<uchar>(y - box.y, x - box.x);
+        if (blend_weight < 128) continue;
         const auto& colour = cells[f].colour.at<cv::Vec3w>(y - box.y, x - box.x);
         View view;
         view.frame = static_cast<int>(f);
@@ -78,7 +78,7 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
         view.light = LightTerms(ray, reach);
         view.field = FieldTerms(ray, reach);
         for (int c = 0; c < 3; ++c) view.y[c] = std::max(1.0, colour[c] / kGreySteps) / 255.0;
-        view.say = say / 255.0;
+        view.blend_weight = blend_weight / 255.0;
         views.push_back(view);
       }
       const int last = static_cast<int>(views.size());
@@ -89,8 +89,8 @@ void Gather(const std::vector<FrameCells>& cells, const std::vector<CellRays>& r
     }
 }
 
-// How far a channel can be trusted: not in the dark, not near clipping. The last factor measures
-// residuals in grey levels, or bending e flat would seem to explain everything.
+// Weight of a channel: low in the dark and near clipping. The last factor measures residuals in
+// grey levels; without it, flattening e would explain everything.
 double Trust(double y, const std::array<double, 2>& b) {
   const double dark = y / (y + kDarkNoise);
   const double bright = std::clamp((kTooBright - y) / 0.08, 0.0, 1.0);
@@ -104,8 +104,8 @@ class Solver {
          const ComposeOptions& options)
       : views_(views), places_(places), light_(light), options_(options) {}
 
-  // One weighted least-squares step on what all frames share and on the gains. Each place's own
-  // brightness is taken out by subtracting the weighted mean of its views.
+  // One weighted least-squares step on the common unknowns and the gains. Eliminates each place's
+  // brightness by subtracting the weighted mean of its samples.
   void SolveShared(double sigma) {
     const int n = static_cast<int>(light_.frames.size());
     Eigen::Matrix<double, kShared, kShared> shared = decltype(shared)::Zero();
@@ -154,14 +154,15 @@ class Solver {
         }
       }
 
-    // Priors: a little of everything, so that what the overlaps do not determine stays 0.
+    // Weak priors, so that unknowns that the overlaps do not determine stay 0.
     const double data = std::max(1.0, diagonal.sum());
     const double bend = options_.estimate_response ? 1e-3 * data : 1e6 * data;
     shared.diagonal() += Eigen::Matrix<double, kShared, 1>(bend, bend, 3e-5 * data, 3e-5 * data,
                                                            3e-5 * data, 3e-5 * data);
-    diagonal.array() += 1e-8 * data / n;  // only says what all gains share
+    diagonal.array() += 1e-8 * data / n;  // fixes the common level of the gains
 
-    // Gains first by sparse Cholesky, then the few shared unknowns by the Schur complement.
+    // Eliminates the gains by sparse Cholesky, then solves the few common unknowns by the Schur
+    // complement.
     std::vector<Eigen::Triplet<double>> entries;
     for (const auto& [key, value] : pairs) {
       const int f = static_cast<int>(key / n), g = static_cast<int>(key % n);
@@ -189,7 +190,7 @@ class Solver {
     for (int f = 0; f < n; ++f) light_.frames[f].gain = g[f];
   }
 
-  // The slow residue of each frame against the mean of all.
+  // Low-frequency residue of each frame against the mean of all.
   void SolveFields(double sigma) {
     const int n = static_cast<int>(light_.frames.size());
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -222,7 +223,7 @@ class Solver {
     }
   }
 
-  // The panorama is as bright as the frames are in their middles.
+  // Gives the panorama the brightness of the frames' middles.
   void SetLevel() {
     std::vector<double> raw;
     for (const View& view : views_)
@@ -246,7 +247,7 @@ class Solver {
     for (int k = 0; k < 3; ++k) e -= light_.falloff[k] * view.light[k];
     return e;
   }
-  // Robust weights of a place's views in a channel, and their weighted mean.
+  // Robust weights of a place's samples in a channel, and their weighted mean.
   double Weigh(const Place& place, int c, double sigma, std::vector<double>& weight) const {
     double mean = 0;
     for (int round = 0; round < 3; ++round) {
@@ -254,7 +255,7 @@ class Solver {
       for (int i = place.first; i < place.last; ++i) {
         const double r = (Reading(views_[i], c) - mean) / sigma;
         const double robust = round == 0 ? 1 : 1 / ((1 + r * r) * (1 + r * r));
-        const double w = robust * views_[i].say * Trust(views_[i].y[c], light_.response);
+        const double w = robust * views_[i].blend_weight * Trust(views_[i].y[c], light_.response);
         weight[i - place.first] = w;
         sum += w;
         all += w * Reading(views_[i], c);
@@ -293,7 +294,7 @@ ToneCurve::ToneCurve(const LightModel& light) : linear_(256), grey_(kSteps + 2) 
   for (int grey = 0; grey < 256; ++grey) linear_[grey] = static_cast<float>(linear_of(grey));
   linear_[0] = 0;
   largest_ = static_cast<float>(linear_of(300));
-  // The inverse, by walking along the curve: a straight line from each step to the next.
+  // Inverse by walking along the curve, with linear interpolation from each step to the next.
   double grey = 0;
   for (int i = 0; i <= kSteps + 1; ++i) {
     const double wanted = static_cast<double>(largest_) * i / kSteps;
@@ -346,7 +347,7 @@ void EvenLight(FrameCells& cells, const CellRays& rays, const cv::Rect& box,
                const LightModel& light, int f, const ToneCurve& tone) {
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x) {
-      if (cells.say.at<uchar>(y, x) == 0) continue;
+      if (cells.blend_weight.at<uchar>(y, x) == 0) continue;
       auto& colour = cells.colour.at<cv::Vec3w>(y, x);
       const float gain =
           static_cast<float>(std::exp(-light.Excess(f, rays.At(box.x + x, box.y + y))));

@@ -8,16 +8,16 @@
 namespace arthro::authoring {
 namespace {
 
-// Of the quality; measured on clips with known truth: 1 and 5 are up to 0.3 dB worse than 2.
+// Exponents of the quality; on clips with known truth 1 and 5 are up to 0.3 dB worse than 2.
 constexpr double kSharing = 2, kTakesAll = 12;
 constexpr double kSoftEdge = 48;  // px over which a frame fades in from its rim
 
-// 0 at the rim of what a frame shows, 1 from `reach` cells on inside.
-cv::Mat EdgeOf(const cv::Mat& say, double reach) {
+// Ramp from 0 at the rim of the frame's visible area to 1 at `reach` cells inside.
+cv::Mat EdgeOf(const cv::Mat& blend_weight, double reach) {
   cv::Mat padded, distance;
-  cv::copyMakeBorder(say > 0, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::copyMakeBorder(blend_weight > 0, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   cv::distanceTransform(padded, distance, cv::DIST_L2, 3, CV_32F);
-  cv::Mat edge = distance(cv::Rect(1, 1, say.cols, say.rows)) / reach;
+  cv::Mat edge = distance(cv::Rect(1, 1, blend_weight.cols, blend_weight.rows)) / reach;
   return cv::min(edge, 1.0f);
 }
 
@@ -26,27 +26,28 @@ cv::Mat EdgeOf(const cv::Mat& say, double reach) {
 std::vector<cv::Mat> ShareCells(const std::vector<FrameCells>& cells,
                                 const std::vector<CellRays>& rays, const Layout& layout,
                                 const ComposeOptions& options, const Progress& progress) {
-  // From plain weighting by quality towards "the best takes it all".
+  // Exponent from weighting by quality to "the best frame takes all".
   const double power = kSharing + (1 - options.averaging) * (kTakesAll - kSharing);
   std::vector<cv::Mat> score(cells.size());
   for (std::size_t f = 0; f < cells.size(); ++f) {
     if (!cells[f].is_seen()) continue;
-    progress.Step("choose frames", 0.5 * static_cast<double>(f) / cells.size());
+    progress.Step("choose frames",
+                  0.5 * static_cast<double>(f) / static_cast<double>(cells.size()));
     const cv::Rect& box = layout.frames[f].cells;
-    cv::Mat s = EdgeOf(cells[f].say, kSoftEdge / layout.cell);
+    cv::Mat s = EdgeOf(cells[f].blend_weight, kSoftEdge / layout.cell);
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
-        const int say = cells[f].say.at<uchar>(y, x);
+        const int blend_weight = cells[f].blend_weight.at<uchar>(y, x);
         float& v = s.at<float>(y, x);
-        if (say == 0) continue;
+        if (blend_weight == 0) continue;
         const double q = std::min(2.0, rays[f].At(box.x + x, box.y + y).sharpness);
-        v = static_cast<float>(layout.frames[f].trust * (v + 1e-4) * say / 255.0 * q);
+        v = static_cast<float>(layout.frames[f].trust * (v + 1e-4) * blend_weight / 255.0 * q);
       }
     score[f] = s;
   }
   std::vector<cv::Mat> shares(cells.size());
   for (std::size_t f = 0; f < cells.size(); ++f)
-    if (cells[f].is_seen()) shares[f] = cv::Mat::zeros(cells[f].say.size(), CV_8U);
+    if (cells[f].is_seen()) shares[f] = cv::Mat::zeros(cells[f].blend_weight.size(), CV_8U);
   for (int y = 0; y < layout.cells.height; ++y) {
     if (y % 16 == 0) progress.Step("choose frames", 0.5 + 0.5 * y / layout.cells.height);
     ForEachCell(cells, layout, y, [&](int x, const std::vector<int>& views) {

@@ -1,4 +1,4 @@
-// Which frames each cell is taken from, as shares that add up to 1.
+// Weights of the frames at each cell, as shares that add up to 1.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace arthro::authoring {
 
-// By frame, CV_8UC1 over the frame's box in cells; 255 is the whole of it (rounded, so that a
-// cell's shares add up to 1 only about). Empty for frames not seen.
+// One CV_8UC1 picture per frame, over the frame's box in cells; 255 is a share of 1. Rounding lets
+// a cell's shares deviate slightly from a sum of 1. Empty for frames that were not read.
 std::vector<cv::Mat> ShareCells(const std::vector<FrameCells>& cells,
                                 const std::vector<CellRays>& rays, const Layout& layout,
                                 const ComposeOptions& options, const Progress& progress);

@@ -17,7 +17,7 @@ struct Triangle {
   bool closes = false;
 };
 
-// The target frame's pixel of `from`, whichever way round the pair was estimated.
+// The target frame's pixel of `from`, for either direction of the pair's estimate.
 cv::Point2d Walk(const PairEstimate& pair, int from, const cv::Point2d& point) {
   return Apply(pair.a == from ? pair.b_from_a : pair.b_from_a.inv(), point);
 }
@@ -44,7 +44,8 @@ CycleCheck CheckTriangles(int frames, const std::vector<PairEstimate>& pairs,
         const auto ac =
             std::lower_bound(later[At(a)].begin(), later[At(a)].end(), std::pair{c, -1});
         if (ac == later[At(a)].end() || ac->first != c) continue;
-        // From a by b to c, and straight from a to c: the control points of ab are in view.
+        // Compares the way from a over b to c with the direct one from a to c: the control points
+        // of ab are in view.
         const PairEstimate& first = pairs[At(ab)];
         Triangle triangle{{ab, bc, ac->second}, 0, false};
         for (const cv::Point2d& control : first.control_in_a) {
@@ -63,7 +64,7 @@ CycleCheck CheckTriangles(int frames, const std::vector<PairEstimate>& pairs,
         triangles.push_back(triangle);
       }
 
-  // The worst pair goes, its triangles with it, until no pair spoils more than it closes.
+  // Removes the worst pair with its triangles, until no pair spoils more triangles than it closes.
   std::vector<bool> is_gone(triangles.size(), false);
   while (true) {
     std::fill(check.votes.begin(), check.votes.end(), TriangleVote{});

@@ -1,6 +1,6 @@
-// Which pair estimates cannot be true together. Around a triangle of frames the three homographies
-// must lead back to where they began; a pair that spoils more triangles than it closes is false.
-// Later, when all frames have places, a pair that stays far from them is false too.
+// Finds pair estimates that contradict each other. Around a triangle of frames the three
+// homographies must compose to the identity; a pair that spoils more triangles than it closes is
+// false. Later, when all frames have positions, a pair that stays far from them is false too.
 #pragma once
 
 #include <vector>
@@ -27,9 +27,9 @@ struct TriangleVote {
 };
 
 struct CycleCheck {
-  std::vector<TriangleVote> votes;  // of each pair, in the end
+  std::vector<TriangleVote> votes;  // final votes, one per pair
   std::vector<bool> is_false;
-  double worst_closure_px = 0, mean_closure_px = 0;  // of the triangles among the kept pairs
+  double worst_closure_px = 0, mean_closure_px = 0;  // over the triangles among the kept pairs
 };
 
 CycleCheck CheckTriangles(int frames, const std::vector<PairEstimate>& pairs,

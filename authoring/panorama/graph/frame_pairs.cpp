@@ -13,15 +13,15 @@
 namespace arthro::authoring {
 namespace {
 
-// A search without any prediction: every turn, and half to twice the size.
+// Range of a search without prediction: every rotation, and half to twice the size.
 constexpr double kSearchZoom = 0.35;
 constexpr std::size_t kCandidatesTried = 2;
 
-// Light that moves with the scope shades bumps anew in every frame, and drags the alignment along.
-// How much shows in how little two frames resemble each other: measured on clips with known truth,
-// the error of a pair grows as the -4.2th power of its similarity, 0.09 px for twins, 0.25 px at
-// 0.78, 1.1 px at 0.55, 5 px at 0.38. Its own statistics cannot see that, so it is added to its
-// covariance: inv(inv(I) + s^2).
+// Error of a pair caused by light that moves with the scope: it shades bumps differently in every
+// frame and biases the alignment. The bias shows in a low similarity of the two frames. On clips
+// with known truth the error of a pair grows as the -4.2th power of its similarity: 0.09 px at 1,
+// 0.25 px at 0.78, 1.1 px at 0.55, 5 px at 0.38. The pair's own statistics do not contain it, so it
+// is added to the covariance: inv(inv(I) + s^2).
 constexpr double kTwinError = 0.09;  // px
 constexpr double kPower = -4.2;
 constexpr double kLeastSimilarity = 0.2;
@@ -48,7 +48,7 @@ FramePairs::FramePairs(const std::vector<WorkingFrame>& frames, const RegisterOp
                  if (options.method != PairMethod::kDirect)
                    features_[i].emplace(DetectFeatures(frames[i], options.features));
                  if (!pyramids_[i]->HasTexture())
-                   unusable_[i] = "shows no texture that another frame could be laid over";
+                   unusable_[i] = "shows no texture that could be aligned with another frame";
                });
 }
 
@@ -65,13 +65,13 @@ std::optional<PairEstimate> FramePairs::ByFeatures(const PairRequest& request,
                                                    std::string* why_not) const {
   const auto a = static_cast<std::size_t>(request.a), b = static_cast<std::size_t>(request.b);
   const bool is_predicted = request.effort == PairEffort::kPredicted;
-  // A predicted pair needs no points: direct alignment begins where they would lead.
+  // A predicted pair needs no points: direct alignment starts from the prediction.
   if (is_predicted && options_.method == PairMethod::kFeaturesThenDirect) return std::nullopt;
   auto pair = MatchFeatures(*features_[a], *features_[b], request.a, request.b, options_.features,
                             why_not, is_predicted ? &request.predicted_b_from_a : nullptr);
   if (!pair) return std::nullopt;
   if (options_.method == PairMethod::kFeatures) {
-    // Points alone; all pixels are asked only whether they agree.
+    // Points alone; the pixels only verify the result.
     const PairVerdict verdict = VerifyPair(*pyramids_[a], *pyramids_[b], options_.direct, *pair);
     if (verdict.is_accepted) return pair;
     if (why_not) *why_not = verdict.why_not;

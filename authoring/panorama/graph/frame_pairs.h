@@ -1,5 +1,5 @@
-// Makes pair estimates of a clip's working frames: features and direct alignment, whichever the
-// pair needs. What a frame is compared by is built once, when the maker is.
+// Estimates pairs of a clip's working frames by features or direct alignment, whichever the pair
+// needs. The data of each frame is computed once, in the constructor.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class FramePairs {
   FramePairs(const std::vector<WorkingFrame>& frames, const RegisterOptions& options,
              const Progress& progress);
 
-  // Why frame i cannot be compared with any other; empty: it can.
+  // Reason why frame i cannot be compared with any other; empty when it can.
   const std::vector<std::string>& unusable() const { return unusable_; }
 
   // Safe to call from several threads.
@@ -32,7 +32,7 @@ class FramePairs {
 
   const RegisterOptions& options_;
   std::vector<std::optional<DirectPyramid>> pyramids_;
-  std::vector<std::optional<FrameFeatures>> features_;  // none when only direct is asked for
+  std::vector<std::optional<FrameFeatures>> features_;  // none when only direct alignment is used
   std::vector<std::string> unusable_;
 };
 

@@ -10,7 +10,7 @@ FrameWindow WindowOf(const RectifiedView& view, const cv::Mat& mask) {
   window.centre = {view.cx, view.cy};
   window.radius = 0.5 * std::min(view.width, view.height);
   if (!mask.empty()) {
-    // Radius of the circle of the mask's area: a rim with dents or a flattened top does no harm.
+    // Radius of the circle with the mask's area; dents or a flattened top have little effect on it.
     const double scale = static_cast<double>(view.width) / mask.cols;
     const double radius = std::sqrt(cv::countNonZero(mask) / CV_PI) * scale;
     if (radius > 0) window.radius = radius;
@@ -40,7 +40,8 @@ FrameWindow WindowOf(const RectifiedView& view, const cv::Mat& mask) {
 
 double OverlapOf(const FrameWindow& window, const cv::Matx33d& b_from_a) {
   const cv::Vec3d centre = b_from_a * cv::Vec3d(window.centre.x, window.centre.y, 1);
-  // Scale makes the third coordinate positive at the centre; a negative determinant is a mirror.
+  // Scaling makes the third coordinate positive at the centre; a negative determinant is a
+  // reflection.
   if (!(cv::determinant(b_from_a) * centre[2] > 0)) return 0;
   int inside = 0;
   for (const cv::Point2d& p : window.grid) {

@@ -1,6 +1,6 @@
-// The round part of a rectified frame that shows something, and the nine points of it at which a
-// frame's error counts: the centre and eight at 85 % of the window's radius in the raw picture.
-// Rectified px at scale 1.
+// Visible round part of a rectified frame, and the nine points at which a frame's error is
+// measured: the centre and eight at 85 % of the window's radius in the raw picture. Rectified px at
+// scale 1.
 #pragma once
 
 #include <vector>
@@ -18,10 +18,10 @@ struct FrameWindow {
   std::vector<cv::Point2d> grid;  // evenly over the window, for overlaps
 };
 
-// `mask` at scale 1 or any other; where it is empty the whole view counts.
+// `mask` at scale 1 or any other; an empty mask means the whole view.
 FrameWindow WindowOf(const RectifiedView& view, const cv::Mat& mask);
 
-// Share of the window of a that the window of b shows; 0 when b looks at it from behind.
+// Share of the window of a that lies in the window of b; 0 when b sees it from behind.
 double OverlapOf(const FrameWindow& window, const cv::Matx33d& b_from_a);
 
 }  // namespace arthro::authoring

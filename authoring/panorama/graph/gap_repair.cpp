@@ -32,8 +32,8 @@ void RepairGaps(const std::vector<int>& usable, int frames, int searches, PairBo
   for (int k = 0; k + 1 < count; ++k)
     if (!book.Has(usable[At(k)], usable[At(k + 1)])) gaps.push_back(k);
 
-  // Steps in the order of what they cost; a gap leaves when its two sides hang together. Most often
-  // a single frame is spoilt, so its neighbours are tried before anything is searched for.
+  // Steps in the order of their cost; a gap is closed when its two sides are connected. Usually a
+  // single frame is faulty, so its neighbours are tried before any search.
   struct Step {
     int before, after;  // pair (k - before, k + 1 + after)
     int motion;         // -1 the motion before, 1 the one after, 2 as neighbours, 0 a search
@@ -45,7 +45,7 @@ void RepairGaps(const std::vector<int>& usable, int frames, int searches, PairBo
     if (gaps.empty()) return;
     if (step.motion == 0) {
       if (searched++ >= searches) return;
-      // Searches are dear: only for what joins more than single frames.
+      // Searches are expensive: only for gaps between pieces of more than one frame.
       const std::vector<int> piece = PiecesOf(frames, book.pairs());
       std::vector<int> size(piece.size(), 0);
       for (const int i : usable) ++size[At(piece[At(i)])];

@@ -1,6 +1,6 @@
-// What is tried where two frames that follow one another do not agree: the motion of the pairs
-// beside them, steps over the gap, a search from nothing; and for frames that stay alone, every
-// placed frame that should show the same tissue.
+// Attempts for consecutive frames that could not be aligned: the motion of the neighbouring pairs,
+// steps over the gap, and a search without prediction. A frame that stays alone is compared with
+// every placed frame that should show the same tissue.
 #pragma once
 
 #include <string_view>
@@ -13,13 +13,13 @@
 
 namespace arthro::authoring {
 
-// `usable` are the frames that can be placed, ascending. At most `searches` searches a gap.
+// `usable` are the frames that can be placed, ascending. At most `searches` searches per gap.
 void RepairGaps(const std::vector<int>& usable, int frames, int searches, PairBook& book,
                 const Progress& progress);
 
-// Frames whose piece is not `main` are guessed from the placed frames before and after them (the
-// same motion goes on), and tried against those `main` frames that the guess overlaps most.
-// Returns how many pairs were found.
+// Predicts frames whose piece is not `main` from the placed frames before and after them, by the
+// same motion, and compares them with the `main` frames of the largest predicted overlap. Returns
+// the number of pairs found.
 int AdoptOrphans(const std::vector<int>& usable, const std::vector<cv::Matx33d>& plane_from_frame,
                  const std::vector<int>& piece, int main, const FrameWindow& window, PairBook& book,
                  const Progress& progress);

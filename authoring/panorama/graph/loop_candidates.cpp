@@ -14,12 +14,13 @@ struct Candidate {
   cv::Matx33d b_from_a;
 };
 
-constexpr double kMostVariance = 400;  // px^2: beyond it all loops are equally welcome
-constexpr double kUsualGrowth = 3.0;   // of a pair's error with what the frames do not share
-constexpr double kUsualError = 0.1;    // px, of frames that share everything
+constexpr double kMostVariance = 400;  // px^2: above it all loops are equally useful
+constexpr double kUsualGrowth =
+    3.0;  // growth of a pair's error with the share that the frames do not have in common
+constexpr double kUsualError = 0.1;  // px, for frames with full overlap
 
-// How a pair's error grows with what its frames do not share, error = e0 exp(k (1 - overlap)), as
-// the pairs so far show it. The middle of k over pairs holds against false ones.
+// Growth of a pair's error with the unshared area, error = e0 exp(k (1 - overlap)), estimated from
+// the pairs so far. The median of k over pairs is robust against false ones.
 class ErrorGuess {
  public:
   explicit ErrorGuess(const std::vector<PairEstimate>& pairs) {
@@ -58,7 +59,7 @@ std::vector<PairRequest> LoopCandidates(const std::vector<cv::Matx33d>& plane_fr
   const VarianceMap map(frames, book.pairs());
   const ErrorGuess guess(book.pairs());
 
-  // How far a window's rim lies from its centre in the plane: windows further apart share nothing.
+  // Distance of a window's rim from its centre in the plane: windows further apart do not overlap.
   std::vector<cv::Point2d> centre(at(frames));
   std::vector<double> reach(at(frames), 0);
   std::vector<cv::Matx33d> frame_from_plane(at(frames));
@@ -77,7 +78,7 @@ std::vector<PairRequest> LoopCandidates(const std::vector<cv::Matx33d>& plane_fr
   std::vector<Candidate> candidates;
   for (int a = 0; a < frames; ++a) {
     if (piece[at(a)] < 0) continue;
-    std::vector<double> variance;  // found out when first needed
+    std::vector<double> variance;  // computed when first needed
     for (int b = a + 1; b < frames; ++b) {
       if (piece[at(b)] != piece[at(a)] || book.WasTried(a, b)) continue;
       if (!(cv::norm(centre[at(a)] - centre[at(b)]) < reach[at(a)] + reach[at(b)])) continue;
@@ -93,7 +94,7 @@ std::vector<PairRequest> LoopCandidates(const std::vector<cv::Matx33d>& plane_fr
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& x, const Candidate& y) { return x.score > y.score; });
 
-  // The best first, but no two that say the same: (a, b) keeps its neighbours out of this round.
+  // Takes the best first, without redundant ones: (a, b) excludes its neighbours from this round.
   std::vector<PairRequest> requests;
   std::vector<int> of_frame(at(frames), 0);
   for (const Candidate& c : candidates) {

@@ -1,5 +1,5 @@
-// The pairs that were tried, and what came of it. Asks for many at once, on a few threads, in an
-// order that does not depend on them.
+// Record of the pairs that were tried, and their results. Requests many at once, on a few threads,
+// in an order that does not depend on the threads.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,9 @@
 namespace arthro::authoring {
 
 enum class PairEffort {
-  kNeighbours,  // little is known, but the frames follow one another
-  kPredicted,   // it is known where b lies, up to some tens of px
-  kSearch,      // nothing is known: any turn, other sizes
+  kNeighbours,  // little is known, but the frames are consecutive
+  kPredicted,   // the position of b is known up to some tens of px
+  kSearch,      // nothing is known: any rotation, other sizes
 };
 
 struct PairRequest {
@@ -28,7 +28,7 @@ struct PairRequest {
   cv::Matx33d predicted_b_from_a = cv::Matx33d::eye();  // with kPredicted
 };
 
-// Called from several threads at once; must give the same answer whatever the order of calls.
+// Called from several threads at once; the result must not depend on the order of calls.
 using PairMaker =
     std::function<std::optional<PairEstimate>(const PairRequest& request, std::string* why_not)>;
 
@@ -36,8 +36,8 @@ class PairBook {
  public:
   PairBook(PairMaker maker, int threads) : maker_(std::move(maker)), threads_(threads) {}
 
-  // Asks for those pairs that are not in the book yet; `again` asks too for those that failed.
-  // Returns how many were found.
+  // Estimates the pairs that are not in the book yet; `again` includes those that failed. Returns
+  // the number of pairs found.
   int Ask(const std::vector<PairRequest>& requests, bool again, std::string_view stage,
           const Progress& progress);
 
@@ -46,17 +46,17 @@ class PairBook {
   bool WasTried(int a, int b) const { return tried_pairs_.contains({a, b}); }
   bool Has(int a, int b) const;
   const PairEstimate* Find(int a, int b) const;
-  // Why the pair failed; empty when it did not or was not tried.
+  // Reason why the pair failed; empty when it succeeded or was not tried.
   std::string WhyNot(int a, int b) const;
 
-  // Takes pairs out that turned out to be false; they count as tried.
+  // Removes pairs that proved false; they count as tried.
   void Drop(const std::vector<bool>& is_false, const std::string& why);
 
  private:
   PairMaker maker_;
   int threads_ = 1;
   std::vector<PairEstimate> pairs_;
-  std::map<std::pair<int, int>, std::string> tried_pairs_;  // why not; empty: found
+  std::map<std::pair<int, int>, std::string> tried_pairs_;  // reason of failure; empty: found
   int tried_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kFloor = 0.05;  // px; keeps over-sure pairs from hiding how long a chain is
+constexpr double kFloor = 0.05;  // px; keeps overconfident pairs from hiding the length of a chain
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
@@ -35,7 +35,7 @@ std::vector<std::vector<Edge>> EdgesOf(int frames, const std::vector<PairEstimat
 struct Shortest {
   std::vector<double> variance;
   std::vector<int> pair_to_parent;
-  std::vector<int> order;  // of arrival
+  std::vector<int> order;  // order of arrival
 };
 
 Shortest ShortestFrom(int frames, const std::vector<PairEstimate>& pairs, int root) {
@@ -98,7 +98,7 @@ std::vector<int> PiecesOf(int frames, const std::vector<PairEstimate>& pairs) {
 }
 
 int CentralFrame(int frames, const std::vector<PairEstimate>& pairs, int member) {
-  // Two sweeps find the ends of the longest way; its middle is central enough, in linear time.
+  // Two sweeps find the ends of the longest path; its middle is central enough, in linear time.
   const int end = ShortestFrom(frames, pairs, member).order.back();
   const Shortest from_end = ShortestFrom(frames, pairs, end);
   const int other = from_end.order.back();

@@ -1,5 +1,5 @@
-// Frames as nodes, pair estimates as edges: which frames hang together, from which frame errors add
-// up least, and where every frame lies if one follows the best-known pairs only.
+// Graph with frames as nodes and pair estimates as edges: connected pieces, the frame from which
+// errors accumulate least, and the position of every frame along the best-known pairs.
 #pragma once
 
 #include <vector>
@@ -10,28 +10,28 @@
 
 namespace arthro::authoring {
 
-// Worst standard deviation of a control point that the pair's information admits, px; never below
-// `floor_px`, infinity where some direction is not held at all.
+// Largest standard deviation of a control point under the pair's information, px; never below
+// `floor_px`, infinity when a direction is undetermined.
 double PairDeviation(const PairEstimate& pair, double floor_px);
 
-// Number of the piece that each frame belongs to. Largest piece first (0), then the next; of two
-// equally large ones, that of the earlier frame.
+// Number of the piece that each frame belongs to. The largest piece is 0; among equally large
+// pieces, the one with the earlier frame comes first.
 std::vector<int> PiecesOf(int frames, const std::vector<PairEstimate>& pairs);
 
-// Of one piece: the frame from which the farthest other is nearest, by accumulated variance.
+// Frame of one piece from which the farthest other frame is nearest, by accumulated variance.
 int CentralFrame(int frames, const std::vector<PairEstimate>& pairs, int member);
 
 struct Tree {
-  std::vector<cv::Matx33d> root_from_frame;  // identity where unreached
-  std::vector<double> variance;              // accumulated on the way, px^2; infinity: unreached
-  std::vector<int> pair_to_parent;           // index of the pair; -1: root or unreached
+  std::vector<cv::Matx33d> root_from_frame;  // identity for unreached frames
+  std::vector<double> variance;     // accumulated along the path, px^2; infinity: unreached
+  std::vector<int> pair_to_parent;  // index of the pair; -1: root or unreached
 };
 
-// The way of least accumulated variance from the root to every frame that pairs reach.
+// Path of least accumulated variance from the root to every reachable frame.
 Tree LeastVarianceTree(int frames, const std::vector<PairEstimate>& pairs, int root);
 
-// Variance of each pair as an edge's length, px^2, and what adds up on the way from one frame to
-// all others (infinity: no way).
+// Variance of each pair as an edge's length, px^2, and the sum along the path from one frame to all
+// others (infinity: no path).
 std::vector<double> EdgeVariances(const std::vector<PairEstimate>& pairs);
 class VarianceMap {
  public:
@@ -46,7 +46,7 @@ class VarianceMap {
   std::vector<std::vector<Edge>> edges_;
 };
 
-// Pairs whose loss would take their piece apart (bridges).
+// Pairs whose removal would split their piece (bridges).
 std::vector<bool> BridgesOf(int frames, const std::vector<PairEstimate>& pairs);
 
 }  // namespace arthro::authoring

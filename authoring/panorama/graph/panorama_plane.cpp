@@ -6,7 +6,7 @@
 namespace arthro::authoring {
 namespace {
 
-// Where a homography takes a point and how it stretches there.
+// Image of a point under a homography, and the local Jacobian.
 struct Local {
   cv::Point2d at;
   cv::Matx22d jacobian;
@@ -25,7 +25,7 @@ Local LocalOf(const cv::Matx33d& m, const cv::Point2d& p) {
   return local;
 }
 
-// S with S C S^T = I for a symmetric positive C, times the root of its size: takes shear away.
+// Removes shear: S with S C S^T = I for a symmetric positive C, times the root of its size.
 cv::Matx22d RoundingOf(const cv::Matx22d& c) {
   const double root = std::sqrt(cv::determinant(c));
   const double trace = std::sqrt(c(0, 0) + c(1, 1) + 2 * root);
@@ -40,8 +40,8 @@ cv::Matx33d LeastStretchedPlane(const std::vector<cv::Matx33d>& reference_from_f
   cv::Matx33d plane = cv::Matx33d::eye();
   if (reference_from_frame.empty()) return plane;
   for (int step = 0; step < 8; ++step) {
-    // Logarithm of the area's scale s = mean + g . (q - centre): a slope is perspective, and
-    // w = 1 + v . (q - centre) scales areas by w^-3.
+    // Logarithm of the area's scale s = mean + g . (q - centre): a slope is perspective, and w = 1
+    // + v . (q - centre) scales areas by w^-3.
     std::vector<Local> locals;
     cv::Point2d centre{0, 0};
     double mean = 0;

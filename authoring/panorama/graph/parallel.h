@@ -1,6 +1,6 @@
-// The same work for many items on a few threads. Items are independent and write to their own
-// place, so that the result does not depend on who did what. The caller's thread works too and
-// alone reports progress; an exception of any item stops the others and is thrown here.
+// Runs the same work for many items on a few threads. Items are independent and write to their own
+// place, so the result does not depend on the threads. The caller's thread works too and alone
+// reports progress. An exception of any item stops the others and is rethrown here.
 #pragma once
 
 #include <atomic>

@@ -18,7 +18,7 @@ namespace {
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
-// Pairs of one piece, and where they stand in the whole list.
+// Pairs of one piece, and their indices in the whole list.
 struct PiecePairs {
   std::vector<PairEstimate> pairs;
   std::vector<std::size_t> at;
@@ -82,7 +82,7 @@ class Placer {
     result_.loops += book_.Ask(requests, false, "closing loops", progress_);
     if (round > 0) return;
     std::vector<double> surprises;
-    // Before anything is refined, loops tell how far the chain of neighbours has drifted.
+    // Before any refinement, loops measure the drift of the chain of neighbours.
     for (const PairRequest& request : requests) {
       const PairEstimate* pair = book_.Find(request.a, request.b);
       if (pair == nullptr) continue;
@@ -123,7 +123,7 @@ class Placer {
     return own;
   }
 
-  // Every piece in the plane of its central frame; pieces of one frame stay where they are.
+  // Puts every piece into the plane of its central frame; pieces of one frame keep theirs.
   void Place() {
     const std::clock_t begin = std::clock();
     const std::vector<PairEstimate>& pairs = book_.pairs();
@@ -161,7 +161,7 @@ class Placer {
     result_.refine_ms += 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
 
-  // Pairs that all the others together contradict, the worst first.
+  // Drops pairs that all the others together contradict, the worst first.
   void DropContradicted() {
     if (options_.stages != GraphStages::kRefinement) return;
     for (int round = 0; round < 6; ++round) {
@@ -180,8 +180,8 @@ class Placer {
     }
   }
 
-  // A pair that alone joins two pieces is checked by no other: more pairs across it are asked for,
-  // and where none is found it must be good on its own.
+  // No other pair checks a pair that alone joins two pieces. Requests more pairs across it; without
+  // any, the pair must be good by itself.
   void CheckBridges() {
     std::vector<PairRequest> requests;
     const std::vector<bool> bridge = BridgesOf(frames_, book_.pairs());
@@ -207,7 +207,7 @@ class Placer {
       is_false[i] = still[i] && book_.pairs()[i].similarity < options_.bridge_similarity;
       result_.bridges_refused += is_false[i];
     }
-    Drop(is_false, "is all that joins two parts, and not sure enough for it");
+    Drop(is_false, "is the only link of two parts and too uncertain");
     Place();
   }
 
@@ -218,7 +218,7 @@ class Placer {
     if (here > 0) why = book_.WhyNot(usable_[At(static_cast<int>(here)) - 1], frame);
     if (why.empty() && At(static_cast<int>(here)) + 1 < usable_.size())
       why = book_.WhyNot(frame, usable_[At(static_cast<int>(here)) + 1]);
-    if (usable_.size() < 2) return "there is no other frame to lay it beside";
+    if (usable_.size() < 2) return "there is no other frame to compare it with";
     return "agrees with no other frame" + (why.empty() ? std::string() : ": " + why);
   }
 
@@ -235,7 +235,7 @@ class Placer {
       else
         result_.reason[At(i)] = ReasonOf(i);
     }
-    // One usable frame alone is a panorama of itself.
+    // A single usable frame is a panorama by itself.
     if (!usable_.empty() && size[0] <= 1) {
       result_.component[At(usable_[0])] = 0;
       result_.reason[At(usable_[0])].clear();
@@ -246,7 +246,7 @@ class Placer {
       const PiecePairs own = PairsOfPiece(piece);
       std::vector<double> weights;
       for (const std::size_t i : own.at) {
-        // What the Cauchy loss leaves of the pair.
+        // Weight of the pair under the Cauchy loss.
         const double over = surprise_[i] / refine_.loss_scale;
         weights.push_back(1 / (result_.variance_factor * (1 + over * over)));
       }
@@ -265,11 +265,11 @@ class Placer {
     return result_;
   }
 
-  // What independent covariances do not know: neighbours err alike, since light and relief drag
-  // them the same way. Loops tell by how far they miss what the chain predicted; and where the
-  // camera's rule had to be widened, tissue is not flat and no plane is true. Both measured on
-  // clips with known truth (0.1 to 0.3 on easy ones, 0.6 to 2.7 on hard ones, and relief of 8 % of
-  // the distance).
+  // Correction for correlated errors: neighbours err alike, since light and relief bias them in the
+  // same way. Two effects measure it: the distance by which loops miss the prediction of the chain,
+  // and a widened rule of the camera, which shows that tissue is not flat. On clips with known
+  // truth it is 0.1 to 0.3 for easy ones, and 0.6 to 2.7 for hard ones and for relief of 8 % of the
+  // distance.
   double Caution(int piece) const {
     double caution = std::sqrt(1 + 1.5 * std::min(result_.drift_factor, 100.0));
     if (DeviationOf(piece) > 0)
@@ -281,12 +281,12 @@ class Placer {
     return piece < static_cast<int>(deviation_.size()) ? deviation_[At(piece)] : 0.0;
   }
 
-  // From the central frame's plane to the one that a panorama is drawn in.
+  // Maps the central frame's plane to the plane of the panorama.
   void Straighten(int piece) {
     std::vector<cv::Matx33d> own;
     for (int i = 0; i < frames_; ++i)
       if (piece_[At(i)] == piece) own.push_back(places_[At(i)]);
-    // With the camera's rule the plane is the tissue's own; else it is chosen.
+    // With the camera's rule the plane is the tissue's own; otherwise it is chosen.
     const cv::Matx33d plane =
         DeviationOf(piece) > 0 ? NaturalScale(own, window_) : LeastStretchedPlane(own, window_);
     for (int i = 0; i < frames_; ++i) {
@@ -310,7 +310,7 @@ class Placer {
   std::vector<int> piece_, root_;
   std::vector<cv::Matx33d> places_;
   std::vector<double> error_px_, surprise_;
-  std::vector<double> deviation_;  // of the camera prior, each piece
+  std::vector<double> deviation_;  // deviation of the camera prior, per piece
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// From pairs to places: who is paired with whom, which pairs are believed, which frames hang
-// together, and where each lies. Works on any maker of pairs, so that it can be tested without
+// Places frames by their pairs: chooses pairs, rejects false ones, finds connected frames and
+// computes their positions. Works with any source of pairs, so that it can be tested without
 // pictures.
 #pragma once
 
@@ -35,13 +35,16 @@ struct GraphOptions {
       Choices<GraphStages>{{{GraphStages::kPairs, "pairs"},
                             {GraphStages::kLoops, "loops"},
                             {GraphStages::kRefinement, "refinement"}}},
-      "", "How far to go: neighbours only, with loops, with the refinement of all frames at once.");
+      "",
+      "Extent of registration: neighbours only, with loops, or with the refinement of all frames "
+      "together.");
     v("loop_rounds", loop_rounds, Range{0, 10}, "",
-      "Times that loops are looked for, each with the places of the one before.");
+      "Number of searches for loops, each with the positions of the one before.");
     v("loops_per_frame", loops_per_frame, Range{0.0, 20.0}, "",
-      "Pairs beside the neighbours that may be tried, per frame and round.");
+      "Pairs besides the neighbours that are tried, per frame and round.");
     v("least_gain", least_gain, Range{0.0, 100.0}, "",
-      "A loop is tried when the variance that it would check is at least this times its own.");
+      "A loop is tried when the variance that it would check is at least this multiple of its "
+      "own.");
     v("loop_overlap", loop_overlap, Range{0.1, 1.0}, "",
       "Share of the window that two frames must have in common to be tried as a loop.");
     v("searches_per_gap", searches_per_gap, Range{0, 100}, "",
@@ -50,27 +53,28 @@ struct GraphOptions {
       "A pair that alone joins two pieces must be at least this similar.");
     v("most_surprise", most_surprise, Range{1.0, 100.0}, "",
       "A pair that the places contradict by more than this times its error is false.");
-    v("most_misfit", most_misfit, Range{0.1, 100.0}, "px", "And by more than this.");
+    v("most_misfit", most_misfit, Range{0.1, 100.0}, "px",
+      "The contradiction must also exceed this.");
   }
 };
 
 struct PlacedGraph {
-  std::vector<int> component;  // -1: not placed; 0: the panorama; 1…: pieces that do not join
+  std::vector<int> component;  // -1: not placed; 0: the panorama; 1…: pieces that are not joined
   std::vector<std::string> reason;            // why not placed
   std::vector<cv::Matx33d> plane_from_frame;  // each component in its central frame's plane
   std::vector<double> expected_error_px;      // in that plane
-  std::vector<PairEstimate> pairs;            // that are believed
-  std::vector<double> pair_error_px;          // what is left of each
+  std::vector<PairEstimate> pairs;            // accepted pairs
+  std::vector<double> pair_error_px;          // residual of each
   int tried = 0, dropped = 0, loops = 0, bridges_refused = 0;
-  double variance_factor = 1, camera_deviation = 0;  // of component 0 (refine.h)
-  double drift_factor = 0;  // middle of the loops' squared disagreement over its expected variance
-  double drift_px = 0;      // worst disagreement of a loop with the way around it
-  double closure_px = 0;    // mean of the triangles
-  double refine_ms = 0;     // CPU, single thread
+  double variance_factor = 1, camera_deviation = 0;  // values of component 0 (refine.h)
+  double drift_factor = 0;  // median of the loops' squared disagreement over its expected variance
+  double drift_px = 0;      // largest disagreement of a loop with the path around it
+  double closure_px = 0;    // mean over the triangles
+  double refine_ms = 0;     // processor time, single thread
 };
 
-// `camera`: of the rectified frames, if their lens is known. `unusable`: why a frame cannot be
-// placed whatever its pairs; empty: it can.
+// `camera`: of the rectified frames, if their lens is known. `unusable`: reason why a frame cannot
+// be placed whatever its pairs; empty when it can.
 PlacedGraph PlaceFrames(const std::vector<std::string>& unusable, const PairMaker& maker,
                         const FrameWindow& window, const std::optional<Pinhole>& camera,
                         const GraphOptions& options, const CycleOptions& cycles,

@@ -13,7 +13,7 @@
 namespace arthro::authoring {
 namespace {
 
-// OpenCV's own threads would fight with ours and change the order of sums.
+// OpenCV's own threads would compete with ours and change the order of sums.
 class OneOpenCvThread {
  public:
   OneOpenCvThread() : before_(cv::getNumThreads()) { cv::setNumThreads(1); }
@@ -35,8 +35,8 @@ void CheckFrames(const std::vector<WorkingFrame>& frames) {
                               frames[0].grey.cols, frames[0].grey.rows, frames[0].scale));
 }
 
-// By how much what another focal length would move is worse than it looks: pairs bent by a wrong
-// lens err together.
+// Factor on the movement that another focal length would cause: pairs distorted by a wrong lens
+// have correlated errors.
 constexpr double kFocalCaution = 1.5;
 
 void CheckFocal(const Lens& lens, const RectifiedView& view, const FrameWindow& window,
@@ -62,7 +62,7 @@ void CheckFocal(const Lens& lens, const RectifiedView& view, const FrameWindow& 
   }
 }
 
-// Signs that all is not as assumed; clips with known truth stay below a third of each.
+// Limits beyond which an assumption fails; clips with known truth stay below a third of each.
 constexpr double kMostDriftFactor = 9;
 constexpr double kMostVarianceFactor = 2.5;
 
@@ -77,7 +77,8 @@ void Warn(const RegisterOptions& options, const Lens* lens, RegisterReport& told
         lens->focal_px * told.focal.factor, 100 * std::abs(off), off > 0 ? "more" : "less"));
   } else if (told.drift_factor > kMostDriftFactor || told.variance_factor > kMostVarianceFactor) {
     told.warnings.push_back(
-        "loops do not close as pairs promise: check the lens file, its focal length above all");
+        "loops miss by more than their pairs predict: check the lens file, above all its focal "
+        "length");
   } else if (!is_flat) {
     told.warnings.push_back(
         "surfaces at different depths (parallax): no flat panorama is true to all frames; expect "
@@ -128,7 +129,7 @@ std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
     result.panorama_from_rectified = graph.plane_from_frame[i];
     told.components = std::max(told.components, result.component + 1);
   }
-  // A frame's own residual: of its pairs, weighted by what they are worth.
+  // A frame's own residual: weighted mean over its pairs.
   std::vector<double> square(frames.size(), 0), weight(frames.size(), 0);
   for (std::size_t i = 0; i < graph.pairs.size(); ++i) {
     const PairEstimate& pair = graph.pairs[i];

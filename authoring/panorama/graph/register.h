@@ -1,6 +1,6 @@
-// Registration: where every frame of a clip lies in one plane. Features first, as the paper has it,
-// each pair then refined and verified by all of its pixels; pairs without features are aligned
-// directly; loops by prediction; then all frames at once. [paper, 3.1]
+// Registration: the position of every frame of a clip in one plane [paper, 3.1]. Estimates pairs by
+// features first, then refines and verifies each by all of its pixels; aligns pairs without
+// features directly; closes loops by prediction; then refines all frames together.
 #pragma once
 
 #include <string>
@@ -36,7 +36,7 @@ struct RegisterOptions {
       Choices<PairMethod>{{{PairMethod::kFeaturesThenDirect, "features_then_direct"},
                            {PairMethod::kDirect, "direct"},
                            {PairMethod::kFeatures, "features"}}},
-      "", "How pairs of frames are laid over each other.");
+      "", "Method of aligning pairs of frames.");
     v("threads", threads, Range{1, 64}, "", "Frames and pairs worked on at once.");
     features.Visit(v);
     direct.Visit(PartVisitor<V>{v, "direct_"});
@@ -46,25 +46,25 @@ struct RegisterOptions {
   }
 };
 
-// Share by which a lens file's focal length may miss the frames' own before it counts as wrong; on
-// clips with a right lens it is found within a fifth of this.
+// Least relative error of a lens file's focal length that counts as wrong; with a right lens the
+// frames' own focal length agrees within a fifth of this.
 inline constexpr double kFocalIsWrong = 0.01;
 
 struct RegisterReport {
-  double features_ms = 0, pairs_ms = 0, refine_ms = 0;  // CPU, all threads together
+  double features_ms = 0, pairs_ms = 0, refine_ms = 0;  // processor time, all threads together
   int pairs_tried = 0, pairs_kept = 0, pairs_dropped = 0;
-  int feature_pairs = 0, direct_pairs = 0;  // kept, by what found them first
+  int feature_pairs = 0, direct_pairs = 0;  // kept pairs, by the method that found them
   int components = 0;
   double drift_px = 0, closure_px = 0, variance_factor = 1, camera_deviation = 0, drift_factor = 0;
-  FocalFit focal;                   // of the lens; not determined without one
-  std::vector<PairEstimate> pairs;  // that were kept
+  FocalFit focal;                   // focal length of the lens; not determined without one
+  std::vector<PairEstimate> pairs;  // kept pairs
   std::vector<std::string> warnings;
 };
 
-// One result a frame, in order. `mask` is the view's, at scale 1 or any other. Throws
-// Error(kBadArgument) when working frames differ in size or scale, Error(kCancelled). With the lens
-// that rectified the frames its focal length is checked, and where it is wrong the expected errors
-// grow by what it costs.
+// Returns one result per frame, in order. `mask` is the view's, at scale 1 or any other. Throws
+// Error(kBadArgument) when working frames differ in size or scale, and Error(kCancelled). With the
+// lens that rectified the frames, checks its focal length; a wrong one increases the expected
+// errors by its effect.
 std::vector<FrameResult> Register(const std::vector<WorkingFrame>& frames,
                                   const RectifiedView& view, const cv::Mat& mask,
                                   const RegisterOptions& options, RegisterReport* report,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLevel = kDirectLevels - 1;
 constexpr int kPeaksATurn = 3;
-// Two candidates that lie closer than this everywhere are the same one.
+// Distance below which two candidates are the same.
 constexpr double kSame = 2.5;  // px of the coarsest level
 constexpr int kFirstSteps = 4;
 constexpr std::size_t kFinalists = 2;
@@ -23,7 +23,7 @@ struct Peak {
   double height = 0;
 };
 
-// Turn and zoom about a point, as a map of frame a's level.
+// Rotation and zoom about a point, as a map of frame a's level.
 cv::Matx33d Turn(double angle, double zoom, const cv::Point2d& centre) {
   const double c = zoom * std::cos(angle), s = zoom * std::sin(angle);
   return {c, -s, centre.x - c * centre.x + s * centre.y,
@@ -33,7 +33,7 @@ cv::Matx33d Turn(double angle, double zoom, const cv::Point2d& centre) {
 
 cv::Matx33d Shift(double x, double y) { return {1, 0, x, 0, 1, y, 0, 0, 1}; }
 
-// How far the two differ at most over the corners of a frame of this size.
+// Largest difference of the two homographies over the corners of a frame of this size.
 double FarthestApart(const cv::Matx33d& p, const cv::Matx33d& q, cv::Size2d size) {
   double farthest = 0;
   for (const double x : {0.15, 0.85})
@@ -44,7 +44,7 @@ double FarthestApart(const cv::Matx33d& p, const cv::Matx33d& q, cv::Size2d size
   return farthest;
 }
 
-// The highest local maxima of a correlation that wraps around.
+// Adds the highest local maxima of a correlation that wraps around.
 void AddPeaks(const cv::Mat& correlation, const cv::Matx33d& turned, std::vector<Peak>& peaks) {
   struct Spot {
     float height;
@@ -70,8 +70,8 @@ void AddPeaks(const cv::Mat& correlation, const cv::Matx33d& turned, std::vector
     }
   }
   for (const Spot& spot : spots) {
-    // The shift is known up to whole canvases; the shorter one is likelier, the other is tried when
-    // the two are of like length.
+    // The shift is known modulo the canvas. The shorter one is more likely; the other is tried as
+    // well when both have similar length.
     const int x = spot.x > w / 2 ? spot.x - w : spot.x, y = spot.y > h / 2 ? spot.y - h : spot.y;
     const int other_x = x > 0 ? x - w : x + w, other_y = y > 0 ? y - h : y + h;
     peaks.push_back({turned * Shift(x, y), spot.height});
@@ -95,13 +95,15 @@ bool Improve(DirectSolver& solver, Motion motion, int steps, CoarseCandidate& ca
   candidate.similarity = evidence.similarity;
   candidate.certainty = evidence.certainty;
   candidate.overlap = evidence.overlap;
-  // Each of nine equal parts would have a third of the whole's.
+  // Share of the weakest part: each of nine equal parts would have a third of the whole's
+  // certainty.
   const double even = std::clamp(3 * evidence.weakest_part / (evidence.certainty + 1e-6), 0.0, 1.0);
   candidate.score = evidence.certainty * (0.5 + 0.5 * even);
   return true;
 }
 
-// Best first; of those that are the same the best only. `size` of the frames in rectified px.
+// Sorts by score and keeps only the best among equal candidates. `size` of the frames in rectified
+// px.
 void SortAndThin(cv::Size2d size, std::vector<CoarseCandidate>& found) {
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& p, const auto& q) { return p.score > q.score; });
@@ -161,7 +163,7 @@ std::vector<CoarseCandidate> CoarseCandidates(const DirectPyramid& a, const Dire
 
   const double zoom_out = 1 / la.level_from_rectified(0, 0);
   const cv::Size2d whole(size.width * zoom_out, size.height * zoom_out);
-  // A few steps for each show which ones are going somewhere; only those are worth more.
+  // A few steps for each show the promising ones; only these are refined further.
   DirectSolver solver(la, lb);
   for (const Peak& peak : distinct) {
     CoarseCandidate candidate;

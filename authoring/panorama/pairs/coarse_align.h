@@ -1,6 +1,6 @@
-// Where frame b may lie over frame a, found without a start: correlation of their coarsest bands
-// over all shifts at once (Fourier), for several turns and zooms, then each of the best peaks
-// improved by least squares at that level. Homographies b_from_a are of rectified px.
+// Finds the position of frame b over frame a without a start. Correlates their coarsest bands over
+// all shifts (Fourier) for several rotations and zooms, then improves each of the best peaks by
+// least squares at that level. Homographies b_from_a are of rectified px.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,18 @@ namespace arthro::authoring {
 
 struct CoarseCandidate {
   cv::Matx33d b_from_a;
-  double similarity = 0, certainty = 0, overlap = 0;  // as in Evidence, coarsest level
-  // What ranks: the certainty, less where only part of the shared view looks alike.
+  double similarity = 0, certainty = 0, overlap = 0;  // see Evidence; at the coarsest level
+  // Rank: the certainty, reduced when only part of the shared view is similar.
   double score = 0;
 };
 
-// Best first, no two alike. Empty when a frame has no texture. `predicted` (may be null) narrows
-// the search to turns near it.
+// Candidates, best first, all different. Empty for a frame without texture. `predicted` (may be
+// null) narrows the search to rotations near it.
 std::vector<CoarseCandidate> CoarseCandidates(const DirectPyramid& a, const DirectPyramid& b,
                                               const cv::Matx33d* predicted,
                                               const DirectOptions& options);
 
-// The best of them.
+// Best candidate.
 std::optional<cv::Matx33d> CoarseAlign(const DirectPyramid& a, const DirectPyramid& b,
                                        const cv::Matx33d* predicted, const DirectOptions& options);
 

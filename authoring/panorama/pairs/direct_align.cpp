@@ -17,7 +17,7 @@ std::optional<PairEstimate> AlignDirect(const DirectPyramid& a, const DirectPyra
   pair.a = ia, pair.b = ib;
   pair.source = PairSource::kDirect;
   pair.b_from_a = start_b_from_a * (1 / start_b_from_a(2, 2));
-  // Coarse: what is off by much is a shift and a turn; what perspective the start has it keeps.
+  // Coarse level: large errors are a shift and a rotation; the perspective of the start is kept.
   {
     DirectSolver solver(a.level(2), b.level(2));
     if (!solver.Solve(Motion::kSimilarity, options.most_iterations, 0.2, pair.b_from_a) ||

@@ -1,6 +1,6 @@
-// Lays frame b over frame a by all of their pixels at once, where single points are too faint to be
-// found again: coarse-to-fine least squares over the bands of a DirectPyramid, with a covariance
-// that counts the noise as the frames show it, and a verdict.
+// Aligns frame b with frame a by all of their pixels, when single points are too faint to be found
+// again. Coarse-to-fine least squares over the bands of a DirectPyramid, with a covariance from the
+// noise of the frames, and a verdict.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace arthro::authoring {
 
-// `start_b_from_a` may be off by some 40 rectified px. Nothing, and `why_not` says why, when the
-// frames do not show the same place as far as can be told.
+// `start_b_from_a` may be off by about 40 rectified px. Returns nothing, with the reason in
+// `why_not`, unless the frames demonstrably show the same place.
 std::optional<PairEstimate> AlignDirect(const DirectPyramid& a, const DirectPyramid& b, int ia,
                                         int ib, const cv::Matx33d& start_b_from_a,
                                         const DirectOptions& options, std::string* why_not);

@@ -1,5 +1,5 @@
-// How two frames are laid over each other by all of their pixels at once: the search for a start,
-// the least squares, and what is believed.
+// Options of direct alignment: the search for a start, the least squares, and the limits of
+// acceptance.
 #pragma once
 
 #include "simulation/core/options.h"
@@ -23,26 +23,27 @@ struct DirectOptions {
   template <class V>
   void Visit(V&& v) {
     v("rotation_reach", rotation_reach, Range{0.0, 3.15}, "rad",
-      "Turns up to this far either way are searched when nothing is predicted.");
-    v("rotation_step", rotation_step, Range{0.01, 0.5}, "rad", "Between two turns searched.");
+      "Largest rotation that a search without prediction tries.");
+    v("rotation_step", rotation_step, Range{0.01, 0.5}, "rad",
+      "Step between two rotations of the search.");
     v("predicted_rotation_reach", predicted_rotation_reach, Range{0.0, 3.15}, "rad",
-      "The same around a prediction.");
+      "Largest rotation that a search around a prediction tries.");
     v("zoom_reach", zoom_reach, Range{0.0, 0.5}, "",
-      "Zooms by this share in and out are searched as well; 0: only the size as it is.");
-    v("candidates", candidates, Range{1, 20}, "", "Peaks of the search that are tried out.");
+      "Relative change of size that is searched as well; 0 searches the same size only.");
+    v("candidates", candidates, Range{1, 20}, "", "Peaks of the search that are refined.");
     v("most_points", most_points, Range{2000, 200000}, "",
       "Pixels of a frame's finest level that are aligned: those with the strongest edges.");
-    v("most_iterations", most_iterations, Range{1, 100}, "", "Least squares steps a level.");
+    v("most_iterations", most_iterations, Range{1, 100}, "", "Least-squares steps per level.");
     v("smallest_overlap", smallest_overlap, Range{0.01, 1.0}, "",
-      "A pair that shares less than this of the first frame is refused.");
+      "A pair with less overlap, as a share of the first frame, is refused.");
     v("least_certainty", least_certainty, Range{0.0, 100.0}, "sigma",
-      "How far the likeness of the two frames must stand above chance.");
+      "Least similarity of the two frames, in deviations above chance.");
     v("least_part_certainty", least_part_certainty, Range{-10.0, 100.0}, "sigma",
-      "The same for the least alike of nine parts of what the two share.");
+      "The same for the least similar of nine parts of the overlap.");
     v("least_part_share", least_part_share, Range{0.0, 1.0}, "",
-      "The same as a share of what it would be were all parts alike.");
+      "The same as a share of its value for equal parts.");
     v("most_corner_sigma", most_corner_sigma, Range{0.1, 100.0}, "px",
-      "A pair whose overlap would be known less well than this is refused.");
+      "A pair with a larger uncertainty over its overlap is refused.");
   }
 };
 

@@ -11,19 +11,22 @@ namespace arthro::authoring {
 namespace {
 
 constexpr float kMostDeviations = 3.0f;
-// Own px of a level: against pixel noise, before differences are taken.
+// px of the level: smoothing against pixel noise, before differences are taken.
 constexpr double kFinestSmoothing = 1.0, kCoarserSmoothing = 0.7;
-// A pixel of a level counts when this share of what was averaged into it was valid.
+// Share of valid pixels among those averaged into a pixel of a level; below it the pixel does not
+// count.
 constexpr float kLeastWeight = 0.6f;
-// Nearer to the rim the ground that is taken off is known from one side only, and the band leans.
+// Least weight of the subtracted background: nearer to the rim it is known from one side only, and
+// the band is biased.
 constexpr float kLeastGround = 0.8f;
-// Below this deviation, in grey levels, a band holds rounding and nothing else.
+// Deviation in grey levels below which a band holds only rounding errors.
 constexpr float kLeastDeviation = 0.05f;
 
 constexpr float kInvalid = 1e9f;
-// Of the option most_points, for one band of each level: coarse levels have fewer waves to place.
+// Shares of the option most_points, for one band of each level: coarse levels have fewer waves to
+// place.
 constexpr double kShareOfPoints[kDirectLevels] = {0.4, 0.4, 0.25};
-constexpr std::size_t kFewestPoints = 64;  // of the coarsest level
+constexpr std::size_t kFewestPoints = 64;  // on the coarsest level
 
 // Value times weight, and weight.
 cv::Mat Weighted(const WorkingFrame& frame) {
@@ -55,7 +58,7 @@ float DeviationOf(const cv::Mat& band) {
   return 1.4826f * *middle;
 }
 
-// Difference of the smoothed level and the one two octaves up; kInvalid where it is not valid.
+// Difference of the smoothed level and the one two octaves up; kInvalid for invalid pixels.
 cv::Mat Difference(const cv::Mat& own, const cv::Mat& smooth, const cv::Mat& coarse) {
   cv::Mat band(own.size(), CV_32FC1);
   for (int y = 0; y < own.rows; ++y) {
@@ -71,7 +74,8 @@ cv::Mat Difference(const cv::Mat& own, const cv::Mat& smooth, const cv::Mat& coa
   return band;
 }
 
-// In units of its deviation, cut off, a byte a pixel. Returns how many are valid.
+// Quantises in units of the deviation, clipped, to a byte per pixel. Returns the number of valid
+// pixels.
 int Quantise(const cv::Mat& band, float deviation, cv::Mat& bytes) {
   bytes.create(band.size(), CV_8SC1);
   const float scale = kBandUnit / deviation, most = kBandUnit * kMostDeviations;
@@ -90,8 +94,8 @@ int Quantise(const cv::Mat& band, float deviation, cv::Mat& bytes) {
   return valid;
 }
 
-// One pixel a block, the one with the strongest gradient, so that all of the frame speaks; blocks
-// as large as needed to keep `most` of the valid pixels.
+// Selects one pixel per block, the one with the strongest gradient, so that all of the frame
+// contributes. Blocks are as large as needed to keep `most` of the valid pixels.
 std::vector<std::int32_t> StrongPoints(const cv::Mat& band, int valid, int most) {
   int wide = 1, high = 1;
   while (wide * high * most < valid) (wide > high ? high : wide) += 1;
@@ -117,7 +121,7 @@ std::vector<std::int32_t> StrongPoints(const cv::Mat& band, int valid, int most)
   return points;
 }
 
-// The band's difference over kReach pixels each way along the radius from the middle.
+// Difference of the band over kReach pixels in both directions along the radius from the middle.
 cv::Mat RadialDifference(const cv::Mat& band) {
   constexpr int kReach = 1;  // px: a quarter of the shortest wave
   cv::Mat out(band.size(), CV_32FC1, cv::Scalar(kInvalid));
@@ -154,7 +158,7 @@ DirectBand Compact(const cv::Mat& band, int most_points) {
 }  // namespace
 
 cv::Size SpectrumSize(cv::Size level) {
-  // Shifts of more than half the canvas come back from the other side; CoarseAlign tries both.
+  // Shifts of more than half the canvas wrap around; CoarseAlign tries both.
   return {cv::getOptimalDFTSize(level.width + 8), cv::getOptimalDFTSize(level.height + 8)};
 }
 

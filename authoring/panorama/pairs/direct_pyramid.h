@@ -1,17 +1,17 @@
-// What direct alignment looks at in a frame: its fine texture alone, at a half, a quarter and an
-// eighth of the rectified scale (for working frames at scale 0.5). Each level keeps the wavelengths
-// of about 4 to 16 of its own pixels, so that neither slow haze and light nor pixel noise counts,
-// in units of its own robust deviation and cut off at three of them, so that debris and glints
-// weigh no more than strong texture. Compact: a byte a pixel.
+// Data of a frame for direct alignment: its fine texture alone, at a half, a quarter and an eighth
+// of the rectified scale (for working frames at scale 0.5). Each level keeps wavelengths of about 4
+// to 16 of its own pixels, which removes haze, light and pixel noise. Values are in units of the
+// level's robust deviation and clipped at three of them, so that debris and highlights weigh no
+// more than strong texture. A pixel takes one byte.
 //
-// Two bands a level, as tissue has two kinds of texture:
-//   colour  the grey itself. Painted texture looks the same wherever the scope stands.
+// Two bands per level, for the two kinds of tissue texture:
+//   colour  the grey itself. Painted texture looks the same from every position of the scope.
 //   relief  its difference along the radius from the picture's middle. The light sits at the scope,
-//           so a bump h shades as r·∇h, r from the middle: the sign turns with the side from which
-//           it is seen, and frames that see it from opposite sides are each other's negative. The
-//           radial derivative of that, about r (k·r̂)² h for each wave k, keeps its sign.
+//           so a bump h shades as r·∇h, r from the middle: the sign depends on the side of the
+//           view, and frames from opposite sides are each other's negative. The radial derivative
+//           of that, about r (k·r̂)² h for each wave k, keeps its sign.
 //
-// A level's pixel, k times halved: x_level = x_work / 2^k, with x_work = (x + 0.5) scale - 0.5.
+// Pixel of a level after k halvings: x_level = x_work / 2^k, with x_work = (x + 0.5) scale - 0.5.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace arthro::authoring {
 
 inline constexpr int kDirectLevels = 3;
 inline constexpr float kBandUnit = 32.0f;  // stored value of one deviation
-inline constexpr int kNoBand = -128;       // stored value where there is nothing to compare
+inline constexpr int kNoBand = -128;       // stored value of an invalid pixel
 
 struct DirectBand {
   cv::Mat values;                    // CV_8SC1
@@ -46,9 +46,10 @@ class DirectPyramid {
   explicit DirectPyramid(const WorkingFrame& frame, const DirectOptions& options = {});
 
   int index() const { return index_; }
-  // 0 is the finest. Every level exists; a frame without texture or mask has levels without points.
+  // Level 0 is the finest. Every level exists; a frame without texture or mask has levels without
+  // points.
   const DirectLevel& level(int k) const { return levels_[k]; }
-  // Fourier transform of a band of the coarsest level, as cv::dft packs it; empty for a frame
+  // Fourier transform of a band of the coarsest level, packed as by cv::dft; empty for a frame
   // without texture.
   const cv::Mat& spectrum(Texture texture) const { return spectra_[texture]; }
   bool HasTexture() const { return !spectra_[kColour].empty(); }
@@ -59,8 +60,8 @@ class DirectPyramid {
   cv::Mat spectra_[kTextures];
 };
 
-// The band as float, times a soft mask that is 0 at the border of what is valid, on a canvas for
-// cv::dft.
+// Band as float, multiplied by a soft mask that is 0 at the border of the valid area, on a canvas
+// for cv::dft.
 cv::Mat ApodisedBand(const DirectBand& band, cv::Size canvas);
 cv::Size SpectrumSize(cv::Size level);
 

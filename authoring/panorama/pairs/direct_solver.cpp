@@ -8,12 +8,12 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kBlock = 128;         // points worked on at a time; a multiple of 4
-constexpr float kOutside = 1e6f;    // so far off that its weight is nothing
-constexpr float kTolerance = 4.0f;  // deviations at which a residual counts a quarter
+constexpr int kBlock = 128;         // points per block; a multiple of 4
+constexpr float kOutside = 1e6f;    // residual outside the frame; its weight is zero
+constexpr float kTolerance = 4.0f;  // deviations at which the weight of a residual is a quarter
 constexpr int kCellSide = 12;       // level px: over three times the band's correlation length
-// Independent values in a cell: the inverse variance of the correlation of two cells of unlike
-// texture.
+// Number of independent values in a cell: the inverse variance of the correlation of two cells of
+// different texture.
 constexpr double kFreePerCell = 9.0;
 constexpr double kLeastPart = 0.04;  // share of the cells that make a part
 constexpr double kLeastGain = 0.1, kMostGain = 1.5;
@@ -32,7 +32,7 @@ cv::Matx33d StepOf(const Vec8& p) {
   return {1 + p(1), p(2), p(0), p(4), 1 + p(5), p(3), -p(6), -p(7), 1};
 }
 
-// Columns: what the motion may do.
+// Columns: degrees of freedom of the motion.
 cv::Mat BasisOf(Motion motion) {
   if (motion == Motion::kSimilarity) {
     cv::Mat basis = cv::Mat::zeros(8, 4, CV_64F);
@@ -47,7 +47,7 @@ cv::Mat BasisOf(Motion motion) {
   return cv::Mat::eye(8, motion == Motion::kAffine ? 6 : 8, CV_64F);
 }
 
-// Likeness of some cells, by texture.
+// Similarity of a set of cells, by texture.
 struct Likeness {
   double sum[kTextures] = {};
   int cells[kTextures] = {};
@@ -62,7 +62,7 @@ struct Likeness {
       if (cells[texture] > 0) best = std::max(best, sum[texture] / cells[texture]);
     return best;
   }
-  // By the better texture, or by both where both agree.
+  // Certainty by the better texture, or by both when both agree.
   double Certainty() const {
     double best = 0, both = 0;
     for (const Texture texture : {kColour, kRelief}) {
@@ -204,7 +204,7 @@ void BandSolver::Reset() { gain_ = 0.5f, deviation_ = 1.0f; }
 void BandSolver::Adapt(const Sums& sums) {
   if (!(sums.weight > 0 && sums.aa > 0)) return;
   gain_ = static_cast<float>(std::clamp(sums.ab / sums.aa, kLeastGain, kMostGain));
-  // Weighted mean magnitude of a normal deviate, to its deviation.
+  // Ratio of a normal deviate's standard deviation to its weighted mean magnitude.
   deviation_ = static_cast<float>(std::clamp(1.2533 * sums.magnitude / sums.weight, 0.05, 1.5));
 }
 
@@ -221,7 +221,8 @@ DirectSolver::Joint DirectSolver::Accumulate(const cv::Matx33d& h, const Patch& 
     const BandSolver::Sums sums = band.Accumulate(h, patch, with_cells);
     if (!(sums.weight > 0)) continue;
     if (adapt) band.Adapt(sums);
-    // Weights fall where residuals grow, so the score answers less than the normal matrix says.
+    // Weights decrease for large residuals, so the score responds less than the normal matrix
+    // predicts.
     const double slope = std::clamp(sums.slope / sums.weight, 0.4, 1.0);
     joint.points += sums.points;
     joint.normal += sums.normal * (band.importance() * band.gain() * slope);
@@ -251,7 +252,7 @@ bool DirectSolver::Solve(Motion motion, int most_iterations, double enough_px,
       return false;
     Vec8 p = Vec8(cv::Mat(basis * step));
 
-    // Never further at once than the band's linear range.
+    // Limits the step to the band's linear range.
     double longest = 0;
     for (const double u : {-1.0, 1.0})
       for (const double v : {-1.0, 1.0}) {
@@ -307,24 +308,24 @@ Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a, bool with_response) {
   const int across = size_.width / kCellSide + 1;
   Likeness whole, parts[9];
   for (std::size_t i = 0; i < count; ++i) {
-    // Thirds of the overlap each way; for an ellipse these hold about as many cells each.
+    // Thirds of the overlap in both directions; those of an ellipse hold about as many cells each.
     const double x = (static_cast<int>(i) % across + 0.5) * kCellSide,
                  y = (static_cast<int>(i) / across + 0.5) * kCellSide;
     const auto third = [](double u) { return u < -0.45 ? 0 : u < 0.45 ? 1 : 2; };
     Likeness& part = parts[3 * third((y - patch.centre.y) / patch.reach_y) +
                            third((x - patch.centre.x) / patch.reach_x)];
     Vec8 score = Vec8::zeros();
-    bool has_say = false;
+    bool is_counted = false;
     for (const Texture texture : {kColour, kRelief}) {
       const BandSolver::Cell& cell = bands_[texture].cells()[i];
       if (!(cell.aa > 0 && cell.bb > 0)) continue;
-      has_say = true;
+      is_counted = true;
       whole.Add(texture, cell);
       part.Add(texture, cell);
       for (int j = 0; j < 8; ++j)
         score(j) += static_cast<double>(cell.score[j]) * bands_[texture].importance();
     }
-    evidence.cells += has_say;
+    evidence.cells += is_counted;
     evidence.scatter += score * score.t();
   }
   evidence.similarity = whole.Similarity();

@@ -1,4 +1,4 @@
-// Which points of a frame are looked for and how two frames' points are held together.
+// Options for finding and matching the points of frames.
 #pragma once
 
 #include "simulation/core/options.h"
@@ -23,15 +23,14 @@ struct FeatureOptions {
                          {Detector::kSift, "sift"},
                          {Detector::kAkaze, "akaze"},
                          {Detector::kOrb, "orb"}}},
-      "", "What finds points that two frames share; SURF is the paper's.");
-    v("features", features, Range{50, 10000}, "", "Points kept of a frame, spread over it.");
+      "", "Detector of points; SURF is the paper's.");
+    v("features", features, Range{50, 10000}, "", "Points per frame, spread over it.");
     v("ratio", ratio, Range{0.3, 1.0}, "",
       "A match must be this much closer than the second best.");
-    v("max_error", max_error, Range{0.5, 20.0}, "px",
-      "A match further off than this is an outlier.");
+    v("max_error", max_error, Range{0.5, 20.0}, "px", "A match with a larger error is an outlier.");
     v("max_trials", max_trials, Range{50, 100000}, "", "RANSAC samples before giving up.");
     v("fewest_inliers", fewest_inliers, Range{8, 1000}, "",
-      "A pair with fewer matches that agree is refused.");
+      "A pair with fewer inliers is refused.");
     v("seed", seed, Range{0, 2147483647}, "", "Start of the random sequence.");
   }
 };

@@ -8,9 +8,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kLeastNoise = 0.3;  // px: no detector places its points better, at half scale
+constexpr double kLeastNoise = 0.3;  // px: lower bound for any detector's accuracy at half scale
 
-// Corners of the box around the inliers, drawn in to where points are.
+// Corners of the bounding box of the inliers, moved inwards to the points.
 FourPoints ControlOf(const std::vector<cv::Point2d>& points) {
   cv::Point2d low = points.front(), high = low;
   for (const auto& p : points) {
@@ -54,8 +54,9 @@ std::optional<PairEstimate> MatchFeatures(const FrameFeatures& a, const FrameFea
   for (const int i : found.inliers) inliers.push_back(in_a[static_cast<std::size_t>(i)]);
   pair.control_in_a = ControlOf(inliers);
 
-  // About the middle of the inliers and in units of their extent, so that the normal equations are
-  // well conditioned: information of the homography there, then of the control points.
+  // Coordinates relative to the middle of the inliers, in units of their extent, for
+  // well-conditioned normal equations. Computes the information of the homography there, then of
+  // the control points.
   const cv::Point2d middle = 0.5 * (pair.control_in_a[0] + pair.control_in_a[2]);
   const double extent = std::max(1e-9, cv::norm(pair.control_in_a[2] - middle));
   const cv::Matx33d a_from_unit(extent, 0, middle.x, 0, extent, middle.y, 0, 0, 1);
@@ -75,7 +76,7 @@ std::optional<PairEstimate> MatchFeatures(const FrameFeatures& a, const FrameFea
       for (int column = 0; column < 8; ++column)
         control_by_homography(2 * k + row, column) = j(row, column);
   }
-  // One axis of the residual; eight of the 2n were fitted.
+  // Degrees of freedom along one axis of the residual; eight of the 2n were fitted.
   const double free = std::max(1.0, 2.0 * pair.inliers - 8.0);
   const double variance =
       std::max(kLeastNoise * kLeastNoise, found.rms * found.rms * pair.inliers / free);

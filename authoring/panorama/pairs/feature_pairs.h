@@ -1,5 +1,5 @@
-// A pair of frames held together by the points that they share [paper, 3.1]: matches by look,
-// agreed by RANSAC, refined; with how well that pins the pair down.
+// Relates a pair of frames by common points [paper, 3.1]: matches by descriptor, RANSAC,
+// refinement, and the accuracy of the result.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace arthro::authoring {
 
-// Nothing when the frames do not hold together; `why_not`, which may be null, then says why in a
-// few words. `overlap` is that of the two windows' boxes; `similarity` is not known from points and
-// stays 0. Safe to call from several threads.
+// Returns nothing when the frames do not match; `why_not`, which may be null, then gives the reason
+// in a few words. `overlap` is that of the two windows' boxes; `similarity` is unknown for points
+// and stays 0. Safe to call from several threads.
 std::optional<PairEstimate> MatchFeatures(const FrameFeatures& a, const FrameFeatures& b, int ia,
                                           int ib, const FeatureOptions& options,
                                           std::string* why_not,

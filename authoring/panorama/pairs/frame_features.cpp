@@ -13,11 +13,11 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kCells = 8;  // across the frame: each keeps its share of the points
-// More candidates than are kept, so that every cell has some to choose from.
+constexpr int kCells = 8;  // cells across the frame: each keeps its share of the points
+// Factor of candidates over kept points, so that every cell has some to choose from.
 constexpr int kCandidates = 2;
-constexpr double kPredictedReach = 40;  // px: matches further from a prediction are not the same
-constexpr int kChecks = 48;             // leaves of the index that a search looks at
+constexpr double kPredictedReach = 40;  // px: matches further from the prediction are false
+constexpr int kChecks = 48;             // leaves of the index that a search visits
 
 struct Candidates {
   std::vector<cv::KeyPoint> points;  // strongest first
@@ -28,7 +28,7 @@ Candidates Find(const cv::Mat& grey, const cv::Mat& mask, const FeatureOptions& 
   Candidates out;
   const int most = kCandidates * options.features;
   if (options.detector == Detector::kSurf) {
-    constexpr double kLeast = 10;  // dlib's response; the count is what limits
+    constexpr double kLeast = 10;  // dlib's response; the number of points is limited instead
     const SurfPoints surf = DetectSurf(grey, mask, most, kLeast);
     for (const SurfPoint& p : surf.points)
       out.points.emplace_back(p.at, p.scale, -1.0f, p.strength);
@@ -54,7 +54,7 @@ Candidates Find(const cv::Mat& grey, const cv::Mat& mask, const FeatureOptions& 
   return out;
 }
 
-// Which candidates are kept: in turn the strongest left of every cell that has any.
+// Selects candidates: in turn the strongest remaining one of every cell.
 std::vector<int> SpreadOver(const std::vector<cv::KeyPoint>& points, cv::Size size, int most) {
   std::vector<std::vector<int>> cells(kCells * kCells);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -75,7 +75,8 @@ std::vector<int> SpreadOver(const std::vector<cv::KeyPoint>& points, cv::Size si
   return kept;
 }
 
-// OpenCV's index draws from a generator of the thread; ours must not depend on who drew before.
+// OpenCV's index uses a random generator of the thread; the result must not depend on earlier
+// draws.
 class OwnRandom {
  public:
   explicit OwnRandom(int seed) : before_(cv::theRNG()) {
@@ -92,12 +93,12 @@ class OwnRandom {
 }  // namespace
 
 struct FrameFeatures::Index {
-  // Search does not change it, though OpenCV does not say so.
+  // Searching does not change it, although OpenCV does not declare so.
   mutable cv::flann::Index flann;
   bool is_binary = false;
 
   struct Found {
-    cv::Mat indices, distances;  // of the nearest two; squared for floats
+    cv::Mat indices, distances;  // nearest two; squared for floats
   };
   Found Nearest(const cv::Mat& descriptors, int count) const {
     Found found;
@@ -120,7 +121,7 @@ FrameFeatures DetectFeatures(const WorkingFrame& frame, const FeatureOptions& op
   FrameFeatures features;
   features.reach_ = 0.5 * std::max(frame.grey.cols, frame.grey.rows) / frame.scale;
   const cv::Rect inside = cv::boundingRect(frame.mask);
-  constexpr int kSmallest = 64;  // px: below this no detector has room
+  constexpr int kSmallest = 64;  // px: a smaller frame has no room for any detector
   if (inside.width < kSmallest || inside.height < kSmallest || frame.texture <= 0) return features;
   const Candidates found = Find(frame.grey, frame.mask, options);
   const std::vector<int> kept = SpreadOver(found.points, frame.grey.size(), options.features);
@@ -147,7 +148,7 @@ std::vector<FeatureMatch> MutualMatches(const FrameFeatures& a, const FrameFeatu
   std::vector<FeatureMatch> matches;
   if (!a.index_ || !b.index_ || a.descriptors_.type() != b.descriptors_.type()) return matches;
   const auto forth = b.index_->Nearest(a.descriptors_, 2);
-  std::vector<int> asked;  // points of b whose own nearest is wanted
+  std::vector<int> asked;  // points of b for which the nearest of a is needed
   cv::Mat asked_descriptors;
   for (int i = 0; i < a.descriptors_.rows; ++i) {
     const int near = forth.indices.at<int>(i, 0), next = forth.indices.at<int>(i, 1);

@@ -1,5 +1,5 @@
-// The points of one frame that other frames may share, in rectified pixels at scale 1, with what
-// they look like and an index to search them by. Found once a frame, searched by every pair.
+// Points of one frame that other frames may share, in rectified pixels at scale 1, with descriptors
+// and a search index. Computed once per frame, searched by every pair.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ class FrameFeatures {
   ~FrameFeatures();
 
   const std::vector<cv::Point2d>& points() const { return points_; }
-  // Half the window's extent, px: what spread is measured against.
+  // Half the window's extent, px: the unit of spread.
   double reach() const { return reach_; }
 
  private:
@@ -34,18 +34,18 @@ class FrameFeatures {
   struct Index;
 
   std::vector<cv::Point2d> points_;
-  cv::Mat descriptors_;  // CV_32F or CV_8U, one row a point
+  cv::Mat descriptors_;  // CV_32F or CV_8U, one row per point
   std::unique_ptr<Index> index_;
   double reach_ = 0;
 };
 
-// Strongest first in every part of the frame, so that one vessel does not take them all. The same
-// frame and options give the same points, at any number of threads. A frame without texture has
-// none.
+// Finds points, strongest first in every part of the frame, so that one vessel does not take them
+// all. The same frame and options give the same points, for any number of threads. A frame without
+// texture has none.
 FrameFeatures DetectFeatures(const WorkingFrame& frame, const FeatureOptions& options);
 
-// Each point of `a` with its nearest of `b`, when that is clearly nearer than the second and has it
-// as its own nearest. With a prediction only matches in its reach. Safe to call from several
+// Matches each point of `a` with its nearest of `b` when that is clearly nearer than the second,
+// and mutual. A prediction restricts matches to its neighbourhood. Safe to call from several
 // threads.
 std::vector<FeatureMatch> MutualMatches(const FrameFeatures& a, const FrameFeatures& b,
                                         const FeatureOptions& options,

@@ -16,16 +16,19 @@ namespace {
 
 using Points = std::vector<cv::Point2d>;
 
-// A similarity misses what perspective bends by this many thresholds, an affine map by fewer.
+// Tolerances, in thresholds, for the perspective that a similarity and an affine map cannot
+// represent.
 constexpr double kSimilaritySlack = 6, kAffineSlack = 3;
-constexpr int kWidened = 6;            // similarities that are widened
-constexpr double kNearest = 0.15;      // of two sampled points, mean distances from the middle
-constexpr double kMostScale = 2.5;     // from frame to frame
-constexpr double kLeastSpread = 0.06;  // of the inliers across their line, shares of the reach
-constexpr double kMostArea = 6;        // factor by which an area may change between frames
-constexpr double kConfidence = 0.999;  // that a sample without outliers was drawn
+constexpr int kWidened = 6;  // number of similarities that are extended
+constexpr double kNearest =
+    0.15;  // distance of two sampled points, in mean distances from the middle
+constexpr double kMostScale = 2.5;  // scale between frames
+constexpr double kLeastSpread =
+    0.06;                        // spread of the inliers across their line, in shares of the reach
+constexpr double kMostArea = 6;  // factor of area between frames
+constexpr double kConfidence = 0.999;  // probability that a sample without outliers was drawn
 
-// Moves the points about 0 at mean distance 1.
+// Normalises the points to mean 0 and mean distance 1.
 cv::Matx33d Normalisation(const Points& points) {
   cv::Point2d middle;
   for (const auto& p : points) middle += p;
@@ -46,7 +49,7 @@ Points Mapped(const cv::Matx33d& h, const Points& points) {
 
 double SquaredError(const cv::Matx33d& h, const cv::Point2d& a, const cv::Point2d& b) {
   const double w = h(2, 0) * a.x + h(2, 1) * a.y + h(2, 2);
-  if (!(w > 0.1)) return std::numeric_limits<double>::infinity();  // folded over, or nearly
+  if (!(w > 0.1)) return std::numeric_limits<double>::infinity();  // folded over, or nearly so
   const double x = (h(0, 0) * a.x + h(0, 1) * a.y + h(0, 2)) / w - b.x;
   const double y = (h(1, 0) * a.x + h(1, 1) * a.y + h(1, 2)) / w - b.y;
   return x * x + y * y;
@@ -104,7 +107,7 @@ std::vector<Hypothesis> SampleSimilarities(const Points& a, const Points& b, dou
     const bool is_best = at == best.begin();
     best.insert(at, {h, cost});
     if (best.size() > kWidened) best.pop_back();
-    if (is_best) {  // the more agree, the fewer samples are needed
+    if (is_best) {  // more agreement needs fewer samples
       const double share = 1 - cost / static_cast<double>(a.size());
       const double miss = std::log(std::max(1e-12, 1 - share * share));
       trials = std::min<double>(options.max_trials, std::log(1 - kConfidence) / miss + 20);
@@ -113,7 +116,7 @@ std::vector<Hypothesis> SampleSimilarities(const Points& a, const Points& b, dou
   return best;
 }
 
-// Affine, then perspective, each on what lies close to the one before.
+// Extends to an affine, then a perspective map, each fitted to the inliers of the one before.
 cv::Matx33d Widen(const cv::Matx33d& similarity, const Points& a, const Points& b, double limit) {
   cv::Matx33d h = similarity, next;
   constexpr struct {
@@ -134,7 +137,8 @@ cv::Matx33d Widen(const cv::Matx33d& similarity, const Points& a, const Points& 
   return h;
 }
 
-// How many parameters the matches pay for: cost in units of the noise, and log n a parameter.
+// Number of parameters that the matches justify: cost in units of the noise, plus log n per
+// parameter.
 PlaneMap KindThatPays(const Points& a, const Points& b, const std::vector<int>& inliers,
                       double limit, cv::Matx33d& h) {
   constexpr struct {
@@ -161,7 +165,8 @@ PlaneMap KindThatPays(const Points& a, const Points& b, const std::vector<int>& 
   return best_kind;
 }
 
-// Empty when the inliers pin a plane's map down and the map is one that a camera makes.
+// Returns a reason when the inliers do not determine a map of the plane, or when no camera makes
+// that map; otherwise empty.
 std::string Degeneracy(const Points& a, const std::vector<int>& inliers, const cv::Matx33d& h,
                        double reach) {
   cv::Point2d middle;
@@ -173,12 +178,12 @@ std::string Degeneracy(const Points& a, const std::vector<int>& inliers, const c
     xx += d.x * d.x;
     xy += d.x * d.y;
     yy += d.y * d.y;
-    // The map's area factor there: positive, and not far from 1.
+    // Factor of area at that point: positive, and near 1.
     const cv::Point2d& p = a[static_cast<std::size_t>(i)];
     const double w = h(2, 0) * p.x + h(2, 1) * p.y + h(2, 2);
     const double area = cv::determinant(h) / (w * w * w);
     if (!(area > 1 / kMostArea && area < kMostArea))
-      return "the matches fold or stretch the frame as no camera does";
+      return "the matches fold or stretch the frame in a way that no camera does";
   }
   const double n = static_cast<double>(inliers.size());
   const double mean = 0.5 * (xx + yy) / n, half = std::hypot(0.5 * (xx - yy), xy) / n;
@@ -257,7 +262,7 @@ RobustHomography FindHomography(const Points& a, const Points& b, double reach,
                                 const FeatureOptions& options) {
   RobustHomography result;
   if (a.size() < static_cast<std::size_t>(options.fewest_inliers)) {
-    result.why_not = fmt::format("only {} points look alike", a.size());
+    result.why_not = fmt::format("only {} points are similar", a.size());
     return result;
   }
   const cv::Matx33d norm_a = Normalisation(a), norm_b = Normalisation(b);

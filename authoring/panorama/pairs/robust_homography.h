@@ -1,8 +1,8 @@
-// The homography that most of some matches agree on, or why there is none. Samples of two matches
-// give similarities, which need few inliers; the best are widened to affine maps and homographies,
-// each kept only where the matches pay for its parameters [Torr 1998]; what is left is degenerate
-// unless the matches spread in two directions. Solved in normalised coordinates [Hartley 1997], so
-// that the unit does not matter.
+// Homography with the most agreement among matches, or the reason for its absence. Samples of two
+// matches give similarities, which need few inliers. The best are extended to affine maps and
+// homographies, each kept only when the matches justify its parameters [Torr 1998]. The result is
+// degenerate unless the matches spread in two directions. Solved in normalised coordinates [Hartley
+// 1997], so that the unit does not matter.
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ enum class PlaneMap { kSimilarity, kAffine, kHomography };
 
 struct RobustHomography {
   bool is_found = false;
-  std::string why_not;  // when it is not
+  std::string why_not;  // reason without a result
   cv::Matx33d b_from_a = cv::Matx33d::eye();
   PlaneMap kind = PlaneMap::kSimilarity;
   std::vector<int> inliers;  // indices of matches, ascending
-  double rms = 0;            // of the inliers in b
+  double rms = 0;            // inliers in b
 };
 
 // `a` and `b`: matched points, one to one. `options.max_error` is in the unit of the points;
@@ -31,12 +31,12 @@ RobustHomography FindHomography(const std::vector<cv::Point2d>& a,
                                 const std::vector<cv::Point2d>& b, double reach,
                                 const FeatureOptions& options);
 
-// Least squares of one kind over all points, on the distance in b; a homography by Gauss-Newton
-// from the affine map. False when the points do not determine it.
+// Least-squares fit of one kind of map to all points, on the distance in b; a homography by
+// Gauss-Newton from the affine map. Returns false when the points do not determine it.
 bool FitPlaneMap(PlaneMap kind, const std::vector<cv::Point2d>& a,
                  const std::vector<cv::Point2d>& b, cv::Matx33d& b_from_a);
 
-// d(b)/d(h00 … h21) of a homography with h22 = 1, at a point of a.
+// Derivative d(b)/d(h00 … h21) of a homography with h22 = 1, at a point of a.
 cv::Matx<double, 2, 8> PointByHomography(const cv::Matx33d& b_from_a, const cv::Point2d& a);
 
 }  // namespace arthro::authoring

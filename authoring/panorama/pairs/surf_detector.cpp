@@ -9,9 +9,9 @@ namespace arthro::authoring {
 namespace {
 
 constexpr int kOctaves = 3,
-              kIntervals = 4;            // boxes of 9 to 99 px; larger ones are light, not tissue
-constexpr int kStep = 2;                 // px between two places where a point is looked for
-constexpr double kDescriptorReach = 16;  // scales from a point that its descriptor looks at
+              kIntervals = 4;  // boxes of 9 to 99 px; larger ones respond to light, not tissue
+constexpr int kStep = 2;       // px between two tested positions
+constexpr double kDescriptorReach = 16;  // reach of a descriptor about its point, in scales
 
 }  // namespace
 
@@ -26,7 +26,7 @@ SurfPoints DetectSurf(const cv::Mat& grey, const cv::Mat& mask, int most, double
   std::vector<dlib::interest_point> found;
   dlib::get_interest_points(pyramid, least, found);
 
-  // Inside the mask, and with room for the descriptor.
+  // Keeps points inside the mask, with room for the descriptor.
   std::erase_if(found, [&](const dlib::interest_point& p) {
     const int x = static_cast<int>(std::lround(p.center.x()));
     const int y = static_cast<int>(std::lround(p.center.y()));

@@ -1,4 +1,4 @@
-// SURF [Bay, Ess, Tuytelaars & Van Gool 2008], the paper's detector, as dlib has it.
+// SURF [Bay, Ess, Tuytelaars & Van Gool 2008], the paper's detector, implemented by dlib.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ struct SurfPoint {
 
 struct SurfPoints {
   std::vector<SurfPoint> points;  // strongest first
-  cv::Mat descriptors;            // CV_32F, 64 columns, one row a point
+  cv::Mat descriptors;            // CV_32F, 64 columns, one row per point
 };
 
-// `grey` CV_8UC1. At most `most` points inside `mask` (CV_8UC1), ordered by strength; below `least`
-// of dlib's Hessian response nothing is a point.
+// `grey` CV_8UC1. Returns at most `most` points inside `mask` (CV_8UC1), ordered by strength, all
+// with a Hessian response of at least `least` (dlib's).
 SurfPoints DetectSurf(const cv::Mat& grey, const cv::Mat& mask, int most, double least);
 
 }  // namespace arthro::authoring

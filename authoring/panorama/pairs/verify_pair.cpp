@@ -10,19 +10,19 @@
 namespace arthro::authoring {
 namespace {
 
-// What no statistics of one pair can know: the lens's error, relief, light that moves with the
-// scope. Per coordinate of a control point, px.
+// Error that the statistics of one pair do not contain: the lens's error, relief, light that moves
+// with the scope. Per coordinate of a control point, px.
 constexpr double kModelError = 0.05;
-// A part this certain is seen in hardly any wrong pair, however certain the whole is.
+// Certainty of a part that hardly any wrong pair reaches, whatever the certainty of the whole.
 constexpr double kPlainPart = 1.6;
 constexpr double kSureCertainty = 22, kSureSimilarity = 0.5;
-// A homography between neighbouring looks of one scope keeps areas within this factor.
+// Bound on the factor of area between nearby views of one scope.
 constexpr double kMostAreaRatio = 4.0;
 
 Mat8 Symmetric(const Mat8& m) { return (m + m.t()) * 0.5; }
 
-// Inverse covariance of the parameters: how the score answers, A, and the scatter B of the cells'
-// scores give cov = A^-1 B A^-1.
+// Inverse covariance of the parameters: the response of the score, A, and the scatter B of the
+// cells' scores give cov = A^-1 B A^-1.
 bool ParameterInformation(const Evidence& e, Mat8& information) {
   const Mat8 A = e.normal * e.response;
   Mat8 B = e.scatter;
@@ -34,15 +34,15 @@ bool ParameterInformation(const Evidence& e, Mat8& information) {
   return true;
 }
 
-// By how much variances grow where the two frames are less alike than their noise explains: light
-// that moved, blur, haze. Fitted to d' Λ d of true pairs of the synthetic sequences: it rises as
-// exp(3.4 - 4.4 similarity), from about 0.8 at 0.8 to 5 at 0.4; the factor before it is for the
-// spread about that.
+// Growth of the variances when the two frames are less similar than their noise explains: moving
+// light, blur, haze. Fitted to d' Λ d of true pairs of the synthetic sequences: it rises as exp(3.4
+// - 4.4 similarity), from about 0.8 at 0.8 to 5 at 0.4. The factor before it covers the spread
+// about that.
 double Unlikeness(double similarity) {
   return std::max(0.7, 1.8 * std::exp(3.35 - 4.36 * similarity));
 }
 
-// d = M p: how the parameters move the images of the control points.
+// Matrix M of d = M p: displacement of the control points' images by the parameters.
 Mat8 ControlFromParameters(const cv::Matx33d& h, const Patch& patch, const FourPoints& control) {
   Mat8 M = Mat8::zeros();
   for (int i = 0; i < 4; ++i) {
@@ -70,7 +70,7 @@ FourPoints ControlOf(const Patch& patch) {
   return control;
 }
 
-// Convex, not mirrored, and about as large: what a scope that moved a little can show.
+// Convex, not mirrored, and of similar size, as for a scope that moved a little.
 bool IsPlausible(const cv::Matx33d& h, const Patch& patch, const FourPoints& control) {
   FourPoints image;
   for (int i = 0; i < 4; ++i) {
@@ -109,16 +109,16 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
   if (verdict.overlap < options.smallest_overlap)
     return refuse(fmt::format("only {:.0f} % of the frame is shared", 100 * verdict.overlap));
   if (verdict.certainty < options.least_certainty)
-    return refuse(fmt::format("the frames do not look alike (certainty {:.1f}, {:.1f} asked)",
+    return refuse(fmt::format("the frames are not similar (certainty {:.1f}, {:.1f} required)",
                               verdict.certainty, options.least_certainty));
-  // Of nine equal parts each has a third of the whole's certainty; much less is another place.
-  // A pair far above any wrong one that was seen (19 and 0.57) may have a part under debris.
+  // Each of nine equal parts has a third of the whole's certainty; a much lower one shows another
+  // place. Pairs far above any wrong one observed (19 and 0.57) may have a part under debris.
   const bool is_sure = verdict.certainty > kSureCertainty && verdict.similarity > kSureSimilarity;
   const double asked =
       std::max(options.least_part_certainty,
                std::min(kPlainPart, options.least_part_share * verdict.certainty / 3));
   if (!is_sure && verdict.weakest_part < asked)
-    return refuse(fmt::format("only part of the shared view looks alike (certainty {:.1f})",
+    return refuse(fmt::format("only part of the overlap is similar (certainty {:.1f})",
                               verdict.weakest_part));
   const FourPoints control = ControlOf(middle.patch);
   if (!IsPlausible(pair.b_from_a, middle.patch, control))
@@ -132,7 +132,7 @@ PairVerdict VerifyPair(const DirectPyramid& a, const DirectPyramid& b, const Dir
   const Mat8 inverse_m = ControlFromParameters(pair.b_from_a, best.patch, corners).inv();
   information = Symmetric(inverse_m.t() * information * inverse_m);
   information *= 1 / Unlikeness(middle.similarity);
-  // Covariances add: the model's error to the statistical one.
+  // Adds the model's error to the statistical covariance.
   const Mat8 sum = Mat8::eye() + information * (kModelError * kModelError);
   information = Symmetric(information * sum.inv());
   const Mat8 covariance = information.inv(cv::DECOMP_SVD);

@@ -1,5 +1,5 @@
-// Whether two frames really show the same place where a homography says so, and how well it is
-// known: the question asked of every pair, whichever way it was found.
+// Verifies that two frames show the same place under a homography, and estimates its accuracy.
+// Applied to every pair, whichever method found it.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ struct PairVerdict {
   std::string why_not;      // empty when accepted
   double overlap = 0;       // share of frame a's pixels that frame b shows
   double similarity = 0;    // correlation of the two bands there
-  double certainty = 0;     // the same in deviations above chance
-  double weakest_part = 0;  // the least certainty of nine parts of the overlap
-  double corner_sigma = 0;  // px: how well the worst corner of the overlap is known
+  double certainty = 0;     // certainty of the similarity, in deviations above chance
+  double weakest_part = 0;  // least certainty among nine parts of the overlap
+  double corner_sigma = 0;  // px: uncertainty of the worst corner of the overlap
 };
 
 // Fills overlap and similarity of `pair`; with `source` direct also control points, information,

@@ -13,20 +13,19 @@ namespace arthro::authoring {
 namespace {
 
 constexpr int kThinAfter = 32;      // frames used at each stride before it doubles
-constexpr int kFewest = 6;          // frames that can tell a mark from tissue
-constexpr double kMarkReach = 10;   // px at half scale: detail is what is smaller than this
-constexpr double kLightReach = 16;  // px at half scale: light is what is larger than this
-// A mark stands out this many times more than the mean of moving tissue does by chance…
+constexpr int kFewest = 6;          // frames needed to distinguish a mark from tissue
+constexpr double kMarkReach = 10;   // px at half scale: smaller structure is detail
+constexpr double kLightReach = 16;  // px at half scale: larger structure is light
+// Factor by which a mark exceeds the chance mean of moving tissue.
 constexpr double kBeyondChance = 4;
-// …and changes less than about its own strength while the tissue behind it moves.
+// Bound on a mark's change, in units of its strength, while the tissue behind it moves.
 constexpr double kSteady = 1.0;
-constexpr double kMostDetail =
-    3;  // of its frame's standard deviations: a glint is no more than that
-// Moving tissue averages away: its mean keeps less than this share of its power.
+constexpr double kMostDetail = 3;  // standard deviations of its frame; a highlight exceeds it
+// Share of power that the mean of moving tissue keeps at most; it averages away.
 constexpr double kMoves = 0.4;
-// Bright text glares in most frames; so does a glint that the lamp keeps in one place.
+// Bright text is overexposed in most frames; so is a highlight that the lamp keeps in one place.
 constexpr double kGlaresIn = 0.5;      // share of the frames
-constexpr double kLargestMarks = 0.2;  // share of the window; more than this is not marks
+constexpr double kLargestMarks = 0.2;  // share of the window; a larger area is not marks
 
 double MedianOf(std::vector<float>& values) {
   const auto middle = values.begin() + values.size() / 2;
@@ -34,7 +33,7 @@ double MedianOf(std::vector<float>& values) {
   return *middle;
 }
 
-// Robust standard deviation of what is 0 on average, from a sixteenth of the pixels.
+// Robust standard deviation of values with mean 0, from a sixteenth of the pixels.
 double SpreadOf(const cv::Mat& detail, const cv::Mat& mask) {
   std::vector<float> sizes;
   for (int y = 0; y < detail.rows; y += 4)
@@ -70,7 +69,7 @@ void ClipLookBuilder::Add(const cv::Mat& working_rgb, const cv::Mat& mask) {
 
   const cv::Mat light = MaskedSurround(usable, kLightReach).Of(log);
   const double exposure = cv::mean(light, usable)[0];
-  // Without the rim's blur into the black around it.
+  // Excludes the rim's blur into the black around it.
   cv::erode(usable, usable, cv::Mat(), {-1, -1}, 2, cv::BORDER_CONSTANT, 0);
   cv::Mat detail = log - MaskedSurround(usable, kMarkReach).Of(log);
   cv::GaussianBlur(detail, detail, {3, 3}, 0.8);
@@ -86,7 +85,7 @@ ClipLook ClipLookBuilder::Finish() {
   ClipLook look;
   look.frames = used_;
   if (used_ == 0) return look;
-  // Where no frame showed tissue the light is continued from the surround.
+  // Pixels that no frame showed as tissue take the light of their surroundings.
   cv::Mat light = light_ / cv::max(seen_, 1.0);
   look.light = MaskedSurround(seen_ > 0, kLightReach / 2).Of(light);
   look.noise = noise_;
@@ -96,8 +95,8 @@ ClipLook ClipLookBuilder::Finish() {
 }
 
 void ClipLookBuilder::FindStaticMarks(ClipLook& look) const {
-  // How far the mean detail strays by chance, and how strong the detail of one frame is; medians,
-  // so that the marks themselves do not count.
+  // Deviation of the mean detail by chance, and strength of the detail of one frame. Medians, so
+  // that the marks themselves do not count.
   std::vector<float> strays, powers;
   for (int y = 0; y < seen_.rows; ++y)
     for (int x = 0; x < seen_.cols; ++x) {
@@ -108,9 +107,10 @@ void ClipLookBuilder::FindStaticMarks(ClipLook& look) const {
     }
   if (strays.empty()) return;
   const double chance = MedianOf(strays) / 0.6745, power = MedianOf(powers);
-  if (chance * chance > kMoves * power) return;  // the clip holds still: its tissue survives too
+  if (chance * chance > kMoves * power)
+    return;  // the clip is still: its tissue does not average away
 
-  // The rim is left out by each frame, so it is never seen, and is no mark.
+  // Each frame excludes the rim, so it is never seen and holds no marks.
   cv::Mat inner;
   cv::erode(window_, inner, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}), {-1, -1}, 1,
             cv::BORDER_CONSTANT, 0);

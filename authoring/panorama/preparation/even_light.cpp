@@ -10,10 +10,10 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kCell = 8;           // px; a light that needs a finer grid than this is texture
-constexpr double kFineEnough = 6;  // cells that a sigma must span at least; 3 cost accuracy
+constexpr int kCell = 8;           // px; light that would need a finer grid is texture
+constexpr double kFineEnough = 6;  // cells per sigma at least; 3 are less accurate
 
-// Moments of the unmasked pixels about their cell's centre, in cells: what a plane is fitted from.
+// Moments of the unmasked pixels about their cell's centre, in cells, for the fit of a plane.
 struct MaskMoments {
   double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
@@ -21,7 +21,7 @@ struct ValueMoments {
   float f = 0, fx = 0, fy = 0;
 };
 
-// Adds moments that were taken about a centre (dx, dy) away from the sum's centre.
+// Adds moments about a centre that is (dx, dy) away from the sum's centre.
 void AddShifted(MaskMoments& to, const MaskMoments& from, double weight, double dx, double dy) {
   const double w = weight * from.w, x = weight * from.x, y = weight * from.y;
   to.w += w;
@@ -64,8 +64,8 @@ void Blur(std::vector<M>& cells, int columns, int rows, const std::vector<float>
     }
 }
 
-// Calls run(first pixel, pixels, whether all of them count) for each piece of a row that lies in
-// one cell and lets something through.
+// Calls run(first pixel, pixels, whether all of them count) for each piece of a row within one cell
+// that has unmasked pixels.
 template <class Run>
 void ForRuns(const std::uint8_t* mask, int count, const Run& run) {
   for (int x = 0; x < count; x += kCell) {
@@ -92,7 +92,7 @@ cv::Mat MixColours(const cv::Mat& rgb, const ColourMix& mix) {
 }
 
 cv::Mat LogOf(const cv::Mat& mixed) {
-  // A table in steps of 1/16 grey level, interpolated: a tenth of the price of std::log.
+  // A table in steps of 1/16 grey level, interpolated: a tenth of the cost of std::log.
   constexpr int kSteps = 16;
   static const std::vector<float> table = [] {
     std::vector<float> t(256 * kSteps + 2);
@@ -114,14 +114,15 @@ cv::Mat LogOf(const cv::Mat& mixed) {
 }
 
 void RemoveQuadratic(cv::Mat& value, const cv::Mat& mask) {
-  constexpr int kStep = 4;  // px; a light needs no more samples
+  constexpr int kStep = 4;  // px; light is smooth enough for this spacing
   using Terms = cv::Vec<double, 6>;
   const double half_x = 0.5 * value.cols, half_y = 0.5 * value.rows;
   const auto terms = [&](int x, int y) {
     const double u = x / half_x - 1, v = y / half_y - 1;
     return Terms(1, u, v, u * u, u * v, v * v);
   };
-  cv::Matx<double, 6, 6> normal = cv::Matx<double, 6, 6>::eye() * 1e-6;  // few pixels: stays flat
+  cv::Matx<double, 6, 6> normal =
+      cv::Matx<double, 6, 6>::eye() * 1e-6;  // with few pixels the fit stays flat
   Terms right = Terms::all(0);
   for (int y = 0; y < value.rows; y += kStep)
     for (int x = 0; x < value.cols; x += kStep) {
@@ -180,8 +181,8 @@ MaskedSurround::MaskedSurround(const cv::Mat& mask, double sigma) : mask_(mask),
   }
   Blur(cells, columns_, rows_, kernel_);
 
-  // The value at the centre of the plane through a cell's pixels is linear in their values. A
-  // little ridge keeps the slope at 0 where the pixels in reach do not tell it.
+  // The plane's value at a cell's centre is linear in the cell's pixels. A small ridge keeps the
+  // slope at 0 when the pixels do not determine it.
   planes_.resize(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const MaskMoments& m = cells[i];
@@ -236,7 +237,7 @@ cv::Mat MaskedSurround::Of(const cv::Mat& value) const {
 
 void NoiseCurve::Add(const cv::Mat& mixed, const cv::Mat& mask) {
   if (counts_.empty()) counts_ = cv::Mat_<int>::zeros(kBins, kLevels);
-  // Immerkaer's filter: blind to planes, and its answer to white noise is 6 times the noise.
+  // Immerkaer's filter: it cancels planes, and its response to white noise is 6 times the noise.
   for (int y = 1; y + 1 < mixed.rows; y += 2) {
     const float *a = mixed.ptr<float>(y - 1), *b = mixed.ptr<float>(y),
                 *c = mixed.ptr<float>(y + 1);
@@ -254,8 +255,8 @@ void NoiseCurve::Add(const cv::Mat& mixed, const cv::Mat& mask) {
 }
 
 void NoiseCurve::Finish() {
-  constexpr double kQuartile = 0.3186;  // of |x| of a normal x, in standard deviations
-  constexpr int kEnough = 200;          // pixels for a quartile within some percent
+  constexpr double kQuartile = 0.3186;  // quartile of |x| of a normal x, in standard deviations
+  constexpr int kEnough = 200;          // pixels for a quartile to within a few percent
   constexpr double kRounding = 0.2;     // grey levels
   std::vector<int> known;
   for (int bin = 0; bin < kBins && !counts_.empty(); ++bin) {
@@ -274,7 +275,7 @@ void NoiseCurve::Finish() {
     }
     known.push_back(bin);
   }
-  // Brightnesses that were not seen are taken from the nearest that was.
+  // Levels of brightness without samples take the noise of the nearest level with samples.
   for (int bin = 0; bin < kBins; ++bin) {
     int nearest = -1;
     for (const int k : known)

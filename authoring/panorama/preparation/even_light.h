@@ -1,7 +1,7 @@
-// Takes the light out of a frame. A frontal light falls off smoothly and its camera encodes it by
-// a power law, so in the logarithm light and exposure are a smooth sum and gamma is a factor: what
-// a local mean and a local gain remove [paper, 3.1].
-// Pictures are working ones (working_frame.h); masks are CV_8UC1, 255 where a pixel counts.
+// Evens out the light of a frame. A frontal light falls off smoothly and its camera encodes it by a
+// power law. In the logarithm, light and exposure are therefore a smooth sum and gamma is a factor,
+// which a local mean and a local gain remove [paper, 3.1]. Pictures are working ones
+// (working_frame.h); masks are CV_8UC1, 255 at pixels that count.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace arthro::authoring {
 
-// How the colours make the one grey that is matched; they need not add up to one.
+// Weights of the colours in the grey that is matched; their sum need not be one.
 struct ColourMix {
   double red = 0.15, green = 0.6, blue = 0.25;
 };
@@ -20,17 +20,18 @@ struct ColourMix {
 // CV_32FC1, 0 to 255.
 cv::Mat MixColours(const cv::Mat& rgb, const ColourMix& mix);
 
-// Natural logarithm of a mixed grey, which it takes for at least 1.
+// Natural logarithm of a mixed grey, with values below 1 raised to 1.
 cv::Mat LogOf(const cv::Mat& mixed);
 
-// Takes the quadratic that fits the unmasked pixels best away from `value` (CV_32FC1): most of what
-// a falloff is, which would bend within the surround of a local mean.
+// Subtracts from `value` (CV_32FC1) the quadratic that best fits its unmasked pixels. It holds most
+// of the falloff, whose curvature would otherwise bias a local mean.
 void RemoveQuadratic(cv::Mat& value, const cv::Mat& mask);
 
-// What of a value is smooth: at each pixel the plane that fits the unmasked surround best, weighed
-// by a Gaussian of `sigma` px, read at the pixel. A plane and not a mean, because at the rim the
-// surround lies on one side only and a mean would show the falloff as a halo. Where no unmasked
-// pixel is in reach, 0. The mask's share of the work is done once for all values.
+// Smooth part of a value: at each pixel the plane that best fits the unmasked surroundings,
+// weighted by a Gaussian of `sigma` px, evaluated at the pixel. At the rim the surroundings lie on
+// one side only, and a mean instead of a plane would show the falloff as a halo. The result is 0
+// without unmasked pixels in reach. The computation that depends on the mask alone is done once for
+// all values.
 class MaskedSurround {
  public:
   // `mask` CV_8UC1, kept and not copied.
@@ -39,26 +40,27 @@ class MaskedSurround {
 
  private:
   cv::Mat mask_;
-  int cell_, columns_ = 0, rows_ = 0;         // px; wide surrounds take larger cells
+  int cell_, columns_ = 0, rows_ = 0;         // px; large surroundings use larger cells
   std::vector<float> kernel_;                 // from its middle outwards
   std::vector<std::array<float, 3>> planes_;  // weights of a cell's moments in its plane's value
 };
 
-// Sensor noise by brightness, standard deviation in grey levels of the mixed grey.
+// Sensor noise by brightness: standard deviation of the mixed grey, grey levels.
 class NoiseCurve {
  public:
-  static constexpr int kBins = 16;  // of 16 grey levels each
+  static constexpr int kBins = 16;  // 16 grey levels each
 
-  // Learns from one mixed picture; pixels of even coordinates are enough.
+  // Adds the samples of one mixed picture; pixels of even coordinates are enough.
   void Add(const cv::Mat& mixed, const cv::Mat& mask);
   bool IsEmpty() const { return pixels_ == 0; }
-  // From the quieter half of the pixels, so that texture does not count. At least 0.2, the rounding
-  // of an 8-bit picture.
+  // Estimates the noise from the quieter half of the pixels, so that texture does not count. At
+  // least 0.2, the rounding of an 8-bit picture.
   void Finish();
   double At(double grey) const;
 
  private:
-  static constexpr int kLevels = 256;  // of the filter's answer, a quarter of a grey level each
+  static constexpr int kLevels =
+      256;  // levels of the filter's response, a quarter of a grey level each
   std::int64_t pixels_ = 0;
   cv::Mat_<int> counts_;
   std::array<double, kBins> sigma_{};

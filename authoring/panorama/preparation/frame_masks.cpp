@@ -10,18 +10,19 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kGlintRatio = 1.13;  // over the local whiteness
-constexpr double kGlintStep = 16;     // grey levels over it as well, so that noise is no glint
-constexpr double kHeadroom = 0.35;    // of what is left up to white: near it glints are flattened
-constexpr double kSaturated = 250;    // grey levels of the weakest channel
-constexpr int kGlintReach = 7;        // px of the half grid: a glint that is larger saturates
-constexpr int kGlow = 2;              // px by which glints are grown
+constexpr double kGlintRatio = 1.13;  // ratio to the local whiteness
+constexpr double kGlintStep = 16;     // grey levels above it, so that noise is no highlight
+constexpr double kHeadroom =
+    0.35;  // share of the range left up to white: near it highlights are compressed
+constexpr double kSaturated = 250;  // grey levels of the weakest channel
+constexpr int kGlintReach = 7;      // px of the half grid: a larger highlight is saturated
+constexpr int kGlow = 2;            // px by which highlights are grown
 
 cv::Mat Disc(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
 }
 
-// The weakest channel of each pixel.
+// Weakest channel of each pixel.
 cv::Mat WhitenessOf(const cv::Mat& rgb) {
   cv::Mat white(rgb.size(), CV_8U);
   for (int y = 0; y < rgb.rows; ++y) {
@@ -32,7 +33,7 @@ cv::Mat WhitenessOf(const cv::Mat& rgb) {
   return white;
 }
 
-// Halves of an odd side would not be whole pixels, which costs several times as much.
+// An odd side would not halve to whole pixels, and resizing would cost several times as much.
 cv::Mat EvenSided(const cv::Mat& picture) {
   if (picture.cols % 2 == 0 && picture.rows % 2 == 0) return picture;
   cv::Mat even;
@@ -44,8 +45,8 @@ cv::Mat EvenSided(const cv::Mat& picture) {
 
 cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
   const cv::Mat white = WhitenessOf(rgb);
-  // The ground under small white things: an opening on a half grid, so that the edge of large pale
-  // tissue is ground. The rim's black does not count.
+  // Background under small white objects: an opening on a half grid, so that the edge of large pale
+  // tissue is background. The rim's black does not count.
   cv::Mat small, small_mask, low;
   const cv::Size half((rgb.cols + 1) / 2, (rgb.rows + 1) / 2);
   cv::resize(EvenSided(white), small, half, 0, 0, cv::INTER_AREA);
@@ -55,11 +56,11 @@ cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
   small.setTo(255, small_mask == 0);
   cv::erode(small, low, square);
   low.setTo(0, small_mask == 0);
-  cv::dilate(low, low, square);  // past the rim too
+  cv::dilate(low, low, square);  // beyond the rim too
   cv::Mat ground;
   cv::resize(low, ground, half * 2, 0, 0, cv::INTER_LINEAR);
 
-  std::array<double, 256> least{};  // whiteness of a glint on each ground
+  std::array<double, 256> least{};  // least whiteness of a highlight, by background
   for (int g = 0; g < 256; ++g)
     least[g] =
         std::min(kSaturated, g + std::max(kGlintStep, std::min((kGlintRatio - 1) * g + kGlintStep,
@@ -79,11 +80,11 @@ cv::Mat HighlightMask(const cv::Mat& rgb, const cv::Mat& mask) {
 cv::Mat ToolMask(const cv::Mat& rgb, const cv::Mat& mask) {
   constexpr double kColourless = 0.04;  // chroma over brightness of metal in white light
   constexpr double kSmallest = 0.01;    // share of the window
-  constexpr double kLongest = 2.0;      // a shaft is at least this much longer than wide
-  constexpr double kFilled = 0.72;      // of the rectangle around it: straight sides
+  constexpr double kLongest = 2.0;      // ratio of length to width of a shaft, at least
+  constexpr double kFilled = 0.72;      // share of its bounding rectangle: straight sides
   cv::Mat none = cv::Mat::zeros(rgb.size(), CV_8U);
   cv::Mat small, window;
-  // Whole blocks of 4 x 4 px; what is left over at the far edges belongs to the last of them.
+  // Whole blocks of 4 x 4 px; the last block on either axis includes the remainder.
   const cv::Size quarter(rgb.cols / 4, rgb.rows / 4);
   if (quarter.empty()) return none;
   const cv::Rect blocks(0, 0, 4 * quarter.width, 4 * quarter.height);

@@ -11,10 +11,11 @@
 namespace arthro::authoring {
 namespace {
 
-// White noise left by a Gaussian of this sigma, as a share of its standard deviation.
+// White noise after a Gaussian of this sigma, as a share of its standard deviation.
 double NoiseLeft(double sigma) {
   if (sigma < 0.3) return 1;
-  // The sum of squared taps, separable; the closed form 1/(2 sigma sqrt(pi)) is off below 0.6 px.
+  // Sum of squared taps, separable; the closed form 1/(2 sigma sqrt(pi)) is inaccurate below 0.6
+  // px.
   double sum = 0, squares = 0;
   for (int i = -8; i <= 8; ++i) {
     const double tap = std::exp(-0.5 * i * i / (sigma * sigma));
@@ -34,15 +35,15 @@ void Check(const cv::Mat& rgb, double scale, const cv::Mat& mask, const ClipLook
   if ((!look.light.empty() && look.light.size() != rgb.size()) ||
       (!look.static_marks.empty() && look.static_marks.size() != rgb.size()))
     throw Error(Code::kBadImage,
-                "what the clip's frames share was learned at another size; learn it at this scale");
+                "the clip's common light was learned at another size; learn it at this scale");
 }
 
 cv::Mat Eroded(const cv::Mat& mask, int radius) {
   if (radius <= 0) return mask.clone();
-  // The picture's edge is a rim too.
-  constexpr int kSmall = 6;  // px up to which a kernel of the same distances costs less
+  // The picture's edge counts as a rim.
+  constexpr int kSmall = 6;  // px; up to it a kernel of the same distances costs less
   if (radius <= kSmall) {
-    constexpr double kStraight = 0.955, kDiagonal = 1.3693;  // of the 3 x 3 distances
+    constexpr double kStraight = 0.955, kDiagonal = 1.3693;  // weights of the 3 x 3 distances
     cv::Mat kernel = cv::Mat::zeros(2 * radius + 3, 2 * radius + 3, CV_8U), inner;
     for (int y = 0; y < kernel.rows; ++y)
       for (int x = 0; x < kernel.cols; ++x) {
@@ -71,7 +72,7 @@ cv::Mat TissueMask(const cv::Mat& rgb, const cv::Mat& lens_mask, const ClipLook&
   return mask;
 }
 
-// A Gaussian that takes nothing from outside the window, whose black would darken the rim.
+// Gaussian over the window's pixels only, since the black outside would darken the rim.
 void SmoothInside(cv::Mat& grey, const cv::Mat& window, double sigma) {
   cv::Mat weight, spread;
   window.convertTo(weight, CV_32F, 1.0 / 255);
@@ -80,8 +81,8 @@ void SmoothInside(cv::Mat& grey, const cv::Mat& window, double sigma) {
   grey /= cv::max(spread, 0.01);
 }
 
-// Lets what lies behind the mask fade from its border's grey to nothing, so that the mask's outline
-// is no feature.
+// Fades the values behind the mask from its border's grey to 0, so that the mask's outline makes no
+// features.
 void FadeBehindMask(cv::Mat& detail, const cv::Mat& mask) {
   cv::Mat weight, spread, sum;
   mask.convertTo(weight, CV_32F, 1.0 / 255);
@@ -126,8 +127,8 @@ WorkingFrame Prepare(int index, const cv::Mat& working_rgb, double scale, const 
     return frame;
   }
 
-  // Smooth, the more the noisier the clip is for its brightness, then go to the logarithm and take
-  // the clip's light and the frame's own smooth part away.
+  // Smooths more when the clip is noisier for its brightness. Then takes the logarithm and removes
+  // the clip's light and the frame's own smooth part.
   const double brightness = std::max(1.0, cv::mean(mixed, frame.mask)[0]);
   const double noisiness = noise.At(brightness) / brightness;
   constexpr double kQuiet = 0.005, kNoisy = 0.03;  // noise over brightness
@@ -138,16 +139,16 @@ WorkingFrame Prepare(int index, const cv::Mat& working_rgb, double scale, const 
   cv::Mat log = LogOf(mixed);
   if (!look.light.empty()) log -= look.light;
   RemoveQuadratic(log, frame.mask);
-  // Twice: what is left of a light that bends within the surround is itself smooth.
+  // Runs twice: the residue of light with strong curvature is itself smooth.
   const MaskedSurround surround(frame.mask, options.surround * at_half_scale);
   cv::Mat& detail = log;
   detail -= surround.Of(log);
   detail -= surround.Of(detail);
 
-  // Local gain: texture to the wished contrast, unless the noise would come up with it.
+  // Local gain: raises texture to the requested contrast, limited by the noise.
   const cv::Mat power =
       MaskedSurround(frame.mask, options.contrast_reach * at_half_scale).Of(detail.mul(detail));
-  // A plane may dip below what any pixel had; weak texture is raised no more than threefold over
+  // A plane may fall below the value of every pixel. Weak texture is raised at most threefold over
   // the frame's mean.
   const float least_power = std::max(1e-8f, static_cast<float>(cv::mean(power, frame.mask)[0] / 9));
   const double left = NoiseLeft(sigma);

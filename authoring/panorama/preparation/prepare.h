@@ -1,6 +1,6 @@
-// Turns a rectified colour frame into what is matched [paper, 3.1]: one grey without light,
-// vignette and exposure, its contrast raised as far as the noise lets it, and a mask of the tissue
-// in it.
+// Converts a rectified colour frame to the picture that is matched [paper, 3.1]: one grey without
+// light, vignetting and exposure, with contrast raised as far as the noise allows, and a mask of
+// its tissue.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -28,29 +28,29 @@ struct PrepareOptions {
   template <class V>
   void Visit(V&& v) {
     v("even_light", even_light, Any{}, "",
-      "Take light and vignette out; without it the plain grey is matched.");
+      "Remove light and vignetting; without it the plain grey is matched.");
     v("surround", surround, Range{4, 200}, "px",
-      "Light is what changes over more than this, at half scale.");
+      "Structure larger than this is light, at half scale.");
     v("contrast", contrast, Range{1, 100}, "",
-      "Standard deviation that texture is raised to, in grey levels.");
+      "Target standard deviation of texture, in grey levels.");
     v("contrast_reach", contrast_reach, Range{8, 1000}, "px",
-      "Contrast is measured over this distance, at half scale.");
+      "Distance over which contrast is measured, at half scale.");
     v("most_noise", most_noise, Range{1, 100}, "",
-      "Contrast is raised no further than where the noise reaches this, in grey levels.");
+      "Largest noise after raising the contrast, in grey levels.");
     v("smoothing", smoothing, Range{0, 5}, "px",
-      "Gaussian before all else when there is no noise.");
+      "Sigma of the first Gaussian for a clip without noise.");
     v("most_smoothing", most_smoothing, Range{0, 5}, "px",
-      "The same when there is more noise than texture.");
+      "Sigma of the first Gaussian for more noise than texture.");
     v("rim_margin", rim_margin, Range{0, 0.2}, "",
       "Share of the window's radius that is left out at its rim.");
-    v("mask_highlights", mask_highlights, Any{}, "", "Leave out glints.");
+    v("mask_highlights", mask_highlights, Any{}, "", "Leave out highlights.");
     v("mask_tool", mask_tool, Any{}, "", "Leave out instruments.");
     v("mask_static", mask_static, Any{}, "", "Leave out text, logos and dirt on the lens.");
   }
 };
 
-// `working_rgb` CV_8UC3, RGB, rectified at `scale`; `lens_mask` CV_8UC1 of the same size, 255 where
-// the lens shows something. Throws Error(kBadImage) when sizes or types do not fit.
+// `working_rgb` CV_8UC3, RGB, rectified at `scale`; `lens_mask` CV_8UC1 of the same size, 255
+// inside the lens's visible area. Throws Error(kBadImage) when sizes or types do not match.
 WorkingFrame Prepare(int index, const cv::Mat& working_rgb, double scale, const cv::Mat& lens_mask,
                      const ClipLook& look, const PrepareOptions& options);
 

@@ -11,14 +11,14 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kSubpixels = 4;       // a side
+constexpr int kSubpixels = 4;       // per side
 constexpr double kLine = 0.055;     // half the width of a line, in spacings
 constexpr double kDot = 0.2;        // radius of a dot
 constexpr double kPerWindow = 0.1;  // spacings are a tenth of the distance to the board
 
 double ToNearest(double x) { return std::abs(x - std::round(x)); }
 
-// 0 black to 1 white; (u, v) in spacings from the middle.
+// Brightness from 0 (black) to 1 (white); (u, v) in spacings from the middle.
 double PaperAt(const Board& board, double u, double v) {
   switch (board.kind) {
     case BoardKind::kLines:
@@ -57,8 +57,8 @@ cv::Mat DrawBoard(const Lens& lens, const Board& board, const ScopePose& pose, i
   const double radius = lens.circle.r > 0 ? lens.circle.r : std::hypot(lens.width, lens.height);
   Random random(static_cast<std::uint64_t>(seed) * 4099 + 33);
   cv::Mat picture = cv::Mat::zeros(lens.height, lens.width, CV_8U);
-  // Where the rays of a row's pixel corners meet the board; between them linearly, which is off by
-  // less than a thousandth of a pixel.
+  // Intersections of the rays of a row's pixel corners with the board. Linear interpolation between
+  // them is exact to less than a thousandth of a pixel.
   const auto corners = [&](double y) {
     std::vector<cv::Vec3d> row;
     for (int x = 0; x <= lens.width; ++x)
@@ -95,7 +95,7 @@ cv::Mat DrawBoard(const Lens& lens, const Board& board, const ScopePose& pose, i
 std::vector<ScopePose> BoardPoses(const Lens& lens, const Board& board) {
   constexpr double kTiltX[] = {0, 22, -20, 12, -8, 26}, kTiltY[] = {0, -10, 16, 24, -26, 6};
   constexpr double kRoll[] = {0, 4, -6, 9, 14, -20}, kFar[] = {1, 0.9, 1.05, 0.95, 0.85, 1};
-  // A chessboard must fit into the window; the other boards have no end.
+  // A chessboard must fit into the window; the other boards are unbounded.
   const double half_view = lens.circle.r > 0
                                ? 2 * std::asin(std::min(1.0, lens.circle.r / (2 * lens.focal_px)))
                                : lens.field_of_view / 2;

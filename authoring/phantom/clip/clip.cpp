@@ -15,9 +15,9 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kWorldWidth = 4000.0 / 300, kWorldHeight = 3000.0 / 300;  // in window radii
-constexpr double kMostPixels = 64e6;                                       // of a plane
-constexpr float kMeanLight = 0.42f;  // what the exposure aims at
-constexpr float kShoulder = 1.35f;   // of the camera's tone curve 1 - exp(-k x)
+constexpr double kMostPixels = 64e6;                                       // pixels of a plane
+constexpr float kMeanLight = 0.42f;  // mean linear light that the exposure aims at
+constexpr float kShoulder = 1.35f;   // k of the camera's tone curve 1 - exp(-k x)
 constexpr int kLevels = 65536;
 
 double RadiusOf(const ClipOptions& options) {
@@ -33,7 +33,7 @@ Lens LensOf(const ClipOptions& options) {
   lens.width = options.width;
   lens.height = options.height;
   lens.focal_px = FocalOf(options);
-  lens.cx = options.width / 2.0 - 0.5 + 3 * scale;  // never quite in the middle
+  lens.cx = options.width / 2.0 - 0.5 + 3 * scale;  // a little off the middle
   lens.cy = options.height / 2.0 - 0.5 - 2 * scale;
   lens.field_of_view = options.field_of_view;
   lens.circle = {lens.cx, lens.cy, radius};
@@ -113,7 +113,7 @@ void Clip::MakeWindow() {
   for (int i = 0; i < kLevels; ++i)
     code_[static_cast<std::size_t>(i)] =
         static_cast<std::uint8_t>(255 * std::pow(i / (kLevels - 1.0), 1 / options_.gamma) + 0.5);
-  // Blank frames lie apart and away from both ends.
+  // Blank frames are spaced apart and away from both ends.
   is_blank_.assign(static_cast<std::size_t>(options_.frames), false);
   for (int i = 0; i < options_.blank; ++i) {
     Random random = RandomOf(i, 3);
@@ -123,7 +123,7 @@ void Clip::MakeWindow() {
   }
 }
 
-// What all frames see of the plane, with a border for smooth sampling.
+// Union of all frames' views of the plane, with a border for smooth sampling.
 cv::Rect Clip::Footprint() const {
   double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
   for (int i = 0; i < options_.frames; ++i)
@@ -158,7 +158,8 @@ Random Clip::RandomOf(int index, int what) const {
   return Random(mixed.Next());
 }
 
-// The camera's exposure goes after the mean, a little late; some pixels tell it well enough.
+// The camera's exposure follows the mean with a delay; a subset of the pixels measures it well
+// enough.
 void Clip::FollowLight() {
   const PlaneLight light(texture_, options_, radius_, lens_.focal_px);
   const std::size_t stride = std::max<std::size_t>(1, rays_.size() / 3001);
@@ -231,7 +232,7 @@ cv::Mat Clip::Frame(int index) const {
       for (int c = 0; c < 3; ++c, bits >>= 12) {
         float v = 1 - std::exp(-kShoulder * light[x][c] * (1 - dirt));
         v += std::sqrt(floor + shot * v) * NormalOf(bits);
-        v += letters * (0.95f - v);  // put in by the camera, over the noise
+        v += letters * (0.95f - v);  // inserted by the camera, over the noise
         const int level = std::clamp(static_cast<int>(v * (kLevels - 1) + 0.5f), 0, kLevels - 1);
         out[x][c] =
             static_cast<std::uint8_t>((code_[static_cast<std::size_t>(level)] * cover + 127) / 255);

@@ -1,4 +1,4 @@
-// What a rendered clip shows and what spoils it. Lengths on the plane and in the picture are shares
+// Content and disturbances of a rendered clip. Lengths on the plane and in the picture are shares
 // of the round window's radius, so that a small picture shows the same scene as a large one.
 #pragma once
 
@@ -8,8 +8,8 @@ namespace arthro::authoring {
 
 enum class ClipPath { kLoop, kRaster, kStrip, kWander, kStill };
 
-// easy … hard: measured sequences of rising difficulty. The others are easy or medium ones with one
-// thing that goes wrong.
+// easy … hard: measured sequences of rising difficulty. The others are easy or medium sequences
+// with one disturbance.
 enum class ClipPreset {
   kEasy,
   kMedium,
@@ -61,7 +61,7 @@ struct ClipOptions {
 
   template <class V>
   void Visit(V&& v) {
-    v("seed", seed, Range{0, 2147483647}, "", "Which plane, path and noise.");
+    v("seed", seed, Range{0, 2147483647}, "", "Preset of plane, path and noise.");
     v("frames", frames, Range{1, 100000}, "", "Length of the clip.");
     v("width", width, Range{32, 8192}, "px", "Width of a frame.");
     v("height", height, Range{32, 8192}, "px", "Height of a frame.");
@@ -77,27 +77,28 @@ struct ClipOptions {
                          {ClipPath::kWander, "wander"},
                          {ClipPath::kStill, "still"}}},
       "",
-      "How the scope goes over the plane: a closed loop, three rows, a line, a figure that comes "
-      "back, or not at all.");
-    v("step", step, Range{0, 2}, "", "From frame to frame, shares of the window's radius.");
-    v("tilt", tilt, Range{0, 0.5}, "rad", "How far the view leans away from the plane's normal.");
-    v("roll", roll, Range{0, 3.2}, "rad", "How far the picture turns to and fro.");
+      "Path over the plane: a closed loop, three rows, a line, a figure that returns, or none.");
+    v("step", step, Range{0, 2}, "", "Movement per frame, as a share of the window's radius.");
+    v("tilt", tilt, Range{0, 0.5}, "rad", "Angle of the view to the plane's normal.");
+    v("roll", roll, Range{0, 3.2}, "rad", "Amplitude of the picture's rotation.");
     v("zoom", zoom, Range{0, 0.6}, "", "Share by which the distance rises and falls.");
-    v("roll_sweep", roll_sweep, Range{-7, 7}, "rad", "Turn added steadily over the whole clip.");
+    v("roll_sweep", roll_sweep, Range{-7, 7}, "rad",
+      "Rotation added uniformly over the whole clip.");
     v("zoom_sweep", zoom_sweep, Range{0.25, 4}, "",
-      "Factor by which the distance changes steadily over the whole clip.");
+      "Factor by which the distance changes uniformly over the whole clip.");
     v("jump", jump, Range{0, 10}, "",
-      "Sudden move in the middle of the clip, shares of the window's radius, with a turn of 20 "
-      "degrees; 0: none.");
+      "Sudden move in the middle of the clip, as a share of the window's radius, with a rotation "
+      "of 20 degrees; 0 is none.");
     v("contrast", contrast, Range{0, 2}, "", "Strength of the tissue's texture.");
     v("vessels", vessels, Range{0, 2}, "", "Strength of the blood vessels.");
-    v("repeated", repeated, Any{}, "", "The same patch of texture again and again.");
+    v("repeated", repeated, Any{}, "", "Repeat one patch of texture.");
     v("relief", relief, Range{0, 0.5}, "",
       "Height of the ground, shares of the window's radius; above 0 no homography is exact.");
-    v("falloff", falloff, Range{0, 2}, "", "Power on the light's inverse-square fall and cosine.");
+    v("falloff", falloff, Range{0, 2}, "",
+      "Exponent on the light's inverse-square falloff and cosine.");
     v("vignette", vignette, Range{0, 0.95}, "", "Share of light lost at the window's rim.");
-    v("highlights", highlights, Range{0, 5}, "", "Strength of the glints.");
-    v("bumps", bumps, Range{0, 3}, "", "How much small bumps shade the tissue.");
+    v("highlights", highlights, Range{0, 5}, "", "Strength of the highlights.");
+    v("bumps", bumps, Range{0, 3}, "", "Strength of the shading by small bumps.");
     v("flicker", flicker, Range{0, 0.5}, "", "Spread of the exposure from frame to frame.");
     v("exposure_step", exposure_step, Range{0.1, 10}, "",
       "Factor on the exposure from the middle of the clip on.");
@@ -108,14 +109,14 @@ struct ClipOptions {
       "Share of the time between frames in which the shutter is open.");
     v("haze", haze, Range{0, 1}, "", "Clouds in the water.");
     v("debris", debris, Range{0, 200}, "", "Floating bits.");
-    v("blank", blank, Range{0, 1000}, "", "Frames that show nothing but red.");
+    v("blank", blank, Range{0, 1000}, "", "Number of frames that are red throughout.");
     v("tool", tool, Any{}, "", "A shaft moves through a quarter of the view.");
     v("marks", marks, Any{}, "",
       "Dirt on the lens and text inside the window, fixed in the frame.");
   }
 };
 
-// The options of a preset, for frames of the given size; everything else may be changed afterwards.
+// Options of a preset for frames of the given size; all others may be changed afterwards.
 ClipOptions ClipOptionsOf(ClipPreset preset, int width = 800, int height = 640);
 
 }  // namespace arthro::authoring

@@ -37,7 +37,7 @@ cv::Mat Clouds(const ClipOptions& options, double radius) {
 
 void AddHaze(const cv::Mat& clouds, double strength, int frame, cv::Mat& picture) {
   if (clouds.empty()) return;
-  // To and fro over clouds that are twice as large as the picture.
+  // Moves to and fro over clouds that are twice as large as the picture.
   const double ox = picture.cols / 8.0 * (1 + std::sin(0.021 * frame)),
                oy = picture.rows / 8.0 * (1 + std::sin(0.013 * frame + 1));
   const cv::Matx23d moved(0.25, 0, ox, 0, 0.25, oy);
@@ -75,7 +75,7 @@ void AddDebris(const ClipOptions& options, double radius, int frame, cv::Mat& pi
            u <= std::min(picture.cols - 1, static_cast<int>(x) + reach); ++u) {
         const double along = (ca * (u - x) + sa * (v - y)) / a,
                      across = (-sa * (u - x) + ca * (v - y)) / b;
-        const double away = (std::hypot(along, across) - 1) * std::min(a, b);  // px, about
+        const double away = (std::hypot(along, across) - 1) * std::min(a, b);  // px, approximate
         const float share = kCover / (1 + std::exp(static_cast<float>(away / 0.8)));
         cv::Vec3f& p = picture.at<cv::Vec3f>(v, u);
         p = p * (1 - share) + cv::Vec3f(grey, 0.97f * grey, 0.9f * grey) * share;

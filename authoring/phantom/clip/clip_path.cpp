@@ -11,7 +11,7 @@ namespace {
 constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr int kRows = 3;
 
-// Where a share of the way along rows to and fro is; rows `length` long and `gap` apart.
+// Position at a share of the path along rows to and fro; rows `length` long and `gap` apart.
 cv::Point2d AlongRows(double share, double length, double gap) {
   const double total = kRows * length + (kRows - 1) * gap;
   double s = std::clamp(share, 0.0, 1.0) * total;
@@ -51,7 +51,8 @@ ClipPathway::ClipPathway(const ClipOptions& options, cv::Size2d world, double ra
   const double foot = focal * std::tan(options.field_of_view / 2) * (1 + options.zoom) *
                           std::max(1.0, options.zoom_sweep) * 1.12 +
                       0.13 * radius;
-  jump_ = 0.5 * options.jump * radius * cv::Point2d(0.8222, 0.5692);  // half of it; unit direction
+  jump_ = 0.5 * options.jump * radius *
+          cv::Point2d(0.8222, 0.5692);  // half of the jump; unit direction
   reach_ = {std::max(0.0, world.width / 2 - foot - jump_.x),
             std::max(0.0, world.height / 2 - foot - jump_.y)};
   const double away = std::min(0.2 * radius, 0.1 * std::min(world.width, world.height));
@@ -73,7 +74,7 @@ ClipPathway::ClipPathway(const ClipOptions& options, cv::Size2d world, double ra
   start_ = random.Uniform(0, kTurn);
   for (double& phase : phase_) phase = random.Uniform(0, kTurn);
   if (options.path == ClipPath::kWander) {
-    // So slow that the mean step is the one asked for, if the plane has room for it.
+    // Slows down so that the mean step has the requested length, if the plane has room for it.
     double length = 0;
     const int pieces = 400;
     for (int i = 0; i < pieces; ++i) {

@@ -34,7 +34,7 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// The homography that makes most frames right: from several starts, refitted to what lies close.
+// Homography that places most frames correctly: from several starts, refitted to the inliers.
 Fit BestFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to) {
   Fit best;
   const struct {
@@ -81,7 +81,7 @@ std::string ClipScore::Text() const {
 
 std::vector<cv::Point2d> NinePoints(const Clip& clip, const RectifiedView& view) {
   const Lens& lens = clip.lens();
-  // 85 % of the window's radius as an angle, by the equisolid formula of lens.h.
+  // Angle at 85 % of the window's radius, by the equisolid formula of lens.h.
   const double theta = 2 * std::asin(0.85 * lens.circle.r / (2 * lens.focal_px));
   std::vector<cv::Point2d> points{{view.cx, view.cy}};
   for (int i = 0; i < 8; ++i) {
@@ -122,8 +122,8 @@ ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Mat
   }
   score.placed = static_cast<int>(which.size());
   if (which.empty()) return score;
-  // findHomography's tolerances are in pixels of the truth, so its own pixels may be any size; but
-  // keep them away from the ends of double.
+  // findHomography's tolerances are in pixels of the truth, so the other pixels may have any size.
+  // The fit avoids the limits of double.
   const Fit fit = BestFit(placed, truth);
   if (!std::isfinite(fit.cost)) {
     score.wrong_as_good = score.placed;
@@ -139,7 +139,7 @@ ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Mat
     if (!std::isfinite(worst) || (!is_blank.empty() && is_blank[which[k]]))
       worst = std::numeric_limits<double>::infinity();
     score.worst_px[which[k]] = worst;
-    // Expected errors are in panorama pixels of the result; its scale against the truth's is that
+    // Expected errors are in panorama pixels of the result. Its scale against the truth's is that
     // of the fit, near 1 for a panorama at its natural scale.
     if (worst <= result.expected_error_px) ++covered;
     if (worst >= kRightPx) {

@@ -1,8 +1,8 @@
-// How right a registration of a rendered clip is: nine points a frame, the centre and eight at 85 %
-// of the round window, taken to the panorama and held against the truth after the best single
-// homography between the two panoramas, since where the panorama's plane lies is free. A frame is
-// right when its worst point is less than 10 px off. The same measure as the project's published
-// numbers.
+// Accuracy of the registration of a rendered clip, by nine points per frame: the centre and eight
+// at 85 % of the round window. The points are mapped to the panorama and compared with the truth
+// after the best single homography between the two panoramas, since the panorama's plane is free. A
+// frame is right when its worst point is less than 10 px off. The project's published numbers use
+// the same measure.
 #pragma once
 
 #include <span>
@@ -19,25 +19,25 @@ inline constexpr double kRightPx = 10;
 struct ClipScore {
   int frames = 0, placed = 0, right = 0;
   double mean_px = 0, max_px = 0;  // over the nine points of the right frames
-  std::vector<double> worst_px;    // of each result, in order; NaN where it was not placed
-  int wrong_as_good = 0;           // placed, 10 px or more off, and expected to be less
-  double covered = 1;              // share of placed frames whose expected error is not passed
+  std::vector<double> worst_px;    // one per result, in order; NaN for a frame that was not placed
+  int wrong_as_good = 0;           // placed, 10 px or more off, with an expected error below 10 px
+  double covered = 1;  // share of placed frames whose error stays within the expected error
   cv::Matx33d truth_from_panorama = cv::Matx33d::eye();
 
   std::string Text() const;
 };
 
-// The nine points in rectified pixels.
+// Nine points of the measure, in rectified pixels.
 std::vector<cv::Point2d> NinePoints(const Clip& clip, const RectifiedView& view);
 
-// `truth` of each result, rectified to panorama px, and the nine points; with `is_blank` (may be
-// empty), whether the frame shows nothing.
+// Scores results against `truth` (rectified to panorama px, one per result) at the nine points.
+// `is_blank` (may be empty) marks frames that show nothing.
 ClipScore ScorePlaces(std::span<const cv::Point2d> nine, std::span<const cv::Matx33d> truth,
                       const std::vector<bool>& is_blank, std::span<const FrameResult> results,
                       int component = 0);
 
-// Of the results in `component`; `results[i].index` is the frame of the clip. Blank frames must not
-// be placed: one that is counts as wrong.
+// Scores the results in `component`; `results[i].index` is the frame of the clip. A blank frame
+// that was placed counts as wrong.
 ClipScore ScoreClip(const Clip& clip, const RectifiedView& view,
                     std::span<const FrameResult> results, int component = 0);
 

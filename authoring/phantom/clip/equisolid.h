@@ -1,5 +1,5 @@
-// The equisolid lens r = 2 f sin(θ/2), written out a second time: what draws the truth must not be
-// what a test wants to hold against it (scene/lens.h).
+// The equisolid lens r = 2 f sin(θ/2), implemented a second time: the renderer of the truth must
+// not use the code that a test checks against it (scene/lens.h).
 #pragma once
 
 #include <algorithm>

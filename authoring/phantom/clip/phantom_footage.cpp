@@ -64,7 +64,7 @@ Json WritePhantomFootage(const std::filesystem::path& folder, const Phantom& pha
         {{"file", name}, {"panorama_from_rectified", Nine(clip.PanoramaFromRectified(i, view))}});
   }
   const Board board;
-  // Seen from the side: a frontal picture leaves the focal length open.
+  // Tilted view: a frontal picture does not determine the focal length.
   const ScopePose pose = BoardPoses(clip.lens(), board)[1];
   WriteColourImage(folder / "grid.png",
                    ImageOf(DrawBoard(clip.lens(), board, pose, phantom.options.seed)));

@@ -1,5 +1,6 @@
-// Footage of a phantom: a scope flies over its panorama picture as over a plane, so every frame has
-// an exact homography to panorama.png; a grid and the lens to calibrate and rectify with.
+// Footage of a phantom: a scope moves over its panorama picture as over a plane, so every frame has
+// an exact homography to panorama.png. Includes a grid and the lens, for calibration and
+// rectification.
 #pragma once
 
 #include <filesystem>
@@ -16,15 +17,15 @@ struct PhantomFootageOptions {
   template <class V>
   void Visit(V&& v) {
     v("footage_frames", footage_frames, Range{0, 2000}, "",
-      "Frames of a clip over the panorama, with its lens, a grid and every frame's truth; 0: "
+      "Frames of a clip over the panorama, with its lens, a grid and every frame's truth; 0 writes "
       "none.");
   }
 };
 
 Clip FootageClip(const Phantom& phantom, const PhantomFootageOptions& options);
 
-// Writes footage/0000.png (or .jpg) …, grid.png and lens.json into `folder`, and returns what
-// truth.json says of them:
+// Writes footage/0000.png (or .jpg) …, grid.png and lens.json into `folder`, and returns their
+// description for truth.json:
 //   {lens, rectified:{width,height,focal_px,cx,cy}, frames:[{file, panorama_from_rectified:[9]}],
 //    grid:{file, spacing, pose:{at:[2], distance, board_from_camera:[9]}}}
 // Null without frames.

@@ -3,9 +3,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr float kGlintPower = 900;  // a wet surface mirrors within some 3°
+constexpr float kGlintPower = 900;  // exponent; a wet surface reflects within about 3°
 
-// Linear between the pixels of a field; its border goes on outside.
+// Bilinear interpolation of a field, extended beyond its border.
 template <class T>
 T Linear(const cv::Mat& field, float x, float y) {
   x = std::clamp(x, 0.0f, static_cast<float>(field.cols - 1));
@@ -83,7 +83,7 @@ cv::Vec3f PlaneLight::Along(const View& view, const cv::Vec3f& ray, float off_ax
     const auto height = [&](float px, float py) {
       return Linear<float>(texture_.height, Shrunk(px, 4), Shrunk(py, 4));
     };
-    for (int i = 0; i < 6; ++i) {  // settles: the ground's slopes are gentle
+    for (int i = 0; i < 6; ++i) {  // converges, since the ground's slopes are gentle
       t = (view.distance - relief_ * height(x, y)) / dz;
       x = view.x + t * dx;
       y = view.y + t * dy;
@@ -102,7 +102,7 @@ cv::Vec3f PlaneLight::Along(const View& view, const cv::Vec3f& ray, float off_ax
   cv::Vec3f colour = AlbedoAt(x, y, smooth) * light;
   if (highlights_ > 0) {
     const float mirror = cosine(slope[0] + ground_x, slope[1] + ground_y);
-    if (mirror > 0.99f) {  // beyond it there is less than 1e-4 of a glint
+    if (mirror > 0.99f) {  // below it a highlight is weaker than 1e-4
       const float glint = highlights_ * std::pow(mirror, kGlintPower) / std::max(fall, 0.2f);
       colour += cv::Vec3f(glint, glint, glint);
     }

@@ -1,4 +1,4 @@
-// The light that comes back from the plane along one ray of the scope.
+// Light reflected by the plane along one ray of the scope.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,14 @@ class PlaneLight {
  public:
   PlaneLight(const PlaneTexture& texture, const ClipOptions& options, double radius, double focal);
 
-  struct View {  // a pose, in floats
+  struct View {  // pose in single precision
     cv::Matx33f plane_from_camera;
     float x = 0, y = 0, distance = 0;
   };
   static View ViewOf(const ScopePose& pose);
 
-  // Linear RGB; `off_axis` is the share of half the field of view. `smooth` samples by cubics,
-  // otherwise linearly: enough when several samples are averaged.
+  // Linear RGB; `off_axis` is the share of half the field of view. `smooth` interpolates by cubics;
+  // otherwise linearly, which is sufficient when several samples are averaged.
   cv::Vec3f Along(const View& view, const cv::Vec3f& ray, float off_axis, bool smooth) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 constexpr int kQuantiles = 4096;
 constexpr double kTurn = 2.0 * 3.14159265358979323846;
 
-// Inverse of the normal distribution's integral [Acklam 2003].
+// Inverse of the cumulative normal distribution [Acklam 2003].
 double Quantile(double p) {
   const auto tail = [](double q) {
     return (((((-7.784894002430293e-03 * q - 3.223964580411365e-01) * q - 2.400758277161838) * q -
@@ -54,7 +54,7 @@ struct Quantiles {
 };
 const Quantiles kNormal;
 
-// One octave: random values on a grid, smoothly between them.
+// One octave: random values on a grid, interpolated smoothly.
 void AddOctave(cv::Mat& sum, double cell, double stretch, double strength, Random& random) {
   cv::Mat grid(std::max(2, static_cast<int>(sum.rows / cell) + 3),
                std::max(2, static_cast<int>(sum.cols / cell / stretch) + 3), CV_32F);
@@ -96,8 +96,9 @@ struct Walk {
 float NormalOf(std::uint64_t bits) { return kNormal.of[(bits >> 20) & (kQuantiles - 1)]; }
 
 cv::Mat PlaneNoise(cv::Size size, const NoiseShape& shape, Random& random) {
-  // Coarse octaves are drawn small; nobody sees the difference and it is sixteen times less work.
-  constexpr double kCoarse = 24;  // px, of a cell
+  // Coarse octaves are computed at low resolution, with no visible difference and a sixteenth of
+  // the work.
+  constexpr double kCoarse = 24;  // px, size of a cell
   constexpr double kFinest = 2;   // px
   const cv::Size quarter((size.width + 3) / 4, (size.height + 3) / 4);
   cv::Mat coarse, fine;

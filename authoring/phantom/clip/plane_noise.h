@@ -1,4 +1,4 @@
-// Smooth noise over a rectangle of the plane, from a seed; as many octaves as wanted.
+// Smooth noise over a rectangle of the plane, from a seed, with any number of octaves.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace arthro::authoring {
 
-// A standard normal value from 12 random bits: quantiles in a table.
+// Standard normal value from 12 random bits, by a table of quantiles.
 float NormalOf(std::uint64_t bits);
 
 struct NoiseShape {
   double cell = 10;    // px: size of the largest features
-  int octaves = 3;     // each twice as fine…
-  double gain = 0.55;  // …and this much as strong
-  double stretch = 1;  // features are so much longer along x
+  int octaves = 3;     // each with half the cell of the one before
+  double gain = 0.55;  // factor on the amplitude from one octave to the next
+  double stretch = 1;  // elongation of features along x
 };
 
-// CV_32F of `size`, unit variance or so.
+// CV_32F of `size`, with about unit variance.
 cv::Mat PlaneNoise(cv::Size size, const NoiseShape& shape, Random& random);
 
 // Branching vessels drawn as CV_32F, 0 to 1, with widths of up to `thickness` px.

@@ -12,14 +12,14 @@ namespace {
 
 using Colour = cv::Vec3f;
 
-constexpr double kUsualRadius = 300;  // px: the window for which the sizes below are meant
+constexpr double kUsualRadius = 300;  // px: window radius for the sizes below
 
 float Soft(float distance) {
   return 1.0f / (1.0f + std::exp(std::clamp(distance / 0.004f, -40.0f, 40.0f)));
 }
 
-// The tissues of the scene at a quarter of the size: colours, and how much of a pixel is synovium,
-// meniscus or ligament.
+// Tissues of the scene at a quarter of the size: colours, and the shares of synovium, meniscus and
+// ligament in a pixel.
 struct Regions {
   cv::Mat colour;                        // CV_32FC3
   cv::Mat synovium, meniscus, ligament;  // CV_32F
@@ -71,7 +71,7 @@ Regions RegionsOf(cv::Size2d world, const cv::Rect& region, double scale, double
   return r;
 }
 
-// Fibres across the picture, turned.
+// Fibres across the picture, rotated.
 cv::Mat Fibres(cv::Size size, double scale, Random& random) {
   const double angle = random.Uniform(35, 80);
   const cv::Mat straight = PlaneNoise(size, {10 * scale, 3, 0.55, 14}, random);
@@ -84,7 +84,7 @@ cv::Mat Fibres(cv::Size size, double scale, Random& random) {
 
 void AddGround(PlaneTexture& texture, const ClipOptions& options, double scale, Random& random) {
   const cv::Size size = texture.albedo.size(), half((size.width + 1) / 2, (size.height + 1) / 2);
-  // Heights in half-size pixels, so that slopes are px a px.
+  // Heights in half-size pixels, so that slopes are px per px.
   cv::Mat bump = PlaneNoise(half, {44 * scale / 2, 3}, random) * (3.2 * scale / 2) +
                  PlaneNoise(half, {std::max(4.0, 10 * scale) / 2, 2}, random) * (0.22 * scale / 2);
   cv::Mat gx, gy;
@@ -98,8 +98,7 @@ void AddGround(PlaneTexture& texture, const ClipOptions& options, double scale, 
   }
 }
 
-// Makes what `tile` px apart looks the same: the first patch again and again, faded over at its
-// seams.
+// Repeats the first patch with a period of `tile` px, blended at its seams.
 void Repeat(cv::Mat& albedo, int tile, int fade) {
   if (albedo.cols < tile + fade || albedo.rows < tile + fade) return;
   cv::Mat patch;

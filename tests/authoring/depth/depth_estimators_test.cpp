@@ -1,4 +1,4 @@
-// What the estimators are worth on pictures whose distances are known, and what they promise.
+// Accuracy of the estimators on pictures with known distances, and their guarantees.
 #include <cmath>
 #include <cstring>
 #include <ctime>
@@ -39,7 +39,8 @@ DepthOptions Grey() {
 DepthScore MeanScore(const DepthOptions& options, double tissue, double noise, double highlights) {
   DepthScore sum;
   constexpr int kSeeds = 4;
-  for (int seed = 21; seed < 21 + kSeeds; ++seed) {  // not those that constants were chosen on
+  for (int seed = 21; seed < 21 + kSeeds;
+       ++seed) {  // other seeds than those that constants were chosen on
     const test::DepthScene scene =
         test::MakeDepthScene({seed, 240, tissue, noise, highlights, 1.6, 0.3});
     DepthReport report;
@@ -62,7 +63,7 @@ TEST(DepthEstimators, ShadingReachesItsMarkOnMixedTissue) {
   EXPECT_LE(shading.abs_rel, 0.15);
 }
 
-// Order, which needs no fit; noise and glints of the hardest kind included.
+// Rank correlation, which needs no fit; includes noise and highlights of the hardest kind.
 TEST(DepthEstimators, NeitherIsEverWorseThanGrey) {
   for (const double tissue : {0.0, 1.0})
     for (const auto& [noise, highlights] : {std::pair{0.0, 0.0}, {0.01, 0.6}, {0.03, 1.5}}) {
@@ -75,7 +76,7 @@ TEST(DepthEstimators, NeitherIsEverWorseThanGrey) {
         std::printf("tissue %g noise %g: %-18s %s\n", tissue, noise,
                     estimator == DepthEstimator::kShading ? "shading" : "inverse-square-red",
                     score.Text().c_str());
-        // On one tissue without noise all of them order alike, but for smoothing: 0.01.
+        // On one tissue without noise all of them give the same order, except for smoothing: 0.01.
         EXPECT_GE(score.spearman, grey.spearman - 0.01);
       }
       const DepthScore shading =
@@ -85,7 +86,7 @@ TEST(DepthEstimators, NeitherIsEverWorseThanGrey) {
 }
 
 TEST(DepthEstimators, RedTissueAtTheSameDistanceIsNotFurther) {
-  // Pale and red halves at one distance, by the albedos that tissue is taken to have.
+  // Pale and red halves at one distance, with the albedos of the model.
   ColourImage image(80, 60);
   const auto code = [](double light) {
     return static_cast<std::uint8_t>(std::lround(255 * std::pow(light, 1 / 1.6)));
@@ -111,7 +112,7 @@ TEST(DepthEstimators, RedTissueAtTheSameDistanceIsNotFurther) {
 }
 
 TEST(DepthEstimators, ASlantedPlaneIsLessDistortedWithShading) {
-  // A plane that leans 50° under a light at the scope; brightness = cosine / distance².
+  // A plane tilted by 50° under a light at the scope; brightness = cosine / distance².
   constexpr int kSize = 200;
   ColourImage image(kSize, kSize);
   std::vector<double> truth;
@@ -150,7 +151,7 @@ TEST(DepthEstimators, GlintsAreFilled) {
     options.vignette = 0;
     const auto error = [&](bool fill) {
       options.fill_highlights = fill;
-      options.low_percentile = 5;  // so that the glints do not set the range
+      options.low_percentile = 5;  // so that the highlights do not set the range
       options.high_percentile = 95;
       const DepthMap found = DepthFromColour(with, options),
                      clean = DepthFromColour(without, options);
@@ -180,13 +181,13 @@ TEST(DepthEstimators, KeepTheContractOfTheFilter) {
     for (std::size_t i = 0; i < alone.relief.size(); ++i) {
       ASSERT_EQ(std::isnan(alone.relief[i]), std::isnan(paper.relief[i]));
       if (std::isnan(alone.relief[i])) continue;
-      ASSERT_EQ(alone.relief[i], again.relief[i]);  // whatever the number of threads
+      ASSERT_EQ(alone.relief[i], again.relief[i]);  // for any number of threads
       least = std::min(least, alone.relief[i]);
       most = std::max(most, alone.relief[i]);
     }
     EXPECT_EQ(least, static_cast<float>(options.far_relief));
     EXPECT_EQ(most, static_cast<float>(options.near_relief));
-    // Tiny, black, flat and empty.
+    // Smallest, black, uniform and empty pictures.
     EXPECT_TRUE(DepthFromColour(ColourImage{}, options).empty());
     EXPECT_TRUE(std::isnan(DepthFromColour(ColourImage(9, 7), options).at(3, 3)));
     for (const auto& [w, h] : {std::pair{1, 1}, {1, 40}, {40, 1}, {3, 2}}) {
@@ -216,8 +217,8 @@ TEST(DepthEstimators, PreviewLooksLikeTheWholeResult) {
     const auto error = test::PreviewErrorOf(preview.Filter(options), DepthFromColour(knee, options),
                                             preview.Factor());
     std::printf("estimator %d: %s\n", static_cast<int>(estimator), error.Text().c_str());
-    // A thirtieth of 20 mm: slopes are taken on a small picture either way, which begins at other
-    // pixels; it is for choosing options.
+    // Tolerance of a thirtieth of 20 mm: slopes are taken on a small picture either way, which
+    // starts at other pixels. The preview is for choosing options.
     EXPECT_LT(error.mean, 0.0007);
     EXPECT_LT(error.disagree, 0.02);
   }
@@ -233,7 +234,7 @@ TEST(GuidedSmoothing, TakesNoiseAwayAndKeepsAStep) {
           (x < 40 ? 1.0f : 2.0f) + 0.06f * (static_cast<float>(random >> 8) / (1 << 24) - 0.5f);
     }
   weight.col(0).setTo(0);
-  values.col(0).setTo(1e6);  // does not count, so it must not spill
+  values.col(0).setTo(1e6);  // has weight 0, so it must not spill
   const cv::Mat smooth = GuidedSmoothing(values, weight, 4, 0.1, 0.0);
   EXPECT_LT(std::abs(smooth.at<float>(30, 3) - 1), 0.02);
   EXPECT_LT(smooth.at<float>(30, 39), 1.1);

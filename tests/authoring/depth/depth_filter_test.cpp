@@ -21,7 +21,7 @@ namespace {
 
 constexpr float kNear = 0.02f, kFar = 0.003f;
 
-// The filter alone: no median, no glints, the full range of greys.
+// The filter alone: no median, no highlights, the full range of greys.
 DepthOptions Plain(DepthLaw law = DepthLaw::kLinear) {
   DepthOptions options;
   options.law = law;
@@ -106,8 +106,8 @@ TEST(DepthFilter, RangeIsExactlyFarToNearOverWhatWasImaged) {
 }
 
 TEST(DepthFilter, RedTissueOfTheSameBrightnessIsNotNearer) {
-  // Muscle with as much green and blue as bone has, and more red, must not come nearer than bone
-  // that has more of all three; with equal weights it would.
+  // Muscle with as much green and blue as bone, and more red, must not come nearer than bone with
+  // more of all three; with equal weights it would.
   ColourImage image = Uniform(30, 10, 60, 60, 60);
   for (int y = 0; y < 10; ++y) {
     for (int x = 10; x < 20; ++x) Put(image, x, y, 250, 60, 60);    // muscle
@@ -191,25 +191,25 @@ TEST(DepthFilter, AGlintIsFilledFromAroundItAndIsNoPeak) {
   options.fill_highlights = true;
   DepthReport report;
   const DepthMap filled = DepthFromColour(image, options, &report);
-  // 8 x 7 pixels and 1 of glow around them.
+  // 8 x 7 pixels plus 1 pixel of glow around them.
   EXPECT_NEAR(report.highlight_share, 10.0 * 9.0 / (120 * 90), 1e-12);
   double worst = 0;
   for (std::size_t i = 0; i < clean.relief.size(); ++i)
     worst = std::max(worst, std::abs(double(filled.relief[i]) - clean.relief[i]));
   const double slope = (kNear - kFar) / 119;
   std::printf("glint filled to within %.2f mm, %.1f px of the slope\n", 1e3 * worst, worst / slope);
-  // No further off than the glint and its glow are wide, on this slope.
+  // The error is at most the relief of this slope over the width of the highlight and its glow.
   EXPECT_LT(worst, 10 * slope);
 }
 
-// Most glints of real footage do not reach the sensor's end.
+// Most highlights of real footage are not saturated.
 TEST(DepthFilter, AGlintIsSmallPaleAndStandsOut) {
-  constexpr int kSize = 400;  // so that a glint is up to 10 px across
+  constexpr int kSize = 400;  // so that a highlight is up to 10 px across
   const auto is_kept = [&](int size, int r, int g, int b) {
     ColourImage image = Uniform(kSize, kSize, 120, 50, 45);
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 40; ++x) {
-        Put(image, x, y, 20, 15, 15);  // the ends of the range, large enough to be no glints
+        Put(image, x, y, 20, 15, 15);  // the ends of the range, too large for highlights
         Put(image, kSize - 1 - x, y, 240, 235, 230);
       }
     for (int y = 200; y < 200 + size; ++y)

@@ -30,9 +30,9 @@ TEST(DepthPreview, FitsThePixelsThatAreAskedFor) {
   }
 }
 
-// The preview is for choosing options, so it must look like the whole result: a hundredth of the
-// relief of 20 mm on average (what a panel of 8-bit greys shows as 2 or 3 steps) and a twentieth at
-// all but one pixel of a hundred.
+// The preview is for choosing options, so it must resemble the full result. Tolerance: a hundredth
+// of the relief of 20 mm on average (2 or 3 steps of 8-bit grey), and a twentieth for 99 % of the
+// pixels.
 TEST(DepthPreview, IsCloseToTheWholeResult) {
   const ColourImage knee = test::KneePicture(2048, 1024);
   const DepthPreview preview(knee);

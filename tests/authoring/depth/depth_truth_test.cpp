@@ -1,5 +1,5 @@
-// How far relief from brightness is from the truth: on a picture lit by a known relief, and on real
-// footage, where only sanity can be asked for.
+// Error of relief from brightness: against a picture lit by a known relief, and plausibility on
+// real footage.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -38,12 +38,13 @@ TEST(DepthTruth, NoisyReliefIsOrderedAsTheTruth) {
   const double raw = correlation(0), median = correlation(2);
   std::printf("Spearman: grey alone %.4f, with median %.4f\n", raw, median);
   EXPECT_GT(median, raw);
-  // One tissue under one light: only noise, glints and clamped greys stand between it and 1.
+  // One tissue under one light: only noise, highlights and clamped greys lower the correlation from
+  // 1.
   EXPECT_GT(median, 0.98);
 }
 
-// Glints larger than the median's window. Filling is worth its time if it at least halves the error
-// there against the same picture without glints.
+// Highlights larger than the median's window. Filling must at least halve the error there against
+// the same picture without highlights.
 TEST(DepthTruth, FillingAtLeastHalvesTheErrorAtGlints) {
   const ColourImage with = test::KneePicture(1600, 1200, 6.0, true),
                     without = test::KneePicture(1600, 1200, 6.0, false);
@@ -68,9 +69,9 @@ TEST(DepthTruth, FillingAtLeastHalvesTheErrorAtGlints) {
   EXPECT_LT(filled, 0.5 * raw);
 }
 
-// Several tissues under one light: red synovium reads as far, pale cartilage as near, so this is an
-// order and no measurement. The paper's grey ranks better than chance by a wide margin: half of the
-// way from 0 to 1 is asked for, and red alone is printed beside it.
+// Several tissues under one light: red synovium reads as far, pale cartilage as near, so this is a
+// ranking and no measurement. The paper's grey must reach half of the way from chance (0) to 1; red
+// alone is printed beside it.
 TEST(DepthTruth, AKneeOfSeveralTissuesIsRankedBetterThanHalfWay) {
   test::TempFolder folder;
   const auto made = test::RunProgram("phantom --seed 1 --size S -o " + (folder / "knee").string());

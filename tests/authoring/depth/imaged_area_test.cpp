@@ -44,7 +44,7 @@ TEST(ImagedArea, SurroundIsDarkAndJoinedToTheEdge) {
 
 TEST(ImagedArea, SurroundRunsRoundCornersButNotDiagonally) {
   EXPECT_EQ(SurroundOfPicture({"........",  //
-                               ".dddddd.",  // joined to the bottom by its right leg
+                               ".dddddd.",  // connected to the bottom by its right leg
                                ".d....d.",  //
                                ".dd...d.",  //
                                "...d..d."}),
@@ -66,7 +66,7 @@ TEST(ImagedArea, AHoleThatAMosaicLeftIsSurroundButASpeckIsNot) {
   auto expected = std::vector<std::string>(14, std::string(16, '.'));
   for (int y = 3; y < 11; ++y) expected[y].replace(2, 8, "########");
   EXPECT_EQ(SurroundOfPicture(rows), expected);
-  rows[5][5] = 'd';  // one dim pixel in it, and it is a dark recess
+  rows[5][5] = 'd';  // one dim pixel makes it a dark recess
   EXPECT_EQ(SurroundOfPicture(rows), std::vector<std::string>(14, std::string(16, '.')));
 }
 

@@ -18,7 +18,7 @@ GreyPlane RandomPlane(int width, int height, double imaged, unsigned seed) {
   return plane;
 }
 
-// By the definition: sort what is imaged in the window, take the lower middle.
+// Median by its definition: sorts the imaged values in the window and takes the lower middle one.
 std::vector<std::uint16_t> ByDefinition(const GreyPlane& plane, int radius) {
   std::vector<std::uint16_t> result = plane.grey;
   for (int y = 0; y < plane.height; ++y)
@@ -34,7 +34,8 @@ std::vector<std::uint16_t> ByDefinition(const GreyPlane& plane, int radius) {
   return result;
 }
 
-// All roads (vector network, sorting near the mask, moving histogram) give the definition's values.
+// Every implementation (vector network, sorting near the mask, moving histogram) gives the values
+// of the definition.
 TEST(MaskedMedian, IsTheMedianOfTheImagedPixelsExactly) {
   for (const double imaged : {1.0, 0.999, 0.7, 0.05, 0.0})
     for (const auto& [width, height] :

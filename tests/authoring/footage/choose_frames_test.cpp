@@ -48,7 +48,7 @@ TEST(FrameLook, BlurLowersSharpnessAndTheSurroundDoesNotRaiseIt) {
   cv::GaussianBlur(sharp, blurred, {}, 2.0);
   FrameLooker looker;
   EXPECT_LT(looker.Look(blurred).sharpness, 0.7 * looker.Look(sharp).sharpness);
-  // A black surround with its hard rim changes nothing once the window is known.
+  // A black surround with a hard rim changes nothing once the window is known.
   const LensCircle window{80, 60, 55};
   cv::Mat surround(sharp.size(), CV_8UC1, cv::Scalar(255));
   cv::circle(surround, {80, 60}, 55, cv::Scalar(0), cv::FILLED);
@@ -59,7 +59,7 @@ TEST(FrameLook, BlurLowersSharpnessAndTheSurroundDoesNotRaiseIt) {
 
 TEST(FrameLook, MotionIsAShareOfTheWindow) {
   FrameLooker looker;
-  EXPECT_EQ(looker.Look(View(200, 100)).moved, -1);           // nothing to compare with
+  EXPECT_EQ(looker.Look(View(200, 100)).moved, -1);           // no frame to compare with
   EXPECT_NEAR(looker.Look(View(212, 100)).moved, 0.1, 0.02);  // 12 of 120 px
   EXPECT_NEAR(looker.Look(View(212, 100)).moved, 0.0, 0.005);
 }
@@ -93,7 +93,7 @@ TEST(ChooseFrames, EveryFifth) {
 }
 
 TEST(ChooseFrames, OfALongClipTheSharpestOfEachEqualStretch) {
-  // 600 frames that move, then 600 at rest: the rest is worth hardly any frames.
+  // 600 frames that move, then 600 at rest: few frames of the rest are used.
   std::vector<FrameLook> looks(1200);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     looks[i].moved = i < 600 ? 0.01 : 0.0;

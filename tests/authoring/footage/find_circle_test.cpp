@@ -13,8 +13,8 @@
 namespace arthro::authoring {
 namespace {
 
-// Tissue with a bright middle and texture, seen through a window; dark noise beyond. `soft` is the
-// standard deviation of the rim's blur, px.
+// Tissue with a bright middle and texture, seen through a window, with dark noise beyond. `soft` is
+// the standard deviation of the rim's blur, px.
 cv::Mat Scene(cv::Size size, const LensCircle& window, double soft = 0.7, double vignette = 0.6,
               unsigned seed = 1) {
   cv::Mat coverage(size, CV_32F), picture(size, CV_8UC3);
@@ -44,7 +44,7 @@ LensCircle Find(const cv::Mat& rgb) {
   return finder.Find().circle;
 }
 
-// One pixel is what the later stages need: they stay 3 % of the radius inside.
+// Tolerance of one pixel: the later stages exclude 3 % of the radius.
 void ExpectCircle(const LensCircle& found, const LensCircle& truth, double within = 1.0) {
   EXPECT_NEAR(found.cx, truth.cx, within);
   EXPECT_NEAR(found.cy, truth.cy, within);
@@ -55,7 +55,7 @@ TEST(FindCircle, WholeAndCutWindowsToLessThanAPixel) {
   const std::vector<LensCircle> windows = {
       {200, 160, 150},  // whole
       {198, 161, 190},  // the sensor cuts top and bottom off
-      {205, 158, 235},  // and only the corners are dark
+      {205, 158, 235},  // only the corners are dark
       {60, 40, 120},    // off-centre: its middle is near a corner
       {-20, 150, 200},  // its middle is outside the picture
       {330, 250, 25},   // tiny
@@ -105,7 +105,7 @@ TEST(FindCircle, AWindowThatWandersIsWhatAllFramesShow) {
   CircleFinder finder;
   const std::vector<cv::Point2d> middles = {{200, 160}, {208, 160}, {204, 154}, {203, 161}};
   for (const cv::Point2d& m : middles) finder.Add(Scene({400, 320}, {m.x, m.y, 140}));
-  finder.Add(cv::Mat(320, 400, CV_8UC3, cv::Scalar::all(3)));  // a black frame says nothing
+  finder.Add(cv::Mat(320, 400, CV_8UC3, cv::Scalar::all(3)));  // a black frame has no effect
   const ClipCircle found = finder.Find();
   EXPECT_NEAR(found.wanders, 8.5, 1.5);
   for (const cv::Point2d& m : middles)
@@ -114,7 +114,7 @@ TEST(FindCircle, AWindowThatWandersIsWhatAllFramesShow) {
 }
 
 TEST(FindCircle, FramesTooDarkAtTheRimAreTakenTogether) {
-  // Each frame lights one side only, so none has a rim all round.
+  // Each frame lights one side only, so none shows the whole rim.
   const LensCircle window{200, 160, 150};
   CircleFinder finder;
   for (int side = 0; side < 8; ++side) {
@@ -139,7 +139,7 @@ TEST(FindCircle, RealWindowCutByTheSensor) {
     if (footage.index() % 40 == 0) {
       finder.Add(rgb);
       const LensCircle circle = Find(rgb);
-      // Its radius is that of the optics, the same in every frame; read off by hand: 566 px.
+      // The optics fix the radius, so it is equal in every frame; measured by hand: 566 px.
       EXPECT_NEAR(circle.r, 566.2, 1.0) << footage.index();
       // Black starts just beyond it, all along the visible rim.
       cv::Mat beyond(rgb.size(), CV_8UC1, cv::Scalar(255));

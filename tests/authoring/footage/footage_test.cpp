@@ -26,7 +26,7 @@ void WritePicture(const fs::path& file, int grey, int type = CV_8UC3, cv::Size s
   ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(size, type, cv::Scalar::all(grey))));
 }
 
-// How the level of a frame was read back: -1 for one that could not be.
+// Grey level of each frame as read back; -1 for an unreadable frame.
 std::vector<int> LevelsOf(Footage& footage) {
   std::vector<int> levels;
   cv::Mat rgb;
@@ -43,7 +43,7 @@ std::string SentenceOf(const fs::path& path) {
   return "";
 }
 
-// A motion-JPEG clip: OpenCV writes and reads it without any codec of the machine.
+// A motion-JPEG clip, which OpenCV writes and reads without a codec of the machine.
 void WriteVideo(const fs::path& file, int frames) {
   cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG,
                          cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25.0, {64, 48});
@@ -133,7 +133,7 @@ TEST(Footage, AnUnreadableFrameIsNamedAndTheOthersCome) {
   EXPECT_NE(footage.fault().find("cut off"), std::string::npos) << footage.fault();
   EXPECT_EQ(footage.NameOf(footage.index()), "2.png");
   ASSERT_TRUE(footage.Next(rgb));
-  EXPECT_EQ(rgb.size(), cv::Size(40, 30));  // another size is told, not refused
+  EXPECT_EQ(rgb.size(), cv::Size(40, 30));  // another size is reported, not refused
   EXPECT_FALSE(footage.Next(rgb));
   EXPECT_FALSE(footage.Next(rgb));
 }
@@ -192,7 +192,7 @@ TEST(Footage, RefusesInOneSentenceWhatIsNoFootage) {
   EXPECT_NE(SentenceOf("").find("no such file"), std::string::npos);
 }
 
-// The decoder would open what the list names, so it is stopped before.
+// The decoder would open the files of the list, so the list is refused before.
 TEST(Footage, AListOfOtherFilesIsRefusedWhateverItIsCalled) {
   const test::TempFolder folder;
   WriteVideo(folder / "clip.avi", 20);

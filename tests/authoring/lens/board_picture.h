@@ -1,5 +1,5 @@
-// Raw pictures of a flat target as a given lens shows them, made in code: each pixel is the mean of
-// 4 x 4 rays. The target's lattice step is 1; it may be cut to a number of squares.
+// Raw pictures of a flat target through a given lens, computed in code: each pixel is the mean of 4
+// x 4 rays. The target's lattice step is 1; the target may be limited to a number of squares.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ inline glm::dmat3 TurnOf(const BoardPlace& place) {
 
 using RayOfPixel = std::function<bool(double x, double y, glm::dvec3& ray)>;
 
-// `brightness` of a place on the board, 0 to 1.
+// `brightness` of a point of the board, 0 to 1.
 inline cv::Mat BoardPicture(cv::Size size, const RayOfPixel& ray_of, const BoardPlace& place,
                             const std::function<double(double, double)>& brightness) {
   const glm::dmat3 turn = TurnOf(place);

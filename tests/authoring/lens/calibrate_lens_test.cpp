@@ -29,7 +29,7 @@ Lens Truth() {
   return lens;
 }
 
-// A 13 x 11 board's points through a lens, with noise of `sigma` px.
+// Points of a 13 x 11 board through a lens, with noise of `sigma` px.
 std::vector<TargetView> Views(const Lens& lens, int count, double sigma, unsigned seed) {
   const test::BoardPlace places[6] = {{0, 0, 0, {0, 0, 9}},
                                       {0.38, -0.17, 0.07, {0.1, 0.2, 8.5}},
@@ -59,7 +59,7 @@ LensCalibration Calibrate(const std::vector<TargetView>& views, CalibrateOptions
   return CalibrateLens(views, kPicture, Truth().circle, 0.002, options, {});
 }
 
-// Worst radius difference up to 95 % of the rim, px.
+// Largest difference in radius up to 95 % of the rim, px.
 double RimError(const Lens& lens, const Lens& truth) {
   double worst = 0;
   for (double share = 0.05; share <= 0.951; share += 0.05) {
@@ -69,7 +69,7 @@ double RimError(const Lens& lens, const Lens& truth) {
   return worst;
 }
 
-// The derivatives that the fit goes by, against differences of the residual.
+// Analytic derivatives of the fit, against differences of the residual.
 TEST(LensResidual, DerivativesAreThoseOfTheResidual) {
   for (const FitModel model :
        {FitModel::kEquisolid, FitModel::kEquidistant, FitModel::kDoubleSphere,
@@ -86,11 +86,12 @@ TEST(LensResidual, DerivativesAreThoseOfTheResidual) {
       const ceres::GradientChecker checker(
           &residual, static_cast<std::vector<const ceres::Manifold*>*>(nullptr), numeric);
       ceres::GradientChecker::ProbeResults results;
-      EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results)) << WordOf(model) << results.error_log;
+      EXPECT_TRUE(checker.Probe(parameters, 1e-6, &results))
+          << ToString(model) << results.error_log;
     }
 }
 
-// 0.1 px a coordinate is worse than any picture here gave (0.06).
+// 0.1 px per coordinate is more than in any picture here (0.06).
 TEST(CalibrateLens, SixViewsMeetTheTargets) {
   const LensCalibration calibration = Calibrate(Views(Truth(), 6, 0.1, 1));
   EXPECT_EQ(calibration.verdict, LensVerdict::kGood) << calibration.sentences.front();
@@ -133,7 +134,7 @@ TEST(CalibrateLens, WrongModelIsFlaggedOnStereographicData) {
       << calibration.sentences.front();
 }
 
-// LENS-03: flagged, and the estimate covers the truth, facing the lens or tilted.
+// LENS-03: the case is flagged, and the estimate covers the truth, for frontal and tilted targets.
 TEST(CalibrateLens, HardCase12OneViewSaysWhatItLeavesOpen) {
   const std::vector<TargetView> all = Views(Truth(), 6, 0.1, 4);
   for (const TargetView& view : all) {
@@ -168,7 +169,7 @@ TEST(CalibrateLens, RefusesWithAReason) {
   TargetView none;
   none.reason = "no line grid was found";
   EXPECT_EQ(Calibrate({none, none}).verdict, LensVerdict::kRefused);
-  // A target that covers little of the window.
+  // A target that covers a small part of the window.
   std::vector<TargetView> small = Views(Truth(), 6, 0.05, 7);
   for (TargetView& view : small)
     std::erase_if(view.points,
@@ -176,14 +177,14 @@ TEST(CalibrateLens, RefusesWithAReason) {
   const LensCalibration covers_little = Calibrate(small);
   EXPECT_EQ(covers_little.verdict, LensVerdict::kRefused);
   EXPECT_NE(covers_little.sentences.front().find("reach only"), std::string::npos);
-  // Points at random.
+  // Random points.
   std::mt19937 random(8);
   std::uniform_real_distribution<double> anywhere(150, 550);
   std::vector<TargetView> nonsense = Views(Truth(), 3, 0, 8);
   for (TargetView& view : nonsense)
     for (LatticePoint& point : view.points) point.pixel = {anywhere(random), anywhere(random)};
   EXPECT_EQ(Calibrate(nonsense).verdict, LensVerdict::kRefused);
-  // All on one line.
+  // All points on one line.
   std::vector<TargetView> line = Views(Truth(), 1, 0, 9);
   std::erase_if(line[0].points, [](const LatticePoint& p) { return p.j != 0; });
   EXPECT_EQ(Calibrate(line).verdict, LensVerdict::kRefused);

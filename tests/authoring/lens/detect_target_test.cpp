@@ -38,8 +38,8 @@ test::RayOfPixel RaysOf(const Lens& lens) {
 
 BoardPlace Tilted(double distance) { return {0.3, -0.2, 0.2, {0.13, -0.21, distance}}; }
 
-// Where each labelled point should be, but for the lattice's origin and quarter turns: the nearest
-// true crossing. A wrong label would also break the fit, which its own test shows.
+// Largest distance of a labelled point from the nearest true crossing. The lattice's origin and
+// quarter turns are free. A wrong label would also break the fit, which has its own test.
 double UsualDistance(const TargetView& view, const Lens& lens, const BoardPlace& place) {
   const glm::dmat3 turn = test::TurnOf(place);
   std::vector<double> distances;
@@ -58,7 +58,7 @@ double UsualDistance(const TargetView& view, const Lens& lens, const BoardPlace&
   return distances[distances.size() * 19 / 20];
 }
 
-// 0.3 px for 19 points of 20; a stray one at the rim is the fit's to leave out.
+// 0.3 px for 19 points of 20; the fit removes a stray point at the rim.
 TEST(DetectTarget, KindAndPointsOfEveryTarget) {
   const Lens lens = Fisheye();
   struct Case {
@@ -73,9 +73,9 @@ TEST(DetectTarget, KindAndPointsOfEveryTarget) {
     const BoardPlace place = Tilted(c.distance);
     const cv::Mat picture = BoardPicture({320, 256}, RaysOf(lens), place, c.look);
     const TargetView view = DetectTarget(picture, lens.circle, {});
-    EXPECT_EQ(view.kind, c.kind) << WordOf(view.kind) << " for " << WordOf(c.kind);
-    EXPECT_GE(view.points.size(), c.fewest) << WordOf(c.kind);
-    EXPECT_LT(UsualDistance(view, lens, place), 0.3) << WordOf(c.kind) << view.points.size();
+    EXPECT_EQ(view.kind, c.kind) << ToString(view.kind) << " for " << ToString(c.kind);
+    EXPECT_GE(view.points.size(), c.fewest) << ToString(c.kind);
+    EXPECT_LT(UsualDistance(view, lens, place), 0.3) << ToString(c.kind) << view.points.size();
     EXPECT_NEAR(view.dot_radius, c.kind == TargetKind::kDots ? 0.2 : 0.0, 0.02);
   }
 }
@@ -84,7 +84,7 @@ TEST(DetectTarget, AGlintAndAMissingLineCostOnlyTheirPoints) {
   const Lens lens = Fisheye();
   const BoardPlace place = Tilted(9);
   const auto look = [](double u, double v) {
-    // The line v = 1 is not there.
+    // The line v = 1 is missing.
     return std::abs(v - 1) < 0.3 && std::abs(u - std::round(u)) >= 0.055 ? 1.0
                                                                          : test::LinesAt(u, v);
   };
@@ -102,7 +102,7 @@ TEST(DetectTarget, SaysWhyThereIsNone) {
     EXPECT_EQ(view.kind, TargetKind::kNone);
     EXPECT_NE(view.reason.find("no line grid"), std::string::npos) << view.reason;
   }
-  // One line alone.
+  // A single line.
   cv::Mat line(200, 200, CV_8UC1, cv::Scalar(230));
   cv::line(line, {0, 100}, {199, 120}, cv::Scalar(20), 3, cv::LINE_AA);
   EXPECT_EQ(DetectTarget(line, {}, {}).kind, TargetKind::kNone);

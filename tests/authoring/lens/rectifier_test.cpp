@@ -24,7 +24,7 @@ Lens Equisolid() {
   return lens;
 }
 
-// A raw picture whose colours say where each pixel is: x/2 in red, y/2 in green.
+// A raw picture with the position of each pixel in its colours: x/2 in red, y/2 in green.
 cv::Mat Ramp(const Lens& lens) {
   cv::Mat raw(lens.height, lens.width, CV_8UC3);
   for (int y = 0; y < raw.rows; ++y)
@@ -56,7 +56,7 @@ TEST(Rectifier, FlattenedCircleGivesAFlatView) {
   EXPECT_LT(view.height, view.width - 40);
   const Rectifier rectifier(lens, {});
   const int middle = static_cast<int>(view.cx);
-  // Above the axis the picture ends where its first row lies.
+  // Above the axis the picture ends at its first row.
   const double theta = 2 * std::asin(118.75 / (2 * 233.3));
   const int top = static_cast<int>(std::ceil(view.cy - 233.3 * std::tan(theta)));
   EXPECT_EQ(rectifier.mask().at<uchar>(top, middle), 255);
@@ -92,7 +92,7 @@ TEST(Rectifier, EachPixelComesFromWhereTheLensSays) {
                                ((y + 0.5) / scale - 0.5 - view.cy) / view.focal_px, 1);
           const auto pixel = PixelFromRay(lens, ray);
           ASSERT_TRUE(pixel);
-          // The ramp is two px a grey level and rounded down: -0.25 level on average; maps of
+          // The ramp is two px per grey level and rounded down: -0.25 level on average. Maps of
           // 1/32 px and the 8-bit result add up to 0.6 more.
           EXPECT_NEAR(rectified.at<cv::Vec3b>(y, x)[0], pixel->x / 2 - 0.25, 0.9);
           EXPECT_NEAR(rectified.at<cv::Vec3b>(y, x)[1], pixel->y / 2 - 0.25, 0.9);
@@ -102,7 +102,7 @@ TEST(Rectifier, EachPixelComesFromWhereTheLensSays) {
     }
 }
 
-// A pattern of single px that skipping would keep and averaging makes grey.
+// A pattern of single px, which skipping would keep and averaging turns grey.
 TEST(Rectifier, SmallerScalesAverage) {
   const Lens lens = Equisolid();
   cv::Mat raw(lens.height, lens.width, CV_8UC1), half;

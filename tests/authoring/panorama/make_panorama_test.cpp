@@ -1,4 +1,4 @@
-// Footage to panorama as a whole, on clips made in code.
+// The whole path from footage to panorama, on clips made in code.
 #include "authoring/panorama/make_panorama.h"
 
 #include <algorithm>
@@ -31,8 +31,8 @@ cv::Point2d Through(const cv::Matx33d& h, cv::Point2d p) {
   return {q[0] / q[2], q[1] / q[2]};
 }
 
-// Worst distance over nine points of a frame between where the report and where the truth says that
-// frame `other` shows them, px of that frame.
+// Largest distance over nine points of a frame between their positions in frame `other` by the
+// report and by the truth, px of that frame.
 double PairError(const PanoramaReport& report, const std::vector<TinyClip::View>& views, int frame,
                  int other) {
   const cv::Matx33d found = MatrixOf(report.frames[other]).inv() * MatrixOf(report.frames[frame]);
@@ -71,21 +71,21 @@ TEST(MakePanorama, PlacesEveryFrameOfASmallClipWithoutALens) {
   ASSERT_EQ(report.frames.size(), 6u);
   for (const FrameReport& frame : report.frames) EXPECT_TRUE(frame.is_placed) << frame.reason;
   EXPECT_FALSE(report.is_partial) << report.summary;
-  // Neighbours share three quarters of a window of 224 px with 1 grey level of noise: half a pixel
-  // at the rim is what the larger clips reach too.
+  // Neighbours share three quarters of a window of 224 px with 1 grey level of noise. Half a pixel
+  // at the rim is the accuracy of larger clips too.
   for (int i = 1; i < 6; ++i) EXPECT_LT(PairError(report, views, i, i - 1), 0.5) << i;
   EXPECT_LT(PairError(report, views, 5, 0), 2.5);  // five steps on, no loop
 
   EXPECT_TRUE(report.is_lens_guessed);
   EXPECT_EQ(report.lens.model, LensModel::kPinhole);
   EXPECT_NEAR(report.lens.circle.r, TinyClip::kRadius, 1.0);
-  EXPECT_EQ(report.rectified.width, TinyClip::kWidth);  // raw pixels are rectified ones
+  EXPECT_EQ(report.rectified.width, TinyClip::kWidth);  // raw pixels equal rectified ones
   EXPECT_EQ(report.panorama.width, result.picture.width);
   EXPECT_EQ(report.panorama.height, result.picture.height);
   EXPECT_GT(report.panorama.focal_px, 0);
   EXPECT_EQ(result.picture.rgba.size(),
             static_cast<std::size_t>(result.picture.width) * result.picture.height * 4);
-  // The middle of each frame is imaged, in the colour that the frames have there.
+  // The middle of each frame is imaged, with the frames' colour.
   for (const FrameReport& frame : report.frames) {
     const cv::Point2d p = Through(MatrixOf(frame), {TinyClip::kCx, TinyClip::kCy});
     const std::size_t at = (static_cast<std::size_t>(std::lround(p.y)) * result.picture.width +
@@ -97,7 +97,7 @@ TEST(MakePanorama, PlacesEveryFrameOfASmallClipWithoutALens) {
   }
 }
 
-// Bars along the picture's edges, of a film or a sensor, are no tissue and no edge of it.
+// Bars along the edges of a film or a sensor are neither tissue nor its edge.
 TEST(MakePanorama, BlackBarsDoNotReachThePanorama) {
   const test::TempFolder folder;
   const TinyClip clip;
@@ -110,7 +110,7 @@ TEST(MakePanorama, BlackBarsDoNotReachThePanorama) {
   }
   const PanoramaResult result = MakePanorama(RequestFor(folder.path()), {});
   const PanoramaReport& report = result.report;
-  EXPECT_EQ(report.lens.height, TinyClip::kHeight);  // told of the raw picture all the same
+  EXPECT_EQ(report.lens.height, TinyClip::kHeight);  // refers to the raw picture nevertheless
   EXPECT_NEAR(report.lens.circle.cy, TinyClip::kCy, 1.0);
   for (int i = 1; i < 3; ++i) EXPECT_LT(PairError(report, views, i, i - 1), 0.5) << i;
   int dark = 0;
@@ -148,7 +148,7 @@ TEST(MakePanorama, EveryFrameThatIsNotUsedSaysWhy) {
       << report.summary;
 }
 
-// PAN-13 and what else gives no panorama.
+// PAN-13 and other footage without a panorama.
 TEST(MakePanorama, RefusesInOneSentence) {
   const test::TempFolder folder;
   const TinyClip clip;
@@ -174,7 +174,7 @@ TEST(MakePanorama, RefusesInOneSentence) {
   request.lens->focal_px = 900;
   EXPECT_NE(SentenceOf(request).find("1920 x 1080"), std::string::npos) << SentenceOf(request);
 
-  // Nothing overlaps: three pieces of tissue far apart.
+  // No overlap: three pieces of tissue far apart.
   std::filesystem::create_directories(folder / "apart");
   for (int i = 0; i < 3; ++i)
     TinyClip::Write(folder / "apart" / fmt::format("{}.png", i),
@@ -189,7 +189,7 @@ TEST(MakePanorama, RefusesInOneSentence) {
   EXPECT_NE(SentenceOf(request).find("every"), std::string::npos);
 }
 
-// PAN-13: two frames are the least that there can be.
+// PAN-13: two frames are the least number.
 TEST(MakePanorama, TwoFramesAreEnough) {
   const test::TempFolder folder;
   const auto views = TinyClip::Arc(2);
@@ -199,7 +199,7 @@ TEST(MakePanorama, TwoFramesAreEnough) {
   EXPECT_LT(PairError(report, views, 1, 0), 0.5);
 }
 
-// PAN-03: what does not join is told and drawn on its own, never merged.
+// PAN-03: a piece that is not joined is reported and drawn by itself, never merged.
 TEST(MakePanorama, PiecesThatDoNotJoinAreReported) {
   const test::TempFolder folder;
   const TinyClip here(1), there(2);
@@ -244,7 +244,7 @@ TEST(MakePanorama, OnlyWhatChangedIsDoneAgain) {
 
   const PanoramaResult first = session.Run(request, observer, progress);
   EXPECT_EQ(pictures, 5);
-  EXPECT_EQ(rows, 10);  // each frame when its place is known, and at the end
+  EXPECT_EQ(rows, 10);  // each frame when its position is known, and at the end
   EXPECT_GT(mosaics, 0);
   EXPECT_TRUE(has("reading frame 1 of 5"));
 
@@ -284,7 +284,7 @@ TEST(MakePanorama, OnlyWhatChangedIsDoneAgain) {
 TEST(MakePanorama, StopsWithinHalfASecondInEveryStage) {
   const test::TempFolder folder;
   TinyClip().WriteAll(folder.path(), TinyClip::Arc(6));
-  // The stages' own words, learned from a run to the end.
+  // The stages' own words, recorded in a complete run.
   std::vector<std::string> stages;
   Progress listen;
   const auto stage_of = [](std::string_view words) {
@@ -315,10 +315,10 @@ TEST(MakePanorama, StopsWithinHalfASecondInEveryStage) {
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), Code::kCancelled) << stage << ": " << error.what();
     }
-    // Processor time of all threads, so that a busy machine changes nothing.
+    // Processor time of all threads, so that a busy machine has no effect.
     EXPECT_LT(ProcessCpuMs() - told_ms, 500) << stage;
   }
-  // A session that was stopped goes on from where it was.
+  // A session that was stopped continues from its completed stages.
   EXPECT_FALSE(session.Run(RequestFor(folder.path()), {}, {}).picture.empty());
 }
 
@@ -330,7 +330,7 @@ TEST(MakePanorama, SameInputSameBytesAtAnyNumberOfThreads) {
     PanoramaRequest request = RequestFor(folder.path());
     request.options.registration.threads = threads;
     PanoramaResult result = MakePanorama(request, {});
-    result.report.stages.clear();  // what it cost may differ
+    result.report.stages.clear();  // costs may differ
     result.report.peak_memory_mb = 0;
     result.report.options.clear();
     return std::pair(JsonFromReport(result.report), result.picture.rgba);
@@ -348,7 +348,7 @@ TEST(MakePanorama, ProgressOnlyGoesForward) {
   Progress progress;
   progress.report = [&](std::string_view words, double done) {
     EXPECT_GE(done, last) << words;
-    EXPECT_LT(done, 1.0) << words;  // the end is the writer's
+    EXPECT_LT(done, 1.0) << words;  // the end belongs to the writer
     last = done;
   };
   MakePanorama(RequestFor(folder.path()), progress);

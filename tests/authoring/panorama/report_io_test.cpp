@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "" where the schema takes it; else the place and the rule. By a validator that is not ours.
+// Validates by an independent implementation: "" for a valid document, otherwise the place and the
+// rule.
 std::string FaultOf(const std::string& report) {
   rapidjson::Document schema_text, text;
   schema_text.Parse(
@@ -79,7 +80,7 @@ PanoramaReport SampleReport() {
 
 TEST(PanoramaReport, FollowsItsSchema) {
   EXPECT_EQ(FaultOf(JsonFromReport(SampleReport())), "");
-  // The schema would see it if it did not.
+  // The schema would reject it otherwise.
   nlohmann::json json = nlohmann::json::parse(JsonFromReport(SampleReport()));
   json["frames"][0]["status"] = "good";
   EXPECT_NE(FaultOf(json.dump()), "");
@@ -88,7 +89,7 @@ TEST(PanoramaReport, FollowsItsSchema) {
   EXPECT_NE(FaultOf(json.dump()), "");
 }
 
-// The keys that other tools and the editor read [method.md, Command line].
+// Keys that other tools and the editor read [method.md, Command line].
 TEST(PanoramaReport, HasTheKeysOfTheContract) {
   const auto json = nlohmann::json::parse(JsonFromReport(SampleReport()));
   EXPECT_EQ(json.at("schema"), "arthroscene.panorama/1");
@@ -196,7 +197,7 @@ TEST(StageClock, StagesAreSharesOfOneJob) {
   clock.Begin("a").Step("a", 1.0);
   const Progress b = clock.Begin("b");
   b.Step("b", 0.5);
-  b.Step("b, its second part", 0.1);  // a stage of stages: never back
+  b.Step("b, its second part", 0.1);  // a stage of stages never steps back
   clock.End();
   EXPECT_EQ(done, (std::vector<double>{0.25, 0.625, 0.625}));
   ASSERT_EQ(clock.costs().size(), 2u);

@@ -1,5 +1,5 @@
-// A clip that is made in no time: views into a flat, textured picture through a round window, each
-// with a known homography. Small, so that a whole panorama takes a second.
+// A small clip: views into a flat, textured picture through a round window, each with a known
+// homography. A whole panorama of it takes a second.
 #pragma once
 
 #include <cmath>
@@ -38,12 +38,12 @@ class TinyClip {
     }
   }
 
-  // A view whose middle lies at `at` of the texture, turned by `angle`, rad.
+  // View with its middle at `at` of the texture, rotated by `angle`, rad.
   struct View {
     cv::Point2d at;
     double angle = 0;
   };
-  // n views along an arc, each a quarter of the window from the next.
+  // Makes n views along an arc, a quarter of the window apart.
   static std::vector<View> Arc(int n) {
     std::vector<View> views;
     for (int i = 0; i < n; ++i)
@@ -52,14 +52,14 @@ class TinyClip {
     return views;
   }
 
-  // Exact: where a raw pixel of the view lies in the texture.
+  // Exact map of the view's raw pixels to the texture.
   static cv::Matx33d TextureFromRaw(const View& view) {
     const double c = std::cos(view.angle), s = std::sin(view.angle);
     return cv::Matx33d(1, 0, view.at.x, 0, 1, view.at.y, 0, 0, 1) *
            cv::Matx33d(c, -s, 0, s, c, 0, 0, 0, 1) * cv::Matx33d(1, 0, -kCx, 0, 1, -kCy, 0, 0, 1);
   }
 
-  // RGB, with the light's falloff, black outside the window, and a little noise.
+  // RGB, with the light's falloff, black outside the window, and some noise.
   cv::Mat Frame(const View& view, unsigned noise_seed = 1) const {
     cv::Mat lit;
     cv::warpPerspective(texture_, lit, cv::Mat(TextureFromRaw(view)), {kWidth, kHeight},

@@ -1,5 +1,5 @@
-// The cavity's surfaces satisfy their own formulas where rays say they are, and leave room for the
-// tools.
+// Rays meet the cavity's surfaces at points that satisfy the surfaces' formulas, and the cavity
+// leaves room for the tools.
 #include "authoring/phantom/cavity.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(Cavity, HitsSatisfyTheFormulaOfTheirSurface) {
       const CavityHit hit = CastFromPortal(cavity, d);
       const glm::dvec3 x = hit.distance * d;
       if (hit.surface == Surface::kCondyle) {
-        // (p·p)/r² = 1 in the ellipsoid's own axes; the residual is turned into a length.
+        // (p·p)/r² = 1 in the ellipsoid's own axes; the residual is converted to a length.
         const glm::dvec3 p =
             glm::conjugate(cavity.condyle.portal_from_body) * (x - cavity.condyle.centre);
         const double f = glm::dot(p / cavity.condyle.radii, p / cavity.condyle.radii) - 1.0;
@@ -71,8 +71,8 @@ TEST(Cavity, HitsSatisfyTheFormulaOfTheirSurface) {
   }
 }
 
-// A slow ray cast that shares nothing with the fast one but the formulas: 10 µm steps until inside
-// anything.
+// A slow ray cast that shares only the formulas with the fast one: steps of 10 µm until inside any
+// surface.
 TEST(Cavity, NothingLiesInFrontOfAHit) {
   const Cavity cavity = MakeCavity(1);
   const auto inside = [&](const glm::dvec3& x) {
@@ -119,7 +119,7 @@ TEST(Cavity, LiesBetween12And48MillimetresFromThePortal) {
 TEST(Cavity, LeavesRoomForScopeAndInstrument) {
   for (int seed = 0; seed < 40; ++seed) {
     const Cavity cavity = MakeCavity(static_cast<std::uint32_t>(seed));
-    // The scope straight in, and the instrument's portal.
+    // A straight scope, and the instrument's portal.
     EXPECT_GT(CastFromPortal(cavity, {0, 0, 1}).distance, 0.026) << "seed " << seed;
     EXPECT_GT(CastFromPortal(cavity, {1, 0, 0}).distance, 0.034) << "seed " << seed;
   }
@@ -131,7 +131,8 @@ TEST(Cavity, NormalsPointOutOfTheTissueTowardsTheScope) {
     const CavityHit hit = CastFromPortal(cavity, d);
     const glm::dvec3 n = NormalAt(cavity, hit.surface, hit.distance * d);
     EXPECT_NEAR(glm::length(n), 1.0, 1e-12);
-    EXPECT_LT(glm::dot(n, d), 0.02);  // a silhouette is seen edge on, to the step of the slopes
+    EXPECT_LT(glm::dot(n, d), 0.02);  // at a silhouette the normal is perpendicular to the ray, up
+                                      // to the step of the slopes
   });
 }
 

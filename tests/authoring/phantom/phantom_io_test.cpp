@@ -28,7 +28,7 @@ PhantomOptions Small() {
   return options;
 }
 
-// Made once; drawing is the slow part.
+// Made once, because drawing is slow.
 const Phantom& SmallPhantom() {
   static const Phantom phantom = MakePhantom(Small());
   return phantom;
@@ -41,7 +41,7 @@ TEST(PhantomFolder, LoadsAsASceneWithBothTissues) {
   EXPECT_EQ(loaded.panorama.width, 1024);
   EXPECT_EQ(loaded.depth.height, 768);
   ASSERT_EQ(loaded.surfaces.size(), 2u);
-  // The meniscus deforms as a volume that is held, the cartilage as a layer on bone.
+  // The meniscus deforms as a fixed volume, the cartilage as a layer on bone.
   const auto& tissues = loaded.scene.tissues;
   TetReadReport report;
   EXPECT_EQ(ReadTetMesh(folder / "knee" / tissues[0].mesh, &report).elements,
@@ -69,7 +69,7 @@ TEST(PhantomFolder, TruthPlacesTheMeniscusWhereItsLandmarksAre) {
     ASSERT_TRUE(pixel.has_value());
     EXPECT_NEAR(landmark["pixel"][0], pixel->x, 1e-9);
     if (landmark["name"].get<std::string>().starts_with("meniscus")) {
-      // Some vertex of the model, laid into the scene by the pose in the file, is that landmark.
+      // A vertex of the model in the pose of the file coincides with that landmark.
       const auto& pose = truth["tissues"]["medial meniscus"]["portal_from_tissue"];
       const Pose portal_from_tissue{{pose["position"][0], pose["position"][1], pose["position"][2]},
                                     {pose["quaternion"][0], pose["quaternion"][1],
@@ -103,7 +103,7 @@ TEST(PhantomFolder, ReplacesAnEarlierPhantomButNothingElse) {
   std::ofstream(folder / "knee/notes.txt") << "mine";
   EXPECT_THROW(WritePhantom(folder / "knee", SmallPhantom()), Error);
   EXPECT_EQ(ReadWholeFile(folder / "knee/notes.txt"), "mine");
-  // Nothing half-written is left beside it.
+  // No unfinished file is left beside it.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
@@ -130,8 +130,8 @@ TEST(PhantomJob, RefusesAForeignFolderAtOnceAndBadWordsAsUsage) {
   EXPECT_EQ(test::RunProgram("phantom").exit_code, 2);
 }
 
-// The shipped demo is what its command makes. Pictures are compared as pixels: another processor's
-// maths library may round a colour the other way.
+// The shipped demo is the output of its command. Pictures are compared as pixels: another
+// processor's maths library may round a colour differently.
 TEST(DemoScene, IsWhatItsCommandMakes) {
   const fs::path shipped = fs::path(ARTHRO_SOURCE_DIR) / "resources/demo";
   const test::TempFolder folder;

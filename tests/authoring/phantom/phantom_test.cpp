@@ -1,4 +1,4 @@
-// The whole phantom: exact depth, plausible colours, the same bytes again.
+// The whole phantom: exact depth, plausible colours, the same bytes on every run.
 #include "authoring/phantom/phantom.h"
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 400, kHeight = 300;
 
-// A picture smaller than the sizes that users get, so that a test takes a second.
+// A picture smaller than the sizes for users, so that a test takes a second.
 PhantomPicture Draw(const Cavity& cavity, const TissueCaster* tissues, Difficulty difficulty,
                     int threads, const PhantomPicture* without = nullptr) {
   const VesselTrees vessels(cavity.seed);
@@ -41,7 +41,7 @@ TEST(Phantom, DepthIsTheRayCastToHalfAMicrometre) {
       worst = std::max(worst, std::abs(relief - picture.depth.at(x, y)));
     }
   std::printf("largest rounding: %.2f um\n", worst * 1e6);
-  EXPECT_LT(worst, 0.5e-6);  // half of 2^-20 m, and the float's own rounding of 2 nm
+  EXPECT_LT(worst, 0.5e-6);  // half of 2^-20 m, plus 2 nm of rounding to float
 }
 
 TEST(Phantom, SameSeedGivesTheSameBytesForAnyNumberOfThreads) {
@@ -138,7 +138,7 @@ TEST(Phantom, LandmarksOfTheBonesLieOnTheirSurfaces) {
   };
   const glm::dvec3 apex = named("condyle apex, nearest to the portal");
   EXPECT_NEAR(EllipsoidClearance(phantom.cavity.condyle, apex), 0.0, 1e-9);
-  // Nearest: the surface there faces the portal.
+  // At the nearest point the surface faces the portal.
   EXPECT_NEAR(glm::dot(NormalAt(phantom.cavity, Surface::kCondyle, apex), glm::normalize(apex)),
               -1.0, 1e-9);
   for (const char* name : {"plateau, tibial spine", "plateau, middle of the cartilage bed"})

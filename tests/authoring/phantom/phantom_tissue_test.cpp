@@ -1,4 +1,5 @@
-// The deformable models are good surfaces and lie where a meniscus and a layer of cartilage lie.
+// The deformable models are valid surfaces in the anatomical positions of a meniscus and a layer of
+// cartilage.
 #include "authoring/phantom/phantom_tissue.h"
 
 #include <cstdio>
@@ -32,7 +33,7 @@ TEST_P(EveryTissue, IsClosedManifoldAndOutwardFacing) {
     std::map<std::pair<int, int>, int> edges;
     for (const auto& t : tissue.surface.triangles)
       for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
-    // Each directed edge once, with its opposite once: closed, manifold along edges, one
+    // Each directed edge occurs once and so does its opposite: closed, manifold along edges, one
     // orientation.
     for (const auto& [edge, count] : edges) {
       ASSERT_EQ(count, 1) << tissue.name;
@@ -116,7 +117,7 @@ TEST_P(EveryTissue, OnlyTheMeniscusIsFilledWithTetrahedraAndHeld) {
   EXPECT_TRUE(tissues[1].fixed.empty());
 }
 
-// Few enough to be solved at display rate, curved as the surface is and folded nowhere.
+// Few enough elements for the display rate, curved as the surface, none of them folded.
 TEST_P(EveryTissue, MeniscusIsFilledWithSoundCurvedElements) {
   const TetMesh& mesh = tissues[0].mesh;
   const TetQuality quality = MeasureTets(mesh);
@@ -130,7 +131,7 @@ TEST_P(EveryTissue, MeniscusIsFilledWithSoundCurvedElements) {
   EXPECT_EQ(quality.inverted, 0);
   EXPECT_GT(quality.worst_jacobian, 0.2);  // 0: folded; 1: straight edges
   EXPECT_GT(quality.min_dihedral, 5.0 * M_PI / 180);
-  // The surface has 0.5 mm of bevel at either horn that the elements have not.
+  // The surface has a bevel of 0.5 mm at either horn, which the elements lack.
   EXPECT_NEAR(quality.curved_volume / Volume(tissues[0].surface), 1.0, 0.03);
 }
 
@@ -146,7 +147,7 @@ TEST_P(EveryTissue, MeniscusIsHeldAtHornsAndRimAndFreeAtItsEdge) {
   const auto held_nodes = std::count(nodes.begin(), nodes.end(), 1);
   std::printf("held: %d of %d rim vertices, %d of %d of the inner half, %ld of %zu nodes\n",
               rim_held, rim, edge_held, edge, held_nodes, nodes.size());
-  EXPECT_GT(rim_held, rim / 3);    // its lower part, where the capsule is
+  EXPECT_GT(rim_held, rim / 3);    // the lower part, beside the capsule
   EXPECT_LT(edge_held, edge / 8);  // at the horns' roots only
   EXPECT_GT(held_nodes, 100);
   EXPECT_LT(held_nodes, static_cast<long>(nodes.size()) / 3);

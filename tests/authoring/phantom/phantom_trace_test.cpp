@@ -1,4 +1,4 @@
-// The scripted hands move smoothly, and touch what they are meant to touch and nothing else.
+// The scripted hands move smoothly and touch their targets only.
 #include <cmath>
 #include <cstdio>
 
@@ -20,7 +20,7 @@ struct Tips {
   std::vector<glm::dvec3> scope_tip, instrument_tip;
 };
 
-// Read back as a session would: the hand's position and orientation to the rod's pose.
+// Conversion as in a session: the hand's position and orientation to the rod's pose.
 Tips TipsOf(const std::vector<TraceRow>& rows) {
   Tips tips;
   const DeviceRig rig;

@@ -28,7 +28,7 @@ bool CameraPrior::Evaluate(const Eigen::Matrix3d& place, const Eigen::Matrix3d& 
   const double first = (aa - bb) / sum, second = 2 * ab / sum;
   *residual = weight_ * Eigen::Vector2d(first, second);
   if (by_frame == nullptr) return true;
-  // dG = -G0 E G', with G0 = inv(K) inv(M) M0 and G' = inv(M).
+  // Differential dG = -G0 E G', with G0 = inv(K) inv(M) M0 and G' = inv(M).
   const Eigen::Matrix3d g0 = g * place0;
   for (int j = 0; j < 8; ++j) {
     const int row = j / 3, col = j % 3;

@@ -1,11 +1,9 @@
-// What a calibrated scope adds to the refinement. A rectified frame is a pinhole picture with known
-// K, so a plane seen by it, or any scene that it only turns in, has G = inv(K) inv(M), M being
-// plane_from_frame in a plane with a straight metric, whose first two columns g1, g2 are those of a
-// turn and a zoom:
+// Prior from a calibrated scope. A rectified frame is a pinhole picture with known K. For a plane,
+// or for any scene that it only rotates in, G = inv(K) inv(M), M being plane_from_frame in a plane
+// with a straight metric. The first two columns g1, g2 of G are those of a rotation and a scale:
 //   (|g1|^2 - |g2|^2) / (|g1|^2 + |g2|^2) = 0,   2 g1.g2 / (|g1|^2 + |g2|^2) = 0    [Zhang 2000]
-// Two of a homography's eight numbers are not free, and those are the two that let a chain of
-// frames bend: perspective drift. Relief breaks the rule a little, so it is a prior with a
-// deviation, not a law.
+// Two of a homography's eight numbers are thereby not free: the two that cause perspective drift in
+// a chain of frames. Relief violates the rule a little, so it is a prior with a deviation.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +17,8 @@ class CameraPrior {
  public:
   CameraPrior(const Pinhole& camera, const Normalisation& normalisation, double deviation);
 
-  // `place` and its chart's origin `place0`, normalised (pair_term.h). False where it is singular.
+  // `place` and its chart's origin `place0`, normalised (pair_term.h). Returns false at a
+  // singularity.
   bool Evaluate(const Eigen::Matrix3d& place, const Eigen::Matrix3d& place0,
                 Eigen::Vector2d* residual, Eigen::Matrix<double, 2, 8>* by_frame) const;
 

@@ -15,15 +15,14 @@ namespace {
 
 constexpr double kReach = 0.12;
 constexpr double kStep = 0.02;
-// Pairs may be this many times worse than they say before they lose weight: a lens that is quite
-// wrong must not pass for many false pairs.
+// Factor by which pairs may exceed their expected error before they lose weight: a wrong lens must
+// not be taken for many false pairs.
 constexpr double kPairFactor = 25;
-// The camera's rule, held loosely: what a wrong lens breaks is far more, and relief breaks a
-// little.
+// Deviation of the camera's rule: a wrong lens violates it much more, relief a little.
 constexpr double kCameraDeviation = 0.003;
-constexpr double kVague = 0.01;  // of the focal length: a deviation that says nothing
+constexpr double kVague = 0.01;  // share of the focal length: a larger deviation determines nothing
 
-// The homography through four points.
+// Homography through four points.
 cv::Matx33d Through(const FourPoints& from, const FourPoints& to) {
   cv::Matx<double, 8, 8> m = cv::Matx<double, 8, 8>::zeros();
   cv::Matx<double, 8, 1> right;
@@ -40,7 +39,7 @@ cv::Matx33d Through(const FourPoints& from, const FourPoints& to) {
   return {h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1};
 }
 
-// All frames placed with the other focal length.
+// Misfit of all frames, placed with the other focal length.
 double MisfitAt(const FocalChange& change, int frames, const std::vector<PairEstimate>& pairs,
                 int root, const RefineOptions& options, std::vector<cv::Matx33d>* places) {
   std::vector<PairEstimate> moved;
@@ -51,7 +50,7 @@ double MisfitAt(const FocalChange& change, int frames, const std::vector<PairEst
   return CameraMisfit(moved, root, loose, change.camera(), kPairFactor, places);
 }
 
-// The homography that takes points closest to others, by Gauss-Newton; both are scaled down.
+// Homography that maps points closest to others, by Gauss-Newton; both sets are scaled down.
 Eigen::Matrix3d Closest(const std::vector<Eigen::Vector2d>& from,
                         const std::vector<Eigen::Vector2d>& to) {
   Eigen::Matrix3d h = Eigen::Matrix3d::Identity();
@@ -91,7 +90,7 @@ cv::Point2d FocalChange::Apply(const cv::Point2d& rectified) const {
   if (!(radius > 1e-6)) return rectified;
   const auto raw = RadiusFromAngle(lens_, std::atan(radius / view_.focal_px));
   const auto angle = raw ? AngleFromRadius(other_, *raw) : std::nullopt;
-  // Beyond what a flat picture holds, the point stays on its way out.
+  // A point beyond the range of a flat picture keeps its direction.
   const double theta = std::min(angle.value_or(1.45), 1.45);
   const double zoom = factor_ * view_.focal_px * std::tan(theta) / radius;
   return {view_.cx + zoom * off.x, view_.cy + zoom * off.y};
@@ -137,7 +136,7 @@ FocalFit FitFocal(int frames, const std::vector<PairEstimate>& pairs, int root, 
                   const RectifiedView& view, const RefineOptions& options) {
   FocalFit fit;
   if (pairs.size() < 3 || !(view.focal_px > 0) || !(options.camera_deviation > 0)) return fit;
-  std::map<int, double> known;  // by tenths of a step
+  std::map<int, double> known;  // keys in tenths of a step
   const auto misfit = [&](int tenths) {
     const auto [at, is_new] = known.emplace(tenths, 0.0);
     std::vector<cv::Matx33d> places;
@@ -146,7 +145,7 @@ FocalFit FitFocal(int frames, const std::vector<PairEstimate>& pairs, int root, 
                             options, &places);
     return at->second;
   };
-  // Downhill in steps, then in ever finer ones, until both neighbours are worse.
+  // Descends in steps, then in ever finer ones, until both neighbours are worse.
   const int most = static_cast<int>(std::lround(10 * kReach / kStep));
   int best = 0, step = 10;
   const auto descend = [&] {
@@ -169,7 +168,7 @@ FocalFit FitFocal(int frames, const std::vector<PairEstimate>& pairs, int root, 
   const double low = misfit(best - step), here = misfit(best), high = misfit(best + step);
   const double bend = low + high - 2 * here, unit = 0.1 * kStep * step;
   if (!(bend > 0) || !std::isfinite(bend)) return fit;
-  // What the misfit is at its best tells how much worse the pairs are than they say.
+  // The least misfit shows by how much the pairs exceed their expected error.
   const double expected = std::max(1.0, 4.0 * static_cast<double>(pairs.size()));
   const double worse = std::max(1.0, here / expected);
   fit.deviation = unit * std::sqrt(worse / bend);
@@ -194,11 +193,12 @@ std::vector<double> FocalErrors(const std::vector<cv::Matx33d>& plane_from_frame
         }))
       joined.push_back(i);
   if (joined.empty()) return errors;
-  // In the other places' own plane the given ones are a homography away: begin at the root's.
+  // The given positions are a homography away from the plane of the other ones; the root's is the
+  // initial guess.
   const auto at_root = static_cast<std::size_t>(root);
   const cv::Matx33d begin = change.Apply(plane_from_frame[at_root]) * other[at_root].inv();
   std::vector<Eigen::Vector2d> from, to;
-  const double scale = 1e-3;  // so that a homography's numbers are alike in size
+  const double scale = 1e-3;  // so that a homography's numbers have similar magnitudes
   for (const std::size_t i : joined)
     for (const cv::Point2d& p : points) {
       const cv::Point2d q = authoring::Apply(begin * other[i], change.Apply(p)),

@@ -14,7 +14,7 @@ Eigen::Matrix3d ToEigen(const cv::Matx33d& m) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m.val);
 }
 
-// W with W^T W = (information^-1 + floor^2 I)^-1, also where the information is singular.
+// Computes W with W^T W = (information^-1 + floor^2 I)^-1, also for singular information.
 Matrix8 WhiteningOf(const cv::Matx<double, 8, 8>& information, double floor_px) {
   Matrix8 raw = Eigen::Map<const Eigen::Matrix<double, 8, 8, Eigen::RowMajor>>(information.val);
   raw = 0.5 * (raw + raw.transpose()).eval();
@@ -89,7 +89,7 @@ bool PairTerm::Evaluate(const Eigen::Matrix3d& plane_from_a, const Eigen::Matrix
   const Eigen::Matrix3d b_from_a0 = b_from_plane * plane_from_a0;
   const Eigen::Matrix3d b_from_b0 = b_from_plane * plane_from_b0;
   if (!b_from_a.allFinite()) return false;
-  // The sign of a homography is free; its determinant tells on which side points are.
+  // The sign of a homography is free; its determinant tells the side of the points.
   const double side = b_from_a.determinant() > 0 ? 1.0 : -1.0;
   Vector8 error;
   Matrix8 da, db;
@@ -116,7 +116,7 @@ Eigen::Matrix3d MoveInChart(const Eigen::Matrix3d& start, const Vector8& x) {
 
 Eigen::Matrix<double, 2, 8> ChartDerivative(const Eigen::Matrix3d& h, const Eigen::Vector3d& y,
                                             const Eigen::Vector3d& p) {
-  // pi' at p, times h, times dA y: columns of A pick the entries of y.
+  // Derivative of pi at p, times h, times dA y: columns of A select the entries of y.
   Eigen::Matrix<double, 2, 3> projection;
   projection << 1 / p.z(), 0, -p.x() / (p.z() * p.z()), 0, 1 / p.z(), -p.y() / (p.z() * p.z());
   const Eigen::Matrix<double, 2, 3> m = projection * h;

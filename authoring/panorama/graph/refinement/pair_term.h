@@ -1,8 +1,8 @@
-// One pair's residual in the refinement, with its derivatives.
+// Residual of one pair in the refinement, with its derivatives.
 //
 // Every frame has M, plane_from_frame, in normalised coordinates: pixels shifted and scaled so that
-// the control points have mean 0 and rms radius 1, which makes every solve the same whatever the
-// pixel's size [Hartley 1997]. Around a start M0 a frame moves in the chart M = M0 (I + A(x)),
+// the control points have mean 0 and rms radius 1. Solves then do not depend on the pixel's size
+// [Hartley 1997]. Around a start M0 a frame moves in the chart M = M0 (I + A(x)),
 //   A(x) = (x0 x1 x2; x3 x4 x5; x6 x7 0).
 // Residual in frame b, px: e_k = pi(inv(M_b) M_a c_k) - pi(b_from_a c_k) over the four control
 // points c_k, whitened by L^T, where L L^T is the information of the pair.
@@ -33,15 +33,15 @@ Normalisation NormalisationOf(const std::vector<PairEstimate>& pairs);
 
 class PairTerm {
  public:
-  // `floor_px` is the error that no pair is free of (light, lens, relief), as a standard deviation
-  // of each coordinate; it is added to the pair's own covariance.
+  // `floor_px`: least error of every pair (light, lens, relief), as a standard deviation of each
+  // coordinate; added to the pair's own covariance.
   PairTerm(const PairEstimate& pair, const Normalisation& normalisation, double floor_px);
 
   int a() const { return a_; }
   int b() const { return b_; }
 
-  // False when a control point falls behind frame b. `plane_from_x0` are the charts' origins.
-  // Jacobians may be null.
+  // Returns false when a control point falls behind frame b. `plane_from_x0` are the charts'
+  // origins. Jacobians may be null.
   bool Evaluate(const Eigen::Matrix3d& plane_from_a, const Eigen::Matrix3d& plane_from_b,
                 const Eigen::Matrix3d& plane_from_a0, const Eigen::Matrix3d& plane_from_b0,
                 Vector8* whitened, Vector8* px, Matrix8* by_a, Matrix8* by_b) const;

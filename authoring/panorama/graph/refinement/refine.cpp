@@ -14,9 +14,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kMedianOfChi2 = 7.344;  // of eight degrees of freedom
-constexpr double kPriorLoss = 4.0;       // deviations at which a frame begins to be let off
-// Where the prior makes pairs disagree by more than this, it is the prior that is wrong.
+constexpr double kMedianOfChi2 = 7.344;  // for eight degrees of freedom
+constexpr double kPriorLoss = 4.0;       // deviations from which on a frame's prior loses weight
+// Disagreement of pairs above which the prior itself is wrong.
 constexpr double kMostDisagreement = 1.25;
 constexpr double kWider = 4.0;
 constexpr double kWidest = 0.1;
@@ -69,7 +69,7 @@ class CameraCost final : public ceres::SizedCostFunction<2, 8> {
   const Eigen::Matrix3d origin_;
 };
 
-// What is kept between the rounds of one refinement.
+// State between the iterations of one refinement.
 class Refinement {
  public:
   Refinement(const std::vector<PairEstimate>& pairs, const std::vector<cv::Matx33d>& start,
@@ -83,7 +83,7 @@ class Refinement {
     }
   }
 
-  // Squared whitened residual of every pair; infinity where it cannot be evaluated.
+  // Squared whitened residual of every pair; infinity when it cannot be evaluated.
   std::vector<double> Squares(std::vector<double>* error_px) const {
     std::vector<double> squares;
     for (const PairTerm& term : terms_) {
@@ -97,7 +97,7 @@ class Refinement {
     return squares;
   }
 
-  // One robust solve whose loss begins at `loss_at`, a whitened norm. Returns its iterations.
+  // Runs one robust solve with a loss from `loss_at` on, a whitened norm. Returns its iterations.
   // `prior` may be null.
   int Solve(int fixed_frame, double loss_at, const CameraPrior* prior, RefineSolver solver) {
     const std::vector<double> squares = Squares(nullptr);
@@ -117,7 +117,7 @@ class Refinement {
         if (problem.HasParameterBlock(moves[i].data()))
           problem.AddResidualBlock(new CameraCost(*prior, places_[i]),
                                    new ceres::CauchyLoss(kPriorLoss), moves[i].data());
-      // The prior knows the plane but for a similarity: four of the fixed frame's numbers.
+      // The prior determines the plane up to a similarity: four of the fixed frame's numbers.
       if (problem.HasParameterBlock(fixed))
         problem.SetManifold(fixed, new ceres::SubsetManifold(8, {0, 1, 2, 5}));
     } else if (problem.HasParameterBlock(fixed)) {
@@ -127,7 +127,7 @@ class Refinement {
     how.linear_solver_type =
         solver == RefineSolver::kSparse ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
     how.max_num_iterations = options_.refine_iterations;
-    how.num_threads = 1;  // the order of sums, and so every bit, stays the same
+    how.num_threads = 1;  // one thread: the order of sums, and so every bit, stays the same
     how.logging_type = ceres::SILENT;
     how.function_tolerance = 1e-9;
     how.parameter_tolerance = 1e-10;
@@ -142,9 +142,9 @@ class Refinement {
     return static_cast<int>(summary.iterations.size());
   }
 
-  // Moves all frames to the plane in which the camera's rule holds best: shear, height and the two
-  // numbers of perspective, by damped Gauss-Newton. Where frames all look the same way some of them
-  // are free, and stay.
+  // Moves all frames to the plane that satisfies the camera's rule best: shear, height and the two
+  // numbers of perspective, by damped Gauss-Newton. Numbers that frames of one direction leave free
+  // stay unchanged.
   void Straighten(const Pinhole& camera) {
     const CameraPrior rule(camera, normalisation_, 1.0);
     const auto plane_of = [](const Eigen::Vector4d& p) {
@@ -191,7 +191,7 @@ class Refinement {
     }
   }
 
-  double cost() const { return cost_; }  // of the last solve
+  double cost() const { return cost_; }  // cost of the last solve
   const Normalisation& normalisation() const { return normalisation_; }
   const std::vector<Eigen::Matrix3d>& places() const { return places_; }
   void SetPlaces(const std::vector<Eigen::Matrix3d>& places) { places_ = places; }
@@ -209,14 +209,13 @@ class Refinement {
   double cost_ = 0;
 };
 
-// By how much covariances are too small, from the middle of what pairs disagree: half of them may
-// be wrong. Never below 1: agreement that is too good (a tree of pairs has none to disagree with)
-// promises nothing.
+// Factor by which covariances are too small, from the median disagreement of the pairs: half of
+// them may be wrong. Never below 1, since a tree of pairs agrees perfectly by construction.
 double FactorOf(std::vector<double> squares, std::size_t frames) {
   if (squares.empty()) return 1;
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
-  // The share of the residual that the frames' own freedom has eaten is given back.
+  // Corrects for the residual that the frames' degrees of freedom absorb.
   const double pairs = static_cast<double>(squares.size());
   const double free = (pairs - static_cast<double>(frames) + 1) / pairs;
   if (!std::isfinite(*middle) || free <= 0.02) return 1;
@@ -236,8 +235,8 @@ Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Mat
   const auto frames =
       static_cast<std::size_t>(std::count(is_joined.begin(), is_joined.end(), true));
 
-  // A start from a tree of pairs is off where loops close, so the first round forgives more; the
-  // later rounds know from the residuals how good the covariances are.
+  // A start from a tree of pairs is off at loops, so the first iteration has a wide loss. Later
+  // iterations scale the covariances by the residuals.
   Refined refined;
   double factor = std::max(25.0, FactorOf(refinement.Squares(nullptr), frames));
   for (int round = 0; round < 3; ++round) {
@@ -246,7 +245,7 @@ Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Mat
     factor = FactorOf(refinement.Squares(nullptr), frames);
   }
 
-  // Then as a calibrated scope sees it, as tightly as the pairs allow.
+  // Then applies the rule of a calibrated scope, as tightly as the pairs allow.
   if (camera && options.camera_deviation > 0 && frames > 2) {
     const std::vector<Eigen::Matrix3d> free = refinement.places();
     for (double deviation = options.camera_deviation; deviation < kWidest; deviation *= kWider) {

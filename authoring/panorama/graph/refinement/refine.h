@@ -1,6 +1,6 @@
-// All homographies of a component at once: the frames' places in one plane that agree best, in the
-// sense of each pair's own covariance, with every pair estimate. Sparse Levenberg-Marquardt with
-// analytic derivatives (Ceres), robust against pairs that are off. One frame stays fixed, since a
+// Refines all homographies of a component together: the frames' positions in one plane that agree
+// best with every pair estimate, weighted by its covariance. Sparse Levenberg-Marquardt with
+// analytic derivatives (Ceres), robust against outlying pairs. One frame stays fixed, since a
 // homography of the whole plane changes no pair.
 #pragma once
 
@@ -23,40 +23,41 @@ struct RefineOptions {
   template <class V>
   void Visit(V&& v) {
     v("pair_floor", pair_floor, Range{0.0, 2.0}, "px",
-      "Error that no pair is free of, beside what its own covariance says.");
+      "Least error of every pair, added to its covariance.");
     v("loss_scale", loss_scale, Range{1.0, 100.0}, "",
-      "Times its expected error at which a pair begins to lose weight (Cauchy).");
+      "Multiple of its expected error at which a pair begins to lose weight (Cauchy).");
     v("camera_deviation", camera_deviation, Range{0.0, 1.0}, "",
-      "How far a frame may stray from what a calibrated scope sees of a plane; widened where the "
-      "tissue is not flat. 0: any homography will do.");
-    v("refine_iterations", refine_iterations, Range{1, 1000}, "", "Steps before giving up.");
+      "Deviation of a frame from the view of a calibrated scope onto a plane; widened for tissue "
+      "that is not flat. 0 allows any homography.");
+    v("refine_iterations", refine_iterations, Range{1, 1000}, "", "Iterations before giving up.");
   }
 };
 
 struct Refined {
-  // Of the frames that a pair joins to the fixed one; the others keep their start.
+  // Positions of the frames that pairs connect with the fixed one; the others keep their start.
   std::vector<cv::Matx33d> plane_from_frame;
-  // In the order of the pairs: rms distance of the four control points, px, and the whitened
-  // residual's norm over what it should be (1 is as expected).
+  // Residuals in the order of the pairs: rms distance of the four control points, px, and the norm
+  // of the whitened residual over its expectation.
   std::vector<double> pair_error_px, pair_surprise;
-  double variance_factor = 1;   // by how much the pairs' covariances are too small
-  double camera_deviation = 0;  // of the prior in the end; 0: none
+  double variance_factor = 1;   // factor by which the pairs' covariances are too small
+  double camera_deviation = 0;  // final deviation of the prior; 0: none
   int iterations = 0;
 };
 
 enum class RefineSolver { kSparse, kDense };  // dense: the reference that tests compare with
 
 // `start` maps every frame to one plane. Pairs whose control points fall behind a frame at the
-// start take no part (surprise: infinity). With a camera, homographies are those that it can see as
-// far as the pairs agree (camera_prior.h); then the plane is one of straight metric near that in
-// which the start is stretched least, and the fixed frame keeps only its position, turn and size.
+// start are ignored (surprise: infinity). With a camera, homographies obey its rule as far as the
+// pairs agree (camera_prior.h). The plane then has a straight metric and is near the one in which
+// the start is distorted least; the fixed frame keeps only its position, rotation and size.
 Refined Refine(const std::vector<PairEstimate>& pairs, const std::vector<cv::Matx33d>& start,
                int fixed_frame, const RefineOptions& options,
                const std::optional<Pinhole>& camera = std::nullopt,
                RefineSolver solver = RefineSolver::kSparse);
 
-// How ill pairs and camera agree, in half squared deviations, robust: to compare cameras. The prior
-// keeps its deviation, and `pair_factor` is the variance factor. `places` become the refined ones.
+// Disagreement of pairs and camera, in half squared deviations, robust: for comparing cameras. The
+// prior keeps its deviation, and `pair_factor` is the variance factor. `places` become the refined
+// ones.
 double CameraMisfit(const std::vector<PairEstimate>& pairs, int fixed_frame,
                     const RefineOptions& options, const Pinhole& camera, double pair_factor,
                     std::vector<cv::Matx33d>* places);

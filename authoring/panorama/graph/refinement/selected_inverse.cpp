@@ -12,7 +12,7 @@ SelectedInverse::SelectedInverse(const Eigen::SparseMatrix<double>& matrix) : fa
   for (int i = 0; i < size; ++i)
     place_of_[static_cast<std::size_t>(i)] = factor_.permutationP().indices()[i];
 
-  // The unit lower factor L of P A P^T = L D L^T, without its diagonal.
+  // Unit lower factor L of P A P^T = L D L^T, without its diagonal.
   const Eigen::SparseMatrix<double> lower = factor_.matrixL();
   std::vector<double> l;
   start_.push_back(0);
@@ -37,7 +37,7 @@ SelectedInverse::SelectedInverse(const Eigen::SparseMatrix<double>& matrix) : fa
     const auto count = static_cast<std::size_t>(end - begin);
     column.assign(count, 0.0);
     for (std::size_t c = 0; c < count; ++c) {
-      // Column k of Z meets the rows of column j: both ascend, so one walk finds them.
+      // Entries of column k of Z in the rows of column j: both ascend, so one walk finds them.
       const int k = row_[static_cast<std::size_t>(begin) + c];
       const double lkj = l[static_cast<std::size_t>(begin) + c];
       column[c] -= diagonal_[static_cast<std::size_t>(k)] * lkj;

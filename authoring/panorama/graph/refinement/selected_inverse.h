@@ -1,5 +1,5 @@
-// Those entries of the inverse of a sparse symmetric matrix that its Cholesky factor has a place
-// for, the diagonal blocks among them, without ever forming the rest [Takahashi et al. 1973].
+// Entries of the inverse of a sparse symmetric matrix within the pattern of its Cholesky factor,
+// the diagonal blocks among them, without computing the rest [Takahashi et al. 1973].
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ class SelectedInverse {
 
   bool is_valid() const { return is_valid_; }  // false: the matrix is not positive definite
 
-  // Entries must be ones where the matrix itself has one.
+  // The requested entries must lie in the matrix's own pattern.
   template <int kSize>
   Eigen::Matrix<double, kSize, kSize> Block(int row, int col) const {
     Eigen::Matrix<double, kSize, kSize> block;
@@ -33,7 +33,7 @@ class SelectedInverse {
   // Lower triangle in the factor's order: below the diagonal by columns, rows ascending.
   std::vector<int> start_, row_;
   std::vector<double> below_, diagonal_;
-  std::vector<int> place_of_;  // of an unknown in the factor's order
+  std::vector<int> place_of_;  // index of an unknown in the factor's order
 };
 
 }  // namespace arthro::authoring

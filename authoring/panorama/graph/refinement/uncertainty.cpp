@@ -25,7 +25,7 @@ struct Linearised {
   bool is_valid = false;
 };
 
-// Where a frame's points lie, by the frame's own eight numbers and by the plane's.
+// Derivatives of a frame's points by the frame's own eight numbers and by the plane's.
 struct PointRows {
   std::vector<Eigen::Matrix<double, 2, 8>> by_frame, by_plane;
 };
@@ -57,7 +57,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
   std::vector<Eigen::Matrix3d> places;
   for (const cv::Matx33d& m : plane_from_frame) places.push_back(normalisation.Normalise(m));
 
-  // Rows of the frames that have any pair.
+  // Rows of the frames with any pair.
   std::vector<Linearised> linear(pairs.size());
   std::vector<int> row_of(places.size(), -1);
   int unknowns = 0;
@@ -78,8 +78,8 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
     return result;
   }
 
-  // Normal equations. A little on the diagonal keeps frames that hang by too few numbers solvable;
-  // their error comes out huge, as it should.
+  // Normal equations. A small diagonal keeps frames with too few constraints solvable; their error
+  // comes out very large, as it should.
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int row, int col, const Matrix8& block) {
     for (int r = 0; r < 8; ++r)
@@ -107,7 +107,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
         add(row_of[i], row_of[i], j.transpose() * j);
     }
   }
-  // The fixed frame: all of it, or what the prior leaves open.
+  // Constraint on the fixed frame: all of it, or only the numbers that the prior leaves free.
   if (fixed_frame >= 0 && row_of[at(fixed_frame)] >= 0)
     for (const int k : {0, 1, 2, 5, 3, 4, 6, 7}) {
       if (has_prior && (k == 3 || k == 4 || k > 5)) continue;
@@ -119,7 +119,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
   const SelectedInverse inverse(normal);
   if (!inverse.is_valid()) return result;
 
-  // The best homography of the plane, g = inv(sum Q^T Q) sum Q^T J_i x_i.
+  // Best homography of the plane, g = inv(sum Q^T Q) sum Q^T J_i x_i.
   Matrix8 gauge_normal = Matrix8::Zero();
   Eigen::MatrixXd gauge_rows = Eigen::MatrixXd::Zero(8 * unknowns, 8);
   std::vector<PointRows> rows(places.size());

@@ -16,7 +16,7 @@ namespace {
 
 using namespace arthro::authoring;
 
-constexpr double kDrawn = 0.5;  // scale of the frames as they are drawn
+constexpr double kDrawn = 0.5;  // scale of the drawn frames
 
 RectifiedView FullSize(const RectifiedView& drawn) {
   return {static_cast<int>(drawn.width / kDrawn), static_cast<int>(drawn.height / kDrawn),
@@ -24,7 +24,7 @@ RectifiedView FullSize(const RectifiedView& drawn) {
           (drawn.cy + 0.5) / kDrawn - 0.5};
 }
 
-// Nine points of the raw picture, as rays by the true lens and as pixels by the believed one.
+// Nine points of the raw picture: rays by the true lens, pixels by the assumed one.
 cv::Matx33d FittedTruth(const Clip& clip, int index, const Lens& believed,
                         const RectifiedView& view) {
   std::vector<cv::Point2d> from, to;

@@ -1,8 +1,8 @@
-// A rendered clip through the whole way from raw frames to places, scored against its truth.
+// Runs a rendered clip from raw frames to positions, and scores it against its truth.
 //
-// Frames are drawn at 400 x 320 and told to be the half-scale working pictures of an 800 x 640
-// camera: a quarter of the drawing, and every length, place and error is in the 800 x 640 pixels
-// that the project's limits are stated in. Sensor noise is halved, as averaging four pixels does.
+// Frames are drawn at 400 x 320 and treated as half-scale working pictures of an 800 x 640 camera,
+// which takes a quarter of the drawing time. Every length, position and error is in the 800 x 640
+// pixels of the project's limits. Sensor noise is halved, as averaging four pixels does.
 #pragma once
 
 #include <optional>
@@ -22,22 +22,22 @@ namespace arthro::test {
 authoring::ClipOptions CaseOptions(authoring::ClipPreset preset, int frames);
 
 struct CaseRun {
-  authoring::RectifiedView view;                // of the 800 x 640 camera
-  std::vector<authoring::FrameLook> looks;      // of every frame of the clip
-  std::vector<authoring::FrameResult> results;  // of the frames that are registered
+  authoring::RectifiedView view;                // the 800 x 640 camera
+  std::vector<authoring::FrameLook> looks;      // every frame of the clip
+  std::vector<authoring::FrameResult> results;  // the registered frames
   authoring::RegisterReport report;
-  std::vector<cv::Matx33d> truth;  // of the results: rectified to panorama, 800 x 640 px
-  std::vector<bool> is_blank;      // of the results
+  std::vector<cv::Matx33d> truth;  // one per result: rectified to panorama, 800 x 640 px
+  std::vector<bool> is_blank;      // one per result
   std::vector<cv::Point2d> nine;   // rectified px
-  double cpu_ms = 0;               // of registration
+  double cpu_ms = 0;               // processor time of registration
 
   authoring::ClipScore Score(int component = 0) const;
-  // How far the places are from those of another run of the same frames, px.
+  // Distance of the positions from those of another run of the same frames, px.
   authoring::ClipScore Against(const CaseRun& other) const;
   std::vector<std::string> reasons() const;
 };
 
-// With `believed`, the lens that the program takes for the clip's; the truth of a frame is then the
+// `believed`: lens that the program assumes for the clip; the truth of a frame is then the
 // homography that fits it best. With `has_blanks` blank frames are registered too.
 struct CaseSetting {
   std::optional<Lens> believed;

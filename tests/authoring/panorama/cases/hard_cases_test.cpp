@@ -1,5 +1,5 @@
-// Hard cases PAN-01 to PAN-08: what tissue, water and the surgeon do to a clip. Limits are those
-// asked of 800 x 640 footage (case_run.h); the numbers reached are printed.
+// Hard cases PAN-01 to PAN-08: effects of tissue, water and the surgeon on a clip. The limits are
+// for 800 x 640 footage (case_run.h); the tests print the numbers reached.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@ namespace {
 
 using namespace arthro::authoring;
 
-// At least `share` of the frames right, and none that is wrong given out as right.
+// At least `share` of the frames are right, and no wrong frame has an expected error of a right
+// one.
 void ExpectRight(const ClipScore& score, double share) {
   EXPECT_GE(score.right, share * score.frames) << score.Text();
   EXPECT_EQ(score.wrong_as_good, 0) << score.Text();
@@ -35,7 +36,7 @@ TEST(HardCase02, BlankFramesAreNamedAndTheRestIsRight) {
     const auto at = static_cast<std::size_t>(i);
     blanks += clip.IsBlank(i);
     EXPECT_EQ(!run.looks[at].blank.empty(), clip.IsBlank(i)) << i << run.looks[at].blank;
-    // Even if they were not named, they would not be placed.
+    // Blank frames that are registered all the same are not placed.
     EXPECT_EQ(run.results[at].is_placed, !clip.IsBlank(i)) << i << run.results[at].reason;
     EXPECT_EQ(run.results[at].reason.empty(), run.results[at].is_placed);
   }
@@ -53,7 +54,7 @@ TEST(HardCase03, AJumpWithOverlapStaysOnePiece) {
   ExpectRight(run.Score(), 1);
 }
 
-// Each half of the clip in a piece of its own, all of it right, and the user told.
+// Each half of the clip is a piece of its own, all of it right, and the user is told.
 void ExpectTwoHalves(const CaseRun& run) {
   EXPECT_EQ(run.report.components, 2);
   EXPECT_FALSE(run.report.warnings.empty());
@@ -65,9 +66,9 @@ void ExpectTwoHalves(const CaseRun& run) {
   }
 }
 
-// 317 px and 20 degrees on top of the step: 9 to 16 % of the view is left in common, mostly at the
-// rim. Laid over each other by the truth itself the frames' likeness stands 8.4 deviations above
-// chance and 9 are asked, so two pieces are the answer.
+// 317 px and 20 degrees on top of the step: the views have 9 to 16 % in common, mostly at the rim.
+// Under the true homography their similarity is 8.4 deviations above chance, and 9 are required, so
+// two pieces are the right result.
 TEST(HardCase03, AJumpOf317PxIsNeverMergedWrongly) {
   const CaseRun run = RunCase(CaseOptions(ClipPreset::kJump, 14));
   Tell("jump 317 px", run);
@@ -132,8 +133,8 @@ double MeanOfAll(const CaseRun& run) {
   return sum / points;
 }
 
-// Relief of 9 px looks flat pair by pair; only that no calibrated scope could see such a plane
-// gives it away. Its frames are up to 15 px off, and none of them may pass for right.
+// Relief of 9 px looks flat pair by pair; only the rule of the calibrated camera reveals it. Its
+// frames are up to 15 px off, and none of them may pass as right.
 TEST(HardCase07, ShallowReliefIsWarnedOfToo) {
   ClipOptions options = CaseOptions(ClipPreset::kRelief, 16);
   options.relief = 0.03;
@@ -144,10 +145,9 @@ TEST(HardCase07, ShallowReliefIsWarnedOfToo) {
   EXPECT_FALSE(run.report.warnings.empty());
 }
 
-// A height field of 30 px, seen from 430 px: at the rim of a frame a height of h is displaced by
-// 0.8 h from where the mean plane has it, more than the 4 px that are asked for on average, and no
-// homography follows it. So what must hold is honesty: no fold, a warning, errors that are
-// expected.
+// A height field of 30 px, seen from 430 px. At the rim of a frame a height of h is displaced by
+// 0.8 h from the mean plane, more than the required 4 px on average, and no homography follows it.
+// Required instead: no fold, a warning, and honest expected errors.
 TEST(HardCase07, ReliefDoesNotFoldAndIsWarnedOf) {
   const CaseRun run = RunCase(CaseOptions(ClipPreset::kRelief, 16));
   Tell("relief", run);
@@ -158,8 +158,8 @@ TEST(HardCase07, ReliefDoesNotFoldAndIsWarnedOf) {
   EXPECT_NE(run.report.warnings[0].find("parallax"), std::string::npos);
   EXPECT_EQ(run.Score().wrong_as_good, 0);
   EXPECT_EQ(run.Score().placed, 16);
-  EXPECT_LE(mean, 15.0);  // asked: 4; reached: see above
-  // No fold: every frame keeps its sense of turning all over its window.
+  EXPECT_LE(mean, 15.0);  // required: 4; see above for the reason
+  // No fold: every frame keeps its orientation all over its window.
   for (const FrameResult& result : run.results) {
     const cv::Matx33d& h = result.panorama_from_rectified;
     for (const cv::Point2d& p : run.nine) {

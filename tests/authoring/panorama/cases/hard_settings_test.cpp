@@ -1,4 +1,4 @@
-// Hard cases PAN-09 to PAN-18, LENS-01: what the lens, the camera and the path do to a clip.
+// Hard cases PAN-09 to PAN-18, LENS-01: effects of the lens, the camera and the path on a clip.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -19,8 +19,8 @@ namespace {
 
 using namespace arthro::authoring;
 
-// Three rows over the plane and pairs of them with 0.2 px of noise: no pictures, so that 300 frames
-// can be had.
+// Three rows over the plane and pairs of them with 0.2 px of noise, without pictures, which allows
+// 300 frames.
 PlacedGraph PlaceRows(int frames, std::vector<cv::Matx33d>& truth) {
   const int a_row = frames / 3;
   for (int i = 0; i < frames; ++i) {
@@ -62,7 +62,7 @@ TEST(HardCase09, AFrameCostsNoMoreInALongClip) {
       of_300.refine_ms / 300, worst);
   RecordProperty("growth", std::to_string(growth));
   RecordProperty("worst_px", std::to_string(worst));
-  EXPECT_LE(growth, 1.3);  // pairs are what a frame costs
+  EXPECT_LE(growth, 1.3);  // pairs determine the cost of a frame
   EXPECT_LE(worst, 3.0);
 }
 
@@ -84,14 +84,14 @@ TEST(HardCase10, AFocalLength5PercentOffIsWarnedOf) {
     Tell(factor < 1 ? "focal -5 %" : "focal +5 %", run);
     EXPECT_EQ(run.Score().right, clip.frames());
     EXPECT_EQ(run.Score().wrong_as_good, 0);
-    // Asked as well: the focal length found again to 1 %. Registration names it as the likely
-    // cause and leaves finding it to calibration.
+    // Also required: the focal length to 1 %. Registration names it as the likely cause and leaves
+    // the correction to calibration.
     ASSERT_FALSE(run.report.warnings.empty());
     EXPECT_NE(run.report.warnings[0].find("focal length"), std::string::npos);
   }
 }
 
-// Loops close in spite of it, so registration has no sign of it; the frames stay right.
+// Loops close in spite of the error, so registration has no sign of it; the frames stay right.
 TEST(HardCase10, ACentre20PxOffKeepsEveryFrameRight) {
   const Clip clip(CaseOptions(ClipPreset::kEasy, 14));
   const CaseRun run = RunWrongLens(clip, 1, 10);  // 20 px of 800 x 640
@@ -100,7 +100,7 @@ TEST(HardCase10, ACentre20PxOffKeepsEveryFrameRight) {
   EXPECT_EQ(run.Score().wrong_as_good, 0);
 }
 
-// The footage itself gives it away: its round window is not where the lens has it.
+// The footage itself reveals the error: its round window is not at the lens's position.
 TEST(HardCase10, ACentre20PxOffIsWarnedOfByTheRoundWindow) {
   const Clip clip(CaseOptions(ClipPreset::kEasy, 3));
   const std::filesystem::path folder =

@@ -1,4 +1,4 @@
-// Composition of rendered clips under their exact homographies, against the plane they show.
+// Composition of rendered clips under their exact homographies, against their plane.
 #include <gtest/gtest.h>
 
 #include "authoring/panorama/compose/compose.h"
@@ -33,7 +33,7 @@ test::PanoramaScore ComposeClip(ClipPreset preset, int frames, ComposeReport& re
   return test::ScorePanorama(panorama.rgba, clip.Panorama(), panorama.composed_from_panorama);
 }
 
-// The thresholds are those asked of whole sequences of 800 x 640; these frames are smaller.
+// The thresholds are those of whole sequences of 800 x 640; these frames are smaller.
 TEST(ComposeClip, EasyShowsThePlane) {
   ComposeReport report;
   const auto score = ComposeClip(ClipPreset::kEasy, 12, report);

@@ -51,7 +51,7 @@ TEST(Compose, HardCase17ExposureStepOfFourLeavesNoSeam) {
   EXPECT_NEAR(report.gain_spread, std::pow(4, 1 / 2.2), 0.05);
   cv::Mat mask, ratio;
   const cv::Mat rgb = test::OnPicture(panorama, clip.picture.size(), mask);
-  // The brightness of columns against the truth's: one factor everywhere, steps of at most 2 grey
+  // Brightness of columns relative to the truth: one factor everywhere, steps of at most 2 grey
   // levels between stripes of 8 px.
   std::vector<double> off;
   for (int x = 16; x + 8 < rgb.cols - 16; x += 8) {
@@ -77,12 +77,12 @@ TEST(Compose, HardCase4ToolAndGlintsThatMoveAreGone) {
   SmallClip clip = Row(12, 16);
   clip.spoil = [](int index, cv::Mat& window) {
     cv::line(window, {40 + 5 * index, 130}, {90, 50}, cv::Scalar(70, 72, 75), 14);  // a shaft
-    cv::circle(window, {80, 40}, 7, cv::Scalar::all(255), -1);  // a glint, fixed to the light
+    cv::circle(window, {80, 40}, 7, cv::Scalar::all(255), -1);  // a highlight, fixed to the light
   };
   ComposeReport report;
   cv::Mat mask, off;
   const cv::Mat rgb = test::OnPicture(clip.Compose({}, &report), clip.picture.size(), mask);
-  // Judged where enough frames look that most of them see past the tool.
+  // Judged where most of the frames see past the tool.
   mask.colRange(0, 100).setTo(0);
   mask.colRange(mask.cols - 100, mask.cols).setTo(0);
   cv::absdiff(rgb, clip.picture, off);
@@ -114,7 +114,7 @@ TEST(Compose, TooLargeAPanoramaIsMadeSmaller) {
   ComposeReport report;
   SmallClip wide = clip;
   std::vector<FrameResult> places = clip.Places();
-  for (FrameResult& place : places)  // as if drawn at ten times the size
+  for (FrameResult& place : places)  // places for ten times the size
     place.panorama_from_rectified =
         cv::Matx33d(10, 0, 0, 0, 10, 0, 0, 0, 1) * place.panorama_from_rectified;
   const ComposedPanorama panorama =
@@ -167,8 +167,8 @@ TEST(Compose, SameBytesAtAnyThreadCount) {
 
 TEST(Compose, HardCase20StopsInEveryStage) {
   const SmallClip clip = Row(4, 40);
-  for (const char* stage : {"look at frames", "even light", "what most frames show",
-                            "choose frames", "blend slow changes", "blend", "finish"}) {
+  for (const char* stage : {"look at frames", "even light", "consensus of the frames",
+                            "choose frames", "blend low frequencies", "blend", "finish"}) {
     std::atomic<bool> stop = false;
     Progress progress;
     progress.stop = &stop;
@@ -201,7 +201,7 @@ TEST(Compose, ObserverSeesThePanoramaGrow) {
   EXPECT_EQ(last, 1.0);
 }
 
-// Hands out memory as OpenCV does and remembers the most that was held at once.
+// Allocates memory as OpenCV does and records the peak.
 class CountingAllocator : public cv::MatAllocator {
  public:
   cv::UMatData* allocate(int dims, const int* sizes, int type, void* data, std::size_t* step,
@@ -228,7 +228,7 @@ class CountingAllocator : public cv::MatAllocator {
 };
 
 TEST(Compose, AFrameMoreCostsOnlyItsCells) {
-  // The same strip seen by 10 and by 40 frames.
+  // The same strip in 10 and in 40 frames.
   const auto peak = [](int count) {
     SmallClip clip;
     clip.picture = test::TissuePicture(test::kWindowWidth + 128, 128);
@@ -245,7 +245,8 @@ TEST(Compose, AFrameMoreCostsOnlyItsCells) {
     return static_cast<double>(counter.most());
   };
   const double a_frame = (peak(40) - peak(10)) / 30;
-  // 13 bytes a cell of 4 x 4 px: colour, say, share and score; a rectified frame has 3 a pixel.
+  // 13 bytes per cell of 4 x 4 px: colour, weight, share and score; a rectified frame has 3 per
+  // pixel.
   const double cells = test::kWindowWidth * test::kWindowHeight / 16.0;
   EXPECT_LE(a_frame, 16 * cells);
 }

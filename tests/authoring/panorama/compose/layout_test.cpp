@@ -75,7 +75,7 @@ TEST(Layout, CellsGrowWhenFramesAreMany) {
     places.push_back(ThreePlaces()[0]);
     places.back().index = i;
   }
-  // 9000 frames of 0.02 Mpx: 11 million cells of 4 px, beyond the store.
+  // 9000 frames of 0.02 Mpx: 11 million cells of 4 px, more than the limit.
   EXPECT_EQ(Lay(places).cell, 8);
 }
 

@@ -9,7 +9,7 @@
 namespace arthro::authoring {
 namespace {
 
-// Cells of frames that look at a plane of known brightness under a known light.
+// Cells of frames with a view of a plane of known brightness under a known light.
 struct KnownLight {
   Layout layout;
   std::vector<CellRays> rays;
@@ -51,7 +51,7 @@ TEST(LightModel, FalloffAndGainsComeBackFromOverlaps) {
   const KnownLight known(truth);
   const LightModel found =
       EstimateLight(known.cells, known.rays, known.layout, ComposeOptions{}, {});
-  // Up to what all frames share: compare differences from the middle of frame 0.
+  // Compares differences from the middle of frame 0, since a common level is free.
   const CellRays::Ray middle{0, 0, 1, 1};
   for (const double tangent : {0.1, 0.2, 0.3}) {
     const CellRays::Ray ray{tangent, 0, 1, 1};

@@ -1,5 +1,5 @@
-// A clip for composition: windows cut out of a picture, as a pinhole camera that looks straight
-// down sees them. What the panorama must show is the picture itself.
+// A clip for composition: windows cut out of a picture, as from a pinhole camera perpendicular to
+// it. The panorama must show the picture itself.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,7 @@ inline const authoring::Rectifier& PinholeRectifier() {
   return rectifier;
 }
 
-// Soft blobs of tissue colours, nowhere near black or white; the same every time.
+// Soft blobs of tissue colours, nowhere near black or white; the same on every run.
 inline cv::Mat TissuePicture(int width, int height) {
   cv::Mat picture(height, width, CV_8UC3);
   for (int y = 0; y < height; ++y)
@@ -47,7 +47,7 @@ inline cv::Mat TissuePicture(int width, int height) {
 
 struct SmallClip {
   cv::Mat picture;
-  std::vector<cv::Point> corners;  // top left of each window
+  std::vector<cv::Point> corners;  // top left corner of each window
   // Changes a window's picture; may be empty.
   std::function<void(int index, cv::Mat& window)> spoil;
 
@@ -89,7 +89,7 @@ struct SmallClip {
   }
 };
 
-// The panorama as RGB on the picture's pixels, and where it is opaque (eroded by 3 px).
+// The panorama as RGB on the picture's pixels, and its opaque area (eroded by 3 px).
 inline cv::Mat OnPicture(const authoring::ComposedPanorama& panorama, const cv::Size& size,
                          cv::Mat& mask) {
   cv::Mat seen, rgb;

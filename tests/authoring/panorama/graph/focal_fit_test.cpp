@@ -16,7 +16,7 @@ namespace {
 using namespace arthro::test;
 
 constexpr int kFrames = 24;
-constexpr double kNoise = 0.2;  // px, of every coordinate of a pair
+constexpr double kNoise = 0.2;  // px, for every coordinate of a pair
 
 Lens LensOf(double focal_px) {
   Lens lens;
@@ -29,8 +29,8 @@ Lens LensOf(double focal_px) {
 
 RectifiedView ViewWith(double focal_px) { return {800, 800, focal_px, kCentre, kCentre}; }
 
-// A rectified pixel of the true lens as an equisolid lens of another focal length shows it:
-// r = 2 f sin(theta / 2) is what stays.
+// Rectified pixel of the true lens under an equisolid lens of another focal length: r = 2 f
+// sin(theta / 2) is unchanged.
 cv::Point2d Seen(const cv::Point2d& p, double focal_px) {
   const cv::Point2d off = p - cv::Point2d(kCentre, kCentre);
   const double radius = std::hypot(off.x, off.y);
@@ -40,7 +40,7 @@ cv::Point2d Seen(const cv::Point2d& p, double focal_px) {
   return {kCentre + zoom * off.x, kCentre + zoom * off.y};
 }
 
-// What pairs say when the lens file's focal length is `factor` times the true one.
+// Pair estimates for a lens file with `factor` times the true focal length.
 std::vector<PairEstimate> SeenPairs(const std::vector<cv::Matx33d>& places, double factor) {
   std::mt19937 random(5);
   std::vector<PairEstimate> pairs;
@@ -70,7 +70,7 @@ TEST(FocalFit, FindsTheTrueLength) {
     std::printf("given %.2f of the true length, found %.4f +- %.4f\n", factor, factor * fit.factor,
                 fit.deviation);
     ASSERT_TRUE(fit.is_determined) << factor;
-    // Asked: 1 %. A right lens must come out of it far below the 1 % that raise a warning.
+    // Required: 1 %. A right lens must stay far below the 1 % that cause a warning.
     EXPECT_NEAR(factor * fit.factor, 1.0, factor == 1.0 ? 0.002 : 0.005) << factor;
   }
 }
@@ -87,7 +87,7 @@ TEST(FocalFit, ErrorsOfAWrongLengthAreForeseen) {
   for (const cv::Point2d& p : NinePoints()) seen.push_back(Seen(p, view.focal_px));
   const auto foreseen = FocalErrors(refined.plane_from_frame, pairs, 0,
                                     FocalChange(LensOf(view.focal_px), view, fit.factor), seen, {});
-  // The nine points are a centre and a ring, so that what the lens does to them is a zoom.
+  // The nine points are a centre and a ring, so that the lens's effect on them is a zoom.
   const double zoom = (seen[1].x - kCentre) / (NinePoints()[1].x - kCentre);
   std::vector<cv::Matx33d> true_points;
   for (const cv::Matx33d& place : refined.plane_from_frame)
@@ -97,7 +97,7 @@ TEST(FocalFit, ErrorsOfAWrongLengthAreForeseen) {
   int covered = 0;
   double worst = 0, most = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    covered += errors[i] <= 1.5 * foreseen[i] + 2;  // 2 px: what the noise alone leaves
+    covered += errors[i] <= 1.5 * foreseen[i] + 2;  // 2 px: error by the noise alone
     worst = std::max(worst, errors[i]);
     most = std::max(most, foreseen[i]);
   }

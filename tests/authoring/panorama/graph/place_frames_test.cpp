@@ -20,15 +20,15 @@ FrameWindow Window() {
   return window;
 }
 
-// Pairs of a simulated clip: found when the frames overlap enough, with noise that only the pair
-// decides, so that the order of calls does not matter.
+// Pairs of a simulated clip: found when the frames overlap enough. The noise depends on the pair
+// only, so the order of calls has no effect.
 class Simulation {
  public:
   explicit Simulation(std::vector<cv::Matx33d> places, double sigma = 0.2)
       : places_(std::move(places)), sigma_(sigma), window_(Window()) {}
 
   std::set<std::pair<int, int>> wrong;  // pairs that come out well off
-  std::set<int> blurred;                // frames that agree with nothing
+  std::set<int> blurred;                // frames that match no other
 
   std::optional<PairEstimate> operator()(const PairRequest& request, std::string* why_not) const {
     const cv::Matx33d truth = places_[static_cast<std::size_t>(request.b)].inv() *
@@ -84,8 +84,8 @@ TEST(PlaceFrames, ARingClosesBelowHalfAPixel) {
 }
 
 TEST(PlaceFrames, LoopsWithRefinementBeatEitherStageBefore) {
-  // Loops alone only move the place where the ring misses its beginning; all frames at once spread
-  // the miss over the ring.
+  // Loops alone move only the place at which the ring misses its beginning; joint refinement
+  // spreads the error over the ring.
   const Simulation clip(TruePlaces(32, true));
   GraphOptions options;
   const auto worst_with = [&](GraphStages stages) {
@@ -100,7 +100,7 @@ TEST(PlaceFrames, LoopsWithRefinementBeatEitherStageBefore) {
   EXPECT_LT(all, 0.5 * loops);
 }
 
-// PAN-06: a strip that never comes back. 30 frames over 3000 px.
+// PAN-06: a strip that never returns. 30 frames over 3000 px.
 TEST(PlaceFrames, AStripDriftsLessThanSixPixelsOver3000) {
   const Simulation clip(TruePlaces(30, false));
   for (const double error : ErrorsOf(Place(clip), clip, 0)) EXPECT_LT(error, 6.0);
@@ -132,7 +132,7 @@ TEST(PlaceFrames, BlurredFramesAreNamedAndStepped) {
   }
 }
 
-// PAN-03 without overlap: two pieces, each right in itself.
+// PAN-03 without overlap: two pieces, each right by itself.
 TEST(PlaceFrames, AJumpWithoutOverlapGivesTwoPieces) {
   auto places = TruePlaces(28, false, 70);
   for (std::size_t i = 12; i < places.size(); ++i)
@@ -174,7 +174,7 @@ TEST(PlaceFrames, StopsWhenAsked) {
 }
 
 TEST(PanoramaPlane, LooksStraightAtTheTissue) {
-  // Seen through a tilted frame's plane, the others would grow towards one side.
+  // In a tilted frame's plane the others would grow towards one side.
   const auto places = TruePlaces(32, true);
   const Simulation clip(places, 1e-6);
   const PlacedGraph graph = Place(clip);

@@ -58,7 +58,7 @@ TEST(Refine, ExactPairsGiveExactPlaces) {
   auto pairs = PairsOf(places, false, 1e-9, random);
   for (PairEstimate& pair : pairs) pair.information = cv::Matx<double, 8, 8>::eye();
   for (const double error : WorstErrors(RefineFromTree(pairs, 24, 12, {}).plane_from_frame, places))
-    EXPECT_LT(error, 1e-5);  // rounding of the pairs, grown along the chain
+    EXPECT_LT(error, 1e-5);  // rounding of the pairs, accumulated along the chain
 }
 
 TEST(Refine, SparseAnswerIsTheDenseOne) {
@@ -70,7 +70,7 @@ TEST(Refine, SparseAnswerIsTheDenseOne) {
   for (std::size_t i = 0; i < places.size(); ++i)
     for (const cv::Point2d& p : NinePoints())
       EXPECT_LT(cv::norm(Move(sparse.plane_from_frame[i], p) - Move(dense.plane_from_frame[i], p)),
-                1e-3);  // both stop within the same small step of the one minimum
+                1e-3);  // both stop within the same small step of the single minimum
 }
 
 TEST(Refine, DoesNotDependOnTheFrameThatStaysFixed) {
@@ -136,7 +136,7 @@ TEST(Uncertainty, CoversTheTrueErrorOf95PercentAndStaysUseful) {
     const Uncertainty uncertainty =
         EstimateUncertainty(pairs, std::vector<double>(pairs.size(), 1 / refined.variance_factor),
                             refined.plane_from_frame, 0, NinePoints(), 0);
-    // In the estimated plane, so the truth is brought there.
+    // Maps the truth to the estimated plane.
     const auto error = WorstErrors(places, refined.plane_from_frame);
     for (std::size_t i = 0; i < places.size(); ++i) {
       ++all;
@@ -148,7 +148,7 @@ TEST(Uncertainty, CoversTheTrueErrorOf95PercentAndStaysUseful) {
   std::printf("covered %.1f %%, promised %.2f px for %.2f px\n", 100.0 * covered / all,
               promised / all, made / all);
   EXPECT_GE(covered, 0.95 * all);
-  EXPECT_LT(promised, 3.0 * made);  // a bound that says nothing is no use
+  EXPECT_LT(promised, 3.0 * made);  // a much larger bound would be useless
 }
 
 TEST(Uncertainty, IsTheSameWhicheverFrameIsFixed) {
@@ -166,7 +166,7 @@ TEST(Uncertainty, SaysWhichPairsNothingChecks) {
   std::mt19937 random(9);
   const auto places = TruePlaces(10, false);
   auto pairs = PairsOf(places, false, 0.3, random);
-  // Frames 5 and 6 are joined by one pair alone.
+  // Frames 5 and 6 are connected by a single pair.
   std::erase_if(pairs,
                 [](const PairEstimate& p) { return p.b - p.a == 2 && (p.a == 4 || p.a == 5); });
   const auto uncertainty = EstimateUncertainty(pairs, std::vector<double>(pairs.size(), 1.0),
@@ -193,7 +193,7 @@ TEST(Refine, ThreeHundredFramesCostLittleEach) {
                                                refined.plane_from_frame, 0, NinePoints(), 0.05);
   const double ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / 300;
   std::printf("%.2f ms a frame of 300\n", ms);
-  EXPECT_LT(ms, 25.0);  // 5 ms is asked of a release build; a sanitizer may take several times it
+  EXPECT_LT(ms, 25.0);  // a release build needs 5 ms; a sanitizer may take several times as long
   EXPECT_TRUE(std::isfinite(uncertainty.error_px[150]));
 }
 

@@ -1,4 +1,4 @@
-// A clip without pictures: the true homographies of a scope that wanders over a plane, and pair
+// A clip without pictures: the true homographies of a scope that moves over a plane, and pair
 // estimates of them with Gaussian noise of known covariance.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace arthro::test {
 using authoring::FourPoints;
 using authoring::PairEstimate;
 
-inline constexpr double kFocal = 430, kCentre = 400, kRadius = 330;  // px, of the rectified view
+inline constexpr double kFocal = 430, kCentre = 400, kRadius = 330;  // px of the rectified view
 
 inline cv::Point2d Move(const cv::Matx33d& h, const cv::Point2d& p) {
   const cv::Vec3d q = h * cv::Vec3d(p.x, p.y, 1);
@@ -31,7 +31,8 @@ inline std::vector<cv::Point2d> NinePoints() {
   return points;
 }
 
-// P R inv(K): the scope at (x, y) and distance z over the plane, turned by small angles.
+// Homography P R inv(K): the scope at (x, y) and distance z over the plane, rotated by small
+// angles.
 inline cv::Matx33d PlaceOver(double x, double y, double z, double tilt_x, double tilt_y,
                              double roll) {
   const double cx = std::cos(tilt_x), sx = std::sin(tilt_x), cy = std::cos(tilt_y),
@@ -63,7 +64,7 @@ inline FourPoints ControlPoints() {
           cv::Point2d(kCentre + d, kCentre + d), cv::Point2d(kCentre - d, kCentre + d)};
 }
 
-// The homography that takes four points to four others.
+// Homography that maps four points to four others.
 inline cv::Matx33d FromFourPoints(const FourPoints& from, const FourPoints& to) {
   cv::Matx<double, 8, 8> m = cv::Matx<double, 8, 8>::zeros();
   cv::Matx<double, 8, 1> right;
@@ -104,8 +105,8 @@ inline PairEstimate NoisyPair(const std::vector<cv::Matx33d>& places, int a, int
   return pair;
 }
 
-// Worst of the nine points of each frame after the one homography of the plane that fits best: the
-// error that counts, since a panorama's own plane is free.
+// Worst of the nine points of each frame after the best single homography of the plane, since a
+// panorama's own plane is free.
 inline std::vector<double> WorstErrors(const std::vector<cv::Matx33d>& estimated,
                                        const std::vector<cv::Matx33d>& truth) {
   cv::Matx33d plane = truth[0] * estimated[0].inv();
@@ -115,7 +116,7 @@ inline std::vector<double> WorstErrors(const std::vector<cv::Matx33d>& estimated
     cv::Matx<double, 8, 1> right = cv::Matx<double, 8, 1>::zeros();
     for (std::size_t i = 0; i < truth.size(); ++i)
       for (const cv::Point2d& p : points) {
-        // In units of 1000 px, so that the eight numbers are alike in size.
+        // In units of 1000 px, so that the eight numbers have similar magnitudes.
         const cv::Point2d q = Move(plane * estimated[i], p) * 1e-3, t = Move(truth[i], p) * 1e-3;
         const double rows[2][8] = {{q.x, q.y, 1, 0, 0, 0, -q.x * q.x, -q.x * q.y},
                                    {0, 0, 0, q.x, q.y, 1, -q.x * q.y, -q.y * q.y}};

@@ -1,4 +1,4 @@
-// Direct alignment on faint scenes whose homographies are exact.
+// Direct alignment on faint scenes with exact homographies.
 #include "authoring/panorama/pairs/direct_align.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Pair {
   cv::Matx33d b_from_a;
 };
 
-// A step of a quarter of the frame with turn, zoom and tilt.
+// A step of a quarter of the frame with rotation, zoom and tilt.
 Pair Neighbours(FaintLook look, std::uint64_t seed = 1) {
   static const FaintScene scene;
   const cv::Matx33d pa = FaintScene::Pose(-30, 10),
@@ -203,8 +203,8 @@ TEST(DirectAlign, SameInputSameBytes) {
 }
 
 TEST(DirectAlign, InformationIsTheInverseCovarianceOfTheError) {
-  // Mean of d' Λ d over 8 degrees of freedom and 16 noises: 8 ± 1 by chance (sqrt(16 / 16)); the
-  // band allows for a covariance that is off by a factor of 1.5 either way.
+  // Mean of d' Λ d over 8 degrees of freedom and 16 noises: 8 ± 1 by chance (sqrt(16 / 16)). The
+  // band allows for a covariance that is wrong by a factor of 1.5 either way.
   double sum = 0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {

@@ -1,5 +1,5 @@
-// Frames of a flat scene with faint texture, as a WorkingFrame shows them: exact homographies,
-// noise, debris, glints, a gain of their own.
+// Frames of a flat scene with faint texture as WorkingFrames: exact homographies, noise, debris,
+// highlights, a gain per frame.
 #pragma once
 
 #include <cmath>
@@ -15,13 +15,13 @@ struct FaintLook {
   double texture = 6;  // grey levels, standard deviation
   double noise = 6;
   double gain = 1;
-  int blobs = 0;  // bright discs that stay with the lens, not with the scene
+  int blobs = 0;  // bright discs fixed to the lens, not to the scene
   std::uint64_t seed = 1;
 };
 
 class FaintScene {
  public:
-  static constexpr int kSide = 480;  // of the rectified frames, px
+  static constexpr int kSide = 480;  // px, rectified frames
   static constexpr double kScale = 0.5;
 
   explicit FaintScene(std::uint64_t seed = 7) : texture_(1100, 1100, CV_32FC1, cv::Scalar(0)) {
@@ -35,8 +35,8 @@ class FaintScene {
     }
   }
 
-  // Where frame pixels lie in the scene: turned and zoomed about the frame's middle, then shifted;
-  // `tilt` is the last row's part, px^-1.
+  // Homography from frame pixels to the scene: rotation and zoom about the frame's middle, then a
+  // shift; `tilt` is the last row's part, px^-1.
   static cv::Matx33d Pose(double x, double y, double angle = 0, double zoom = 1,
                           cv::Vec2d tilt = {0, 0}) {
     const double m = 0.5 * (kSide - 1), c = zoom * std::cos(angle), s = zoom * std::sin(angle);

@@ -1,4 +1,4 @@
-// Claims about pairs held together by features, on texture made in code.
+// Pairs by features, on texture made in code.
 #include "authoring/panorama/pairs/feature_pairs.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSize = 300;
 
-// Blobs of several sizes; `seed` says which place it is.
+// Blobs of several sizes; `seed` selects the place.
 cv::Mat Ground(int seed) {
   cv::RNG random(static_cast<std::uint64_t>(seed) * 31 + 7);
   cv::Mat sum = cv::Mat::zeros(500, 500, CV_32F);
@@ -29,7 +29,7 @@ cv::Mat Ground(int seed) {
   return 20 * sum + 128;
 }
 
-// Working frame at half scale: what `ground_from_work` sees, with noise.
+// Working frame at half scale: the view by `ground_from_work`, with noise.
 WorkingFrame See(const cv::Mat& ground, const cv::Matx33d& ground_from_work, double noise,
                  int seed) {
   cv::Mat view;
@@ -48,7 +48,7 @@ WorkingFrame See(const cv::Mat& ground, const cv::Matx33d& ground_from_work, dou
   return frame;
 }
 
-// x_rect = (x_work + 0.5) / 0.5 - 0.5
+// inverse of x_rect = (x_work + 0.5) / 0.5 - 0.5
 const cv::Matx33d kRectFromWork(2, 0, 0.5, 0, 2, 0.5, 0, 0, 1);
 const cv::Matx33d kGroundFromA(1, 0, 90, 0, 1, 100, 0, 0, 1);
 const cv::Matx33d kGroundFromB(0.99, -0.1, 130, 0.1, 0.99, 85, 5e-5, -4e-5, 1);
@@ -71,7 +71,8 @@ TEST_P(EveryDetector, PutsAPairTogetherToAPixel) {
   std::string why_not;
   const auto pair = MatchFeatures(a, b, 0, 1, options, &why_not);
   ASSERT_TRUE(pair) << why_not;
-  // A detector at half scale places a point to 0.3 … 1 px; 50 and more of them average that.
+  // A detector at half scale has an accuracy of 0.3 … 1 px per point; 50 and more of them average
+  // that.
   for (const auto& p : pair->control_in_a)
     EXPECT_LT(cv::norm(Apply(pair->b_from_a, p) - Apply(Truth(), p)), 1.0);
   EXPECT_GE(pair->inliers, 30);
@@ -111,7 +112,7 @@ TEST_P(EveryDetector, GivesTheSameAtAnyThreadCountAndHistory) {
     return pair.value();
   };
   const PairEstimate one = run(1);
-  cv::theRNG() = cv::RNG(12345);  // somebody else drew numbers meanwhile
+  cv::theRNG() = cv::RNG(12345);  // other code has drawn numbers meanwhile
   const PairEstimate two = run(2);
   EXPECT_EQ(cv::norm(one.b_from_a - two.b_from_a), 0);
   EXPECT_EQ(cv::norm(one.information - two.information), 0);
@@ -128,8 +129,8 @@ INSTANTIATE_TEST_SUITE_P(Features, EveryDetector,
                          NameOf);
 
 TEST(FeaturePairs, InformationSaysHowFarOffItIs) {
-  // d^T Λ d of the eight control displacements is 8 on average when the information is honest;
-  // detectors' errors are not quite normal, so half to twice as much is accepted.
+  // Mean of d^T Λ d of the eight control displacements: 8 for an honest information. Detectors'
+  // errors are not quite normal, so half to twice as much is accepted.
   const cv::Mat ground = Ground(1);
   double sum = 0;
   constexpr int kTrials = 12;

@@ -1,4 +1,4 @@
-// Claims about the homography that matches agree on, with matches made in code.
+// The homography of most agreement, with matches made in code.
 #include "authoring/panorama/pairs/robust_homography.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Matches {
   std::vector<cv::Point2d> a, b;
 };
 
-// `right` matches of `truth` with noise of 0.5 px an axis, and `wrong` ones anywhere.
+// `right` matches of `truth` with noise of 0.5 px per axis, and `wrong` ones at random.
 Matches MakeMatches(const cv::Matx33d& truth, int right, int wrong, int seed, double noise = 0.5) {
   cv::RNG random(static_cast<std::uint64_t>(seed) * 77777 + 5);
   Matches m;
@@ -55,7 +55,7 @@ TEST(RobustHomography, IsRightAmongTwiceAsManyOutliers) {
     const Matches m = MakeMatches(Perspective(), 60, 120, seed);
     const RobustHomography found = FindHomography(m.a, m.b, kReach, {});
     ASSERT_TRUE(found.is_found) << seed << ": " << found.why_not;
-    // 60 points of 0.5 px: sigma at the corners is about 0.35 px an axis.
+    // 60 points of 0.5 px: sigma at the corners is about 0.35 px per axis.
     EXPECT_LT(WorstError(found.b_from_a, Perspective()), 1.5) << seed;
     EXPECT_GE(found.inliers.size(), 55u);
     EXPECT_EQ(found.kind, PlaneMap::kHomography);
@@ -74,12 +74,12 @@ TEST(RobustHomography, PerspectiveOnlyWhereItPays) {
     kept_simple += found.kind == PlaneMap::kSimilarity;
     EXPECT_LT(WorstError(found.b_from_a, similarity), 1.0);
   }
-  // log n a parameter lets noise buy four of them in about one case in a hundred.
+  // With log n per parameter, noise justifies four of them in about one case in a hundred.
   EXPECT_GE(kept_simple, 18);
 }
 
 TEST(RobustHomography, PointsAlongOneVesselAreRefused) {
-  // PAN-15: a band 4 px wide says nothing of what lies off it.
+  // PAN-15: a band 4 px wide does not determine the map beside it.
   cv::RNG random(9);
   std::vector<cv::Point2d> a, b;
   for (int i = 0; i < 80; ++i) {

@@ -1,4 +1,4 @@
-// Claims about what is left out: glints, instruments, and marks that are fixed to the camera.
+// Masks of highlights, instruments, and marks that are fixed to the camera.
 #include "authoring/panorama/preparation/frame_masks.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ double ShareIn(const cv::Mat& mask, const cv::Mat& region) {
          std::max(1, cv::countNonZero(region));
 }
 
-// A clip that moves `step` px a frame, with text and a spot of dirt fixed to the camera.
+// A clip that moves `step` px per frame, with text and a spot of dirt fixed to the camera.
 ClipLook LookAtClip(int frames, double step, bool has_marks, cv::Mat* marks) {
   *marks = cv::Mat::zeros(kSize, kSize, CV_8U);
   cv::putText(*marks, "KNEE 7", {60, 80}, cv::FONT_HERSHEY_SIMPLEX, 0.7, 255, 2);
@@ -56,7 +56,7 @@ TEST(FrameMasks, GlintsAreFoundAndTissueIsKept) {
   rgb.setTo(cv::Scalar(250, 245, 240), glints);
   const cv::Mat after = HighlightMask(rgb, test::RoundWindow(kSize));
   EXPECT_GT(ShareIn(after, glints), 0.99);
-  // A disc of radius 2 grown by 2 is three times its area; half as much again is allowed.
+  // A disc of radius 2 grown by 2 has three times its area; half as much again is allowed.
   EXPECT_LT(cv::countNonZero(after), 4.5 * cv::countNonZero(glints) + cv::countNonZero(before));
 }
 
@@ -64,7 +64,7 @@ TEST(FrameMasks, AnInstrumentIsFoundAndPaleTissueIsNot) {
   const cv::Mat window = test::RoundWindow(kSize);
   cv::Mat rgb = test::MakeFrame(kSize, {}), shaft = cv::Mat::zeros(kSize, kSize, CV_8U);
   EXPECT_EQ(cv::countNonZero(ToolMask(rgb, window)), 0);
-  // Cartilage: pale, nearly colourless, but a blob.
+  // Cartilage: pale, nearly colourless, but without straight sides.
   cv::Mat pale = rgb.clone();
   cv::circle(pale, {110, 60}, 50, {210, 206, 204}, -1);
   EXPECT_EQ(cv::countNonZero(ToolMask(pale, window)), 0);
@@ -94,7 +94,7 @@ TEST(FrameMasks, AClipWithoutMarksHasNone) {
 }
 
 TEST(FrameMasks, AStillClipKeepsItsTexture) {
-  // PAN-05: of ten frames of one pose everything survives the mean.
+  // PAN-05: in ten frames of one pose nothing averages away.
   cv::Mat marks;
   const ClipLook look = LookAtClip(10, 0.0, false, &marks);
   EXPECT_TRUE(look.static_marks.empty());

@@ -1,4 +1,4 @@
-// Claims about the picture that is matched: no light, no exposure, no amplified noise.
+// The picture for matching: no light, no exposure, no amplified noise.
 #include "authoring/panorama/preparation/prepare.h"
 
 #include <cmath>
@@ -36,8 +36,8 @@ WorkingFrame PrepareAlone(const test::FrameLook& look, const PrepareOptions& opt
 }  // namespace
 
 TEST(Preparation, FlatTissueUnderStrongFalloffIsFlatUpToTheRim) {
-  // The light at the rim is a fifth of the centre's. With full gain and no noise to stop it, what
-  // is left is rounding to 8 bits, amplified: without texture the gain is at most_noise / noise.
+  // The light at the rim is a fifth of the centre's. Full gain without noise amplifies the rounding
+  // to 8 bits: without texture the gain is at most_noise / noise.
   test::FrameLook look;
   look.texture = 0;
   look.falloff = 1.6;
@@ -58,8 +58,8 @@ TEST(Preparation, FlatTissueUnderStrongFalloffIsFlatUpToTheRim) {
 }
 
 TEST(Preparation, ExposureAndGammaDoNotShow) {
-  // PAN-17: a step of 4 in exposure, gamma 1.6 to 2.4. The same texture must come out; what
-  // differs is rounding in the darker frame. Unprepared, the means alone differ by 60 grey levels.
+  // PAN-17: a step of 4 in exposure, gamma 1.6 to 2.4. The same texture must come out, up to
+  // rounding in the darker frame. Without preparation, the means alone differ by 60 grey levels.
   test::FrameLook bright;
   bright.exposure = 0.8;
   const WorkingFrame reference = PrepareAlone(bright);

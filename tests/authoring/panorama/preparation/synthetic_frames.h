@@ -1,5 +1,5 @@
-// Frames made in code: a round window onto texture that moves below it, under a light fixed to the
-// camera, encoded by a camera.
+// Frames made in code: a round window over moving texture, under a light fixed to the camera,
+// encoded by a camera.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ inline cv::Mat RoundWindow(int size) {
   return mask;
 }
 
-// Texture in [-1, 1] about, with detail of `cell` px, at an offset in an endless field.
+// Texture in about [-1, 1], with detail of `cell` px, at an offset in an unbounded field.
 inline double TextureAt(double x, double y, double cell) {
   const double u = x / cell, v = y / cell;
   return 0.4 * std::sin(1.3 * u + 1.7 * std::sin(0.7 * v)) +
@@ -24,11 +24,11 @@ inline double TextureAt(double x, double y, double cell) {
 }
 
 struct FrameLook {
-  double dx = 0, dy = 0;  // where the window stands over the texture, px
+  double dx = 0, dy = 0;  // px, position of the window over the texture
   double texture = 0.15;  // contrast of the albedo
-  double falloff = 1.2;   // of the light: exp(-falloff r²), r = 1 at the rim
+  double falloff = 1.2;   // falloff of the light: exp(-falloff r²), r = 1 at the rim
   double exposure = 0.5;  // linear grey of albedo 1 at the centre, 0 to 1
-  double gamma = 2.2;     // of the camera
+  double gamma = 2.2;     // exponent of the camera
   double noise = 0;       // standard deviation, grey levels
   int seed = 1;
 };

@@ -1,4 +1,4 @@
-// Calibration pictures: what is drawn lies where the pose says.
+// Calibration pictures: every mark is drawn at the position that the pose gives.
 #include "authoring/phantom/clip/board.h"
 
 #include <cmath>
@@ -33,7 +33,7 @@ TEST(Board, DotsHaveTheirMiddlesWhereTheirPointsAre) {
     const cv::Mat picture = DrawBoard(lens, board, pose);
     for (const auto& [column, row] : {std::pair{0, 0}, {2, 1}, {-2, 2}, {1, -3}}) {
       const cv::Point2d at = RawFromBoard(lens, pose, BoardPoint(board, column, row));
-      // Centre of the dark within half a spacing.
+      // Centroid of darkness within half a spacing.
       const cv::Point2d beside = RawFromBoard(lens, pose, BoardPoint(board, column + 1, row));
       const double reach = 0.4 * cv::norm(beside - at);
       double sum = 0, x = 0, y = 0;
@@ -45,8 +45,8 @@ TEST(Board, DotsHaveTheirMiddlesWhereTheirPointsAre) {
           y += dark * v;
         }
       ASSERT_GT(sum, 0);
-      // A dot of some 3 px radius in perspective: its middle is a few hundredths off the image of
-      // its centre, and so is the drawing by 4 x 4 samples.
+      // A dot of about 3 px radius in perspective: its centroid is a few hundredths of a pixel off
+      // the image of its centre, and so is the drawing by 4 x 4 samples.
       EXPECT_NEAR(x / sum, at.x, 0.1);
       EXPECT_NEAR(y / sum, at.y, 0.1);
     }
@@ -67,7 +67,7 @@ TEST(Board, ChessCornersAreSaddles) {
   auto refined = corners;
   cv::cornerSubPix(picture, refined, {4, 4}, {-1, -1},
                    {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.001});
-  // What corner finding is good for where a square is 10 px wide and bent by the lens.
+  // Accuracy of corner detection for squares of 10 px that are distorted by the lens.
   double sum = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     EXPECT_LT(cv::norm(refined[i] - corners[i]), 0.35) << i;

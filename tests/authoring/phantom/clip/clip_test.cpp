@@ -1,4 +1,4 @@
-// The rendered clip: its truth is what its pixels show, and it is the same every time.
+// The rendered clip: its truth agrees with its pixels, and every run gives the same bytes.
 #include "authoring/phantom/clip/clip.h"
 
 #include <cmath>
@@ -21,7 +21,7 @@ ClipOptions Small(ClipPreset preset = ClipPreset::kEasy, int frames = 6) {
   return options;
 }
 
-// Evenly lit, sharp and without noise: a frame is then nothing but the panorama, moved.
+// Evenly lit, sharp and without noise: a frame is then the panorama under a homography.
 ClipOptions Plain() {
   ClipOptions options = Small();
   options.falloff = options.vignette = options.highlights = options.bumps = 0;
@@ -39,7 +39,7 @@ RectifiedView ViewAround(const Clip& clip) {
   return {size, size, clip.lens().focal_px, (size - 1) / 2.0, (size - 1) / 2.0};
 }
 
-// Where the raw frame shows each pixel of the rectified one: the formulas of lens.h once more.
+// Raw pixel of each pixel of the rectified frame, by the formulas of lens.h again.
 cv::Mat Rectified(const Clip& clip, const RectifiedView& view, const cv::Mat& raw, cv::Mat& mask) {
   const Lens& lens = clip.lens();
   cv::Mat map(view.height, view.width, CV_32FC2);
@@ -71,7 +71,7 @@ TEST(Clip, FrameIsThePanoramaSeenThroughItsTruth) {
   for (int i = 0; i < clip.frames(); ++i) {
     cv::cvtColor(Rectified(clip, view, clip.Frame(i), mask), grey, cv::COLOR_RGB2GRAY);
     const cv::Matx33d truth = clip.PanoramaFromRectified(i, view);
-    // Correlation peaks where the truth says, and falls when that is a pixel away.
+    // Correlation is highest at the true position, and lower a pixel away.
     const auto likeness = [&](double off_x, double off_y) {
       const cv::Matx33d moved = cv::Matx33d(1, 0, off_x, 0, 1, off_y, 0, 0, 1) * truth;
       cv::warpPerspective(panorama, predicted, moved, grey.size(),
@@ -87,7 +87,8 @@ TEST(Clip, FrameIsThePanoramaSeenThroughItsTruth) {
     };
     const double at = likeness(0, 0);
     EXPECT_GT(at, 0.75) << i;  // both pictures are resampled, so their finest texture differs
-    // The peak of the parabola through three values is within a twentieth of a pixel of the truth.
+    // The vertex of the parabola through three values is within a twentieth of a pixel of the
+    // truth.
     for (const cv::Point2d& way : {cv::Point2d(1, 0), cv::Point2d(0, 1)}) {
       const double before = likeness(-way.x, -way.y), after = likeness(way.x, way.y);
       EXPECT_LT(std::abs(0.5 * (before - after) / (before - 2 * at + after)), 0.05) << i;
@@ -206,7 +207,7 @@ TEST(Clip, RefusesWhatCannotBe) {
 TEST(ClipScore, ForgivesThePlaneAndNothingElse) {
   const Clip clip(Small(ClipPreset::kEasy, 8));
   const RectifiedView view = ViewAround(clip);
-  // Another plane: turned, scaled and a little in perspective.
+  // Another plane: rotated, scaled and with a small perspective.
   const cv::Matx33d other(1.3, -0.4, 20, 0.4, 1.3, -30, 1e-5, 2e-5, 1);
   std::vector<FrameResult> results(8);
   for (int i = 0; i < 8; ++i) {
@@ -221,7 +222,7 @@ TEST(ClipScore, ForgivesThePlaneAndNothingElse) {
   EXPECT_EQ(score.right, 8);
   EXPECT_LT(score.max_px, 1e-3);
   EXPECT_EQ(score.covered, 1.0);
-  // One frame 40 px off, said to be good; one not placed.
+  // One frame 40 px off with a small expected error; one frame not placed.
   results[3].panorama_from_rectified =
       cv::Matx33d(1, 0, 40, 0, 1, 0, 0, 0, 1) * results[3].panorama_from_rectified;
   results[5].is_placed = false;

@@ -1,0 +1,75 @@
+// `cmake --install`: everything that a user needs, in the places of a Unix system.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+
+namespace arthro::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Output {
+  int exit_code = -1;
+  std::string text;  // both streams
+};
+
+Output RunLine(const std::string& line) {
+  Output output;
+  FILE* pipe = ::popen((line + " 2>&1 </dev/null").c_str(), "r");
+  if (pipe == nullptr) return output;
+  std::array<char, 4096> part;
+  while (const std::size_t read = std::fread(part.data(), 1, part.size(), pipe))
+    output.text.append(part.data(), read);
+  const int status = ::pclose(pipe);
+  if (WIFEXITED(status)) output.exit_code = WEXITSTATUS(status);
+  return output;
+}
+
+class Install : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Output output = RunLine("DESTDIR=" + root_.path().string() +
+                                  " " ARTHRO_CMAKE " --install " ARTHRO_BUILD_DIR " --prefix /usr");
+    ASSERT_EQ(output.exit_code, 0) << output.text;
+  }
+
+  TempFolder root_;
+  const fs::path usr_ = root_ / "usr";
+};
+
+TEST_F(Install, HoldsProgramResourcesDocumentsLicenceAndDeviceRule) {
+  for (const char* file :
+       {"bin/arthroscene", "lib/udev/rules.d/70-arthroscene.rules",
+        "share/arthroscene/demo/scene.json", "share/arthroscene/presets/lenses",
+        "share/arthroscene/presets/rigs", "share/arthroscene/presets/tissues",
+        "share/arthroscene/schemas/scene-1.schema.json", "share/doc/arthroscene/LICENSE",
+        "share/doc/arthroscene/README.md", "share/doc/arthroscene/CHANGELOG.md",
+        "share/doc/arthroscene/CONTRIBUTING.md", "share/doc/arthroscene/resources/doc/method.md",
+        "share/doc/arthroscene/resources/pictures/practice.jpg"})
+    EXPECT_TRUE(fs::exists(usr_ / file)) << file;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(ARTHRO_SOURCE_DIR) / "resources/doc"))
+    EXPECT_TRUE(fs::exists(usr_ / "share/doc/arthroscene/resources/doc" / entry.path().filename()))
+        << entry.path();
+}
+
+TEST_F(Install, ProgramReadsTheInstalledResources) {
+  const std::string program = (usr_ / "bin/arthroscene").string();
+  EXPECT_EQ(RunLine(program + " check " + (usr_ / "share/arthroscene/demo").string()).exit_code, 0);
+  // Damages the installed demo scene: the sources' own must not be read instead.
+  std::ofstream(usr_ / "share/arthroscene/demo/scene.json") << "{";
+  const Output output = RunLine(program + " demo -o " + (root_ / "out").string());
+  EXPECT_EQ(output.exit_code, 1) << output.text;
+  EXPECT_NE(output.text.find((usr_ / "share/arthroscene/demo").string()), std::string::npos)
+      << output.text;
+}
+
+}  // namespace
+}  // namespace arthro::test
