@@ -133,7 +133,8 @@ struct EditorState {
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // of the material's values
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
-  simulation::RodPose scope, instrument;  // the author's hands; practice has its own
+  simulation::RodPose scope, instrument;       // the author's hands; practice has its own
+  simulation::SessionOptions session_options;  // of the practices to come
   std::unique_ptr<Hands> hands = std::make_unique<Hands>();  // what holds them; outlives practices
   std::optional<Practice> practice;                          // while it runs
   std::optional<Practice> poke;  // the author's live poke (tissue/tissue_poke.h)

@@ -26,26 +26,15 @@ constexpr double kWindowHangs = 0.5;  // s
 // would show standing still.
 constexpr double kBladeSpeed = 30.0;  // rad/s
 
-simulation::Session SessionOf(const authoring::Document& document,
-                              const std::vector<simulation::TissuePreset>& presets,
-                              simulation::TissuePace pace) {
+simulation::Session MakeLiveSession(const authoring::Document& document,
+                                    const std::vector<simulation::TissuePreset>& presets,
+                                    simulation::TissuePace pace,
+                                    const simulation::SessionOptions& options) {
   if (!document.panorama || document.panorama->empty())
     throw Error(Code::kBadScene,
                 "a scene without a panorama cannot be practised; import one first");
-  std::vector<SurfaceMesh> surfaces;
-  for (const auto& surface : document.surfaces)
-    surfaces.push_back(surface ? *surface : SurfaceMesh{});
-  const Backdrop& backdrop = document.scene.backdrop;
-  auto field = document.depth ? simulation::DepthField(backdrop, *document.depth)
-                              : simulation::DepthField(backdrop, document.panorama->width,
-                                                       document.panorama->height);
-  simulation::Session session(document.scene, std::move(field), surfaces);
-  const auto file_of = [&document](const std::filesystem::path& name) {
-    const auto found = document.files.find(name.generic_string());
-    return found != document.files.end() ? found->second.file : document.folder / name;
-  };
-  session.Enliven(simulation::LivingTissues(document.scene, surfaces, file_of, presets), pace,
-                  simulation::LayersOf(document.scene, surfaces, presets));
+  simulation::Session session(document, options);
+  simulation::EnlivenTissues(session, document, presets, pace);
   return session;
 }
 
@@ -54,7 +43,7 @@ simulation::Session SessionOf(const authoring::Document& document,
 simulation::RodLimits ScopeLimits(const Scene& scene) {
   simulation::RodLimits limits;
   // The lens stays inside the sphere that the panorama is on, and the hand outside the portal.
-  limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.scope.rod_length);
+  limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.rig.scope.rod_length);
   limits.min_depth = -0.2 * scene.backdrop.radius;
   return limits;
 }
@@ -96,8 +85,9 @@ simulation::RodPose StartOfInstrument(const Scene& scene) {
 
 Practice::Practice(const authoring::Document& document,
                    const std::vector<simulation::TissuePreset>& presets,
-                   simulation::TissuePace pace)
-    : session_(std::make_unique<simulation::Session>(SessionOf(document, presets, pace))),
+                   simulation::TissuePace pace, const simulation::SessionOptions& options)
+    : session_(
+          std::make_unique<simulation::Session>(MakeLiveSession(document, presets, pace, options))),
       by_mouse_{
           simulation::ScriptedDevice(session_->scope_rig(), StartOfScope(document.scene),
                                      ScopeLimits(document.scene)),

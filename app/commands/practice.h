@@ -25,7 +25,8 @@ class Practice {
   // moment: make it in a job. Tissues that deform step on a thread of their own, or, so that the
   // same input gives the same pictures, inline.
   Practice(const authoring::Document& document,
-           const std::vector<simulation::TissuePreset>& presets, simulation::TissuePace pace);
+           const std::vector<simulation::TissuePreset>& presets, simulation::TissuePace pace,
+           const simulation::SessionOptions& options = {});
 
   // Runs the session for `seconds` more, or takes over what its thread did meanwhile; the hands
   // move evenly to where they are now. A pause longer than kLongestPause is not made up for: the

@@ -16,8 +16,9 @@ void StartPractice(EditorState& state, std::function<void(EditorState&)> then) {
     authoring::Document mounted = ready.document();
     ready.hands->Mount(mounted.scene);
     ready.jobs.Start("Practise", [document = std::move(mounted), presets = ready.tissue_presets,
-                                  pace = ready.pace, then](const Progress&) {
-      const auto practice = std::make_shared<Practice>(document, presets, pace);
+                                  pace = ready.pace, options = ready.session_options,
+                                  then](const Progress&) {
+      const auto practice = std::make_shared<Practice>(document, presets, pace, options);
       return [practice, then](EditorState& now) {  // shared only because a std::function is copied
         now.practice.emplace(std::move(*practice));
         now.head.turn = 0;

@@ -214,6 +214,7 @@ class Editor {
     }
     state_.practice_only = options_.practice;
     state_.hands = std::make_unique<Hands>(options_.hands);
+    state_.session_options = options_.session;
     state_.lens_folder = ResourceFolder() / "presets" / "lenses";
     state_.tissue_preset_folder = ResourceFolder() / "presets" / "tissues";
     state_.rig_preset_folder = ResourceFolder() / "presets" / "rigs";

@@ -9,6 +9,7 @@
 #include "app/commands/devices/hands.h"
 #include "app/recording/frame_shape.h"
 #include "simulation/scope/camera_head.h"
+#include "simulation/session/session_options.h"
 
 namespace arthro::app {
 
@@ -16,6 +17,7 @@ struct EditorOptions {
   std::optional<std::filesystem::path> scene;  // none: the demo scene
   bool practice = false;                       // the practise job: nothing but practice
   HandsChoice hands;                           // devices that hold them
+  simulation::SessionOptions session;          // of every practice
   std::optional<std::filesystem::path> film;   // of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;

@@ -45,6 +45,7 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its 
 void PortalsPanel(Ui& ui, EditorState& state);
 void PracticeStepPanel(Ui& ui, EditorState& state);
 void DevicesPanel(Ui& ui, EditorState& state);
+void ForcePanel(Ui& ui, EditorState& state);
 
 // ---- Dialogs with much in them. ----
 void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/device/recorded_device.h"
+#include "simulation/session/living_tissues.h"
 #include "simulation/session/time_histogram.h"
 
 namespace arthro::simulation {
@@ -76,16 +77,16 @@ std::string CsvField(const std::string& name) {
 
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options, const Progress& progress,
-                             ReplayReport* report, std::vector<BodySpec> bodies,
-                             std::vector<LayerSpec> layers, const ReplayWatch& watch) {
+                             ReplayReport* report, const std::vector<TissuePreset>& presets,
+                             const ReplayWatch& watch) {
   using Clock = std::chrono::steady_clock;
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
   Session session(loaded, options);
-  session.Enliven(std::move(bodies), TissuePace::kInline, std::move(layers));
-  RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   ReplayReport counts;
+  EnlivenTissues(session, loaded, presets, TissuePace::kInline, &counts.messages);
+  RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   TimeHistogram times;
   const WorldPicture* world = session.tissues();
   const auto tick = [&](double t, double dt) {

@@ -12,6 +12,7 @@
 #include "simulation/core/progress.h"
 #include "simulation/device/trace_io.h"
 #include "simulation/session/session.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::simulation {
 
@@ -51,6 +52,7 @@ struct ReplayReport {
   std::array<HandReport, 2> hand;        // by DeviceRole
   double tick_median = 0, tick_p99 = 0;  // s of this machine, to a 32nd, without tissue
   std::vector<TissueReport> tissues;     // those that live
+  std::vector<std::string> messages;     // repairs made while reading tetrahedra, one sentence each
 };
 
 // Called after each tick, its t in s; they are a millisecond or a little less apart, and one is on
@@ -58,12 +60,12 @@ struct ReplayReport {
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
 
-// `bodies` and `layers`: the tissues that live, of LivingTissues and LayersOf; with none all are
-// rigid. They step inline.
+// Tissues live by their `presets` and step inline; without presets all of them are rigid.
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options = {}, const Progress& progress = {},
-                             ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
-                             std::vector<LayerSpec> layers = {}, const ReplayWatch& watch = {});
+                             ReplayReport* report = nullptr,
+                             const std::vector<TissuePreset>& presets = {},
+                             const ReplayWatch& watch = {});
 
 // forces.csv [method.md, File formats]: contact none|backdrop|tissue name, fault none|…; a tool
 // over no pixel has u_px and v_px nan.

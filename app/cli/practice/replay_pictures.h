@@ -12,7 +12,6 @@
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
 #include "simulation/scene/scene_io.h"
-#include "simulation/scope/camera_head.h"
 #include "simulation/session/replay.h"
 
 namespace arthro::app {
@@ -58,9 +57,9 @@ class ReplayPictures {
 // Writes frame_00000.png and on into a folder that exists. Throws Error(kFile).
 ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
-// What the view shows of a moment.
-Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                  const Scene& scene, const simulation::ScopeOptics& optics,
-                  const simulation::CameraHead& head);
+// Picture of a recorded moment; without the instrument while its device has a fault.
+Picture RecordedPicture(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+                        const Scene& scene, const simulation::ScopeOptics& optics,
+                        const simulation::CameraHead& head);
 
 }  // namespace arthro::app

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "simulation/core/options.h"
+#include "simulation/scene/elasticity.h"
 
 namespace arthro::simulation {
 
@@ -30,12 +31,7 @@ struct Material {
       Choices<Law>{
           {{Law::kStableNeoHookean, "stable_neo_hookean"}, {Law::kCorotated, "corotated"}}},
       "", "Law of the matrix between the fibres.");
-    v("young_modulus", young_modulus, Range{1.0, 1e12}, "Pa", "Stiffness at small strain.");
-    v("poisson_ratio", poisson_ratio, Range{-0.9, 0.49999}, "",
-      "How little the volume changes; 0.5 would be not at all.");
-    v("density", density, Range{1e-3, 1e6}, "kg/m3", "Mass a volume.");
-    v("fibre_stiffness", fibre_stiffness, Range{0.0, 1e12}, "Pa",
-      "Of the fibres along fibre_axis; 0: none.");
+    VisitElasticConstants(v, young_modulus, poisson_ratio, density, fibre_stiffness);
     v("fibre_axis", fibre_axis,
       Choices<FibreAxis>{
           {{FibreAxis::kNone, "none"}, {FibreAxis::kCircumferentialZ, "circumferential_z"}}},
