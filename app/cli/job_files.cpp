@@ -52,9 +52,10 @@ std::string PieceNames(const fs::path& file) {
 std::shared_ptr<JobFiles> JobFiles::Of(CLI::App& job, bool has_overwrite) {
   const std::shared_ptr<JobFiles> files(new JobFiles(job));
   if (has_overwrite)
-    job.add_flag("--overwrite", files->overwrites_,
-                 "Replace files that exist, also where they are not an earlier result of this job; "
-                 "what the job reads is never replaced");
+    job.add_flag(
+        "--overwrite", files->overwrites_,
+        "Replace files that exist, even those that are no earlier result of this job. Files "
+        "that the job reads are never replaced.");
   return files;
 }
 

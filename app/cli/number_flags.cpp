@@ -16,10 +16,15 @@ std::string Quoted(std::string_view word) {
   return '"' + shown + (word.size() > kMostShown ? "…\"" : "\"");
 }
 
+// "from 0.1 to 1000 mm"
+std::string ToString(const NumberRule& rule) {
+  return fmt::format("{} {} to {}{}{}", rule.range.above_min ? "above" : "from", rule.range.min,
+                     rule.range.max, rule.unit.empty() ? "" : " ", rule.unit);
+}
+
 // "a number from 0.1 to 1000 mm"
 std::string RuleWords(const NumberRule& rule) {
-  return fmt::format("a {}number from {} to {}{}{}", rule.is_whole ? "whole " : "", rule.range.min,
-                     rule.range.max, rule.unit.empty() ? "" : " ", rule.unit);
+  return fmt::format("a {}number {}", rule.is_whole ? "whole " : "", ToString(rule));
 }
 
 // "INTEGER from 1 to 99"; every int there is goes without saying.
@@ -27,8 +32,7 @@ std::string TypeName(std::string_view kind, const NumberRule& rule) {
   const bool is_any =
       rule.range.min == kAnyWholeNumber.min && rule.range.max == kAnyWholeNumber.max;
   if (is_any) return std::string(kind);
-  return fmt::format("{} from {} to {}{}{}", kind, rule.range.min, rule.range.max,
-                     rule.unit.empty() ? "" : " ", rule.unit);
+  return fmt::format("{} {}", kind, ToString(rule));
 }
 
 template <class T>
@@ -48,7 +52,7 @@ std::optional<double> NumberIn(std::string_view word, const NumberRule& rule) {
     value = Parsed<double>(word);
   else if (const auto whole = Parsed<long long>(word))
     value = static_cast<double>(*whole);
-  if (value && !(*value >= rule.range.min && *value <= rule.range.max)) value.reset();
+  if (value && !Contains(rule.range, *value)) value.reset();
   return value;
 }
 

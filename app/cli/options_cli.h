@@ -1,11 +1,13 @@
 // Options as command-line flags, by their one list of fields (simulation/core/options.h): lengths
-// as
-// --name-mm, angles as --name-deg, enums by their words, with range, unit and default in the help.
+// as --name-mm, angles as --name-deg, enums by their words, with range, unit and default in the
+// help.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <tuple>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -65,7 +67,8 @@ struct CliVisitor {
       static_assert(std::is_same_v<R, Range>, "a number has a range");
       const double factor = border.factor;
       AddNumberOption(job, flag,
-                      {{Shown(range.min * factor), Shown(range.max * factor)}, UnitShown(unit)},
+                      {{Shown(range.min * factor), Shown(range.max * factor), range.above_min},
+                       UnitShown(unit)},
                       text, [target, factor](double shown) { *target = shown / factor; })
           ->default_str(fmt::format("{:g}", field * factor))
           ->group(group);
@@ -80,25 +83,51 @@ struct CliVisitor {
   }
 };
 
-// `options` must outlive the parse.
-template <class Options>
-void AddOptions(CLI::App& job, Options& options, const std::string& group = "Options") {
-  CliVisitor visitor{job, group};
-  options.Visit(visitor);
-}
+// Several option structs as one.
+template <class... Options>
+struct JoinedOptions {
+  std::tuple<Options&...> parts;
+  template <class V>
+  void Visit(V&& v) {
+    std::apply([&v](Options&... options) { (options.Visit(v), ...); }, parts);
+  }
+};
 
-// --options FILE: options as JSON. Flags win over the file wherever they stand on the line, since
-// the file is read as soon as it is named and flags are applied at the end.
-template <class Options>
-void AddOptionsFile(CLI::App& job, Options& options) {
+// One flag per field, --options FILE and --dump-options. Flags win over the file wherever they
+// stand on the line, because the file is read as soon as it is named and flags are applied at the
+// end. `options` must outlive the parse.
+template <class... Options>
+void AddOptions(CLI::App& job, Options&... options) {
+  constexpr const char* kGroup = "Parameters";
+  JoinedOptions<Options...> joined{{options...}};
   job.add_option_function<std::string>(
          "--options",
-         [&options](const std::string& file) {
-           options = OptionsFromJson<Options>(
-               ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file), file, options);
+         [joined](const std::string& file) mutable {
+           ReadOptions(ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file), file,
+                       joined);
          },
-         "JSON file with options; flags win over it")
-      ->trigger_on_parse();
+         "JSON file with parameters; flags win over it.")
+      ->type_name("FILE")
+      ->trigger_on_parse()
+      ->group(kGroup);
+  joined.Visit(CliVisitor{job, kGroup});
+  // Defined last, so that its callback runs after those of the flags above.
+  job.add_flag_callback(
+         "--dump-options",
+         [joined] {
+           std::printf("%s\n", JsonFromOptions(joined).dump(2).c_str());
+           throw CLI::Success();
+         },
+         "Print the parameters as JSON for --options, and do nothing else.")
+      ->group(kGroup);
+}
+
+// Range of a field as command line and panels show it.
+template <class Options>
+Range ShownRange(std::string_view name) {
+  const FieldFinder field = FindField<Options>(name);
+  const double factor = PersonBorder(field.unit).factor;
+  return {Shown(field.range.min * factor), Shown(field.range.max * factor), field.range.above_min};
 }
 
 }  // namespace arthro::app

@@ -217,6 +217,7 @@ class Editor {
     }
     state_.practice_only = options_.practice;
     state_.steps.practice->hands = std::make_unique<simulation::Hands>(options_.hands);
+    state_.steps.practice->session_options = options_.session;
     state_.steps.panorama->lens_folder = ResourceFolder() / "presets" / "lenses";
     state_.steps.tissue->preset_folder = ResourceFolder() / "presets" / "tissues";
     state_.steps.practice->rig_preset_folder = ResourceFolder() / "presets" / "rigs";

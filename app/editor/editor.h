@@ -8,6 +8,7 @@
 
 #include "app/recording/frame_shape.h"
 #include "simulation/practice/hands/hands.h"
+#include "simulation/practice/session_options.h"
 #include "simulation/scope/camera_head.h"
 
 namespace arthro::app {
@@ -15,7 +16,8 @@ namespace arthro::app {
 struct EditorOptions {
   std::optional<std::filesystem::path> scene;  // none: the demo scene
   bool practice = false;                       // the practise job: nothing but practice
-  simulation::HandsChoice hands;                           // devices that hold them
+  simulation::HandsChoice hands;               // devices that hold them
+  simulation::SessionOptions session;          // options of every practice
   std::optional<std::filesystem::path> film;   // film of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/state/edits.h"
-#include "app/state/same.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/practice_step.h"
@@ -39,36 +38,35 @@ Projection Shrunk(Projection projection, double factor) {
   return projection;
 }
 
-Picture PictureOf(const EditorState& state, const simulation::ScopeOptics& optics) {
+// Picture of the tools that the author holds while no session runs.
+Picture AuthorsPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
   const Scene& scene = state.document().scene;
-  const simulation::RodPose& scope =
-      state.practice ? state.practice->snapshot().scope.pose : state.scope;
-  std::optional<double> head_roll;
-  if (state.practice) head_roll = simulation::HeadRoll(state.steps.practice->head, scope.roll);
-  Picture picture =
-      PictureFromPose(scope, state.practice ? state.practice->view_angle() : scene.scope.view_angle,
-                      optics.field_of_view, head_roll);
+  Picture picture = PictureFromPose(state.scope, scene.scope.view_angle, optics.field_of_view);
   picture.lens = optics.lens;
   picture.relief = kUsualRelief;
-  picture.samples = 2;
   const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
-  if (state.practice) {
-    const auto& snapshot = state.practice->snapshot();
-    const auto& tool = snapshot.instrument;
-    picture.instrument = InstrumentView{portal,         tool.proxy_in_portal,
-                                        tool.pose.roll, state.practice->instrument_kind(),
-                                        tool.opening,   state.practice->blade_turn()};
+  picture.instrument = InstrumentView{
+      portal,
+      state.steps.practice->poke ? state.steps.practice->poke->snapshot().instrument.proxy_in_portal
+                                 : portal + simulation::TipInOwnPortal(state.instrument),
+      state.instrument.roll};
+  return picture;
+}
+
+Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
+  Picture picture;
+  if (const auto& practice = state.practice) {
+    const simulation::Snapshot& snapshot = practice->snapshot();
+    picture = PictureOf(snapshot, practice->instrument_kind(), state.document().scene,
+                        practice->view_angle(), optics, state.steps.practice->head);
+    picture.instrument->turn = practice->blade_turn();
     picture.disturbances = state.steps.practice->disturbing.now;
-    // Disturbances at rest are not drawn again.
+    // The time advances only for disturbances that move, so that a still picture is not redrawn.
     if (picture.disturbances.is_moving()) picture.disturbances.time = snapshot.t;
   } else {
-    picture.instrument =
-        InstrumentView{portal,
-                       state.steps.practice->poke
-                           ? state.steps.practice->poke->snapshot().instrument.proxy_in_portal
-                           : portal + simulation::TipInOwnPortal(state.instrument),
-                       state.instrument.roll};
+    picture = AuthorsPicture(state, optics);
   }
+  picture.samples = 2;
   return picture;
 }
 
@@ -80,11 +78,10 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool preview = cache.preview && cache.preview_panorama;
   const auto& panorama = preview ? cache.preview_panorama : document.panorama;
   const auto& depth = preview ? cache.preview : document.depth;
-  const DepthMap bare;
-  const DepthMap& relief = depth ? *depth : bare;
+  const DepthMap& relief = OrEmpty(depth);
   const Backdrop& wanted = document.scene.backdrop;
   const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
-  const bool same_place = SameBackdrop(backdrop_, wanted) && as_filmed == as_filmed_;
+  const bool same_place = backdrop_ == wanted && as_filmed == as_filmed_;
   const bool same_panorama = panorama == panorama_ && panorama;
   if (panorama == panorama_ && depth == depth_ && same_place) return;
   const bool same_depth = depth == depth_;
@@ -118,18 +115,15 @@ void Pictures::TakeTissues(const authoring::Document& document) {
     return true;
   };
   if (!same_look()) {
-    std::vector<SurfaceMesh> meshes;
-    for (const auto& surface : document.surfaces)
-      meshes.push_back(surface ? *surface : SurfaceMesh{});
-    scope_.SetTissues(tissues, meshes);
-    overview_.SetTissues(tissues, meshes);
+    scope_.SetTissues(tissues, document.surfaces);
+    overview_.SetTissues(tissues, document.surfaces);
     shown_cuts_.assign(tissues.size(), nullptr);
     chosen_ = -1;
     surfaces_ = document.surfaces;
     changed_ = true;
   } else {
     for (std::size_t i = 0; i < tissues.size(); ++i)
-      if (!SamePose(tissues_[i].pose, tissues[i].pose)) {
+      if (!(tissues_[i].pose == tissues[i].pose)) {
         scope_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
         overview_.SetTissuePose(static_cast<int>(i), tissues[i].pose);
         changed_ = true;
@@ -146,8 +140,7 @@ void Pictures::TakeCuts(const authoring::Document& document) {
     const auto skin = cut_skins_.SkinOf(document, static_cast<int>(i));
     if (!cut_skins_.fault().empty()) cut_fault_ = cut_skins_.fault();
     if (skin == shown_cuts_[i]) continue;
-    const SurfaceMesh whole = document.surfaces[i] ? *document.surfaces[i] : SurfaceMesh{};
-    const SurfaceMesh& surface = skin ? skin->surface : whole;
+    const SurfaceMesh& surface = skin ? skin->surface : OrEmpty(document.surfaces[i]);
     const std::vector<std::uint8_t> fresh = skin ? skin->is_fresh : std::vector<std::uint8_t>{};
     scope_.SetTissueSurface(static_cast<int>(i), surface, fresh);
     overview_.SetTissueSurface(static_cast<int>(i), surface, fresh);
@@ -191,7 +184,7 @@ const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& d
 
 bool Pictures::DrawScope(const EditorState& state, int size) {
   Take(state);
-  const Picture picture = PictureOf(state, TakeOptics(state.document()));
+  const Picture picture = ShownPicture(state, TakeOptics(state.document()));
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
   has_picture_ = panorama_ != nullptr;
@@ -226,7 +219,7 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     document_number_ = state.document_number;
     overview_.ResetCamera();
   }
-  const Picture picture = PictureOf(state, TakeOptics(state.document()));
+  const Picture picture = ShownPicture(state, TakeOptics(state.document()));
   if (!Same(picture, overview_tools_)) {
     overview_tools_ = picture;
     overview_.SetIncisionSpacing(state.document().scene.portals.incision_spacing);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "app/state/footage_optics.h"
-#include "app/state/same.h"
 #include "authoring/project/document_io.h"
 
 namespace arthro::app {
@@ -49,7 +48,7 @@ void SetAuthor(EditorState& state, const std::string& author) {
 }
 
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what) {
-  if (SameBackdrop(backdrop, state.document().scene.backdrop)) return;
+  if (backdrop == state.document().scene.backdrop) return;
   Edit(state, "Change " + what, Key("backdrop", what),
        [&](auto& next) { next.scene.backdrop = backdrop; });
 }
@@ -110,11 +109,9 @@ void SetRelight(EditorState& state, double share) {
 }
 
 void SetRodLength(EditorState& state, double rod_length) {
-  if (rod_length == state.document().scene.scope.rod_length) return;
-  Edit(state, "Change the scope's length", "rod_length", [&](auto& next) {
-    next.scene.scope.rod_length = rod_length;
-    next.scene.rig.scope.rod_length = rod_length;
-  });
+  if (rod_length == state.document().scene.rig.scope.rod_length) return;
+  Edit(state, "Change the scope's length", "rod_length",
+       [&](auto& next) { next.scene.rig.scope.rod_length = rod_length; });
 }
 
 void AddTissue(EditorState& state, Tissue tissue, std::shared_ptr<const SurfaceMesh> surface) {
@@ -150,13 +147,7 @@ void DuplicateTissue(EditorState& state, int tissue) {
 void SetTissue(EditorState& state, int tissue, const Tissue& changed, const std::string& what) {
   if (!HasTissue(state, tissue)) return;
   const Tissue& old = state.document().scene.tissues[static_cast<std::size_t>(tissue)];
-  if (SamePose(changed.pose, old.pose) && changed.name == old.name &&
-      changed.material == old.material && changed.colour == old.colour &&
-      changed.mesh == old.mesh && changed.surface == old.surface &&
-      changed.elasticity == old.elasticity && changed.fixed == old.fixed &&
-      changed.probed == old.probed && changed.cuts == old.cuts && changed.regions == old.regions &&
-      changed.is_cuttable == old.is_cuttable && changed.is_implicit == old.is_implicit)
-    return;
+  if (changed == old) return;
   Edit(state, what + " " + old.name, Key("tissue " + std::to_string(tissue), what),
        [&](auto& next) { next.scene.tissues[static_cast<std::size_t>(tissue)] = changed; });
 }

@@ -214,7 +214,7 @@ bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {
 }
 
 void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
-                                  std::span<const SurfaceMesh> surfaces) {
+                                  std::span<const SharedSurface> surfaces) {
   Parts& p = *parts_;
   for (const auto& model : p.tissues) p.renderer->RemoveViewProp(model->actor());
   p.tissues.clear();
@@ -222,13 +222,12 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
   p.places.clear();
   for (std::size_t i = 0; i < tissues.size(); ++i) {
     auto model = std::make_unique<LensModel>(LensModel::Look::kTissue);
-    model->SetSurface(i < surfaces.size() ? surfaces[i] : SurfaceMesh());
+    const SurfaceMesh& surface = OrEmpty(i < surfaces.size() ? surfaces[i] : nullptr);
+    model->SetSurface(surface);
     model->SetColour(tissues[i].colour);
     model->SetPose(tissues[i].pose);
-    p.vertex_counts.push_back(i < surfaces.size() ? surfaces[i].vertices.size() : 0);
-    p.places.push_back({i < surfaces.size() ? MiddleOf(surfaces[i].vertices) : glm::dvec3(0.0),
-                        tissues[i].pose,
-                        {}});
+    p.vertex_counts.push_back(surface.vertices.size());
+    p.places.push_back({MiddleOf(surface.vertices), tissues[i].pose, {}});
     p.renderer->AddViewProp(model->actor());
     p.tissues.push_back(std::move(model));
   }

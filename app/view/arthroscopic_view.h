@@ -17,9 +17,7 @@
 #include <vector>
 
 #include "app/view/disturbances/disturbances.h"
-#include "simulation/scene/image.h"
-#include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/loaded_scene.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/window_lens.h"
 #include "simulation/tissue/contact/tool_shape.h"
@@ -77,7 +75,7 @@ class ArthroscopicView {
   // or cease to be a whole turn: then SetBackdrop.
   bool SetGeometry(const Backdrop& backdrop);
   // One surface a tissue, in its own frame; an empty one is not drawn.
-  void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
+  void SetTissues(std::span<const Tissue> tissues, std::span<const SharedSurface> surfaces);
   // A tissue as it is deformed: as many vertices and unit normals as its surface has, in its own
   // frame. Without normals they are computed. Nothing is uploaded where nothing moved; says whether
   // something did.

@@ -36,14 +36,32 @@ Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, doub
   return picture;
 }
 
+Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+                  const Scene& scene, double view_angle, const simulation::ScopeOptics& optics,
+                  const simulation::CameraHead& head) {
+  const simulation::RodPose& scope = snapshot.scope.pose;
+  const simulation::ToolState& tool = snapshot.instrument;
+  Picture picture = PictureFromPose(scope, view_angle, optics.field_of_view,
+                                    simulation::HeadRoll(head, scope.roll));
+  picture.lens = optics.lens;
+  picture.relief = kUsualRelief;
+  picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
+                                      tool.proxy_in_portal,
+                                      tool.pose.roll,
+                                      kind,
+                                      tool.opening};
+  return picture;
+}
+
 StillPictures::StillPictures(const LoadedScene& loaded) : radius_(loaded.scene.backdrop.radius) {
-  view_.SetBackdrop(loaded.panorama, loaded.depth,
-                    WithKnownLight(loaded.scene.backdrop, loaded.depth));
+  const DepthMap& depth = OrEmpty(loaded.depth);
+  view_.SetBackdrop(OrEmpty(loaded.panorama), depth, WithKnownLight(loaded.scene.backdrop, depth));
   const auto& tissues = loaded.scene.tissues;
   view_.SetTissues(tissues, loaded.surfaces);
   for (std::size_t i = 0; i < std::min(tissues.size(), loaded.surfaces.size()); ++i) {
-    if (!simulation::HasCutsMade(tissues[i]) || loaded.surfaces[i].triangles.empty()) continue;
-    const simulation::BodySkin skin = simulation::CutSkin(tissues[i], loaded.surfaces[i]);
+    const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
+    if (!simulation::HasCutsMade(tissues[i]) || surface.triangles.empty()) continue;
+    const simulation::BodySkin skin = simulation::CutSkin(tissues[i], surface);
     view_.SetTissueSurface(static_cast<int>(i), skin.surface, skin.is_fresh);
   }
 }

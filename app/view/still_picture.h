@@ -7,7 +7,9 @@
 
 #include "app/view/arthroscopic_view.h"
 #include "app/view/offscreen_context.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/practice/snapshot.h"
+#include "simulation/scene/loaded_scene.h"
+#include "simulation/scope/camera_head.h"
 #include "simulation/scope/rod_pose.h"
 
 namespace arthro::app {
@@ -15,6 +17,11 @@ namespace arthro::app {
 // The frame that a held scope gives. Without a head roll the camera head turns with the scope.
 Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, double field_of_view,
                         std::optional<double> head_roll = std::nullopt);
+
+// Picture of a moment of a session, with the instrument where its proxy is.
+Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+                  const Scene& scene, double view_angle, const simulation::ScopeOptics& optics,
+                  const simulation::CameraHead& head);
 
 class StillPictures {
  public:

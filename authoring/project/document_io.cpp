@@ -47,32 +47,14 @@ Document OpenDocument(const fs::path& file) {
   if (IsOneOf(LowerExtension(file), {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"}) &&
       !fs::is_directory(file))
     return DocumentFromPanorama(file);
-  LoadedScene loaded = LoadScene(file);
   Document document;
-  document.scene = std::move(loaded.scene);
-  document.folder = IsArchive(file) ? file : loaded.folder;
-  document.unpacked = loaded.unpacked;
-  document.lens = loaded.lens;
-  const auto note = [&](const fs::path& name, const std::shared_ptr<const void>& part) {
-    if (!name.empty())
-      document.files[name.generic_string()] = {fs::absolute(loaded.folder / name), part,
-                                               FingerprintOf(ReadWholeFile(loaded.folder / name))};
-  };
-  document.panorama = std::make_shared<const ColourImage>(std::move(loaded.panorama));
-  note(document.scene.backdrop.panorama, document.panorama);
-  if (!loaded.depth.empty())
-    document.depth = std::make_shared<const DepthMap>(std::move(loaded.depth));
-  note(document.scene.backdrop.depth, document.depth);
+  static_cast<LoadedScene&>(document) = LoadScene(file);
+  for (auto& [name, asset] : document.files)
+    asset.fingerprint = FingerprintOf(ReadWholeFile(asset.file));
   const auto made = document.scene.extensions.find(kDepthMadeKey);
   document.is_depth_imported =
       document.depth && (made == document.scene.extensions.end() ||
                          made->second != DepthFingerprint(*document.depth));
-  for (std::size_t i = 0; i < loaded.surfaces.size(); ++i) {
-    document.surfaces.push_back(std::make_shared<const SurfaceMesh>(std::move(loaded.surfaces[i])));
-    note(document.scene.tissues[i].surface, document.surfaces[i]);
-    note(document.scene.tissues[i].mesh, nullptr);
-  }
-  note(document.scene.scope.lens, nullptr);
   // Options of another version are no reason not to open a scene; they are a convenience.
   const auto options = document.scene.extensions.find(kDepthOptionsKey);
   if (options != document.scene.extensions.end()) try {

@@ -5,6 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/core/options.h"
+
 namespace arthro {
 
 struct Rigid3 {
@@ -31,6 +33,13 @@ struct Pose {
   glm::dvec3 position{0.0};                   // m
   glm::dquat quaternion{1.0, 0.0, 0.0, 0.0};  // w, x, y, z; unit
   double scale = 1.0;
+  friend bool operator==(const Pose&, const Pose&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("position", position, Range{-2, 2}, "m", "Where its origin lies.");
+    v("quaternion", quaternion, Any{}, "", "Rotation [w, x, y, z].");
+    v("scale", scale, Range{0, 1e6, true}, "", "Uniform scale.");
+  }
 };
 
 inline glm::dvec3 operator*(const Pose& pose, const glm::dvec3& x) {

@@ -1,6 +1,7 @@
 #include "simulation/core/json_text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 #include <vector>
 
@@ -95,7 +96,107 @@ void CheckJson(std::string_view text, Code code, const std::filesystem::path& fi
                 file);
 }
 
+// Follows a path of keys and indices through a JSON text that is known to be valid.
+class KeyFinder {
+ public:
+  KeyFinder(std::string_view text, std::string_view path) : text_(text), path_(path) {}
+
+  std::size_t Find() {
+    SkipSpace();
+    found_ = at_;
+    Enter();
+    return found_;
+  }
+
+ private:
+  // At the start of a value whose path was matched so far.
+  void Enter() {
+    if (path_.empty() || at_ >= text_.size()) return;
+    if (text_[at_] == '{' && path_.front() != '[')
+      EnterMember();
+    else if (text_[at_] == '[' && path_.front() == '[')
+      EnterElement();
+  }
+
+  void EnterMember() {
+    if (path_.front() == '.') path_.remove_prefix(1);
+    for (++at_, SkipSpace(); at_ < text_.size() && text_[at_] != '}'; SkipComma()) {
+      const std::size_t start = at_;
+      SkipValue();
+      const std::string_view name = text_.substr(start + 1, at_ - start - 2);
+      SkipSpace();
+      ++at_;  // the colon
+      SkipSpace();
+      const bool is_next =
+          path_.starts_with(name) &&
+          (path_.size() == name.size() || path_[name.size()] == '.' || path_[name.size()] == '[');
+      if (is_next) {
+        path_.remove_prefix(name.size());
+        found_ = start;
+        return Enter();
+      }
+      SkipValue();
+    }
+  }
+
+  void EnterElement() {
+    const std::size_t close = path_.find(']');
+    std::size_t index = 0;
+    if (close == path_.npos ||
+        std::from_chars(path_.data() + 1, path_.data() + close, index).ec != std::errc())
+      return;
+    for (++at_, SkipSpace(); at_ < text_.size() && text_[at_] != ']'; SkipComma(), --index) {
+      if (index == 0) {
+        path_.remove_prefix(close + 1);
+        found_ = at_;
+        return Enter();
+      }
+      SkipValue();
+    }
+  }
+
+  void SkipSpace() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
+
+  void SkipComma() {
+    SkipSpace();
+    if (at_ < text_.size() && text_[at_] == ',') ++at_;
+    SkipSpace();
+  }
+
+  // Behind a text, a number, a word, or a list or object with all that it holds.
+  void SkipValue() {
+    int depth = 0;
+    bool is_text = false;
+    for (; at_ < text_.size(); ++at_) {
+      const char letter = text_[at_];
+      if (is_text) {
+        if (letter == '\\') ++at_;
+        if (letter != '"') continue;
+        is_text = false;
+        if (depth == 0) return void(++at_);
+      } else if (letter == '"') {
+        is_text = true;
+      } else if (letter == '{' || letter == '[') {
+        ++depth;
+      } else if (depth > 0 && (letter == '}' || letter == ']')) {
+        if (--depth == 0) return void(++at_);
+      } else if (depth == 0 && std::string_view(",:}] \t\r\n").find(letter) != text_.npos) {
+        return;
+      }
+    }
+  }
+
+  std::string_view text_, path_;
+  std::size_t at_ = 0, found_ = 0;
+};
+
 }  // namespace
+
+int LineOfKey(std::string_view text, std::string_view key) {
+  const std::size_t found = KeyFinder(text, key).Find();
+  return 1 + static_cast<int>(
+                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+}
 
 json ParseJson(std::string_view text, Code code, const std::filesystem::path& file) {
   CheckJson(text, code, file);

@@ -1,5 +1,4 @@
-// JSON text as values: the one parser of JSON in the program. A fault is one sentence with its
-// line.
+// JSON text as values: the only JSON parser of the program. A fault is one sentence with its line.
 #pragma once
 
 #include <filesystem>
@@ -23,5 +22,9 @@ nlohmann::json ParseJson(std::string_view text, Code code, const std::filesystem
 // The same, with the keys in the order of the text.
 nlohmann::ordered_json ParseOrderedJson(std::string_view text, Code code,
                                         const std::filesystem::path& file = {});
+
+// Line, from 1, of a key such as "tissues[2].pose.scale" in a text that ParseJson accepts. A key
+// that is not there has the line of the innermost value on its path that is.
+int LineOfKey(std::string_view text, std::string_view key);
 
 }  // namespace arthro

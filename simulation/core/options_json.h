@@ -22,6 +22,12 @@ inline std::string JoinWords(const auto& words) {
   return joined;
 }
 
+// `factor`: from the unit in memory to the one that is shown.
+inline std::string ToString(const Range& range, double factor) {
+  return fmt::format("{} {} and {}{}", range.above_min ? "more than" : "between",
+                     range.min * factor, range.above_min ? "at most " : "", range.max * factor);
+}
+
 struct JsonWriter {
   nlohmann::json& json;
 
@@ -65,9 +71,7 @@ struct JsonReader {
         Refuse(key, std::is_same_v<T, double> ? "a number" : "a whole number");
       const double value = entry->template get<double>() / border.factor;
       if constexpr (std::is_same_v<R, Range>)
-        if (!(value >= range.min && value <= range.max))
-          Refuse(key, fmt::format("between {} and {}", range.min * border.factor,
-                                  range.max * border.factor));
+        if (!Contains(range, value)) Refuse(key, ToString(range, border.factor));
       field = static_cast<T>(value);
     } else {
       if (!entry->is_string()) Refuse(key, "text");
@@ -86,13 +90,12 @@ struct RangeChecker {
   template <class T, class R>
   void operator()(const char* name, T& field, const R& range, const char* unit, const char*) {
     if constexpr (std::is_arithmetic_v<T> && std::is_same_v<R, Range>) {
-      if (static_cast<double>(field) >= range.min && static_cast<double>(field) <= range.max)
-        return;
+      if (Contains(range, static_cast<double>(field))) return;
       const Border border = PersonBorder(unit);
-      throw Error(Code::kBadArgument,
-                  fmt::format("option {}{} is {}; it must be between {} and {}", name,
-                              border.suffix, static_cast<double>(field) * border.factor,
-                              range.min * border.factor, range.max * border.factor));
+      throw Error(
+          Code::kBadArgument,
+          fmt::format("option {}{} is {}; it must be {}", name, border.suffix,
+                      static_cast<double>(field) * border.factor, ToString(range, border.factor)));
     }
   }
 };
@@ -107,17 +110,23 @@ nlohmann::json JsonFromOptions(Options options) {
   return json;
 }
 
-// Fields that `json` does not name keep the value they have in `defaults`.
+// Fields that `json` does not name keep their value.
 template <class Options>
-Options OptionsFromJson(const nlohmann::json& json, const std::filesystem::path& file = {},
-                        Options defaults = {}) {
+void ReadOptions(const nlohmann::json& json, const std::filesystem::path& file, Options& options) {
   if (!json.is_object()) throw Error(Code::kBadData, "options must be a JSON object {…}", file);
   internal::JsonReader reader{json, file};
-  defaults.Visit(reader);
+  options.Visit(reader);
   for (const auto& [key, value] : json.items())
     if (!reader.known.contains(key) && key != "schema")
       throw Error(Code::kBadData,
                   fmt::format("option \"{}\" is not known; see --help for the list", key), file);
+}
+
+// Fields that `json` does not name have the value of `defaults`.
+template <class Options>
+Options OptionsFromJson(const nlohmann::json& json, const std::filesystem::path& file = {},
+                        Options defaults = {}) {
+  ReadOptions(json, file, defaults);
   return defaults;
 }
 

@@ -77,9 +77,10 @@ void CheckCuts(const LoadedScene& loaded, SceneFindings& findings) {
                       tissue.name));
       continue;
     }
-    if (loaded.surfaces[i].triangles.empty()) continue;  // said already
+    const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
+    if (surface.triangles.empty()) continue;  // reported by CheckScene
     try {
-      LookAtCuts(tissue, loaded.surfaces[i], findings);
+      LookAtCuts(tissue, surface, findings);
     } catch (const Error& error) {
       findings.errors.push_back(fmt::format("tissue \"{}\": {}", tissue.name, error.sentence()));
     }

@@ -63,6 +63,11 @@ BodySpec BodyOf(const Tissue& tissue, int index, const SurfaceMesh& surface, Tet
   return body;
 }
 
+// Tissues that have a surface entry.
+std::size_t CountOf(const LoadedScene& loaded) {
+  return std::min(loaded.surfaces.size(), loaded.scene.tissues.size());
+}
+
 }  // namespace
 
 BodyPlaces PlacesOf(const Tissue& tissue, const SurfaceMesh& surface) {
@@ -77,44 +82,50 @@ BodyPlaces PlacesOf(const Tissue& tissue, const SurfaceMesh& surface) {
   return places;
 }
 
-std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
-                                    const FileOf& file_of, const std::vector<TissuePreset>& presets,
+std::vector<BodySpec> LivingTissues(const LoadedScene& loaded,
+                                    const std::vector<TissuePreset>& presets,
                                     std::vector<std::string>* messages) {
   std::vector<BodySpec> bodies;
-  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Tissue& tissue = scene.tissues[i];
-    if (tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
+  for (std::size_t i = 0; i < CountOf(loaded); ++i) {
+    const Tissue& tissue = loaded.scene.tissues[i];
+    const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
+    if (tissue.mesh.empty() || surface.triangles.empty()) continue;
     const TissuePreset* preset = FindTissuePreset(presets, tissue.material);
     if (preset == nullptr)
-      throw Error(Code::kBadScene,
-                  fmt::format("{}: there is no tissue preset \"{}\"; choose another material",
-                              tissue.name, tissue.material));
+      throw NamedByScene(
+          Error(Code::kBadScene,
+                fmt::format("{}: there is no tissue preset \"{}\"; choose another material",
+                            tissue.name, tissue.material)),
+          loaded);
     TetReadReport report;
-    const std::filesystem::path file = file_of(tissue.mesh);
-    TetMesh mesh = ReadTetMesh(file, &report);
-    CheckFills(mesh, surfaces[i], tissue.name, file);
+    const std::filesystem::path file = FileOf(loaded, tissue.mesh);
+    try {
+      TetMesh mesh = ReadTetMesh(file, &report);
+      CheckFills(mesh, surface, tissue.name, file);
+      bodies.push_back(BodyOf(tissue, static_cast<int>(i), surface, std::move(mesh), *preset));
+    } catch (const Error& error) {
+      throw NamedByScene(error, loaded);
+    }
     if (messages != nullptr)
       for (const std::string& message : report.messages)
         messages->push_back(tissue.name + ": " + message);
-    bodies.push_back(BodyOf(tissue, static_cast<int>(i), surfaces[i], std::move(mesh), *preset));
   }
   return bodies;
 }
 
-std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh> surfaces,
+std::vector<LayerSpec> LayersOf(const LoadedScene& loaded,
                                 const std::vector<TissuePreset>& presets) {
   std::vector<LayerSpec> layers;
-  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Tissue& tissue = scene.tissues[i];
-    if (surfaces[i].triangles.empty() || !IsThinLayer(tissue, presets)) continue;
+  for (std::size_t i = 0; i < CountOf(loaded); ++i) {
+    const Tissue& tissue = loaded.scene.tissues[i];
+    const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
+    if (surface.triangles.empty() || !IsThinLayer(tissue, presets)) continue;
     const TissuePreset preset =
         WithElasticity(*FindTissuePreset(presets, tissue.material), tissue.elasticity);
     try {
       layers.push_back({tissue.name,
                         static_cast<int>(i),
-                        PlacesOf(tissue, surfaces[i]).surface,
+                        PlacesOf(tissue, surface).surface,
                         {tissue.pose.quaternion, tissue.pose.position},
                         ElasticLayer(preset.material, preset.layer_thickness)});
     } catch (const Error& error) {
@@ -124,16 +135,22 @@ std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh>
   return layers;
 }
 
-std::vector<ImplicitSpec> ImplicitOf(const Scene& scene, std::span<const SurfaceMesh> surfaces) {
+void EnlivenTissues(Session& session, const LoadedScene& loaded,
+                    const std::vector<TissuePreset>& presets, TissuePace pace,
+                    std::vector<std::string>* messages) {
+  session.Enliven(LivingTissues(loaded, presets, messages), pace, LayersOf(loaded, presets));
+}
+
+std::vector<ImplicitSpec> ImplicitOf(const LoadedScene& loaded) {
   std::vector<ImplicitSpec> implicit;
-  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Tissue& tissue = scene.tissues[i];
-    if (!tissue.is_implicit || !tissue.mesh.empty() || surfaces[i].triangles.empty()) continue;
+  for (std::size_t i = 0; i < CountOf(loaded); ++i) {
+    const Tissue& tissue = loaded.scene.tissues[i];
+    const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
+    if (!tissue.is_implicit || !tissue.mesh.empty() || surface.triangles.empty()) continue;
     ImplicitSpec body;
     body.name = tissue.name;
     body.tissue = static_cast<int>(i);
-    BodyPlaces places = PlacesOf(tissue, surfaces[i]);
+    BodyPlaces places = PlacesOf(tissue, surface);
     body.surface = std::move(places.surface);
     body.fixed = std::move(places.fixed);
     body.cuts = std::move(places.cuts);

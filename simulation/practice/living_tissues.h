@@ -2,14 +2,11 @@
 // the scene says otherwise. Frames: each body's own is its tissue's with the scale applied.
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/practice/session.h"
+#include "simulation/scene/loaded_scene.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/body/implicit_body.h"
 #include "simulation/tissue/body/layer_skin.h"
@@ -26,22 +23,24 @@ struct BodyPlaces {
 };
 BodyPlaces PlacesOf(const Tissue& tissue, const SurfaceMesh& surface);
 
-// Where the bytes of an asset lie, by the name that the scene uses.
-using FileOf = std::function<std::filesystem::path(const std::filesystem::path& name)>;
-
-// `surfaces` has one a tissue. What reading a mesh repaired goes to `messages`, a sentence each.
-// Throws Error for a mesh that cannot be read or does not fill its surface and a preset that is not
-// there.
-std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
-                                    const FileOf& file_of, const std::vector<TissuePreset>& presets,
+// Tissues with tetrahedra. Appends one sentence to `messages` per repair that reading a mesh made.
+// Throws Error for a mesh that cannot be read or does not fill its surface, and for a preset that
+// does not exist.
+std::vector<BodySpec> LivingTissues(const LoadedScene& loaded,
+                                    const std::vector<TissuePreset>& presets,
                                     std::vector<std::string>* messages = nullptr);
 
-// The tissues that give way as thin layers: those without tetrahedra whose preset is thin, with
-// what the scene says otherwise. Throws Error for values that are none of a layer.
-std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh> surfaces,
+// Tissues that give way as thin layers: those without tetrahedra whose preset is thin, with the
+// scene's own elasticity. Throws Error for values that no layer can have.
+std::vector<LayerSpec> LayersOf(const LoadedScene& loaded,
                                 const std::vector<TissuePreset>& presets);
 
-// The tissues that the scene calls implicit and that have no tetrahedra.
-std::vector<ImplicitSpec> ImplicitOf(const Scene& scene, std::span<const SurfaceMesh> surfaces);
+// Makes the tissues with tetrahedra and the thin layers of `loaded` live in its `session`.
+void EnlivenTissues(Session& session, const LoadedScene& loaded,
+                    const std::vector<TissuePreset>& presets, TissuePace pace,
+                    std::vector<std::string>* messages = nullptr);
+
+// Tissues without tetrahedra that the scene calls implicit.
+std::vector<ImplicitSpec> ImplicitOf(const LoadedScene& loaded);
 
 }  // namespace arthro::simulation

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/device/recorded_device.h"
+#include "simulation/practice/living_tissues.h"
 #include "simulation/practice/servo_loop.h"
 
 namespace arthro::simulation {
@@ -73,18 +74,18 @@ std::string CsvField(const std::string& name) {
 
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options, const Progress& progress,
-                             ReplayReport* report, std::vector<BodySpec> bodies,
-                             std::vector<LayerSpec> layers, const ReplayWatch& watch) {
+                             ReplayReport* report, const std::vector<TissuePreset>& presets,
+                             const ReplayWatch& watch) {
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
   Session session(loaded, options);
-  session.Enliven(std::move(bodies), TissuePace::kInline, std::move(layers));
+  ReplayReport counts;
+  EnlivenTissues(session, loaded, presets, TissuePace::kInline, &counts.messages);
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
   ServoOptions servo_options;
   servo_options.period_without_force = kServoPeriod;
   ServoLoop servo(session, &scope, &instrument, servo_options);
-  ReplayReport counts;
   const WorldPicture* world = session.tissues();
   const auto tick = [&](double t, double dt) {
     servo.TickOnce(t, dt);

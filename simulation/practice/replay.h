@@ -12,6 +12,7 @@
 #include "simulation/core/progress.h"
 #include "simulation/device/trace_io.h"
 #include "simulation/practice/session.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::simulation {
 
@@ -51,18 +52,19 @@ struct ReplayReport {
   std::array<HandReport, 2> hand;        // by DeviceRole
   double tick_median = 0, tick_p99 = 0;  // s, without tissue, to 1/32 of their value
   std::vector<TissueReport> tissues;     // deformable tissues
+  std::vector<std::string> messages;     // repairs made while reading tetrahedra, one sentence each
 };
 
 // Called after each tick, which is at `t` in s. `world` is null where no tissue deforms.
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
 
-// `bodies` and `layers` are the deformable tissues, from LivingTissues and LayersOf; the others are
-// rigid. Tissues step inline.
+// Tissues deform by their `presets` and step inline; without presets all of them are rigid.
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options = {}, const Progress& progress = {},
-                             ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
-                             std::vector<LayerSpec> layers = {}, const ReplayWatch& watch = {});
+                             ReplayReport* report = nullptr,
+                             const std::vector<TissuePreset>& presets = {},
+                             const ReplayWatch& watch = {});
 
 // Text of forces.csv [method.md, File formats]: contact none|backdrop|tissue name, fault none|…; a
 // tool over no pixel has u_px and v_px nan.

@@ -41,9 +41,12 @@ glm::dvec2 PixelOrNan(const Projection& projection, const glm::dvec3& direction)
   return PixelFromDirection(projection, direction).value_or(glm::dvec2(kNan));
 }
 
-DepthField FieldOf(const LoadedScene& loaded, const DepthFieldOptions& options) {
-  if (!loaded.depth.empty()) return {loaded.scene.backdrop, loaded.depth, options};
-  return {loaded.scene.backdrop, loaded.panorama.width, loaded.panorama.height, options};
+std::shared_ptr<const DepthField> MakeField(const LoadedScene& loaded,
+                                            const DepthFieldOptions& options) {
+  const Backdrop& backdrop = loaded.scene.backdrop;
+  if (loaded.depth) return std::make_shared<const DepthField>(backdrop, *loaded.depth, options);
+  const ColourImage& panorama = OrEmpty(loaded.panorama);
+  return std::make_shared<const DepthField>(backdrop, panorama.width, panorama.height, options);
 }
 
 // m/N, how far a tip goes into living tissue for a force on it; 0: nothing is known.
@@ -96,24 +99,21 @@ class BackdropObstacle : public RigidObstacle {
 }  // namespace
 
 Session::Session(const LoadedScene& loaded, const SessionOptions& options)
-    : Session(loaded.scene, FieldOf(loaded, options.depth), loaded.surfaces, options) {}
-
-Session::Session(const Scene& scene, DepthField field, std::span<const SurfaceMesh> surfaces,
-                 const SessionOptions& options)
     : options_(options),
-      field_(std::make_shared<const DepthField>(std::move(field))),
-      projection_(scene.backdrop.projection),
-      radius_(scene.backdrop.radius),
-      spacing_(scene.portals.incision_spacing),
-      view_angle_(scene.scope.view_angle) {
+      field_(MakeField(loaded, options.depth)),
+      projection_(loaded.scene.backdrop.projection),
+      radius_(loaded.scene.backdrop.radius),
+      spacing_(loaded.scene.portals.incision_spacing),
+      view_angle_(loaded.scene.scope.view_angle) {
+  const Scene& scene = loaded.scene;
   scope_.rig = scene.rig.scope;
-  scope_.rig.rod_length = scene.scope.rod_length;
   instrument_.rig = scene.rig.instrument;
-  const std::size_t count = std::min(surfaces.size(), scene.tissues.size());
-  for (std::size_t i = 0; i < count; ++i) meshes_.emplace_back(surfaces[i], scene.tissues[i].pose);
+  const std::size_t count = std::min(loaded.surfaces.size(), scene.tissues.size());
+  for (std::size_t i = 0; i < count; ++i)
+    meshes_.emplace_back(OrEmpty(loaded.surfaces[i]), scene.tissues[i].pose);
   away_.resize(count);
   is_live_.assign(count, 0);
-  std::vector<ImplicitSpec> implicit = ImplicitOf(scene, surfaces);
+  std::vector<ImplicitSpec> implicit = ImplicitOf(loaded);
   implicit_.reserve(implicit.size());
   for (ImplicitSpec& spec : implicit) {
     const auto i = static_cast<std::size_t>(spec.tissue);

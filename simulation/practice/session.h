@@ -19,9 +19,7 @@
 #include "simulation/practice/session_options.h"
 #include "simulation/practice/snapshot.h"
 #include "simulation/practice/tissue_loop.h"
-#include "simulation/scene/scene.h"
-#include "simulation/scene/scene_io.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/loaded_scene.h"
 #include "simulation/tissue/body/tool_on_layers.h"
 #include "simulation/tissue/contact/coupling.h"
 
@@ -29,14 +27,10 @@ namespace arthro::simulation {
 
 class Session {
  public:
-  // With no depth map the bare sphere is felt where the panorama lies. A tissue with an empty
-  // surface is not felt; one that the scene calls implicit is sampled and touched as a function,
-  // and must be closed: throws Error(kBadMesh). Copies what it needs; `loaded` may go.
+  // Without a depth map the bare sphere is felt where the panorama lies. A tissue without a surface
+  // is not felt. A tissue that the scene calls implicit is sampled and touched as a function; its
+  // surface must be closed: throws Error(kBadMesh). Copies what it needs from `loaded`.
   explicit Session(const LoadedScene& loaded, const SessionOptions& options = {});
-
-  // From parts, for an author's poke: `surfaces` has one mesh a tissue, in the tissue's own frame.
-  Session(const Scene& scene, DepthField field, std::span<const SurfaceMesh> surfaces,
-          const SessionOptions& options = {});
 
   // Advances the session by dt. A sample that repeats its t grows older by dt each tick; after
   // max_sample_age its device gets no force. Call for fresh samples each tick.

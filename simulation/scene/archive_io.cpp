@@ -204,7 +204,7 @@ std::vector<std::string> FilesOf(const fs::path& scene) {
 void RequireWhole(const fs::path& scene) {
   const LoadedScene loaded = LoadScene(scene);
   for (const Tissue& tissue : loaded.scene.tissues)
-    if (!tissue.mesh.empty()) ReadTetMesh(loaded.folder / tissue.mesh);
+    if (!tissue.mesh.empty()) ReadTetMesh(FileOf(loaded, tissue.mesh));
 }
 
 }  // namespace

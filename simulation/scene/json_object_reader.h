@@ -65,6 +65,7 @@ class JsonObjectReader {
   // A fault of `name` in this object; the sentence follows the key.
   void Fault(const std::string& name, const std::string& sentence);
   bool Has(const char* name) const { return json_.contains(name); }
+  bool IsText(const char* name) const { return Has(name) && json_.at(name).is_string(); }
   std::string KeyOf(const std::string& name) const;
 
  private:

@@ -12,6 +12,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/core/options.h"
+
 namespace arthro {
 
 enum class ProjectionType { kGnomonic, kEquirectangular };
@@ -21,6 +23,23 @@ struct Projection {
   glm::dvec2 centre_px{0.0};
   double focal_px = 1000.0;  // gnomonic
   double px_per_deg = 10.0;  // equirectangular
+  friend bool operator==(const Projection&, const Projection&) = default;
+
+  template <class V>
+  void Visit(V&& v) {
+    constexpr Range kPixel{-1e6, 1e6};  // the centre may lie far outside of the picture
+    v("type", type,
+      Required{Choices<ProjectionType>{{{ProjectionType::kGnomonic, "gnomonic"},
+                                        {ProjectionType::kEquirectangular, "equirectangular"}}}},
+      "", "How directions map to pixels.");
+    v("centre_px", centre_px, Required{kPixel}, "px", "Pixel straight ahead of the portal.");
+    v("focal_px", focal_px,
+      OnlyIf{type == ProjectionType::kGnomonic, Required{Range{0, 1e6, true}}}, "px",
+      "Focal length.");
+    v("px_per_deg", px_per_deg,
+      OnlyIf{type == ProjectionType::kEquirectangular, Required{Range{0, 1e5, true}}}, "px/deg",
+      "Pixels per degree of longitude and latitude.");
+  }
 };
 
 // Nothing where the projection has no pixel: at a right angle to a gnomonic picture's axis and

@@ -10,7 +10,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
-#include "simulation/scene/scene_limits.h"
+#include "simulation/scene/field_json.h"
 
 namespace arthro {
 namespace {
@@ -96,10 +96,10 @@ void ReadRole(Reader& rig, const char* name, std::optional<RigRole>& role) {
     RigRole& own = role.emplace();
     ReadDevice(reader, own.device, true);
     reader.Number("rod_length", own.mount.rod_length, kRod, Reader::kRequired);
-    reader.Point("pivot", own.mount.pivot, kCoordinate);
+    reader.Point("pivot", own.mount.pivot, LimitsInFile(kCoordinate, "m"));
     reader.Quaternion("portal_from_device", own.mount.portal_from_device);
     double to_incision = 0;
-    reader.Number("hand_to_incision", to_incision, kLength);
+    reader.Number("hand_to_incision", to_incision, LimitsInFile(kLength, "m"));
     reader.Number("max_force", own.max_force, kForce);
     reader.Number("max_stiffness", own.max_stiffness, kStiffness);
     ReadButtons(reader, own.buttons);

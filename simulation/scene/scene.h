@@ -1,7 +1,7 @@
-// The scene: all that a practice session needs, as plain values [method.md, Scene]. Lengths in
-// metres, angles in radians, positions in the portal frame unless a name says otherwise. Paths are
-// relative to the scene's folder. Read, written and checked by scene_io.h; nothing here touches a
-// file.
+// Scene: the values that a practice session needs [method.md, Scene]. Lengths in m, angles in rad,
+// positions in the portal frame unless a name says otherwise. Paths are relative to the scene's
+// folder. Each Visit lists the fields once, in the order of scene.json: name, rule, unit, help
+// (simulation/core/options.h). Reader, writer, schema, flags and panels use that list.
 #pragma once
 
 #include <filesystem>
@@ -15,84 +15,190 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
+#include "simulation/core/options.h"
+#include "simulation/scene/elasticity.h"
 #include "simulation/scene/projection.h"
+#include "simulation/scene/scene_limits.h"
 #include "simulation/scene/tissue_parts.h"
 
 namespace arthro {
 
-// Who made an asset, under which licence, and by whose consent it may be used.
+// Origin of an asset, its licence, and the consent to its use.
 struct AssetRights {
   std::string source, licence, consent;
+  friend bool operator==(const AssetRights&, const AssetRights&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("source", source, Any{}, "", "Who made it, or where it comes from.");
+    v("licence", licence, Any{}, "", "Licence under which it may be used.");
+    v("consent", consent, Any{}, "", "Consent of the patient.");
+  }
 };
 
 struct Backdrop {
-  std::filesystem::path panorama;  // 8-bit colour
-  std::filesystem::path depth;     // 32-bit float TIFF, same size; empty: a bare sphere
-  double radius = 0.05;            // D, of the sphere about the scope portal
+  std::filesystem::path panorama, depth;  // no depth: a bare sphere
+  double radius = 0.05;                   // D, of the sphere about the scope portal
   Projection projection;
   AssetRights rights;
-  // 0 to 1: how far the light of the footage is evened out and the scope's own put in its place.
   double relight = 0;
+  friend bool operator==(const Backdrop&, const Backdrop&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("panorama", panorama, Required{Any{}}, "", "8-bit colour picture.");
+    v("depth", depth, Any{}, "",
+      "One-channel 32-bit float TIFF of the panorama's size: relief over the sphere towards the "
+      "portal, in metres; NaN where nothing was imaged.");
+    v("radius", radius, kLength, "m", "Radius of the sphere about the scope portal.");
+    v("relight", relight, LeftOutAt{0.0, kShare}, "",
+      "0: as it was filmed, with its light. 1: that light is evened out, and the scope's own lamp "
+      "lights what is near, with wet highlights.");
+    v("projection", projection, Required{Any{}}, "", "Pixel of the panorama for a direction.");
+    v("rights", rights, Any{}, "", "Rights in the panorama.");
+  }
 };
 
 struct ScopeSpec {
   double view_angle = std::numbers::pi / 6;     // α
   double field_of_view = std::numbers::pi / 2;  // full
-  double rod_length = 0.2;                      // L, hand to tip
   std::filesystem::path lens;                   // empty: equisolid
+  friend bool operator==(const ScopeSpec&, const ScopeSpec&) = default;
+  // The file keeps the length of the scope's rod here; in memory the scope's rig has it.
+  template <class V>
+  void Visit(V&& v, double* rod_length = nullptr) {
+    v("view_angle", view_angle, Range{0, RadiansFromDegrees(120)}, "rad",
+      "Angle between the rod and the view.");
+    v("field_of_view", field_of_view, Range{0, RadiansFromDegrees(180), true}, "rad",
+      "Full angle of the round picture, from edge to edge.");
+    if (rod_length != nullptr)
+      v("rod_length", *rod_length, kLength, "m", "From the hand to the lens.");
+    v("lens", lens, Any{}, "", "lens.json of the scope; equisolid if not given.");
+  }
 };
 
 struct Portals {
-  double incision_spacing = 0.03;  // instrument portal at (spacing, 0, 0); negative: on the left
+  double incision_spacing = 0.03;  // instrument portal at (spacing, 0, 0)
+  friend bool operator==(const Portals&, const Portals&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("incision_spacing", incision_spacing, kCoordinate, "m",
+      "From the scope's portal to the instrument's; negative when the instrument enters on the "
+      "left.");
+  }
 };
 
-// How one device's own frame lies in its portal's, and the rod that is mounted on it.
+// Pose of a device's frame in its portal's frame, and the rod that is mounted on the device.
 struct DeviceRig {
   glm::dvec3 pivot{0.0};                              // in the device frame
   glm::dquat portal_from_device{1.0, 0.0, 0.0, 0.0};  // w, x, y, z
-  double rod_length = 0.2;                            // of the scope: as ScopeSpec::rod_length
+  double rod_length = 0.2;                            // L, hand to tip
   friend bool operator==(const DeviceRig&, const DeviceRig&) = default;
+  template <class V>
+  void Visit(V&& v, bool has_rod = true) {
+    v("pivot", pivot, kCoordinate, "m", "Incision in the device frame.");
+    v("portal_from_device", portal_from_device, Any{}, "",
+      "Rotation [w, x, y, z] from the device frame to the portal's.");
+    if (has_rod) v("rod_length", rod_length, kLength, "m", "From the hand to the tip.");
+  }
 };
 
 struct Rig {
   DeviceRig scope, instrument;
+  friend bool operator==(const Rig&, const Rig&) = default;
 };
 
-// What of a tissue's preset this scene says otherwise, under the names of CASE.json; SI.
-struct Elasticity {
-  std::optional<double> young_modulus;    // Pa
-  std::optional<double> poisson_ratio;    // under 0.5
-  std::optional<double> density;          // kg/m³
-  std::optional<double> fibre_stiffness;  // Pa
-  std::string fibre_axis;                 // "none", "circumferential_z"; empty: the preset's
-  std::optional<double> layer_thickness;  // m, of a thin layer on bone
-  friend bool operator==(const Elasticity&, const Elasticity&) = default;
+// Parts of scene.json that lie otherwise in memory: the scope's rod length stands in "scope".
+struct ScopeInFile {
+  ScopeSpec& scope;
+  double& rod_length;
+  template <class V>
+  void Visit(V&& v) {
+    scope.Visit(v, &rod_length);
+  }
 };
+struct MountInFile {
+  DeviceRig& rig;
+  template <class V>
+  void Visit(V&& v) {
+    rig.Visit(v, false);
+  }
+};
+struct RigInFile {
+  Rig& rig;
+  template <class V>
+  void Visit(V&& v) {
+    MountInFile mount{rig.scope};
+    v("scope", mount, Any{}, "", "Device of the scope.");
+    v("instrument", rig.instrument, Any{}, "", "Device of the instrument.");
+  }
+};
+
+// Contacts in forces.csv are told by these words or by a tissue's name [method.md, File formats].
+inline constexpr const char* kContactWords[] = {"none", "backdrop"};
 
 struct Tissue {
   std::string name;
-  std::filesystem::path surface;        // closed surface, in the tissue's own frame
-  std::filesystem::path mesh;           // VTU; empty: it does not deform as a volume
-  Pose pose;                            // portal_from_tissue
-  std::string material = "meniscus";    // preset name
-  Elasticity elasticity;                // where it differs from the preset
-  std::vector<Ball> fixed;              // where it is held: what lies inside does not move
-  std::vector<Ball> probed;             // where it is touched most: meshes are finer there
-  std::vector<Cut> cuts;                // made before anybody touches it
-  std::vector<Region> regions;          // of the first that holds it, what is taken is told
-  bool is_cuttable = true;              // instruments may take of it
-  bool is_implicit = false;             // touched as a sampled function [paper, 3.4]; no mesh then
+  std::filesystem::path surface;      // in the tissue's own frame
+  std::filesystem::path mesh;         // empty: it does not deform as a volume
+  Pose pose;                          // portal_from_tissue
+  std::string material = "meniscus";  // name of a preset
+  Elasticity elasticity;
+  std::vector<Ball> fixed, probed;
+  std::vector<Cut> cuts;
+  std::vector<Region> regions;
+  bool is_cuttable = true;
+  bool is_implicit = false;
   glm::dvec3 colour{0.93, 0.90, 0.84};  // linear RGB
   AssetRights rights;
+  friend bool operator==(const Tissue&, const Tissue&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("name", name, Name{kContactWords, "force records use for something else", true}, "",
+      "Name of the tissue.");
+    v("surface", surface, Required{Any{}}, "",
+      "Closed triangle surface, in metres, in the tissue's own frame.");
+    v("mesh", mesh, Any{}, "", "VTU of its tetrahedra, in metres.");
+    v("pose", pose, Any{}, "", "Portal from tissue: scale, then quaternion, then position.");
+    v("material", material, Always{Any{}}, "", "Name of a preset.");
+    v("elasticity", elasticity, Any{}, "", "Values that differ from the preset's.");
+    v("fixed", fixed, Any{}, "",
+      "Balls in the tissue's own frame that hold it: nodes inside do not move.");
+    v("probed", probed, Any{}, "",
+      "Balls in the tissue's own frame where it is touched most: its mesh is finer there.");
+    v("cuts", cuts, Any{}, "",
+      "Cuts of the author, in the tissue's own frame at rest; a session begins with these made.");
+    v("regions", regions, Any{}, "",
+      "Balls in the tissue's own frame. Removed volume is counted for the first that holds it.");
+    v("cuttable", is_cuttable, LeftOutAt{true, Any{}}, "", "Whether instruments may cut it.");
+    v("implicit", is_implicit, LeftOutAt{false, Any{}}, "",
+      "Whether it is touched as a function sampled from its surface [paper, 3.4]; not together "
+      "with a mesh.");
+    v("colour", colour, kShare, "", "Linear red, green, blue.");
+    v("rights", rights, Any{}, "", "Rights in the surface.");
+  }
 };
+
+inline constexpr const char* kInstrumentKinds[] = {"probe", "punch", "shaver", "grasper"};
 
 struct Instrument {
   std::string name = "probe";
-  std::string kind = "probe";  // "probe", "punch", "shaver" or "grasper"
+  std::string kind = "probe";
+  friend bool operator==(const Instrument&, const Instrument&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("name", name, Required{Any{}}, "", "Name of the instrument.");
+    v("kind", kind, Words{kInstrumentKinds}, "", "Kind of the instrument.");
+  }
 };
 
 struct Task {
   std::string id, title, text;
+  friend bool operator==(const Task&, const Task&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("id", id, Name{}, "", "Short name of the task.");
+    v("title", title, Any{}, "", "Title of the task.");
+    v("text", text, Any{}, "", "What the trainee is asked to do.");
+  }
 };
 
 struct Scene {
@@ -104,8 +210,23 @@ struct Scene {
   std::vector<Tissue> tissues;
   std::vector<Instrument> instruments;
   std::vector<Task> tasks;
-  // What other tools keep at the top of scene.json: key ("x-…") to JSON text, saved as it came.
+  // Top-level keys of other tools: key ("x-…") to JSON text, saved unchanged.
   std::map<std::string, std::string> extensions;
+  friend bool operator==(const Scene&, const Scene&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    v("title", title, Any{}, "", "Title of the scene.");
+    v("author", author, Any{}, "", "Author of the scene.");
+    v("backdrop", backdrop, Required{Any{}}, "", "Panorama and its place.");
+    ScopeInFile scope_in_file{scope, rig.scope.rod_length};
+    v("scope", scope_in_file, Any{}, "", "Arthroscope.");
+    v("portals", portals, Any{}, "", "Incisions.");
+    RigInFile rig_in_file{rig};
+    v("rig", rig_in_file, Any{}, "", "Mount of each device on its incision.");
+    v("tissues", tissues, Any{}, "", "Tissues.");
+    v("instruments", instruments, Any{}, "", "Instruments.");
+    v("tasks", tasks, Any{}, "", "Tasks.");
+  }
 };
 
 }  // namespace arthro

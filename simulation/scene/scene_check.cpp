@@ -10,7 +10,6 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/archive_io.h"
 #include "simulation/scene/held_nodes.h"
 #include "simulation/scene/mesh_io.h"
 
@@ -49,7 +48,7 @@ std::string FieldOfPanorama(const Projection& projection, int width, int height)
 }
 
 void LookAtPanorama(const LoadedScene& loaded, SceneFindings& findings) {
-  const ColourImage& panorama = loaded.panorama;
+  const ColourImage& panorama = OrEmpty(loaded.panorama);
   const Projection& projection = loaded.scene.backdrop.projection;
   if (panorama.empty()) return;
   const bool is_gnomonic = projection.type == ProjectionType::kGnomonic;
@@ -68,7 +67,7 @@ void LookAtPanorama(const LoadedScene& loaded, SceneFindings& findings) {
 }
 
 void LookAtDepth(const LoadedScene& loaded, SceneFindings& findings) {
-  const DepthMap& depth = loaded.depth;
+  const DepthMap& depth = OrEmpty(loaded.depth);
   const double radius = loaded.scene.backdrop.radius;
   if (depth.empty()) {
     if (loaded.scene.backdrop.depth.empty())
@@ -138,8 +137,9 @@ void LookAtTissue(const LoadedScene& loaded, std::size_t index, const IsThinLaye
   const std::string what = fmt::format("tissue \"{}\"", tissue.name);
   LookAtRights(what, tissue.rights, findings);
   LookAtKind(tissue, what, is_layer, findings);
-  if (index >= loaded.surfaces.size() || loaded.surfaces[index].triangles.empty()) return;
-  const SurfaceMesh& surface = loaded.surfaces[index];
+  if (index >= loaded.surfaces.size()) return;
+  const SurfaceMesh& surface = OrEmpty(loaded.surfaces[index]);
+  if (surface.triangles.empty()) return;
   glm::dvec3 least(INFINITY), most(-INFINITY);
   std::size_t outside = 0;
   for (const glm::dvec3& vertex : surface.vertices) {
@@ -222,7 +222,7 @@ void LookAtScope(const Scene& scene, SceneFindings& findings) {
   findings.found.push_back(
       fmt::format("scope: {:g} degrees oblique, field of view {:g} degrees, rod of {:g} mm",
                   DegreesFromRadians(scene.scope.view_angle),
-                  DegreesFromRadians(scene.scope.field_of_view), Mm(scene.scope.rod_length)));
+                  DegreesFromRadians(scene.scope.field_of_view), Mm(scene.rig.scope.rod_length)));
   const double spacing = scene.portals.incision_spacing, radius = scene.backdrop.radius;
   findings.found.push_back(fmt::format("portals: instrument {:g} mm to the {} of the scope",
                                        Mm(std::abs(spacing)), spacing < 0 ? "left" : "right"));
@@ -231,7 +231,7 @@ void LookAtScope(const Scene& scene, SceneFindings& findings) {
         fmt::format("the instrument's portal, {:g} mm from the scope's, lies outside the "
                     "backdrop's sphere of {:g} mm",
                     Mm(std::abs(spacing)), Mm(radius)));
-  for (const auto& [length, what] : {std::pair{scene.scope.rod_length, "scope"},
+  for (const auto& [length, what] : {std::pair{scene.rig.scope.rod_length, "scope"},
                                      std::pair{scene.rig.instrument.rod_length, "instrument"}})
     if (length < radius)
       findings.warnings.push_back(
@@ -268,12 +268,11 @@ SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* what,
   LoadedScene loaded = LoadScene(scene, errors);
   SceneFindings findings = CheckScene(loaded, is_layer);
   const auto named = [&](const Error& error) -> std::string {
-    return loaded.archive.empty() ? error.what()
-                                  : NamedByArchive(error, loaded.folder, loaded.archive).what();
+    return NamedByScene(error, loaded).what();
   };
   for (const Tissue& tissue : loaded.scene.tissues) {
     std::error_code ignored;
-    const std::filesystem::path file = loaded.folder / tissue.mesh;
+    const std::filesystem::path file = FileOf(loaded, tissue.mesh);
     if (tissue.mesh.empty() || !std::filesystem::exists(file, ignored)) continue;
     try {
       TetReadReport report;

@@ -26,7 +26,7 @@ using nlohmann::json;
 // scene.json is written by hand or by this program; a larger one is some other file.
 constexpr std::size_t kMaxBytes = 16u << 20;
 
-json ParseScene(const fs::path& file) {
+std::string ReadSceneText(const fs::path& file) {
   std::string text;
   try {
     text = ReadWholeFile(file, kMostJsonBytes);
@@ -35,13 +35,18 @@ json ParseScene(const fs::path& file) {
   }
   if (text.size() > kMaxBytes)
     throw Error(Code::kBadScene, "this is too large to be a scene.json; check the name", file);
-  return ParseJson(text, Code::kBadScene, file);
+  return text;
 }
 
+// Each fault begins with its line in the file.
 Scene ReadSceneFile(const fs::path& file, std::vector<JsonFault>& faults) {
-  json parsed = ParseScene(file);
+  const std::string text = ReadSceneText(file);
+  json parsed = ParseJson(text, Code::kBadScene, file);
   MigrateScene(parsed, file);
-  return SceneFromJson(parsed, faults);
+  Scene scene = SceneFromJson(std::move(parsed), faults);
+  for (JsonFault& fault : faults)
+    fault.sentence = fmt::format("line {}: {}", LineOfKey(text, fault.key), fault.sentence);
+  return scene;
 }
 
 void ThrowFirst(const std::vector<JsonFault>& faults, const fs::path& file) {
@@ -91,18 +96,18 @@ Scene ReadScene(const fs::path& scene) {
 
 namespace {
 
-// `archive`: what the folder was unpacked from, for messages; or empty.
-LoadedScene LoadFolder(const fs::path& scene, const fs::path& archive,
+// `unpacked`: folder into which the archive `scene` was unpacked; null for a scene folder.
+LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFolder> unpacked,
                        std::vector<std::string>& faults) {
   LoadedScene loaded;
-  loaded.archive = archive;
-  const fs::path file = SceneFile(scene);
-  loaded.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const fs::path file = SceneFile(unpacked ? unpacked->path() : scene);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  loaded.folder = unpacked ? scene : folder;
+  loaded.unpacked = std::move(unpacked);
   const auto keep = [&](const Error& error) {
-    faults.push_back(archive.empty() ? error.what()
-                                     : NamedByArchive(error, loaded.folder, archive).what());
+    faults.push_back(NamedByScene(error, loaded).what());
   };
-  // Each part on its own, so that one bad file does not hide the next.
+  // Reads each part on its own, so that one bad file does not hide the next.
   const auto attempt = [&](const auto& part) {
     try {
       part();
@@ -119,30 +124,38 @@ LoadedScene LoadFolder(const fs::path& scene, const fs::path& archive,
     if (name.empty()) return;
     attempt([&] {
       std::error_code ignored;
-      if (!fs::is_regular_file(loaded.folder / name, ignored))
+      if (!fs::is_regular_file(folder / name, ignored))
         throw Error(Code::kBadScene,
                     fmt::format("{} names \"{}\", which is not in the scene's folder; put it there "
                                 "or mend the name",
                                 key, name.generic_string()),
                     file);
-      read(loaded.folder / name);
+      AssetFile& asset = loaded.files[name.generic_string()];
+      asset.file = fs::absolute(folder / name);
+      asset.part = read(folder / name);
     });
   };
   const Backdrop& backdrop = loaded.scene.backdrop;
-  named("backdrop.panorama", backdrop.panorama,
-        [&](const fs::path& path) { loaded.panorama = ReadColourImage(path); });
-  named("backdrop.depth", backdrop.depth, [&](const fs::path& path) {
-    loaded.depth = ReadDepthMap(path);
-    if (!loaded.panorama.empty()) RequireSameSize(loaded.panorama, loaded.depth, path);
+  using Part = std::shared_ptr<const void>;
+  named("backdrop.panorama", backdrop.panorama, [&](const fs::path& path) -> Part {
+    return loaded.panorama = Share(ReadColourImage(path));
   });
-  named("scope.lens", loaded.scene.scope.lens,
-        [&](const fs::path& path) { loaded.lens = ReadLens(path); });
+  named("backdrop.depth", backdrop.depth, [&](const fs::path& path) -> Part {
+    loaded.depth = Share(ReadDepthMap(path));
+    if (loaded.panorama) RequireSameSize(*loaded.panorama, *loaded.depth, path);
+    return loaded.depth;
+  });
+  named("scope.lens", loaded.scene.scope.lens, [&](const fs::path& path) -> Part {
+    loaded.lens = ReadLens(path);
+    return nullptr;
+  });
   for (std::size_t i = 0; i < loaded.scene.tissues.size(); ++i) {
     const Tissue& tissue = loaded.scene.tissues[i];
-    SurfaceMesh& surface = loaded.surfaces.emplace_back();
+    SharedSurface& surface = loaded.surfaces.emplace_back();
     named(fmt::format("tissues[{}].surface", i), tissue.surface,
-          [&](const fs::path& path) { surface = ReadSurface(path, 1.0); });
-    named(fmt::format("tissues[{}].mesh", i), tissue.mesh, [](const fs::path&) {});
+          [&](const fs::path& path) -> Part { return surface = Share(ReadSurface(path, 1.0)); });
+    named(fmt::format("tissues[{}].mesh", i), tissue.mesh,
+          [](const fs::path&) -> Part { return nullptr; });
   }
   return loaded;
 }
@@ -150,13 +163,12 @@ LoadedScene LoadFolder(const fs::path& scene, const fs::path& archive,
 }  // namespace
 
 LoadedScene LoadScene(const fs::path& scene, std::vector<std::string>& faults) {
-  if (!IsArchive(scene)) return LoadFolder(scene, {}, faults);
+  if (!IsArchive(scene)) return LoadFolder(scene, nullptr, faults);
   LoadedScene loaded;
   try {
     const auto folder = std::make_shared<const TemporaryFolder>();
     UnpackScene(scene, folder->path());
-    loaded = LoadFolder(folder->path(), scene, faults);
-    loaded.unpacked = folder;
+    loaded = LoadFolder(scene, folder, faults);
   } catch (const Error& error) {
     faults.push_back(error.what());
   }

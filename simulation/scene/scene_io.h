@@ -5,40 +5,23 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "simulation/scene/image.h"
-#include "simulation/scene/lens.h"
-#include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/loaded_scene.h"
 
 namespace arthro {
 
-struct LoadedScene {
-  Scene scene;
-  std::filesystem::path folder;  // what the scene's paths are relative to
-  ColourImage panorama;
-  DepthMap depth;                     // same size as the panorama, or empty: a bare sphere
-  std::vector<SurfaceMesh> surfaces;  // one a tissue, in its own frame, m
-  // Holds the folder that an archive was unpacked into, for as long as its files may be read.
-  std::shared_ptr<const void> unpacked;
-  std::filesystem::path archive;  // that was unpacked, for messages (NamedByArchive); or empty
-  std::optional<Lens> lens;       // of the scope; nothing: equisolid
-};
-
-// The values alone, checked. Older versions are brought up to date in memory; a newer one is
-// refused by name. Of several faults the first is told, with how many more there are.
+// Values of scene.json alone, checked. An older version is migrated in memory; a newer one is
+// refused by name. The message states the first fault and the number of further faults.
 Scene ReadScene(const std::filesystem::path& scene);
 
-// The scene with its pictures and surfaces; all files that it names are there, and sizes fit.
-// Tetrahedra are read by those who use them.
+// Scene with its pictures and surfaces. All files that it names exist, and picture sizes agree.
+// Tetrahedra are read where they are used (simulation/practice/living_tissues.h).
 LoadedScene LoadScene(const std::filesystem::path& scene);
 
-// The same, with every fault as a sentence of its own instead of an exception, so that an author
-// can mend all of them at once. With faults, `loaded` holds what could be read.
+// The same, but appends one sentence per fault to `faults` instead of throwing, so that an author
+// can correct all of them at once. The result holds all parts that could be read.
 LoadedScene LoadScene(const std::filesystem::path& scene, std::vector<std::string>& faults);
 
 // Writes scene.json, wholly or not at all; a scene that could not be read back is refused before

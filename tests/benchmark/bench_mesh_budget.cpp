@@ -147,7 +147,7 @@ struct Body {
 void Run(test::BenchReport& bench) {
   const LoadedScene loaded = LoadScene(fs::path(ARTHRO_SOURCE_DIR) / "resources/demo");
   const Tissue& tissue = loaded.scene.tissues.at(0);
-  const SurfaceMesh& surface = loaded.surfaces.at(0);
+  const SurfaceMesh& surface = *loaded.surfaces.at(0);
   const simulation::Material material =
       simulation::FindTissuePreset(fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues",
                                    tissue.material)

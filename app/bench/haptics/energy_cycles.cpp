@@ -108,8 +108,8 @@ LoadedScene SceneOver(ProjectionType type, int width, int height, DepthMap map) 
   loaded.scene.backdrop.radius = kRadius;
   loaded.scene.backdrop.projection = ProjectionOf(type, width, height);
   loaded.scene.portals.incision_spacing = kSpacing;
-  loaded.panorama = ColourImage(width, height);
-  loaded.depth = std::move(map);
+  loaded.panorama = Share(ColourImage(width, height));
+  loaded.depth = Share(std::move(map));
   return loaded;
 }
 
@@ -158,7 +158,7 @@ CycleHand::CycleHand(const CycleGround& ground)
     : radius_(ground.loaded.scene.backdrop.radius),
       spacing_(ground.loaded.scene.portals.incision_spacing),
       projection_(ground.loaded.scene.backdrop.projection),
-      size_px_(ground.loaded.panorama.width, ground.loaded.panorama.height),
+      size_px_(ground.loaded.panorama->width, ground.loaded.panorama->height),
       session_(ground.loaded) {}
 
 EnergyCycle CycleHand::Go(std::uint64_t number) {

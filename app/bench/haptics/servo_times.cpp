@@ -106,10 +106,10 @@ LoadedScene TouchScene(const AnalyticRelief& relief, bool has_mesh) {
   LoadedScene loaded;
   loaded.scene.backdrop = relief.backdrop;
   loaded.scene.portals.incision_spacing = 0.03;
-  loaded.depth = relief.Float();
+  loaded.depth = Share(relief.Float());
   if (has_mesh) {
     loaded.scene.tissues.emplace_back();
-    loaded.surfaces.push_back(HalfTheWaves(relief));
+    loaded.surfaces.push_back(Share(HalfTheWaves(relief)));
   }
   return loaded;
 }
@@ -188,7 +188,7 @@ void RunLoop(const LoadedScene& scene, int ticks, long (*heap_calls)() noexcept,
 void TimeStages(const LoadedScene& scene, const std::vector<TickRecord>& record, int rounds,
                 std::vector<ServoTime>& rows) {
   const SessionOptions options;
-  const DepthField field(scene.scene.backdrop, scene.depth, options.depth);
+  const DepthField field(scene.scene.backdrop, *scene.depth, options.depth);
   const DeviceRig rig;
   const glm::dvec3 portal[2] = {{0, 0, 0}, {scene.scene.portals.incision_spacing, 0, 0}};
   const int ticks = static_cast<int>(record.size());

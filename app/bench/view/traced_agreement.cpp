@@ -38,14 +38,14 @@ std::vector<TracedPixel> TracePixels(const LoadedScene& loaded, const Picture& p
       rays.push_back(*ray);
     }
     const std::vector<TracedRay> traced =
-        TraceRays(backdrop, loaded.panorama, picture.view.tip, rays, meshes, &loaded.depth);
+        TraceRays(backdrop, *loaded.panorama, picture.view.tip, rays, meshes, loaded.depth.get());
     for (std::size_t i = 0; i < traced.size() && pixels.size() < wanted; ++i) {
       const TracedRay& met = traced[i];
       if (met.what == TracedRay::kNothing) continue;
       if (met.what == TracedRay::kBackdrop) {
         const auto place =
             ReferencePixel(backdrop.projection, picture.view.tip + met.distance * rays[i]);
-        if (!place || !IsWellInside(*place, loaded.panorama)) continue;
+        if (!place || !IsWellInside(*place, *loaded.panorama)) continue;
       }
       pixels.push_back({tried[i].x, tried[i].y, met.distance, met.colour});
     }

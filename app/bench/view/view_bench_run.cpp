@@ -49,7 +49,9 @@ std::optional<GridAgreement> Held(const GridAgreement& agreement) {
 // What the tracer is held against: the relief with its outlines laid smooth, as it is drawn, but of
 // every pixel. Its stairs, as they are, have rows of their own.
 LoadedScene WithSmoothOutlines(LoadedScene loaded) {
-  SmoothOutlines(loaded.depth, false);
+  DepthMap smooth = *loaded.depth;
+  SmoothOutlines(smooth, false);
+  loaded.depth = Share(std::move(smooth));
   return loaded;
 }
 
@@ -104,7 +106,7 @@ FrameTimes ViewBenchRun::TimeFrames(const std::string& words, F&& frame) {
 void ViewBenchRun::MeasureRelief(int width, int size) {
   const LoadedScene loaded = WavyJoint(width), smooth = WithSmoothOutlines(loaded);
   view_.SetTissues({}, {});
-  view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_.SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   Picture plain = ViewOfWavyJoint();
   plain.plain = true;
   plain.samples = 2;
@@ -189,8 +191,8 @@ void ViewBenchRun::MeasureScenes(int size) {
     SurfaceMesh ring;
     if (kind.fineness > 0) ring = Ring(0.007, 0.0024, around, around);
     loaded.scene.backdrop.relight = kind.relight;
-    view_.SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
-    view_.SetTissues(tissues, std::vector{lying, ring});
+    view_.SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+    view_.SetTissues(tissues, std::vector{Share(lying), Share(ring)});
     Picture picture = ViewOfWavyJoint();
     picture.relief = kUsualRelief;
     picture.samples = 2;

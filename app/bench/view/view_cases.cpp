@@ -54,16 +54,17 @@ LoadedScene WavyJoint(int width) {
   backdrop.radius = 0.05;
   backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
   backdrop.projection.focal_px = 1500.0 * width / 4096;
-  loaded.panorama = SlowColours(width, height);
-  loaded.depth = DepthMap(width, height);
+  DepthMap depth(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double u = double(x) / width, v = double(y) / height;
       const double du = u - 0.55, dv = 0.5 * (v - 0.6);
-      loaded.depth.at(x, y) = static_cast<float>(
-          0.004 + 0.008 * std::exp(-60 * (du * du + dv * dv)) +
-          0.003 * std::sin(25 * u) * std::sin(18 * v) + (u + v / 6 < 0.56 ? 0.004 : 0.0));
+      depth.at(x, y) = static_cast<float>(0.004 + 0.008 * std::exp(-60 * (du * du + dv * dv)) +
+                                          0.003 * std::sin(25 * u) * std::sin(18 * v) +
+                                          (u + v / 6 < 0.56 ? 0.004 : 0.0));
     }
+  loaded.panorama = Share(SlowColours(width, height));
+  loaded.depth = Share(std::move(depth));
   return loaded;
 }
 

@@ -59,15 +59,14 @@ void AddDepthJob(CLI::App& program) {
       "depth", "Estimate the relief of a panorama from its brightness: bright is near.");
   const auto own = std::make_shared<DepthJob>();
   const auto files = JobFiles::Of(*job);
-  files->Input(job->add_option("PANORAMA", own->panorama, "Picture: PNG, JPEG or TIFF"))
+  files->Input(job->add_option("PANORAMA", own->panorama, "Panorama: PNG, JPEG or TIFF."))
       ->required();
   files
       ->Output(job->add_option("-o,--output", own->output,
-                               "32-bit float TIFF of the same size, in metres; - for standard "
-                               "output"),
+                               "Depth map to write: 32-bit float TIFF of the same size, in metres; "
+                               "- is standard output."),
                kDepthMapFile)
       ->required();
-  AddOptionsFile(*job, own->options);
   AddOptions(*job, own->options);
   files->Run([own] { Run(*own); });
 }

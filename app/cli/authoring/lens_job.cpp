@@ -90,24 +90,23 @@ void AddLensJob(CLI::App& program) {
   const auto files = JobFiles::Of(*job);
   files
       ->Input(job->add_option("GRID_IMAGE", own->pictures,
-                              "Raw pictures of the flat target; best six, tilted to all sides, "
-                              "filling the window"))
+                              "Raw pictures of the flat target. Six are best: tilted to all sides, "
+                              "and filling the window."))
       ->required();
   AddNumberOption(*job, "--spacing-mm", {{1e-3, 1e4}, "mm"},
-                  "From line to line, corner to corner or dot to dot",
+                  "Distance from line to line, corner to corner or dot to dot.",
                   [own](double spacing) { own->spacing_mm = spacing; })
       ->required();
   files
       ->Output(
-          job->add_option("-o,--output", own->output, "lens.json to write; - for standard output"),
+          job->add_option("-o,--output", own->output, "lens.json to write; - is standard output."),
           {"a lens file", FileForm::kJson, "arthroscene.lens/"})
       ->required();
-  files->Output(job->add_option("--report", own->report,
-                                "All numbers as JSON, also when the lens is refused; - for "
-                                "standard output"),
-                {"a report", FileForm::kJson, "arthroscene.lens_report/"});
-  AddOptions(*job, own->calibrate);
-  AddOptions(*job, own->detect);
+  files->Output(
+      job->add_option("--report", own->report,
+                      "Report as JSON, also when the lens is refused; - is standard output."),
+      {"a report", FileForm::kJson, "arthroscene.lens_report/"});
+  AddOptions(*job, own->calibrate, own->detect);
   job->footer(
       "The table gives each model's residual, on the points and on pictures held out of the fit, "
       "and "

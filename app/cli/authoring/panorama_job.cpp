@@ -109,29 +109,27 @@ void AddPanoramaJob(CLI::App& program) {
   const auto files = JobFiles::Of(*job);
   files
       ->Input(job->add_option("FOOTAGE", own->request.footage,
-                              "A video, a folder of pictures, or a pattern such as "
-                              "frames/%04d.png"),
+                              "Video, folder of pictures, or pattern such as frames/%04d.png."),
               kFootageInput)
       ->required();
-  files->Input(job->add_option("--lens", own->lens,
-                               "Lens file of `arthroscene lens`; without it the pictures are taken "
-                               "as they are"));
+  files->Input(job->add_option(
+      "--lens", own->lens,
+      "Lens file of `arthroscene lens`. Without it the pictures are used unrectified."));
   files
-      ->OutputPieces(
-          job->add_option("-o,--output", own->output,
-                          "PNG, with what was imaged as alpha, or JPEG; - for standard output"),
-          kPictureFile)
+      ->OutputPieces(job->add_option("-o,--output", own->output,
+                                     "Panorama to write: PNG with the imaged region as alpha, or "
+                                     "JPEG; - is standard output."),
+                     kPictureFile)
       ->required();
-  files->Output(
-      job->add_option("--report", own->report, "JSON: where each frame lies, or why it does not"),
-      {"a report", FileForm::kJson, "arthroscene.panorama/"});
-  files->OutputScene(
-      job->add_option("--scene", own->scene,
-                      "Also write a scene of it into this folder, to edit and to practise in"),
-      SceneFile);
+  files->Output(job->add_option(
+                    "--report", own->report,
+                    "Report as JSON: the place of each frame, or the reason why it was rejected."),
+                {"a report", FileForm::kJson, "arthroscene.panorama/"});
+  files->OutputScene(job->add_option("--scene", own->scene,
+                                     "Also write a scene with the panorama into this folder."),
+                     SceneFile);
   AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
-             "Frames that are not to be used, by their numbers between commas");
-  AddOptionsFile(*job, own->request.options);
+             "Numbers of frames to leave out, separated by commas.");
   AddOptions(*job, own->request.options);
   files->Run([own, job] {
     // Whoever names a detector wants it used; on its own, pairs are aligned without one.

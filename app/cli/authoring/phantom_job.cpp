@@ -23,13 +23,12 @@ void AddPhantomJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
       "phantom", "Make a digital knee whose shape and tissue poses are known exactly.");
   const auto request = std::make_shared<Request>();
-  AddOptions(*job, request->options);
-  AddOptions(*job, request->footage);
+  AddOptions(*job, request->options, request->footage);
   const auto files = JobFiles::Of(*job, false);
   files
       ->OutputFolder(
           job->add_option("-o,--output", request->folder,
-                          "Folder to write; new, empty, or an earlier phantom, which is replaced"))
+                          "Folder to write; new, empty, or an earlier phantom, which is replaced."))
       ->required();
   files->Run([request] {
     authoring::RequirePhantomFolder(request->folder);

@@ -86,24 +86,24 @@ void Run(const RectifyJob& job) {
 
 void AddRectifyJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
-      "rectify", "Take the fisheye out of footage: PNG frames as a pinhole camera would see them.");
+      "rectify", "Rectify footage: write PNG frames as a pinhole camera would see them.");
   const auto own = std::make_shared<RectifyJob>();
   const auto files = JobFiles::Of(*job);
   files
       ->Input(job->add_option("FOOTAGE", own->footage,
-                              "Video, folder of pictures or pattern (frames/%04d.png)"),
+                              "Video, folder of pictures, or pattern such as frames/%04d.png."),
               kFootageInput)
       ->required();
   files
       ->Input(
-          job->add_option("--lens", own->lens, "lens.json of the camera, at the footage's size"))
+          job->add_option("--lens", own->lens, "lens.json of the camera, at the footage's size."))
       ->required();
   files
-      ->OutputFolder(job->add_option("-o,--output", own->output, "Folder to write; new or empty"),
+      ->OutputFolder(job->add_option("-o,--output", own->output, "Folder to write; new or empty."),
                      {{"[0-9]{6,}[.]png", kPictureFile}})
       ->required();
   AddNumber(*job, "--scale", own->scale, {1.0 / 16, 2.0}, "",
-            "Of the rectified frames; below 1 pixels are averaged");
+            "Scale of the rectified frames; below 1 pixels are averaged.");
   AddOptions(*job, own->options);
   files->Run([own, files] {
     own->overwrites = files->overwrites();

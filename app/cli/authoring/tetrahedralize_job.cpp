@@ -143,13 +143,13 @@ void AddBudget(CLI::App& job, Arguments& arguments) {
   CLI::Option* elements =
       AddNumberOption(job, "--elements",
                       {{authoring::kFewestElements, authoring::kMostBudgetElements}, "", true},
-                      "The same, by the number itself",
+                      "Number of quadratic elements.",
                       [&arguments](double count) { arguments.elements = static_cast<int>(count); })
           ->group(kGroup);
   elements->excludes(budget);
   AddBalls(job, "--held-at", arguments.held,
-           "Where the tissue will be held, in the surface's own frame, mm; may be given again. A "
-           "mesh to a budget is coarser there")
+           "Ball where the tissue will be held, in the surface's own frame, mm; may be repeated. A "
+           "mesh to a budget is coarser there.")
       ->group(kGroup);
   for (CLI::Option* size : {budget, elements})
     for (const char* other :
@@ -167,23 +167,23 @@ void AddTetrahedralizeJob(CLI::App& program) {
   const auto files = JobFiles::Of(*job);
   files
       ->Input(job->add_option("SURFACE", arguments->surface,
-                              "Closed surface: .stl, .obj, .ply, .off or .vtp"))
+                              "Closed surface: .stl, .obj, .ply, .off or .vtp."))
       ->required();
-  job->add_option("--unit", arguments->unit, "Unit of the file, which itself does not say")
+  job->add_option("--unit", arguments->unit, "Unit of length in the file.")
       ->required()
       ->check(CLI::IsMember({"m", "cm", "mm", "um", "in"}));
   files
       ->Output(job->add_option("-o,--output", arguments->output,
-                               "Mesh in metres, .vtu; - is standard output"),
+                               "Mesh to write, .vtu, in metres; - is standard output."),
                kVolumeFile)
       ->required();
-  files->Output(
-      job->add_option("--report", arguments->report, "Counts, quality, repairs and times, as JSON"),
-      {"a report", FileForm::kJson, "arthroscene.tetrahedralize/"});
+  files->Output(job->add_option("--report", arguments->report,
+                                "Report as JSON: counts, quality, repairs and times."),
+                {"a report", FileForm::kJson, "arthroscene.tetrahedralize/"});
   AddOptions(*job, arguments->options);
   AddBalls(*job, "--fine-at", arguments->options.fine_at,
-           "Where the mesh is finer, in the surface's own frame, mm; may be given again. How fine: "
-           "--fine-edge-mm, or what the budget allows")
+           "Ball where the mesh is finer, in the surface's own frame, mm; may be repeated. The "
+           "edge length there is --fine-edge-mm or follows from the budget.")
       ->group("Options");
   AddBudget(*job, *arguments);
   files->Run([arguments] { RunJob(*arguments); });

@@ -58,38 +58,37 @@ void RunCentresJob(CentresArguments arguments) {
 
 void AddCentresJob(CLI::App& program) {
   auto arguments = std::make_shared<CentresArguments>();
-  CLI::App* job = program.add_subcommand(
-      "centres",
-      "Panorama pixels at the centre of the view while the scope is rotated at several depths");
+  CLI::App* job = program.add_subcommand("centres",
+                                         "List the panorama pixels at the centre of the view while "
+                                         "the scope is rotated at several depths.");
   const auto files = JobFiles::Of(*job);
   files
-      ->Input(job->add_option("SCENE", arguments->scene,
-                              "Scene folder or scene.json; its pictures are not read without "
-                              "--picture"),
-              kSceneInput)
+      ->Input(
+          job->add_option("SCENE", arguments->scene,
+                          "Scene folder or scene.json. Its pictures are read only with --picture."),
+          kSceneInput)
       ->required();
   AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg, {0.0, 90.0}, "degrees",
-            "Angle between rod and view; the scene's own where not given");
+            "Angle between rod and view. Default: the scene's own.");
   AddNumbers(*job, "--insertion-mm", arguments->choice.insertion_mm, {-1000.0, 1000.0}, "mm",
-             "Depths of the tip beyond the portal, 0 to the backdrop's radius: a list between "
-             "commas, decimals with a point, so 1,5 is two depths and 1.5 is one");
+             "Depths of the tip beyond the portal, from 0 to the backdrop's radius. Commas "
+             "separate depths; decimals have a point, so 1,5 is two depths and 1.5 is one.");
   AddNumber(*job, "--latitude-deg", arguments->choice.latitude_deg, {-90.0, 90.0}, "degrees",
-            "Rod's direction, up");
+            "Latitude of the rod; up is positive.");
   AddNumber(*job, "--longitude-deg", arguments->choice.longitude_deg, {-180.0, 180.0}, "degrees",
-            "Rod's direction, right");
+            "Longitude of the rod; right is positive.");
   AddNumber(*job, "--roll-steps", arguments->choice.roll_steps, {1, 1000000}, "",
-            "Rolls in a full turn, from 0 degrees on");
+            "Number of rolls in a full turn, beginning at 0 degrees.");
   files
-      ->Output(
-          job->add_option("-o,--output", arguments->output, "Table to write; - is standard output"),
-          {"a table of centres", FileForm::kTable, "insertion,roll_deg,u_px,v_px"})
+      ->Output(job->add_option("-o,--output", arguments->output,
+                               "Table to write; - is standard output."),
+               {"a table of centres", FileForm::kTable, "insertion,roll_deg,u_px,v_px"})
       ->required();
   files->Output(job->add_option("--picture", arguments->picture,
-                                "Picture to write: the centres on the panorama, a line each depth, "
-                                "a cross where the rod points"),
+                                "Picture to write: the centres on the panorama, one line per "
+                                "depth, and a cross where the rod points."),
                 kPictureFile);
-  job->add_flag("--on-grid", arguments->on_grid,
-                "The picture has a regular grid of the panorama's size in its place");
+  job->add_flag("--on-grid", arguments->on_grid, "Draw a regular grid instead of the panorama.");
   job->footer(
       "Columns: insertion (m), roll_deg, u_px, v_px (origin at the centre of the top-left pixel). "
       "u "

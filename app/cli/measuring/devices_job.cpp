@@ -206,36 +206,34 @@ void CheckModel(const std::string& model) {
 
 void AddDevicesJob(CLI::App& program) {
   CLI::App* job = program.add_subcommand(
-      "devices", "List the haptic devices that are plugged in, and what is in their way");
+      "devices", "List the haptic devices that are plugged in, and what prevents their use.");
   const auto own = std::make_shared<DevicesArguments>();
-  auto* watch = job->add_flag("--watch", own->watches, "Say what is plugged in and pulled out");
-  auto* tries = job->add_flag(
-      "--self-test", own->tries,
-      "Listen to each for two seconds and say how fast and how well it speaks; gives no force");
-  auto* names =
-      job->add_option("--openhaptics", own->openhaptics,
-                      "A Touch or its kin, by the name that its maker's setup tool gave it; "
-                      "without this the tool's default is looked for");
+  auto* watch =
+      job->add_flag("--watch", own->watches, "Report devices as they are plugged in and removed.");
+  auto* tries = job->add_flag("--self-test", own->tries,
+                              "Listen to each device for two seconds and report the rate and "
+                              "quality of its samples. No force is given.");
+  auto* names = job->add_option("--openhaptics", own->openhaptics,
+                                "OpenHaptics device by the name in its maker's setup tool. "
+                                "Default: the tool's default device.");
   const auto files = JobFiles::Of(*job);
   auto* json = files->Output(
-      job->add_option("--json", own->json, "Write the list as JSON; - is standard output"),
+      job->add_option("--json", own->json, "Write the list as JSON; - is standard output."),
       {"a list of devices", FileForm::kJson, "arthroscene.devices/"});
   watch->excludes(tries);
   watch->excludes(json);
   watch->excludes(names);
   files
-      ->Output(job->add_option(
-                   "--log", own->log,
-                   "Write each report of the self-test, and what was made of it, to this file"),
+      ->Output(job->add_option("--log", own->log,
+                               "Log of each report of the self-test with its interpretation."),
                kLogFile)
       ->needs(tries);
   AddNumberOption(*job, "--seconds", {{0.1, 3600.0}, "s"},
-                  "How long to watch, or to listen to each device",
+                  "Time to watch, or to listen to each device.",
                   [own](double seconds) { own->seconds = seconds; });
   job->add_option(
       "--model", own->model,
-      "Arm of a WoodenHaptics, which its USB numbers do not tell: woodenhaptics_2015 or "
-      "polhem_v1");
+      "Arm of a WoodenHaptics, which USB does not report: woodenhaptics_2015 or polhem_v1.");
   job->footer(
       "Serial numbers are what a rig file names its devices by. A device that may not be opened "
       "needs the rule 70-arthroscene.rules in /etc/udev/rules.d.");

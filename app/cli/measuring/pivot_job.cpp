@@ -59,25 +59,24 @@ void RunPivotJob(const PivotArguments& arguments) {
 void AddPivotJob(CLI::App& program) {
   auto arguments = std::make_shared<PivotArguments>();
   CLI::App* job = program.add_subcommand(
-      "pivot", "Find the incision in a device's frame from presses at several handle positions");
+      "pivot", "Find the incision in a device's frame from presses at several handle positions.");
   const auto files = JobFiles::Of(*job);
   files
-      ->Input(job->add_option(
-          "POSES", arguments->poses,
-          "Table hip_x,hip_y,hip_z,tip_x,tip_y,tip_z with that header, in metres, one press "
-          "a row"))
+      ->Input(job->add_option("POSES", arguments->poses,
+                              "Table with the header hip_x,hip_y,hip_z,tip_x,tip_y,tip_z, in "
+                              "metres; one press per row."))
       ->required();
   files
       ->Output(job->add_option("-o,--output", arguments->output,
-                               "pivot.json to write; - is standard output"),
+                               "pivot.json to write; - is standard output."),
                {"a pivot", FileForm::kJson, "arthroscene.pivot/"})
       ->required();
   job->add_option("--swing", arguments->swing,
-                  "POSES is a TRACE.csv instead, in which this hand kept swinging its rod through "
-                  "the incision; a pose is taken each millimetre, and what slipped is left out")
+                  "Read POSES as a TRACE.csv in which this hand swings its rod through the "
+                  "incision. One pose per millimetre is used; slips are left out.")
       ->check(CLI::IsMember({"scope", "instrument"}));
   AddNumber(*job, "--rod-length-mm", arguments->rod_length_mm, {10.0, 1000.0}, "mm",
-            "With --swing: hand to tip");
+            "Length of the rod from hand to tip; with --swing.");
   AddOptions(*job, arguments->options);
   job->footer(
       "status is ok, too_few, too_narrow, inconsistent or outside_rod; all but ok end with exit "

@@ -74,15 +74,16 @@ void AddSolveJob(CLI::App& program) {
   const auto files = JobFiles::Of(*job);
   files
       ->Input(job->add_option("CASE", arguments->tissue_case,
-                              "CASE.json: mesh, material and what holds, moves and loads it"))
+                              "CASE.json: mesh, material, supports, displacements and loads."))
       ->required();
   files
       ->Output(job->add_option("-o,--output", arguments->output,
-                               "result.json to write; - is standard output"),
+                               "result.json to write; - is standard output."),
                {"a result", FileForm::kJson, "arthroscene.solve/"})
       ->required();
-  files->Output(job->add_option("--vtu", arguments->vtu, "The deformed mesh, .vtu, in metres"),
-                kVolumeFile);
+  files->Output(
+      job->add_option("--vtu", arguments->vtu, "Deformed mesh to write, .vtu, in metres."),
+      kVolumeFile);
   job->footer(
       "CASE.json, in SI units:\n"
       "  {\"mesh\": \"x.vtu\", \"order\": 1|2,\n"

@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 
 #include "app/cli/jobs.h"
-#include "app/cli/practice/living_tissues_of.h"
+#include "app/cli/practice/shipped_presets.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/cut_check.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/scene_check.h"
+#include "simulation/scene/scene_schema.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
@@ -62,8 +63,15 @@ void AddCheckJob(CLI::App& program) {
   CLI::App* job =
       program.add_subcommand("check", "Load a scene with all its files and say what is wrong.");
   const auto scene = std::make_shared<std::string>();
-  job->add_option("SCENE", *scene, "Folder of the scene, its scene.json, or an .arthro archive")
+  job->add_option("SCENE", *scene, "Folder of the scene, its scene.json, or an .arthro archive.")
       ->required();
+  job->add_flag_callback(
+      "--schema",
+      [] {
+        fmt::print("{}", SceneSchemaText());
+        throw CLI::Success();
+      },
+      "Print the JSON Schema of scene.json, and do nothing else.");
   job->callback([scene] { Check(*scene); });
 }
 

@@ -17,8 +17,8 @@
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
-#include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
+#include "app/cli/practice/shipped_presets.h"
 #include "app/platform/resource_folder.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -98,11 +98,13 @@ void Run(const DemoJob& job) {
   simulation::ReplayReport report;
   if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
   Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
-  const auto rows = simulation::Replay(
-      loaded, trace, {}, progress, &report, LivingTissuesOf(loaded), LayersOf(loaded),
-      [&](double t, const auto& snapshot, auto kind, const auto* world) {
-        moments.Watch(t, snapshot, kind, world);
-      });
+  const auto rows =
+      simulation::Replay(loaded, trace, {}, progress, &report, ShippedTissuePresets(),
+                         [&](double t, const auto& snapshot, auto kind, const auto* world) {
+                           moments.Watch(t, snapshot, kind, world);
+                         });
+  for (const std::string& message : report.messages)
+    fmt::print(stderr, "note: {}\n", PrintableLine(message));
 
   StillPictures pictures(loaded);
   const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
@@ -117,7 +119,7 @@ void Run(const DemoJob& job) {
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     // Upright, as surgeons hold it.
     const Picture picture =
-        PictureOf(moment.snapshot, moment.kind, loaded.scene, optics, {.is_upright = true});
+        RecordedPicture(moment.snapshot, moment.kind, loaded.scene, optics, {.is_upright = true});
     WriteColourImage(folder.beside() / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},
@@ -140,16 +142,16 @@ void Run(const DemoJob& job) {
 void AddDemoJob(CLI::App& program) {
   auto job = std::make_shared<DemoJob>();
   CLI::App* command = program.add_subcommand(
-      "demo", "Play the demo scene without a window: pictures, forces and a report");
+      "demo", "Play the demo scene without a window: writes pictures, forces and a report.");
   const auto files = JobFiles::Of(*command);
   files
-      ->OutputFolder(command->add_option("-o,--output", job->folder, "Folder for what is written"),
+      ->OutputFolder(command->add_option("-o,--output", job->folder, "Folder to write."),
                      {{"picture_[0-9]+[.]png", kPictureFile},
                       {"forces[.]csv", kForcesFile},
                       {"report[.]json", kReplayReportFile}})
       ->capture_default_str();
-  AddNumber(*command, "--pictures", job->pictures, {1, 99}, "", "How many moments are shown");
-  AddNumber(*command, "--size", job->size, {64, 4096}, "px", "Width and height of a picture");
+  AddNumber(*command, "--pictures", job->pictures, {1, 99}, "", "Number of pictures.");
+  AddNumber(*command, "--size", job->size, {64, 4096}, "px", "Width and height of a picture.");
   files->Run([job] { Run(*job); });
 }
 

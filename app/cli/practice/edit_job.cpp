@@ -10,6 +10,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
+#include "app/cli/options_cli.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"
 #include "app/recording/unfinished_film.h"
@@ -48,17 +49,18 @@ struct HandFlags {
 
 void AddHandFlags(CLI::App& job, HandFlags& flags, JobFiles& files) {
   files.Input(job.add_option("--rig", flags.rig,
-                             "Rig file: which device holds the scope and which the instrument"));
+                             "Rig file: the devices that hold the scope and the instrument."));
   files
-      .Input(job.add_option("--hands", flags.hands,
-                            "Instead of devices: TRACE.csv or a device log plays recorded hands, "
-                            "plant is a simulated device; with --rig on the mounts of that rig"))
+      .Input(job.add_option(
+          "--hands", flags.hands,
+          "Hands without a device. TRACE.csv or a device log plays recorded hands; plant is a "
+          "simulated device. With --rig they have the mounts of that rig."))
       ->type_name("TRACE|plant");
   files.Output(job.add_option("--log", flags.log,
-                              "Write all that the hands say and are told there; replay plays it"),
+                              "Log of all samples and forces of the devices; replay plays it."),
                kLogFile);
   job.add_flag("--zero-force", flags.is_zero_force,
-               "Show forces and give the devices none; 0 ends it");
+               "Show forces, but send none to the devices; key 0 ends it.");
 }
 
 struct ScreenFlags {
@@ -66,17 +68,17 @@ struct ScreenFlags {
 };
 
 void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, JobFiles& files) {
-  files.OutputFilm(job.add_option(
-      "--record", flags.film,
-      "Record the scope's picture there from the beginning: .mp4, .mkv or .avi, or as "
-      "pictures into an empty or new FOLDER/, FOLDER/frame-%04d.png"));
-  job.add_option("--layout", flags.layout,
-                 "Of films and the trainee's screen: square, 4:3 or 16:9 with black beside it")
-      ->capture_default_str();
+  files.OutputFilm(
+      job.add_option("--record", flags.film,
+                     "Record the scope's picture from the beginning: .mp4, .mkv or .avi, or single "
+                     "pictures in an empty or new FOLDER/ or as FOLDER/frame-%04d.png."));
   job.add_option(
-         "--head", flags.head,
-         "Camera head: turning with the scope, or held upright while the scope turns in it; "
-         "T and U change it")
+         "--layout", flags.layout,
+         "Shape of films and of the trainee's screen: square, or 4:3 or 16:9 with black beside it.")
+      ->capture_default_str();
+  job.add_option("--head", flags.head,
+                 "Camera head: turning with the scope, or held upright while the scope turns in "
+                 "it. Keys T and U change it.")
       ->type_name("scope|upright")
       ->capture_default_str();
   job.add_option_function<std::string>(
@@ -88,8 +90,8 @@ void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, J
            options.trainee_screen =
                static_cast<int>(NumberFromWord("--trainee-screen", monitor, {{1, 64}, "", true}));
          },
-         "Show the scope's picture alone on monitor N, counted from 1; without N on one that the "
-         "window is not on")
+         "Show the scope's picture alone on monitor N, counted from 1. Without N: on a monitor "
+         "without the window.")
       ->type_name("[N]")
       ->expected(0, 1);
 }
@@ -124,12 +126,13 @@ void AddEditJob(CLI::App& program) {
     if (program.get_subcommands().empty()) RunEditor({});
   });
   const auto options = std::make_shared<EditorOptions>();
-  CLI::App* job = program.add_subcommand("edit", "Open the editor");
+  CLI::App* job = program.add_subcommand("edit", "Open the editor.");
   const auto files = JobFiles::Of(*job);
   files
-      ->Input(job->add_option("scene", options->scene,
-                              "Scene folder or scene.json; without one, the demo scene"),
-              kSceneInput)
+      ->Input(
+          job->add_option("scene", options->scene,
+                          "Scene folder, scene.json or .arthro archive. Default: the demo scene."),
+          kSceneInput)
       ->type_name("SCENE");
   const auto hands = std::make_shared<HandFlags>();
   AddHandFlags(*job, *hands, *files);
@@ -140,10 +143,13 @@ void AddEditJob(CLI::App& program) {
 void AddPractiseJob(CLI::App& program) {
   const auto options = std::make_shared<EditorOptions>();
   options->practice = true;
-  CLI::App* job = program.add_subcommand("practise", "Practise in a scene");
+  CLI::App* job = program.add_subcommand("practise", "Practise in a scene.");
   job->alias("practice");
   const auto files = JobFiles::Of(*job);
-  files->Input(job->add_option("scene", options->scene, "Scene folder or scene.json"), kSceneInput)
+  files
+      ->Input(
+          job->add_option("scene", options->scene, "Scene folder, scene.json or .arthro archive."),
+          kSceneInput)
       ->type_name("SCENE")
       ->required();
   const auto hands = std::make_shared<HandFlags>();
@@ -151,6 +157,7 @@ void AddPractiseJob(CLI::App& program) {
   const auto screens = std::make_shared<ScreenFlags>();
   AddScreenFlags(*job, *screens, *options, *files);
   AddWindowFlags(*job, *options);
+  AddOptions(*job, options->session);
   files->Run([options, hands, screens, files] { Open(*options, *hands, *files, *screens); });
 }
 

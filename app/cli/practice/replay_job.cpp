@@ -15,8 +15,8 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
-#include "app/cli/practice/living_tissues_of.h"
 #include "app/cli/practice/replay_pictures.h"
+#include "app/cli/practice/shipped_presets.h"
 #include "app/recording/unfinished_film.h"
 #include "app/recording/video_file.h"
 #include "simulation/core/atomic_file.h"
@@ -75,7 +75,9 @@ void Run(const ReplayJob& job) {
     };
   simulation::ReplayReport report;
   const auto forces = simulation::Replay(loaded, trace, job.options, progress, &report,
-                                         LivingTissuesOf(loaded), LayersOf(loaded), watch);
+                                         ShippedTissuePresets(), watch);
+  for (const std::string& message : report.messages)
+    fmt::print(stderr, "note: {}\n", PrintableLine(message));
   if (video) video->Finish();
   if (folder) folder->PutInPlace();
   WriteAtomically(job.forces, simulation::ForcesText(forces, loaded.scene));
@@ -88,49 +90,54 @@ void Run(const ReplayJob& job) {
 void AddReplayJob(CLI::App& program) {
   auto job = std::make_shared<ReplayJob>();
   CLI::App* command = program.add_subcommand(
-      "replay", "Play recorded hands in a scene, on a fixed clock, and write the forces");
+      "replay", "Play recorded hands in a scene on a fixed clock, and write the forces.");
   const auto files = JobFiles::Of(*command);
-  files->Input(command->add_option("SCENE", job->scene, "Scene folder or scene.json"), kSceneInput)
+  files
+      ->Input(
+          command->add_option("SCENE", job->scene, "Scene folder, scene.json or .arthro archive."),
+          kSceneInput)
       ->required();
   files
       ->Input(
-          command->add_option("TRACE", job->trace, "Recorded devices: TRACE.csv or a device log"))
+          command->add_option("TRACE", job->trace, "Recorded devices: TRACE.csv or a device log."))
       ->required();
   files
       ->Output(command->add_option("-o,--output", job->forces,
-                                   "forces.csv; - writes to standard output"),
+                                   "forces.csv to write; - is standard output."),
                kForcesFile)
       ->required();
   files->Output(command->add_option("--report", job->report,
-                                    "Report as JSON: peaks, contacts, faults, times"),
+                                    "Report as JSON: peaks, contacts, faults, times."),
                 kReplayReportFile);
-  files->OutputFolder(command->add_option("--pictures", job->pictures,
-                                          "Folder for what the scope saw: frame_00000.png and on"),
-                      {{"frame_[0-9]{5,}[.]png", kPictureFile}});
+  files->OutputFolder(
+      command->add_option(
+          "--pictures", job->pictures,
+          "Folder for the scope's pictures: frame_00000.png, frame_00001.png, and so on."),
+      {{"frame_[0-9]{5,}[.]png", kPictureFile}});
   AddNumber(*command, "--size", job->of_pictures.size,
-            {StillPictures::kMinSize, StillPictures::kMaxSize}, "px", "Height of a picture");
+            {StillPictures::kMinSize, StillPictures::kMaxSize}, "px", "Height of a picture.");
   AddNumber(*command, "--rate", job->of_pictures.rate, {0.1, 1000.0}, "per second",
-            "Pictures per second");
-  files->Output(
-      command->add_option("--video", job->video,
-                          "Film of what the scope saw: .mp4 or .mkv (H.264), .avi (Motion JPEG)"),
-      kFilmFile);
+            "Pictures per second.");
+  files->Output(command->add_option(
+                    "--video", job->video,
+                    "Film of the scope's picture: .mp4 or .mkv (H.264), or .avi (Motion JPEG)."),
+                kFilmFile);
   AddNumber(*command, "--video-size", job->of_video.size, {kMinVideoSize, kMaxVideoSize}, "px",
-            "Height of the film, even");
+            "Height of the film; an even number.");
   AddNumber(*command, "--fps", job->of_video.rate, {kMinVideoRate, kMaxVideoRate}, "per second",
-            "Pictures of the film per second");
+            "Pictures of the film per second.");
   command
       ->add_option("--layout", job->layout,
-                   "Of both: square, or the round picture in the middle of a black frame, 4:3 "
-                   "or 16:9")
+                   "Shape of pictures and film: square, or 4:3 or 16:9 with the round picture in "
+                   "the middle.")
       ->capture_default_str();
   command
-      ->add_option("--head", job->head,
-                   "Camera head in both: held upright while the scope turns in it, or turning with "
-                   "the scope as a practice begins")
+      ->add_option(
+          "--head", job->head,
+          "Camera head: held upright while the scope turns in it, or turning with the scope.")
       ->type_name("upright|scope")
       ->capture_default_str();
-  AddOptions(*command, job->options, "Force");
+  AddOptions(*command, job->options);
   files->Run([job] { Run(*job); });
 }
 

@@ -20,7 +20,7 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
   for (Row& row : rows_)
     while (row.count < row.all && t >= begin_ + row.count / row.form.rate - 1e-9) {
       if (world != nullptr) tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
-      const Picture picture = PictureOf(snapshot, kind, scene_, optics_, head_);
+      const Picture picture = RecordedPicture(snapshot, kind, scene_, optics_, head_);
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }
@@ -32,20 +32,11 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder) {
   };
 }
 
-Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                  const Scene& scene, const simulation::ScopeOptics& optics,
-                  const simulation::CameraHead& head) {
-  const simulation::RodPose& scope = snapshot.scope.pose;
-  Picture picture = PictureFromPose(scope, scene.scope.view_angle, optics.field_of_view,
-                                    simulation::HeadRoll(head, scope.roll));
-  picture.lens = optics.lens;
-  picture.relief = kUsualRelief;
-  if (snapshot.instrument.fault != simulation::Fault::kNone) return picture;
-  picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
-                                      snapshot.instrument.proxy_in_portal,
-                                      snapshot.instrument.pose.roll,
-                                      kind,
-                                      snapshot.instrument.opening};
+Picture RecordedPicture(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+                        const Scene& scene, const simulation::ScopeOptics& optics,
+                        const simulation::CameraHead& head) {
+  Picture picture = PictureOf(snapshot, kind, scene, scene.scope.view_angle, optics, head);
+  if (snapshot.instrument.fault != simulation::Fault::kNone) picture.instrument.reset();
   return picture;
 }
 

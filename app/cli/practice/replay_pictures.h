@@ -58,9 +58,9 @@ class ReplayPictures {
 // Writes frame_00000.png and on into a folder that exists. Throws Error(kFile).
 ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
-// What the view shows of a moment.
-Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                  const Scene& scene, const simulation::ScopeOptics& optics,
-                  const simulation::CameraHead& head);
+// Picture of a recorded moment; without the instrument while its device has a fault.
+Picture RecordedPicture(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+                        const Scene& scene, const simulation::ScopeOptics& optics,
+                        const simulation::CameraHead& head);
 
 }  // namespace arthro::app

@@ -10,7 +10,7 @@
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
+#include "app/cli/options_cli.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -84,51 +84,54 @@ void RunViewJob(const ViewArguments& arguments) {
 
 void AddViewJob(CLI::App& program) {
   auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* job = program.add_subcommand("view", "One picture through the arthroscope");
+  CLI::App* job = program.add_subcommand("view", "Draw one picture through the arthroscope.");
   const auto files = JobFiles::Of(*job);
   files
-      ->Input(job->add_option("SCENE", arguments->scene, "Scene folder or scene.json"), kSceneInput)
+      ->Input(job->add_option("SCENE", arguments->scene,
+                              "Scene folder, scene.json or .arthro archive."),
+              kSceneInput)
       ->required();
   AddNumber(*job, "--latitude-deg", arguments->latitude_deg, {-90.0, 90.0}, "degrees",
-            "Rod's direction, up");
+            "Latitude of the rod; up is positive.");
   AddNumber(*job, "--longitude-deg", arguments->longitude_deg, {-180.0, 180.0}, "degrees",
-            "Rod's direction, right");
+            "Longitude of the rod; right is positive.");
   AddNumber(*job, "--roll-deg", arguments->roll_deg, kAnyAngle, "degrees",
-            "Turn of the rod, from up towards right");
+            "Roll of the rod, from up towards right.");
   AddNumber(*job, "--insertion-mm", arguments->insertion_mm, {-1000.0, 1000.0}, "mm",
-            "Depth of the tip beyond the portal, less than the backdrop's radius");
-  AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg, {0.0, 90.0}, "degrees",
-            "Angle between rod and view; the scene's own where not given");
+            "Depth of the tip beyond the portal; less than the backdrop's radius.");
+  AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg,
+            ShownRange<ScopeSpec>("view_angle"), "degrees",
+            "Angle between rod and view. Default: the scene's own.");
   AddNumber(*job, "--head-roll-deg", arguments->head_roll_deg, kAnyAngle, "degrees",
-            "Turn of the camera head on its own; with the rod where not given");
-  AddNumber(*job, "--field-of-view-deg", arguments->field_of_view_deg, {10.0, 170.0}, "degrees",
-            "Full angle of the round window; the scene's own where not given");
+            "Roll of the camera head. Default: the roll of the rod.");
+  AddNumber(*job, "--field-of-view-deg", arguments->field_of_view_deg,
+            ShownRange<ScopeSpec>("field_of_view"), "degrees",
+            "Full angle of the round window. Default: the scene's own.");
   AddNumber(*job, "--size", arguments->size, {StillPictures::kMinSize, StillPictures::kMaxSize},
-            "px", "Width and height of the picture");
+            "px", "Width and height of the picture.");
   job->add_flag("--plain", arguments->plain,
-                "Backdrop colours only: no light, soft rim, mark, tissues or instrument");
+                "Draw backdrop colours only: no light, soft rim, mark, tissues or instrument.");
   AddNumber(*job, "--relief-steps", arguments->relief_steps, {0, 4096}, "",
-            "Places along a ray, at most, that are held against the depth map, so that what is "
-            "near hides what is far and moves before it: 128 for a fine picture; 0: all colours "
-            "lie on the bare sphere; where not given 64, and 0 with --plain");
-  AddNumber(*job, "--relight", arguments->relight, {0.0, 1.0}, "",
-            "How far the light of the footage is evened out and the scope's own lamp put in "
-            "its place: 0 before, 1 after; the scene's own where not given");
+            "Largest number of samples per ray of the relief. 0: all colours lie on the bare "
+            "sphere. Default: 64, or 0 with --plain.");
+  AddNumber(*job, "--relight", arguments->relight, ShownRange<Backdrop>("relight"), "",
+            FindField<Backdrop>("relight").help + " Default: the scene's own.");
   job->add_option("--disturb", arguments->disturb,
-                  "What disturbs the picture, each with a strength from 0 to 1, as in "
+                  "Disturbances of the picture, each with a strength from 0 to 1, as in "
                   "haze=0.5,bubbles=0.3: " +
                       DisturbanceWords());
   AddNumber(*job, "--disturb-seed", arguments->disturb_seed, kAnyWholeNumber, "",
-            "Another seed gives other bubbles, flakes and swirls");
+            "Seed of bubbles, flakes and swirls.");
   AddNumber(*job, "--disturb-time", arguments->disturb_time, {-86400.0, 86400.0}, "s",
-            "Moment of what drifts and swirls");
+            "Time at which drifting disturbances are drawn.");
   AddNumber(*job, "--relief-cell", arguments->relief_cell, {1, 64}, "px",
-            "Cells of so many pixels share one search, and each pixel closes in from there; "
-            "1: every pixel searches. Where not given 8, and 1 with --relief-steps or --plain");
+            "Side of the cells of pixels that share one relief search. 1: every pixel searches. "
+            "Default: 8, or 1 with --relief-steps or --plain.");
   files
-      ->Output(job->add_option("-o,--output", arguments->output,
-                               "Picture to write, by its ending: .png, .tif…"),
-               kPictureFile)
+      ->Output(
+          job->add_option("-o,--output", arguments->output,
+                          "Picture to write; the ending gives the format: .png, .tif and others."),
+          kPictureFile)
       ->required();
   job->footer(
       "No display is needed. The window's centre is the picture's; outside it is black. A ray at "

@@ -1,5 +1,5 @@
 // The pages of the window: free functions over the editor's state, which they change only through
-// app/commands. They compute nothing.
+// commands. They compute nothing.
 #pragma once
 
 #include <string>

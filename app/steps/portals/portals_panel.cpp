@@ -16,6 +16,11 @@ void Drag(EditorState& state, const Change& change) {
   if (change.released) EndDrag(state);
 }
 
+// Least angle, in degrees, that the slider offers of a range that excludes its lower end.
+double LowestShown(const Range& angle) {
+  return angle.above_min ? 1.0 : DegreesFromRadians(angle.min);
+}
+
 }  // namespace
 
 void PortalsPanel(Ui& ui, EditorState& state) {
@@ -41,11 +46,12 @@ void PortalsPanel(Ui& ui, EditorState& state) {
       Run(state, command);
   }
   double field_deg = DegreesFromRadians(scene.scope.field_of_view);
-  change = Slider(ui, "Field of view", field_deg, 30, 150, "%.0f°",
-                  "Angle from edge to edge of the round picture.");
+  const FieldFinder field = FindField<ScopeSpec>("field_of_view");
+  change = Slider(ui, "Field of view", field_deg, LowestShown(field.range),
+                  DegreesFromRadians(field.range.max), "%.0f°", field.help.c_str());
   if (change) SetFieldOfView(state, RadiansFromDegrees(field_deg));
   Drag(state, change);
-  double length_mm = MmFromMetres(scene.scope.rod_length);
+  double length_mm = MmFromMetres(scene.rig.scope.rod_length);
   change = Slider(
       ui, "Length of the scope", length_mm, 100, 400, "%.0f mm",
       "Distance from the hand to the lens. A longer scope needs larger movements of the hand.");

@@ -217,6 +217,8 @@ void PracticeStepPanel(Ui& ui, EditorState& state) {
   QuietText(ui,
             "Drag over the picture to swing the scope; turn the wheel to move it in and out. The "
             "right button moves the instrument. Press ? for all keys.");
+  Gap(ui);
+  ForcePanel(ui, state);
 }
 
 void PracticePanel(Ui& ui, EditorState& state, const Area& area) {

@@ -68,10 +68,11 @@ struct PracticeStep {
   std::optional<simulation::Practice> poke;   // the author's live poke (tissue_poke.h)
   int poke_of = 0;                            // position of the history that it was made of
   std::optional<PivotCalibrating> calibrating;
-  Jobs pivot_jobs;              // pivot fits
-  bool shows_devices = false;   // their panel, instead of the practice's
-  Disturbing disturbing;        // disturbances of the picture
-  simulation::CameraHead head;  // camera head of the scope
+  Jobs pivot_jobs;                             // pivot fits
+  bool shows_devices = false;                  // their panel, instead of the practice's
+  Disturbing disturbing;                       // disturbances of the picture
+  simulation::CameraHead head;                 // camera head of the scope
+  simulation::SessionOptions session_options;  // options of the practices to come
   simulation::TissuePace pace = simulation::TissuePace::kThread;  // stepping of deformable tissue
   std::filesystem::path rig_preset_folder;
 
@@ -94,6 +95,7 @@ std::span<const Command> IncisionCommands();     // calibration of incisions
 
 void PracticeStepPanel(Ui& ui, EditorState& state);
 void DevicesPanel(Ui& ui, EditorState& state);
+void ForcePanel(Ui& ui, EditorState& state);
 void PracticePanel(Ui& ui, EditorState& state, const Area& area);
 void DevicesPage(Ui& ui, EditorState& state, const Area& area);       // in the place of the last
 void DisturbancesPage(Ui& ui, EditorState& state, const Area& area);  // there too

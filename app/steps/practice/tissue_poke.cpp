@@ -1,7 +1,6 @@
 #include "app/steps/practice/tissue_poke.h"
 
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/practice/start_practice.h"
 
 namespace arthro::app {
 
@@ -10,7 +9,7 @@ void StartPoke(EditorState& state) {
     ready.jobs.Start("Poke", [document = ready.document(), presets = ready.tissue_presets,
                               pace = ready.steps.practice->pace](const Progress&) {
       const auto session =
-          std::make_shared<simulation::Practice>(MakePractice(document, presets, pace));
+          std::make_shared<simulation::Practice>(simulation::MakePractice(document, presets, pace));
       return [session](EditorState& now) {  // shared only because a std::function is copied
         if (now.practice || now.practice_only) return;
         session->SetViewAngle(now.document().scene.scope.view_angle);

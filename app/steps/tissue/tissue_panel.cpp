@@ -76,8 +76,10 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 // A number of the material: what differs from the preset is kept with the scene.
 void ElasticityField(Ui& ui, EditorState& state, const Tissue& tissue, const std::string& name,
-                     double shown, double factor, std::optional<double> Elasticity::*field,
-                     const Range& range, const char* format, const char* help) {
+                     const char* key, double shown, double factor,
+                     std::optional<double> Elasticity::*field, const char* format,
+                     const char* help) {
+  const Range range = FindField<Elasticity>(key).range;
   double value = shown / factor;
   const double step = 0.01 * std::max(std::abs(value), 0.1);
   QuietText(ui, name);
@@ -110,19 +112,19 @@ void MaterialFields(Ui& ui, EditorState& state, const Tissue& tissue) {
     return;
   }
   const simulation::Material& material = preset->material;
-  ElasticityField(ui, state, tissue, "Stiffness", material.young_modulus, 1e6,
-                  &Elasticity::young_modulus, {1e3, 1e9}, "%.3g MPa",
+  ElasticityField(ui, state, tissue, "Stiffness", "young_modulus", material.young_modulus, 1e6,
+                  &Elasticity::young_modulus, "%.3g MPa",
                   "Young's modulus, at small strain. Drag, or double-click to type.");
-  ElasticityField(ui, state, tissue, "Poisson's ratio", material.poisson_ratio, 1.0,
-                  &Elasticity::poisson_ratio, {0.0, 0.499}, "%.3f",
+  ElasticityField(ui, state, tissue, "Poisson's ratio", "poisson_ratio", material.poisson_ratio,
+                  1.0, &Elasticity::poisson_ratio, "%.3f",
                   "Ratio of transverse to axial strain; at 0.5 the volume would not change.");
   if (preset->is_thin)
-    ElasticityField(ui, state, tissue, "Thickness of the layer", preset->layer_thickness,
-                    kMetrePerMillimetre, &Elasticity::layer_thickness, {1e-4, 0.02}, "%.1f mm",
-                    "On the bone; it needs no tetrahedra.");
+    ElasticityField(ui, state, tissue, "Thickness of the layer", "layer_thickness",
+                    preset->layer_thickness, kMetrePerMillimetre, &Elasticity::layer_thickness,
+                    "%.1f mm", "On the bone; it needs no tetrahedra.");
   else
-    ElasticityField(ui, state, tissue, "Fibres along the rim", material.fibre_stiffness, 1e6,
-                    &Elasticity::fibre_stiffness, {0.0, 1e9}, "%.3g MPa",
+    ElasticityField(ui, state, tissue, "Fibres along the rim", "fibre_stiffness",
+                    material.fibre_stiffness, 1e6, &Elasticity::fibre_stiffness, "%.3g MPa",
                     "Stiffness along circles about the tissue's own z axis; 0: none.");
   if (!(tissue.elasticity == Elasticity{})) QuietText(ui, "Differs from the preset.");
   QuietText(ui, preset->probing);

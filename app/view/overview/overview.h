@@ -40,7 +40,7 @@ class Overview {
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
   // Another relief or place for the panorama that is there.
   void SetRelief(const DepthMap& depth, const Backdrop& backdrop);
-  void SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces);
+  void SetTissues(std::span<const Tissue> tissues, std::span<const SharedSurface> surfaces);
   void SetTissuePose(int index, const Pose& portal_from_tissue);
   // As ArthroscopicView's.
   bool SetTissueShape(int index, std::span<const glm::dvec3> positions,

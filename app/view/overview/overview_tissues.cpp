@@ -63,13 +63,14 @@ void Overview::Parts::PlaceBox() {
   box->On();
 }
 
-void Overview::SetTissues(std::span<const Tissue> tissues, std::span<const SurfaceMesh> surfaces) {
+void Overview::SetTissues(std::span<const Tissue> tissues,
+                          std::span<const SharedSurface> surfaces) {
   Parts& p = *parts_;
   for (const auto& model : p.tissues) p.renderer->RemoveActor(model.actor);
   p.tissues.clear();
   for (std::size_t i = 0; i < tissues.size(); ++i) {
     Parts::Model model;
-    if (i < surfaces.size()) model.surface = surfaces[i];
+    if (i < surfaces.size()) model.surface = OrEmpty(surfaces[i]);
     model.pose = tissues[i].pose;
     model.data = MakeSurfaceData(model.surface);
     const glm::dvec3& c = tissues[i].colour;

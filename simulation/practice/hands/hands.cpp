@@ -146,12 +146,10 @@ std::shared_ptr<LiveLink> Hands::LinkOf(const RigDevice& device) {
 void Hands::Mount(Scene& scene) const {
   scene.rig.scope = MountOf(DeviceRole::kScope, scene);
   scene.rig.instrument = MountOf(DeviceRole::kInstrument, scene);
-  scene.scope.rod_length = scene.rig.scope.rod_length;
 }
 
 DeviceRig Hands::MountOf(DeviceRole role, const Scene& scene) const {
   DeviceRig mount = role == DeviceRole::kScope ? scene.rig.scope : scene.rig.instrument;
-  if (role == DeviceRole::kScope) mount.rod_length = scene.scope.rod_length;
   if (const auto& own = RigOf(role)) mount = own->mount;
   if (const auto& pivot = pivots_[Index(role)]) mount.pivot = *pivot;
   return mount;

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/error.h"
+#include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::simulation {
@@ -25,7 +27,7 @@ constexpr double kBladeSpeed = 30.0;  // rad/s
 RodLimits ScopeLimits(const Scene& scene) {
   RodLimits limits;
   // Keeps the lens inside the sphere of the panorama and the hand outside the portal.
-  limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.scope.rod_length);
+  limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.rig.scope.rod_length);
   limits.min_depth = -0.2 * scene.backdrop.radius;
   return limits;
 }
@@ -62,6 +64,16 @@ RodPose StartOfInstrument(const Scene& scene) {
   pose.latitude = std::atan2(-rod.y, std::hypot(rod.x, rod.z));
   pose.longitude = std::atan2(rod.x, rod.z);
   return pose;
+}
+
+Practice MakePractice(const LoadedScene& loaded, const std::vector<TissuePreset>& presets,
+                      TissuePace pace, const SessionOptions& options) {
+  if (OrEmpty(loaded.panorama).empty())
+    throw Error(Code::kBadScene,
+                "a scene without a panorama cannot be practised; import one first");
+  auto session = std::make_unique<Session>(loaded, options);
+  EnlivenTissues(*session, loaded, presets, pace);
+  return {std::move(session), loaded.scene};
 }
 
 Practice::Practice(std::unique_ptr<Session> session, const Scene& scene)

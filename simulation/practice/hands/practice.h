@@ -13,6 +13,8 @@
 #include "simulation/practice/hands/hands.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
+#include "simulation/scene/loaded_scene.h"
+#include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::simulation {
 
@@ -80,5 +82,11 @@ RodPose StartOfScope(const Scene& scene);
 RodPose StartOfInstrument(const Scene& scene);
 RodLimits ScopeLimits(const Scene& scene);
 RodLimits InstrumentLimits(const Scene& scene);
+
+// Builds the session with its tissues, which takes a moment: call it in a job. Throws Error where
+// the scene cannot be practised: no panorama, or a material that is not among the presets. With
+// TissuePace::kInline the same input gives the same pictures.
+Practice MakePractice(const LoadedScene& loaded, const std::vector<TissuePreset>& presets,
+                      TissuePace pace, const SessionOptions& options = {});
 
 }  // namespace arthro::simulation

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "simulation/core/options.h"
+#include "simulation/scene/elasticity.h"
 
 namespace arthro::simulation {
 
@@ -29,12 +30,7 @@ struct Material {
       Choices<Law>{
           {{Law::kStableNeoHookean, "stable_neo_hookean"}, {Law::kCorotated, "corotated"}}},
       "", "Law of the matrix between the fibres.");
-    v("young_modulus", young_modulus, Range{1.0, 1e12}, "Pa", "Stiffness at small strain.");
-    v("poisson_ratio", poisson_ratio, Range{-0.9, 0.49999}, "",
-      "Resistance to a change of volume; 0.5 would be incompressible.");
-    v("density", density, Range{1e-3, 1e6}, "kg/m3", "Mass per volume.");
-    v("fibre_stiffness", fibre_stiffness, Range{0.0, 1e12}, "Pa",
-      "Stiffness of the fibres along fibre_axis; 0 means no fibres.");
+    VisitElasticConstants(v, young_modulus, poisson_ratio, density, fibre_stiffness);
     v("fibre_axis", fibre_axis,
       Choices<FibreAxis>{
           {{FibreAxis::kNone, "none"}, {FibreAxis::kCircumferentialZ, "circumferential_z"}}},

@@ -1,4 +1,4 @@
-// An incision that is calibrated in the window's own way (app/commands/devices), without a window:
+// An incision that is calibrated in the window's own way (app/steps/practice), without a window:
 // by commands, on simulated and recorded hands, on a rig whose file keeps it.
 #include "app/steps/practice/calibrate_incision.h"
 
@@ -96,7 +96,8 @@ class CalibrateIncision : public testing::Test {
 
 TEST_F(CalibrateIncision, TwoPressesOfASimulatedHandAreUsedAndSavedInTheRigTheyCameFrom) {
   Hold(simulation::ReadHands(rig, "plant"));
-  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), simulation::HandKind::kSimulated);
+  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope),
+            simulation::HandKind::kSimulated);
   Begin();
   EXPECT_FALSE(CommandOf(state, "use-incision").enabled(state));
   PressAt(0, 0);
@@ -210,7 +211,8 @@ TEST_F(CalibrateIncision, ARecordedHandThatKeepsSwingingMendsAWrongRig) {
                   simulation::HandleFromRodPose(pose, truth), 0, true};
   }
   Hold(std::move(choice));
-  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope), simulation::HandKind::kRecorded);
+  EXPECT_EQ(state.steps.practice->hands->KindOf(DeviceRole::kScope),
+            simulation::HandKind::kRecorded);
   EXPECT_FALSE(CommandOf(state, "calibrate-instrument").enabled(state)) << "mouse and keys have it";
   Begin();
   state.steps.practice->calibrating->work.Begin(simulation::PivotSource::kSwing);

@@ -153,6 +153,16 @@ TEST_F(Commands, AnEditThatChangesNothingIsNoStep) {
   EXPECT_FALSE(state.history.CanUndo());
 }
 
+TEST_F(Commands, AnEditOfATissuesRightsIsAStep) {
+  Open();
+  Tissue changed = state.document().scene.tissues[0];
+  changed.rights.licence = "CC-BY-4.0";
+  SetTissue(state, 0, changed, "Change the rights of");
+  EXPECT_EQ(state.document().scene.tissues[0].rights.licence, "CC-BY-4.0");
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().scene.tissues[0].rights.licence, "");
+}
+
 TEST_F(Commands, DepthFollowsItsOptionsAndBothAreUndoneAtOnce) {
   OpenAndMakeDepth();
   const auto before = state.document().depth;
@@ -225,7 +235,7 @@ TEST_F(Commands, SavingWaitsForTheDepthOfTheOptions) {
   ASSERT_TRUE(state.history.IsSaved());
   const LoadedScene saved = LoadScene(temp / "knee");
   float nearest = 0;
-  for (const float h : saved.depth.relief)
+  for (const float h : saved.depth->relief)
     if (h > nearest) nearest = h;
   EXPECT_NEAR(nearest, 0.004, 1e-6);
 }

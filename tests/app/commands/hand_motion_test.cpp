@@ -1,4 +1,4 @@
-// Mouse and keys to hands (app/commands/hand_motion.h), and rotations as three angles.
+// Mouse and keys to hands (app/steps/practice/hand_motion.h), and rotations as three angles.
 #include "app/steps/practice/hand_motion.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The copy of unsaved work (app/commands/recovery): when it is written, and when it goes.
+// The copy of unsaved work (app/files): when it is written, and when it goes.
 #include <chrono>
 #include <fstream>
 #include <limits>

@@ -95,7 +95,7 @@ expect "Saved in"
 )");
   const LoadedScene saved = LoadScene(scene);
   float nearest = 0;
-  for (const float h : saved.depth.relief)
+  for (const float h : saved.depth->relief)
     if (h > nearest) nearest = h;
   EXPECT_NEAR(nearest, 0.015, 1e-6);
 }
@@ -279,7 +279,7 @@ TEST_F(EditorWindow, SaveAsWritesAWholeSceneElsewhere) {
         (temp / "copy").string() + "\"\nclick Save\nwait job\nexpect \"Saved in\"\n");
   const LoadedScene copy = LoadScene(temp / "copy");
   EXPECT_NEAR(copy.scene.portals.incision_spacing, 0.012, 1e-12);
-  EXPECT_EQ(copy.panorama.width, 400);
+  EXPECT_EQ(copy.panorama->width, 400);
   EXPECT_EQ(copy.surfaces.size(), 1u);
   EXPECT_NEAR(ReadScene(scene).portals.incision_spacing, 0.03, 1e-12) << "the old one is untouched";
 }

@@ -83,8 +83,8 @@ expect "Saved in"
   const Projection& projection = saved.scene.backdrop.projection;
   EXPECT_EQ(projection.type, ProjectionType::kGnomonic);
   EXPECT_GT(projection.focal_px, 50);
-  EXPECT_GT(saved.panorama.width, 300);
-  EXPECT_EQ(saved.depth.width, saved.panorama.width);
+  EXPECT_GT(saved.panorama->width, 300);
+  EXPECT_EQ(saved.depth->width, saved.panorama->width);
 }
 
 TEST_F(FootageWindow, AFrameIsLeftOutAndTheRunGoesOnFromThere) {

@@ -348,7 +348,7 @@ TEST_F(GainOfPictures, ABallIsAsBrightAsTheFootageWas) {
   constexpr int kSize = 128;
   for (const double gap : {0.003, 0.006, 0.012}) {
     tissue.pose.position = picture.view.tip + (gap + 0.02) * picture.view.view;
-    view_->SetTissues({&tissue, 1}, {&ball, 1});
+    view_->SetTissues({&tissue, 1}, std::vector{Share(ball)});
     view_->Render(picture, kSize);
     const ColourImage drawn = view_->ReadPixels();
     double sum = 0, total = 0;

@@ -101,13 +101,13 @@ TEST_F(BackdropView, GridOfAnEquirectangularPanoramaLiesWhereTheReferenceTracerS
 
 TEST_F(BackdropView, EveryPixelHasTheColourOfItsOwnPanoramaPixel) {
   const LoadedScene loaded = MakeViewScene();
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   Picture picture = PictureFromPose({-0.05, 0.04, 1.1, 0.012}, RadiansFromDegrees(30), 1.5);
   picture.plain = true;
   const int size = 401;  // odd: a pixel lies in the very middle
   view_->Render(picture, size);
   const ColourImage drawn = view_->ReadPixels();
-  const TracedPicture traced = TraceWindow(loaded.scene.backdrop, loaded.panorama, picture.view,
+  const TracedPicture traced = TraceWindow(loaded.scene.backdrop, *loaded.panorama, picture.view,
                                            picture.field_of_view, size);
   int worst = 0, worst_at_centre = 0;
   for (int y = 0; y < size; ++y)
@@ -127,9 +127,11 @@ TEST_F(BackdropView, EveryPixelHasTheColourOfItsOwnPanoramaPixel) {
 
 TEST_F(BackdropView, OutsideTheWindowIsBlackAndTheRimIsOnePixelWide) {
   LoadedScene loaded = MakeViewScene(256, 256);
-  std::fill(loaded.panorama.rgb.begin(), loaded.panorama.rgb.end(), std::uint8_t{200});
+  ColourImage grey(256, 256);
+  std::fill(grey.rgb.begin(), grey.rgb.end(), std::uint8_t{200});
+  loaded.panorama = Share(std::move(grey));
   loaded.scene.backdrop.projection.focal_px = 100;
-  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
   for (const bool plain : {true, false}) {
     Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
@@ -156,8 +158,8 @@ TEST_F(BackdropView, OutsideTheWindowIsBlackAndTheRimIsOnePixelWide) {
 TEST_F(BackdropView, DepthIsTheReliefsDistanceAlongTheView) {
   LoadedScene loaded = MakeViewScene();
   for (const double h : {0.0, 0.006, 0.02}) {
-    std::fill(loaded.depth.relief.begin(), loaded.depth.relief.end(), static_cast<float>(h));
-    view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+    loaded.depth = Share(DepthMap(1024, 768, static_cast<float>(h)));
+    view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
     const Picture picture = PictureFromPose({0.1, -0.1, 0.7, 0.014}, RadiansFromDegrees(30), 1.4);
     const int size = 257;
     view_->Render(picture, size);
@@ -233,9 +235,10 @@ LoadedScene CliffScene(bool is_equirectangular) {
     projection.type = ProjectionType::kEquirectangular;
     projection.px_per_deg = 4;
   }
-  for (int y = 0; y < loaded.depth.height; ++y)
-    for (int x = 0; x < loaded.depth.width; ++x)
-      loaded.depth.at(x, y) += x + y / 3 < 230 ? 0.006f : 0.0f;
+  DepthMap depth = *loaded.depth;
+  for (int y = 0; y < depth.height; ++y)
+    for (int x = 0; x < depth.width; ++x) depth.at(x, y) += x + y / 3 < 230 ? 0.006f : 0.0f;
+  loaded.depth = Share(std::move(depth));
   return loaded;
 }
 
@@ -286,13 +289,13 @@ TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
   for (const bool is_equirectangular : {false, true}) {
     const LoadedScene loaded = CliffScene(is_equirectangular);
     const Backdrop& backdrop = loaded.scene.backdrop;
-    view_->SetBackdrop(loaded.panorama, loaded.depth, backdrop);
-    const DepthMap relief_drawn = WithSmoothOutlines(loaded.depth);
+    view_->SetBackdrop(*loaded.panorama, *loaded.depth, backdrop);
+    const DepthMap relief_drawn = WithSmoothOutlines(*loaded.depth);
     for (const double angle : {0.0, 30.0, 70.0}) {
       Picture picture = PictureFromPose({0.05, -0.1, 0.7, 0.018}, RadiansFromDegrees(angle), 1.5);
       picture.plain = true;
       const int size = 96;
-      const TracedPicture traced = TraceWindow(backdrop, loaded.panorama, picture.view,
+      const TracedPicture traced = TraceWindow(backdrop, *loaded.panorama, picture.view,
                                                picture.field_of_view, size, {}, &relief_drawn);
       double share_before = 1;
       for (const app::ReliefSearch relief :
@@ -337,12 +340,13 @@ TEST_F(BackdropView, WhatIsBeforeTheReliefEndsWhereTheReferenceTracerEndsIt) {
     SurfaceMesh ball = Ellipsoid(glm::dvec3(0.003));
     for (glm::dvec3& x : ball.vertices) x += glm::dvec3(0.004, 0.0, 0.042);
     Tissue tissue;
-    view_->SetBackdrop(loaded.panorama, loaded.depth, backdrop);
-    view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+    view_->SetBackdrop(*loaded.panorama, *loaded.depth, backdrop);
+    view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
     constexpr int kSize = 256;
     const ReferenceMesh mesh{&ball};
-    const TracedPicture traced = TraceWindow(backdrop, loaded.panorama, usual.view,
-                                             usual.field_of_view, kSize, {&mesh, 1}, &loaded.depth);
+    const TracedPicture traced =
+        TraceWindow(backdrop, *loaded.panorama, usual.view, usual.field_of_view, kSize, {&mesh, 1},
+                    loaded.depth.get());
     for (const app::ReliefSearch relief : {app::kUsualRelief, app::ReliefSearch{}}) {
       Picture picture = usual;
       picture.relief = relief;
@@ -351,7 +355,7 @@ TEST_F(BackdropView, WhatIsBeforeTheReliefEndsWhereTheReferenceTracerEndsIt) {
         view_->SetTissues({}, {});
         view_->Render(picture, kSize);
         auto distances = view_->ReadDistances();
-        view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+        view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
         view_->Render(picture, kSize);
         return distances;
       }();
@@ -416,7 +420,7 @@ TEST(ReliefCeiling, NothingInABlockOrTheEightAboutItIsHigher) {
 
 TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture) {
   LoadedScene loaded = MakeViewScene();
-  view_->SetBackdrop(loaded.panorama, DepthMap(1024, 768, NAN), loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, DepthMap(1024, 768, NAN), loaded.scene.backdrop);
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
   view_->Render(picture, 201);
   EXPECT_NEAR(view_->ReadDistances()[100 * 201 + 100], 0.04, 5e-6);
@@ -431,24 +435,24 @@ TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture)
 TEST_F(BackdropView, AnotherDepthIsDrawnAsIfItHadBeenThereFromTheStart) {
   LoadedScene loaded = MakeViewScene(511, 383);  // rows of no round number of bytes
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->Render(picture, 200);
   const ColourImage first = view_->ReadPixels();
-  DepthMap deeper = loaded.depth;
+  DepthMap deeper = *loaded.depth;
   for (int y = 0; y < 190; ++y)
     for (int x = 0; x < deeper.width; ++x) deeper.at(x, y) = NAN;
   view_->SetDepth(deeper);
   view_->Render(picture, 200);
   const ColourImage second = view_->ReadPixels();
   EXPECT_NE(first.rgb, second.rgb);
-  view_->SetDepth(loaded.depth);
+  view_->SetDepth(*loaded.depth);
   view_->Render(picture, 200);
   EXPECT_EQ(view_->ReadPixels().rgb, first.rgb);
 }
 
 TEST_F(BackdropView, DeepestAndShallowestTipsDrawWithoutNonsense) {
   const LoadedScene loaded = MakeViewScene();
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   for (const double insertion : {-0.02, 0.0, 0.049999, 0.05})
     for (const double angle : {0.0, 90.0}) {
       const Picture picture = PictureFromPose({0, 0, 0, insertion}, RadiansFromDegrees(angle), 1.5);

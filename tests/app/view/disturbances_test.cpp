@@ -36,7 +36,7 @@ class DisturbedView : public ViewTest {
   }
   void ShowJoint() {
     const LoadedScene loaded = MakeViewScene();
-    view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+    view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
     view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
   }
   ColourImage Draw(const Disturbances& disturbances, int size = kSize) {

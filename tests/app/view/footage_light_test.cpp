@@ -139,7 +139,7 @@ TEST_F(LitModels, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
 TEST_F(LitModels, TurningTheCameraHeadTurnsThePictureAndNothingInIt) {
   LoadedScene loaded = MakeViewScene(512, 512);
   loaded.scene.backdrop.relight = 1;
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
   const simulation::RodPose pose{-0.1, 0.05, 0.4, 0.01};
   constexpr int kSize = 200;

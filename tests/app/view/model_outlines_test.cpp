@@ -37,13 +37,13 @@ struct Agreement {
 Agreement Compare(app::ArthroscopicView& view, const LoadedScene& loaded, const SurfaceMesh& model,
                   const Picture& picture, const Lens* lens) {
   Tissue tissue;
-  view.SetTissues(std::span(&tissue, 1), std::span(&model, 1));
+  view.SetTissues(std::span(&tissue, 1), std::vector{Share(model)});
   view.Render(picture, kSize);
   const std::vector<float> drawn = view.ReadDistances();
   const Backdrop& backdrop = loaded.scene.backdrop;
   const ReferenceMesh reference{&model};
   const TracedPicture traced =
-      TraceWindow(backdrop, loaded.panorama, picture.view, picture.field_of_view, kSize,
+      TraceWindow(backdrop, *loaded.panorama, picture.view, picture.field_of_view, kSize,
                   std::span(&reference, 1), nullptr, lens);
   const auto is_model = [&](int x, int y) {
     return traced.what[static_cast<std::size_t>(y) * kSize + x] == 1;
@@ -100,7 +100,7 @@ class ModelOutlines : public ViewTest, public testing::WithParamInterface<Glass>
     if (IsSkipped()) return;
     loaded = MakeViewScene(256, 256);
     loaded.scene.backdrop.projection.focal_px = 110;
-    view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+    view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
     ScopeSpec scope;
     scope.field_of_view = 1.8;
     optics = simulation::OpticsOf(scope, GetParam().lens);

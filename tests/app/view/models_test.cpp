@@ -88,7 +88,7 @@ TEST_F(ModelsView, ReliefHidesTissueBehindItAndNoneInFront) {
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.4);
   for (const Occlusion& c : {Occlusion{0.030, 0.010, true}, Occlusion{0.045, 0.010, false},
                              Occlusion{0.045, 0.001, true}, Occlusion{0.036, 0.018, false}}) {
-    view_->SetBackdrop(loaded.panorama, DepthMap(256, 256, static_cast<float>(c.relief)),
+    view_->SetBackdrop(*loaded.panorama, DepthMap(256, 256, static_cast<float>(c.relief)),
                        loaded.scene.backdrop);
     view_->SetTissues({}, {});
     view_->Render(picture, 200);
@@ -96,7 +96,7 @@ TEST_F(ModelsView, ReliefHidesTissueBehindItAndNoneInFront) {
     const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.003));
     Tissue tissue;
     tissue.pose.position = {0, 0, c.ball_at};
-    view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+    view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
     view_->Render(picture, 200);
     EXPECT_EQ(view_->ReadPixels().rgb != without.rgb, c.seen)
         << "ball at " << c.ball_at << ", relief " << c.relief;
@@ -108,11 +108,11 @@ TEST_F(ModelsView, ReliefHidesTissueBehindItAndNoneInFront) {
 TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
-  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
   const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.004));
   Tissue tissue;
   tissue.pose.position = {0, 0, 0.030};
-  view_->SetTissues(std::span(&tissue, 1), std::span(&ball, 1));
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
   Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
   const int centre = 100 * 200 + 100;
   view_->Render(picture, 200);
@@ -138,7 +138,7 @@ TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
 TEST_F(ModelsView, ProbeIsDrawnFromItsPortalToTheProxyAndNoFurther) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
-  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
   Picture picture = PictureFromPose({0, 0, 0, 0.0}, 0.0, 2.4);
   picture.instrument = InstrumentView{{0.02, 0, 0.02}, {-0.01, 0, 0.02}, 0.0};
   const int size = 400;
@@ -162,7 +162,7 @@ TEST_F(ModelsView, ProbeIsDrawnFromItsPortalToTheProxyAndNoFurther) {
 TEST_F(ModelsView, NothingBehindTheLensSmearsOverThePicture) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
-  view_->SetBackdrop(loaded.panorama, {}, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
   // Few, long triangles wrapped all round the back of the lens, none in front.
   const SurfaceMesh shell = Ellipsoid(glm::dvec3(0.006), 6, 4);
   Tissue tissue;
@@ -170,19 +170,19 @@ TEST_F(ModelsView, NothingBehindTheLensSmearsOverThePicture) {
   const Picture picture = PictureFromPose({0, 0, 0, 0.012}, 0.0, std::numbers::pi / 2);
   view_->Render(picture, 200);
   const ColourImage without = view_->ReadPixels();
-  view_->SetTissues(std::span(&tissue, 1), std::span(&shell, 1));
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(shell)});
   view_->Render(picture, 200);
   EXPECT_EQ(view_->ReadPixels().rgb, without.rgb);
 }
 
 TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
   LoadedScene loaded = MakeViewScene();
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
   const Picture picture = PictureFromPose({-0.1, 0, 0, 0.012}, 0.3, 1.5);
   view_->Render(picture, 200);
   const ColourImage before = view_->ReadPixels();
-  SurfaceMesh pressed = loaded.surfaces[0];
+  SurfaceMesh pressed = *loaded.surfaces[0];
   for (glm::dvec3& vertex : pressed.vertices)
     vertex.z -= 0.0015 * std::exp(-1e5 * vertex.x * vertex.x);
   EXPECT_TRUE(view_->SetTissueShape(0, pressed.vertices));
@@ -201,7 +201,7 @@ TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
 
 TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
   LoadedScene loaded = MakeViewScene();
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
   const Picture picture = PictureFromPose({-0.1, 0, 0, 0.012}, 0.3, 1.5);
   const auto drawn = [&] {
@@ -209,7 +209,7 @@ TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
     return view_->ReadPixels().rgb;
   };
   const auto before = drawn();
-  const std::vector<glm::dvec3>& places = loaded.surfaces[0].vertices;
+  const std::vector<glm::dvec3>& places = loaded.surfaces[0]->vertices;
   const std::vector<glm::dvec3> turned(places.size(), glm::dvec3(1, 0, 0));
   EXPECT_TRUE(view_->SetTissueShape(0, places, turned));
   EXPECT_NE(drawn(), before);
@@ -231,7 +231,7 @@ TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
 
 TEST_F(ModelsView, EachInstrumentLooksItsOwnWayAndItsJawMoves) {
   LoadedScene loaded = MakeViewScene(256, 256);
-  view_->SetBackdrop(loaded.panorama, loaded.depth, loaded.scene.backdrop);
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.3, 1.5);
   picture.instrument = ProbeInFront();
   using simulation::ToolKind;

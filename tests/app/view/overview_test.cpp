@@ -28,7 +28,7 @@ class OverviewTest : public ViewTest {
     scene_ = MakeViewScene(512, 384);
     // In the middle of the picture: the default camera looks at this point.
     scene_.scene.tissues[0].pose = {{0.0, 0.003, 0.0225}, {1, 0, 0, 0}, 1.0};
-    overview_->SetBackdrop(scene_.panorama, scene_.depth, scene_.scene.backdrop);
+    overview_->SetBackdrop(*scene_.panorama, *scene_.depth, scene_.scene.backdrop);
     overview_->SetTissues(scene_.scene.tissues, scene_.surfaces);
     overview_->on_pose = [this](int tissue, const Pose& pose, bool finished) {
       EXPECT_EQ(tissue, 0);
@@ -117,7 +117,7 @@ TEST_F(OverviewTest, APixelOverATissueIsAPlaceOfItsSurface) {
   ASSERT_TRUE(met);
   EXPECT_EQ(met->tissue, 0);
   double nearest = 1;
-  for (const glm::dvec3& x : scene_.surfaces[0].vertices)
+  for (const glm::dvec3& x : scene_.surfaces[0]->vertices)
     nearest = std::min(nearest, glm::distance(x, met->x_in_tissue));
   EXPECT_LT(nearest, 0.5e-3);  // its triangles are smaller than a millimetre
 }
@@ -165,7 +165,7 @@ TEST_F(OverviewTest, APoseSetByOthersMovesTheBoxToo) {
 
 TEST_F(OverviewTest, BesideTheArthroscopesViewInOneContextNeitherDisturbsTheOther) {
   app::ArthroscopicView view;
-  view.SetBackdrop(scene_.panorama, scene_.depth, scene_.scene.backdrop);
+  view.SetBackdrop(*scene_.panorama, *scene_.depth, scene_.scene.backdrop);
   view.SetTissues(scene_.scene.tissues, scene_.surfaces);
   app::Picture picture = app::PictureFromPose({-0.1, 0.05, 0.2, 0.008}, 0.5, 1.5);
   picture.instrument = ProbeInFront();

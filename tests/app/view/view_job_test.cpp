@@ -14,9 +14,9 @@ namespace {
 // The scene of the other tests, as files.
 std::string WriteViewScene(const TempFolder& folder) {
   const LoadedScene loaded = MakeViewScene();
-  WriteColourImage(folder / "panorama.png", loaded.panorama);
-  WriteDepthMap(folder / "depth.tiff", loaded.depth);
-  WriteSurface(folder / "ring.ply", loaded.surfaces[0]);
+  WriteColourImage(folder / "panorama.png", *loaded.panorama);
+  WriteDepthMap(folder / "depth.tiff", *loaded.depth);
+  WriteSurface(folder / "ring.ply", *loaded.surfaces[0]);
   WriteScene(folder / "scene.json", loaded.scene);
   return folder.path().string();
 }

@@ -47,14 +47,12 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   backdrop.radius = 0.05;
   backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
   backdrop.projection.focal_px = 0.42 * width;
-  loaded.panorama = app::SlowColours(width, height);
-  loaded.depth = DepthMap(width, height);
+  DepthMap depth(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double u = double(x) / width, v = double(y) / height;
       const double du = u - 0.55, dv = v - 0.6;
-      loaded.depth.at(x, y) =
-          static_cast<float>(0.004 + 0.008 * std::exp(-30 * (du * du + dv * dv)));
+      depth.at(x, y) = static_cast<float>(0.004 + 0.008 * std::exp(-30 * (du * du + dv * dv)));
     }
   Tissue ring;
   ring.name = "ring";
@@ -62,7 +60,9 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   ring.pose.position = {0.002, 0.004, 0.034};
   ring.pose.quaternion = glm::dquat(std::cos(0.5), std::sin(0.5), 0, 0);
   loaded.scene.tissues = {ring};
-  loaded.surfaces = {app::Ring(0.007, 0.0024)};
+  loaded.panorama = Share(app::SlowColours(width, height));
+  loaded.depth = Share(std::move(depth));
+  loaded.surfaces = {Share(app::Ring(0.007, 0.0024))};
   return loaded;
 }
 

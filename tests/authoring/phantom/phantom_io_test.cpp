@@ -38,8 +38,8 @@ TEST(PhantomFolder, LoadsAsASceneWithBothTissues) {
   const test::TempFolder folder;
   WritePhantom(folder / "knee", SmallPhantom());
   const LoadedScene loaded = LoadScene(folder / "knee");
-  EXPECT_EQ(loaded.panorama.width, 1024);
-  EXPECT_EQ(loaded.depth.height, 768);
+  EXPECT_EQ(loaded.panorama->width, 1024);
+  EXPECT_EQ(loaded.depth->height, 768);
   ASSERT_EQ(loaded.surfaces.size(), 2u);
   // The meniscus deforms as a fixed volume, the cartilage as a layer on bone.
   const auto& tissues = loaded.scene.tissues;
@@ -52,8 +52,8 @@ TEST(PhantomFolder, LoadsAsASceneWithBothTissues) {
   EXPECT_TRUE(tissues[0].is_cuttable);
   EXPECT_TRUE(tissues[1].mesh.empty());
   EXPECT_FALSE(tissues[1].is_cuttable);
-  EXPECT_EQ(loaded.surfaces[0].vertices, SmallPhantom().meniscus.surface.vertices);
-  EXPECT_EQ(loaded.depth.relief, SmallPhantom().without_tissues.depth.relief);
+  EXPECT_EQ(loaded.surfaces[0]->vertices, SmallPhantom().meniscus.surface.vertices);
+  EXPECT_EQ(loaded.depth->relief, SmallPhantom().without_tissues.depth.relief);
   EXPECT_TRUE(fs::exists(folder / "knee/panorama_with_tissue.png"));
   EXPECT_EQ(ReadDepthMap(folder / "knee/depth_with_tissue.tiff").relief,
             SmallPhantom().with_tissues.depth.relief);

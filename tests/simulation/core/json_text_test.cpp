@@ -56,5 +56,30 @@ TEST(ParseOrderedJson, KeepsTheOrderOfTheText) {
             "{\"b\":1,\"a\":[2]}");
 }
 
+TEST(LineOfKey, FollowsMembersAndElements) {
+  const std::string text =
+      "{\n"
+      "  \"a.b\": \"{[\\\"\", \"a\": [1, {\"b\": 2},\n"
+      "    {\"b\": [3,\n"
+      "      4], \"c\":\n 5}],\n"
+      "  \"d\": {}\n}";
+  EXPECT_EQ(LineOfKey(text, ""), 1);
+  EXPECT_EQ(LineOfKey(text, "a"), 2);
+  EXPECT_EQ(LineOfKey(text, "a[1].b"), 2);
+  EXPECT_EQ(LineOfKey(text, "a[2]"), 3);
+  EXPECT_EQ(LineOfKey(text, "a[2].b[1]"), 4);
+  EXPECT_EQ(LineOfKey(text, "a[2].c"), 4);
+  EXPECT_EQ(LineOfKey(text, "d"), 6);
+}
+
+TEST(LineOfKey, OfAMissingKeyIsThatOfItsOwner) {
+  const std::string text = "{\n\"a\": {\n\"b\": 1},\n\"c\": [2]}";
+  EXPECT_EQ(LineOfKey(text, "a.x"), 2);
+  EXPECT_EQ(LineOfKey(text, "a.b.x"), 3);
+  EXPECT_EQ(LineOfKey(text, "c[7].x"), 4);
+  EXPECT_EQ(LineOfKey(text, "x.y"), 1);
+  EXPECT_EQ(LineOfKey(text, "c[x"), 4);
+}
+
 }  // namespace
 }  // namespace arthro

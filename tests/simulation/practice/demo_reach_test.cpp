@@ -28,16 +28,14 @@ constexpr double kSafe = 8.5;
 class DemoReach : public testing::Test {
  protected:
   DemoReach() : demo(LoadScene(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/demo")) {
-    const auto presets =
+    presets =
         ReadTissuePresets(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues");
-    bodies = LivingTissues(
-        demo.scene, demo.surfaces, [&](const std::filesystem::path& n) { return demo.folder / n; },
-        presets);
-    layers = LayersOf(demo.scene, demo.surfaces, presets);
+    bodies = LivingTissues(demo, presets);
+    layers = LayersOf(demo, presets);
     // The free edge at 55° from medial to posterior about the crescent's middle; the plateau is
     // 0.3 mm below the middle of the edge's thickness.
     const Pose& pose = demo.scene.tissues[0].pose;
-    const auto& skin = demo.surfaces[0].vertices;
+    const auto& skin = demo.surfaces[0]->vertices;
     constexpr double kAngle = 55.0 * std::numbers::pi / 180;
     glm::dvec3 out =
         glm::conjugate(pose.quaternion) * glm::dvec3(std::cos(kAngle), 0, std::sin(kAngle));
@@ -59,6 +57,7 @@ class DemoReach : public testing::Test {
   }
 
   LoadedScene demo;
+  std::vector<TissuePreset> presets;
   std::vector<BodySpec> bodies;
   std::vector<LayerSpec> layers;
   std::vector<std::size_t> near_edge;   // vertices of the skin
@@ -262,7 +261,7 @@ TEST_F(DemoReach, AShaverTakesOfTheFreeEdge) {
 // What `arthroscene demo` plays: it lifts the edge, and nothing before that does.
 TEST_F(DemoReach, TheDemosOwnTraceLiftsTheFreeEdgeAndLetsItGo) {
   double lifted = 0, before = 0, after = 0, peak = 0;
-  Replay(demo, ReadTrace(demo.folder / "trace.csv"), {}, {}, nullptr, bodies, layers,
+  Replay(demo, ReadTrace(demo.folder / "trace.csv"), {}, {}, nullptr, presets,
          [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture* world) {
            peak = std::max(peak, glm::length(snapshot.instrument.tip_force));
            if (!world) return;

@@ -31,7 +31,7 @@ LoadedScene MakeScene() {
 }
 
 std::shared_ptr<ImplicitTissue> MakeField(const LoadedScene& loaded) {
-  return std::make_shared<ImplicitTissue>(SolidField::FromSurface(loaded.surfaces[0], kSpacing),
+  return std::make_shared<ImplicitTissue>(SolidField::FromSurface(*loaded.surfaces[0], kSpacing),
                                           loaded.scene.tissues[0].pose);
 }
 
@@ -63,7 +63,7 @@ TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
 TEST(FieldTissue, AToolThatAppearsBeyondAThinOneIsHeldBeforeIt) {
   // A flap of 1 mm. (A ball would be slid around: beyond its centre its near side is no minimum.)
   LoadedScene loaded = MakeScene();
-  loaded.surfaces[0] = test::Box({-5e-3, -5e-3, -5e-4}, {5e-3, 5e-3, 5e-4});
+  loaded.surfaces[0] = Share(test::Box({-5e-3, -5e-3, -5e-4}, {5e-3, 5e-3, 5e-4}));
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
   hand.instrument.Set({0, 0, 0, 0.06});  // it enters through its portal, 60 mm in a tick
@@ -103,7 +103,7 @@ TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
   LoadedScene loaded = MakeScene();
   loaded.scene.tissues[0].pose.scale = 0.5;
   Hand given(loaded);
-  auto field = SolidField::FromSurface(loaded.surfaces[0], kSpacing / 0.5);
+  auto field = SolidField::FromSurface(*loaded.surfaces[0], kSpacing / 0.5);
   given.session.SetField(
       0, std::make_shared<ImplicitTissue>(std::move(field), loaded.scene.tissues[0].pose));
   loaded.scene.tissues[0].is_implicit = true;
@@ -113,7 +113,9 @@ TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
   const double ball = 0.5 * kBall, depth = ball - glm::distance(deep, kCentre);
   EXPECT_NEAR(glm::length(said.session.snapshot().instrument.tip_force), kSpring * depth,
               kSpring * (kSkin + 2 * kSpacing * kSpacing / (8 * ball) + 1e-6));
-  loaded.surfaces[0].triangles.pop_back();
+  SurfaceMesh open = *loaded.surfaces[0];
+  open.triangles.pop_back();
+  loaded.surfaces[0] = Share(std::move(open));
   EXPECT_THROW(Hand{loaded}, Error) << "an open surface has no inside";
 }
 

@@ -23,9 +23,9 @@ inline LoadedScene SceneOf(const SurfaceMesh& surface, const Tissue& tissue) {
   loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
   loaded.scene.backdrop.projection.focal_px = 500;
   loaded.scene.portals.incision_spacing = 0.0;
-  loaded.panorama = ColourImage(1024, 1024);
+  loaded.panorama = Share(ColourImage(1024, 1024));
   loaded.scene.tissues.push_back(tissue);
-  loaded.surfaces.push_back(surface);
+  loaded.surfaces.push_back(Share(surface));
   return loaded;
 }
 

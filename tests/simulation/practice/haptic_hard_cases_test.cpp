@@ -32,8 +32,8 @@ constexpr double kFrictionOfDevice = 0.26;  // N, of a plant
 LoadedScene SceneOver(const AnalyticRelief& relief, DepthMap depth) {
   LoadedScene loaded;
   loaded.scene.backdrop = relief.backdrop;
-  loaded.panorama = ColourImage(relief.width, relief.height);
-  loaded.depth = std::move(depth);
+  loaded.panorama = Share(ColourImage(relief.width, relief.height));
+  loaded.depth = Share(std::move(depth));
   return loaded;
 }
 
@@ -275,7 +275,7 @@ TEST(HardCase15, AHandThatCrossesTheIncisionGetsAForceThatFadesAndNeverFlutters)
   const AnalyticRelief relief = Flat();
   for (const double beside : {0.0, 1e-6, 1e-3, 4e-3}) {
     LoadedScene loaded = SceneOver(relief, relief.Float());
-    loaded.scene.scope.rod_length = 0.06;  // in the wall up to 14 mm from the incision
+    loaded.scene.rig.scope.rod_length = 0.06;  // in the wall up to 14 mm from the incision
     Session session(loaded);
     glm::dvec3 last(0.0);
     int turns = 0, felt = 0;

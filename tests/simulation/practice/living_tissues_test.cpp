@@ -18,8 +18,10 @@ TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
   mesh.rest_positions = surface.vertices;
   mesh.elements = {0, 1, 2, 3};
   WriteTetMesh(folder / "m.vtu", mesh);
-  Scene scene;
-  Tissue& tissue = scene.tissues.emplace_back();
+  LoadedScene loaded;
+  loaded.folder = folder.path();
+  loaded.surfaces = {Share(surface)};
+  Tissue& tissue = loaded.scene.tissues.emplace_back();
   tissue.name = "meniscus";
   tissue.mesh = "m.vtu";
   tissue.material = "soft";
@@ -31,9 +33,7 @@ TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
   tissue.regions = {{"horn", {{0, 0.001, 0}, 0.004}}};
   TissuePreset preset;
   preset.name = "soft";
-  const std::vector<BodySpec> bodies = LivingTissues(
-      scene, std::vector{surface},
-      [&](const std::filesystem::path& name) { return folder / name.string(); }, {preset});
+  const std::vector<BodySpec> bodies = LivingTissues(loaded, {preset});
   ASSERT_EQ(bodies.size(), 1u);
   const BodySpec& body = bodies[0];
   EXPECT_EQ(body.mesh.rest_positions[1], glm::dvec3(0.02, 0, 0));
@@ -55,17 +55,17 @@ std::string SaidOf(double scale, const glm::dvec3& shift) {
   for (const glm::dvec3& x : surface.vertices) mesh.rest_positions.push_back(scale * x + shift);
   mesh.elements = {0, 1, 2, 3};
   WriteTetMesh(folder / "m.vtu", mesh);
-  Scene scene;
-  Tissue& tissue = scene.tissues.emplace_back();
+  LoadedScene loaded;
+  loaded.folder = folder.path();
+  loaded.surfaces = {Share(surface)};
+  Tissue& tissue = loaded.scene.tissues.emplace_back();
   tissue.name = "meniscus";
   tissue.mesh = "m.vtu";
   tissue.material = "soft";
   TissuePreset preset;
   preset.name = "soft";
   try {
-    LivingTissues(scene, std::vector{surface},
-                  [&](const std::filesystem::path& name) { return folder / name.string(); },
-                  {preset});
+    LivingTissues(loaded, {preset});
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Code::kBadMesh);
     return error.sentence();

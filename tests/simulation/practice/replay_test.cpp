@@ -25,8 +25,8 @@ LoadedScene MakeScene() {
   loaded.scene.backdrop.projection.centre_px = {127.5, 127.5};
   loaded.scene.backdrop.projection.focal_px = 120;
   loaded.scene.portals.incision_spacing = 0.03;
-  loaded.panorama = ColourImage(256, 256);
-  loaded.depth = DepthMap(256, 256, 0.004f);
+  loaded.panorama = Share(ColourImage(256, 256));
+  loaded.depth = Share(DepthMap(256, 256, 0.004f));
   return loaded;
 }
 
@@ -58,13 +58,13 @@ std::vector<std::vector<std::string>> Table(const std::string& text) {
 // A shaver runs beside a loose body that is a function, its window to it.
 TEST(Replay, OfAShaverOnALooseBodySaysWhatItTookAndGivesTheSameBytesTwice) {
   LoadedScene loaded = MakeScene();
-  loaded.depth = {};
+  loaded.depth = nullptr;
   Tissue tissue;
   tissue.name = "loose body";
   tissue.is_implicit = true;
   tissue.pose.position = {0.03, 0, 0.03};
   loaded.scene.tissues.push_back(tissue);
-  loaded.surfaces.push_back(test::Sphere({0, 0, 0}, 0.004, 4));
+  loaded.surfaces.push_back(Share(test::Sphere({0, 0, 0}, 0.004, 4)));
   loaded.scene.instruments = {{"shaver", "shaver"}};
   std::vector<TraceRow> trace;
   ScriptedDevice instrument({});
@@ -186,8 +186,8 @@ class ReplayJob : public testing::Test {
  protected:
   void SetUp() override {
     const LoadedScene loaded = MakeScene();
-    WriteColourImage(folder_ / "panorama.png", loaded.panorama);
-    WriteDepthMap(folder_ / "depth.tiff", loaded.depth);
+    WriteColourImage(folder_ / "panorama.png", *loaded.panorama);
+    WriteDepthMap(folder_ / "depth.tiff", *loaded.depth);
     WriteScene(folder_ / "scene.json", loaded.scene);
     WriteTrace(folder_ / "trace.csv", MakeTrace(0.5, 100));
   }

@@ -9,10 +9,11 @@ namespace arthro::simulation {
 namespace {
 
 TEST(ScriptedDevice, SessionSeesThePoseThatWasSet) {
-  Scene scene;
+  LoadedScene loaded;
+  Scene& scene = loaded.scene;
   scene.rig.instrument.portal_from_device = glm::normalize(glm::dquat(0.9, 0.1, -0.3, 0.2));
   scene.rig.instrument.pivot = {0.01, -0.02, 0.15};
-  Session session(scene, DepthField(), {});
+  Session session(loaded);
   ScriptedDevice scope(session.scope_rig()), instrument(session.instrument_rig());
   scope.Set({0.1, -0.2, 0.5, 0.02});
   instrument.Set({-0.3, 0.4, 0.0, 0.03});

@@ -25,14 +25,14 @@ LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
   loaded.scene.backdrop.projection.centre_px = {511.5, 511.5};
   loaded.scene.backdrop.projection.focal_px = 500;
   loaded.scene.portals.incision_spacing = 0.03;
-  loaded.panorama = ColourImage(1024, 1024);
-  if (has_depth) loaded.depth = DepthMap(1024, 1024, 0.004f);
+  loaded.panorama = Share(ColourImage(1024, 1024));
+  if (has_depth) loaded.depth = Share(DepthMap(1024, 1024, 0.004f));
   if (has_tissue) {
     Tissue tissue;
     tissue.name = "box";
     tissue.pose.position = {0.01, 0, 0.04};
     loaded.scene.tissues.push_back(tissue);
-    loaded.surfaces.push_back(test::Box(glm::dvec3(-0.004), glm::dvec3(0.004)));
+    loaded.surfaces.push_back(Share(test::Box(glm::dvec3(-0.004), glm::dvec3(0.004))));
   }
   return loaded;
 }
@@ -215,7 +215,7 @@ TEST(Session, SceneWithoutDepthFeelsTheBareSphere) {
 
 TEST(Session, SceneWithNothingToTouchHasNoForce) {
   LoadedScene loaded = MakeScene(false, false);
-  loaded.panorama = ColourImage();
+  loaded.panorama = nullptr;
   Hands hands(loaded);
   hands.scope.Set({0, 0, 0, 0.06});
   EXPECT_EQ(hands.Tick(10).scope.tip_force, glm::dvec3(0.0));
@@ -436,7 +436,7 @@ TEST(LiveTissue, AnotherInstrumentsForceRisesFromZero) {
 
 TEST(ServoTick, AllocatesNothing) {
   LoadedScene loaded = MakeScene();
-  loaded.surfaces[0] = test::Sphere({0, 0, 0}, 0.005, 5);
+  loaded.surfaces[0] = Share(test::Sphere({0, 0, 0}, 0.005, 5));
   Hands hands(loaded);
   const long before = test::Allocations();
   for (int i = 0; i < 3000; ++i) {

@@ -41,7 +41,7 @@ std::vector<TissuePreset> Presets() {
 
 struct LayerHand : Hand {
   explicit LayerHand(const LoadedScene& loaded, bool has_layers = true) : Hand(loaded) {
-    if (has_layers) layers = LayersOf(loaded.scene, loaded.surfaces, Presets());
+    if (has_layers) layers = LayersOf(loaded, Presets());
     session.Enliven({}, TissuePace::kInline, layers);
   }
   // Along the axis to this far past the face, and held.
@@ -182,7 +182,7 @@ TEST(ThinLayer, OfAnotherTissueChangesNothing) {
   loaded.scene.tissues.push_back(loaded.scene.tissues[0]);
   loaded.scene.tissues[0].pose.position.x += 0.05;
   loaded.scene.tissues[1].material = "no preset has this name";
-  loaded.surfaces.push_back(Block());
+  loaded.surfaces.push_back(Share(Block()));
   LayerHand with(loaded), without(loaded, false);
   ASSERT_EQ(with.layers.size(), 1u);
   for (int i = 0; i < 1500; ++i) {
@@ -271,7 +271,7 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   EXPECT_GT(deepest, 0.9 * sink) << "a vertex each 0.3 mm";
   EXPECT_LT(deepest, sink + 2e-6);
   // The rim is smooth: no edge is turned by more than the ball's own flank is steep there.
-  for (const auto& triangle : loaded.surfaces[0].triangles)
+  for (const auto& triangle : loaded.surfaces[0]->triangles)
     for (int k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]);
       const auto b = static_cast<std::size_t>(triangle[static_cast<std::size_t>((k + 1) % 3)]);
@@ -338,7 +338,7 @@ TEST(ThinLayer, TakesWhatTheSceneSaysOtherwise) {
   LoadedScene loaded = MakeScene(Block());
   loaded.scene.tissues[0].elasticity.layer_thickness = 1e-3;
   loaded.scene.tissues[0].elasticity.young_modulus = 3e6;
-  const auto thin = LayersOf(loaded.scene, loaded.surfaces, Presets());
+  const auto thin = LayersOf(loaded, Presets());
   ASSERT_EQ(thin.size(), 1u);
   EXPECT_EQ(thin[0].layer.thickness(), 1e-3);
   Material material = FindTissuePreset(Presets(), "cartilage")->material;
@@ -346,14 +346,14 @@ TEST(ThinLayer, TakesWhatTheSceneSaysOtherwise) {
   EXPECT_EQ(thin[0].layer.foundation(), ElasticLayer(material, 1e-3).foundation());
 
   loaded.scene.tissues[0].mesh = "plateau.vtu";
-  EXPECT_TRUE(LayersOf(loaded.scene, loaded.surfaces, Presets()).empty()) << "it is a body";
+  EXPECT_TRUE(LayersOf(loaded, Presets()).empty()) << "it is a body";
   loaded.scene.tissues[0].mesh.clear();
   loaded.scene.tissues[0].material = "meniscus";
-  EXPECT_TRUE(LayersOf(loaded.scene, loaded.surfaces, Presets()).empty()) << "thick, and rigid";
+  EXPECT_TRUE(LayersOf(loaded, Presets()).empty()) << "thick, and rigid";
   loaded.scene.tissues[0].material = "cartilage";
   loaded.scene.tissues[0].elasticity.layer_thickness = 0.0;
   try {
-    LayersOf(loaded.scene, loaded.surfaces, Presets());
+    LayersOf(loaded, Presets());
     FAIL() << "a layer of no thickness";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("plateau"), std::string::npos) << error.what();

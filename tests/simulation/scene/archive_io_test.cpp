@@ -107,9 +107,10 @@ TEST(ArchiveIo, ASceneIsLoadedFromItsArchive) {
   fs::path unpacked;
   {
     const LoadedScene loaded = LoadScene(folder / "s.arthro");
-    unpacked = loaded.folder;
-    EXPECT_EQ(loaded.depth.at(3, 3), 0.01f);
-    EXPECT_EQ(loaded.surfaces[0].triangles.size(), 1u);
+    unpacked = loaded.unpacked->path();
+    EXPECT_EQ(loaded.folder, folder / "s.arthro");
+    EXPECT_EQ(loaded.depth->at(3, 3), 0.01f);
+    EXPECT_EQ(loaded.surfaces[0]->triangles.size(), 1u);
     EXPECT_TRUE(fs::exists(unpacked / "m.ply")) << "files stay while somebody holds the scene";
   }
   EXPECT_FALSE(fs::exists(unpacked));

@@ -86,7 +86,7 @@ TEST(SceneCheck, NamesAProbedPlaceThatTheMeshWasNotMadeFor) {
 LoadedScene WithOne(const SurfaceMesh& surface) {
   LoadedScene loaded;
   loaded.scene.tissues.emplace_back().name = "flap";
-  loaded.surfaces.push_back(surface);
+  loaded.surfaces.push_back(Share(surface));
   return loaded;
 }
 
@@ -105,7 +105,9 @@ TEST(SceneCheck, ASolidThatDoesNotGiveWayNeedsAClosedSurfaceAndNoTetrahedra) {
   EXPECT_TRUE(good.errors.empty());
   EXPECT_FALSE(Says(good.hints, "does not deform"));
   EXPECT_TRUE(Says(good.found, "\"flap\": a solid that does not give way"));
-  loaded.surfaces[0].triangles.pop_back();
+  SurfaceMesh open = *loaded.surfaces[0];
+  open.triangles.pop_back();
+  loaded.surfaces[0] = Share(std::move(open));
   EXPECT_TRUE(Says(CheckScene(loaded).errors, "is not closed: 3 edges"));
   loaded.scene.tissues[0].mesh = "flap.vtu";
   EXPECT_TRUE(Says(CheckScene(loaded).errors, "has tetrahedra; leave out one of the two"));

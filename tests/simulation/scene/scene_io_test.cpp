@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -61,8 +62,8 @@ TEST(SceneIo, LoadsTheFilesItNames) {
   WriteSmallFiles(folder.path());
   const LoadedScene loaded = LoadScene(folder.path());
   EXPECT_EQ(loaded.folder, folder.path());
-  EXPECT_EQ(loaded.panorama.width, 16);
-  EXPECT_EQ(loaded.depth.at(3, 3), 0.01f);
+  EXPECT_EQ(loaded.panorama->width, 16);
+  EXPECT_EQ(loaded.depth->at(3, 3), 0.01f);
 }
 
 TEST(SceneIo, LoadsOneSurfaceATissueInMetres) {
@@ -82,9 +83,9 @@ TEST(SceneIo, LoadsOneSurfaceATissueInMetres) {
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_NE(faults[0].find("tissues[0].surface names \"a.ply\""), std::string::npos) << faults[0];
   ASSERT_EQ(half.surfaces.size(), 2u) << "surfaces stay in step with tissues";
-  EXPECT_EQ(half.surfaces[1].vertices, triangle.vertices);
+  EXPECT_EQ(half.surfaces[1]->vertices, triangle.vertices);
   WriteSurface(folder / "a.ply", triangle);
-  EXPECT_EQ(LoadScene(folder.path()).surfaces[0].triangles, triangle.triangles);
+  EXPECT_EQ(LoadScene(folder.path()).surfaces[0]->triangles, triangle.triangles);
 }
 
 TEST(SceneIo, ASceneWithoutDepthIsABareSphere) {
@@ -93,7 +94,7 @@ TEST(SceneIo, ASceneWithoutDepthIsABareSphere) {
   scene.backdrop.depth.clear();
   WriteScene(folder / "scene.json", scene);
   WriteSmallFiles(folder.path());
-  EXPECT_TRUE(LoadScene(folder.path()).depth.empty());
+  EXPECT_EQ(LoadScene(folder.path()).depth, nullptr);
 }
 
 TEST(SceneIo, ListsEveryMissingOrUnfitFile) {
@@ -139,6 +140,26 @@ TEST(SceneIo, SaysWhereAFileIsNotJson) {
   EXPECT_NE(FaultOfText("{\"a\": {\"b\": 1, \"b\": 2}}").find("\"b\" comes twice"),
             std::string::npos);
   EXPECT_NE(FaultOfText(std::string(200000, '[')).find("nested"), std::string::npos);
+}
+
+TEST(SceneIo, AFaultNamesItsLineKeyAndRange) {
+  nlohmann::json scene = test::FullSceneJson();
+  scene["tissues"][1]["pose"]["scale"] = -2;
+  EXPECT_NE(FaultOfText(scene.dump(1))
+                .find(": tissues[1].pose.scale is -2; it must be more than 0 "
+                      "and at most 1000000"),
+            std::string::npos)
+      << FaultOfText(scene.dump(1));
+  const std::string bad =
+      "{\"schema\": \"arthroscene.scene/1\",\n \"backdrop\": {\"panorama\": \"p.png\", "
+      "\"projection\": "
+      "{\"type\": \"gnomonic\", \"centre_px\": [1, 1], \"focal_px\": 9},\n";
+  EXPECT_NE(FaultOfText(bad + "  \"radius\": 70}}").find("line 3: backdrop.radius is 70"),
+            std::string::npos);
+  EXPECT_NE(FaultOfText(bad + "  \"raduis\": 1}}").find("line 3: backdrop.raduis is not known"),
+            std::string::npos);
+  EXPECT_NE(FaultOfText(bad + "  \"radius\": \"a\"}}").find("line 3: backdrop.radius is \"a\""),
+            std::string::npos);
 }
 
 TEST(SceneIo, RefusesAMissingSceneAndAForeignFile) {
@@ -193,6 +214,14 @@ TEST(SceneIo, ASceneThatCouldNotBeReadBackLeavesTheOldFile) {
   EXPECT_THROW(WriteScene(folder / "no/such/scene.json", SmallScene()), Error);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1)
       << "a partial file is left";
+}
+
+// The demo scene was written by an earlier version.
+TEST(SceneIo, SavingASceneOfAnEarlierVersionGivesTheSameBytes) {
+  const fs::path demo = fs::path(ARTHRO_SOURCE_DIR) / "resources/demo/scene.json";
+  test::TempFolder folder;
+  WriteScene(folder / "scene.json", ReadScene(demo));
+  EXPECT_EQ(ReadWholeFile(folder / "scene.json"), ReadWholeFile(demo));
 }
 
 TEST(SceneIo, WritingTwiceGivesTheSameBytes) {

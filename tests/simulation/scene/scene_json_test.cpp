@@ -37,7 +37,6 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_EQ(scene.backdrop.rights.consent, "none needed: synthetic");
   EXPECT_EQ(scene.scope.view_angle, RadiansFromDegrees(70));
   EXPECT_EQ(scene.scope.field_of_view, RadiansFromDegrees(105));
-  EXPECT_EQ(scene.scope.rod_length, 0.25);
   EXPECT_EQ(scene.scope.lens, "lens.json");
   EXPECT_EQ(scene.portals.incision_spacing, -0.028);
   EXPECT_EQ(scene.rig.scope.pivot, glm::dvec3(0.01, 0.02, 0.15));

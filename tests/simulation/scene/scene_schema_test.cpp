@@ -1,5 +1,7 @@
 // The JSON Schema that other tools use against the reader of this program, held by a validator that
 // is not ours.
+#include "simulation/scene/scene_schema.h"
+
 #include <filesystem>
 #include <optional>
 #include <rapidjson/document.h>
@@ -102,6 +104,13 @@ TEST_F(SceneSchema, AndTheReaderRefuseTheSameOfManyMutations) {
   }
   std::printf("%d mutations, %d refused by both\n", mutations, refused);
   EXPECT_GT(refused, 200);
+}
+
+TEST_F(SceneSchema, TheCopyForOtherToolsIsTheGeneratedOne) {
+  const fs::path copy = fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/scene-1.schema.json";
+  EXPECT_EQ(ReadWholeFile(copy), SceneSchemaText())
+      << "a field of the scene has changed; write the schema anew: arthroscene check --schema > "
+      << copy.string();
 }
 
 TEST_F(SceneSchema, TakesTheDemoScene) {

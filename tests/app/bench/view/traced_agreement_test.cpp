@@ -22,8 +22,8 @@ class TracedAgreementOf : public testing::Test {
   const LoadedScene loaded = WavyJoint(256);
   const Picture picture = ViewOfWavyJoint();
   const std::vector<TracedPixel> pixels = TracePixels(loaded, picture, kSize, 500);
-  TracedPicture traced = TraceWindow(loaded.scene.backdrop, loaded.panorama, picture.view,
-                                     picture.field_of_view, kSize, {}, &loaded.depth);
+  TracedPicture traced = TraceWindow(loaded.scene.backdrop, *loaded.panorama, picture.view,
+                                     picture.field_of_view, kSize, {}, loaded.depth.get());
   TracedAgreement Compare(const ColourImage* colours = nullptr) const {
     const std::vector<float> distances(traced.distance.begin(), traced.distance.end());
     return CompareWithTraced(pixels, distances, kSize, colours);

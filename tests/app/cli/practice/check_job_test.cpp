@@ -71,7 +71,7 @@ TEST(CheckJob, WarnsOfWhatIsDoubtfulAndHintsAtWhatIsMissing) {
   scene.tissues[0].mesh.clear();
   scene.tissues[0].pose.position.x = 0.3;
   scene.portals.incision_spacing = -0.06;
-  scene.scope.rod_length = 0.04;
+  scene.rig.scope.rod_length = 0.04;
   scene.backdrop.projection.centre_px.x = 1000;
   scene.tasks.clear();
   WriteScene(folder / "scene.json", scene);

@@ -1,0 +1,16 @@
+#include "simulation/scene/loaded_scene.h"
+
+#include "simulation/scene/archive_io.h"
+
+namespace arthro {
+
+std::filesystem::path FileOf(const LoadedScene& loaded, const std::filesystem::path& name) {
+  const auto found = loaded.files.find(name.generic_string());
+  return found != loaded.files.end() ? found->second.file : loaded.folder / name;
+}
+
+Error NamedByScene(const Error& fault, const LoadedScene& loaded) {
+  return loaded.unpacked ? NamedByArchive(fault, loaded.unpacked->path(), loaded.folder) : fault;
+}
+
+}  // namespace arthro
