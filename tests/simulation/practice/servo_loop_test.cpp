@@ -452,7 +452,7 @@ TEST(ServoLoop, DrivesRecordedHandsOnTheClockAndTheTimeStepOfItsCaller) {
   Session session(BareSphere());
   std::vector<TraceRow> rows(2);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const RodPose pose{0, 0, 0, 0.03 + 0.01 * static_cast<double>(i)};
+    const RodPose pose{0, 0, 0, 0.03 + 0.0005 * static_cast<double>(i)};
     rows[i].sample = {static_cast<double>(i), HipFromRodPose(pose, session.scope_rig()),
                       HandleFromRodPose(pose, session.scope_rig()), 0, true};
   }
@@ -464,7 +464,7 @@ TEST(ServoLoop, DrivesRecordedHandsOnTheClockAndTheTimeStepOfItsCaller) {
   EXPECT_NEAR(loop.ReadSnapshot().scope.pose.depth, 0.03, 1e-12);
   loop.TickOnce(0.5, kTick);
   EXPECT_EQ(loop.ReadSnapshot().t, kTick + kTick) << "not the difference of the two times";
-  EXPECT_NEAR(loop.ReadSnapshot().scope.pose.depth, 0.035, 1e-12);
+  EXPECT_NEAR(loop.ReadSnapshot().scope.pose.depth, 0.03025, 1e-12);
   EXPECT_EQ(loop.ReadSnapshot().scope.fault, Fault::kNone);
   EXPECT_EQ(loop.ReadSnapshot().instrument.fault, Fault::kNoSample) << "it has no row";
   loop.Stop();
