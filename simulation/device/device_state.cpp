@@ -73,7 +73,7 @@ bool MayPush(const DeviceStatus& status, const DeviceEvents& events) noexcept {
          IsFresh(events);
 }
 
-const char* Word(DeviceState state) noexcept {
+const char* ToString(DeviceState state) noexcept {
   switch (state) {
     case DeviceState::kAbsent:
       return "absent";
@@ -93,7 +93,7 @@ const char* Word(DeviceState state) noexcept {
   return "absent";
 }
 
-const char* Sentence(const DeviceStatus& status) noexcept {
+const char* DescribeStatus(const DeviceStatus& status) noexcept {
   switch (status.state) {
     case DeviceState::kAbsent:
       return "not connected; plug it in";

@@ -44,13 +44,18 @@ struct DeviceStatus {
   friend bool operator==(const DeviceStatus&, const DeviceStatus&) = default;
 };
 
+// Ready or armed: the device says where the hand is.
+constexpr bool IsReady(DeviceState state) noexcept {
+  return state == DeviceState::kReady || state == DeviceState::kArmed;
+}
+
 DeviceStatus Next(const DeviceStatus& status, const DeviceEvents& events) noexcept;
 
 // Armed, with nothing wrong, and the hand is where the sample says.
 bool MayPush(const DeviceStatus& status, const DeviceEvents& events) noexcept;
 
 // One word, and a sentence for a person: what is the matter and what to do.
-const char* Word(DeviceState state) noexcept;
-const char* Sentence(const DeviceStatus& status) noexcept;
+const char* ToString(DeviceState state) noexcept;
+const char* DescribeStatus(const DeviceStatus& status) noexcept;
 
 }  // namespace arthro::simulation

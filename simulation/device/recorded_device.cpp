@@ -5,6 +5,7 @@
 namespace arthro::simulation {
 
 RecordedDevice::RecordedDevice(std::span<const TraceRow> rows, DeviceRole role) {
+  caps_.input = HandInput::kAbsolute;
   for (const TraceRow& row : rows)
     if (row.device == role) samples_.push_back(row.sample);
 }

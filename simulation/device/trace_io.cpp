@@ -89,12 +89,9 @@ class Parser {
     TraceRow row;
     row.sample.valid = true;
     row.sample.t = Number(field[0], 0);
-    if (field[1] == Word(DeviceRole::kScope))
-      row.device = DeviceRole::kScope;
-    else if (field[1] == Word(DeviceRole::kInstrument))
-      row.device = DeviceRole::kInstrument;
-    else
-      Refuse(fmt::format("device is \"{}\"; it must be scope or instrument", field[1]));
+    const std::optional<DeviceRole> role = DeviceRoleFromString(field[1]);
+    if (!role) Refuse(fmt::format("device is \"{}\"; it must be scope or instrument", field[1]));
+    row.device = *role;
     for (int i = 0; i < 3; ++i) {
       const auto column = static_cast<std::size_t>(2 + i);
       row.sample.hip_in_device[i] = Number(field[column], column);
@@ -121,10 +118,6 @@ class Parser {
 
 }  // namespace
 
-const char* Word(DeviceRole role) noexcept {
-  return role == DeviceRole::kScope ? "scope" : "instrument";
-}
-
 std::vector<TraceRow> ParseTrace(std::string_view text, const std::filesystem::path& file) {
   return Parser(text, file).Parse();
 }
@@ -137,7 +130,7 @@ std::string TraceText(std::span<const TraceRow> rows) {
   std::string text = std::string(kHeader) + "\n";
   for (const auto& [device, sample] : rows) {
     const auto& [t, hip, q, buttons, valid] = sample;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{}\n", t, Word(device),
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{}\n", t, ToString(device),
                    hip.x, hip.y, hip.z, q.w, q.x, q.y, q.z, buttons);
   }
   return text;

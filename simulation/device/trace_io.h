@@ -22,9 +22,6 @@ struct TraceRow {
   DeviceSample sample;  // valid
 };
 
-// `scope` or `instrument`.
-const char* Word(DeviceRole role) noexcept;
-
 // Throws Error(kBadData) with the line: a wrong header or number of columns, an unknown device, a
 // number that is none or not finite, a quaternion whose length is off by more than 1e-3, time that
 // runs backwards or leaps by more than a minute, or no rows at all.

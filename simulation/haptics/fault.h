@@ -17,7 +17,7 @@ enum class Fault {
 };
 
 // One word, as written to forces.csv.
-constexpr const char* Word(Fault fault) noexcept {
+constexpr const char* ToString(Fault fault) noexcept {
   switch (fault) {
     case Fault::kNone:
       return "none";

@@ -1,7 +1,6 @@
 #include "simulation/practice/replay.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 
@@ -10,12 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/device/recorded_device.h"
-#include "simulation/practice/time_histogram.h"
+#include "simulation/practice/servo_loop.h"
 
 namespace arthro::simulation {
 namespace {
-
-constexpr double kTick = 0.001;  // s, the servo's
 
 void Count(const ToolState& state, double dt, HandReport& hand) {
   if (state.fault != Fault::kNone) ++hand.faults[state.fault];
@@ -58,13 +55,13 @@ std::string ContactName(int contact, const Scene& scene) {
   return fmt::format("tissue {}", contact);
 }
 
-// The entry after the last region's is what lies in none.
+// Name of a region; the entry after the last region is the volume outside all of them.
 std::string RegionName(const Scene& scene, int tissue, std::size_t index) {
   const auto& regions = scene.tissues[static_cast<std::size_t>(tissue)].regions;
   return index < regions.size() ? regions[index].name : kElsewhere;
 }
 
-// A name with a comma, a quote or a line break goes in quotes, its own quotes doubled (RFC 4180).
+// Quotes a name with a comma, a quote or a line break; its own quotes are doubled (RFC 4180).
 std::string CsvField(const std::string& name) {
   if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
   std::string quoted = "\"";
@@ -78,38 +75,38 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
                              const SessionOptions& options, const Progress& progress,
                              ReplayReport* report, std::vector<BodySpec> bodies,
                              std::vector<LayerSpec> layers, const ReplayWatch& watch) {
-  using Clock = std::chrono::steady_clock;
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
   Session session(loaded, options);
   session.Enliven(std::move(bodies), TissuePace::kInline, std::move(layers));
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
+  ServoOptions servo_options;
+  servo_options.period_without_force = kServoPeriod;
+  ServoLoop servo(session, &scope, &instrument, servo_options);
   ReplayReport counts;
-  TimeHistogram times;
   const WorldPicture* world = session.tissues();
   const auto tick = [&](double t, double dt) {
-    const DeviceSample scope_sample = scope.At(t), instrument_sample = instrument.At(t);
-    const Clock::time_point start = Clock::now();
-    session.Tick(scope_sample, instrument_sample, dt);
-    times.Add(std::chrono::duration<double>(Clock::now() - start).count());
+    servo.TickOnce(t, dt);
     ++counts.ticks;
-    session.TickTissues(dt);
+    const Snapshot& snapshot = session.snapshot();
     if (session.HasNewTissues()) CountTissues(*(world = session.tissues()), counts.tissues);
-    if (scope_sample.valid) Count(session.snapshot().scope, dt, counts.hand[0]);
-    if (instrument_sample.valid) Count(session.snapshot().instrument, dt, counts.hand[1]);
-    if (watch) watch(t, session.snapshot(), session.instrument(), world);
+    for (const DeviceRole role : kDeviceRoles) {
+      const ToolState& state = ToolOf(snapshot, role);
+      if (state.fault != Fault::kNoSample) Count(state, dt, counts.hand[Index(role)]);
+    }
+    if (watch) watch(t, snapshot, session.instrument(), world);
   };
 
   const double begin = trace.front().sample.t, end = trace.back().sample.t;
   double now = begin;
-  tick(now, kTick);
+  tick(now, kServoPeriod);
   for (std::size_t row = 0; row < trace.size();) {
-    // Equal ticks from the last row to this one, the last of them on it.
+    // Divides the time since the last row into equal ticks, the last of them on this row.
     const double next = trace[row].sample.t;
     if (next > now) {
       const double gap = next - now;
-      const long steps = std::max(1L, static_cast<long>(std::ceil(gap / kTick - 1e-6)));
+      const long steps = std::max(1L, static_cast<long>(std::ceil(gap / kServoPeriod - 1e-6)));
       for (long i = 1; i <= steps; ++i) {
         tick(i == steps ? next : now + gap * (static_cast<double>(i) / static_cast<double>(steps)),
              gap / static_cast<double>(steps));
@@ -118,10 +115,9 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
       now = next;
     }
     for (; row < trace.size() && trace[row].sample.t == next; ++row) {
-      const bool is_scope = trace[row].device == DeviceRole::kScope;
-      forces.push_back({next, trace[row].device,
-                        is_scope ? session.snapshot().scope : session.snapshot().instrument});
-      ++counts.hand[is_scope ? 0 : 1].rows;
+      const DeviceRole role = trace[row].device;
+      forces.push_back({next, role, ToolOf(session.snapshot(), role)});
+      ++counts.hand[Index(role)].rows;
     }
   }
   progress.Step("replay", 1.0);
@@ -131,6 +127,8 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
     for (TissueReport& tissue : counts.tissues)
       if (tissue.steps > 0) tissue.step_ms /= static_cast<double>(tissue.steps);
     counts.duration = end - begin;
+    servo.Stop();  // publishes its report
+    const TimeHistogram& times = servo.ReadReport().compute;
     counts.tick_median = times.Quantile(0.5);
     counts.tick_p99 = times.Quantile(0.99);
     *report = counts;
@@ -145,14 +143,15 @@ std::string ForcesText(const std::vector<ForceRow>& rows, const Scene& scene) {
   for (const auto& [t, device, state] : rows) {
     const glm::dvec3 &tip = state.tip_in_portal, &force = state.tip_force;
     const glm::dvec3& hand = state.hand_force;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},", t, Word(device),
-                   tip.x, tip.y, tip.z, force.x, force.y, force.z, hand.x, hand.y, hand.z);
-    // One word for all of not-a-number's bit patterns.
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},", t,
+                   ToString(device), tip.x, tip.y, tip.z, force.x, force.y, force.z, hand.x, hand.y,
+                   hand.z);
+    // Writes every bit pattern of NaN alike.
     for (double pixel : {state.pixel.x, state.pixel.y})
       text += std::isnan(pixel) ? std::string("nan,") : fmt::format("{},", pixel);
     fmt::format_to(std::back_inserter(text), "{},{},{}\n",
                    CsvField(ContactName(state.contact, scene)), state.penetration,
-                   Word(state.fault));
+                   ToString(state.fault));
   }
   return text;
 }
@@ -162,10 +161,10 @@ std::string ReportText(const ReplayReport& report, const Scene& scene) {
   json["schema"] = "arthroscene.replay/1";
   json["duration"] = report.duration;
   json["ticks"] = report.ticks;
-  for (const DeviceRole role : {DeviceRole::kScope, DeviceRole::kInstrument}) {
-    const HandReport& hand = report.hand[static_cast<std::size_t>(role)];
+  for (const DeviceRole role : kDeviceRoles) {
+    const HandReport& hand = report.hand[Index(role)];
     if (hand.rows == 0) continue;
-    nlohmann::ordered_json& entry = json["devices"][Word(role)];
+    nlohmann::ordered_json& entry = json["devices"][ToString(role)];
     entry["rows"] = hand.rows;
     entry["peak_force"] = hand.peak_force;
     entry["mean_force"] = hand.mean_force;
@@ -176,7 +175,7 @@ std::string ReportText(const ReplayReport& report, const Scene& scene) {
     for (const auto& [contact, seconds] : hand.contact)
       entry["contacts"][ContactName(contact, scene)] = seconds;
     entry["faults"] = nlohmann::ordered_json::object();
-    for (const auto& [fault, ticks] : hand.faults) entry["faults"][Word(fault)] = ticks;
+    for (const auto& [fault, ticks] : hand.faults) entry["faults"][ToString(fault)] = ticks;
   }
   for (const TissueReport& tissue : report.tissues) {
     nlohmann::ordered_json& entry = json["tissues"][ContactName(1 + tissue.tissue, scene)];

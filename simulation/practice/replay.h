@@ -1,6 +1,6 @@
-// A whole session again from a recording, on a fixed clock: one tick a millisecond or a little
-// less, so that a tick falls on every row. Nothing in it depends on the machine's clock but the
-// tick times of the report. Portal frame, m, N, s.
+// A session driven by a recording on a fixed clock: ticks of 1 ms or slightly less, so that a tick
+// falls on every row. Only the times of the report depend on the machine's clock. Portal frame, m,
+// N, s.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace arthro::simulation {
 
-// One row of forces.csv, for one row of the trace.
+// One row of forces.csv per row of the trace.
 struct ForceRow {
   double t = 0;
   DeviceRole device = DeviceRole::kScope;
   ToolState state;
 };
 
-// What one hand met, between its first and its last row.
+// Statistics of one hand, between its first and its last row.
 struct HandReport {
   long rows = 0;
   double time_in_contact = 0;     // s
@@ -30,18 +30,18 @@ struct HandReport {
   double mean_force = 0;          // N, on the tip while in contact
   double peak_hand_force = 0;     // N, after lever and limits
   double deepest = 0;             // m
-  std::map<int, double> contact;  // s a surface: 0 the backdrop, 1 + i tissue i
-  std::map<Fault, long> faults;   // ticks
+  std::map<int, double> contact;  // s per surface: 0 the backdrop, 1 + i tissue i
+  std::map<Fault, long> faults;   // ticks per fault
 };
 
-// What became of one living tissue.
+// Statistics of one deformable tissue.
 struct TissueReport {
-  int tissue = 0;              // in the scene
-  long steps = 0, resets = 0;  // of the steps that it was awake
+  int tissue = 0;              // index in the scene
+  long steps = 0, resets = 0;  // steps while it was awake, and resets in them
   long fallbacks = 0;          // steps that recovered inverted elements
-  int most_iterations = 0;     // of conjugate gradients, a step
-  double step_ms = 0;          // mean of the steps it was awake, of this machine's processor
-  double deepest = 0;          // m, the furthest that a vertex of its skin was from rest
+  int most_iterations = 0;     // conjugate-gradient iterations per step, largest
+  double step_ms = 0;          // ms of processor time per step, mean while it was awake
+  double deepest = 0;          // m, largest displacement of a skin vertex
   CutReport cut;
 };
 
@@ -49,27 +49,26 @@ struct ReplayReport {
   double duration = 0;  // s of the trace
   long ticks = 0;
   std::array<HandReport, 2> hand;        // by DeviceRole
-  double tick_median = 0, tick_p99 = 0;  // s of this machine, to a 32nd, without tissue
-  std::vector<TissueReport> tissues;     // those that live
+  double tick_median = 0, tick_p99 = 0;  // s, without tissue, to 1/32 of their value
+  std::vector<TissueReport> tissues;     // deformable tissues
 };
 
-// Called after each tick, its t in s; they are a millisecond or a little less apart, and one is on
-// each row of the trace. `world` is null where nothing lives.
+// Called after each tick, which is at `t` in s. `world` is null where no tissue deforms.
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
 
-// `bodies` and `layers`: the tissues that live, of LivingTissues and LayersOf; with none all are
-// rigid. They step inline.
+// `bodies` and `layers` are the deformable tissues, from LivingTissues and LayersOf; the others are
+// rigid. Tissues step inline.
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options = {}, const Progress& progress = {},
                              ReplayReport* report = nullptr, std::vector<BodySpec> bodies = {},
                              std::vector<LayerSpec> layers = {}, const ReplayWatch& watch = {});
 
-// forces.csv [method.md, File formats]: contact none|backdrop|tissue name, fault none|…; a tool
-// over no pixel has u_px and v_px nan.
+// Text of forces.csv [method.md, File formats]: contact none|backdrop|tissue name, fault none|…; a
+// tool over no pixel has u_px and v_px nan.
 std::string ForcesText(const std::vector<ForceRow>& rows, const Scene& scene);
 
-// JSON, "arthroscene.replay/1".
+// Text of the report as JSON, schema "arthroscene.replay/1".
 std::string ReportText(const ReplayReport& report, const Scene& scene);
 
 }  // namespace arthro::simulation

@@ -16,24 +16,20 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::array kRoles{DeviceRole::kScope, DeviceRole::kInstrument};
-
-constexpr std::size_t Index(DeviceRole role) noexcept { return static_cast<std::size_t>(role); }
-
-// A picture's rate is enough for a report, and for what stiffness a late servo may show.
+// Interval at which the report is published and the stiffness limit is updated.
 constexpr double kReportEvery = 0.1;  // s
 
-// Without priority, until it is known how late this machine is: a tick in fifty comes a whole one
-// late under load [method.md, Threads].
+// Lateness that is assumed without priority until it was measured: under load, one tick in fifty
+// comes a whole period late [method.md, Threads].
 constexpr double kUnknownLateness = 1.0;  // periods
 constexpr long kKnownAfter = 1000;        // ticks
 
-constexpr int kPriority = 80;  // above what draws and reads, below what the system keeps for itself
+constexpr int kPriority = 80;  // above drawing and reading threads, below those of the system
 
-// As devices do when they close: a report may be lost.
+// Zero forces at the end; several, since a report may be lost.
 constexpr int kLastZeros = 5;
 
-constexpr double kRounding = 1e-3;  // periods, of a difference of two clock times
+constexpr double kRounding = 1e-3;  // periods, error of a difference of two clock times
 
 double SteadyNow() noexcept {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -46,7 +42,7 @@ void SleepUntil(double t) noexcept {
 }
 
 bool TakePriority() noexcept {
-  // Without it timers are as coarse as 50 µs.
+  // The default timer slack is 50 µs.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   sched_param parameters{};
   parameters.sched_priority = kPriority;
@@ -55,7 +51,7 @@ bool TakePriority() noexcept {
 
 }  // namespace
 
-std::string SentenceOf(const ServoReport& report) {
+std::string DescribeTrouble(const ServoReport& report) {
   if (report.has_priority) return {};
   return fmt::format(
       "The system gives the force loop no priority (SCHED_FIFO): stiffness is limited as for "
@@ -71,18 +67,18 @@ ServoLoop::ServoLoop(Session& session, Device* scope, Device* instrument,
       devices_, [](const Device* device) { return device != nullptr && HasForce(device->caps()); });
   period_ = has_force ? options.period : options.period_without_force;
   report_.period = report_.true_period = period_;
-  wish_ = {session.options(),
-           session.incision_spacing(),
-           session.view_angle(),
-           session.instrument(),
-           {},
-           false,
-           {}};
+  request_ = {session.options(),
+              session.incision_spacing(),
+              session.view_angle(),
+              session.instrument(),
+              {},
+              false,
+              {}};
   ApplyOptions();
-  for (const DeviceRole role : kRoles)
+  for (const DeviceRole role : kDeviceRoles)
     if (const Device* device = devices_[Index(role)])
       session.SetFreshFor(role, FreshFor(device->caps(), period_));
-  snapshots_.Write(session.snapshot());  // until the first tick
+  snapshots_.Write(session.snapshot());  // valid until the first tick
 }
 
 ServoLoop::~ServoLoop() { Stop(); }
@@ -109,23 +105,21 @@ void ServoLoop::Run() noexcept {
     const double now = SteadyNow();
     report_.lateness.Add(now - due);
     TickOnce(now);
-    const double end = SteadyNow();
-    report_.compute.Add(end - now);
-    // The next one that has not gone by.
-    due += period_ * (1.0 + std::max(0.0, std::floor((end - due) / period_)));
+    // Waits for the next tick that is still to come.
+    due += period_ * (1.0 + std::max(0.0, std::floor((SteadyNow() - due) / period_)));
     SleepUntil(due);
   }
   CommandNothing();
 }
 
-// Where there is no priority a spring is as late as the ticks are, at their 99th percentile.
+// Without priority, the delay of the rendered spring grows by the 99th percentile of the lateness.
 void ServoLoop::ApplyOptions() noexcept {
   if (!report_.has_priority) {
     const double late = report_.lateness.count() < kKnownAfter ? kUnknownLateness * period_
                                                                : report_.lateness.Quantile(0.99);
     report_.true_period = period_ + late;
   }
-  SessionOptions options = wish_.options;
+  SessionOptions options = request_.options;
   bool has_force = false;
   for (const Device* device : devices_) {
     if (device == nullptr) continue;
@@ -136,18 +130,18 @@ void ServoLoop::ApplyOptions() noexcept {
   session_.SetOptions(options);
 }
 
-void ServoLoop::TakeWish(double now) noexcept {
-  is_watched_ = now - wished_at_ <= options_.wish_lasts;
-  if (!wishes_.HasNew()) return;
+void ServoLoop::TakeRequest(double now) noexcept {
+  is_watched_ = now - requested_at_ <= options_.request_lasts;
+  if (!requests_.HasNew()) return;
   is_watched_ = true;
-  wished_at_ = now;
-  wish_ = wishes_.Read();
+  requested_at_ = now;
+  request_ = requests_.Read();
   ApplyOptions();
-  session_.SetIncisionSpacing(wish_.incision_spacing);
-  session_.SetViewAngle(wish_.view_angle);
-  session_.SetInstrument(wish_.instrument);
-  for (const DeviceRole role : kRoles)
-    if (const auto& mount = wish_.mount[Index(role)]) session_.SetMount(role, *mount);
+  session_.SetIncisionSpacing(request_.incision_spacing);
+  session_.SetViewAngle(request_.view_angle);
+  session_.SetInstrument(request_.instrument);
+  for (const DeviceRole role : kDeviceRoles)
+    if (const auto& mount = request_.mount[Index(role)]) session_.SetMount(role, *mount);
 }
 
 DeviceSample ServoLoop::ReadDevice(DeviceRole role, double now, HandPush push) noexcept {
@@ -155,12 +149,12 @@ DeviceSample ServoLoop::ReadDevice(DeviceRole role, double now, HandPush push) n
   if (device == nullptr) return {};
   const DeviceSample sample = device->Read(now);
   device->HoldDeadMan(is_watched_ &&
-                      (wish_.is_dead_man_held[Index(role)] ||
+                      (request_.is_dead_man_held[Index(role)] ||
                        (sample.valid && (sample.buttons & options_.dead_man_buttons) != 0)));
   if (sample.valid) report_.sample_age[Index(role)].Add(now - sample.t);
-  // One that shows no force has nothing to arm, and one that is given none need not be. When that
-  // ends a hand is pushed gently at first.
-  const bool is_armed = device->caps().feedback == Feedback::kNone || wish_.is_zero_force ||
+  // A device without force, and any device in zero-force mode, needs no arming. The first tick
+  // after that mode counts as not armed, so that the force ramps up.
+  const bool is_armed = device->caps().feedback == Feedback::kNone || request_.is_zero_force ||
                         (device->state() == DeviceState::kArmed && !was_zero_force_);
   session_.SetPush(role, is_armed ? push : HandPush::kNo);
   return sample;
@@ -171,20 +165,23 @@ void ServoLoop::CommandDevice(DeviceRole role, const glm::dvec3& force_in_portal
   if (device == nullptr) return;
   const DeviceRig& rig =
       role == DeviceRole::kScope ? session_.scope_rig() : session_.instrument_rig();
-  device->Command(wish_.is_zero_force ? glm::dvec3(0.0)
-                                      : glm::conjugate(rig.portal_from_device) * force_in_portal);
+  device->Command(request_.is_zero_force
+                      ? glm::dvec3(0.0)
+                      : glm::conjugate(rig.portal_from_device) * force_in_portal);
 }
 
 void ServoLoop::CommandNothing() noexcept {
   for (int i = 0; i < kLastZeros; ++i)
-    for (const DeviceRole role : kRoles) CommandDevice(role, glm::dvec3(0.0));
+    for (const DeviceRole role : kDeviceRoles) CommandDevice(role, glm::dvec3(0.0));
 }
 
-void ServoLoop::TickOnce(double now) noexcept {
-  const double dt = last_ ? now - *last_ : period_;
+void ServoLoop::TickOnce(double now) noexcept { TickOnce(now, last_ ? now - *last_ : period_); }
+
+void ServoLoop::TickOnce(double now, double dt) noexcept {
+  const double begin = SteadyNow();
   last_ = now;
-  TakeWish(now);
-  // A hand that was pushed all that time with what was right before it is let go for a tick.
+  TakeRequest(now);
+  // After an overrun the device held an outdated force, so this tick gives none.
   const double late = dt / period_ - 1.0;
   HandPush push = HandPush::kYes;
   if (late > options_.overrun_ticks + kRounding) {
@@ -199,8 +196,9 @@ void ServoLoop::TickOnce(double now) noexcept {
   session_.Tick(scope, instrument, dt);
   CommandDevice(DeviceRole::kScope, session_.snapshot().scope.hand_force);
   CommandDevice(DeviceRole::kInstrument, session_.snapshot().instrument.hand_force);
+  report_.compute.Add(SteadyNow() - begin);
   session_.TickTissues(dt);
-  was_zero_force_ = wish_.is_zero_force;
+  was_zero_force_ = request_.is_zero_force;
   snapshots_.Write(session_.snapshot());
   if (options_.watch != nullptr) options_.watch->AfterTick(session_.snapshot(), dt);
 

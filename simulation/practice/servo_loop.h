@@ -1,11 +1,17 @@
-// The servo: reads both devices, ticks the session, commands their forces, at 1 kHz on a thread of
-// its own, 250 Hz where no device has force [method.md, Output chain; method.md, Threads]. Its
-// clock is absolute: ticks that were missed are left out, and the next one is told the true time.
-// While it runs the session is its own; what somebody wishes and what came of it go through newest
-// values. However it ends, the last thing that a device hears is no force. In zero-force mode what
-// a hand would feel is computed, shown and scored, and no device is given any.
-// Time is an argument of TickOnce, so that a test drives it by hand. s; a tick is noexcept, locks
-// nothing, allocates nothing.
+// The driver of a session: reads both devices, ticks the session, commands the forces and steps the
+// tissue [method.md, Output chain; method.md, Threads]. The window, `replay`, `demo` and the
+// benchmarks all run a session through it.
+//
+// Start runs it on a thread: 1 kHz, or 250 Hz where no device has force, on an absolute clock.
+// Missed ticks are left out and the next tick covers the time of both. While the thread runs it
+// owns the session. Requests, snapshots and reports pass through newest-value slots. However it
+// ends, the last command to each device is no force.
+//
+// TickOnce runs it on the caller's clock. A tick is noexcept, locks nothing and allocates nothing,
+// except that a session with TissuePace::kInline steps its tissue within the tick.
+//
+// In zero-force mode the force on the hand is computed, shown and scored, and no device is given
+// any. SI units.
 #pragma once
 
 #include <array>
@@ -22,72 +28,76 @@
 
 namespace arthro::simulation {
 
-// Who wants to know of each tick. On the servo's thread: noexcept, no waiting, no allocation.
+// Observer of each tick, on the thread of the servo: noexcept, no waiting, no allocation.
 class ServoWatch {
  public:
   virtual ~ServoWatch() = default;
   virtual void AfterTick(const Snapshot& snapshot, double dt) noexcept = 0;
 };
 
+inline constexpr double kServoPeriod = 0.001;  // s
+
 struct ServoOptions {
-  double period = 0.001;
-  double period_without_force = 0.004;  // nothing swings: a picture's rate and more will do
-  int overrun_ticks = 3;                // later than so many: no force in that tick
+  double period = kServoPeriod;
+  double period_without_force = 0.004;  // s; stability sets no limit without force
+  int overrun_ticks = 3;                // a tick that is later than this gives no force
   bool wants_priority = true;
-  // Which buttons of a handle are its dead-man: the second; the first closes the jaws.
-  std::uint32_t dead_man_buttons = 2;
-  // s; somebody who wished nothing for longer hangs or is busy: then no dead-man counts.
-  double wish_lasts = std::numeric_limits<double>::infinity();
-  ServoWatch* watch = nullptr;  // outlives the loop
+  std::uint32_t dead_man_buttons = 2;  // bit field; the first button of a handle closes the jaws
+  // s; a window without a newer request may hang, so no dead-man counts any more.
+  double request_lasts = std::numeric_limits<double>::infinity();
+  ServoWatch* watch = nullptr;  // must outlive the loop
 };
 
-// What somebody wishes of a session that a servo ticks.
-struct ServoWish {
-  SessionOptions options;  // before the devices lower them
+// State that the window requests of the session and the devices.
+struct ServoRequest {
+  SessionOptions options;  // before the limits of the devices are applied
   double incision_spacing = 0, view_angle = 0;
   ToolKind instrument = ToolKind::kProbe;
-  std::array<bool, 2> is_dead_man_held{};  // by key or pedal, by DeviceRole
+  std::array<bool, 2> is_dead_man_held{};  // by DeviceRole; by a key or a pedal
   bool is_zero_force = false;
-  std::array<std::optional<DeviceRig>, 2> mount{};  // by DeviceRole; none: as it is
+  std::array<std::optional<DeviceRig>, 2> mount{};  // by DeviceRole; nullopt: unchanged
 };
 
 struct ServoReport {
-  bool has_priority = true;  // of the thread, where there is one
-  double period = 0;         // that it should have
-  double true_period = 0;    // that stiffness is limited by: longer where ticks come late
+  bool has_priority = true;  // SCHED_FIFO was granted, or there is no thread
+  double period = 0;         // s, nominal
+  double true_period = 0;    // s, limits the stiffness; longer than `period` where ticks come late
   long ticks = 0;
-  long missed = 0;    // left out, since the one before came late
-  long overruns = 0;  // ticks without force for that
-  TimeHistogram lateness, compute;
+  long missed = 0;    // ticks that were left out because the one before came late
+  long overruns = 0;  // ticks without force because they came late
+  TimeHistogram lateness;
+  TimeHistogram compute;  // s, from reading the devices to commanding them, without tissue
   std::array<TimeHistogram, 2> sample_age;  // by DeviceRole
 };
-// A sentence for a person about what went less than well; empty: nothing.
-std::string SentenceOf(const ServoReport& report);
+// A sentence for the user about missing priority; empty where there is none to report.
+std::string DescribeTrouble(const ServoReport& report);
 
 class ServoLoop {
  public:
-  // A device that is null is not there. All three outlive the loop; nobody else touches the
-  // session's ticks or the devices meanwhile.
+  // A null device is absent. All three must outlive the loop, and nothing else may tick the session
+  // or call the devices meanwhile.
   ServoLoop(Session& session, Device* scope, Device* instrument, const ServoOptions& options = {});
   ~ServoLoop();  // as Stop
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 
-  void Start();  // the thread; its clock is the steady one
-  void Stop();   // waits for the tick that runs; no force after it
-  // A tick at `now`, which rises, on the clock of the devices' samples; not beside the thread.
+  void Start();  // starts the thread, on the steady clock
+  void Stop();   // waits for the running tick, then commands no force
+  // Ticks at `now`, which must rise, on the clock of the samples; not while the thread runs. `dt`
+  // is the time since the last tick.
   void TickOnce(double now) noexcept;
+  void TickOnce(double now, double dt) noexcept;
 
-  // One other thread's side.
-  void Wish(const ServoWish& wish) noexcept { wishes_.Write(wish); }
-  const Snapshot& Read() noexcept { return snapshots_.Read(); }
+  // Callable from one other thread.
+  void SetRequest(const ServoRequest& request) noexcept { requests_.Write(request); }
+  const Snapshot& ReadSnapshot() noexcept { return snapshots_.Read(); }
   const ServoReport& ReadReport() noexcept { return reports_.Read(); }
 
   double period() const noexcept { return period_; }
 
  private:
   void Run() noexcept;
-  void TakeWish(double now) noexcept;
+  void TakeRequest(double now) noexcept;
   void ApplyOptions() noexcept;
   DeviceSample ReadDevice(DeviceRole role, double now, HandPush push) noexcept;
   void CommandDevice(DeviceRole role, const glm::dvec3& force_in_portal) noexcept;
@@ -97,16 +107,16 @@ class ServoLoop {
   std::array<Device*, 2> devices_;
   ServoOptions options_;
   double period_;
-  ServoWish wish_;
-  double wished_at_ = -std::numeric_limits<double>::infinity();
+  ServoRequest request_;
+  double requested_at_ = -std::numeric_limits<double>::infinity();
   bool is_watched_ = false, was_zero_force_ = false;
-  std::optional<double> last_;  // tick
+  std::optional<double> last_;  // s, time of the last tick
   ServoReport report_;
-  LatestValue<ServoWish> wishes_;
+  LatestValue<ServoRequest> requests_;
   LatestValue<Snapshot> snapshots_;
   LatestValue<ServoReport> reports_;
   std::atomic<bool> stop_{false};
-  std::thread thread_;  // last: it uses the rest
+  std::thread thread_;  // last member: it uses the others
 };
 
 }  // namespace arthro::simulation

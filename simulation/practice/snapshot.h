@@ -1,10 +1,11 @@
-// The session as it stands after a servo tick: what the picture, the panels and the record show.
-// Portal frame, m, N, s. A plain value, copied whole through LatestValue.
+// State of the session after a servo tick, for the picture, the panels and the record. Portal
+// frame, m, N, s. A plain value, copied whole through LatestValue.
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/device/device_sample.h"
 #include "simulation/haptics/fault.h"
 #include "simulation/scope/rod_pose.h"
 
@@ -13,29 +14,33 @@ namespace arthro::simulation {
 inline constexpr int kNoContact = -1, kBackdropContact = 0;  // tissue i is 1 + i
 
 struct ToolState {
-  RodPose pose;                     // about the tool's own portal
-  glm::dvec3 tip_in_portal{0.0};    // where the hand puts the tip
-  glm::dvec3 proxy_in_portal{0.0};  // where the surfaces let it be: draw the tool here
-  // Where living tissue has the hand: the tip, moved by what the backdrop alone pushes.
+  RodPose pose;                     // about the portal of the tool
+  glm::dvec3 tip_in_portal{0.0};    // tip as the hand holds it
+  glm::dvec3 proxy_in_portal{0.0};  // tip outside the surfaces; the tool is drawn here
+  // Tip as deformable tissue sees it: moved by the push of the backdrop and the layers alone.
   glm::dvec3 tissue_tip_in_portal{0.0};
-  // Force of the surfaces on the tip, as modelled: no limit, and no ramp but that of a new
-  // instrument.
+  // Force of the surfaces on the tip, as modelled: without limits, and ramped only after a change
+  // of the instrument.
   glm::dvec3 tip_force{0.0};
-  glm::dvec3 hand_force{0.0};  // what the device is told, after the lever and the limits
-  int contact = kNoContact;    // of the surface that carries most of the force
-  double penetration = 0;      // depth of the tip below the surfaces, m
-  int layer = -1;              // thin layer that holds it: tissue of the scene; −1: none
-  double layer_depth = 0;      // m, how deep its deepest point is there
-  bool is_layer_deep = false;  // deeper in a thin layer than its theory holds (elastic_layer.h)
+  glm::dvec3 hand_force{0.0};  // force for the device, after the lever and the limits
+  int contact = kNoContact;    // surface that carries most of the force
+  double penetration = 0;      // m, depth of the tip below the surfaces
+  int layer = -1;              // tissue in the scene of the thin layer in contact; −1: none
+  double layer_depth = 0;      // m, depth of the deepest point in that layer
+  bool is_layer_deep = false;  // deeper than the theory of a thin layer holds (elastic_layer.h)
   glm::dvec2 pixel{0.0};       // scope: centre of its view; instrument: under its tip; NaN: none
-  Fault fault = Fault::kNoSample;  // why hand_force is zero
-  double opening = 1;              // of the jaws, 0 closed; the first button closes them
-  bool is_running = false;         // the shaver, while the first button is held
+  Fault fault = Fault::kNoSample;  // reason for a hand_force of zero
+  double opening = 1;              // opening of the jaws, 0 closed; the first button closes them
+  bool is_running = false;         // the shaver runs while the first button is held
 };
 
 struct Snapshot {
   double t = 0;  // s since the session began
   ToolState scope, instrument;
 };
+
+inline const ToolState& ToolOf(const Snapshot& snapshot, DeviceRole role) noexcept {
+  return role == DeviceRole::kScope ? snapshot.scope : snapshot.instrument;
+}
 
 }  // namespace arthro::simulation

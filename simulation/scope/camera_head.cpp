@@ -6,7 +6,7 @@
 
 namespace arthro::simulation {
 
-CameraHead CameraHeadOf(std::string_view word) {
+CameraHead CameraHeadFromString(std::string_view word) {
   if (word == "scope") return {};
   if (word == "upright") return {.is_upright = true};
   throw Error(Code::kBadArgument,

@@ -20,6 +20,6 @@ inline double HeadRoll(const CameraHead& head, double roll) noexcept {
 }
 
 // Of command lines: "scope" turns with it, "upright" is held. Throws Error(kBadArgument).
-CameraHead CameraHeadOf(std::string_view word);
+CameraHead CameraHeadFromString(std::string_view word);
 
 }  // namespace arthro::simulation

@@ -336,7 +336,7 @@ std::string OutsideReason(const Lines& lines, const Vector3d& pivot, double marg
 
 }  // namespace
 
-const char* WordOf(PivotStatus status) {
+const char* ToString(PivotStatus status) {
   switch (status) {
     case PivotStatus::kOk:
       return "ok";

@@ -67,7 +67,7 @@ enum class PivotStatus {
   kInconsistent,  // they do not meet in one point
   kOutsideRod,    // they do, but not between hand and tip
 };
-const char* WordOf(PivotStatus status);  // "ok", "too_few"…, as in pivot.json
+const char* ToString(PivotStatus status);  // "ok", "too_few"…, as in pivot.json
 
 struct PivotCalibration {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

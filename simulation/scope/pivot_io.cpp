@@ -123,7 +123,7 @@ std::vector<PivotPress> ReadPresses(const std::filesystem::path& csv) {
 std::string JsonFromPivot(const PivotCalibration& calibration) {
   nlohmann::ordered_json json;
   json["schema"] = "arthroscene.pivot/1";
-  json["status"] = WordOf(calibration.status);
+  json["status"] = ToString(calibration.status);
   json["reason"] = calibration.reason;
   json["pivot"] = nullptr;
   if (calibration.pivot)

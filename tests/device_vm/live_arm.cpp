@@ -19,7 +19,7 @@ LiveOptions Options(const std::filesystem::path& locks) {
 
 // The hand's direction about the column is the base's angle.
 int CounterAt(const glm::dvec3& hip) {
-  const WoodenArm& arm = WoodenModelNamed(kModel)->arm;
+  const WoodenArm& arm = FindWoodenModel(kModel)->arm;
   const glm::dvec3 p = hip + arm.origin;
   return static_cast<int>(std::lround(std::atan2(p.y, p.x) * arm.counts_per_turn /
                                       (2 * std::numbers::pi * arm.transmission.x)));
@@ -33,8 +33,9 @@ void SleepUntil(double t) {
 }  // namespace
 
 LiveArm::LiveArm(const std::string& serial)
-    : link_(std::make_shared<LiveLink>(
-          *bus_, DeviceWish{DeviceFamily::kWoodenHaptics, serial, kModel}, Options(locks_.path()))),
+    : link_(std::make_shared<LiveLink>(*bus_,
+                                       DeviceRequest{DeviceFamily::kWoodenHaptics, serial, kModel},
+                                       Options(locks_.path()))),
       device_(link_, 0) {
   ticks_.reserve(100000);
 }

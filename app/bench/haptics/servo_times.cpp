@@ -143,16 +143,16 @@ void RunLoop(const LoadedScene& scene, int ticks, long (*heap_calls)() noexcept,
   ServoOptions options;
   options.wants_priority = false;
   ServoLoop loop(session, &scope, &instrument, options);
-  ServoWish wish;
-  wish.options = session.options();
-  wish.incision_spacing = session.incision_spacing();
-  wish.view_angle = session.view_angle();
+  ServoRequest request;
+  request.options = session.options();
+  request.incision_spacing = session.incision_spacing();
+  request.view_angle = session.view_angle();
   double now = 0;
   // Opened and homed, then armed and ramped.
   for (int i = 0; i < 1010; ++i) {
     if (i == 10) {
-      wish.is_dead_man_held = {true, true};
-      loop.Wish(wish);
+      request.is_dead_man_held = {true, true};
+      loop.SetRequest(request);
     }
     loop.TickOnce(now += kTouchTick);
   }
@@ -196,7 +196,7 @@ void TimeStages(const LoadedScene& scene, const std::vector<TickRecord>& record,
       contact("  contact: queries, proxy, friction", ticks),
       output("  output: guard, clamp, thermal, rise, ramp", ticks),
       codec("  codec: a report taken, a force encoded", ticks);
-  const WoodenModel& model = *WoodenModelNamed("woodenhaptics_2015");
+  const WoodenModel& model = *FindWoodenModel("woodenhaptics_2015");
   for (int round = 0; round < rounds; ++round) {
     RodPose last[2];
     ContactState contact_state[2];

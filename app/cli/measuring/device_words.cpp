@@ -13,10 +13,10 @@ namespace {
 using namespace simulation;
 using Json = nlohmann::ordered_json;
 
-const char* Word(HandInput input) {
+const char* ToString(HandInput input) {
   return input == HandInput::kAbsolute ? "absolute" : input == HandInput::kRate ? "rate" : "none";
 }
-const char* Word(Feedback feedback) {
+const char* ToString(Feedback feedback) {
   return feedback == Feedback::kForce ? "force" : feedback == Feedback::kRumble ? "rumble" : "none";
 }
 
@@ -39,8 +39,8 @@ std::string TextOf(const DeviceCaps& caps, int hands) {
 }
 
 Json JsonOf(const DeviceCaps& caps) {
-  return {{"input", Word(caps.input)},
-          {"feedback", Word(caps.feedback)},
+  return {{"input", ToString(caps.input)},
+          {"feedback", ToString(caps.feedback)},
           {"sensed_dof", caps.sensed_dof},
           {"actuated_dof", caps.actuated_dof},
           {"position_quantum", caps.position_quantum},
@@ -76,7 +76,7 @@ std::map<DeviceFamily, std::vector<std::string>> LookedFor() {
 ListedDevice ListedOf(const SurveyedDevice& own) {
   const HidNode& node = own.device.node;
   ListedDevice listed;
-  listed.family = Word(own.device.family);
+  listed.family = ToString(own.device.family);
   listed.name = Name(own.device.family);
   listed.number = fmt::format("{:04x}:{:04x}", node.vendor, node.product);
   listed.serial = node.serial;
@@ -138,7 +138,8 @@ Json JsonOf(const ListedDevice& own, const std::optional<DeviceTrial>& trial) {
 Json LookedForJson() {
   Json looked_for = Json::array();
   for (const auto& [family, numbers] : LookedFor())
-    looked_for.push_back({{"family", Word(family)}, {"name", Name(family)}, {"numbers", numbers}});
+    looked_for.push_back(
+        {{"family", ToString(family)}, {"name", Name(family)}, {"numbers", numbers}});
   return looked_for;
 }
 

@@ -111,7 +111,7 @@ class Lister {
     for (const SurveyedDevice& own : survey_.devices)
       if (own.can_be_used)
         sources.push_back(
-            {Word(own.device.family),
+            {ToString(own.device.family),
              own.device.family == DeviceFamily::kWoodenHaptics ? arguments_.model : "",
              own.device.node.serial,
              {}});
@@ -193,7 +193,7 @@ class Lister {
 void List(HidBus& bus, const DevicesArguments& arguments) { Lister(bus, arguments).Run(); }
 
 void CheckModel(const std::string& model) {
-  if (model.empty() || WoodenModelNamed(model) != nullptr) return;
+  if (model.empty() || FindWoodenModel(model) != nullptr) return;
   const std::string why =
       IsSecretWoodenModel(model)
           ? fmt::format("the kinematics of {} are not published, so it is not driven", model)

@@ -32,7 +32,7 @@ struct PivotArguments {
 std::vector<simulation::PivotPress> SwingOf(const PivotArguments& arguments) {
   simulation::PivotSwing swing(MetresFromMm(arguments.rod_length_mm));
   for (const simulation::TraceRow& row : simulation::ReadTrace(arguments.poses))
-    if (simulation::Word(row.device) == arguments.swing)
+    if (simulation::ToString(row.device) == arguments.swing)
       swing.Add(row.sample.hip_in_device, row.sample.handle_in_device);
   return {swing.presses().begin(), swing.presses().end()};
 }
@@ -50,7 +50,7 @@ void RunPivotJob(const PivotArguments& arguments) {
   // reason.
   if (calibration.status != simulation::PivotStatus::kOk)
     throw Error(Code::kBadData,
-                std::string(simulation::WordOf(calibration.status)) + ": " + calibration.reason,
+                std::string(simulation::ToString(calibration.status)) + ": " + calibration.reason,
                 arguments.poses);
 }
 

@@ -102,7 +102,7 @@ void Open(EditorOptions options, const HandFlags& flags, const JobFiles& files,
     options.notice = sentence;
   }
   options.frame_shape = FrameShapeOf(screens.layout);
-  options.head = simulation::CameraHeadOf(screens.head);
+  options.head = simulation::CameraHeadFromString(screens.head);
   if (!screens.film.empty()) {
     options.film = screens.film;
     CheckFilm(*options.film, {.shape = options.frame_shape});

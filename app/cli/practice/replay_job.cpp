@@ -44,7 +44,7 @@ void Run(const ReplayJob& job) {
     for (const std::string& sentence : FinishFilmsIn(job.video.parent_path(), job.video))
       fmt::print(stderr, "arthroscene: {}\n", sentence);
   const FrameShape shape = FrameShapeOf(job.layout);
-  const simulation::CameraHead head = simulation::CameraHeadOf(job.head);
+  const simulation::CameraHead head = simulation::CameraHeadFromString(job.head);
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
   if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
   std::string notice;

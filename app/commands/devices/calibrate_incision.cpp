@@ -13,8 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 using simulation::DeviceRole;
 
-const char* NameOf(DeviceRole role) { return role == DeviceRole::kScope ? "scope" : "instrument"; }
-
 void Open(EditorState& state, DeviceRole role) {
   // The servo has the hands from its first call on, and their devices say how sharp they are.
   state.practice->Advance(0.0, state.hands.get());
@@ -71,7 +69,7 @@ void KeepPivotFresh(EditorState& state) {
   if (!state.practice) return EndCalibration(state);
   simulation::PivotWork& work = state.calibrating->work;
   simulation::DeviceSample sample;
-  while (state.hands->Hear(sample)) work.Take(sample);
+  while (state.hands->ReadSample(sample)) work.Take(sample);
   if (state.pivot_jobs.busy()) return;
   if (auto fit = work.DueFit())
     state.pivot_jobs.Start("Calibration", [fit = std::move(*fit)](const Progress&) {
@@ -86,7 +84,7 @@ void UseIncision(EditorState& state) {
   const glm::dvec3 pivot = *own.work.found().pivot;
   state.hands->SetPivot(own.role, pivot);
   state.practice->SetMount(own.role, state.hands->MountOf(own.role, state.document().scene));
-  state.message = std::string("The ") + NameOf(own.role) + "'s incision is in use.";
+  state.message = std::string("The ") + ToString(own.role) + "'s incision is in use.";
   own.is_unsaved = state.hands->IsInRig(own.role);
   if (!own.is_unsaved) {
     own.outcome =

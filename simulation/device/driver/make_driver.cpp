@@ -13,7 +13,7 @@ std::unique_ptr<DeviceDriver> MakeDriver(const KnownDevice& device, std::string_
                                          std::string& refusal) {
   switch (device.family) {
     case DeviceFamily::kWoodenHaptics:
-      if (const WoodenModel* known = WoodenModelNamed(model))
+      if (const WoodenModel* known = FindWoodenModel(model))
         return MakeWoodenDriver(*known, device.node.vendor == kTeensy);
       if (model.empty())
         refusal = fmt::format(

@@ -39,7 +39,7 @@ const std::array kModels{
 
 std::span<const WoodenModel> WoodenModels() noexcept { return kModels; }
 
-const WoodenModel* WoodenModelNamed(std::string_view word) noexcept {
+const WoodenModel* FindWoodenModel(std::string_view word) noexcept {
   for (const WoodenModel& model : kModels)
     if (word == model.word) return &model;
   return nullptr;

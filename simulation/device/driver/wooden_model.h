@@ -24,7 +24,7 @@ struct WoodenModel {
 
 std::span<const WoodenModel> WoodenModels() noexcept;
 // Nothing: unknown, or refused.
-const WoodenModel* WoodenModelNamed(std::string_view word) noexcept;
+const WoodenModel* FindWoodenModel(std::string_view word) noexcept;
 // The words of those that are driven: "a or b".
 std::string WoodenModelWords();
 // One whose geometry is not public.

@@ -62,7 +62,7 @@ bool IsHandOf(DeviceFamily family, const HidNode& node) {
 
 }  // namespace
 
-const char* Word(DeviceFamily family) noexcept {
+const char* ToString(DeviceFamily family) noexcept {
   switch (family) {
     case kWoodenHaptics:
       return "wooden_haptics";
@@ -94,9 +94,9 @@ const char* Name(DeviceFamily family) noexcept {
   return "";
 }
 
-std::optional<DeviceFamily> FamilyNamed(std::string_view word) noexcept {
+std::optional<DeviceFamily> DeviceFamilyFromString(std::string_view word) noexcept {
   for (const DeviceFamily family : kFamilies)
-    if (word == Word(family)) return family;
+    if (word == ToString(family)) return family;
   return std::nullopt;
 }
 

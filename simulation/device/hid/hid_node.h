@@ -21,9 +21,9 @@ struct HidNode {
 enum class DeviceFamily { kWoodenHaptics, kSpaceMouse, kHydra, kDualSense, kDualShock4 };
 
 // One word, as in rig files, and the name for a person.
-const char* Word(DeviceFamily family) noexcept;
+const char* ToString(DeviceFamily family) noexcept;
 const char* Name(DeviceFamily family) noexcept;
-std::optional<DeviceFamily> FamilyNamed(std::string_view word) noexcept;
+std::optional<DeviceFamily> DeviceFamilyFromString(std::string_view word) noexcept;
 std::span<const DeviceFamily> AllFamilies() noexcept;
 
 // The numbers that a family is known by.

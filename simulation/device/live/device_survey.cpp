@@ -63,7 +63,7 @@ DeviceSurvey SurveyDevices(HidBus& bus, std::string_view model,
       own.hands = driver->hands();
     }
     const DeviceLock lock(lock_folder.empty() ? DeviceLockFolder() : lock_folder,
-                          std::string(Word(device.family)) + "-" + IdOf(device.node));
+                          std::string(ToString(device.family)) + "-" + IdOf(device.node));
     if (lock.is_held_elsewhere()) {
       own.sentence = fmt::format("process {} uses it; close that program", lock.holder());
       continue;
@@ -71,10 +71,11 @@ DeviceSurvey SurveyDevices(HidBus& bus, std::string_view model,
     OpenFault fault = OpenFault::kNone;
     const auto link = bus.Open(device.node, fault);
     if (!link) {
-      own.sentence = Sentence({DeviceState::kFault,
-                               fault == OpenFault::kNoPermission ? DeviceTrouble::kNoPermission
-                                                                 : DeviceTrouble::kReadError,
-                               true});
+      own.sentence =
+          DescribeStatus({DeviceState::kFault,
+                          fault == OpenFault::kNoPermission ? DeviceTrouble::kNoPermission
+                                                            : DeviceTrouble::kReadError,
+                          true});
       continue;
     }
     own.can_be_used = driver != nullptr;
@@ -129,9 +130,9 @@ DeviceTrial TryHand(Device& device, const TriedDevice& tried, double seconds,
   return trial;
 }
 
-DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
+DeviceTrial TryDevice(HidBus& bus, const DeviceRequest& request, double seconds,
                       const LiveOptions& options, const std::atomic<bool>* stop) {
-  const auto link = std::make_shared<LiveLink>(bus, wish, options);
+  const auto link = std::make_shared<LiveLink>(bus, request, options);
   LiveDevice device(link, 0);
   const double begin = SteadySeconds();
   while (link->opening() == 0 && !(stop && stop->load(std::memory_order_relaxed))) {
@@ -139,7 +140,7 @@ DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
       device.Read(options.clock());
       device.Read(options.clock());
       DeviceTrial trial;
-      trial.sentence = link->detail().empty() ? Sentence(device.status()) : link->detail();
+      trial.sentence = link->detail().empty() ? DescribeStatus(device.status()) : link->detail();
       return trial;
     }
     std::this_thread::sleep_for(kTick);

@@ -52,7 +52,7 @@ DeviceTrial TryHand(Device& device, const TriedDevice& tried, double seconds,
                     double (*clock)() noexcept, const std::atomic<bool>* stop = nullptr);
 
 // Finds, opens and tries it; where it does not open it has not passed.
-DeviceTrial TryDevice(HidBus& bus, const DeviceWish& wish, double seconds,
+DeviceTrial TryDevice(HidBus& bus, const DeviceRequest& request, double seconds,
                       const LiveOptions& options = {}, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace arthro::simulation

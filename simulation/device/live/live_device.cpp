@@ -15,7 +15,7 @@ LiveDevice::LiveDevice(std::shared_ptr<LiveLink> link, int hand, const RateHand&
                        const RateOptions& rate)
     : link_(std::move(link)),
       hand_(hand),
-      name_(Name(link_->wish().family)),
+      name_(Name(link_->request().family)),
       rate_hand_(rest),
       rate_(rate) {
   if (link_->hands() > 1) name_ += hand == 0 ? ", first hand" : ", second hand";

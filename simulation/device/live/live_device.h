@@ -19,7 +19,7 @@ class LiveDevice final : public Device {
 
   const DeviceCaps& caps() const noexcept override { return link_->caps(); }
   const std::string& name() const noexcept override { return name_; }
-  const std::string& serial() const noexcept override { return link_->wish().serial; }
+  const std::string& serial() const noexcept override { return link_->request().serial; }
   // `now` is the link's clock: SteadySeconds() but for tests.
   DeviceSample Read(double now) noexcept override;
   void HoldDeadMan(bool is_held) noexcept override { events_.is_dead_man_held = is_held; }

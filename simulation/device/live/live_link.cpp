@@ -77,12 +77,12 @@ double SteadySeconds() noexcept {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-LiveLink::LiveLink(HidBus& bus, const DeviceWish& wish, const LiveOptions& options)
-    : bus_(bus), wish_(wish), options_(options), serial_(wish.serial) {
+LiveLink::LiveLink(HidBus& bus, const DeviceRequest& request, const LiveOptions& options)
+    : bus_(bus), request_(request), options_(options), serial_(request.serial) {
   if (options_.lock_folder.empty()) options_.lock_folder = DeviceLockFolder();
   KnownDevice device;
-  device.family = wish.family;
-  if (const auto driver = MakeDriver(device, wish.model, refusal_)) {
+  device.family = request.family;
+  if (const auto driver = MakeDriver(device, request.model, refusal_)) {
     caps_ = driver->caps();
     hands_ = driver->hands();
   }
@@ -166,10 +166,10 @@ bool LiveLink::Open() {
   std::string detail;
   for (const KnownDevice& device : known) {
     const bool is_it =
-        device.family == wish_.family && (serial_.empty() || device.node.serial == serial_);
+        device.family == request_.family && (serial_.empty() || device.node.serial == serial_);
     if (!is_it) continue;
     is_there = true;
-    auto driver = MakeDriver(device, wish_.model, detail);
+    auto driver = MakeDriver(device, request_.model, detail);
     if (!driver) {
       trouble = DeviceTrouble::kUnsupported;
       break;
@@ -178,7 +178,7 @@ bool LiveLink::Open() {
                                ? std::filesystem::path(device.node.path).filename().string()
                                : device.node.serial;
     auto lock = std::make_unique<DeviceLock>(options_.lock_folder,
-                                             std::string(Word(device.family)) + "-" + id);
+                                             std::string(ToString(device.family)) + "-" + id);
     if (lock->is_held_elsewhere()) {
       trouble = DeviceTrouble::kHeldElsewhere;
       detail = fmt::format("{} {} is used by process {}", Name(device.family), id, lock->holder());

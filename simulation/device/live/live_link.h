@@ -28,7 +28,7 @@ namespace arthro::simulation {
 // The clock of live devices: s, rises evenly.
 double SteadySeconds() noexcept;
 
-struct DeviceWish {
+struct DeviceRequest {
   DeviceFamily family = DeviceFamily::kSpaceMouse;
   std::string serial;  // empty: any; kept once one was opened
   std::string model;   // of a WoodenHaptics
@@ -59,11 +59,11 @@ class LiveLink final : public Releasable {
   static constexpr int kMostHands = 2;
 
   // `bus` must outlive it. Opens later, by itself.
-  LiveLink(HidBus& bus, const DeviceWish& wish, const LiveOptions& options = {});
+  LiveLink(HidBus& bus, const DeviceRequest& request, const LiveOptions& options = {});
   ~LiveLink() override;
 
   const DeviceCaps& caps() const noexcept { return caps_; }
-  const DeviceWish& wish() const noexcept { return wish_; }
+  const DeviceRequest& request() const noexcept { return request_; }
   int hands() const noexcept { return hands_; }
 
   // The servo; none of these waits. Each hand is read by one thread.
@@ -102,7 +102,7 @@ class LiveLink final : public Releasable {
   void SetDetail(const std::string& text);
 
   HidBus& bus_;
-  DeviceWish wish_;
+  DeviceRequest request_;
   LiveOptions options_;
   DeviceCaps caps_;
   int hands_ = 1;

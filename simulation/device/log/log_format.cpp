@@ -73,7 +73,7 @@ class Taker {
     return flag == 1;
   }
   template <class Enum>
-  Enum Word(Enum last) {
+  Enum ReadEnum(Enum last) {
     const auto value = Take<std::uint8_t>();
     is_good_ = is_good_ && value <= static_cast<std::uint8_t>(last);
     return static_cast<Enum>(value);
@@ -117,7 +117,7 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
     case LogKind::kHomeAsked:
       break;
     case LogKind::kReport: {
-      record.news = body.Word(ReportNews::kTaken);
+      record.news = body.ReadEnum(ReportNews::kTaken);
       record.size = body.Take<std::uint8_t>();
       record.hands = body.Take<std::uint8_t>();
       if (record.size > record.bytes.size() || record.hands > record.hand.size()) return false;
@@ -134,8 +134,8 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
       record.tick_hand = body.Take<std::uint8_t>();
       record.sample = body.Sample();
       record.command = body.Vector();
-      record.status.state = body.Word(DeviceState::kLost);
-      record.status.reason = body.Word(DeviceTrouble::kProtected);
+      record.status.state = body.ReadEnum(DeviceState::kLost);
+      record.status.reason = body.ReadEnum(DeviceTrouble::kProtected);
       record.status.must_release = body.Flag();
       record.is_dead_man_held = body.Flag();
       if (record.tick_hand >= record.hand.size()) return false;
@@ -159,8 +159,8 @@ std::vector<LogSource> SourcesIn(std::string_view text) {
     each.at("serial").get_to(source.serial);
     const auto& roles = each.at("roles");
     for (std::size_t i = 0; i < source.roles.size(); ++i)
-      for (const DeviceRole role : {DeviceRole::kScope, DeviceRole::kInstrument})
-        if (roles.at(i) == Word(role)) source.roles[i] = role;
+      for (const DeviceRole role : kDeviceRoles)
+        if (roles.at(i) == ToString(role)) source.roles[i] = role;
   }
   return sources;
 }
@@ -276,7 +276,7 @@ std::string LogHead(std::span<const LogSource> sources, std::uint32_t version) {
   for (const LogSource& source : sources) {
     nlohmann::ordered_json roles;
     for (const auto& role : source.roles)
-      roles.push_back(role ? nlohmann::ordered_json(Word(*role)) : nlohmann::ordered_json());
+      roles.push_back(role ? nlohmann::ordered_json(ToString(*role)) : nlohmann::ordered_json());
     json["sources"].push_back({{"family", source.family},
                                {"model", source.model},
                                {"serial", source.serial},

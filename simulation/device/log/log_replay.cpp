@@ -13,7 +13,7 @@ namespace arthro::simulation {
 namespace {
 
 std::unique_ptr<DeviceDriver> DriverOf(const LogSource& source, const LogRecord& opened) {
-  const auto family = FamilyNamed(source.family);
+  const auto family = DeviceFamilyFromString(source.family);
   KnownDevice device;
   std::string refusal = fmt::format("there is no family \"{}\"", source.family);
   std::unique_ptr<DeviceDriver> driver;

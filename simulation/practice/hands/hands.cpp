@@ -12,18 +12,10 @@ namespace arthro::simulation {
 
 namespace {
 
-constexpr DeviceRole kRoles[] = {DeviceRole::kScope, DeviceRole::kInstrument};
-
-std::size_t Index(DeviceRole role) noexcept { return static_cast<std::size_t>(role); }
-
-bool IsReady(DeviceState state) {
-  return state == DeviceState::kReady || state == DeviceState::kArmed;
-}
-
-// Of what is simulated.
+// Serial number of a simulated device.
 const char* SerialOf(DeviceRole role) { return role == DeviceRole::kScope ? "1" : "2"; }
 
-const char* NameOf(HandKind kind) {
+const char* ToString(HandKind kind) {
   switch (kind) {
     case HandKind::kMouse:
       return "mouse and keys";
@@ -36,8 +28,8 @@ const char* NameOf(HandKind kind) {
   return "simulated device";
 }
 
-// Of a device that no servo reads: a board that only answers is then asked too seldom for its
-// samples to be fresh.
+// Status of a device that no servo reads. Freshness is not asked for, since a board that only
+// answers requests is then read too seldom.
 DeviceStatus StatusOfLink(LiveLink& link, int hand) {
   if (const DeviceTrouble trouble = link.trouble(); trouble != DeviceTrouble::kNone)
     return {DeviceState::kFault, trouble, true};
@@ -71,7 +63,7 @@ const std::optional<RigRole>& Hands::RigOf(DeviceRole role) const noexcept {
 
 void Hands::OpenRig() {
   std::vector<std::string> names;
-  for (const DeviceRole role : kRoles)
+  for (const DeviceRole role : kDeviceRoles)
     if (const auto& own = DrivenOf(role); own && IsOpenHaptics(own->device)) {
       roles_[Index(role)].number = names.size();
       names.push_back(own->device.serial);
@@ -85,12 +77,12 @@ void Hands::OpenRig() {
     openhaptics_ = std::make_shared<OpenHapticsDevices>(names, options_.clock);
     devices.push_back(openhaptics_);
   }
-  for (const DeviceRole role : kRoles)
+  for (const DeviceRole role : kDeviceRoles)
     if (DrivenOf(role)) roles_[Index(role)].device = DeviceOf(role);
   crash_.emplace(std::move(devices));
 }
 
-// For a servo: it begins without force, and must be let go of first.
+// Makes a device for a servo: it begins without force, and its dead-man must be released first.
 std::unique_ptr<Device> Hands::DeviceOf(DeviceRole role) {
   const Role& own = Of(role);
   if (own.number) return openhaptics_->Hand(*own.number);
@@ -102,7 +94,7 @@ const std::optional<RigRole>& Hands::DrivenOf(DeviceRole role) const noexcept {
   return choice_.is_simulated || is_recorded_[Index(role)] ? none : RigOf(role);
 }
 
-// A source a link, in the order in which links are made; then those hands that have none.
+// Lists one source per link, in the order in which links are made, then the hands without a link.
 void Hands::OpenLog() {
   std::vector<LogSource> sources;
   const auto source_of = [&](const RigDevice& device) {
@@ -111,11 +103,11 @@ void Hands::OpenLog() {
     sources.push_back({device.family, device.model, device.serial, {}});
     return sources.size() - 1;
   };
-  // What the maker's library reads has no reports of ours.
+  // Devices of the maker's library give no HID reports.
   const auto has_reports = [&](DeviceRole role) {
     return DrivenOf(role) && !IsOpenHaptics(DrivenOf(role)->device);
   };
-  for (const DeviceRole role : kRoles)
+  for (const DeviceRole role : kDeviceRoles)
     if (has_reports(role)) {
       const auto& own = DrivenOf(role);
       const std::size_t source = source_of(own->device);
@@ -124,7 +116,7 @@ void Hands::OpenLog() {
     }
   if (choice_.rig && choice_.rig->pedals) source_of(choice_.rig->pedals->device);
   const std::size_t links = sources.size();
-  for (const DeviceRole role : kRoles)
+  for (const DeviceRole role : kDeviceRoles)
     if (!has_reports(role)) {
       logged_[Index(role)] = {static_cast<int>(sources.size()), 0};
       std::string serial = choice_.is_simulated ? SerialOf(role) : "";
@@ -137,16 +129,17 @@ void Hands::OpenLog() {
 }
 
 std::shared_ptr<LiveLink> Hands::LinkOf(const RigDevice& device) {
-  DeviceWish wish;
-  wish.family = FamilyNamed(device.family).value_or(wish.family);
-  wish.serial = device.serial;
-  wish.model = device.model;
+  DeviceRequest request;
+  request.family = DeviceFamilyFromString(device.family).value_or(request.family);
+  request.serial = device.serial;
+  request.model = device.model;
   for (const Link& known : links_)
-    if (known.wish.family == wish.family && known.wish.serial == wish.serial) return known.link;
+    if (known.request.family == request.family && known.request.serial == request.serial)
+      return known.link;
   LiveOptions options = options_;
   if (!bus_) bus_ = MachineHidBus();
   if (log_) options.tap = taps_[links_.size()].get();
-  links_.push_back({wish, std::make_shared<LiveLink>(*bus_, wish, options)});
+  links_.push_back({request, std::make_shared<LiveLink>(*bus_, request, options)});
   return links_.back().link;
 }
 
@@ -164,8 +157,8 @@ DeviceRig Hands::MountOf(DeviceRole role, const Scene& scene) const {
   return mount;
 }
 
-void Hands::Lower(SessionOptions& options) const noexcept {
-  for (const DeviceRole role : kRoles)
+void Hands::LowerLimits(SessionOptions& options) const noexcept {
+  for (const DeviceRole role : kDeviceRoles)
     if (const auto& own = RigOf(role)) {
       if (own->max_force > 0)
         options.limiter.max_force = std::min(options.limiter.max_force, own->max_force);
@@ -174,10 +167,10 @@ void Hands::Lower(SessionOptions& options) const noexcept {
     }
 }
 
-std::shared_ptr<HeldHands> Hands::Hold(const std::array<ScriptedDevice, 2>& by_mouse) {
+std::shared_ptr<HeldHands> Hands::MakeHeldHands(const std::array<ScriptedDevice, 2>& by_mouse) {
   if (openhaptics_) {
     openhaptics_->OpenMissing();
-    for (const DeviceRole role : kRoles)
+    for (const DeviceRole role : kDeviceRoles)
       if (Of(role).number) roles_[Index(role)].device = DeviceOf(role);
   }
   const auto parts_of = [&](DeviceRole role) {
@@ -192,7 +185,7 @@ std::shared_ptr<HeldHands> Hands::Hold(const std::array<ScriptedDevice, 2>& by_m
       parts.device = std::move(plant);
     } else if (KindOf(role) == HandKind::kRecorded) {
       parts.kind = HandKind::kRecorded;
-      parts.recorded = RecordedDevice(choice_.trace, role);
+      parts.recorded = std::make_unique<RecordedDevice>(choice_.trace, role);
       parts.recording_begins = choice_.trace.front().sample.t;
     } else if (const auto& own = DrivenOf(role)) {
       parts.kind = HandKind::kPluggedIn;
@@ -213,16 +206,16 @@ std::shared_ptr<HeldHands> Hands::Hold(const std::array<ScriptedDevice, 2>& by_m
       std::array{parts_of(DeviceRole::kScope), parts_of(DeviceRole::kInstrument)},
       std::move(pedals));
   if (log_)
-    for (const DeviceRole role : kRoles)
+    for (const DeviceRole role : kDeviceRoles)
       held->LogTo(*log_, role, logged_[Index(role)].source, logged_[Index(role)].hand);
   held_ = held;
   return held;
 }
 
 bool Hands::Look() {
-  if (!held_.expired()) return false;  // its servo reads them, and its frames follow each other
+  if (!held_.expired()) return false;  // the servo of the practice reads them
   bool has_news = false;
-  for (const DeviceRole role : kRoles)
+  for (const DeviceRole role : kDeviceRoles)
     if (Role& own = roles_[Index(role)]; own.device) {
       const auto before =
           std::exchange(own.status, own.number ? openhaptics_->Look(*own.number)
@@ -234,10 +227,10 @@ bool Hands::Look() {
 
 DeviceStatus Hands::StatusOf(DeviceRole role) const {
   const auto held = held_.lock();
-  return held ? held->News().hand[Index(role)].status : Of(role).status;
+  return held ? held->ReadReport().hand[Index(role)].status : Of(role).status;
 }
 
-// More than its state says.
+// Detail beyond the state.
 std::string Hands::DetailOf(DeviceRole role) const {
   const Role& own = Of(role);
   return own.number ? openhaptics_->detail(*own.number) : own.link ? own.link->detail() : "";
@@ -245,12 +238,12 @@ std::string Hands::DetailOf(DeviceRole role) const {
 
 bool Hands::Leads(DeviceRole role) const {
   const auto held = held_.lock();
-  return held && held->News().hand[Index(role)].is_led_by_device;
+  return held && held->ReadReport().hand[Index(role)].is_led_by_device;
 }
 
 ForceHistory Hands::History(DeviceRole role) const {
   const auto held = held_.lock();
-  return held ? held->News().hand[Index(role)].history : ForceHistory{};
+  return held ? held->ReadReport().hand[Index(role)].history : ForceHistory{};
 }
 
 HandKind Hands::KindOf(DeviceRole role) const {
@@ -276,13 +269,13 @@ std::string Hands::WhyNotCalibrated(DeviceRole role) const {
 void Hands::Calibrate(std::optional<DeviceRole> role) {
   calibrated_ = role;
   DeviceSample old;
-  while (Hear(old)) {
+  while (ReadSample(old)) {
   }
 }
 
-bool Hands::Hear(DeviceSample& sample) {
+bool Hands::ReadSample(DeviceSample& sample) {
   const auto held = held_.lock();
-  return held && held->Hear(sample);
+  return held && held->ReadSample(sample);
 }
 
 void Hands::SetPivot(DeviceRole role, const glm::dvec3& pivot_in_device) {
@@ -307,31 +300,32 @@ HandNow Hands::Now(DeviceRole role) const {
   now.situation.is_practising = held != nullptr;
   now.situation.is_calibrating = calibrated_.has_value();
   now.situation.status = StatusOf(role);
-  now.name = NameOf(now.kind);
+  now.name = ToString(now.kind);
   const Device* device = held ? held->Of(role) : own.device.get();
   if (device != nullptr && (now.kind == HandKind::kPluggedIn || now.kind == HandKind::kSimulated)) {
     now.name = device->name();
     now.serial = device->serial();
     now.situation.caps = device->caps();
     now.peak = device->caps().peak_force;
-    now.sentence = Sentence(now.situation.status);
+    now.sentence = DescribeStatus(now.situation.status);
   }
   if (!IsReady(now.situation.status.state))
     if (const std::string detail = DetailOf(role); !detail.empty()) now.sentence = detail;
   if (!held) return now;
 
-  const HandsNews::Hand& news = held->News().hand[Index(role)];
-  now.felt = news.felt;
-  now.given = news.given;
-  now.sample_age = news.age;
-  now.is_led_by_device = news.is_led_by_device;
-  now.situation.sample_age = news.age;
-  now.situation.fault = news.fault;
-  now.situation.has_force = news.felt > 0;
-  now.situation.is_dead_man_held = news.is_dead_man_held;
+  const HandsReport::Hand& report = held->ReadReport().hand[Index(role)];
+  now.felt = report.felt;
+  now.given = report.given;
+  now.sample_age = report.age;
+  now.is_led_by_device = report.is_led_by_device;
+  now.situation.sample_age = report.age;
+  now.situation.fault = report.fault;
+  now.situation.has_force = report.felt > 0;
+  now.situation.is_dead_man_held = report.is_dead_man_held;
   if (now.kind == HandKind::kRecorded)
-    now.sentence = news.is_led_by_device ? "is played" : "has ended; mouse and keys hold it";
-  if (news.last_fault.state != DeviceState::kAbsent) now.last_fault = Sentence(news.last_fault);
+    now.sentence = report.is_led_by_device ? "is played" : "has ended; mouse and keys hold it";
+  if (report.last_fault.state != DeviceState::kAbsent)
+    now.last_fault = DescribeStatus(report.last_fault);
   return now;
 }
 
@@ -342,9 +336,9 @@ std::string Hands::Missing(DeviceRole role) const {
   if (IsReady(state)) return "";
   const std::string& name = own.device->name();
   return state == DeviceState::kAbsent
-             ? fmt::format("No {}: mouse and keys hold the {}.", name, Word(role))
-             : fmt::format("{}: {} (F4). Mouse and keys hold the {}.", name, Word(state),
-                           Word(role));
+             ? fmt::format("No {}: mouse and keys hold the {}.", name, ToString(role))
+             : fmt::format("{}: {} (F4). Mouse and keys hold the {}.", name, ToString(state),
+                           ToString(role));
 }
 
 void Hands::AskHome(DeviceRole role) {

@@ -19,7 +19,7 @@ void CheckDriven(const RigDevice& own, const char* where, const std::filesystem:
     return;
   }
   KnownDevice device;
-  device.family = FamilyNamed(own.family).value_or(device.family);
+  device.family = DeviceFamilyFromString(own.family).value_or(device.family);
   std::string refusal;
   if (!MakeDriver(device, own.model, refusal))
     throw Error(Code::kBadData, fmt::format("{}: {}", where, refusal), rig);

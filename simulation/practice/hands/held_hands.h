@@ -1,8 +1,9 @@
-// Both hands of a practice as its servo sees them. Each is held by a device where one says where it
-// is, and by mouse and keys where none does: a rig's device, a recording, a simulated device that
-// mouse and keys lead. What a rig binds to a button is translated here to the session's own: bit 0
-// closes the jaws, bit 1 is the dead-man. Device frame, m, N, s.
-// The servo calls the devices, and AfterTick; one other thread, the window, wishes and reads news.
+// Both hands of a practice as its servo sees them. A hand is held by a device where one reports its
+// position, and otherwise by mouse and keys. Devices are those of a rig, a recording, or simulated
+// devices that mouse and keys lead. Buttons of a rig are translated here to those of the session:
+// bit 0 closes the jaws, bit 1 is the dead-man. Device frame, m, N, s.
+// The servo calls the devices and AfterTick; one other thread, the window, writes requests and
+// reads reports.
 #pragma once
 
 #include <array>
@@ -26,92 +27,93 @@ namespace arthro::simulation {
 struct HandParts {
   HandKind kind = HandKind::kMouse;
   ScriptedDevice by_mouse;
-  std::unique_ptr<Device> device;  // of kSimulated and kPluggedIn
-  HandPlant* led = nullptr;        // of kSimulated, inside `device`
-  // Inside `device`: it integrates its hand, from where mouse and keys have it.
+  std::unique_ptr<Device> device;  // kSimulated and kPluggedIn
+  HandPlant* led = nullptr;        // kSimulated: the plant inside `device`
+  // The same as `device` where it senses rates: its hand is integrated from that of mouse and keys.
   LiveDevice* integrates = nullptr;
-  std::optional<RecordedDevice> recorded;  // of kRecorded
-  double recording_begins = 0;             // s
+  std::unique_ptr<RecordedDevice> recorded;  // kRecorded
+  double recording_begins = 0;               // s
   RigButtons buttons = kNoButtons;
 };
 
 struct PedalParts {
-  std::unique_ptr<Device> device;  // null: none
+  std::unique_ptr<Device> device;  // null: no pedals
   RigButtons buttons = kNoButtons;
 };
 
-// From the window, once a frame.
-struct HandsWish {
+// Input from the window, once per frame.
+struct HandsRequest {
   struct Hand {
-    RodPose pose;               // where mouse and keys want it
-    int episode = 0;            // of the news that this pose goes on from
-    std::uint32_t buttons = 0;  // of the session
-    // Where its device's incision is from now on; none: as it was, as it is for ever of a simulated
-    // device, whose rod goes through the true one.
+    RodPose pose;               // where mouse and keys lead the hand
+    int episode = 0;            // HandsReport::Hand::episode that `pose` continues
+    std::uint32_t buttons = 0;  // bit field, buttons of the session
+    // New mount of the device; nullopt: unchanged. Simulated devices ignore it, since their rod
+    // goes through the true incision.
     std::optional<DeviceRig> mount;
   };
   std::array<Hand, 2> hand;  // by DeviceRole
-  // Its incision is calibrated: what its device says is heard, no device is given a force or armed,
-  // and buttons do nothing else.
+  // Hand whose incision is being calibrated. Its samples are then queued for ReadSample, no device
+  // is armed or given a force, and buttons have no other effect.
   std::optional<DeviceRole> calibrated;
-  double until = 0;  // s, by when it is to be there; evenly until then
+  double until = 0;  // s, when the hand arrives at `pose`, at constant speed
 };
 
-// To the window, of the newest tick.
-struct HandsNews {
+// Output to the window, from the newest tick.
+struct HandsReport {
   struct Hand {
-    bool is_led_by_device = false;  // or else mouse and keys hold it
-    // Grows when a device lets go of it: then it stands where it is until the window goes on from
-    // there.
+    bool is_led_by_device = false;  // false: mouse and keys hold it
+    // Increases when a device stops reporting the hand. The hand then stays where it is until a
+    // request continues from there.
     int episode = 0;
     DeviceStatus status;
-    DeviceStatus last_fault;  // kAbsent: there was none
+    DeviceStatus last_fault;  // kAbsent: none so far
     Fault fault = Fault::kNoSample;
     bool is_dead_man_held = false;
-    double age = 0;              // s, of its sample
-    double felt = 0, given = 0;  // N: what the session has for it, and what its device gets
+    double age = 0;    // s, age of the sample
+    double felt = 0;   // N, force on the hand that the session computed
+    double given = 0;  // N, force that the device was commanded
     ForceHistory history;
   };
   std::array<Hand, 2> hand;  // by DeviceRole
   double peak_force = 0;     // N, largest on the instrument's tip so far
-  double running = 0;        // s, that the shaver ran
-  int next_presses = 0;      // of what a rig binds to the next instrument
+  double running = 0;        // s, running time of the shaver
+  int next_presses = 0;      // presses of the button for the next instrument
 };
 
 class HeldHands final : public ServoWatch {
  public:
   HeldHands(std::array<HandParts, 2> parts, PedalParts pedals);
   ~HeldHands() override;
-  // Before the servo begins. What it sees of this hand, and what it commands, goes there: `source`
-  // and `hand` of the log's.
+  // Logs the samples and commands of this hand, as `source` and `hand` of the log. Call before the
+  // servo begins.
   void LogTo(DeviceLog& log, DeviceRole role, int source, int hand);
 
   Device* Of(DeviceRole role) noexcept;
-  HandKind KindOf(DeviceRole role) const noexcept;  // never changes
+  HandKind KindOf(DeviceRole role) const noexcept;  // constant
   void AfterTick(const Snapshot& snapshot, double dt) noexcept override;
 
-  void Wish(const HandsWish& wish) noexcept { wishes_.Write(wish); }
-  const HandsNews& News() noexcept { return news_.Read(); }
-  // While one is calibrated: what its device said, the oldest first, not valid where it said
-  // nothing. False: that was all. Two seconds are kept.
-  bool Hear(DeviceSample& sample) noexcept;
+  void SetRequest(const HandsRequest& request) noexcept { requests_.Write(request); }
+  const HandsReport& ReadReport() noexcept { return reports_.Read(); }
+  // Takes the oldest queued sample of the hand that is being calibrated; it is not valid where the
+  // device gave none. Returns false when the queue is empty. The queue holds two seconds.
+  bool ReadSample(DeviceSample& sample) noexcept;
 
  private:
   class Hand;
   void BeginTick(double now) noexcept;
   bool IsHeld(RigAction action) const noexcept;
 
-  std::array<std::unique_ptr<Device>, 2> devices_;  // by DeviceRole; the hands, or logged
+  std::array<std::unique_ptr<Device>, 2> devices_;  // by DeviceRole; the hands, logged or not
   std::array<Hand*, 2> hands_{};                    // inside them
   PedalParts pedals_;
   DeviceSample pedal_sample_;
-  double tick_ = -1;  // the tick that began last
+  double tick_ = -1;  // s, time of the newest tick
   bool was_next_held_ = false;
-  HandsWish wish_;
-  HandsNews told_;
-  LatestValue<HandsWish> wishes_;
-  LatestValue<HandsNews> news_;
-  BoundedQueue<DeviceSample> heard_{2000};
+  HandsRequest request_;
+  HandsReport report_;
+  LatestValue<HandsRequest> requests_;
+  LatestValue<HandsReport> reports_;
+  BoundedQueue<DeviceSample> samples_{2000};
 };
 
 }  // namespace arthro::simulation

@@ -11,22 +11,20 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTick = 1e-3;  // s
+constexpr double kFrame = 1.0 / 60;  // s, time in which a hand moves to where it was led
 
-constexpr double kFrame = 1.0 / 60;  // s, in which a hand gets where it was led
-
-// A window that has shown no frame for so long cannot tell that the dead-man was let go.
+// A window that showed no frame for this time cannot report that the dead-man was released.
 constexpr double kWindowHangs = 0.5;  // s
 
-// As slow as an eye follows; a real blade turns fifty times a second, which a picture at 60 Hz
-// would show standing still.
+// Slow enough for the eye to follow. A real blade turns 50 times per second, and a picture at 60 Hz
+// would show it standing still.
 constexpr double kBladeSpeed = 30.0;  // rad/s
 
 }  // namespace
 
 RodLimits ScopeLimits(const Scene& scene) {
   RodLimits limits;
-  // The lens stays inside the sphere that the panorama is on, and the hand outside the portal.
+  // Keeps the lens inside the sphere of the panorama and the hand outside the portal.
   limits.max_depth = std::min(0.97 * scene.backdrop.radius, 0.9 * scene.scope.rod_length);
   limits.min_depth = -0.2 * scene.backdrop.radius;
   return limits;
@@ -34,7 +32,7 @@ RodLimits ScopeLimits(const Scene& scene) {
 
 RodLimits InstrumentLimits(const Scene& scene) {
   RodLimits limits;
-  // Far enough to press on the furthest wall; the wall holds the tip.
+  // Lets the tip press on the furthest wall, which then holds it.
   limits.max_depth = std::min(scene.backdrop.radius + std::abs(scene.portals.incision_spacing),
                               0.9 * scene.rig.instrument.rod_length);
   limits.min_depth = -0.2 * scene.backdrop.radius;
@@ -42,8 +40,8 @@ RodLimits InstrumentLimits(const Scene& scene) {
 }
 
 RodPose StartOfScope(const Scene& scene) {
-  // Looking at the middle of the picture, as far as the view angle lets the rod: the axis is bent
-  // up by the centre angle, so the rod points down by as much.
+  // Looks at the middle of the picture: the view axis is bent up by the centre angle, so the rod
+  // points down by as much, to a limit.
   constexpr double kLowest = 0.8;  // rad
   RodPose pose;
   pose.depth = 0.3 * scene.backdrop.radius;
@@ -53,7 +51,7 @@ RodPose StartOfScope(const Scene& scene) {
 }
 
 RodPose StartOfInstrument(const Scene& scene) {
-  // Its tip in the middle of the scope's first picture, a third of the way to the backdrop.
+  // Places the tip in the middle of the scope's first picture, a third of the way to the backdrop.
   constexpr double kShare = 0.33;
   const ScopeView view = ViewFromPose(StartOfScope(scene), scene.scope.view_angle);
   const glm::dvec3 wall = SphereHit(view.tip, view.view, scene.backdrop.radius);
@@ -71,20 +69,20 @@ Practice::Practice(std::unique_ptr<Session> session, const Scene& scene)
       by_mouse_{ScriptedDevice(session_->scope_rig(), StartOfScope(scene), ScopeLimits(scene)),
                 ScriptedDevice(session_->instrument_rig(), StartOfInstrument(scene),
                                InstrumentLimits(scene))} {
-  wish_.options = session_->options();
-  wish_.incision_spacing = session_->incision_spacing();
-  wish_.view_angle = session_->view_angle();
-  wish_.instrument = session_->instrument();
-  // One tick, so that there is something to show before time has passed.
-  session_->Tick(scope().Sample(t_), instrument().Sample(t_), kTick);
+  request_.options = session_->options();
+  request_.incision_spacing = session_->incision_spacing();
+  request_.view_angle = session_->view_angle();
+  request_.instrument = session_->instrument();
+  // Ticks once, so that there is a picture before time has passed.
+  session_->Tick(scope().Sample(t_), instrument().Sample(t_), kServoPeriod);
   snapshot_ = session_->snapshot();
   tissues_ = session_->tissues();
 }
 
 void Practice::Begin(Hands* hands) {
   if (hands != nullptr) {
-    held_ = hands->Hold(by_mouse_);
-    hands->Lower(wish_.options);
+    held_ = hands->MakeHeldHands(by_mouse_);
+    hands->LowerLimits(request_.options);
     has_thread_ = hands->NeedsThread();
   } else {
     const auto by_mouse = [](const ScriptedDevice& hand) {
@@ -96,45 +94,46 @@ void Practice::Begin(Hands* hands) {
   ServoOptions options;
   options.watch = held_.get();
   if (has_thread_)
-    options.wish_lasts = kWindowHangs;
+    options.request_lasts = kWindowHangs;
   else
-    options.period_without_force = kTick;
+    options.period_without_force = kServoPeriod;
   servo_ = std::make_unique<ServoLoop>(*session_, held_->Of(DeviceRole::kScope),
                                        held_->Of(DeviceRole::kInstrument), options);
 }
 
-// What the hands and the servo are to do until then.
-void Practice::Tell(Hands* hands, double until) noexcept {
-  HandsWish wish;
-  wish.until = until;
+// Sends poses, buttons, mounts and modes to the hands and the servo.
+void Practice::SendRequests(Hands* hands, double until) noexcept {
+  HandsRequest request;
+  request.until = until;
   for (std::size_t i = 0; i < 2; ++i) {
-    wish.hand[i].pose = by_mouse_[i].pose();
-    wish.hand[i].episode = episodes_[i];
+    request.hand[i].pose = by_mouse_[i].pose();
+    request.hand[i].episode = episodes_[i];
   }
-  wish.hand[1].buttons = buttons_;
-  for (std::size_t i = 0; i < 2; ++i) wish.hand[i].mount = wish_.mount[i];
-  if (hands != nullptr) wish.calibrated = hands->calibrated();
-  held_->Wish(wish);
+  request.hand[1].buttons = buttons_;
+  for (std::size_t i = 0; i < 2; ++i) request.hand[i].mount = request_.mount[i];
+  if (hands != nullptr) request.calibrated = hands->calibrated();
+  held_->SetRequest(request);
   const bool is_held = hands != nullptr && hands->is_dead_man_held();
-  wish_.is_dead_man_held = {is_held, is_held};
-  wish_.is_zero_force = hands != nullptr && (hands->is_zero_force() || hands->calibrated());
-  servo_->Wish(wish_);
+  request_.is_dead_man_held = {is_held, is_held};
+  request_.is_zero_force = hands != nullptr && (hands->is_zero_force() || hands->calibrated());
+  servo_->SetRequest(request_);
 }
 
-void Practice::TakeNews() {
-  snapshot_ = servo_->Read();
+void Practice::TakeReports() {
+  snapshot_ = servo_->ReadSnapshot();
   tissues_ = session_->tissues();
-  const HandsNews& news = held_->News();
-  peak_force_ = news.peak_force;
-  running_ = news.running;
-  // Mouse and keys go on from where a device has the hand, or left it.
-  for (std::size_t i = 0; i < 2; ++i) {
-    const HandsNews::Hand& hand = news.hand[i];
-    if (hand.is_led_by_device || hand.episode != episodes_[i])
-      by_mouse_[i].Set(i == 0 ? snapshot_.scope.pose : snapshot_.instrument.pose);
-    episodes_[i] = hand.episode;
+  const HandsReport& report = held_->ReadReport();
+  peak_force_ = report.peak_force;
+  running_ = report.running;
+  // Mouse and keys continue from where a device holds the hand, or left it.
+  for (const DeviceRole role : kDeviceRoles) {
+    const HandsReport::Hand& hand = report.hand[Index(role)];
+    int& episode = episodes_[Index(role)];
+    if (hand.is_led_by_device || hand.episode != episode)
+      by_mouse_[Index(role)].Set(ToolOf(snapshot_, role).pose);
+    episode = hand.episode;
   }
-  if (std::exchange(next_presses_, news.next_presses) == news.next_presses) return;
+  if (std::exchange(next_presses_, report.next_presses) == report.next_presses) return;
   const bool is_last = instrument_kind() == ToolKind::kGrasper;
   SetInstrument(is_last ? ToolKind::kProbe
                         : static_cast<ToolKind>(static_cast<int>(instrument_kind()) + 1));
@@ -143,26 +142,26 @@ void Practice::TakeNews() {
 void Practice::Advance(double seconds, Hands* hands) {
   if (!servo_) Begin(hands);
   if (has_thread_) {
-    Tell(hands, hands->Clock() + kFrame);
+    SendRequests(hands, hands->Clock() + kFrame);
     servo_->Start();
-    servo_sentence_ = SentenceOf(servo_->ReadReport());
+    servo_sentence_ = DescribeTrouble(servo_->ReadReport());
   } else {
     pending_ += std::clamp(seconds, 0.0, kLongestPause);
-    const int ticks = static_cast<int>(std::floor(pending_ / kTick + 1e-9));
-    pending_ -= ticks * kTick;
-    Tell(hands, t_ + ticks * kTick);
-    for (int tick = 0; tick < ticks; ++tick) servo_->TickOnce(t_ += kTick);
+    const int ticks = static_cast<int>(std::floor(pending_ / kServoPeriod + 1e-9));
+    pending_ -= ticks * kServoPeriod;
+    SendRequests(hands, t_ + ticks * kServoPeriod);
+    for (int tick = 0; tick < ticks; ++tick) servo_->TickOnce(t_ += kServoPeriod);
     if (ticks == 0) return;
   }
-  TakeNews();
+  TakeReports();
 }
 
 void Practice::SetMount(DeviceRole role, const DeviceRig& mount) {
-  wish_.mount[static_cast<std::size_t>(role)] = mount;
+  request_.mount[Index(role)] = mount;
 }
 
 void Practice::ResetTissues() {
-  if (has_thread_) servo_->Stop();  // the next Advance starts it
+  if (has_thread_) servo_->Stop();  // the next Advance starts it again
   session_->ResetTissues();
 }
 

@@ -18,7 +18,7 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
              "button.";
     case DeviceState::kFault:
     case DeviceState::kLost:
-      return Sentence(situation.status);
+      return DescribeStatus(situation.status);
     case DeviceState::kReady:
     case DeviceState::kArmed:
       break;

@@ -133,7 +133,8 @@ TEST(DeviceState, GoesOneStepAtATime) {
   ForAll([&](const DeviceStatus& status, const DeviceEvents& events) {
     const DeviceState next = Next(status, events).state;
     if (next == status.state) return;
-    ASSERT_TRUE(ways.contains({status.state, next})) << Word(status.state) << " to " << Word(next);
+    ASSERT_TRUE(ways.contains({status.state, next}))
+        << ToString(status.state) << " to " << ToString(next);
     seen.insert({status.state, next});
   });
   EXPECT_EQ(seen, ways) << "each of them can happen";
@@ -144,7 +145,7 @@ TEST(DeviceState, FromEverywhereAGoodDeviceIsReadyWithinFourSteps) {
     for (const DeviceTrouble reason : kTroubles) {
       DeviceStatus status{state, reason, true};
       for (int i = 0; i < 4; ++i) status = Next(status, Good());
-      EXPECT_EQ(status, (DeviceStatus{kReady, kNone, false})) << Word(state);
+      EXPECT_EQ(status, (DeviceStatus{kReady, kNone, false})) << ToString(state);
       DeviceEvents held = Good();
       held.is_dead_man_held = true;
       EXPECT_EQ(Next(status, held).state, kArmed);
@@ -158,7 +159,7 @@ TEST(DeviceState, ADeadManThatIsHeldAllTheTimeNeverArms) {
     DeviceStatus status{start, kNone, true};
     for (int i = 0; i < 100; ++i) {
       status = Next(status, held);
-      ASSERT_NE(status.state, kArmed) << Word(start);
+      ASSERT_NE(status.state, kArmed) << ToString(start);
     }
     EXPECT_EQ(status.state, start == kFault ? kFault : kReady);
   }
@@ -182,15 +183,15 @@ TEST(DeviceState, AFaultWaitsForTheHandToLetGoAndKeepsItsReason) {
 
 TEST(DeviceState, EveryStateAndReasonIsSaidInASentence) {
   std::set<std::string> words, sentences;
-  for (const DeviceState state : kStates) words.insert(Word(state));
+  for (const DeviceState state : kStates) words.insert(ToString(state));
   EXPECT_EQ(words.size(), kStates.size());
   for (const DeviceTrouble reason : kTroubles) {
-    const std::string sentence = Sentence({kFault, reason, true});
+    const std::string sentence = DescribeStatus({kFault, reason, true});
     EXPECT_GT(sentence.size(), 20u);
     sentences.insert(sentence);
   }
   EXPECT_EQ(sentences.size(), kTroubles.size() - 1) << "a read and a write fail alike";
-  EXPECT_NE(std::string(Sentence({kFault, kNoPermission, true})).find("70-arthroscene.rules"),
+  EXPECT_NE(std::string(DescribeStatus({kFault, kNoPermission, true})).find("70-arthroscene.rules"),
             std::string::npos);
 }
 

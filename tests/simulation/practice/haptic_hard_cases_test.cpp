@@ -54,11 +54,11 @@ struct Held {
   Held(const LoadedScene& loaded, const glm::dvec3& tip, const PlantOptions& plant,
        const HandModel& hand, const SessionOptions& options = {})
       : session(loaded, options), scope(plant, hand, HipOf(tip)), loop(session, &scope, nullptr) {
-    ServoWish wish{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
-    loop.Wish(wish);
+    ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
+    loop.SetRequest(request);
     for (int i = 0; i < 10; ++i) Tick(tip);
-    wish.is_dead_man_held = {true, true};
-    loop.Wish(wish);
+    request.is_dead_man_held = {true, true};
+    loop.SetRequest(request);
     for (int i = 0; i < 1000; ++i) Tick(tip);
   }
   glm::dvec3 HipOf(const glm::dvec3& tip) const {
@@ -67,7 +67,7 @@ struct Held {
   const ToolState& Tick(const glm::dvec3& tip) {
     scope.plant().SetIntent(HipOf(tip));
     loop.TickOnce(now += kTick);
-    return loop.Read().scope;
+    return loop.ReadSnapshot().scope;
   }
   Session session;
   PlantDevice scope;
@@ -219,14 +219,14 @@ TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
     const glm::dvec3 middle(0, 0, kLevel + 1e-3);
     PlantDevice device(plant, kHand, HipFromRodPose(PoseAt(middle), session.instrument_rig()));
     ServoLoop loop(session, nullptr, &device);
-    ServoWish wish{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
-    loop.Wish(wish);
+    ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
+    loop.SetRequest(request);
     double now = 0, work = 0;
     std::uint64_t step = 0;
     for (int i = 0; i < 6000; ++i) {
       if (i == 10) {
-        wish.is_dead_man_held = {true, true};
-        loop.Wish(wish);
+        request.is_dead_man_held = {true, true};
+        loop.SetRequest(request);
       }
       if (i % 16 == 0) {
         // As a step of the tissue leaves it, at the tip where it is then.

@@ -97,7 +97,7 @@ TEST(Replay, GivesOneRowForARowOfTheTrace) {
   EXPECT_EQ(table[0], header);
   for (std::size_t i = 0; i < trace.size(); ++i) {
     EXPECT_EQ(std::stod(table[i + 1][0]), trace[i].sample.t);
-    EXPECT_EQ(table[i + 1][1], Word(trace[i].device));
+    EXPECT_EQ(table[i + 1][1], ToString(trace[i].device));
     EXPECT_EQ(table[i + 1].size(), header.size());
   }
 }

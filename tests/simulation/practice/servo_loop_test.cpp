@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/device/plant_device.h"
+#include "simulation/device/recorded_device.h"
 #include "tests/simulation/practice/hand.h"
 #include "tests/support/allocation_counter.h"
 
@@ -38,16 +39,16 @@ struct Servo {
         instrument(plant, hand, HipFromRodPose({0, 0, 0, 0.08 - 0.01}, session.instrument_rig()),
                    "b"),
         loop(session, &scope, &instrument, options) {
-    wish.options = session.options();
-    wish.view_angle = session.view_angle();
+    request.options = session.options();
+    request.view_angle = session.view_angle();
   }
   void HoldDeadMan(bool is_held) {
-    wish.is_dead_man_held = {is_held, is_held};
-    loop.Wish(wish);
+    request.is_dead_man_held = {is_held, is_held};
+    loop.SetRequest(request);
   }
   const Snapshot& Tick(int ticks = 1, double dt = kTick) {
     for (int i = 0; i < ticks; ++i) loop.TickOnce(now += dt);
-    return loop.Read();
+    return loop.ReadSnapshot();
   }
   // Opened, homed, armed and ramped.
   void Arm() {
@@ -58,18 +59,19 @@ struct Servo {
   Session session;
   PlantDevice scope, instrument;
   ServoLoop loop;
-  ServoWish wish;
+  ServoRequest request;
   double now = 0;
 };
 
 TEST(ServoLoop, PushesAHandOutOfTheWallOnceItIsArmed) {
   Servo servo;
   EXPECT_EQ(servo.Tick(500).scope.fault, Fault::kNotArmed);
-  EXPECT_GT(glm::length(servo.loop.Read().scope.tip_force), 0.3) << "it is computed all the same";
+  EXPECT_GT(glm::length(servo.loop.ReadSnapshot().scope.tip_force), 0.3)
+      << "it is computed all the same";
   EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0));
   servo.Arm();
   EXPECT_EQ(servo.scope.state(), DeviceState::kArmed);
-  EXPECT_EQ(servo.loop.Read().scope.fault, Fault::kNone);
+  EXPECT_EQ(servo.loop.ReadSnapshot().scope.fault, Fault::kNone);
   // 500 N/m of the wall against 300 of the hand, less the device's friction of 0.26 N.
   EXPECT_NEAR(servo.scope.force().z, -500 * 300 * kDepth / 800, 0.26 * 500 / 800 + 0.03);
   EXPECT_EQ(servo.instrument.force(), glm::dvec3(0.0)) << "it touches nothing";
@@ -114,7 +116,7 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
     ASSERT_GT(glm::length(servo.scope.force()), 0.05);
     DeviceRig mount = servo.session.scope_rig();
     mount.pivot += glm::conjugate(mount.portal_from_device) * glm::dvec3(0, 0, -deeper);
-    servo.wish.mount[0] = mount;
+    servo.request.mount[0] = mount;
     servo.HoldDeadMan(true);
     servo.Tick();
     EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0)) << "in the tick of the change";
@@ -139,7 +141,7 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
     // The same mount once more is no change.
     servo.HoldDeadMan(true);
     servo.Tick();
-    EXPECT_EQ(servo.loop.Read().scope.fault, Fault::kNone);
+    EXPECT_EQ(servo.loop.ReadSnapshot().scope.fault, Fault::kNone);
   }
 }
 
@@ -221,19 +223,20 @@ TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
   Servo servo;
   servo.Arm();
   ASSERT_GT(glm::length(servo.scope.force()), 0.1);
-  servo.wish.is_zero_force = true;
+  servo.request.is_zero_force = true;
   servo.HoldDeadMan(true);
   for (int i = 0; i < 500; ++i) {
     servo.Tick();
     ASSERT_EQ(servo.scope.force(), glm::dvec3(0.0)) << i;
   }
-  EXPECT_GT(glm::length(servo.loop.Read().scope.hand_force), 0.1) << "what it would feel";
+  EXPECT_GT(glm::length(servo.loop.ReadSnapshot().scope.hand_force), 0.1) << "what it would feel";
   servo.HoldDeadMan(false);
   servo.Tick(700);
-  EXPECT_GT(glm::length(servo.loop.Read().scope.hand_force), 0.1) << "nobody need be armed for it";
+  EXPECT_GT(glm::length(servo.loop.ReadSnapshot().scope.hand_force), 0.1)
+      << "nobody need be armed for it";
   servo.HoldDeadMan(true);
   servo.Tick(10);
-  servo.wish.is_zero_force = false;
+  servo.request.is_zero_force = false;
   servo.HoldDeadMan(true);
   for (int i = 0; i < 500; ++i) {
     servo.Tick();
@@ -244,7 +247,7 @@ TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
 
 TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
   ServoOptions options;
-  options.wish_lasts = 0.5;
+  options.request_lasts = 0.5;
   Servo servo(options);
   servo.scope.SetButtons(2);  // of the handle, and it stays down
   servo.HoldDeadMan(false);
@@ -254,7 +257,7 @@ TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
   servo.scope.SetButtons(2);
   servo.Tick(470);
   EXPECT_GT(glm::length(servo.scope.force()), 0.1);
-  servo.Tick(20);  // 0.51 s after the wish
+  servo.Tick(20);  // 0.51 s after the request
   EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0));
   EXPECT_EQ(servo.scope.state(), DeviceState::kReady);
   servo.HoldDeadMan(false);
@@ -279,7 +282,7 @@ TEST(ServoLoop, WhoWatchesIsToldOfEachTickWithItsTime) {
   servo.Tick(1, 5 * kTick);
   EXPECT_EQ(watch.ticks, 101);
   EXPECT_NEAR(watch.time, 0.105, 1e-12);
-  EXPECT_EQ(watch.newest, servo.loop.Read().t);
+  EXPECT_EQ(watch.newest, servo.loop.ReadSnapshot().t);
 }
 
 // As a Hydra: a report each 4 ms, that comes up to 4 ms late, and a servo that ticks as often.
@@ -329,7 +332,7 @@ TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
     double now = 1e-4;
     for (; now < 4.0; now += period) {
       loop.TickOnce(now);
-      const Fault fault = loop.Read().scope.fault;
+      const Fault fault = loop.ReadSnapshot().scope.fault;
       count += fault == Fault::kStale || fault == Fault::kLost;
     }
     // It stops: stale and lost are told as ever.
@@ -337,10 +340,10 @@ TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
     bool is_stale = false;
     for (const double end = now + 0.05; now < end; now += period) {
       loop.TickOnce(now);
-      is_stale = is_stale || loop.Read().scope.fault == Fault::kStale;
+      is_stale = is_stale || loop.ReadSnapshot().scope.fault == Fault::kStale;
     }
     EXPECT_TRUE(is_stale);
-    EXPECT_EQ(loop.Read().scope.fault, Fault::kLost);
+    EXPECT_EQ(loop.ReadSnapshot().scope.fault, Fault::kLost);
     return count;
   };
   EXPECT_EQ(stale(Feedback::kNone, 0.004), 0);
@@ -355,13 +358,13 @@ TEST(ServoLoop, LimitsAreThoseOfTheDevicesAndWishesOnlyLowerThem) {
   EXPECT_EQ(servo.session.options().limiter.max_force, 0.2);
   EXPECT_EQ(servo.session.options().lever.max_stiffness, 500);
   EXPECT_EQ(servo.session.options().passivity.delay, 1);
-  servo.wish.options.limiter.max_force = 20;
-  servo.wish.options.lever.max_stiffness = 1e5;
-  servo.wish.options.contact.stiffness = 300;
-  servo.wish.incision_spacing = 0.02;
-  servo.wish.view_angle = 0.3;
-  servo.wish.instrument = ToolKind::kShaver;
-  servo.loop.Wish(servo.wish);
+  servo.request.options.limiter.max_force = 20;
+  servo.request.options.lever.max_stiffness = 1e5;
+  servo.request.options.contact.stiffness = 300;
+  servo.request.incision_spacing = 0.02;
+  servo.request.view_angle = 0.3;
+  servo.request.instrument = ToolKind::kShaver;
+  servo.loop.SetRequest(servo.request);
   servo.Tick();
   EXPECT_EQ(servo.session.options().limiter.max_force, 0.2);
   EXPECT_EQ(servo.session.options().lever.max_stiffness, 500);
@@ -380,8 +383,8 @@ TEST(ServoLoop, ForcesAreInTheDevicesFrame) {
   ServoLoop loop(session, &scope, nullptr);
   double now = 0;
   for (int i = 0; i < 10; ++i) loop.TickOnce(now += kTick);
-  ServoWish wish{session.options(), 0, 0, ToolKind::kProbe, {true, true}};
-  loop.Wish(wish);
+  ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {true, true}};
+  loop.SetRequest(request);
   for (int i = 0; i < 1000; ++i) loop.TickOnce(now += kTick);
   const glm::dvec3 in_portal = session.snapshot().scope.hand_force;
   ASSERT_LT(in_portal.z, -0.2);
@@ -404,11 +407,11 @@ TEST(ServoLoop, HoweverItEndsTheLastCommandIsNoForce) {
     double now = is_thrown ? 10 : 0;
     try {
       ServoLoop loop(session, &scope, nullptr);
-      ServoWish wish{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
-      loop.Wish(wish);
+      ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
+      loop.SetRequest(request);
       for (int i = 0; i < 10; ++i) loop.TickOnce(now += kTick);
-      wish.is_dead_man_held = {true, true};
-      loop.Wish(wish);
+      request.is_dead_man_held = {true, true};
+      loop.SetRequest(request);
       for (int i = 0; i < 1000; ++i) loop.TickOnce(now += kTick);
       ASSERT_GT(glm::length(scope.force()), 0.1);
       if (is_thrown) throw std::runtime_error("of somebody else");
@@ -424,7 +427,7 @@ TEST(ServoLoop, HardCase24ALongSessionHeatsNoMotorAndAllocatesNothing) {
   PlantOptions plant;
   plant.friction = 0;
   Servo servo({}, plant, kStiffHand);
-  servo.wish.options.lever.max_stiffness = 780;
+  servo.request.options.lever.max_stiffness = 780;
   servo.Arm();
   const glm::dvec3 rest = servo.scope.plant().position();
   const long before = test::Allocations();
@@ -445,6 +448,29 @@ TEST(ServoLoop, HardCase24ALongSessionHeatsNoMotorAndAllocatesNothing) {
   EXPECT_GE(servo.loop.ReadReport().ticks, kTicks);
 }
 
+TEST(ServoLoop, DrivesRecordedHandsOnTheClockAndTheTimeStepOfItsCaller) {
+  Session session(BareSphere());
+  std::vector<TraceRow> rows(2);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RodPose pose{0, 0, 0, 0.03 + 0.0005 * static_cast<double>(i)};
+    rows[i].sample = {static_cast<double>(i), HipFromRodPose(pose, session.scope_rig()),
+                      HandleFromRodPose(pose, session.scope_rig()), 0, true};
+  }
+  RecordedDevice scope(rows, DeviceRole::kScope), instrument(rows, DeviceRole::kInstrument);
+  ServoOptions options;
+  options.period_without_force = kServoPeriod;
+  ServoLoop loop(session, &scope, &instrument, options);
+  loop.TickOnce(0.0, kTick);
+  EXPECT_NEAR(loop.ReadSnapshot().scope.pose.depth, 0.03, 1e-12);
+  loop.TickOnce(0.5, kTick);
+  EXPECT_EQ(loop.ReadSnapshot().t, kTick + kTick) << "not the difference of the two times";
+  EXPECT_NEAR(loop.ReadSnapshot().scope.pose.depth, 0.03025, 1e-12);
+  EXPECT_EQ(loop.ReadSnapshot().scope.fault, Fault::kNone);
+  EXPECT_EQ(loop.ReadSnapshot().instrument.fault, Fault::kNoSample) << "it has no row";
+  loop.Stop();
+  EXPECT_EQ(loop.ReadReport().compute.count(), 2);
+}
+
 TEST(ServoLoop, ItsThreadTicksTellsAndStops) {
   Servo servo;
   servo.loop.Start();
@@ -452,14 +478,14 @@ TEST(ServoLoop, ItsThreadTicksTellsAndStops) {
   const Clock::time_point end = Clock::now() + std::chrono::minutes(5);
   while (servo.loop.ReadReport().ticks < 300 && Clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_GT(servo.loop.Read().t, 0.2) << "of the true time";
+  EXPECT_GT(servo.loop.ReadSnapshot().t, 0.2) << "of the true time";
   servo.loop.Stop();
   const ServoReport report = servo.loop.ReadReport();
   EXPECT_GE(report.ticks, 300);
   EXPECT_EQ(report.lateness.count(), report.ticks);
   EXPECT_EQ(report.compute.count(), report.ticks);
   EXPECT_GT(report.sample_age[0].count(), 0);
-  EXPECT_EQ(SentenceOf(report).empty(), report.has_priority);
+  EXPECT_EQ(DescribeTrouble(report).empty(), report.has_priority);
   EXPECT_EQ(report.true_period > report.period, !report.has_priority);
   // Where ticks come late, stiffness is less.
   EXPECT_NEAR(servo.session.options().lever.max_stiffness, 500 * report.period / report.true_period,

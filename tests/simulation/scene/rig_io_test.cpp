@@ -168,7 +168,7 @@ TEST(RigIo, TwoHandsOfOneHydraNeedNoSerial) {
 TEST(RigIo, KnowsTheFamiliesAndModelsThatThereAre) {
   const auto families = simulation::AllFamilies();
   std::set<std::string> words{simulation::kOpenHapticsWord};
-  for (const simulation::DeviceFamily family : families) words.insert(Word(family));
+  for (const simulation::DeviceFamily family : families) words.insert(ToString(family));
   EXPECT_EQ(words, std::set<std::string>(RigFamilies().begin(), RigFamilies().end()));
   for (const auto& model : simulation::WoodenModels())
     EXPECT_TRUE(FitsSchema(Changed([&](json& j) { j["scope"]["device"]["model"] = model.word; })))

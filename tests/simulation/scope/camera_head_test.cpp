@@ -59,10 +59,10 @@ TEST(CameraHead, UprightKeepsThePicturesUpWhileTheRodRollsThroughHalfATurn) {
 }
 
 TEST(CameraHead, WordsAreRefusedThatSayNeither) {
-  EXPECT_EQ(CameraHeadOf("scope"), CameraHead{});
-  EXPECT_EQ(CameraHeadOf("upright"), CameraHead{.is_upright = true});
-  EXPECT_THROW(CameraHeadOf("Upright"), Error);
-  EXPECT_THROW(CameraHeadOf(""), Error);
+  EXPECT_EQ(CameraHeadFromString("scope"), CameraHead{});
+  EXPECT_EQ(CameraHeadFromString("upright"), CameraHead{.is_upright = true});
+  EXPECT_THROW(CameraHeadFromString("Upright"), Error);
+  EXPECT_THROW(CameraHeadFromString(""), Error);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(PadDriver, ButtonsHaveOneOrderOnBothPadsAndBothWires) {
     for (const auto& [bytes, bits] : buttons) {
       std::copy(bytes.begin(), bytes.end(), report.begin() + static_cast<std::ptrdiff_t>(at));
       ASSERT_EQ(driver->Take(report), ReportNews::kTaken);
-      EXPECT_EQ(driver->Hand(0).sample.buttons, bits) << Word(family) << " " << int{id};
+      EXPECT_EQ(driver->Hand(0).sample.buttons, bits) << ToString(family) << " " << int{id};
       EXPECT_FALSE(driver->Hand(0).sample.valid) << "it knows of no hand";
     }
     report[0] = 0x55;

@@ -71,7 +71,7 @@ TEST_P(FuzzedDriver, HardCase04RejectsWhatIsNoReportAndStaysANumber) {
 
 INSTANTIATE_TEST_SUITE_P(Families, FuzzedDriver,
                          testing::ValuesIn(AllFamilies().begin(), AllFamilies().end()),
-                         [](const auto& family) { return std::string(Word(family.param)); });
+                         [](const auto& family) { return std::string(ToString(family.param)); });
 
 }  // namespace
 }  // namespace arthro::simulation

@@ -20,7 +20,7 @@ Bytes Report(const std::array<int, 6>& encoder, int info = 0, std::size_t size =
 }
 
 std::unique_ptr<DeviceDriver> Make(const char* model, bool is_padded = false) {
-  auto driver = MakeWoodenDriver(*WoodenModelNamed(model), is_padded);
+  auto driver = MakeWoodenDriver(*FindWoodenModel(model), is_padded);
   driver->Forget();
   return driver;
 }

@@ -60,11 +60,11 @@ TEST(HidNode, ListsADeviceOnceAndInTheSameOrder) {
 TEST(HidNode, FamiliesHaveWordsThatReadBack) {
   std::set<std::string> names;
   for (const DeviceFamily family : AllFamilies()) {
-    EXPECT_EQ(FamilyNamed(Word(family)), family);
+    EXPECT_EQ(DeviceFamilyFromString(ToString(family)), family);
     names.insert(Name(family));
   }
   EXPECT_EQ(names.size(), AllFamilies().size());
-  EXPECT_FALSE(FamilyNamed("touch"));
+  EXPECT_FALSE(DeviceFamilyFromString("touch"));
 }
 
 TEST(UdevRule, NamesEveryDeviceThatIsKnownAndNoOther) {

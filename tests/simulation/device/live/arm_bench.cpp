@@ -76,7 +76,7 @@ ArmBench::ArmBench(const std::string& serial, double list_every) {
   options.list_every = list_every;
   options.lock_folder = folder.path();
   link = std::make_shared<LiveLink>(
-      *bus, DeviceWish{DeviceFamily::kWoodenHaptics, serial, "woodenhaptics_2015"}, options);
+      *bus, DeviceRequest{DeviceFamily::kWoodenHaptics, serial, "woodenhaptics_2015"}, options);
   device = std::make_unique<LiveDevice>(link, 0);
 }
 

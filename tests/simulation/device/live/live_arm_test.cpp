@@ -135,7 +135,7 @@ TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
     options.list_every = 0.02;
     options.lock_folder = bench.folder.path();
     bench.device.reset();
-    bench.link = std::make_shared<LiveLink>(*bench.bus, bench.link->wish(), options);
+    bench.link = std::make_shared<LiveLink>(*bench.bus, bench.link->request(), options);
     bench.device = std::make_unique<LiveDevice>(bench.link, 0);
     bench.Arm();
     ASSERT_EQ(bench.device->state(), DeviceState::kArmed);
@@ -219,8 +219,8 @@ TEST(LiveArm, HardCase03RolesFollowSerialNumbersNotPorts) {
   options.clock = test::BenchSeconds;
   options.list_every = 0.02;
   options.lock_folder = scope.folder.path();
-  const DeviceWish wish{DeviceFamily::kWoodenHaptics, "TOOL", "woodenhaptics_2015"};
-  LiveLink tool(*scope.bus, wish, options);
+  const DeviceRequest request{DeviceFamily::kWoodenHaptics, "TOOL", "woodenhaptics_2015"};
+  LiveLink tool(*scope.bus, request, options);
   for (const bool is_swapped : {false, true}) {
     scope.usb.Unplug(kPath);
     scope.usb.Unplug(kOther);
@@ -319,12 +319,13 @@ TEST(LiveArm, HardCase25ASecondProgramIsRefusedByName) {
   options.clock = test::BenchSeconds;
   options.list_every = 0.02;
   options.lock_folder = bench.folder.path();
-  const auto second = std::make_shared<LiveLink>(*bench.bus, bench.link->wish(), options);
+  const auto second = std::make_shared<LiveLink>(*bench.bus, bench.link->request(), options);
   LiveDevice device(second, 0);
   ASSERT_TRUE(WaitUntil([&] { return second->trouble() == DeviceTrouble::kHeldElsewhere; }));
   for (int i = 0; i < 3; ++i) device.Read(test::BenchSeconds());
   EXPECT_EQ(device.state(), DeviceState::kFault);
-  EXPECT_NE(std::string(Sentence(device.status())).find("another program"), std::string::npos);
+  EXPECT_NE(std::string(DescribeStatus(device.status())).find("another program"),
+            std::string::npos);
   EXPECT_EQ(second->detail(),
             "WoodenHaptics or Polhem A is used by process " + std::to_string(getpid()));
   EXPECT_EQ(bench.usb.opened(kPath), 1) << "it was not even opened";
@@ -518,7 +519,7 @@ TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {
   options.list_every = 0.02;
   options.lock_folder = bench.folder.path();
   const auto link = std::make_shared<LiveLink>(
-      *bench.bus, DeviceWish{DeviceFamily::kWoodenHaptics, "A", "polhem_v3"}, options);
+      *bench.bus, DeviceRequest{DeviceFamily::kWoodenHaptics, "A", "polhem_v3"}, options);
   LiveDevice device(link, 0);
   ASSERT_TRUE(WaitUntil([&] { return link->trouble() == DeviceTrouble::kUnsupported; }));
   for (int i = 0; i < 3; ++i) device.Read(SteadySeconds());

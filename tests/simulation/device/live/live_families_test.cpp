@@ -20,7 +20,7 @@ struct Bench {
     options.clock = test::BenchSeconds;
     options.list_every = 0.02;
     options.lock_folder = folder.path();
-    link = std::make_shared<LiveLink>(*bus, DeviceWish{family, "", ""}, options);
+    link = std::make_shared<LiveLink>(*bus, DeviceRequest{family, "", ""}, options);
     for (int hand = 0; hand < link->hands(); ++hand)
       devices.push_back(std::make_unique<LiveDevice>(link, hand));
     WaitUntil([&] { return link->opening() != 0; });
@@ -82,7 +82,8 @@ TEST(LiveHydra, StartsAfterItsRetriesAndHasTwoHands) {
     options.clock = test::BenchSeconds;
     options.lock_folder = folder.path();
     const auto bus = MachineHidBus();
-    auto link = std::make_shared<LiveLink>(*bus, DeviceWish{DeviceFamily::kHydra, "", ""}, options);
+    auto link =
+        std::make_shared<LiveLink>(*bus, DeviceRequest{DeviceFamily::kHydra, "", ""}, options);
     ASSERT_EQ(link->hands(), 2);
     LiveDevice left(link, 0), right(link, 1);
     ASSERT_TRUE(WaitUntil([&] { return link->opening() != 0; }));
@@ -149,7 +150,7 @@ TEST(LiveLink, AnyOfAFamilyTakesOneThatIsFree) {
   LiveOptions options;
   options.list_every = 0.02;
   options.lock_folder = bench.folder.path();
-  LiveLink second(*bench.bus, DeviceWish{DeviceFamily::kSpaceMouse, "", ""}, options);
+  LiveLink second(*bench.bus, DeviceRequest{DeviceFamily::kSpaceMouse, "", ""}, options);
   ASSERT_TRUE(WaitUntil([&] { return second.opening() != 0; }));
   EXPECT_EQ(bench.usb.opened(kPath), 1);
   EXPECT_EQ(bench.usb.opened("/dev/fake1"), 1);

@@ -34,9 +34,9 @@ void Record(const std::filesystem::path& file) {
   options.list_every = 0.02;
   options.lock_folder = bench.folder.path();
   options.tap = &reports;
-  const DeviceWish wish = bench.link->wish();
+  const DeviceRequest request = bench.link->request();
   bench.device.reset();
-  bench.link = std::make_shared<LiveLink>(*bench.bus, wish, options);
+  bench.link = std::make_shared<LiveLink>(*bench.bus, request, options);
   auto logged = std::make_unique<LoggedDevice>(std::make_unique<LiveDevice>(bench.link, 0), log, 0);
   Device& device = *logged;
   const auto tick = [&] {

@@ -487,6 +487,37 @@ TEST_F(PractisedArm, IsLetGoByAnException) {
     EXPECT_EQ(written[i], test::Bytes(15)) << i;
 }
 
+TEST(HeldHands, AHandThatItsDeviceLeavesStaysAtThePoseThatTheSessionComputed) {
+  const DeviceRig rig;
+  const auto sample_at = [&rig](double t, const RodPose& pose) {
+    return DeviceSample{t, HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig), 0, true};
+  };
+  const std::vector<TraceRow> rows{{DeviceRole::kScope, sample_at(0, {0.1, 0, 0, 0.02})},
+                                   {DeviceRole::kScope, sample_at(1, {0.1, 0, 0, 0.02})}};
+  const auto by_mouse = [&rig](HandKind kind) {
+    return HandParts{kind, ScriptedDevice(rig), {}, {}, {}, {}, 0, kNoButtons};
+  };
+  std::array parts{by_mouse(HandKind::kRecorded), by_mouse(HandKind::kMouse)};
+  parts[0].recorded = std::make_unique<RecordedDevice>(rows, DeviceRole::kScope);
+  HeldHands held(std::move(parts), PedalParts{});
+  HandsRequest request;
+  request.until = 1e12;  // s; mouse and keys move the hand by nothing meanwhile
+  held.SetRequest(request);
+  Device& scope = *held.Of(DeviceRole::kScope);
+  EXPECT_EQ(scope.Read(5.0).hip_in_device, rows[0].sample.hip_in_device);
+  // A pose that differs from that of the sample shows whose pose is kept.
+  Snapshot snapshot;
+  snapshot.scope.pose = {0, 0.2, 0.3, 0.04};
+  held.AfterTick(snapshot, 1e-3);
+  EXPECT_TRUE(held.ReadReport().hand[0].is_led_by_device);
+  const DeviceSample left = scope.Read(7.0);
+  held.AfterTick(snapshot, 1e-3);
+  EXPECT_FALSE(held.ReadReport().hand[0].is_led_by_device);
+  EXPECT_EQ(held.ReadReport().hand[0].episode, 1);
+  EXPECT_TRUE(left.valid);
+  EXPECT_LT(glm::distance(left.hip_in_device, HipFromRodPose(snapshot.scope.pose, rig)), 1e-9);
+}
+
 TEST(ForceHistory, KeepsTheLargestOfEachFiftiethAndForgetsAfterTenSeconds) {
   ForceHistory history;
   history.Feel(2);
