@@ -46,7 +46,7 @@ void StepList(Ui& ui, EditorState& state) {
   ImGui::PopStyleVar();
 }
 
-// The file that was worked on lately, as a row that opens it.
+// Recent scenes, one button each.
 void RecentList(Ui& ui, EditorState& state) {
   const auto recent = state.recent.Existing();
   if (recent.empty()) return;
@@ -79,6 +79,7 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
   switch (state.step) {
     case Step::kPanorama:
       PanoramaPanel(ui, state);
+      if (ShowsScope(state)) RecentList(ui, state);
       break;
     case Step::kDepth:
       DepthPanel(ui, state);
