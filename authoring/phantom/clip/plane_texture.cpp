@@ -75,9 +75,9 @@ Regions RegionsOf(cv::Size2d world, const cv::Rect& region, double scale, double
 cv::Mat Fibres(cv::Size size, double scale, Random& random) {
   const double angle = random.Uniform(35, 80);
   const cv::Mat straight = PlaneNoise(size, {10 * scale, 3, 0.55, 14}, random);
+  const cv::Point2f middle(static_cast<float>(size.width) / 2, static_cast<float>(size.height) / 2);
   cv::Mat turned;
-  cv::warpAffine(straight, turned,
-                 cv::getRotationMatrix2D({size.width / 2.0f, size.height / 2.0f}, angle, 1.3), size,
+  cv::warpAffine(straight, turned, cv::getRotationMatrix2D(middle, angle, 1.3), size,
                  cv::INTER_LINEAR, cv::BORDER_REFLECT);
   return turned;
 }
