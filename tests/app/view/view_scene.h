@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/view/view_cases.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/scene_io.h"
+#include "tests/support/view/view_cases.h"
 
 namespace arthro::test {
 
@@ -47,7 +47,7 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   backdrop.radius = 0.05;
   backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
   backdrop.projection.focal_px = 0.42 * width;
-  loaded.panorama = app::SlowColours(width, height);
+  loaded.panorama = SlowColours(width, height);
   loaded.depth = DepthMap(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -62,7 +62,7 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   ring.pose.position = {0.002, 0.004, 0.034};
   ring.pose.quaternion = glm::dquat(std::cos(0.5), std::sin(0.5), 0, 0);
   loaded.scene.tissues = {ring};
-  loaded.surfaces = {app::Ring(0.007, 0.0024)};
+  loaded.surfaces = {Ring(0.007, 0.0024)};
   return loaded;
 }
 

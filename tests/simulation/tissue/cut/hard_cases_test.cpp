@@ -232,7 +232,7 @@ TEST(HardCase15, AHingeInsideElementsStaysFinite) {
 
 // A cut body is a body: elements with a hundredth left in them do not spoil the system.
 TEST(HardCase22, CutBodiesAreSolvedInAboutAsManyIterationsAsWholeOnes) {
-  const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
+  const TetMesh whole = test::MeniscusMesh(2, test::MeniscusTicks({16, 3, 2}));
   SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
   MeshCutter cutter(whole, field.spacing());
   std::mt19937 random(5);
@@ -271,7 +271,7 @@ TEST(HardCase22, CutBodiesAreSolvedInAboutAsManyIterationsAsWholeOnes) {
 // 0 to 200 cuts of all kinds, twice from the original: sound after each, and the second round
 // leaves as much on the heap as the first.
 TEST(HardCase22, TwoHundredCutsStaySoundAndMemoryIsFlat) {
-  const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
+  const TetMesh whole = test::MeniscusMesh(2, test::MeniscusTicks({16, 3, 2}));
   const double volume = FemModel(whole, {}).volume();
   const SolidField original = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
   std::size_t in_use[2] = {};
