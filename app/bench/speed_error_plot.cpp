@@ -4,15 +4,28 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace arthro::app {
 namespace {
 
-constexpr double kWidth = 960, kHeight = 620;
-constexpr double kLeft = 76, kRight = 24, kTop = 84, kBottom = 64;
-// Told apart with every common kind of colour blindness [Okabe & Ito 2008].
+constexpr double kWidth = 1120, kHeight = 720;
+constexpr double kLeft = 84, kRight = 24, kBottom = 64;
+constexpr double kMarkRadius = 6;
+// Width of a character per px of its font: the mean of DejaVu Sans, with a reserve.
+constexpr double kGlyph = 0.64;
+constexpr double kLabelFont = 11, kLegendFont = 12;
+
+double TextWidth(const std::string& text, double font) {
+  const auto glyphs = std::count_if(text.begin(), text.end(),
+                                    [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+  return kGlyph * font * static_cast<double>(glyphs);
+}
+
+// Colours that people with any common colour blindness tell apart [Okabe & Ito 2008].
 constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 
 std::string Escaped(const std::string& text) {
@@ -31,140 +44,204 @@ struct Axis {
   }
 };
 
+constexpr double kLeast = 1e-9, kMost = 5e9;  // of any axis
+
+// Powers of ten over many decades; 1, 2 and 5 times these over few.
 std::vector<double> Ticks(double low, double high) {
+  constexpr double kManyDecades = 1e4;
   std::vector<double> ticks;
-  for (int e = -6; e <= 9; ++e)
+  for (int e = -9; e <= 9; ++e)
     for (const double m : {1.0, 2.0, 5.0})
-      if (const double t = m * std::pow(10.0, e); t >= low * 0.999 && t <= high * 1.001)
+      if (const double t = m * std::pow(10.0, e);
+          t >= low * 0.999 && t <= high * 1.001 && (m == 1 || high / low < kManyDecades))
         ticks.push_back(t);
   return ticks;
 }
 
 Axis AxisOver(double least, double most, double from, double to) {
-  const std::vector<double> all = Ticks(1e-6, 5e9);
-  Axis axis{all.front(), all.back(), from, to};
-  for (const double t : all) {
-    if (t <= least * 0.9) axis.low = t;
-    if (t >= most * 1.1) {
-      axis.high = t;
-      break;
+  Axis axis{kLeast, kMost, from, to};
+  for (int e = -9; e <= 9; ++e)
+    for (const double m : {1.0, 2.0, 5.0}) {
+      const double t = m * std::pow(10.0, e);
+      if (t <= least * 0.9) axis.low = t;
+      if (t >= most * 1.1) axis.high = std::min(axis.high, t);
     }
-  }
   return axis;
 }
 
 struct Box {
-  double x, y, w, h;
+  double x, y, w, h;  // px
   bool Meets(const Box& o) const {
     return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h;
   }
 };
 
+// The values of a plot's marks from the least to the most, on one axis.
+struct Extent {
+  double least, most;
+  bool is_empty = true;
+  void Add(double value) {
+    if (!(std::isfinite(value) && value > 0)) return;
+    least = is_empty ? value : std::min(least, value);
+    most = is_empty ? value : std::max(most, value);
+    is_empty = false;
+  }
+};
+
+class Plot {
+ public:
+  Plot(const PlotWords& words, const std::vector<PlotMark>& marks) : words_(words), marks_(marks) {
+    for (const PlotMark& mark : marks_)
+      if (std::find(series_.begin(), series_.end(), mark.series) == series_.end())
+        series_.push_back(mark.series);
+  }
+  std::string Draw() {
+    DrawHead();
+    DrawAxes();
+    DrawMarks();
+    for (const PlotMark& mark : marks_) DrawLabel(mark);
+    if (unlabelled_ > 0)
+      Text(kWidth - kRight, top_ - 8, kLabelFont, "end", "#666666",
+           fmt::format("{} of {} marks have no room for a label; the table names them", unlabelled_,
+                       marks_.size()));
+    return svg_ + "</svg>\n";
+  }
+
+ private:
+  template <class... Values>
+  void Put(fmt::format_string<Values...> form, Values&&... values) {
+    fmt::format_to(std::back_inserter(svg_), form, std::forward<Values>(values)...);
+  }
+  void Text(double x, double y, double font, const char* anchor, const char* colour,
+            const std::string& text) {
+    Put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\">"
+        "{}</text>\n",
+        x, y, font, anchor, colour, Escaped(text));
+  }
+  const char* ColourOf(const std::string& series) const {
+    const auto at = std::find(series_.begin(), series_.end(), series) - series_.begin();
+    return kColours[static_cast<std::size_t>(at) % kColours.size()];
+  }
+  std::pair<double, double> PlaceOf(const PlotMark& mark) const {
+    return {x_.At(mark.milliseconds),
+            std::isfinite(mark.error) ? y_.At(mark.error) : top_ + kMarkRadius};
+  }
+  void DrawHead();
+  void DrawAxes();
+  void DrawMarks();
+  void DrawLabel(const PlotMark& mark);
+  bool IsFree(const Box& box) const {
+    return box.x > kLeft + 2 && box.x + box.w < kWidth - 4 && box.y > top_ &&
+           box.y + box.h < kHeight - kBottom &&
+           std::none_of(taken_.begin(), taken_.end(),
+                        [&](const Box& other) { return box.Meets(other); });
+  }
+
+  const PlotWords& words_;
+  const std::vector<PlotMark>& marks_;
+  std::vector<std::string> series_;  // in the order of first appearance
+  std::string svg_;
+  double top_ = 0;  // px, of the axes
+  Axis x_, y_;
+  std::vector<Box> taken_;
+  int unlabelled_ = 0;
+};
+
+// Title, reference, meaning of the filling, legend: one line each, the legend as many as it needs.
+void Plot::DrawHead() {
+  Put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
+      "height=\"{1:g}\" font-family=\"DejaVu Sans, sans-serif\">\n"
+      "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n",
+      kWidth, kHeight);
+  double y = 28;
+  Text(kLeft, y, 17, "start", "#111111", words_.title);
+  for (const std::string& line :
+       {words_.reference.empty() ? "" : "reference: " + words_.reference, words_.share})
+    if (!line.empty()) Text(kLeft, y += 18, kLegendFont, "start", "#444444", line);
+  double x = kLeft;
+  y += 22;
+  for (const std::string& name : series_) {
+    const double width = 18 + TextWidth(name, kLegendFont) + 18;
+    if (x > kLeft && x + width > kWidth - kRight) {
+      x = kLeft;
+      y += 18;
+    }
+    Put("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" fill=\"{}\"/>\n", x + 6, y - 4, kMarkRadius,
+        ColourOf(name));
+    Text(x + 18, y, kLegendFont, "start", "#111111", name);
+    x += width;
+  }
+  top_ = y + 30;
+}
+
+void Plot::DrawAxes() {
+  Extent x{10, 100}, y{0.1, 10};
+  for (const PlotMark& mark : marks_) {
+    x.Add(mark.milliseconds);
+    y.Add(mark.error);
+  }
+  x_ = AxisOver(x.least, x.most, kLeft, kWidth - kRight);
+  y_ = AxisOver(y.least, y.most, kHeight - kBottom, top_ + 28);
+  for (const double t : Ticks(x_.low, x_.high)) {
+    Put("<path d=\"M{:.1f} {:.1f}V{:g}\" stroke=\"#e4e4e4\"/>\n", x_.At(t), top_,
+        kHeight - kBottom);
+    Text(x_.At(t), kHeight - kBottom + 18, kLegendFont, "middle", "#444444",
+         fmt::format("{:g}", t));
+  }
+  for (const double t : Ticks(y_.low, y_.high)) {
+    Put("<path d=\"M{:g} {:.1f}H{:g}\" stroke=\"#e4e4e4\"/>\n", kLeft, y_.At(t), kWidth - kRight);
+    Text(kLeft - 8, y_.At(t) + 4, kLegendFont, "end", "#444444", fmt::format("{:g}", t));
+  }
+  Put("<path d=\"M{:g} {:.1f}V{:g}H{:g}\" fill=\"none\" stroke=\"#222222\"/>\n", kLeft, top_,
+      kHeight - kBottom, kWidth - kRight);
+  Text((kLeft + kWidth - kRight) / 2, kHeight - 18, kLegendFont, "middle", "#111111", words_.x);
+  Put("<text transform=\"translate(20 {:.1f}) rotate(-90)\" font-size=\"{:g}\" "
+      "text-anchor=\"middle\" fill=\"#111111\">{}</text>\n",
+      (top_ + kHeight - kBottom) / 2, kLegendFont, Escaped(words_.y));
+}
+
+void Plot::DrawMarks() {
+  for (const PlotMark& mark : marks_) {
+    const auto [x, y] = PlaceOf(mark);
+    Put("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"{3}\" "
+        "fill-opacity=\"{4:.2f}\" stroke=\"{3}\" stroke-width=\"1.5\"/>\n",
+        x, y, kMarkRadius, ColourOf(mark.series), std::clamp(mark.share, 0.0, 1.0));
+    constexpr double kReach = kMarkRadius + 1;  // with the stroke
+    taken_.push_back({x - kReach, y - kReach, 2 * kReach, 2 * kReach});
+  }
+}
+
+// Tries places beside the mark first, then rings around it up to kFurthest away.
+void Plot::DrawLabel(const PlotMark& mark) {
+  constexpr double kFurthest = 90, kRing = 8;  // px
+  constexpr int kDirections = 24;
+  const auto [x, y] = PlaceOf(mark);
+  const double w = TextWidth(mark.words, kLabelFont), h = 14;
+  for (double away = kMarkRadius + 4; away <= kFurthest; away += kRing)
+    for (int i = 0; i < kDirections; ++i) {
+      // Right, left, right below, right above, and so on.
+      const double turn = (i % 2) * std::numbers::pi;
+      const double angle = turn + ((i / 2) % 2 == 0 ? 1 : -1) * ((i / 2 + 1) / 2) * 2 *
+                                      std::numbers::pi / kDirections;
+      const double cx = x + away * std::cos(angle), cy = y + away * std::sin(angle);
+      // Of the box, the point that is nearest to the mark lies on the ring.
+      const Box box{cx - w * 0.5 * (1 - std::cos(angle)), cy - h * 0.5 * (1 - std::sin(angle)), w,
+                    h};
+      if (!IsFree(box)) continue;
+      taken_.push_back(box);
+      if (away > 2 * kMarkRadius + 4)
+        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#999999\" stroke-width=\"0.6\"/>\n",
+            x + kMarkRadius * std::cos(angle), y + kMarkRadius * std::sin(angle), cx, cy);
+      Text(box.x, box.y + 11, kLabelFont, "start", ColourOf(mark.series), mark.words);
+      return;
+    }
+  ++unlabelled_;
+}
+
 }  // namespace
 
 std::string SpeedErrorSvg(const PlotWords& words, const std::vector<PlotMark>& marks) {
-  double least_x = 10, most_x = 100, least_y = 0.1, most_y = 10;
-  bool is_first_x = true, is_first_y = true;
-  for (const PlotMark& mark : marks) {
-    if (std::isfinite(mark.milliseconds) && mark.milliseconds > 0) {
-      least_x = is_first_x ? mark.milliseconds : std::min(least_x, mark.milliseconds);
-      most_x = is_first_x ? mark.milliseconds : std::max(most_x, mark.milliseconds);
-      is_first_x = false;
-    }
-    if (std::isfinite(mark.error) && mark.error > 0) {
-      least_y = is_first_y ? mark.error : std::min(least_y, mark.error);
-      most_y = is_first_y ? mark.error : std::max(most_y, mark.error);
-      is_first_y = false;
-    }
-  }
-  const Axis x = AxisOver(least_x, most_x, kLeft, kWidth - kRight);
-  const Axis y = AxisOver(least_y, most_y, kHeight - kBottom, kTop + 28);
-
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
-      "height=\"{1:g}\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\">\n"
-      "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n"
-      "<text x=\"{2:g}\" y=\"28\" font-size=\"17\" fill=\"#111111\">{3}</text>\n",
-      kWidth, kHeight, kLeft, Escaped(words.title));
-  const auto out = std::back_inserter(svg);
-
-  // Grid, ticks and names of the axes.
-  for (const double t : Ticks(x.low, x.high))
-    fmt::format_to(out,
-                   "<path d=\"M{0:.1f} {1:g}V{2:g}\" stroke=\"#e4e4e4\"/><text x=\"{0:.1f}\" "
-                   "y=\"{3:g}\" text-anchor=\"middle\" fill=\"#444444\">{4:g}</text>\n",
-                   x.At(t), kTop, kHeight - kBottom, kHeight - kBottom + 18, t);
-  for (const double t : Ticks(y.low, y.high))
-    fmt::format_to(out,
-                   "<path d=\"M{0:g} {1:.1f}H{2:g}\" stroke=\"#e4e4e4\"/><text x=\"{3:g}\" "
-                   "y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#444444\">{5:g}</text>\n",
-                   kLeft, y.At(t), kWidth - kRight, kLeft - 8, y.At(t) + 4, t);
-  fmt::format_to(
-      out,
-      "<path d=\"M{0:g} {1:g}V{2:g}H{3:g}\" fill=\"none\" stroke=\"#222222\"/>\n"
-      "<text x=\"{4:g}\" y=\"{5:g}\" text-anchor=\"middle\" fill=\"#111111\">{6}</text>\n"
-      "<text transform=\"translate(20 {7:g}) rotate(-90)\" text-anchor=\"middle\" "
-      "fill=\"#111111\">{8}</text>\n",
-      kLeft, kTop, kHeight - kBottom, kWidth - kRight, (kLeft + kWidth - kRight) / 2,
-      kHeight - 18.0, Escaped(words.x), (kTop + kHeight - kBottom) / 2, Escaped(words.y));
-  fmt::format_to(out,
-                 "<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"end\" fill=\"#666666\">"
-                 "{}</text>\n",
-                 kWidth - kRight, 28.0, Escaped(words.share));
-
-  // Legend in a row, in the order of first appearance.
-  std::vector<std::string> series;
-  for (const PlotMark& mark : marks)
-    if (std::find(series.begin(), series.end(), mark.series) == series.end())
-      series.push_back(mark.series);
-  const auto colour = [&](const std::string& name) {
-    const auto at = std::find(series.begin(), series.end(), name) - series.begin();
-    return kColours[static_cast<std::size_t>(at) % kColours.size()];
-  };
-  double at = kLeft;
-  for (const std::string& name : series) {
-    fmt::format_to(
-        out,
-        "<circle cx=\"{:.1f}\" cy=\"52\" r=\"6\" fill=\"{}\"/><text x=\"{:.1f}\" y=\"56\" "
-        "fill=\"#111111\">{}</text>\n",
-        at + 6, colour(name), at + 18, Escaped(name));
-    at += 36 + 7.4 * static_cast<double>(name.size());
-  }
-
-  // Marks, then words where they meet no other words or mark.
-  std::vector<Box> taken;
-  const auto place = [&](const PlotMark& mark) {
-    return std::pair{x.At(mark.milliseconds),
-                     std::isfinite(mark.error) ? y.At(mark.error) : kTop + 8};
-  };
-  for (const PlotMark& mark : marks) {
-    const auto [px, py] = place(mark);
-    fmt::format_to(out,
-                   "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"7\" fill=\"{2}\" "
-                   "fill-opacity=\"{3:.2f}\" stroke=\"{2}\" stroke-width=\"1.5\"/>\n",
-                   px, py, colour(mark.series), std::clamp(mark.share, 0.0, 1.0));
-    taken.push_back({px - 7, py - 7, 14, 14});
-  }
-  for (const PlotMark& mark : marks) {
-    const auto [px, py] = place(mark);
-    const double w = 6.4 * static_cast<double>(mark.words.size());
-    const std::array<Box, 8> places = {
-        Box{px + 11, py - 7, w, 14},     Box{px - 11 - w, py - 7, w, 14},
-        Box{px - w / 2, py - 24, w, 14}, Box{px - w / 2, py + 10, w, 14},
-        Box{px + 9, py - 22, w, 14},     Box{px + 9, py + 8, w, 14},
-        Box{px - 9 - w, py - 22, w, 14}, Box{px - 9 - w, py + 8, w, 14}};
-    const auto fits = [&](const Box& box) {
-      return box.x > kLeft && box.x + box.w < kWidth - 4 &&
-             std::none_of(taken.begin(), taken.end(),
-                          [&](const Box& other) { return box.Meets(other); });
-    };
-    const auto free = std::find_if(places.begin(), places.end(), fits);
-    if (free == places.end()) continue;  // crowded out; the table has its row
-    taken.push_back(*free);
-    fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"{}\">{}</text>\n",
-                   free->x, free->y + 11, colour(mark.series), Escaped(mark.words));
-  }
-  return svg + "</svg>\n";
+  return Plot(words, marks).Draw();
 }
 
 }  // namespace arthro::app

@@ -8,10 +8,15 @@ class App;
 
 namespace arthro::app {
 
-// All of the jobs below, in the order in which the help lists them. Wrong use is said in one line.
+// Adds all of the jobs below, in the order in which the help lists them.
 void AddEveryJob(CLI::App& program);
 
+// Lists `bench` in the help. RunBenchProgram runs it.
 void AddBenchJob(CLI::App& program);
+inline constexpr const char* kBenchProgram = "arthroscene-bench";  // beside this program's file
+// Replaces this process with kBenchProgram; `arguments` end with a null pointer. Returns the exit
+// status only where that fails.
+int RunBenchProgram(char** arguments);
 void AddCentresJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddDemoJob(CLI::App& program);

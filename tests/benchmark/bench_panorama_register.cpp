@@ -15,9 +15,9 @@
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/preparation/prepare.h"
-#include "authoring/phantom/clip/clip_score.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/process_cost.h"
+#include "tests/support/panorama/clip_score.h"
 
 namespace {
 
@@ -115,8 +115,7 @@ void Run(const std::filesystem::path& folder, const Args& args) {
   for (int i = 0; i < 8; ++i)
     nine.emplace_back(view.cx + view.focal_px * tan_taken * std::cos(CV_PI / 4 * i),
                       view.cy + view.focal_px * tan_taken * std::sin(CV_PI / 4 * i));
-  const authoring::ClipScore score =
-      authoring::ScorePlaces(nine, truth, sequence.is_blank, results);
+  const test::ClipScore score = test::ScorePlaces(nine, truth, sequence.is_blank, results);
 
   const double count = static_cast<double>(frames.size());
   double promised = 0;

@@ -12,16 +12,16 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/bench/tissue/tissue_cases.h"
 #include "simulation/core/process_cost.h"
 #include "tests/benchmark/bench_report.h"
 #include "tests/benchmark/bullet_body.h"
+#include "tests/support/tissue/tissue_cases.h"
 
 namespace arthro {
 namespace {
 
-using app::TissueProblem;
 using simulation::Law;
+using test::TissueProblem;
 
 constexpr double kDt = 1.0 / 60;
 
@@ -92,7 +92,7 @@ void Print(const char* size, const std::string& what, const Run& run, double exa
 
 struct Size {
   const char* words;
-  app::Cells cells;
+  test::Cells cells;
   int enough_iterations;  // with which Bullet's first step is within 5 %
   double goal;            // ratio of times to 5 %
 };
@@ -100,8 +100,8 @@ constexpr Size kSizes[] = {
     {"S", {24, 4, 2}, 300, 10}, {"M", {48, 8, 4}, 600, 20}, {"L", {72, 12, 4}, 1000, 15}};
 
 void Compare(const Size& size, bool quick) {
-  const TissueProblem problem = ProblemOf(app::TissueCaseOf("meniscus_load"), Law::kCorotated,
-                                          app::MeniscusMesh(1, app::MeniscusTicks(size.cells)));
+  const TissueProblem problem = ProblemOf(test::TissueCaseOf("meniscus_load"), Law::kCorotated,
+                                          test::MeniscusMesh(1, test::MeniscusTicks(size.cells)));
   simulation::ImplicitSolver solver(problem.model, problem.fixed);
   simulation::BodyState state{problem.model->mesh().rest_positions, {}};
   state.v.assign(state.x.size(), glm::dvec3(0.0));

@@ -11,6 +11,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 constexpr double kMicro = 1e6, kMilli = 1e3;
 
 std::string Microseconds(double seconds) {
@@ -147,9 +149,11 @@ std::string PlotOf(const HapticsBench& bench) {
   for (const ForceRow& row : bench.forces)
     marks.push_back({row.surface, row.source + ", " + row.method, kMilli * row.seconds,
                      100 * row.errors.rms, row.method == "proxy" ? 1.0 : 0.0});
-  return SpeedErrorSvg({"Touch: speed against error", "processor time a force, ms",
-                        "error of the force, % rms", "filled: our proxy; hollow: the paper's 3x3"},
-                       marks);
+  return SpeedErrorSvg(
+      {"Touch: speed against error", "processor time per force, ms", "error of the force, % rms",
+       "filled: proxy; hollow: the paper's 3x3 kernel",
+       "exact force under a plane, a sphere and waves in closed form"},
+      marks);
 }
 
 }  // namespace arthro::app

@@ -9,12 +9,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/bench/haptics/energy_cycles.h"
-#include "app/bench/haptics/force_cases.h"
 #include "app/bench/haptics/servo_times.h"
-#include "app/bench/haptics/tissue_bridge.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
+#include "tests/support/haptics/energy_cycles.h"
+#include "tests/support/haptics/force_cases.h"
+#include "tests/support/haptics/tissue_bridge.h"
 
 namespace arthro::app {
 
@@ -35,7 +35,7 @@ struct HapticsBenchOptions {
 
 struct ForceRow {
   std::string surface, source, method;  // "waves", "8 bit", "proxy" or "paper 3x3"
-  ForceErrors errors;
+  test::ForceErrors errors;
   double seconds = 0;  // a force, mean of a stroke; of the rounds the least
 };
 
@@ -59,10 +59,10 @@ struct HapticsBench {
   HapticsBenchOptions options;
   ServoTimes times;
   std::vector<ForceRow> forces;
-  std::vector<BridgeRow> bridges;
+  std::vector<test::BridgeRow> bridges;
   std::vector<StabilityRow> stability;
   HandsRow hands;
-  std::vector<EnergyRow> energy;  // by ground
+  std::vector<test::EnergyRow> energy;  // by ground
 };
 
 // The parts of it, beside MeasureServo and MeasureBridges.

@@ -2,11 +2,13 @@
 #include <chrono>
 
 #include "app/bench/haptics/haptics_bench.h"
-#include "app/bench/haptics/touch_cases.h"
 #include "simulation/core/process_cost.h"
+#include "tests/support/haptics/touch_cases.h"
 
 namespace arthro::app {
 namespace {
+
+using namespace test;
 
 using namespace simulation;
 

@@ -9,17 +9,19 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/bench/haptics/analytic_relief.h"
-#include "app/bench/haptics/force_cases.h"
 #include "app/bench/quantile.h"
 #include "simulation/device/driver/drivers.h"
 #include "simulation/device/plant_device.h"
-#include "simulation/haptics/paper_kernel.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
+#include "tests/support/haptics/analytic_relief.h"
+#include "tests/support/haptics/force_cases.h"
+#include "tests/support/haptics/paper_kernel.h"
 
 namespace arthro::app {
 namespace {
+
+using namespace test;
 
 using namespace simulation;
 using Clock = std::chrono::steady_clock;

@@ -13,12 +13,14 @@
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/preparation/prepare.h"
 #include "authoring/phantom/clip/clip.h"
-#include "authoring/phantom/clip/clip_score.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/process_cost.h"
+#include "tests/support/panorama/clip_score.h"
 
 namespace arthro::app {
 namespace {
+
+using namespace test;
 
 using authoring::Detector;
 using authoring::GraphStages;
@@ -56,7 +58,7 @@ Prepared Prepare(const std::vector<cv::Mat>& raw, const authoring::Rectifier& re
 
 void Score(const authoring::Clip& clip, const authoring::RectifiedView& view,
            const std::vector<authoring::FrameResult>& results, RegistrationBenchRow& row) {
-  const authoring::ClipScore score = authoring::ScoreClip(clip, view, results);
+  const ClipScore score = ScoreClip(clip, view, results);
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   row.frames = clip.frames();
   row.placed = score.placed;
@@ -241,9 +243,10 @@ std::string PlotOf(const RegistrationBench& bench) {
   for (const auto& row : bench.rows)
     marks.push_back({row.clip, row.chain, row.cpu_ms, row.mean_px,
                      row.frames > 0 ? static_cast<double>(row.right) / row.frames : 0});
-  return SpeedErrorSvg({"Registration: speed against error", "processor time a frame, ms",
+  return SpeedErrorSvg({"Registration: speed against error", "processor time per frame, ms",
                         "mean corner error of right frames, px",
-                        "top edge: nothing right · filled: share of frames right"},
+                        "filled: share of frames right; top edge: no frame right",
+                        "exact homographies of the rendered clips"},
                        marks);
 }
 

@@ -12,6 +12,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 constexpr double kBudgetTolerance = 1e-2;  // what frames are solved to when nothing else is said
 
 const char* LawWords(simulation::Law law) {
@@ -103,9 +105,11 @@ std::string PlotOf(const TissueBench& bench) {
       marks.push_back({row.name, fmt::format("{} {:.0e}", row.mesh, row.tolerance), row.step_ms,
                        100 * (std::abs(row.model_error) + row.solver_error),
                        row.order == 2 ? 1.0 : 0.0});
-  return SpeedErrorSvg({"Deformable meniscus: speed against error", "processor time a frame, ms",
-                        "error of mesh and solver, %", "filled: quadratic elements"},
-                       marks);
+  return SpeedErrorSvg(
+      {"Deformable meniscus: speed against error", "processor time per frame, ms",
+       "error of mesh and solver, %", "filled: quadratic elements; hollow: linear ones",
+       "continuum values of finer and finer quadratic hexahedra"},
+      marks);
 }
 
 }  // namespace arthro::app

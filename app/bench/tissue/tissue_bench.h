@@ -11,9 +11,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/bench/tissue/tissue_cases.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
+#include "tests/support/tissue/tissue_cases.h"
 
 namespace arthro::app {
 
@@ -60,14 +60,15 @@ struct TissueBenchMesh {
   TetMesh mesh;
 };
 // T4 then T10, from coarse to fine, as far as `max_elements`.
-std::vector<TissueBenchMesh> TissueBenchMeshes(TissueBody body, int max_elements);
+std::vector<TissueBenchMesh> TissueBenchMeshes(test::TissueBody body, int max_elements);
 
 // A case solved exactly on a mesh: what is watched there, and how far from the continuum it is.
 struct ExactAnswer {
   double value = 0, model_error = 0;
   simulation::StepReport report;
 };
-ExactAnswer SolveExactly(const TissueCase& c, simulation::Law law, const TissueProblem& problem);
+ExactAnswer SolveExactly(const test::TissueCase& c, simulation::Law law,
+                         const test::TissueProblem& problem);
 
 // Throws Error(kBadArgument) when no case is named so.
 TissueBench RunTissueBench(const TissueBenchOptions& options, const Progress& progress);

@@ -12,6 +12,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 using simulation::BodyState;
 using simulation::ImplicitSolver;
 using simulation::Law;

@@ -7,6 +7,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 constexpr double kWithin = 0.45;       // of the picture's side, from its middle
 constexpr double kPanoramaMargin = 9;  // px
 constexpr int kMostRounds = 20;        // of looking for pixels that will do

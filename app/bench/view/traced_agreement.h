@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "app/bench/view/reference_tracer.h"
 #include "app/view/arthroscopic_view.h"
 #include "simulation/scene/scene_io.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::app {
 
@@ -25,7 +25,7 @@ struct TracedPixel {
 // window, whose rim is blended and bears a mark, and, where they show the backdrop, inside the
 // panorama, at whose end the relief ends in a wall. Fewer where a picture has few such.
 std::vector<TracedPixel> TracePixels(const LoadedScene& loaded, const Picture& picture, int size,
-                                     int count, std::span<const ReferenceMesh> meshes = {});
+                                     int count, std::span<const test::ReferenceMesh> meshes = {});
 
 struct TracedAgreement {
   int compared = 0;

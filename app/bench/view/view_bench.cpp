@@ -13,6 +13,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 constexpr double kMilli = 1e3;
 
 // A column's number, or a dash where there is none.
@@ -104,10 +106,11 @@ std::string PlotOf(const ViewBench& bench) {
                        kMilli * row.times.wall, 100 * row.traced->elsewhere,
                        row.relief == kUsualRelief ? 1.0 : 0.0});
   return SpeedErrorSvg(
-      {"Arthroscopic view: speed against error", "wall clock a frame, ms",
+      {"Arthroscopic view: speed against error", "wall clock per frame, ms",
        fmt::format("pixels whose ray ends more than {:g} mm off, %", MmFromMetres(kSameDistance)),
-       fmt::format("filled: the usual search, {} steps, cells of {}", kUsualRelief.steps,
-                   kUsualRelief.cell)},
+       fmt::format("filled: default search, {} steps, cells of {}", kUsualRelief.steps,
+                   kUsualRelief.cell),
+       "ray tracer in double precision without OpenGL"},
       marks);
 }
 

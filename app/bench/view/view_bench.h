@@ -12,10 +12,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/bench/view/grid_picture.h"
 #include "app/bench/view/traced_agreement.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
+#include "tests/support/view/grid_picture.h"
 
 namespace arthro::app {
 
@@ -51,8 +51,8 @@ struct ViewBenchRow {
   int samples = 2;
   int triangles = 0;  // of tissue that moves in every frame
   FrameTimes times;
-  std::optional<TracedAgreement> traced;  // of relief and scene; a lit scene's without colours
-  std::optional<GridAgreement> grid;      // of samples
+  std::optional<TracedAgreement> traced;    // of relief and scene; a lit scene's without colours
+  std::optional<test::GridAgreement> grid;  // of samples
 };
 
 struct ViewBench {

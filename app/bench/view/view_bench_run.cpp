@@ -7,15 +7,17 @@
 
 #include "app/bench/quantile.h"
 #include "app/bench/view/view_bench.h"
-#include "app/bench/view/view_cases.h"
 #include "app/view/backdrop/relief_outlines.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/offscreen_context.h"
 #include "simulation/core/process_cost.h"
+#include "tests/support/view/view_cases.h"
 
 namespace arthro::app {
 namespace {
+
+using namespace test;
 
 constexpr std::array kSearches = {ReliefSearch{0, 1},  ReliefSearch{64, 16}, kUsualRelief,
                                   ReliefSearch{64, 4}, ReliefSearch{64, 1},  ReliefSearch{256, 1}};

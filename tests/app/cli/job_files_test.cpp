@@ -157,8 +157,11 @@ TEST_F(JobFiles, APieceOrPictureThatIsAnInputIsRefused) {
 // Flags that help shows as OUTPUT, with a command for each, in which a foreign file stands where
 // the job would write. A job that is missing here fails the next test.
 const std::map<std::string, std::string> kOutputs = {
+    {"bench all --output", "bench all -o @X.demo"},
     {"bench haptics --json", "bench haptics --json @X"},
     {"bench haptics --plot", "bench haptics --plot @X"},
+    {"bench micro --json", "bench micro --json @X"},
+    {"bench micro --plot", "bench micro --plot @X"},
     {"bench panorama --json", "bench panorama --json @X"},
     {"bench panorama --plot", "bench panorama --plot @X"},
     {"bench tissue --json", "bench tissue --json @X"},
@@ -195,8 +198,9 @@ const std::map<std::string, std::string> kOutputs = {
 
 // Flags of text that name no file that is written.
 const std::set<std::string> kNoOutput = {
-    "check SCENE", "bench tissue --only", "--options", "--layout",
-    "--model",     "--openhaptics",       "--disturb"};
+    "check SCENE",   "bench micro --only", "bench tissue --only",
+    "--options",     "--layout",           "--model",
+    "--openhaptics", "--disturb"};
 
 // "job" and "job sub" of the program's own help.
 std::vector<std::string> AllJobs() {

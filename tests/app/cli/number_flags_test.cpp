@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
+#include "app/bench/bench_jobs.h"
 #include "app/cli/jobs.h"
 
 namespace arthro::app {
@@ -52,11 +53,12 @@ void VisitJobs(CLI::App& app, const std::string& words,
     VisitJobs(*job, words + (words.empty() ? "" : " ") + job->get_name(), visit);
 }
 
-// The whole program, parsing alone: no job runs and nothing is required.
+// Both programs, parsing alone: no job runs and nothing is required.
 class Program {
  public:
   Program() : app_("", "arthroscene") {
     AddEveryJob(app_);
+    AddBenches(*app_.get_subcommand("bench"));
     VisitJobs(app_, "", [](CLI::App& job, const std::string&) {
       job.callback([] {});
       job.require_subcommand(0);

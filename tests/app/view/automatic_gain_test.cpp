@@ -10,11 +10,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/view/reference_tracer.h"
 #include "app/view/srgb.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/lit_scene.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::test {
 namespace {

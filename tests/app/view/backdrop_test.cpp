@@ -7,27 +7,18 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/view/grid_picture.h"
-#include "app/bench/view/reference_tracer.h"
 #include "app/view/backdrop/backdrop_texture.h"
 #include "app/view/backdrop/relief_outlines.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/view/grid_picture.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::test {
 namespace {
 
-using app::CompareWithGrid;
-using app::GridAgreement;
-using app::GridPanorama;
 using app::Picture;
 using app::PictureFromPose;
-using app::ReferenceMesh;
-using app::ReferencePixel;
-using app::ReferenceRay;
-using app::ReferenceSphereHit;
-using app::TracedPicture;
-using app::TraceWindow;
 using simulation::RodPose;
 
 class BackdropView : public ViewTest {};

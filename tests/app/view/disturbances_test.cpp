@@ -20,7 +20,6 @@ namespace {
 using app::Disturbances;
 using app::Picture;
 using app::PictureFromPose;
-using app::ProbeInFront;
 
 constexpr int kSize = 256;
 

@@ -8,9 +8,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "app/bench/view/reference_tracer.h"
 #include "tests/app/view/lit_scene.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::test {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/view/reference_tracer.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/view_scene.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::test {
 namespace {

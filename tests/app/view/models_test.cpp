@@ -6,28 +6,20 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/view/reference_tracer.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/vertex_normals.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/compare_pictures.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::test {
 namespace {
 
 using app::InstrumentView;
-using app::Moved;
 using app::Picture;
 using app::PictureFromPose;
-using app::ProbeInFront;
-using app::ReferenceMesh;
-using app::ReferenceRay;
-using app::ReferenceSphereHit;
-using app::Ring;
-using app::TracedPicture;
-using app::TraceWindow;
 
 // Largest distance, in px, between an edge as drawn (a chord) and as the lens bends it, over all
 // edges in the window.

@@ -12,7 +12,6 @@ namespace {
 
 using app::Overview;
 using app::PointerEvent;
-using app::ProbeInFront;
 using Kind = PointerEvent::Kind;
 using Button = PointerEvent::Button;
 

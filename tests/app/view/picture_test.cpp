@@ -11,7 +11,6 @@ namespace {
 using app::Disturbances;
 using app::Picture;
 using app::PictureFromPose;
-using app::ProbeInFront;
 using app::StillPictures;
 
 Picture ScenePicture() {

@@ -9,11 +9,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/view/reference_tracer.h"
 #include "simulation/scene/image.h"
+#include "tests/support/view/reference_tracer.h"
 
 namespace arthro::app {
 namespace {
+
+using namespace test;
 
 constexpr int kSide = 160;
 constexpr float kNear = 0.02f, kFar = 0.005f;

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/view/view_cases.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/scene_io.h"
+#include "tests/support/view/view_cases.h"
 
 namespace arthro::test {
 
@@ -60,9 +60,9 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   ring.pose.position = {0.002, 0.004, 0.034};
   ring.pose.quaternion = glm::dquat(std::cos(0.5), std::sin(0.5), 0, 0);
   loaded.scene.tissues = {ring};
-  loaded.panorama = Share(app::SlowColours(width, height));
+  loaded.panorama = Share(SlowColours(width, height));
   loaded.depth = Share(std::move(depth));
-  loaded.surfaces = {Share(app::Ring(0.007, 0.0024))};
+  loaded.surfaces = {Share(Ring(0.007, 0.0024))};
   return loaded;
 }
 

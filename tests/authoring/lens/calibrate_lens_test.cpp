@@ -10,7 +10,7 @@
 #include "authoring/lens/fit/lens_residual.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "tests/authoring/lens/board_picture.h"
+#include "tests/support/board_picture.h"
 
 namespace arthro::authoring {
 namespace {

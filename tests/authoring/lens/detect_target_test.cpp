@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "simulation/core/error.h"
-#include "tests/authoring/lens/board_picture.h"
+#include "tests/support/board_picture.h"
 
 namespace arthro::authoring {
 namespace {

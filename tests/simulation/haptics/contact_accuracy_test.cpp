@@ -9,23 +9,23 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/haptics/force_cases.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/contact.h"
+#include "tests/support/haptics/force_cases.h"
 
 namespace arthro::simulation {
 namespace {
 
-using app::AnalyticRelief;
-using app::BareContact;
-using app::ErrorsOf;
-using app::ForceErrors;
-using app::kTouchStiffness;
-using app::kTouchTick;
-using app::PaperForces;
-using app::ProxyForces;
-using app::StrokeUnder;
-using app::TouchStroke;
+using test::AnalyticRelief;
+using test::BareContact;
+using test::ErrorsOf;
+using test::ForceErrors;
+using test::kTouchStiffness;
+using test::kTouchTick;
+using test::PaperForces;
+using test::ProxyForces;
+using test::StrokeUnder;
+using test::TouchStroke;
 
 void Print(const std::string& name, const ForceErrors& e) {
   std::printf("%-44s rms %7.3f %%  angle p99 %7.3f max %7.3f deg  excess step %7.4f N\n",

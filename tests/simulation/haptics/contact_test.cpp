@@ -12,14 +12,14 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/haptics/analytic_relief.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/haptics/analytic_relief.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::simulation {
 namespace {
 
-using app::AnalyticRelief;
+using test::AnalyticRelief;
 
 constexpr double kStiffness = 500.0, kTick = 0.001;
 constexpr double kPixel = 5e-5;  // m, of AnalyticRelief

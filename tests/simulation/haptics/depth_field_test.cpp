@@ -10,13 +10,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/haptics/analytic_relief.h"
-#include "simulation/haptics/paper_kernel.h"
+#include "tests/support/haptics/analytic_relief.h"
+#include "tests/support/haptics/paper_kernel.h"
 
 namespace arthro::simulation {
 namespace {
 
-using app::AnalyticRelief;
+using test::AnalyticRelief;
 
 class DepthFieldIn : public testing::TestWithParam<ProjectionType> {};
 

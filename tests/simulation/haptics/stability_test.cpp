@@ -7,15 +7,15 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/haptics/touch_cases.h"
+#include "tests/support/haptics/touch_cases.h"
 
 namespace arthro::simulation {
 namespace {
 
-using app::LargestStableStiffness;
-using app::RuleStiffness;
-using app::TouchedWall;
-using app::WallServo;
+using test::LargestStableStiffness;
+using test::RuleStiffness;
+using test::TouchedWall;
+using test::WallServo;
 
 TEST(Stability, TheMeasuredLimitIsTheRulesWithinFourPercent) {
   double worst = 0;
@@ -39,7 +39,7 @@ TEST(Stability, NoHandEscapesAtTheDefaultGains) {
   int escaped = 0;
   double most = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    const app::HandTrial trial = app::TryRandomHand(i, {});
+    const test::HandTrial trial = test::TryRandomHand(i, {});
     escaped += trial.has_escaped;
     most = std::max(most, trial.energy_out);
   }
@@ -54,9 +54,9 @@ TEST(Stability, AClosedCycleGivesLessThanAMillijoule) {
     for (const HandModel& hand : {kSoftHand, kHand, kStiffHand, kWholeArm}) {
       WallServo servo;
       servo.delay = delay;
-      most = std::max(most, app::MostEnergyOut(hand, servo));
+      most = std::max(most, test::MostEnergyOut(hand, servo));
       servo.is_guarded = false;
-      unguarded = std::max(unguarded, app::MostEnergyOut(hand, servo));
+      unguarded = std::max(unguarded, test::MostEnergyOut(hand, servo));
     }
   std::printf("energy out of a cycle: %.3f mJ, without the guard %.3f mJ\n", 1e3 * most,
               1e3 * unguarded);

@@ -1,12 +1,12 @@
 // Energy that a hand gains over slow closed cycles on rigid backdrops, at the force that its device
 // gets. `arthroscene bench haptics` tries 10 000 of the same cycles.
-#include "app/bench/haptics/energy_cycles.h"
+#include "tests/support/haptics/energy_cycles.h"
 
 #include <cstdio>
 
 #include <gtest/gtest.h>
 
-namespace arthro::app {
+namespace arthro::test {
 namespace {
 
 // Promised: less than 1 mJ between any two moments without a force.
@@ -24,4 +24,4 @@ TEST(EnergyOfSlowCycles, IsBelowOneMillijouleOnEveryGround) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::test

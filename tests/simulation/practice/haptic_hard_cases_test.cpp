@@ -15,16 +15,16 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/haptics/analytic_relief.h"
 #include "simulation/device/plant_device.h"
 #include "simulation/practice/replay.h"
 #include "simulation/practice/servo_loop.h"
 #include "tests/simulation/practice/hand.h"
+#include "tests/support/haptics/analytic_relief.h"
 
 namespace arthro::simulation {
 namespace {
 
-using app::AnalyticRelief;
+using test::AnalyticRelief;
 
 constexpr double kPixel = 5e-5;             // m, of AnalyticRelief
 constexpr double kFrictionOfDevice = 0.26;  // N, of a plant

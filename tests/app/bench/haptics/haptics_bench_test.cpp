@@ -16,6 +16,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 TEST(HapticsBench, WhatIsComputedIsTheSameTwice) {
   HapticsBenchOptions options;
   options.ticks = 300;

@@ -10,11 +10,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/body/elastic_layer.h"
 #include "simulation/tissue/solver/implicit_solver.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
-namespace arthro::app {
+namespace arthro::test {
 namespace {
 
 using simulation::ContactPoint;
@@ -150,4 +150,4 @@ TEST(ElasticLayerAccuracy, ABallFeelsTheSameLayerAsInQuadraticElements) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::test

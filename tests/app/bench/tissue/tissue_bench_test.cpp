@@ -14,6 +14,8 @@
 namespace arthro::app {
 namespace {
 
+using namespace test;
+
 using simulation::Law;
 
 constexpr Law kLaw = Law::kStableNeoHookean;

@@ -1,6 +1,6 @@
 // Claims about the bodies on which tissue is measured: they are the reference's own meshes, node by
 // node, so that a solver's error on them can be told from the mesh's.
-#include "app/bench/tissue/tissue_meshes.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 #include <algorithm>
 #include <numbers>
@@ -15,7 +15,7 @@
 #include "simulation/scene/tet_check.h"
 #include "tests/support/shared_data.h"
 
-namespace arthro::app {
+namespace arthro::test {
 namespace {
 
 void ExpectSame(const TetMesh& ours, const std::filesystem::path& file) {
@@ -93,4 +93,4 @@ TEST(TissueMeshes, AGradedMeniscusKeepsThePatchAndItsElementsPositive) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::test

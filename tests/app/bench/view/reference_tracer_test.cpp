@@ -1,6 +1,6 @@
 // simulation/scope and the reference tracer were derived apart; here they are held against one
 // another, and the grid measurement against pictures whose error is known.
-#include "app/bench/view/reference_tracer.h"
+#include "tests/support/view/reference_tracer.h"
 
 #include <cmath>
 #include <random>
@@ -8,11 +8,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/view/grid_picture.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/projection.h"
+#include "tests/support/view/grid_picture.h"
 
-namespace arthro::app {
+namespace arthro::test {
 namespace {
 
 using namespace simulation;
@@ -193,4 +193,4 @@ TEST(GridPictureMustFail, SmallAndLargeErrorsAreSeen) {
 }
 
 }  // namespace
-}  // namespace arthro::app
+}  // namespace arthro::test

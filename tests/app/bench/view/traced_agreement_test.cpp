@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/view/view_cases.h"
+#include "tests/support/view/view_cases.h"
 
 namespace arthro::app {
 namespace {
+
+using namespace test;
 
 constexpr int kSize = 96;
 

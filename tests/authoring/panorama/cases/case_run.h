@@ -14,7 +14,7 @@
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/placed_frame.h"
 #include "authoring/phantom/clip/clip.h"
-#include "authoring/phantom/clip/clip_score.h"
+#include "tests/support/panorama/clip_score.h"
 
 namespace arthro::test {
 
@@ -31,9 +31,9 @@ struct CaseRun {
   std::vector<cv::Point2d> nine;   // rectified px
   double cpu_ms = 0;               // processor time of registration
 
-  authoring::ClipScore Score(int component = 0) const;
+  ClipScore Score(int component = 0) const;
   // Distance of the positions from those of another run of the same frames, px.
-  authoring::ClipScore Against(const CaseRun& other) const;
+  ClipScore Against(const CaseRun& other) const;
   std::vector<std::string> reasons() const;
 };
 

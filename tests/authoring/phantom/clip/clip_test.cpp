@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/phantom/clip/clip_score.h"
 #include "simulation/core/error.h"
+#include "tests/support/panorama/clip_score.h"
 
 namespace arthro::authoring {
 namespace {
@@ -218,7 +218,7 @@ TEST(ClipScore, ForgivesThePlaneAndNothingElse) {
     result.expected_error_px = 0.1;
     result.panorama_from_rectified = other * clip.PanoramaFromRectified(i, view);
   }
-  authoring::ClipScore score = authoring::ScoreClip(clip, view, results);
+  test::ClipScore score = test::ScoreClip(clip, view, results);
   EXPECT_EQ(score.right, 8);
   EXPECT_LT(score.max_px, 1e-3);
   EXPECT_EQ(score.covered, 1.0);
@@ -226,7 +226,7 @@ TEST(ClipScore, ForgivesThePlaneAndNothingElse) {
   results[3].panorama_from_rectified =
       cv::Matx33d(1, 0, 40, 0, 1, 0, 0, 0, 1) * results[3].panorama_from_rectified;
   results[5].is_placed = false;
-  score = authoring::ScoreClip(clip, view, results);
+  score = test::ScoreClip(clip, view, results);
   EXPECT_EQ(score.placed, 7);
   EXPECT_EQ(score.right, 6);
   EXPECT_EQ(score.wrong_as_good, 1);

@@ -8,23 +8,23 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/units.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {
 
 // `along`, `across`, `high`: cells of the crescent, six elements each.
-inline simulation::BodySpec MeniscusBody(const app::Cells& cells = {14, 3, 2}) {
+inline simulation::BodySpec MeniscusBody(const Cells& cells = {14, 3, 2}) {
   simulation::BodySpec spec;
   spec.name = "meniscus";
-  spec.mesh = app::MeniscusMesh(2, app::MeniscusTicks(cells));
-  spec.surface = BoundaryOf(
-      app::MeniscusMesh(1, app::MeniscusTicks({4 * cells[0], 4 * cells[1], 4 * cells[2]})));
+  spec.mesh = MeniscusMesh(2, MeniscusTicks(cells));
+  spec.surface =
+      BoundaryOf(MeniscusMesh(1, MeniscusTicks({4 * cells[0], 4 * cells[1], 4 * cells[2]})));
   spec.material.young_modulus = 5e5;
   for (const double side : {-1.0, 1.0}) {
-    const double angle = side * RadiansFromDegrees(0.5 * app::kSweepDegrees);
+    const double angle = side * RadiansFromDegrees(0.5 * kSweepDegrees);
     for (const double radius : {0.0115, 0.015, 0.0185})
       spec.fixed.push_back({{radius * std::cos(angle), radius * std::sin(angle), 0.0025}, 0.0035});
   }

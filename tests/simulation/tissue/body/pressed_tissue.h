@@ -13,7 +13,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/contact/coupling.h"
 #include "simulation/tissue/contact/obstacle_contact.h"
@@ -21,6 +20,7 @@
 #include "simulation/tissue/solver/implicit_solver.h"
 #include "tests/simulation/tissue/contact/slab.h"
 #include "tests/simulation/tissue/cut/mesh_boundary.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {
 

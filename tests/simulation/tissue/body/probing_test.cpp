@@ -24,7 +24,7 @@ constexpr double kFrame = 1.0 / 60, kRadius = 0.75e-3;
 // it.
 struct Slab {
   template <class IsHeld>
-  Slab(double thickness, const app::Cells& cells, IsHeld&& is_held)
+  Slab(double thickness, const test::Cells& cells, IsHeld&& is_held)
       : low(-0.01, -0.01, -thickness),
         mesh(test::SlabMesh(2, cells, low, test::kSlabHigh)),
         finder(mesh),

@@ -50,9 +50,9 @@ Case Meniscus(bool lies) {
   material.fibre_stiffness = 2e7;
   material.fibre_axis = FibreAxis::kCircumferentialZ;
   auto tissue = std::make_unique<test::PressedTissue>(
-      app::MeniscusMesh(2, app::MeniscusTicks(app::Cells{14, 3, 2})),
-      test::BoundaryOf(app::MeniscusMesh(1, app::MeniscusTicks(app::Cells{56, 12, 8}))), material,
-      [](const glm::dvec3& x) { return std::abs(std::atan2(x.y, x.x)) > 1.65; });
+      test::MeniscusMesh(2, test::MeniscusTicks(test::Cells{14, 3, 2})),
+      test::BoundaryOf(test::MeniscusMesh(1, test::MeniscusTicks(test::Cells{56, 12, 8}))),
+      material, [](const glm::dvec3& x) { return std::abs(std::atan2(x.y, x.x)) > 1.65; });
   if (lies) tissue->ground = &kPlateau;
   return {lies ? "meniscus on its plateau" : "meniscus that hangs free",
           std::move(tissue),

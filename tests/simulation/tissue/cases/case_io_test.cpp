@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh_io.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::simulation {
 namespace {
@@ -24,7 +24,7 @@ nlohmann::json GoodCase() {
     "fixed": [{"set": "clamp", "axes": "xz"}, {"set": "tip", "axes": "y"}], "loads": [{"set": "end", "total_force": [0.5, 0, 0]}]})");
 }
 
-TissueCase Read(const nlohmann::json& json, TetMesh mesh = app::BeamMesh(1, {2, 1, 1})) {
+TissueCase Read(const nlohmann::json& json, TetMesh mesh = test::BeamMesh(1, {2, 1, 1})) {
   const test::TempFolder folder;
   mesh.sets["nobody"].assign(mesh.rest_positions.size(), 0);
   // Edge of the clamped side: fixing its three axes leaves a hinge.
@@ -46,7 +46,7 @@ TEST(CaseIo, ReadsACase) {
 TEST(CaseIo, MidEdgeNodeBelongsToASetOfBothEnds) {
   auto json = GoodCase();
   json["order"] = 2;
-  TetMesh mesh = app::BeamMesh(2, {2, 2, 2});
+  TetMesh mesh = test::BeamMesh(2, {2, 2, 2});
   const std::vector<std::uint8_t> whole = mesh.sets["clamp"];
   for (std::size_t e = 0; e < mesh.elements.size(); e += 10)
     for (int a = 4; a < 10; ++a) mesh.sets["clamp"][mesh.elements[e + a]] = 0;

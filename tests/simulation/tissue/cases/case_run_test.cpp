@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::simulation {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 // Bar fixed at one end under a load that no shape of the material can bear.
 TissueCase Crushed(Law law, bool is_dynamic) {
   TissueCase c;
-  c.mesh = app::BeamMesh(1, {4, 1, 1});
+  c.mesh = test::BeamMesh(1, {4, 1, 1});
   c.material.law = law;
   c.material.young_modulus = 1e6;
   c.material.poisson_ratio = law == Law::kCorotated ? 0.0 : 0.4;

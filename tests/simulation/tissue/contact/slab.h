@@ -12,21 +12,20 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scene/tet_mesh.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {
 
 inline constexpr glm::dvec3 kSlabLow{-0.01, -0.01, -0.006}, kSlabHigh{0.01, 0.01, 0.0};
 
-inline TetMesh SlabMesh(int order, const app::Cells& cells = {6, 6, 3},
-                        const glm::dvec3& low = kSlabLow, const glm::dvec3& high = kSlabHigh) {
-  return app::GridMesh(
-      order,
-      {app::EvenTicks(low.x, high.x, cells[0]), app::EvenTicks(low.y, high.y, cells[1]),
-       app::EvenTicks(low.z, high.z, cells[2])},
-      [](const glm::dvec3& p) { return p; });
+inline TetMesh SlabMesh(int order, const Cells& cells = {6, 6, 3}, const glm::dvec3& low = kSlabLow,
+                        const glm::dvec3& high = kSlabHigh) {
+  return GridMesh(order,
+                  {EvenTicks(low.x, high.x, cells[0]), EvenTicks(low.y, high.y, cells[1]),
+                   EvenTicks(low.z, high.z, cells[2])},
+                  [](const glm::dvec3& p) { return p; });
 }
 
 // Bends the slab upwards by 2 mm in the middle, as a paraboloid. T10 represents it exactly along x
@@ -35,12 +34,12 @@ inline glm::dvec3 Bent(const glm::dvec3& p) {
   return {p.x, p.y, p.z + 0.002 - 10.0 * (p.x * p.x + p.y * p.y)};
 }
 
-inline TetMesh BentMesh(const app::Cells& cells = {4, 4, 2}) {
-  return app::GridMesh(2,
-                       {app::EvenTicks(kSlabLow.x, kSlabHigh.x, cells[0]),
-                        app::EvenTicks(kSlabLow.y, kSlabHigh.y, cells[1]),
-                        app::EvenTicks(kSlabLow.z, kSlabHigh.z, cells[2])},
-                       Bent);
+inline TetMesh BentMesh(const Cells& cells = {4, 4, 2}) {
+  return GridMesh(
+      2,
+      {EvenTicks(kSlabLow.x, kSlabHigh.x, cells[0]), EvenTicks(kSlabLow.y, kSlabHigh.y, cells[1]),
+       EvenTicks(kSlabLow.z, kSlabHigh.z, cells[2])},
+      Bent);
 }
 
 // Surface of a box with squares of about `size`, each split in two, facing outwards.

@@ -60,10 +60,10 @@ double GapWhenPulled(const TetMesh& mesh, std::span<const double> share, const P
 // Meshes the block with elements of size `edge`.
 double GapOfCut(std::span<const Cut> cuts, double edge) {
   const auto ticks = [&](double length) {
-    return app::EvenTicks(0, length, static_cast<int>(std::lround(length / edge)));
+    return test::EvenTicks(0, length, static_cast<int>(std::lround(length / edge)));
   };
-  const TetMesh whole = app::GridMesh(2, {ticks(12 * kMm), ticks(8 * kMm), ticks(4 * kMm)},
-                                      [](const glm::dvec3& p) { return p; });
+  const TetMesh whole = test::GridMesh(2, {ticks(12 * kMm), ticks(8 * kMm), ticks(4 * kMm)},
+                                       [](const glm::dvec3& p) { return p; });
   SolidField field = test::CutBlockField();
   MakeCuts(field, cuts, {});
   MeshCutter cutter(whole, field.spacing());
@@ -86,8 +86,9 @@ double GapOfCut(std::span<const Cut> cuts, double edge) {
 double GapOfMeshedSlot() {
   const std::vector<double> x{0,         1.5 * kMm, 3 * kMm,   4.4 * kMm,  5.8 * kMm,
                               6.4 * kMm, 7.8 * kMm, 9.2 * kMm, 10.6 * kMm, 12 * kMm};
-  TetMesh mesh = app::GridMesh(2, {x, app::EvenTicks(0, 8 * kMm, 4), app::EvenTicks(0, 4 * kMm, 4)},
-                               [](const glm::dvec3& p) { return p; });
+  TetMesh mesh =
+      test::GridMesh(2, {x, test::EvenTicks(0, 8 * kMm, 4), test::EvenTicks(0, 4 * kMm, 4)},
+                     [](const glm::dvec3& p) { return p; });
   std::vector<int> kept;
   for (std::size_t e = 0; e < mesh.elements.size(); e += 10) {
     glm::dvec3 middle(0.0);

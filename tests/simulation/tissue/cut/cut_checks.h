@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "tests/support/shapes.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {
 
@@ -17,10 +17,9 @@ inline constexpr double kMm = 1e-3, kMm3 = 1e-9;
 
 // Block of 12 × 8 × 4 mm in cells of 2 mm, six elements each, and its field.
 inline TetMesh CutBlock(int order) {
-  return app::GridMesh(order,
-                       {app::EvenTicks(0, 12 * kMm, 6), app::EvenTicks(0, 8 * kMm, 4),
-                        app::EvenTicks(0, 4 * kMm, 2)},
-                       [](const glm::dvec3& p) { return p; });
+  return GridMesh(order,
+                  {EvenTicks(0, 12 * kMm, 6), EvenTicks(0, 8 * kMm, 4), EvenTicks(0, 4 * kMm, 2)},
+                  [](const glm::dvec3& p) { return p; });
 }
 inline simulation::SolidField CutBlockField(double spacing = 0.35 * kMm) {
   return simulation::SolidField::FromSurface(Box(glm::dvec3(0), glm::dvec3(12, 8, 4) * kMm),

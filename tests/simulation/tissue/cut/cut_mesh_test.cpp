@@ -27,7 +27,7 @@ using Shape = std::function<double(const glm::dvec3&)>;
 
 // 576 T10, as in the reference.
 TetMesh Meniscus(int order) {
-  TetMesh mesh = app::MeniscusMesh(order, app::MeniscusTicks({16, 3, 2}));
+  TetMesh mesh = test::MeniscusMesh(order, test::MeniscusTicks({16, 3, 2}));
   return mesh;
 }
 
@@ -88,7 +88,7 @@ TEST(CutMesh, UncutFieldGivesTheSameMesh) {
     const TetMesh whole = Meniscus(order);
     // Field of a shape much finer than the facets.
     const SolidField field = SolidField::FromSurface(
-        test::BoundaryOf(app::MeniscusMesh(2, app::MeniscusTicks({48, 6, 3}))), 0.35 * kMm);
+        test::BoundaryOf(test::MeniscusMesh(2, test::MeniscusTicks({48, 6, 3}))), 0.35 * kMm);
     const CutMesh cut = CutByField(whole, field);
     EXPECT_EQ(cut.mesh.elements, whole.elements);
     EXPECT_TRUE(cut.mesh.rest_positions == whole.rest_positions);

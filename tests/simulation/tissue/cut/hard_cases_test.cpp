@@ -229,7 +229,7 @@ TEST(Fem15, HingeInsideElementsStaysFinite) {
 
 // Elements with a hundredth of their volume left must not spoil the system's condition.
 TEST(Fem22, CutBodiesNeedAboutAsManyIterationsAsWholeOnes) {
-  const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
+  const TetMesh whole = test::MeniscusMesh(2, test::MeniscusTicks({16, 3, 2}));
   SolidField field = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
   MeshCutter cutter(whole, field.spacing());
   std::mt19937 random(5);
@@ -268,7 +268,7 @@ TEST(Fem22, CutBodiesNeedAboutAsManyIterationsAsWholeOnes) {
 // 0 to 200 cuts of all kinds, twice from the original: the mesh is valid after each cut, and the
 // second round leaves as much on the heap as the first.
 TEST(Fem22, TwoHundredCutsKeepAValidMeshAndFlatMemory) {
-  const TetMesh whole = app::MeniscusMesh(2, app::MeniscusTicks({16, 3, 2}));
+  const TetMesh whole = test::MeniscusMesh(2, test::MeniscusTicks({16, 3, 2}));
   const double volume = FemModel(whole, {}).volume();
   const SolidField original = SolidField::FromSurface(test::BoundaryOf(whole), 0.35 * kMm);
   std::size_t in_use[2] = {};

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/random.h"
 #include "simulation/tissue/fem/fem_model.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::simulation {
 
@@ -31,10 +31,10 @@ inline Material Fibred(Law law) {
 }
 
 // Straight block of 2×2×3 cells.
-inline TetMesh Block(int order) { return app::BlockMesh(order, {2, 2, 3}); }
+inline TetMesh Block(int order) { return test::BlockMesh(order, {2, 2, 3}); }
 // Crescent with mid-edge nodes on the curved boundary.
 inline TetMesh Crescent(int order) {
-  return app::MeniscusMesh(order, app::MeniscusTicks(app::Cells{6, 2, 1}));
+  return test::MeniscusMesh(order, test::MeniscusTicks(test::Cells{6, 2, 1}));
 }
 
 inline std::vector<glm::dvec3> Moved(const TetMesh& mesh,

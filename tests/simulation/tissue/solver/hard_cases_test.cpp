@@ -164,7 +164,7 @@ TEST(Fem06, NearlyIncompressibleStaysAccurateAndConverges) {
   for (const Row& row :
        {Row{0.45, 0, 0}, {0.49, 4.49e-3, -21.59}, {0.499, 4.49e-3, -22.36}, {0.4999, 0, 0}}) {
     const auto material = test::MeniscusMaterial(row.nu);
-    SolverBody cook = test::MakeBody(app::CookMesh(2, {16, 8, 2}), "clamp", material);
+    SolverBody cook = test::MakeBody(test::CookMesh(2, {16, 8, 2}), "clamp", material);
     AddSurfaceLoad(cook.mesh, cook.mesh.sets.at("end"), {0, 2, 0}, cook.load);
     ImplicitSolver cook_solver(cook.model, cook.fixed);
     BodyState state = cook.Rest();
@@ -174,7 +174,7 @@ TEST(Fem06, NearlyIncompressibleStaysAccurateAndConverges) {
       if (cook.mesh.sets.at("tip")[i])
         tip = std::max(tip, state.x[i].y - cook.mesh.rest_positions[i].y);
 
-    SolverBody block = test::MakeBody(app::BlockMesh(2, {4, 4, 4}), "bottom", material);
+    SolverBody block = test::MakeBody(test::BlockMesh(2, {4, 4, 4}), "bottom", material);
     std::vector<glm::dvec3> target = block.mesh.rest_positions;
     for (std::size_t i = 0; i < target.size(); ++i)
       if (block.mesh.sets.at("top")[i]) {
@@ -273,7 +273,7 @@ TEST(Fem08, LongStepsReachTheSameEquilibrium) {
 TEST(Fem11, ReleasedBodyNeverGainsEnergyAndRecoversItsShape) {
   for (const int order : {1, 2}) {
     SolverBody body = test::MakeBody(
-        app::BeamMesh(order, order == 1 ? app::Cells{20, 2, 2} : app::Cells{10, 1, 1}), "clamp",
+        test::BeamMesh(order, order == 1 ? test::Cells{20, 2, 2} : test::Cells{10, 1, 1}), "clamp",
         test::MeniscusMaterial(0.3));
     std::vector<glm::dvec3> target = body.mesh.rest_positions;
     for (std::size_t i = 0; i < target.size(); ++i)

@@ -40,7 +40,7 @@ TEST(ImplicitSolver, BodyAtRestStaysBitForBit) {
 }
 
 TEST(ImplicitSolver, FreeBodyFallsAsImplicitEulerPredicts) {
-  SolverBody body = test::MakeBody(app::BlockMesh(2, {2, 2, 2}), "", test::MeniscusMaterial());
+  SolverBody body = test::MakeBody(test::BlockMesh(2, {2, 2, 2}), "", test::MeniscusMaterial());
   for (std::size_t i = 0; i < body.load.size(); ++i) body.load[i].z = -9.81 * body.model->mass()[i];
   SolverOptions options;
   options.tolerance = 1e-9;
@@ -57,9 +57,9 @@ TEST(ImplicitSolver, FreeBodyFallsAsImplicitEulerPredicts) {
 
 // Goal: one or two steps from rest to 5 %. Times are printed only.
 TEST(ImplicitSolver, StepLoadIsWithinFivePercentAfterThreeFrames) {
-  for (const auto& [name, order, cells] : {std::tuple{"T4 S", 1, app::Cells{24, 4, 2}},
-                                           {"T4 M", 1, app::Cells{48, 8, 4}},
-                                           {"T10 576", 2, app::Cells{24, 4, 1}}}) {
+  for (const auto& [name, order, cells] : {std::tuple{"T4 S", 1, test::Cells{24, 4, 2}},
+                                           {"T4 M", 1, test::Cells{48, 8, 4}},
+                                           {"T10 576", 2, test::Cells{24, 4, 1}}}) {
     const SolverBody body = Meniscus(order, cells, -0.05);
     ImplicitSolver exact(body.model, body.fixed), solver(body.model, body.fixed);
     BodyState rest = body.Rest(), state = body.Rest();

@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/tissue/solver/implicit_solver.h"
+#include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {
 
@@ -62,10 +62,9 @@ inline simulation::Material MeniscusMaterial(double nu = 0.45) {
   return material;
 }
 
-inline SolverBody Meniscus(int order, const app::Cells& cells, double force_z = 0,
+inline SolverBody Meniscus(int order, const Cells& cells, double force_z = 0,
                            const simulation::Material& material = MeniscusMaterial()) {
-  SolverBody body =
-      MakeBody(app::MeniscusMesh(order, app::MeniscusTicks(cells)), "horns", material);
+  SolverBody body = MakeBody(MeniscusMesh(order, MeniscusTicks(cells)), "horns", material);
   if (force_z != 0)
     simulation::AddSurfaceLoad(body.mesh, body.mesh.sets.at("patch"), {0, 0, force_z}, body.load);
   return body;

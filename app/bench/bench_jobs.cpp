@@ -1,0 +1,133 @@
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/bench/haptics/haptics_bench.h"
+#include "app/bench/micro/micro_bench.h"
+#include "app/bench/panorama/registration_bench.h"
+#include "app/bench/panorama/stitcher_peer.h"
+#include "app/bench/report/bench_report.h"
+#include "app/bench/tissue/tissue_bench.h"
+#include "app/bench/view/view_bench.h"
+#include "app/cli/job_files.h"
+#include "app/cli/job_progress.h"
+#include "app/cli/number_flags.h"
+#include "app/cli/options_cli.h"
+#include "simulation/core/atomic_file.h"
+
+namespace arthro::app {
+namespace {
+
+template <class Options>
+struct BenchArguments {
+  std::string json, plot;
+  Options options;
+};
+
+// `measure` makes from options and progress a bench that has TableOf, JsonOf and PlotOf.
+template <class Options, class Measure>
+void Run(const BenchArguments<Options>& job, Measure measure) {
+  if (job.json == "-" && job.plot == "-")
+    throw Error(Code::kBadArgument,
+                "table and plot cannot both go to standard output; give one of them a file");
+  const auto bench = measure(job.options, TerminalProgress());
+  if (!job.json.empty()) WriteAtomically(job.json, JsonOf(bench).dump(2) + "\n");
+  if (!job.plot.empty()) WriteAtomically(job.plot, PlotOf(bench));
+  if (job.json != "-" && job.plot != "-") fmt::print("{}", TableOf(bench));
+}
+
+template <class Options, class Measure>
+void AddBench(CLI::App& bench, const char* name, const char* help, Measure measure) {
+  CLI::App* job = bench.add_subcommand(name, help);
+  const auto own = std::make_shared<BenchArguments<Options>>();
+  const auto files = JobFiles::Of(*job);
+  files->Output(
+      job->add_option("--json", own->json, "Write the rows as JSON; - for standard output."),
+      {"a table", FileForm::kJson, "arthroscene.bench."});
+  files->Output(job->add_option("--plot", own->plot, "Write an SVG of error over time."),
+                kPlotFile);
+  AddOptions(*job, own->options);
+  files->Run([own, measure] { Run(*own, measure); });
+}
+
+// OpenCV's stitcher in a process of its own.
+void AddWorker(CLI::App& program) {
+  struct Arguments {
+    std::string folder, mode;
+    double cpu_limit = 0, memory_limit = 0;
+  };
+  CLI::App* worker =
+      program.add_subcommand("stitcher-worker", "Runs OpenCV's stitcher for `panorama`.");
+  worker->group("");  // hidden from the help
+  const auto own = std::make_shared<Arguments>();
+  worker->add_option("FOLDER", own->folder)->required();
+  worker->add_option("MODE", own->mode)->required();
+  AddNumber(*worker, "SECONDS", own->cpu_limit, {0.0, 1e6}, "s", "")->required();
+  AddNumber(*worker, "BYTES", own->memory_limit, {0.0, 1e15}, "", "")->required();
+  worker->callback([own] {
+    std::_Exit(RunStitcherWorker(own->folder,
+                                 own->mode == "scans" ? PeerMode::kScans : PeerMode::kPanorama,
+                                 own->cpu_limit, own->memory_limit));
+  });
+}
+
+// Every benchmark in one report.
+void AddAll(CLI::App& program) {
+  struct Arguments {
+    std::string folder;
+    BenchAllOptions options;
+  };
+  CLI::App* job = program.add_subcommand(
+      "all", "Every benchmark, as one page: report.html, report.json and each plot as SVG.");
+  const auto own = std::make_shared<Arguments>();
+  const auto files = JobFiles::Of(*job);
+  files
+      ->OutputFolder(job->add_option("-o,--output", own->folder, "Folder for the report."),
+                     {{"report[.]html", {"a report", FileForm::kTable, kReportHead}},
+                      {"report[.]json", {"a report", FileForm::kJson, "arthroscene.bench.all/"}},
+                      {"(panorama|tissue|haptics|view|micro-[a-z]+)[.]svg", kPlotFile}})
+      ->required();
+  AddOptions(*job, own->options);
+  files->Run([own] {
+    WriteReport(RunEveryBench(own->options, TerminalProgress()), own->folder);
+    fmt::print("{}\n", (std::filesystem::path(own->folder) / "report.html").string());
+  });
+}
+
+}  // namespace
+
+void AddBenches(CLI::App& program) {
+  AddBench<RegistrationBenchOptions>(
+      program, "panorama",
+      "Registration: detector, scale and stages against truth, beside OpenCV's stitcher.",
+      RunRegistrationBench);
+  AddBench<TissueBenchOptions>(
+      program, "tissue",
+      "Deformable tissue: element, mesh, tolerance and law against continuum values.",
+      RunTissueBench);
+  AddBench<HapticsBenchOptions>(
+      program, "haptics",
+      "Touch: time of a servo tick by stage, force against closed forms and beside the paper's "
+      "kernel, stiffness at which a wall becomes unstable.",
+      RunHapticsBench);
+  AddBench<ViewBenchOptions>(
+      program, "view",
+      "Arthroscopic picture: time of a frame by relief search, samples per pixel, size, tissue, "
+      "lamp and disturbance, and its difference from a ray tracer. No display is needed.",
+      RunViewBench);
+  AddBench<MicroBenchOptions>(
+      program, "micro",
+      "Single functions of scope, lens, depth, composition, surfaces and tissue, each with its "
+      "error.",
+      RunMicroBench);
+  AddAll(program);
+  AddWorker(program);
+}
+
+}  // namespace arthro::app
