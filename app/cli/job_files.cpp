@@ -21,7 +21,7 @@ std::vector<fs::path> PathsOf(const CLI::Option& option) {
   std::vector<fs::path> paths;
   for (const std::string& text : option.results()) paths.emplace_back(text);
   if (std::string text = option.get_default_str(); paths.empty() && !text.empty()) {
-    if (text.front() == '"') text = text.substr(1, text.size() - 2);  // as a path is streamed
+    if (text.front() == '"') text = text.substr(1, text.size() - 2);  // a streamed path is quoted
     paths.emplace_back(text);
   }
   std::erase_if(paths, [](const fs::path& path) { return path.empty() || path == "-"; });
@@ -52,9 +52,10 @@ std::string PieceNames(const fs::path& file) {
 std::shared_ptr<JobFiles> JobFiles::Of(CLI::App& job, bool has_overwrite) {
   const std::shared_ptr<JobFiles> files(new JobFiles(job));
   if (has_overwrite)
-    job.add_flag("--overwrite", files->overwrites_,
-                 "Replace files that exist, even those that are no earlier result of this job. Files "
-                 "that the job reads are never replaced.");
+    job.add_flag(
+        "--overwrite", files->overwrites_,
+        "Replace files that exist, even those that are no earlier result of this job. Files "
+        "that the job reads are never replaced.");
   return files;
 }
 
