@@ -14,7 +14,7 @@ enum class FileForm {
   kJson,      // JSON object whose "schema" begins with `mark`
   kVolume,    // VTK's XML format of an unstructured grid
   kPlot,      // SVG
-  kUnique,    // what took a person's time: a film, a log, a scene; no file is known as replaceable
+  kUnique,    // film, log or scene: made by a person, so no existing file is replaceable
 };
 
 struct FileKind {

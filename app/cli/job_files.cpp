@@ -21,7 +21,7 @@ std::vector<fs::path> PathsOf(const CLI::Option& option) {
   std::vector<fs::path> paths;
   for (const std::string& text : option.results()) paths.emplace_back(text);
   if (std::string text = option.get_default_str(); paths.empty() && !text.empty()) {
-    if (text.front() == '"') text = text.substr(1, text.size() - 2);  // as a path is streamed
+    if (text.front() == '"') text = text.substr(1, text.size() - 2);  // a streamed path is quoted
     paths.emplace_back(text);
   }
   std::erase_if(paths, [](const fs::path& path) { return path.empty() || path == "-"; });

@@ -20,7 +20,7 @@ void RequestStop(int) { stop_requested.store(true, std::memory_order_relaxed); }
 Progress TerminalProgress() {
   std::signal(SIGINT, RequestStop);
   std::signal(SIGTERM, RequestStop);
-  if (std::signal(SIGHUP, RequestStop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // by nohup
+  if (std::signal(SIGHUP, RequestStop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // set by nohup
   Progress progress;
   progress.stop = &stop_requested;
   if (::isatty(STDERR_FILENO)) {

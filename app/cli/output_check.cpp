@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of files that are there and of names that are still free, links followed.
+// Compares existing files and names that are still free; follows links.
 bool IsSameFile(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   if (fs::equivalent(a, b, ignored)) return true;

@@ -1,4 +1,4 @@
-// What a job writes, looked at before its long part, so that a slip of the pen costs nothing.
+// Checks of the outputs of a job before its long part, so that a wrong name costs no time.
 #pragma once
 
 #include <filesystem>

@@ -23,9 +23,9 @@ Document OpenDocument(const std::filesystem::path& file);
 // A new document over a PNG, JPEG or TIFF panorama, not saved yet.
 Document DocumentFromPanorama(const std::filesystem::path& picture);
 
-// What is assumed of a picture that comes without a report: gnomonic, its middle straight ahead of
-// the portal, and its longer side 105 degrees wide, the view of the scopes that clips are mostly
-// made with. The author corrects it; nothing that is drawn or felt hides a wrong guess.
+// Projection assumed for a picture without a report: gnomonic, its middle straight ahead of the
+// portal, and its longer side 105 degrees wide, which is the field of view of common scopes. The
+// author corrects it.
 Projection GuessProjection(int width, int height);
 
 struct SaveOptions {

@@ -1,6 +1,6 @@
-// Undo and redo of whole documents. Every edit is a named step; a step holds the complete document,
-// so undo covers everything by construction. Big parts are shared between steps and counted once;
-// the oldest steps are dropped when all together pass a memory limit. Not thread-safe.
+// Undo and redo of whole documents. Every edit is a named step that holds the complete document, so
+// undo covers every field. Heavy parts are shared between steps and counted once; the oldest steps
+// are dropped when all steps together exceed a memory limit. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ class History {
 
   bool CanUndo() const { return position_ > 0; }
   bool CanRedo() const { return position_ + 1 < steps_.size(); }
-  // What Undo and Redo would take back or do again; "" where there is nothing.
+  // Name of the step that Undo or Redo would apply to; "" if there is none.
   std::string UndoName() const { return CanUndo() ? steps_[position_].name : ""; }
   std::string RedoName() const { return CanRedo() ? steps_[position_ + 1].name : ""; }
   void Undo();  // nothing happens where there is nothing to undo
@@ -62,7 +62,7 @@ class History {
   struct Step {
     Document document;
     std::string name;
-    long long id = 0;  // of this state of the document
+    long long id = 0;  // identifies this state of the document
   };
 
   void DropOldest();

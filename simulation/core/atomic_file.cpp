@@ -31,7 +31,7 @@ fs::path NameBeside(const fs::path& place, const fs::path& target) {
 
 // The file that a chain of symbolic links names, which need not exist.
 fs::path WithoutLinks(fs::path path, const fs::path& target) {
-  constexpr int kMostLinks = 40;  // as the kernel allows
+  constexpr int kMostLinks = 40;  // limit of the kernel
   std::error_code fault;
   for (int i = 0; fs::is_symlink(path, fault); ++i) {
     const fs::path next = fs::read_symlink(path, fault);

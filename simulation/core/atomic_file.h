@@ -48,7 +48,7 @@ class PartialFile {
   bool is_in_place_ = false;
 };
 
-// What an errno of a failed write means, and what to do.
+// Meaning of the errno of a failed write, and the remedy.
 std::string WhyNotWritten(int error);
 
 // The whole file. Throws Error(kFile).

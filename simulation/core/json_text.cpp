@@ -45,7 +45,7 @@ struct Checker final : json::json_sax_t {
   bool end_object() override { return Close(); }
   bool end_array() override { return Close(); }
   bool parse_error(std::size_t at, const std::string& last, const json::exception& fault) override {
-    constexpr int kOutOfRange = 406;  // of the parser's own numbering
+    constexpr int kOutOfRange = 406;  // exception id of the parser
     is_number_too_large = fault.id == kOutOfRange;
     is_broken = true;
     byte = at;

@@ -44,7 +44,8 @@ glm::dvec2 PixelOrNan(const Projection& projection, const glm::dvec3& direction)
 std::shared_ptr<const DepthField> MakeField(const LoadedScene& loaded,
                                             const DepthFieldOptions& options) {
   const Backdrop& backdrop = loaded.scene.backdrop;
-  if (loaded.depth) return std::make_shared<const DepthField>(backdrop, *loaded.depth, options);
+  if (const DepthMap& depth = OrEmpty(loaded.depth); !depth.empty())
+    return std::make_shared<const DepthField>(backdrop, depth, options);
   const ColourImage& panorama = OrEmpty(loaded.panorama);
   return std::make_shared<const DepthField>(backdrop, panorama.width, panorama.height, options);
 }

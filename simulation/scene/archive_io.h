@@ -1,6 +1,6 @@
-// A scene as one file to carry about: a zip archive named .arthro with scene.json at its top
-// [method.md, Scene]. Archives come from strangers, so nothing in one can reach outside the folder
-// that it is unpacked into, fill the disk, or leave anything behind that is no plain file.
+// A scene as one file: a zip archive named .arthro with scene.json at its top [method.md, Scene].
+// Archives may be hostile, so unpacking never writes outside the folder, never fills the disk and
+// creates plain files only.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct ArchiveLimits {
   std::int64_t most_files = 10000;
 };
 
-bool IsArchive(const std::filesystem::path& file);  // by its extension
+bool IsArchive(const std::filesystem::path& file);  // tests the extension
 
 // scene.json and the files that it names, and nothing else that lies in the folder. Atomic; the
 // same scene gives the same bytes. Throws Error(kBadScene) for a scene that cannot be read or is

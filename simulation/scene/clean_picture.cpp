@@ -30,7 +30,7 @@ std::optional<std::string> CleanPng(std::string_view bytes) {
     const std::string_view type = bytes.substr(at + 4, 4);
     const bool is_kept = std::find(kKept.begin(), kKept.end(), type) != kKept.end();
     const bool is_critical = (Byte(bytes, at + 4) & 0x20) == 0;
-    if (is_critical && !is_kept) return std::nullopt;  // of a later version of the format
+    if (is_critical && !is_kept) return std::nullopt;  // from a later version of the format
     if (is_kept) clean += bytes.substr(at, length + kFrame);
     if (type == "IEND"sv) return clean;
     at += length + kFrame;

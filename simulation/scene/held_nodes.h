@@ -1,5 +1,5 @@
-// Which nodes of a tissue's mesh are held: those inside any of its balls (scene.h, Tissue::fixed;
-// or of those that are probed). Mesh's own frame, m.
+// Held nodes of a tissue's mesh: those inside any of its balls (scene.h, Tissue::fixed or
+// Tissue::probed). Mesh's own frame, m.
 #pragma once
 
 #include <cstdint>

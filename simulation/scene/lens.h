@@ -27,13 +27,13 @@ struct LensCircle {
 
 struct Lens {
   LensModel model = LensModel::kEquisolid;
-  int width = 0, height = 0;  // of the raw pictures that it describes, px
+  int width = 0, height = 0;  // px; size of the raw pictures
   double focal_px = 0, cx = 0, cy = 0;
   double aspect = 1;          // a pixel's height over its width, as r is measured along x
   std::array<double, 4> k{};  // meaning by model
   double field_of_view = 0;   // full, rad: of the circle, or of the picture's diagonal
   LensCircle circle;          // r = 0: there is no round window
-  double rms_px = 0;          // of the fit; 0 when it was not fitted
+  double rms_px = 0;          // residual of the fit; 0 when it was not fitted
   friend bool operator==(const Lens&, const Lens&) = default;
 };
 

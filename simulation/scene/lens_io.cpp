@@ -67,8 +67,8 @@ void ReadSize(Reader& reader, const char* name, int& field) {
   field = static_cast<int>(value);
 }
 
-// As many numbers as the model has; fewer are filled up with zeros for Kannala-Brandt only, whose
-// short forms are in use.
+// Reads as many numbers as the model has. Missing ones are zeros for Kannala-Brandt only, because
+// its short forms are in use.
 void ReadParameters(Reader& reader, Lens& lens) {
   const int wanted = ParametersOf(lens.model);
   std::vector<double> values;

@@ -43,7 +43,7 @@ const Part& OrEmpty(const std::shared_ptr<const Part>& part) {
 struct AssetFile {
   std::filesystem::path file;  // absolute
   std::weak_ptr<const void> part;
-  std::string fingerprint;  // of the file (core/fingerprint.h); empty: unknown
+  std::string fingerprint;  // fingerprint of the file (core/fingerprint.h); empty: unknown
 };
 
 struct LoadedScene {
@@ -51,7 +51,7 @@ struct LoadedScene {
   std::shared_ptr<const ColourImage> panorama;  // null: none yet
   std::shared_ptr<const DepthMap> depth;        // same size as the panorama; null: a bare sphere
   std::vector<SharedSurface> surfaces;          // one per tissue, in its own frame; null: none
-  std::optional<Lens> lens;                     // of the scope; none: equisolid
+  std::optional<Lens> lens;                     // lens of the scope; none: equisolid
   // Folder or .arthro archive in which the scene is saved; empty until it is.
   std::filesystem::path folder;
   // Files of the assets by the name that the scene uses. Code that adds tetrahedra or a lens enters

@@ -13,7 +13,7 @@
 
 namespace arthro {
 
-// What reading a surface changed.
+// Changes that were made on reading a surface.
 struct SurfaceReadReport {
   int merged_vertices = 0;        // lay exactly on another one: STL soups, texture seams
   int degenerate_triangles = 0;   // dropped: two corners on one point
@@ -30,8 +30,8 @@ SurfaceMesh ReadSurface(const std::filesystem::path& file, double metres_per_uni
 // atomically.
 void WriteSurface(const std::filesystem::path& file, const SurfaceMesh& surface);
 
-// What reading a volume changed, a sentence each: nodes of no element, nodes and elements that were
-// there twice, elements listed inside out, slivers that a solver will feel.
+// Changes that were made on reading a volume, one sentence each: nodes of no element, duplicate
+// nodes and elements, inverted elements, and slivers that make solving harder.
 struct TetReadReport {
   std::vector<std::string> messages;
 };

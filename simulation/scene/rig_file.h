@@ -1,6 +1,6 @@
-// A rig: which device holds the scope and which the instrument, and how each is mounted on its
-// incision. It belongs to a place, not to a scene, so that one scene is practised on many rigs.
-// Read from rig files, arthroscene.rig/1. A role follows a serial number and never a port. SI.
+// Rig: the devices that hold scope and instrument, and their mounts on the incisions. It belongs to
+// a place, not to a scene, so that one scene is practised on many rigs. Read from rig files,
+// arthroscene.rig/1. A role follows a serial number and never a port. SI.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace arthro {
 
-// What a button or a pedal does.
+// Action of a button or a pedal.
 enum class RigAction { kDeadMan, kCloseJaws, kNextInstrument };
 inline constexpr int kRigActions = 3;
 const char* Word(RigAction action) noexcept;
@@ -24,11 +24,11 @@ inline constexpr RigButtons kNoButtons{-1, -1, -1};
 
 struct RigDevice {
   std::string family;  // a word of device families
-  // Empty: the only one of its family. Of openhaptics the name that its maker's setup tool gave it,
-  // and the tool's default where it is empty.
+  // Empty: the only device of its family. For openhaptics: the name in its maker's setup tool;
+  // empty: the tool's default device.
   std::string serial;
-  std::string model;  // of a WoodenHaptics, whose numbers on the bus do not say it
-  int hand = 0;       // of a device with two
+  std::string model;  // arm of a WoodenHaptics, which USB does not report
+  int hand = 0;       // 0 or 1 of a device with two hands
 };
 
 struct RigRole {
@@ -50,11 +50,11 @@ struct RigFile {
   std::optional<RigPedals> pedals;
 };
 
-// The words that `family` may be, and those of them that know where a hand is.
+// Words that `family` may be, and whether a family measures the position of a hand.
 std::span<const char* const> RigFamilies() noexcept;
 bool IsHandFamily(const std::string& family) noexcept;
 
-// Where the hand rests for the tip to be `depth` beyond the incision, straight in; device frame.
+// Position of the hand when the tip is `depth` beyond the incision, straight in; device frame.
 glm::dvec3 RestingHip(const DeviceRig& mount, double depth);
 
 }  // namespace arthro

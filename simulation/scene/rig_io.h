@@ -14,7 +14,7 @@ namespace arthro {
 RigFile ParseRig(const std::string& text, const std::filesystem::path& file = {});
 RigFile ReadRig(const std::filesystem::path& file);
 
-// Where the incisions lie in the frames of a rig's devices, as a calibration found them; m.
+// Calibrated incisions in the frames of a rig's devices; m.
 struct RigPivots {
   std::optional<glm::dvec3> scope, instrument;  // none: as it is
 };

@@ -114,7 +114,7 @@ int OpenEdges(const SurfaceMesh& surface) {
       std::count_if(balance.begin(), balance.end(), [](const auto& edge) { return edge.second; }));
 }
 
-// What it is for a tool, and what is missing for that.
+// Reports how a tool meets the tissue, and what is missing for that.
 void LookAtKind(const Tissue& tissue, const std::string& what, const IsThinLayer& is_layer,
                 SceneFindings& findings) {
   if (tissue.is_implicit && !tissue.mesh.empty())

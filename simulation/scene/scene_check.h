@@ -1,5 +1,5 @@
-// What an author should know about a scene before a trainee gets it: what is in it, what is wrong,
-// what is doubtful and what is missing. Each line is a sentence for a person.
+// Check of a scene before a trainee gets it: contents, errors, warnings and missing parts. Each
+// line is a sentence for a person.
 #pragma once
 
 #include <filesystem>

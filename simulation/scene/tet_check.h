@@ -1,5 +1,5 @@
-// What makes a tetrahedral mesh from outside fit to be solved: repairs what has one right answer,
-// says so, and refuses the rest.
+// Checks of a tetrahedral mesh before it is solved. Repairs faults that have one right answer,
+// reports the repairs, and refuses all other faults.
 #pragma once
 
 #include <filesystem>

@@ -103,7 +103,7 @@ void RunJob(Arguments arguments) {
     WriteAtomically(arguments.report,
                     authoring::ReportJson(report, source, arguments.options).dump(2) + "\n");
 
-  // What was said goes beside the data when that goes to standard output.
+  // Messages go to standard error when the data goes to standard output.
   const bool is_piped = arguments.output == "-" || arguments.report == "-";
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (const int repairs = report.repairs.Total() + report.reading.degenerate_triangles)

@@ -14,7 +14,7 @@ namespace arthro::app {
 struct ListedDevice {
   std::string family, name;  // a word of rig files; for a person
   std::string number;        // on the bus, as lsusb writes it; empty: it has none
-  std::string serial;        // what a rig file names it by
+  std::string serial;        // name of the device in rig files
   std::string path;          // or what else tells it apart
   bool is_bluetooth = false, can_be_used = false;
   int hands = 1;
@@ -32,7 +32,7 @@ std::string TextOf(const ListedDevice& own, const std::optional<simulation::Devi
 nlohmann::ordered_json JsonOf(const ListedDevice& own,
                               const std::optional<simulation::DeviceTrial>& trial);
 
-// What is looked for among HID devices, by family; and what to do on a machine that has none.
+// HID devices that are searched for, by family, and advice for a machine that has none.
 nlohmann::ordered_json LookedForJson();
 std::string Advice(int nodes, const std::string& openhaptics);
 

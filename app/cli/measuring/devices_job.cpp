@@ -59,8 +59,8 @@ void Watch(HidBus& bus, const DevicesArguments& arguments) {
   }
 }
 
-// Of OpenHaptics, which cannot be asked what there is: those that were named, or the default, which
-// need not be there.
+// OpenHaptics devices. The library cannot list them, so these are the named ones or the default
+// one, which need not exist.
 struct Touches {
   std::vector<std::string> names;
   std::unique_ptr<OpenHapticsDevices> devices;  // null: built without

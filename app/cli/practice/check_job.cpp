@@ -44,7 +44,7 @@ void Check(const std::string& scene) {
   if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
   if (findings.errors.empty()) LookAtLens(loaded, findings);
   if (const std::size_t count = findings.errors.size()) {
-    // What was found of half a scene would only mislead.
+    // Findings of a scene that was read in part would mislead.
     Print(stderr, "error: ", findings.errors);
     throw Error(Code::kBadScene,
                 fmt::format("this scene has {} error{}", count, count == 1 ? "" : "s"), scene);

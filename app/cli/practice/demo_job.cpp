@@ -41,7 +41,7 @@ struct DemoJob {
   int size = 512;
 };
 
-// What both hands and the tissues were doing when a picture is taken.
+// State of both hands and the tissues at the time of a picture.
 struct Moment {
   double t = 0;  // s of the trace
   simulation::Snapshot snapshot;

@@ -41,7 +41,7 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
   job.add_flag("--timing", options.timing, "Say when the first picture stood")->group(kHidden);
 }
 
-// Which devices hold the hands.
+// Devices of both hands.
 struct HandFlags {
   std::string rig, hands, log;
   bool is_zero_force = false;

@@ -26,7 +26,7 @@ class ReplayPictures {
     double rate = 30.0;  // a second
   };
 
-  // Of a trace from `begin` to `end`, s.
+  // Trace from `begin` to `end`, s.
   ReplayPictures(const LoadedScene& loaded, double begin, double end,
                  const simulation::CameraHead& head)
       : scene_(loaded.scene),

@@ -99,8 +99,7 @@ void AddViewJob(CLI::App& program) {
             "Roll of the rod, from up towards right.");
   AddNumber(*job, "--insertion-mm", arguments->insertion_mm, {-1000.0, 1000.0}, "mm",
             "Depth of the tip beyond the portal; less than the backdrop's radius.");
-  AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg,
-            ShownRange<ScopeSpec>("view_angle"), "degrees",
+  AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg, {0.0, 90.0}, "degrees",
             "Angle between rod and view. Default: the scene's own.");
   AddNumber(*job, "--head-roll-deg", arguments->head_roll_deg, kAnyAngle, "degrees",
             "Roll of the camera head. Default: the roll of the rod.");

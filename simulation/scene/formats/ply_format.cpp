@@ -43,7 +43,7 @@ std::optional<Scalar> ScalarFromWord(std::string_view word) {
 struct Property {
   std::string name;
   Scalar type = Scalar::kFloat32;
-  std::optional<Scalar> count_type;  // of a list
+  std::optional<Scalar> count_type;  // set for a list
 };
 
 struct Element {

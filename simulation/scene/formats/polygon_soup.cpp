@@ -62,7 +62,7 @@ void Triangulate(const std::vector<glm::dvec3>& points, std::vector<int> polygon
         return other != before && other != tip && other != after &&
                IsInside(points[other], a, b, c, normal);
       });
-      // Of the ears the one with the shortest cut: fewer slivers.
+      // Takes the ear with the shortest cut, which makes fewer slivers.
       const double shortness = 1.0 / (glm::length(c - a) + 1e-300);
       if (!holds_another && shortness > best) {
         best = shortness;

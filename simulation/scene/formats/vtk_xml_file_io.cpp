@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little);
 
 // More than any tissue has; a file that says more is damaged, or not a tissue.
 constexpr std::size_t kMostItems = 10'000'000;                 // points, and cells
-constexpr std::size_t kMostCorners = 4 * kMostItems;           // of all cells of a piece
+constexpr std::size_t kMostCorners = 4 * kMostItems;           // corners of all cells of a piece
 constexpr std::size_t kMostComponents = 1024;                  // values a tuple
 constexpr std::size_t kMostUnpacked = std::size_t{512} << 20;  // bytes, all arrays of a file
 constexpr std::size_t kMostPieces = 10'000, kMostArrays = 100'000;

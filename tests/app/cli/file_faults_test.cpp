@@ -25,7 +25,7 @@ using test::RunMeasured;
 using test::TempFolder;
 using Words = std::vector<std::string>;
 
-constexpr double kMostSeconds = 2;  // of the processor, so that other processes do not count
+constexpr double kMostSeconds = 2;  // processor time, so that other processes do not count
 constexpr double kMostMegabytes = 1024;
 
 // Words of libraries, which say nothing to a surgeon.

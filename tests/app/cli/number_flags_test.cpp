@@ -120,7 +120,7 @@ TEST(NumberFlags, RefuseWhatIsNoFiniteNumberInEveryJob) {
   const std::vector<Flag> flags = NumericFlags();
   EXPECT_GT(flags.size(), 100u);
   for (const Flag& flag : flags) {
-    if (flag.is_positional) continue;  // of hidden workers, which the program itself starts
+    if (flag.is_positional) continue;  // belongs to hidden workers, which the program itself starts
     Program program;
     for (const std::string value : kNoNumbers) {
       std::vector<std::string> words = flag.job;

@@ -135,7 +135,7 @@ TEST(SaveAgain, WhatASecondSceneInTheFolderNamesStays) {
   const Document saved = SaveDocument(NewScene(folder.path()), scene);
   fs::copy_file(scene / "scene.json", scene / "variant.json");
   SaveDocument(WithDepth(saved, 0.004f), scene);
-  EXPECT_EQ(LoadScene(scene / "variant.json").depth.at(0, 0), 0.001f);
+  EXPECT_EQ(LoadScene(scene / "variant.json").depth->at(0, 0), 0.001f);
 }
 
 TEST(SaveAgain, UndoAfterASaveSavesTheMapOfThatStep) {
@@ -150,7 +150,7 @@ TEST(SaveAgain, UndoAfterASaveSavesTheMapOfThatStep) {
   for (const float relief : {0.003f, 0.002f, 0.001f}) {
     history.Undo();
     history.MarkSaved(SaveDocument(history.current(), scene, {history.FilesOnlyOnDisk()}));
-    EXPECT_EQ(LoadScene(scene).depth.at(0, 0), relief);
+    EXPECT_EQ(LoadScene(scene).depth->at(0, 0), relief);
     EXPECT_EQ(MapsIn(scene), 1u);
   }
 }
@@ -186,12 +186,12 @@ TEST(SaveAgain, ASceneThatOthersHaveChangedKeepsAllTheirFiles) {
   test::TempFolder folder;
   const fs::path scene = folder / "scene";
   const Document ours = SaveDocument(NewScene(folder.path()), scene);
-  SaveDocument(WithDepth(OpenDocument(scene), 0.002f), scene);  // by another window
+  SaveDocument(WithDepth(OpenDocument(scene), 0.002f), scene);  // saved by another window
   SaveOptions options;
   options.keeps_all_files = true;
   SaveDocument(WithDepth(ours, 0.003f), scene, options);
   EXPECT_EQ(ReadDepthMap(scene / "depth-2.tiff").at(0, 0), 0.002f);
-  EXPECT_EQ(LoadScene(scene).depth.at(0, 0), 0.003f);
+  EXPECT_EQ(LoadScene(scene).depth->at(0, 0), 0.003f);
 }
 
 // The saving process is killed at a random moment, so between any two of its steps.
@@ -216,7 +216,7 @@ TEST(SaveAgain, AKilledSaveLeavesASceneThatOpensAndNoFileForGood) {
     int status = 0;
     waitpid(child, &status, 0);
     killed += WIFSIGNALED(status);
-    ASSERT_FALSE(LoadScene(scene).depth.empty()) << "kill " << i << ", seed " << kSeed;
+    ASSERT_TRUE(LoadScene(scene).depth) << "kill " << i << ", seed " << kSeed;
     ASSERT_LE(MapsIn(scene), 2u) << "kill " << i << ", seed " << kSeed;
   }
   EXPECT_EQ(killed, 40);

@@ -58,10 +58,10 @@ TEST(Leftovers, NothingElseIsRemoved) {
   const pid_t dead = DeadProcess();
   OldFile(elsewhere / "kept.txt");
   const fs::path kept[] = {
-      OldFile(folder / fmt::format(".a.{}.partial.json", ::getpid())),  // of a live process
-      OldFile(folder / ".a.1.partial.json"),                            // of the first process
-      OldFile(folder / ".a.0.partial.json"),                            // of none
-      OldFile(folder / ".a.99999999999999999999.partial.json"),         // of no number
+      OldFile(folder / fmt::format(".a.{}.partial.json", ::getpid())),  // a live process
+      OldFile(folder / ".a.1.partial.json"),                            // the first process
+      OldFile(folder / ".a.0.partial.json"),                            // no process
+      OldFile(folder / ".a.99999999999999999999.partial.json"),         // no number
       OldFile(folder / ".a.12x.partial.json"),
       OldFile(folder / fmt::format("a.{}.partial.json", dead)),  // not hidden
       OldFile(folder / fmt::format(".{}.partial.json", dead)),   // no stem

@@ -320,7 +320,7 @@ std::string TetFaultOf(const std::string& bytes) {
   return SentenceOf([&] { ReadTetMesh(folder / "a.vtu"); });
 }
 
-// What reading says it repaired, in one line.
+// Repairs that reading reports, in one line.
 std::string RepairsOf(const std::string& bytes, TetMesh* mesh) {
   test::TempFolder folder;
   WriteAtomically(folder / "a.vtu", bytes);

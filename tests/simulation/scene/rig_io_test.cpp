@@ -42,7 +42,7 @@ json Changed(const std::function<void(json&)>& change) {
   return rig;
 }
 
-// What ParseRig says; empty when it takes the text.
+// Message of ParseRig; empty when it accepts the text.
 std::string Refusal(const std::string& text) {
   try {
     ParseRig(text, "rig.json");
@@ -188,8 +188,9 @@ TEST(RigIo, ShippedRigsReadAndPointIntoTheJoint) {
       const DeviceRig& mount = role->mount;
       const bool is_mouse = role->device.family == "space_mouse";
       const bool is_touch = role->device.family == "openhaptics";
-      // Who sits before it pushes away from himself to go in, and up is up. An arm's x comes
-      // towards him and its z is up; of a knob it is y, and z is down; of a Touch z, and y is up.
+      // A person in front of the device pushes away to go in, and up is up. An arm's x points
+      // towards the person and its z is up; a knob's y does, and z is down; a Touch's z, and y is
+      // up.
       const glm::dvec3 away = is_touch   ? glm::dvec3(0, 0, -1)
                               : is_mouse ? glm::dvec3(0, -1, 0)
                                          : glm::dvec3(-1, 0, 0);

@@ -58,7 +58,7 @@ TEST(FootageToScene, ThePhantomsClipBecomesAScene) {
   for (std::size_t i = 0; i < found.size(); ++i)
     worst = std::max(worst, cv::norm(Map(between, found[i].x, found[i].y) - exact[i]));
   RecordProperty("worst_px", std::to_string(worst));
-  EXPECT_LT(worst, 1.5);  // as asked of easy clips at twice this size
+  EXPECT_LT(worst, 1.5);  // px; the limit of easy clips at twice this size
 
   // A lens file 4 % off: said, and put right where that is asked for (LENS-01).
   auto lens = nlohmann::json::parse(ReadWholeFile(knee + "/lens.json"));

@@ -126,7 +126,7 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
   EXPECT_NE(result.out.find(bench.at("drawn_by").get<std::string>()), std::string::npos);
 
   std::map<std::string, int> parts;
-  std::map<std::pair<int, int>, double> sphere;  // by size and panorama
+  std::map<std::pair<int, int>, double> sphere;  // keyed by size and panorama
   std::set<int> triangles;
   for (const auto& row : bench.at("rows")) {
     const std::string part = row.at("part");

@@ -181,7 +181,7 @@ TEST(CentresJob, ThePictureShowsTheCentresOfTheTable) {
     std::set<std::array<std::uint8_t, 3>> different;
     for (const auto& [insertion, colour] : colours) different.insert(colour);
     EXPECT_EQ(different.size(), 3u);
-    // Where the rod points, and what lies under it all.
+    // The cross where the rod points, and the ground below.
     EXPECT_EQ(colour_at(shown, 2048, 1024), (std::array<std::uint8_t, 3>{0, 0, 0}));
     const std::uint8_t line = on_grid ? 160 : 90, ground = on_grid ? 255 : 90;
     EXPECT_EQ(colour_at(shown, 128, 1990)[0], line);

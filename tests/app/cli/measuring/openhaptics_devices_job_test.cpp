@@ -36,7 +36,7 @@ class ListedTouches : public testing::Test {
     stop_ = true;
     scheduler_.join();
   }
-  // What it printed; `refusal`: empty where it did all.
+  // Returns its output; `refusal` is empty when it did all.
   std::string Devices(std::vector<std::string> flags) {
     CLI::App program;
     AddDevicesJob(program);
