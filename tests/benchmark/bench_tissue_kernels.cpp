@@ -10,8 +10,8 @@
 
 #include "app/bench/tissue/tissue_meshes.h"
 #include "simulation/core/random.h"
+#include "simulation/tissue/fem/element_kernel.h"
 #include "simulation/tissue/fem/fem_model.h"
-#include "simulation/tissue/fem/kernel/element_kernel.h"
 #include "tests/benchmark/bench_report.h"
 
 namespace arthro::simulation {
