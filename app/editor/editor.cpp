@@ -36,7 +36,7 @@
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
-#include "app/steps/tissue/tissue_material.h"
+#include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"

@@ -1,6 +1,61 @@
 #include "app/editor/footage_textures.h"
 
+#include <utility>
+
+#define GLFW_INCLUDE_NONE
+#include <GL/gl.h>
+#include <GLFW/glfw3.h>
+
 namespace arthro::app {
+
+namespace {
+
+constexpr GLint kClampToEdge = 0x812F;         // GL_CLAMP_TO_EDGE
+constexpr GLenum kPixelUnpackBuffer = 0x88EC;  // GL_PIXEL_UNPACK_BUFFER
+using GenerateMipmap = void (*)(GLenum);
+using BindBuffer = void (*)(GLenum, GLuint);
+
+}  // namespace
+
+PictureTexture::PictureTexture(const ColourImage& picture) {
+  if (picture.empty()) return;
+  const auto generate_mipmap =
+      reinterpret_cast<GenerateMipmap>(glfwGetProcAddress("glGenerateMipmap"));
+  const auto bind_buffer = reinterpret_cast<BindBuffer>(glfwGetProcAddress("glBindBuffer"));
+  // VTK and ImGui remember what is bound: all is left as it was found.
+  GLint bound = 0, alignment = 4, row_length = 0;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+  glGetIntegerv(GL_UNPACK_ALIGNMENT, &alignment);
+  glGetIntegerv(GL_UNPACK_ROW_LENGTH, &row_length);
+  bind_buffer(kPixelUnpackBuffer, 0);
+  glGenTextures(1, &id_);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, kClampToEdge);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, kClampToEdge);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture.width, picture.height, 0, GL_RGB,
+               GL_UNSIGNED_BYTE, picture.rgb.data());
+  generate_mipmap(GL_TEXTURE_2D);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, row_length);
+  glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+}
+
+PictureTexture::~PictureTexture() {
+  if (id_ != 0) glDeleteTextures(1, &id_);
+}
+
+PictureTexture::PictureTexture(PictureTexture&& other) noexcept
+    : id_(std::exchange(other.id_, 0)) {}
+
+PictureTexture& PictureTexture::operator=(PictureTexture&& other) noexcept {
+  std::swap(id_, other.id_);
+  return *this;
+}
+
 namespace {
 
 constexpr std::size_t kMostKept = 160;  // textures; a few screens full of small pictures

@@ -5,11 +5,28 @@
 
 #include <map>
 
-#include "app/editor/picture_texture.h"
 #include "app/steps/panorama/footage_board.h"
+#include "simulation/scene/image.h"
 
 namespace arthro::app {
 
+// A picture as an OpenGL texture for Dear ImGui: first row at v = 0, smooth when it is shown
+// smaller. Is destroyed in the window's context.
+class PictureTexture {
+ public:
+  PictureTexture() = default;
+  explicit PictureTexture(const ColourImage& picture);
+  ~PictureTexture();
+  PictureTexture(PictureTexture&& other) noexcept;
+  PictureTexture& operator=(PictureTexture&& other) noexcept;
+
+  unsigned id() const { return id_; }  // 0: none
+
+ private:
+  unsigned id_ = 0;
+};
+
+// Textures of the pictures in sight, and of some beside them.
 class FootageTextures {
  public:
   void BeginFrame() { ++now_; }

@@ -9,7 +9,7 @@
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
-#include "app/view/backdrop/footage_light.h"
+#include "app/view/exposure/footage_light.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 

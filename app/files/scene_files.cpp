@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include <nlohmann/json.hpp>
-
 #include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
@@ -15,8 +13,6 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/core/input_file.h"
-#include "simulation/core/json_text.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"

@@ -15,13 +15,13 @@
 #include <vtk_glew.h>
 
 #include "app/view/backdrop/backdrop_prop.h"
-#include "app/view/context_render_window.h"
 #include "app/view/disturbances/lens_pass.h"
+#include "app/view/drawing/context_render_window.h"
+#include "app/view/drawing/lens_model.h"
+#include "app/view/drawing/lens_shader.h"
+#include "app/view/drawing/srgb.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
-#include "app/view/lens_model.h"
-#include "app/view/lens_shader.h"
-#include "app/view/srgb.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "app/view/backdrop/footage_light.h"
+#include "app/view/exposure/footage_light.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/cut_skin.h"

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "authoring/footage/frame_look.h"
+
 namespace arthro::authoring {
 namespace {
 

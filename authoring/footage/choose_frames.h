@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "authoring/footage/frame_look.h"
 #include "simulation/core/options.h"
 
 namespace arthro::authoring {
+
+struct FrameLook;
 
 struct ChooseOptions {
   int every = 1;

@@ -55,7 +55,7 @@ std::vector<LensPreset> ReadLensPresets(const std::filesystem::path& folder) {
   return presets;
 }
 
-Lens LensFromPreset(const LensPreset& preset, cv::Size picture, const LensCircle& circle) {
+Lens LensFromPreset(const LensPreset& preset, int width, int height, const LensCircle& circle) {
   if (!(circle.r > 0))
     throw Error(Code::kBadArgument,
                 fmt::format("the lens preset {} needs a round window in the pictures, and there is "
@@ -63,8 +63,8 @@ Lens LensFromPreset(const LensPreset& preset, cv::Size picture, const LensCircle
                             preset.name));
   Lens lens;
   lens.model = preset.model;
-  lens.width = picture.width;
-  lens.height = picture.height;
+  lens.width = width;
+  lens.height = height;
   lens.cx = circle.cx;
   lens.cy = circle.cy;
   lens.aspect = preset.aspect;

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "simulation/scene/lens.h"
 
 namespace arthro::authoring {
@@ -28,6 +26,6 @@ std::vector<LensPreset> ReadLensPresets(const std::filesystem::path& folder);
 
 // Lens of the preset for pictures of this size. Throws Error(kBadArgument) without a round window,
 // which alone shows where the field of view ends.
-Lens LensFromPreset(const LensPreset& preset, cv::Size picture, const LensCircle& circle);
+Lens LensFromPreset(const LensPreset& preset, int width, int height, const LensCircle& circle);
 
 }  // namespace arthro::authoring

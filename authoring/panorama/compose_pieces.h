@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "authoring/panorama/compose/compose.h"
-#include "authoring/panorama/placed_frame.h"
+#include "authoring/panorama/frames/placed_frame.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {

@@ -12,10 +12,10 @@
 
 #include "authoring/footage/footage.h"
 #include "authoring/panorama/footage_lens.h"
+#include "authoring/panorama/frames/working_frame.h"
 #include "authoring/panorama/panorama_options.h"
 #include "authoring/panorama/panorama_report.h"
 #include "authoring/panorama/stage_clock.h"
-#include "authoring/panorama/working_frame.h"
 
 namespace arthro::authoring {
 

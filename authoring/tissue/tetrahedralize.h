@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "authoring/tissue/surface_check.h"
 #include "authoring/tissue/surface_repair.h"

@@ -1,6 +1,6 @@
 #include "app/cli/practice/shipped_presets.h"
 
-#include "app/resource_folder.h"
+#include "app/platform/resource_folder.h"
 
 namespace arthro::app {
 

@@ -9,7 +9,7 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/steps/practice/practice_step.h"
-#include "app/steps/tissue/tissue_work.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 namespace {

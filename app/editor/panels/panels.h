@@ -1,5 +1,5 @@
-// The pages of the window: free functions over the editor's state, which they change only through
-// commands. They compute nothing.
+// Pages of the window: free functions over the editor's state, which they change only through
+// commands and edits. They compute nothing.
 #pragma once
 
 #include <string>

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/steps/panorama/footage_board.h"
+#include "authoring/panorama/panorama_report.h"
 
 namespace arthro::app {
 

@@ -6,20 +6,24 @@
 
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "app/state/owned.h"
 #include "app/steps/panorama/lens_choice.h"
 #include "app/steps/panorama/picture_zoom.h"
-#include "authoring/panorama/make_panorama.h"
 #include "simulation/scene/image.h"
-#include "simulation/scene/projection.h"
+
+namespace arthro::authoring {
+struct PanoramaOptions;
+}
 
 namespace arthro::app {
 
 class FootageMail;
+struct LentSession;   // panorama_run.h
+struct MadePanorama;  // the same
 
 using SharedPicture = std::shared_ptr<const ColourImage>;
 
@@ -42,22 +46,6 @@ struct LargeFrame {
   std::string problem;  // why one is missing
 };
 
-// A finished run.
-struct MadePanorama {
-  SharedPicture picture;  // black where nothing was imaged
-  SharedPicture shown;    // the same, small enough for the board
-  Projection projection;  // projection of `picture`
-  authoring::PanoramaReport report;
-  std::set<int> excluded;  // when it was made
-};
-
-// The stages' products, which the next run goes on from. Lent to one thread at a time: the run's,
-// or the one that fetches a frame's picture.
-struct LentSession {
-  std::timed_mutex mutex;
-  authoring::PanoramaSession session;
-};
-
 struct FootageBoard {
   // The clip.
   std::filesystem::path file;
@@ -69,7 +57,7 @@ struct FootageBoard {
   // Settings of the next run.
   std::vector<LensChoice> lenses;  // the first one is "none"
   int lens = 0;
-  authoring::PanoramaOptions options;
+  Owned<authoring::PanoramaOptions> options;  // never empty
   std::set<int> excluded;
   std::string next_stage;  // first stage of the next run; empty when it would change nothing
 
@@ -90,9 +78,6 @@ struct FootageBoard {
 
   int frames() const { return static_cast<int>(thumbs.size()); }
 };
-
-// The note of a report's row.
-FrameNote NoteOf(const authoring::FrameReport& report, bool is_excluded);
 
 // Reading a clip or making its panorama, while the job goes on.
 struct FootageJob {

@@ -8,6 +8,7 @@
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_run.h"
 #include "authoring/footage/find_circle.h"
 #include "authoring/footage/footage.h"
 #include "authoring/footage/picture_list.h"
@@ -74,6 +75,7 @@ void ReadClip(authoring::Footage& footage, FootageMail& mail, const Progress& pr
 
 FootageBoard NewBoard(const fs::path& file, const authoring::FootageInfo& info) {
   FootageBoard board;
+  board.options.emplace();
   board.file = file;
   board.name = info.name;
   board.width = info.width, board.height = info.height;
@@ -128,7 +130,7 @@ void BeginBoard(EditorState& state, const FootageClip& clip) {
     board.lens = state.steps.panorama->footage->lens;
     for (LensChoice& lens : board.lenses)
       if (lens.preset) lens.lens.reset();  // its round window is to be found
-    board.options = state.steps.panorama->footage->options;
+    *board.options = *state.steps.panorama->footage->options;
   }
   NoteNextRun(board);
   state.steps.panorama->footage = std::move(board);
@@ -167,7 +169,7 @@ void BrowseForLens(EditorState& state) {
 
 void SetPanoramaOptions(EditorState& state, const authoring::PanoramaOptions& options) {
   if (!state.steps.panorama->footage) return;
-  state.steps.panorama->footage->options = options;
+  *state.steps.panorama->footage->options = options;
   NoteNextRun(*state.steps.panorama->footage);
 }
 

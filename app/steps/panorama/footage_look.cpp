@@ -6,6 +6,7 @@
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_run.h"
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"
 

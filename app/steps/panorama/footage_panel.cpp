@@ -9,6 +9,7 @@
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
+#include "authoring/panorama/panorama_options.h"
 
 namespace arthro::app {
 namespace {
@@ -137,7 +138,7 @@ void FootagePanel(Ui& ui, EditorState& state) {
   if (!state.steps.panorama->footage) return;
   Gap(ui, 2);
   LensChooser(ui, state);
-  authoring::PanoramaOptions options = state.steps.panorama->footage->options;
+  authoring::PanoramaOptions options = *state.steps.panorama->footage->options;
   OptionsPanelVisitor panel{ui};
   InFront in_front{panel};
   options.Visit(in_front);

@@ -1,5 +1,5 @@
 // The Panorama step's pages for footage: its controls beside, its pictures on the board. Free
-// functions over the editor's state, which they change only through commands.
+// functions over the editor's state, which they change only through commands and edits.
 #pragma once
 
 #include <functional>

@@ -5,9 +5,10 @@
 
 #include "app/state/edits.h"
 #include "app/steps/panorama/board_picture.h"
-#include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_mail.h"
+#include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_run.h"
 
 namespace arthro::app {
 namespace {
@@ -50,12 +51,16 @@ std::unique_lock<std::timed_mutex> Borrow(LentSession& session, const Progress& 
 
 }  // namespace
 
+PanoramaStep::PanoramaStep(std::function<void()> wake) : frame_jobs(std::move(wake)) {
+  makers.emplace();
+}
+
 authoring::PanoramaRequest RequestOf(const FootageBoard& board) {
   authoring::PanoramaRequest request;
   request.footage = board.file;
   const auto lens = static_cast<std::size_t>(board.lens);
   if (lens < board.lenses.size()) request.lens = board.lenses[lens].lens;
-  request.options = board.options;
+  request.options = *board.options;
   request.excluded = board.excluded;
   return request;
 }
@@ -82,7 +87,7 @@ void RunFootage(EditorState& state) {
   FootageBoard& board = *state.steps.panorama->footage;
   if (!board.session) board.session = std::make_shared<LentSession>();
   auto mail = std::make_shared<FootageMail>();
-  state.jobs.Start("Panorama of " + board.name, [mail, run = state.steps.panorama->makers.run,
+  state.jobs.Start("Panorama of " + board.name, [mail, run = state.steps.panorama->makers->run,
                                                  session = board.session,
                                                  request =
                                                      RequestOf(board)](const Progress& progress) {

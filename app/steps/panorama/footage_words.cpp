@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "app/steps/panorama/panorama_run.h"
+
 namespace arthro::app {
 namespace {
 

@@ -8,6 +8,10 @@
 
 #include "app/steps/panorama/panorama_step.h"
 
+namespace arthro::authoring {
+struct PanoramaRequest;
+}
+
 namespace arthro::app {
 
 struct FootageClip;

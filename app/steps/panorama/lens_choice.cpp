@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -53,7 +52,7 @@ void FitPresets(std::vector<LensChoice>& choices, int width, int height, const L
     choice.lens.reset();
     choice.problem.clear();
     try {
-      choice.lens = authoring::LensFromPreset(*choice.preset, {width, height}, circle);
+      choice.lens = authoring::LensFromPreset(*choice.preset, width, height, circle);
     } catch (const Error& error) {
       choice.problem = error.sentence();
     }

@@ -11,25 +11,16 @@
 
 namespace arthro::app {
 
+struct FootageMakers;  // panorama_run.h
 struct Ui;
 
-// The panorama job as a function, so that tests can replace it.
-struct FootageMakers {
-  std::function<authoring::PanoramaResult(authoring::PanoramaSession&,
-                                          const authoring::PanoramaRequest&,
-                                          const authoring::PanoramaObserver&, const Progress&)>
-      run = [](authoring::PanoramaSession& session, const authoring::PanoramaRequest& request,
-               const authoring::PanoramaObserver& observer,
-               const Progress& progress) { return session.Run(request, observer, progress); };
-};
-
 struct PanoramaStep {
-  explicit PanoramaStep(std::function<void()> wake) : frame_jobs(std::move(wake)) {}
+  explicit PanoramaStep(std::function<void()> wake);
 
   std::optional<FootageBoard> footage;
   FootageJob footage_job;
-  bool shows_footage = false;  // the clip, not the backdrop
-  FootageMakers makers;
+  bool shows_footage = false;         // the clip, not the backdrop
+  Owned<FootageMakers> makers;        // never empty
   std::filesystem::path lens_folder;  // presets
   Jobs frame_jobs;                    // one frame of the footage at full size
 };

@@ -10,10 +10,22 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/steps/portals/centres_picture.h"
+#include "simulation/scene/image.h"
 #include "simulation/scene/scene.h"
 
 namespace arthro::app {
+
+struct CentresLine {
+  std::string words;                             // "5 mm"
+  std::vector<std::optional<glm::dvec2>> pixel;  // one a roll, in order; none: it has no pixel
+};
+
+// White, with a grey line each `spacing` pixels from the first on.
+ColourImage GridPicture(int width, int height, int spacing);
+
+// `rod`: where the rod itself points, P of the paper.
+void DrawCentres(ColourImage& picture, const std::optional<glm::dvec2>& rod,
+                 const std::vector<CentresLine>& lines);
 
 struct CentresChoice {
   double view_angle = 0;

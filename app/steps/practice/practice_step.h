@@ -10,9 +10,10 @@
 
 #include "app/recording/live_film.h"
 #include "app/state/command.h"
-#include "app/view/disturbances/disturbances.h"
+#include "app/view/drawing/disturbances.h"
 #include "simulation/practice/hands/pivot_work.h"
 #include "simulation/practice/hands/practice.h"
+#include "simulation/practice/session_options.h"
 #include "simulation/scope/camera_head.h"
 
 namespace arthro::app {
@@ -36,7 +37,7 @@ struct TraineeScreen {
   std::string words;  // message where the wish could not be met; empty: none
 };
 
-// Disturbances that an educator lays over the picture (app/view/disturbances/disturbances.h). A
+// Disturbances that an educator lays over the picture (app/view/drawing/disturbances.h). A
 // command switches each; it keeps its last strength.
 inline constexpr double kUsualStrength = 0.5;  // plain to see, and one can still work
 inline constexpr double kLeastStrength = 0.05;

@@ -5,7 +5,7 @@
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
-#include "app/steps/tissue/tissue_work.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 namespace {

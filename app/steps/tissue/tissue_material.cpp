@@ -1,7 +1,6 @@
-#include "app/steps/tissue/tissue_material.h"
-
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
 

@@ -15,7 +15,6 @@
 #include "app/state/edits.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
-#include "app/steps/tissue/tissue_material.h"
 #include "app/steps/tissue/tissue_pose.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/options.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 #include <glm/vec3.hpp>
 
@@ -50,5 +51,29 @@ std::span<const Command> TissueCommands();
 void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind);
+
+// Asks for the file, then for its unit.
+void BrowseForSurface(EditorState& state);
+// Reads it and adds a tissue in the middle of the view. `unit`: m, cm, mm, um or in.
+void ImportSurface(EditorState& state, const std::filesystem::path& surface,
+                   const std::string& unit);
+// Makes tetrahedra of the chosen tissue, beside the window.
+void TetrahedraliseTissue(EditorState& state);
+
+// Fills state.tissue_presets from state.steps.tissue->preset_folder, once. A fault becomes a
+// dialog.
+void LoadTissuePresets(EditorState& state);
+
+// The tissue's preset with its own values; nothing where its word is not known.
+std::optional<simulation::TissuePreset> PresetOf(const EditorState& state, const Tissue& tissue);
+
+// Another preset; what was said otherwise goes.
+void ChoosePreset(EditorState& state, int tissue, const std::string& name);
+// The same preset, other values. One that is the preset's own is not kept as said otherwise.
+void SetElasticity(EditorState& state, int tissue, Elasticity elasticity, const std::string& what);
+
+// A solid that does not give way is touched as a function; it has no tetrahedra, so those that it
+// has are left out with the same step.
+void SetSolid(EditorState& state, int tissue, bool is_solid);
 
 }  // namespace arthro::app

@@ -1,5 +1,3 @@
-#include "app/steps/tissue/tissue_work.h"
-
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -8,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "app/state/edits.h"
+#include "app/steps/tissue/tissue_step.h"
 #include "authoring/tissue/mesh_budget.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/mesh_io.h"

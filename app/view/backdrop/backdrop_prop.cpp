@@ -16,8 +16,8 @@
 
 #include "app/view/backdrop/backdrop_shader.h"
 #include "app/view/backdrop/relief_shader.h"
+#include "app/view/drawing/lens_shader.h"
 #include "app/view/exposure/automatic_gain.h"
-#include "app/view/lens_shader.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {

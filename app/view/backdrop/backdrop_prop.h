@@ -11,11 +11,11 @@
 #include <vtkNew.h>
 #include <vtkProp.h>
 
-#include "app/view/arthroscopic_view.h"
 #include "app/view/backdrop/backdrop_texture.h"
-#include "app/view/backdrop/footage_light.h"
 #include "app/view/backdrop/relief_cells.h"
-#include "app/view/lens_model.h"
+#include "app/view/drawing/lens_model.h"
+#include "app/view/drawing/picture.h"
+#include "app/view/exposure/footage_light.h"
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;

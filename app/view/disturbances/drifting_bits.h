@@ -8,7 +8,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/view/disturbances/disturbances.h"
+#include "app/view/drawing/disturbances.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/window_lens.h"
 

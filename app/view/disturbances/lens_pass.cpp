@@ -11,7 +11,7 @@
 #include "app/view/disturbances/drifting_bits.h"
 #include "app/view/disturbances/lens_pass_shader.h"
 #include "app/view/disturbances/murk_field.h"
-#include "app/view/lens_shader.h"
+#include "app/view/drawing/lens_shader.h"
 
 namespace arthro::app {
 namespace {

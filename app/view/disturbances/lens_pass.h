@@ -13,8 +13,8 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkTextureObject.h>
 
-#include "app/view/arthroscopic_view.h"
-#include "app/view/shader_pass.h"
+#include "app/view/drawing/picture.h"
+#include "app/view/drawing/shader_pass.h"
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;

@@ -2,8 +2,8 @@
 // with its relief, and models before or behind it. Plain values, no OpenGL; portal frame, m.
 #pragma once
 
-#include "app/view/backdrop/footage_light.h"
-#include "app/view/exposure/metered_models.h"
+#include "app/view/drawing/metered_models.h"
+#include "app/view/exposure/footage_light.h"
 #include "simulation/scene/scene.h"
 #include "simulation/scope/window_lens.h"
 

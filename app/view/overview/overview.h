@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "app/view/arthroscopic_view.h"
+#include "app/view/drawing/picture.h"
 
 namespace arthro::app {
 

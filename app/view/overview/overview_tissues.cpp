@@ -10,8 +10,8 @@
 #include <vtkProperty.h>
 #include <vtkTransform.h>
 
+#include "app/view/drawing/srgb.h"
 #include "app/view/overview/overview_impl.h"
-#include "app/view/srgb.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {

@@ -17,7 +17,7 @@
 
 #include "authoring/lens/rectifier.h"
 #include "authoring/panorama/compose/compose_options.h"
-#include "authoring/panorama/placed_frame.h"
+#include "authoring/panorama/frames/placed_frame.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "authoring/panorama/frames/working_frame.h"
 #include "authoring/panorama/graph/pair_book.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/pairs/direct_pyramid.h"
 #include "authoring/panorama/pairs/frame_features.h"
-#include "authoring/panorama/working_frame.h"
 
 namespace arthro::authoring {
 

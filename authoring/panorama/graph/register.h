@@ -9,12 +9,12 @@
 #include <opencv2/core.hpp>
 
 #include "authoring/lens/rectifier.h"
+#include "authoring/panorama/frames/placed_frame.h"
+#include "authoring/panorama/frames/working_frame.h"
+#include "authoring/panorama/graph/focal_fit.h"
 #include "authoring/panorama/graph/place_frames.h"
-#include "authoring/panorama/graph/refinement/focal_fit.h"
 #include "authoring/panorama/pairs/direct_options.h"
 #include "authoring/panorama/pairs/feature_options.h"
-#include "authoring/panorama/placed_frame.h"
-#include "authoring/panorama/working_frame.h"
 #include "simulation/core/part_visitor.h"
 #include "simulation/core/progress.h"
 

@@ -19,8 +19,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "authoring/panorama/frames/working_frame.h"
 #include "authoring/panorama/pairs/direct_options.h"
-#include "authoring/panorama/working_frame.h"
 
 namespace arthro::authoring {
 

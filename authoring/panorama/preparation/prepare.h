@@ -5,9 +5,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "authoring/panorama/frames/working_frame.h"
 #include "authoring/panorama/preparation/clip_look.h"
 #include "authoring/panorama/preparation/frame_masks.h"
-#include "authoring/panorama/working_frame.h"
 #include "simulation/core/options.h"
 
 namespace arthro::authoring {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/tissue/fem/kernel/element_kernel.h"
+#include "simulation/tissue/fem/element_kernel.h"
 
 namespace arthro::simulation {
 

@@ -10,7 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/tissue/fem/kernel/element_kernel.h"
+#include "simulation/tissue/fem/element_kernel.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {

@@ -16,7 +16,7 @@
 
 #include "simulation/scene/tet_mesh.h"
 #include "simulation/tissue/fem/block_matrix.h"
-#include "simulation/tissue/fem/kernel/element_batches.h"
+#include "simulation/tissue/fem/element_batches.h"
 #include "simulation/tissue/fem/material.h"
 
 namespace arthro::simulation {

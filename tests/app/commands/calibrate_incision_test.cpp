@@ -22,6 +22,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/rig_io.h"
+#include "tests/support/fake_hidapi.h"
 #include "tests/support/moved_rig.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
@@ -89,6 +90,7 @@ class CalibrateIncision : public testing::Test {
     return state.steps.practice->hands->MountOf(DeviceRole::kScope, state.document().scene);
   }
 
+  test::FakeUsb usb;  // nothing is plugged in
   test::TempFolder temp;
   fs::path rig;
   EditorState state = MakeEditorState(NewDocument());

@@ -16,6 +16,7 @@
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_run.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/practice_step.h"
@@ -88,7 +89,7 @@ class Footage : public testing::Test {
     for (int i = 0; i < kFrames; ++i)
       WriteColourImage(clip / ("frame" + std::to_string(i) + ".png"),
                        Plain(kWidth, kHeight, static_cast<std::uint8_t>(40 * i)));
-    state.steps.panorama->makers.run = MadeUpRun;
+    state.steps.panorama->makers->run = MadeUpRun;
   }
 
   // Does the work of the window's loop between frames, until nothing is under way.
@@ -237,9 +238,9 @@ Lens LensOf75Degrees() {
 }
 
 TEST_F(Footage, TheScopeOfTheSceneSeesAsWideAsTheClipsLens) {
-  state.steps.panorama->makers.run = [](PanoramaSession& session, const PanoramaRequest& request,
-                                        const PanoramaObserver& observer,
-                                        const Progress& progress) {
+  state.steps.panorama->makers->run = [](PanoramaSession& session, const PanoramaRequest& request,
+                                         const PanoramaObserver& observer,
+                                         const Progress& progress) {
     PanoramaResult result = MadeUpRun(session, request, observer, progress);
     result.report.lens = LensOf75Degrees();
     return result;
@@ -277,9 +278,9 @@ TEST_F(Footage, AFailedRunIsOneSentenceAndWhatWasMadeStays) {
   OpenClip();
   RunIt();
   const auto made = state.steps.panorama->footage->made;
-  state.steps.panorama->makers.run = [](PanoramaSession&, const PanoramaRequest&,
-                                        const PanoramaObserver& observer,
-                                        const Progress&) -> PanoramaResult {
+  state.steps.panorama->makers->run = [](PanoramaSession&, const PanoramaRequest&,
+                                         const PanoramaObserver& observer,
+                                         const Progress&) -> PanoramaResult {
     observer.frame(Row(0, false, "blank", -1), {});
     throw Error(Code::kBadImage, "nothing overlaps; move slowly", "clip");
   };
@@ -298,9 +299,9 @@ TEST_F(Footage, StopEndsTheRunAndKeepsWhatWasMade) {
   OpenClip();
   RunIt();
   const auto made = state.steps.panorama->footage->made;
-  state.steps.panorama->makers.run = [](PanoramaSession&, const PanoramaRequest&,
-                                        const PanoramaObserver& observer,
-                                        const Progress& progress) -> PanoramaResult {
+  state.steps.panorama->makers->run = [](PanoramaSession&, const PanoramaRequest&,
+                                         const PanoramaObserver& observer,
+                                         const Progress& progress) -> PanoramaResult {
     observer.frame(Row(0, false, "blank", -1), {});
     for (;;) {
       progress.Step("match", 0.5);

@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/view/srgb.h"
+#include "app/view/drawing/srgb.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/lit_scene.h"
 #include "tests/app/view/view_scene.h"

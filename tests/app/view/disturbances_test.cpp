@@ -1,5 +1,5 @@
 // What disturbs a picture: each as its numbers say, and nothing where nothing is on.
-#include "app/view/disturbances/disturbances.h"
+#include "app/view/drawing/disturbances.h"
 
 #include <algorithm>
 #include <cmath>

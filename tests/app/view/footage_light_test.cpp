@@ -1,5 +1,5 @@
 // The light of the footage and the scope's own, against closed forms.
-#include "app/view/backdrop/footage_light.h"
+#include "app/view/exposure/footage_light.h"
 
 #include <cmath>
 #include <cstdio>
@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/view/drawing/srgb.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "app/view/instruments/probe_mesh.h"
-#include "app/view/srgb.h"
 #include "simulation/core/units.h"
 #include "tests/app/view/lit_scene.h"
 #include "tests/app/view/view_scene.h"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "authoring/footage/frame_look.h"
 #include "tests/support/knee_picture.h"
 
 namespace arthro::authoring {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "authoring/panorama/placed_frame.h"
+#include "authoring/panorama/frames/placed_frame.h"
 #include "authoring/phantom/clip/clip.h"
 
 namespace arthro::test {

@@ -1,4 +1,4 @@
-#include "simulation/tissue/fem/kernel/element_kernel.h"
+#include "simulation/tissue/fem/element_kernel.h"
 
 namespace arthro::simulation {
 

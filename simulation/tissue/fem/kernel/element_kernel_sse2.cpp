@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "simulation/tissue/fem/kernel/element_kernel.h"
+#include "simulation/tissue/fem/element_kernel.h"
 
 namespace arthro::simulation::sse2 {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "authoring/footage/frame_look.h"
 #include "authoring/lens/rectifier.h"
+#include "authoring/panorama/frames/placed_frame.h"
 #include "authoring/panorama/graph/register.h"
-#include "authoring/panorama/placed_frame.h"
 #include "authoring/phantom/clip/clip.h"
 #include "tests/support/panorama/clip_score.h"
 

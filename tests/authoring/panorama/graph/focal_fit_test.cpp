@@ -1,4 +1,4 @@
-#include "authoring/panorama/graph/refinement/focal_fit.h"
+#include "authoring/panorama/graph/focal_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/panorama/working_frame.h"
+#include "authoring/panorama/frames/working_frame.h"
 
 namespace arthro::test {
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/tissue/fem/kernel/element_kernel.h"
+#include "simulation/tissue/fem/element_kernel.h"
 #include "tests/simulation/tissue/fem/tissue_bodies.h"
 
 namespace arthro::simulation {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/random.h"
-#include "simulation/tissue/fem/kernel/element_kernel.h"
+#include "simulation/tissue/fem/element_kernel.h"
 
 namespace arthro::simulation {
 namespace {

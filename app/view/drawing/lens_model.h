@@ -17,7 +17,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
-#include "app/view/exposure/metered_models.h"
+#include "app/view/drawing/metered_models.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"

@@ -1,4 +1,4 @@
-#include "app/view/backdrop/footage_light.h"
+#include "app/view/exposure/footage_light.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/view/srgb.h"
+#include "app/view/drawing/srgb.h"
 
 namespace arthro::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/view/context_render_window.h"
+#include "app/view/drawing/context_render_window.h"
 
 #include <algorithm>
 #include <vector>

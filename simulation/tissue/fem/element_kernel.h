@@ -8,8 +8,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/tissue/fem/element_batches.h"
 #include "simulation/tissue/fem/fem_model.h"
-#include "simulation/tissue/fem/kernel/element_batches.h"
 
 namespace arthro::simulation {
 

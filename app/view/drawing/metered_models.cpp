@@ -1,4 +1,4 @@
-#include "app/view/exposure/metered_models.h"
+#include "app/view/drawing/metered_models.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr float kNearestMetered = 0.2e-3f;  // m, as drawn
 // Further than this to the side of the view's axis, as a cosine, no lens shows anything.
 constexpr float kBehind = -0.5f;
 
-// Body light of a tissue by how it faces the lens, as its shader has it (app/view/lens_model.cpp).
+// Body light of a tissue by how it faces the lens, as its shader has it (app/view/drawing/lens_model.cpp).
 float FacingLight(float facing) {
   const float t = std::min(facing / 0.75f, 1.0f);
   const float scattered = 0.745f + 0.255f * t * t * (3 - 2 * t);

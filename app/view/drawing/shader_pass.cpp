@@ -1,11 +1,11 @@
-#include "app/view/shader_pass.h"
+#include "app/view/drawing/shader_pass.h"
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLShaderCache.h>
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
-#include "app/view/steady_inputs.h"
+#include "app/view/drawing/steady_inputs.h"
 
 namespace arthro::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/view/lens_model.h"
+#include "app/view/drawing/lens_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +15,9 @@
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
 
-#include "app/view/lens_shader.h"
-#include "app/view/srgb.h"
-#include "app/view/steady_inputs.h"
+#include "app/view/drawing/lens_shader.h"
+#include "app/view/drawing/srgb.h"
+#include "app/view/drawing/steady_inputs.h"
 #include "simulation/scene/vertex_normals.h"
 
 namespace arthro::app {

@@ -1,4 +1,4 @@
-#include "app/view/disturbances/disturbances.h"
+#include "app/view/drawing/disturbances.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,0 +1,43 @@
+// A run from footage to panorama: what the window asks of authoring/panorama, and the result.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <set>
+
+#include "app/steps/panorama/footage_board.h"
+#include "authoring/panorama/make_panorama.h"
+#include "simulation/scene/projection.h"
+
+namespace arthro::app {
+
+// The panorama job as a function, so that tests can replace it.
+struct FootageMakers {
+  std::function<authoring::PanoramaResult(authoring::PanoramaSession&,
+                                          const authoring::PanoramaRequest&,
+                                          const authoring::PanoramaObserver&, const Progress&)>
+      run = [](authoring::PanoramaSession& session, const authoring::PanoramaRequest& request,
+               const authoring::PanoramaObserver& observer,
+               const Progress& progress) { return session.Run(request, observer, progress); };
+};
+
+// A finished run.
+struct MadePanorama {
+  SharedPicture picture;  // black where nothing was imaged
+  SharedPicture shown;    // the same, small enough for the board
+  Projection projection;  // projection of `picture`
+  authoring::PanoramaReport report;
+  std::set<int> excluded;  // when it was made
+};
+
+// The stages' products, which the next run goes on from. Lent to one thread at a time: the run's,
+// or the one that fetches a frame's picture.
+struct LentSession {
+  std::timed_mutex mutex;
+  authoring::PanoramaSession session;
+};
+
+// The note of a report's row.
+FrameNote NoteOf(const authoring::FrameReport& report, bool is_excluded);
+
+}  // namespace arthro::app

@@ -1,0 +1,51 @@
+// One picture of the arthroscope: pose, lens, instrument and disturbances. Portal frame, m, rad.
+#pragma once
+
+#include <numbers>
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "app/view/drawing/disturbances.h"
+#include "simulation/scope/arthroscope.h"
+#include "simulation/scope/window_lens.h"
+#include "simulation/tissue/contact/tool_shape.h"
+
+namespace arthro::app {
+
+// The instrument as it is drawn: from its portal to the proxy, so that it never enters tissue.
+struct InstrumentView {
+  glm::dvec3 portal{0.0}, proxy{0.0};  // m
+  double roll = 0;                     // γ about its own rod: where the hook points
+  simulation::ToolKind kind = simulation::ToolKind::kProbe;
+  double opening = 0;  // of its jaw, 0 to 1
+  double turn = 0;     // of the shaver's blade, rad
+  friend bool operator==(const InstrumentView&, const InstrumentView&) = default;
+};
+
+// How a ray is held against the relief, which then hides what is behind it and moves as the lens
+// does. With cells, rays through the corners of cells of pixels are searched, and each pixel closes
+// in from there: what is thinner than a cell may be missed. `bench view` prints time and error.
+struct ReliefSearch {
+  int steps = 0;  // places along a ray, at most; 0: colours lie on the bare sphere
+  int cell = 1;   // px; 1: every pixel searches
+  friend bool operator==(const ReliefSearch&, const ReliefSearch&) = default;
+};
+inline constexpr ReliefSearch kUsualRelief{64, 8};
+
+// One frame.
+struct Picture {
+  simulation::ScopeView view;
+  double field_of_view = std::numbers::pi / 2;  // full
+  simulation::WindowLens lens;                  // of that field
+  double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
+  std::optional<InstrumentView> instrument;
+  bool plain = false;         // backdrop colours only: no light, softness, mark or models
+  Disturbances disturbances;  // over all but a plain picture
+  ReliefSearch relief;
+  // Looks at the panorama a pixel, at most: eight serve footprints eight times as long as wide. Two
+  // are for what moves: quicker, and a fine pattern may blur or shimmer.
+  int samples = 8;
+};
+
+}  // namespace arthro::app
