@@ -57,10 +57,10 @@ Candidates Find(const cv::Mat& grey, const cv::Mat& mask, const FeatureOptions& 
 // Selects candidates: in turn the strongest remaining one of every cell.
 std::vector<int> SpreadOver(const std::vector<cv::KeyPoint>& points, cv::Size size, int most) {
   std::vector<std::vector<int>> cells(kCells * kCells);
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const int x = std::clamp(static_cast<int>(points[i].pt.x * kCells / size.width), 0, kCells - 1);
-    const int y =
-        std::clamp(static_cast<int>(points[i].pt.y * kCells / size.height), 0, kCells - 1);
+    const int x = std::clamp(static_cast<int>(points[i].pt.x * kCells / width), 0, kCells - 1);
+    const int y = std::clamp(static_cast<int>(points[i].pt.y * kCells / height), 0, kCells - 1);
     cells[static_cast<std::size_t>(y * kCells + x)].push_back(static_cast<int>(i));
   }
   std::vector<int> kept;
@@ -107,7 +107,7 @@ struct FrameFeatures::Index {
     return found;
   }
   double Distance(const Found& found, int row, int column) const {
-    return is_binary ? found.distances.at<int>(row, column)
+    return is_binary ? static_cast<float>(found.distances.at<int>(row, column))
                      : std::sqrt(std::max(0.0f, found.distances.at<float>(row, column)));
   }
 };
