@@ -10,7 +10,7 @@
 #include "simulation/core/error.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/tissue/body/body_options.h"
-#include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/cut/cutters.h"
 
 namespace arthro::simulation {
 namespace {

@@ -4,7 +4,7 @@
 #include "simulation/practice/living_tissues.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/contact/uncut_surface.h"
-#include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/cut/cutters.h"
 #include "simulation/tissue/field/polygonise.h"
 
 namespace arthro::simulation {

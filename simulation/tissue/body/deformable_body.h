@@ -20,7 +20,7 @@
 #include "simulation/scene/tet_mesh.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/contact/coupling.h"
-#include "simulation/tissue/contact/rigid_obstacle.h"
+#include "simulation/tissue/contact/obstacle_contact.h"
 #include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::simulation {

@@ -9,7 +9,7 @@
 
 #include "simulation/tissue/body/deformable_body_impl.h"
 #include "simulation/tissue/body/tool_cut.h"
-#include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/cut/cutters.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/cut/cutters.h"
 
 namespace arthro::simulation {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/tissue/cut/authors_cuts.h"
+#include "simulation/tissue/cut/cutters.h"
 
 namespace arthro::simulation {
 namespace {

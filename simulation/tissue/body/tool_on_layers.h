@@ -18,7 +18,7 @@
 
 #include "simulation/tissue/body/elastic_layer.h"
 #include "simulation/tissue/contact/tool_shape.h"
-#include "simulation/tissue/field/posed_field.h"
+#include "simulation/tissue/field/implicit_tissue.h"
 
 namespace arthro::simulation {
 

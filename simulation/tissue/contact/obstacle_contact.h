@@ -6,12 +6,23 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "simulation/core/frames.h"
 #include "simulation/scene/tet_mesh.h"
 #include "simulation/tissue/contact/contact_point.h"
-#include "simulation/tissue/contact/rigid_obstacle.h"
 
 namespace arthro::simulation {
+
+// Rigid obstacle that supports tissue and cannot be entered: the backdrop's relief or a rigid
+// model. Implemented by the owner of the depth field or mesh. Portal frame, m.
+class RigidObstacle {
+ public:
+  virtual ~RigidObstacle() = default;
+  // Returns the distance of x above the surface (negative inside), exact near it, and the unit
+  // normal there.
+  virtual double Gap(const glm::dvec3& x, glm::dvec3& normal) const noexcept = 0;
+};
 
 struct ObstacleContactOptions {
   double stiffness = 1000.0;  // N/m per node; several times the body's own, E times an edge length

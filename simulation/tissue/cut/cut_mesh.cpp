@@ -13,7 +13,6 @@
 #include <glm/matrix.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/tissue/cut/element_point.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::simulation {

@@ -19,8 +19,8 @@
 
 #include "simulation/core/options.h"
 #include "simulation/scene/tet_mesh.h"
-#include "simulation/tissue/cut/element_point.h"
 #include "simulation/tissue/cut/tet_lattice.h"
+#include "simulation/tissue/fem/tet_shape.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {

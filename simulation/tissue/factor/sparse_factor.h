@@ -20,7 +20,6 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/tissue/factor/fixed_axes.h"
 #include "simulation/tissue/fem/block_matrix.h"
 
 namespace arthro::simulation {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,6 +11,10 @@
 #include <glm/vec3.hpp>
 
 namespace arthro::simulation {
+
+// Axes of nodes that do not respond to forces: they are fixed or have a prescribed motion. One byte
+// per node; bits 1, 2, 4 are x, y, z of the mesh's own frame. Empty: no fixed axes.
+using FixedAxes = std::vector<std::uint8_t>;
 
 struct BlockPattern {
   std::vector<int> row_begin;  // node_count + 1

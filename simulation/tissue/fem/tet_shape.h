@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "simulation/scene/tet_mesh.h"
+
 namespace arthro::simulation {
 
 struct TetShape {
@@ -30,5 +32,15 @@ const std::vector<TetShape>& QuadraturePoints(int order);
 // Corners of the four outward-facing faces, each followed by the midpoints of its edges 01, 12, 20.
 inline constexpr std::array<std::array<int, 6>, 4> kTetFaces{
     {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}}};
+
+// Position of a rest point in an element, and the weights of the element's nodes there.
+struct ElementPoint {
+  glm::dvec4 barycentric{0.25};  // the point, or if outside about the nearest point of the element
+  std::array<double, 10> weight{};  // outside: linear extrapolation from that nearest point
+};
+
+// Inverts the isoparametric map by Newton's method. The weights reproduce `rest`, and every affine
+// motion of it, exactly.
+ElementPoint PointIn(const TetMesh& mesh, int element, const glm::dvec3& rest);
 
 }  // namespace arthro::simulation

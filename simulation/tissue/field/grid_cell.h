@@ -58,4 +58,10 @@ inline double Interpolate(const Corners& corners, const glm::dvec3& t) noexcept 
   return y0 + t.z * (y1 - y0);
 }
 
+// Returns the solid fraction of a cell, 0 to 1: the part of the unit cube in which the trilinear
+// interpolation of the corner values is negative; corner values run x fastest, z slowest. Sums 4 ×
+// 4 lines along the axis of the steepest change, each of which is exact. The error is about 1e-3 of
+// a cell that the surface passes through, of either sign.
+double SolidPart(const std::array<double, 8>& corner) noexcept;
+
 }  // namespace arthro::simulation

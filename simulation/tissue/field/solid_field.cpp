@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/tissue/field/cell_volume.h"
 #include "simulation/tissue/field/grid_cell.h"
 #include "simulation/tissue/field/surface_distance.h"
 

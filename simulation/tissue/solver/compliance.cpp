@@ -3,8 +3,8 @@
 #include <glm/matrix.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
-#include "simulation/tissue/solver/node_vectors.h"
 
 namespace arthro::simulation {
 namespace {

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "simulation/tissue/solver/node_vectors.h"
-
 namespace arthro::simulation {
 
 void LinearSystem::Apply(std::span<const glm::dvec3> p, std::span<glm::dvec3> y) const noexcept {

@@ -3,17 +3,40 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include "simulation/tissue/factor/fixed_axes.h"
 #include "simulation/tissue/factor/rotated_factor.h"
 #include "simulation/tissue/fem/block_matrix.h"
 #include "simulation/tissue/solver/contact_springs.h"
 
 namespace arthro::simulation {
+
+// Sums over vectors with three numbers per node, in an order that does not depend on the processor:
+// eight partial sums, added in a fixed tree at the end.
+inline double Dot(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) noexcept {
+  if (a.empty()) return 0;
+  const double *p = &a[0].x, *q = &b[0].x;
+  const std::size_t n = 3 * a.size();
+  std::array<double, 8> sum{};
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8)
+    for (std::size_t l = 0; l < 8; ++l) sum[l] += p[i + l] * q[i + l];
+  for (std::size_t l = 0; i < n; ++i, ++l) sum[l] += p[i] * q[i];
+  return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+}
+
+inline double Norm(std::span<const glm::dvec3> a) noexcept { return std::sqrt(Dot(a, a)); }
+
+// Returns true if no number is NaN or infinite: 0 times each number is then 0.
+inline bool AllFinite(std::span<const glm::dvec3> a) noexcept {
+  double sum = 0;
+  for (const glm::dvec3& v : a) sum += 0.0 * v.x + 0.0 * v.y + 0.0 * v.z;
+  return sum == 0.0;
+}
 
 struct LinearSystem {
   const BlockMatrix* stiffness = nullptr;

@@ -9,8 +9,8 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
+#include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
-#include "simulation/tissue/solver/node_vectors.h"
 
 namespace arthro::simulation {
 namespace {

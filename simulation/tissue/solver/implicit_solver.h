@@ -21,7 +21,7 @@
 
 #include "simulation/core/options.h"
 #include "simulation/tissue/contact/contact_point.h"
-#include "simulation/tissue/factor/fixed_axes.h"
+#include "simulation/tissue/fem/block_matrix.h"
 #include "simulation/tissue/fem/fem_model.h"
 
 namespace arthro::simulation {

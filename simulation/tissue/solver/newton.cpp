@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
-#include "simulation/tissue/solver/node_vectors.h"
 
 namespace arthro::simulation {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
-#include "simulation/tissue/solver/node_vectors.h"
 
 // Recovery from inverted elements. If more than a fifth of them are inverted, the shape cannot be
 // trusted. The body then starts again from its rest shape, fitted to the fixed nodes. Descending

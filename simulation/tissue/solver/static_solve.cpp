@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "simulation/core/error.h"
+#include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
-#include "simulation/tissue/solver/node_vectors.h"
 
 namespace arthro::simulation {
 namespace {

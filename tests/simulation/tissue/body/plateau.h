@@ -2,7 +2,7 @@
 #pragma once
 
 #include "simulation/core/frames.h"
-#include "simulation/tissue/contact/rigid_obstacle.h"
+#include "simulation/tissue/contact/obstacle_contact.h"
 
 namespace arthro::test {
 

@@ -1,5 +1,4 @@
 // Author's cuts before a session: a tear that opens, and fragments that are washed away.
-#include "simulation/tissue/cut/authors_cuts.h"
 
 #include <algorithm>
 #include <cmath>

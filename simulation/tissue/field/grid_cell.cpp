@@ -1,4 +1,4 @@
-#include "simulation/tissue/field/cell_volume.h"
+#include "simulation/tissue/field/grid_cell.h"
 
 #include <cmath>
 #include <cstddef>
