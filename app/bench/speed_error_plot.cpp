@@ -20,8 +20,9 @@ constexpr double kGlyph = 0.64;
 constexpr double kLabelFont = 11, kLegendFont = 12;
 
 double TextWidth(const std::string& text, double font) {
-  const auto glyphs = std::count_if(text.begin(), text.end(),
-                                    [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+  const auto glyphs = std::count_if(text.begin(), text.end(), [](char c) {
+    return (c & 0xC0) != 0x80;
+  });  // counts UTF-8 characters
   return kGlyph * font * static_cast<double>(glyphs);
 }
 
@@ -44,7 +45,7 @@ struct Axis {
   }
 };
 
-constexpr double kLeast = 1e-9, kMost = 5e9;  // of any axis
+constexpr double kLeast = 1e-9, kMost = 5e9;  // ends of any axis
 
 // Powers of ten over many decades; 1, 2 and 5 times these over few.
 std::vector<double> Ticks(double low, double high) {
@@ -73,6 +74,22 @@ struct Box {
   double x, y, w, h;  // px
   bool Meets(const Box& o) const {
     return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h;
+  }
+};
+
+struct Line {
+  double x0, y0, x1, y1;  // px
+  // Clips the line at the box's sides [Liang & Barsky 1984].
+  bool Meets(const Box& box) const {
+    double from = 0, to = 1;
+    const auto clip = [&](double start, double step, double low, double high) {
+      if (step == 0) return start >= low && start <= high;
+      const double a = (low - start) / step, b = (high - start) / step;
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+      return from <= to;
+    };
+    return clip(x0, x1 - x0, box.x, box.x + box.w) && clip(y0, y1 - y0, box.y, box.y + box.h);
   }
 };
 
@@ -134,7 +151,13 @@ class Plot {
     return box.x > kLeft + 2 && box.x + box.w < kWidth - 4 && box.y > top_ &&
            box.y + box.h < kHeight - kBottom &&
            std::none_of(taken_.begin(), taken_.end(),
-                        [&](const Box& other) { return box.Meets(other); });
+                        [&](const Box& other) { return box.Meets(other); }) &&
+           std::none_of(lines_.begin(), lines_.end(),
+                        [&](const Line& line) { return line.Meets(box); });
+  }
+  bool MeetsALabel(const Line& line) const {
+    return std::any_of(labels_.begin(), labels_.end(),
+                       [&](const Box& label) { return line.Meets(label); });
   }
 
   const PlotWords& words_;
@@ -143,7 +166,8 @@ class Plot {
   std::string svg_;
   double top_ = 0;  // px, of the axes
   Axis x_, y_;
-  std::vector<Box> taken_;
+  std::vector<Box> taken_, labels_;
+  std::vector<Line> lines_;  // from marks to labels
   int unlabelled_ = 0;
 };
 
@@ -206,7 +230,7 @@ void Plot::DrawMarks() {
     Put("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"{3}\" "
         "fill-opacity=\"{4:.2f}\" stroke=\"{3}\" stroke-width=\"1.5\"/>\n",
         x, y, kMarkRadius, ColourOf(mark.series), std::clamp(mark.share, 0.0, 1.0));
-    constexpr double kReach = kMarkRadius + 1;  // with the stroke
+    constexpr double kReach = kMarkRadius + 1;  // includes the stroke
     taken_.push_back({x - kReach, y - kReach, 2 * kReach, 2 * kReach});
   }
 }
@@ -224,15 +248,29 @@ void Plot::DrawLabel(const PlotMark& mark) {
       const double angle = turn + ((i / 2) % 2 == 0 ? 1 : -1) * ((i / 2 + 1) / 2) * 2 *
                                       std::numbers::pi / kDirections;
       const double cx = x + away * std::cos(angle), cy = y + away * std::sin(angle);
-      // Of the box, the point that is nearest to the mark lies on the ring.
+      // Puts the point of the box that is nearest to the mark on the ring.
       const Box box{cx - w * 0.5 * (1 - std::cos(angle)), cy - h * 0.5 * (1 - std::sin(angle)), w,
                     h};
-      if (!IsFree(box)) continue;
+      const bool has_line = away > 2 * kMarkRadius + 4;
+      const Line line{x + kMarkRadius * std::cos(angle), y + kMarkRadius * std::sin(angle), cx, cy};
+      if (!IsFree(box) || (has_line && MeetsALabel(line))) continue;
       taken_.push_back(box);
-      if (away > 2 * kMarkRadius + 4)
-        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#999999\" stroke-width=\"0.6\"/>\n",
-            x + kMarkRadius * std::cos(angle), y + kMarkRadius * std::sin(angle), cx, cy);
-      Text(box.x, box.y + 11, kLabelFont, "start", ColourOf(mark.series), mark.words);
+      labels_.push_back(box);
+      if (has_line) {
+        lines_.push_back(line);
+        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#999999\" "
+            "stroke-width=\"0.6\"/>\n",
+            line.x0, line.y0, line.x1, line.y1);
+      }
+      // The side of the text that is exact is the one next to the mark.
+      constexpr double kBeside = 0.3;
+      const double side = std::cos(angle);
+      if (side > kBeside)
+        Text(box.x, box.y + 11, kLabelFont, "start", ColourOf(mark.series), mark.words);
+      else if (side < -kBeside)
+        Text(box.x + w, box.y + 11, kLabelFont, "end", ColourOf(mark.series), mark.words);
+      else
+        Text(box.x + w / 2, box.y + 11, kLabelFont, "middle", ColourOf(mark.series), mark.words);
       return;
     }
   ++unlabelled_;
