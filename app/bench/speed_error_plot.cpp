@@ -77,22 +77,6 @@ struct Box {
   }
 };
 
-struct Line {
-  double x0, y0, x1, y1;  // px
-  // Clips the line at the box's sides [Liang & Barsky 1984].
-  bool Meets(const Box& box) const {
-    double from = 0, to = 1;
-    const auto clip = [&](double start, double step, double low, double high) {
-      if (step == 0) return start >= low && start <= high;
-      const double a = (low - start) / step, b = (high - start) / step;
-      from = std::max(from, std::min(a, b));
-      to = std::min(to, std::max(a, b));
-      return from <= to;
-    };
-    return clip(x0, x1 - x0, box.x, box.x + box.w) && clip(y0, y1 - y0, box.y, box.y + box.h);
-  }
-};
-
 // The values of a plot's marks from the least to the most, on one axis.
 struct Extent {
   double least, most;
@@ -121,7 +105,7 @@ class Plot {
       Text(kWidth - kRight, top_ - 8, kLabelFont, "end", "#666666",
            fmt::format("{} of {} marks have no room for a label; the table names them", unlabelled_,
                        marks_.size()));
-    return svg_ + "</svg>\n";
+    return svg_ + labels_ + "</svg>\n";
   }
 
  private:
@@ -151,13 +135,7 @@ class Plot {
     return box.x > kLeft + 2 && box.x + box.w < kWidth - 4 && box.y > top_ &&
            box.y + box.h < kHeight - kBottom &&
            std::none_of(taken_.begin(), taken_.end(),
-                        [&](const Box& other) { return box.Meets(other); }) &&
-           std::none_of(lines_.begin(), lines_.end(),
-                        [&](const Line& line) { return line.Meets(box); });
-  }
-  bool MeetsALabel(const Line& line) const {
-    return std::any_of(labels_.begin(), labels_.end(),
-                       [&](const Box& label) { return line.Meets(label); });
+                        [&](const Box& other) { return box.Meets(other); });
   }
 
   const PlotWords& words_;
@@ -166,8 +144,8 @@ class Plot {
   std::string svg_;
   double top_ = 0;  // px, of the axes
   Axis x_, y_;
-  std::vector<Box> taken_, labels_;
-  std::vector<Line> lines_;  // from marks to labels
+  std::vector<Box> taken_;
+  std::string labels_;  // drawn last, over the lines
   int unlabelled_ = 0;
 };
 
@@ -237,7 +215,7 @@ void Plot::DrawMarks() {
 
 // Tries places beside the mark first, then rings around it up to kFurthest away.
 void Plot::DrawLabel(const PlotMark& mark) {
-  constexpr double kFurthest = 90, kRing = 8;  // px
+  constexpr double kFurthest = 300, kRing = 8;  // px
   constexpr int kDirections = 24;
   const auto [x, y] = PlaceOf(mark);
   const double w = TextWidth(mark.words, kLabelFont), h = 14;
@@ -251,26 +229,25 @@ void Plot::DrawLabel(const PlotMark& mark) {
       // Puts the point of the box that is nearest to the mark on the ring.
       const Box box{cx - w * 0.5 * (1 - std::cos(angle)), cy - h * 0.5 * (1 - std::sin(angle)), w,
                     h};
-      const bool has_line = away > 2 * kMarkRadius + 4;
-      const Line line{x + kMarkRadius * std::cos(angle), y + kMarkRadius * std::sin(angle), cx, cy};
-      if (!IsFree(box) || (has_line && MeetsALabel(line))) continue;
+      if (!IsFree(box)) continue;
       taken_.push_back(box);
-      labels_.push_back(box);
-      if (has_line) {
-        lines_.push_back(line);
-        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#999999\" "
+      if (away > 2 * kMarkRadius + 4)
+        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#bbbbbb\" "
             "stroke-width=\"0.6\"/>\n",
-            line.x0, line.y0, line.x1, line.y1);
-      }
+            x + kMarkRadius * std::cos(angle), y + kMarkRadius * std::sin(angle), cx, cy);
       // The side of the text that is exact is the one next to the mark.
       constexpr double kBeside = 0.3;
       const double side = std::cos(angle);
-      if (side > kBeside)
-        Text(box.x, box.y + 11, kLabelFont, "start", ColourOf(mark.series), mark.words);
-      else if (side < -kBeside)
-        Text(box.x + w, box.y + 11, kLabelFont, "end", ColourOf(mark.series), mark.words);
-      else
-        Text(box.x + w / 2, box.y + 11, kLabelFont, "middle", ColourOf(mark.series), mark.words);
+      const double at = side > kBeside ? box.x : side < -kBeside ? box.x + w : box.x + w / 2;
+      // A white outline keeps a label readable over a line.
+      labels_ += fmt::format(
+          "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\" "
+          "stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
+          at, box.y + 11, kLabelFont,
+          side > kBeside    ? "start"
+          : side < -kBeside ? "end"
+                            : "middle",
+          ColourOf(mark.series), Escaped(mark.words));
       return;
     }
   ++unlabelled_;
