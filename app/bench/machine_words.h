@@ -1,4 +1,4 @@
-// On what a benchmark ran.
+// Machine and build of a benchmark.
 #pragma once
 
 #include <string>

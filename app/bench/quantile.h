@@ -1,4 +1,4 @@
-// What a benchmark tells of many times: the median, and how long nearly all take.
+// Quantiles of measured times.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace arthro::app {
 
-// Of n values the ceil(share · n)-th in order: of fewer than 100 the largest is the 99th
-// percentile. There must be one.
+// The ceil(share · n)-th of n ordered values: the 99th percentile of fewer than 100 values is the
+// largest. Needs at least one value.
 inline double Quantile(std::vector<double> values, double share) {
   const auto last = values.size() - 1;
   const auto at = std::min(last, static_cast<std::size_t>(std::max(

@@ -20,8 +20,9 @@ constexpr double kGlyph = 0.64;
 constexpr double kLabelFont = 11, kLegendFont = 12;
 
 double TextWidth(const std::string& text, double font) {
-  const auto glyphs = std::count_if(text.begin(), text.end(),
-                                    [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+  const auto glyphs = std::count_if(text.begin(), text.end(), [](char c) {
+    return (c & 0xC0) != 0x80;
+  });  // counts UTF-8 characters
   return kGlyph * font * static_cast<double>(glyphs);
 }
 
@@ -44,7 +45,7 @@ struct Axis {
   }
 };
 
-constexpr double kLeast = 1e-9, kMost = 5e9;  // of any axis
+constexpr double kLeast = 1e-9, kMost = 5e9;  // ends of any axis
 
 // Powers of ten over many decades; 1, 2 and 5 times these over few.
 std::vector<double> Ticks(double low, double high) {
@@ -104,7 +105,7 @@ class Plot {
       Text(kWidth - kRight, top_ - 8, kLabelFont, "end", "#666666",
            fmt::format("{} of {} marks have no room for a label; the table names them", unlabelled_,
                        marks_.size()));
-    return svg_ + "</svg>\n";
+    return svg_ + labels_ + "</svg>\n";
   }
 
  private:
@@ -144,6 +145,7 @@ class Plot {
   double top_ = 0;  // px, of the axes
   Axis x_, y_;
   std::vector<Box> taken_;
+  std::string labels_;  // drawn last, over the lines
   int unlabelled_ = 0;
 };
 
@@ -206,14 +208,14 @@ void Plot::DrawMarks() {
     Put("<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"{3}\" "
         "fill-opacity=\"{4:.2f}\" stroke=\"{3}\" stroke-width=\"1.5\"/>\n",
         x, y, kMarkRadius, ColourOf(mark.series), std::clamp(mark.share, 0.0, 1.0));
-    constexpr double kReach = kMarkRadius + 1;  // with the stroke
+    constexpr double kReach = kMarkRadius + 1;  // includes the stroke
     taken_.push_back({x - kReach, y - kReach, 2 * kReach, 2 * kReach});
   }
 }
 
 // Tries places beside the mark first, then rings around it up to kFurthest away.
 void Plot::DrawLabel(const PlotMark& mark) {
-  constexpr double kFurthest = 90, kRing = 8;  // px
+  constexpr double kFurthest = 300, kRing = 8;  // px
   constexpr int kDirections = 24;
   const auto [x, y] = PlaceOf(mark);
   const double w = TextWidth(mark.words, kLabelFont), h = 14;
@@ -224,15 +226,28 @@ void Plot::DrawLabel(const PlotMark& mark) {
       const double angle = turn + ((i / 2) % 2 == 0 ? 1 : -1) * ((i / 2 + 1) / 2) * 2 *
                                       std::numbers::pi / kDirections;
       const double cx = x + away * std::cos(angle), cy = y + away * std::sin(angle);
-      // Of the box, the point that is nearest to the mark lies on the ring.
+      // Puts the point of the box that is nearest to the mark on the ring.
       const Box box{cx - w * 0.5 * (1 - std::cos(angle)), cy - h * 0.5 * (1 - std::sin(angle)), w,
                     h};
       if (!IsFree(box)) continue;
       taken_.push_back(box);
       if (away > 2 * kMarkRadius + 4)
-        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#999999\" stroke-width=\"0.6\"/>\n",
+        Put("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#bbbbbb\" "
+            "stroke-width=\"0.6\"/>\n",
             x + kMarkRadius * std::cos(angle), y + kMarkRadius * std::sin(angle), cx, cy);
-      Text(box.x, box.y + 11, kLabelFont, "start", ColourOf(mark.series), mark.words);
+      // The side of the text that is exact is the one next to the mark.
+      constexpr double kBeside = 0.3;
+      const double side = std::cos(angle);
+      const double at = side > kBeside ? box.x : side < -kBeside ? box.x + w : box.x + w / 2;
+      // A white outline keeps a label readable over a line.
+      labels_ += fmt::format(
+          "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\" "
+          "stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
+          at, box.y + 11, kLabelFont,
+          side > kBeside    ? "start"
+          : side < -kBeside ? "end"
+                            : "middle",
+          ColourOf(mark.series), Escaped(mark.words));
       return;
     }
   ++unlabelled_;

@@ -35,7 +35,7 @@ struct Clip {
   std::vector<bool> is_blank;
   cv::Point2d centre;     // rectified px
   double rim = 0;         // radius of what the lens shows there
-  double nine_reach = 0;  // of the eight outer points of the nine
+  double nine_reach = 0;  // reach of the eight outer points
 };
 
 Clip ReadClip(const std::filesystem::path& folder) {

@@ -1,10 +1,10 @@
-// What a tissue's mesh of a given size costs and how far it gives way too little: the digital
-// knee's meniscus (resources/demo) under 0.2 N of a probe, spread over 1 mm of its surface, at
-// three places of the free edge, held as the scene says with nothing under it. The reference is the
-// same surface in some ten times as many elements as the finest. Load and displacement are of the
-// same fine surface for all, so that only the elements differ. With `probed`, the places were told
-// to the mesher. Errors are of five meshes within a tenth of the size: the mean of each place, and
-// the median and the range of the worst one.
+// Cost and stiffness error of a tissue's mesh, by its size: the digital knee's meniscus
+// (resources/demo) under a probe's 0.2 N, spread over 1 mm of its surface, at three places of the
+// free edge, held as in the scene with nothing under it. The reference is the same surface with
+// some ten times as many elements as the finest mesh. Load and displacement refer to the same fine
+// surface for all meshes, so that only the elements differ. With `probed`, the mesher knows the
+// places. Errors are over five meshes within a tenth of the size: the mean per place, and the
+// median and the range of the worst place.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ constexpr std::array<Place, 3> kPlaces = {{{"body", {0.013897, 0.006804, 0.02846
                                            {"posterior", {0.006269, 0.005698, 0.034702}},
                                            {"anterior", {0.0098, 0.0085, 0.0195}}}};
 
-// Of the surface: the places' shares of a load, and which way it presses.
+// Part of the surface under a load: share of the load per place, and its direction.
 struct Patch {
   glm::dvec3 centre{0.0}, direction{0.0};
   std::vector<std::size_t> vertex;

@@ -134,7 +134,7 @@ void Compare(const Size& size, bool quick) {
         const Arrival mine = ArrivalOf(ours, exact, share);
         const Arrival its = ArrivalOf(bullets[b], exact, share);
         if (mine.steps < 0) continue;
-        double whole = 0;  // what a peer that never arrives has cost until the end
+        double whole = 0;  // time of a peer that never arrives
         for (const double ms : bullets[b].ms) whole += ms;
         fmt::print("{:<3}  to {:g} %: {}{:.1f} times as fast as Bullet {}{}\n", size.words,
                    100 * share, its.steps > 0 ? "" : "more than ",

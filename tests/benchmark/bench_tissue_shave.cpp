@@ -19,7 +19,7 @@ constexpr double kFrame = 1.0 / 60;  // s
 
 struct Kind {
   std::vector<double> seconds, residual;
-  int most_iterations = 0;  // of one linear system, in the mean of its step
+  int most_iterations = 0;  // per linear system, mean over its step
 };
 
 double At(std::vector<double> values, double share) {

@@ -58,7 +58,7 @@ struct Minute {
 
 struct Soak {
   std::vector<Minute> minutes;
-  std::vector<double> all_ms, uncut_ms, reset_ms;  // of the stepping thread's processor
+  std::vector<double> all_ms, uncut_ms, reset_ms;  // processor time of the stepping thread
   std::vector<double> iterations;                  // a step that was not asleep
   int steps = 0, awake = 0, touched = 0, cuts = 0, debris = 0, sessions = 0, inverted = 0;
   int not_finite = 0, faults = 0, unsaid_faults = 0, fallbacks = 0, clamps = 0, unconverged = 0;
@@ -193,7 +193,7 @@ void Print(const Soak& soak) {
   std::fflush(stdout);
 }
 
-// What does not hold, one line each.
+// Claims that do not hold, one line each.
 int Judge(const Plan& plan, const Soak& first, const Soak& second) {
   int failures = 0;
   const auto expect = [&](bool holds, const std::string& what) {

@@ -13,10 +13,10 @@
 
 namespace arthro::test {
 
-// Of btDeformableBodySolver. The defaults are Bullet's own (3.24).
+// Options of btDeformableBodySolver. The defaults are Bullet's own (3.24).
 struct BulletOptions {
   int max_cg_iterations = 300;
-  double cg_tolerance = 1.1920929e-7;  // of r·z over min(1, r₀·z₀): SIMD_EPSILON
+  double cg_tolerance = 1.1920929e-7;  // r·z over min(1, r₀·z₀): SIMD_EPSILON
   double damping = 0;                  // stiffness-proportional, s
 };
 

@@ -50,7 +50,7 @@ void ArmProcess::Do(const std::string& line) {
 }
 
 std::vector<ArmRecord> ArmProcess::Records() {
-  Do("");  // what it was at is written down then
+  Do("");  // the record is complete then
   std::vector<ArmRecord> records;
   std::ifstream stream(log_, std::ios::binary);
   ArmRecord record;

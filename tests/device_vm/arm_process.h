@@ -24,7 +24,7 @@ class ArmProcess {
   // Waits until it and all before it are done.
   void Do(const std::string& line);
 
-  // Of all that it has begun.
+  // Records of all events so far.
   std::vector<ArmRecord> Records();
   // When the newest of that kind was; negative: it was not.
   double TimeOf(ArmEvent event);

@@ -1,5 +1,5 @@
-// What a virtual arm writes down, one record an event, in the order of time: its file is an array
-// of these. Clock of the machine (CLOCK_MONOTONIC), ns; counts; mA.
+// Record of a virtual arm, one per event, in the order of time. Its file is an array of records.
+// Times in ns of the machine's clock (CLOCK_MONOTONIC); counts; mA.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class ArmEvent : std::int32_t {
 struct ArmRecord {
   std::int64_t t_ns = 0;
   ArmEvent event = ArmEvent::kSent;
-  std::int32_t counter = 0;  // of the base's encoder
+  std::int32_t counter = 0;  // base encoder
   std::int32_t size = 0;     // bytes of the output report, its number included
   std::array<std::int16_t, 3> currents{};
   std::int16_t command = 0;

@@ -186,7 +186,7 @@ TEST(DeviceVm, UnpluggedUnderForceItIsLostAndFoundAgain) {
       last_push = tick.now;
       EXPECT_LT(lost, 0) << "force after it was lost";
     }
-    // By then each tick knows, however late the news of the end may be.
+    // Each tick knows by then, even when the message of the end is late.
     if (tick.now > unplugged + kSurelyLost) {
       EXPECT_FALSE(runs) << 1e3 * (tick.now - unplugged) << " ms after";
     }

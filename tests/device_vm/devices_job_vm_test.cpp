@@ -23,12 +23,12 @@ namespace {
 
 using namespace simulation;
 
-// What it refused with; empty: exit 0.
+// Sentence of the refusal; empty after exit 0.
 std::string Devices(std::vector<std::string> flags) {
   CLI::App program;
   app::AddDevicesJob(program);
   flags.insert(flags.begin(), "devices");
-  std::reverse(flags.begin(), flags.end());  // as CLI11 takes them
+  std::reverse(flags.begin(), flags.end());  // CLI11 takes them in reverse
   try {
     program.parse(flags);
   } catch (const Error& error) {

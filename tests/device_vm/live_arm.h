@@ -16,7 +16,7 @@ struct ServoTick {
   double now = 0, sample_t = 0;
   simulation::DeviceStatus status;
   bool is_valid = false;
-  int counter = 0;  // of the base's encoder, worked back from where the hand is
+  int counter = 0;  // base encoder, from the hand's position
   glm::dvec3 force{0.0};
 };
 

@@ -1,5 +1,5 @@
-// What is plugged in, once it is so many: the kernel takes its time. What there was after ten
-// seconds of the guest's otherwise.
+// Lists the plugged-in devices once the kernel shows the expected number of them, or after 10 s of
+// the guest's time.
 #pragma once
 
 #include <vector>

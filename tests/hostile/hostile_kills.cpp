@@ -325,7 +325,7 @@ class Kills {
   Samples samples_;
   std::mt19937_64 random_;
   std::vector<WritingJob> jobs_;
-  std::map<std::string, Known> known_;  // by the job's line
+  std::map<std::string, Known> known_;  // key: command line of the job
   int ended_ = 0, stopped_ = 0, done_ = 0, failures_ = 0;
 };
 

@@ -181,7 +181,8 @@ class Mutations {
   Samples samples_;
   std::vector<SampleTarget> targets_;
   std::map<std::string, std::string> inputs_;
-  std::map<std::string, std::map<std::string, std::string>> earlier_;  // by the job's line
+  std::map<std::string, std::map<std::string, std::string>>
+      earlier_;  // key: command line of the job
   int accepted_ = 0, refused_ = 0, ended_ = 0, failures_ = 0, slow_ = 0;
   double total_cpu_s_ = 0, most_cpu_s_ = 0, most_mb_ = 0;
   std::string slowest_ = "none", largest_ = "none";

@@ -12,7 +12,7 @@ enum class FileFormat { kBinary, kPng, kText, kJson, kXml };
 
 struct Mutation {
   std::string bytes;
-  std::string what;  // what was changed, for a report
+  std::string what;  // description of the change, for a report
 };
 
 // The same seed and bytes give the same mutation.

@@ -13,33 +13,13 @@
 #include "simulation/device/log/log_format.h"
 #include "simulation/scene/lens_io.h"
 #include "tests/authoring/panorama/tiny_clip.h"
+#include "tests/hostile/tet_block.h"
 #include "tests/support/small_scene.h"
 
 namespace arthro::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A block of `cells` cubes of 5 mm, of six tetrahedra each; "fixed" and "end" are its ends.
-TetMesh Block() {
-  constexpr int kCells = 2;
-  constexpr double kEdge = 0.005;
-  TetMesh mesh;
-  for (int i = 0; i <= kCells; ++i)
-    for (int j = 0; j < 2; ++j)
-      for (int k = 0; k < 2; ++k) {
-        mesh.rest_positions.push_back(kEdge * glm::dvec3(i, j, k));
-        mesh.sets["fixed"].push_back(i == 0);
-        mesh.sets["end"].push_back(i == kCells);
-      }
-  constexpr int kPaths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};
-  for (int i = 0; i < kCells; ++i)
-    for (const auto& [a, b] : kPaths) {
-      const auto corner = [&](int c) { return ((i + (c >> 2)) * 2 + (c >> 1 & 1)) * 2 + (c & 1); };
-      mesh.elements.insert(mesh.elements.end(), {corner(0), corner(b), corner(a), corner(7)});
-    }
-  return mesh;
-}
 
 // The octahedron of the small scene, of four tetrahedra about its axis.
 TetMesh OctahedronTets(double r) {
@@ -173,7 +153,7 @@ void Samples::MakeSurfaces() {
       << corners << "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n"
       << offsets << "\n</DataArray>\n</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
   fs::create_directories(in() / "block");
-  WriteTetMesh(in() / "block/block.vtu", Block());
+  WriteTetMesh(in() / "block/block.vtu", TetBlock(2));
   for (const auto& [name, mode] : {std::pair{"case.json", R"("mode": "static")"},
                                    {"moving.json", R"("mode": "dynamic", "dt": 0.01, "steps": 3)"}})
     std::ofstream(in() / "block" / name) << R"({"mesh": "block.vtu", "order": 1,
@@ -239,7 +219,7 @@ void Samples::Pack(const std::string& scene) const {
     const auto crc =
         static_cast<std::uint32_t>(::crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), size));
     const auto begin = static_cast<std::uint32_t>(archive.size());
-    std::string head;  // what both entries share, from the version on
+    std::string head;  // fields that both entries share, from the version on
     for (const std::uint32_t field : {20u, 0u, 0u, 0u, 0x21u}) Append32(head, field, 2);
     for (const std::uint32_t field : {crc, size, size}) Append32(head, field);
     Append32(head, static_cast<std::uint32_t>(name.size()), 2);

@@ -14,7 +14,7 @@ namespace arthro::test {
 struct SampleJob {
   std::vector<std::string> arguments;
   std::vector<std::string> outputs;  // names in ../out: files, or folders that end with /
-  int exit_code = 0;                 // of the undamaged input
+  int exit_code = 0;                 // exit code of the undamaged input
   bool writes_on_refusal = false;    // a result that says why
 };
 

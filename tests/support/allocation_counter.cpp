@@ -34,7 +34,7 @@ NoMemory::~NoMemory() { has_memory = true; }
 
 void* operator new(std::size_t size) { return Allocate(size); }
 void* operator new[](std::size_t size) { return Allocate(size); }
-// As std::stable_sort asks for its buffer; left alone, it would come from elsewhere than free
+// std::stable_sort asks for its buffer here; left alone, it would come from elsewhere than free
 // knows.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {

@@ -1,4 +1,4 @@
-// Counts what a thread takes from the heap. Who links it has its operator new, which counts.
+// Counts the heap allocations of a thread. A program that links this has its counting operator new.
 #pragma once
 
 namespace arthro::test {

@@ -1,6 +1,6 @@
-// Holds a rendered picture against another one: the worst 16x16 tile's structural similarity [Wang
-// et al. 2004, on grey levels] catches what is small but plain to see, the share of pixels that are
-// off catches what is faint but everywhere. A mean over the picture would hide both.
+// Compares two rendered pictures. The structural similarity of the worst 16x16 tile [Wang et al.
+// 2004, on grey levels] detects small strong differences. The share of pixels that are off detects
+// faint differences over the whole picture. A mean over the picture would hide both.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@
 namespace arthro::test {
 
 inline constexpr int kTile = 16;               // px
-inline constexpr int kOff = 8;                 // of 255, in any channel
+inline constexpr int kOff = 8;                 // in any channel, 0 to 255
 inline constexpr double kMinTileSsim = 0.95;   // [method.md, Picture tests]
 inline constexpr double kMaxShareOff = 0.002;  // [method.md, Picture tests]
 
 struct PictureDifference {
-  bool comparable = false;  // of one size
+  bool comparable = false;  // both have one size
   double worst_ssim = -1.0;
   glm::ivec2 worst_tile{0};  // its top-left pixel
-  double share_off = 1.0;    // of pixels with a channel off by more than kOff
+  double share_off = 1.0;    // pixels with a channel off by more than kOff
   int max_difference = 255;
 
   bool passes() const {

@@ -1,7 +1,6 @@
 // Rectified frames of a cavity whose distance is known at every pixel: a wall with a bump, a
 // hollow, a fold and roughness under a light at the scope, brightness = albedo × cosine /
-// distance², glints, vignette, noise, gamma. As the scenes on which the estimators were compared
-// before any was built.
+// distance², glints, vignette, noise, gamma.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +16,9 @@ namespace arthro::test {
 
 struct DepthSceneOptions {
   int seed = 1;
-  int size = 240;       // px a side
+  int size = 240;       // px per side
   double tissue = 1;    // 0: all pale; 1: pale and red, with texture
-  double noise = 0.01;  // of white, before the encoding
+  double noise = 0.01;  // relative to white, before encoding
   double highlights = 0.6;
   double gamma = 1.6;
   double vignette = 0.3;
@@ -33,7 +32,7 @@ struct DepthScene {
   glm::dvec3 RayOf(int x, int y) const {
     return glm::normalize(glm::dvec3((x - centre) / focal, (y - centre) / focal, 1));
   }
-  // Of a point in front of the scope; row-major.
+  // Index of the pixel that shows a point in front of the scope; row-major.
   std::optional<std::size_t> PixelOf(const glm::dvec3& x) const {
     if (!(x.z > 1e-6)) return std::nullopt;
     const double u = centre + focal * x.x / x.z + 0.5, v = centre + focal * x.y / x.z + 0.5;

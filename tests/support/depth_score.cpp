@@ -54,7 +54,7 @@ std::vector<double> Fitted(const std::vector<double>& estimate, const std::vecto
   return fitted;
 }
 
-constexpr double kNominalMm = 20;  // of one unit of a scene's distances
+constexpr double kNominalMm = 20;  // one unit of a scene's distances
 constexpr int kApproaches = 1000;
 
 // How far along the line the surface is met; NaN where the line leaves the picture first.

@@ -1,6 +1,6 @@
-// How far estimated distances are from true ones. Distances from light have no unit: one scale is
+// Error of estimated distances against true ones. Distances from light have no unit: one scale is
 // fitted to the truth. Greys have neither scale nor origin: both are fitted. Spearman's correlation
-// needs no fit, so it is the fair one between the two.
+// needs no fit, so it compares both fairly.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ struct DepthScore {
   double rmse_log = 0;    // root mean square of the log ratio
   double within_125 = 0;  // share within a factor of 1.25
   double spearman = 0;    // 1: ordered as the truth
-  double contact_mm = 0;  // mean error of where a probe touches, of 1 000 approaches; scenes only
+  double contact_mm = 0;  // mean error of the touched place over 1 000 approaches; scenes only
   std::string Text() const;
 };
 
-// 1 when one orders points as the other does.
+// Spearman's rank correlation; 1 for the same order.
 double RankCorrelation(const std::vector<double>& a, const std::vector<double>& b);
 
 // Distances that a relief of DepthFromColour stands for, without unit; NaN where nothing is known.

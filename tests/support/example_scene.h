@@ -49,11 +49,11 @@ inline nlohmann::json FullSceneJson() {
 }
 
 struct SceneFault {
-  const char* pointer;  // where the example is changed
+  const char* pointer;  // place of the change
   nlohmann::json value;
-  const char* key;             // how the reader names the place
-  const char* says;            // a part of what it says
-  bool schema_sees_it = true;  // false for what JSON Schema has no words for
+  const char* key;             // name of the place in the reader's sentence
+  const char* says;            // part of its sentence
+  bool schema_sees_it = true;  // false for rules that JSON Schema cannot express
 };
 
 // One fault each, for the reader and for the JSON Schema.
@@ -96,7 +96,7 @@ inline std::vector<SceneFault> SceneFaults() {
       {"/tissues/0/colour", {0.5, 0.5, 1.5}, "tissues[0].colour", "between 0 and 1"},
       {"/tissues/0/elasticity/young_modulus", 0, "tissues[0].elasticity.young_modulus", "pascals"},
       {"/tissues/0/elasticity/young_modulus",
-       nullptr,  // what NaN is written as
+       nullptr,  // NaN is written as null
        "tissues[0].elasticity.young_modulus", "null"},
       {"/tissues/0/elasticity/poisson_ratio", 0.5, "tissues[0].elasticity.poisson_ratio",
        "between -0.9 and 0.49999"},
@@ -121,7 +121,7 @@ inline std::vector<SceneFault> SceneFaults() {
        "2 to 1000 points"},
       {"/tissues/0/cuts/0/path", {{0, 0, 0}}, "tissues[0].cuts[0].path", "2 to 1000 points"},
       {"/tissues/0/cuts/0/path/1", {0, 0}, "tissues[0].cuts[0].path", "points [x, y, z]"},
-      {"/tissues/0/cuts/0/path/1/0", nullptr,  // what NaN is written as
+      {"/tissues/0/cuts/0/path/1/0", nullptr,  // NaN is written as null
        "tissues[0].cuts[0].path", "null"},
       {"/tissues/0/cuts/0/path/1/0", 3, "tissues[0].cuts[0].path", "metres"},
       {"/tissues/0/cuts/0/into", {0, 0, 0}, "tissues[0].cuts[0].into", "all zeros"},

@@ -42,13 +42,14 @@ class FakeUsb {
   void SetWriteTime(const std::string& path, int ms);
   void SetReadStall(const std::string& path, int ms);  // the next read that has a report waits
   void RefuseToOpen(const std::string& path, bool is_refused);
-  // Called by the writing thread with each report that was taken.
+  // Hook of the writing thread, called with each report that was taken.
   void OnWrite(const std::string& path, std::function<void(const Bytes&)> answer);
 
   std::vector<Bytes> Written(const std::string& path);
   std::vector<Bytes> Features(const std::string& path);
-  int FailFeatures(const std::string& path, int count);  // that many fail; how many are left
-  int opened(const std::string& path);                   // handles, now
+  int FailFeatures(const std::string& path,
+                   int count);          // makes `count` calls fail; returns how many are left
+  int opened(const std::string& path);  // handles, now
   int reads(const std::string& path);
   int listed();
   // Calls that hidapi forbids: closing under a read or write, two writes or reads at once, asking
@@ -67,7 +68,7 @@ class FakeUsb {
   };
   std::mutex mutex_;
   std::condition_variable news_;
-  std::map<std::string, Port> ports_;  // by path; stays after a device is pulled out
+  std::map<std::string, Port> ports_;  // key: path; stays after a device is pulled out
   int listed_ = 0, misuses_ = 0;
 };
 

@@ -21,7 +21,7 @@ FakeTouch* Of(HHD device) {
   return nullptr;
 }
 
-// What may be read and written in a frame alone.
+// Values that may be read and written only inside a frame.
 FakeTouch* InFrame() {
   if (framed != current || framed == HD_INVALID_HANDLE) ++OpenHaptics().wrong_calls;
   return Of(current);

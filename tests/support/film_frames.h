@@ -17,7 +17,7 @@ struct Film {
   std::vector<cv::Mat> frames;  // 8-bit RGB
 };
 
-// Throws Error for what is no film.
+// Throws Error for a file that is no film.
 Film ReadFilm(const std::filesystem::path& file);
 
 // dB of grey, since a film holds colours at half the size.

@@ -95,8 +95,8 @@ class XServer {
   std::string name_;
 };
 
-// Looks until `holds`, for at most `seconds`; a machine that is busy is slow.
-inline bool Eventually(const std::function<bool()>& holds, double seconds = 60) {
+// Looks until `holds`, at most for `seconds`: a bound against a hang on a busy machine.
+inline bool Eventually(const std::function<bool()>& holds, double seconds = 600) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (!holds()) {
     if (std::chrono::steady_clock::now() > end) return false;

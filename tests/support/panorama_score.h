@@ -1,6 +1,5 @@
-// How far a composed panorama is from the evenly lit plane that it shows: PSNR and SSIM after the
-// slow ratio of brightness (blur of 80 px) is taken out, at half size, as the reference scorer has
-// it.
+// Error of a composed panorama against the evenly lit plane that it shows: PSNR and SSIM at half
+// size, after the slow ratio of brightness (blur of 80 px) is removed.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,8 +8,8 @@ namespace arthro::test {
 
 struct PanoramaScore {
   double psnr = 0;   // dB, over RGB
-  double ssim = 0;   // of green
-  double share = 0;  // of `truth` that was compared
+  double ssim = 0;   // green channel
+  double share = 0;  // part of `truth` that was compared
 };
 
 // `rgba`: the panorama. `composed_from_truth` takes pixels of `truth` (CV_8UC3, RGB) to its pixels.

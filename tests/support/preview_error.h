@@ -1,4 +1,4 @@
-// How far a depth preview is from the whole result, averaged over the pixels that each of its
+// Error of a depth preview against the whole result, averaged over the pixels that each of its
 // pixels covers.
 #pragma once
 

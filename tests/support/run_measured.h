@@ -24,10 +24,11 @@ struct MeasuredRun {
   double megabytes = 0;  // greatest resident size
 };
 
-// `environment`: NAME=VALUE of each. Killed after `limit` seconds.
+// `environment` holds NAME=VALUE. The program is killed after `limit` seconds, a bound against a
+// hang.
 inline MeasuredRun RunMeasured(const std::vector<std::string>& arguments,
                                const std::vector<std::string>& environment = {},
-                               unsigned limit = 60) {
+                               unsigned limit = 600) {
   TempFolder folder;
   const std::string out = (folder / "out").string(), err = (folder / "err").string();
   std::vector<char*> words = {const_cast<char*>(ARTHRO_PROGRAM)};

@@ -53,7 +53,7 @@ std::string TableOf(const HapticsBench& bench) {
       "{:<22}{:>9}{:>11}{:>8}{:>13}{:>9}\n",
       "method", "steps/s", "strokes/s", "rms %", "excess N", "us");
   for (const BridgeRow& row : bench.bridges)
-    table += fmt::format("{:<22}{:>9.0f}{:>11.0f}{:>8.2f}{:>13.5f}{:>9.3f}\n", Word(row.bridge),
+    table += fmt::format("{:<22}{:>9.0f}{:>11.0f}{:>8.2f}{:>13.5f}{:>9.3f}\n", ToString(row.bridge),
                          row.step_rate, row.stroke_rate, 100 * row.rms, row.excess_step,
                          kMicro * row.seconds);
   table +=
@@ -108,7 +108,7 @@ nlohmann::json JsonOf(const HapticsBench& bench) {
                       {"excess_step", row.errors.excess_step},
                       {"us", kMicro * row.seconds}});
   for (const BridgeRow& row : bench.bridges)
-    bridges.push_back({{"method", Word(row.bridge)},
+    bridges.push_back({{"method", ToString(row.bridge)},
                        {"step_rate", row.step_rate},
                        {"stroke_rate", row.stroke_rate},
                        {"rms", row.rms},

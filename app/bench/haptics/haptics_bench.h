@@ -1,7 +1,10 @@
-// Speed against error of touch: what the servo's tick costs, stage by stage; how far its force is
-// from closed forms, beside the paper's kernel, and from a tissue's between two steps of it; where
-// a sampled wall begins to swing, beside the rule K = (b + B)/(T/2 + t_d); and whether simulated
-// hands come to rest on it. All but the times is the same in every run. [benchmarks.md, Haptics]
+// Speed against error of touch [benchmarks.md, Haptics]:
+// - time of a servo tick, by stage;
+// - error of its force against closed forms, beside the paper's kernel;
+// - error of the force between two steps of a tissue;
+// - largest stable stiffness of a sampled wall, beside the rule K = (b + B)/(T/2 + t_d);
+// - simulated hands on a wall, and the energy that they gain.
+// Only the times differ between runs.
 #pragma once
 
 #include <string>
@@ -25,8 +28,8 @@ struct HapticsBenchOptions {
   int cycles = 10000;
   template <class V>
   void Visit(V&& v) {
-    v("ticks", ticks, Range{10, 60000}, "", "Servo ticks of 1 ms that are timed a round.");
-    v("rounds", rounds, Range{1, 1000}, "", "How often the same ticks are timed.");
+    v("ticks", ticks, Range{10, 60000}, "", "Servo ticks of 1 ms that are timed per round.");
+    v("rounds", rounds, Range{1, 1000}, "", "Repetitions of the same ticks.");
     v("hands", hands, Range{0, 10000000}, "", "Simulated hands that press against a wall.");
     v("cycles", cycles, Range{0, 10000000}, "",
       "Slow closed cycles over rigid backdrops whose energy is summed.");
@@ -36,7 +39,7 @@ struct HapticsBenchOptions {
 struct ForceRow {
   std::string surface, source, method;  // "waves", "8 bit", "proxy" or "paper 3x3"
   test::ForceErrors errors;
-  double seconds = 0;  // a force, mean of a stroke; of the rounds the least
+  double seconds = 0;  // per force, mean over a stroke; the least of all rounds
 };
 
 // A released device on a wall: 45 g, 0.2 N s/m.
@@ -47,11 +50,11 @@ struct StabilityRow {
   double measured = 0, rule = 0;  // N/m
 };
 
-// At the program's own gains.
+// Simulated hands under the program's own gains.
 struct HandsRow {
   int tried = 0, escaped = 0;
-  double most_energy = 0;  // J, that the wall gave a hand beyond what it took
-  // J, of a stroke into the wall and out again, over four hands and 0 to 2 ticks of delay.
+  double most_energy = 0;  // J, most net energy from the wall to a hand
+  // J, energy of a stroke into the wall and out again, over four hands and 0 to 2 ticks of delay.
   double cycle_energy = 0, cycle_energy_unguarded = 0;
 };
 
@@ -62,10 +65,10 @@ struct HapticsBench {
   std::vector<test::BridgeRow> bridges;
   std::vector<StabilityRow> stability;
   HandsRow hands;
-  std::vector<test::EnergyRow> energy;  // by ground
+  std::vector<test::EnergyRow> energy;  // one row per ground
 };
 
-// The parts of it, beside MeasureServo and MeasureBridges.
+// Parts of the benchmark, beside MeasureServo and MeasureBridges.
 std::vector<ForceRow> MeasureForces(int rounds, const Progress& progress);
 std::vector<StabilityRow> MeasureStability(const Progress& progress);
 HandsRow MeasureHands(int hands, const Progress& progress);

@@ -30,7 +30,7 @@ double Since(Clock::time_point start) noexcept {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Calls of the same work, over rounds.
+// Times of repeated calls of the same work, over rounds.
 class CallTimes {
  public:
   CallTimes(std::string what, int calls) : what_(std::move(what)) {
@@ -91,7 +91,7 @@ class TimedPlant final : public Device {
   double seconds_ = 0;
 };
 
-// Both tips stroke in and out of the surfaces at up to 30 mm/s.
+// Paths of both tips in and out of the surfaces, up to 30 mm/s.
 RodPose ScopeAt(double t) {
   return {0.25 * std::sin(1.3 * t), 0.25 * std::cos(1.1 * t), t, 0.0455 + 0.001 * std::sin(2 * t)};
 }
@@ -116,7 +116,7 @@ LoadedScene TouchScene(const AnalyticRelief& relief, bool has_mesh) {
   return loaded;
 }
 
-// What both hands did in a tick, and what came of it.
+// Samples of both hands in a tick, and the resulting snapshot.
 struct TickRecord {
   DeviceSample scope, instrument;
   Snapshot snapshot;
@@ -150,7 +150,7 @@ void RunLoop(const LoadedScene& scene, int ticks, long (*heap_calls)() noexcept,
   request.incision_spacing = session.incision_spacing();
   request.view_angle = session.view_angle();
   double now = 0;
-  // Opened and homed, then armed and ramped.
+  // The devices open and home, then arm and ramp up.
   for (int i = 0; i < 1010; ++i) {
     if (i == 10) {
       request.is_dead_man_held = {true, true};
@@ -186,7 +186,7 @@ void RunLoop(const LoadedScene& scene, int ticks, long (*heap_calls)() noexcept,
   }
 }
 
-// The stages of the tick on their own, each over what the whole one did.
+// Times each stage of the tick alone, on the samples of the whole one.
 void TimeStages(const LoadedScene& scene, const std::vector<TickRecord>& record, int rounds,
                 std::vector<ServoTime>& rows) {
   const SessionOptions options;

@@ -78,9 +78,14 @@ MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progr
     for (const MicroFunction& function : group.functions) {
       const std::string name = FullName(group, function);
       // Faults must not pass through Google Benchmark, which does not expect them.
-      const auto run = [&, name](benchmark::State& state) {
+      const auto run = [&, name, is_warm = std::make_shared<bool>(false)](benchmark::State& state) {
         try {
           if (!fault) progress.Step(name, static_cast<double>(done) / static_cast<double>(count));
+          // The first call makes the function's input.
+          if (!fault && !std::exchange(*is_warm, true)) {
+            ++done;
+            function.call();
+          }
           for (auto _ : state) {
             if (!fault) function.call();
           }

@@ -39,7 +39,7 @@ struct Prepared {
   cv::Mat mask;
 };
 
-// From raw frames to what is matched, as the panorama job does it.
+// Prepares raw frames for matching, as the panorama job does.
 Prepared Prepare(const std::vector<cv::Mat>& raw, const authoring::Rectifier& rectifier,
                  double scale) {
   Prepared prepared{{}, rectifier.mask()};
@@ -62,7 +62,7 @@ void Score(const authoring::Clip& clip, const authoring::RectifiedView& view,
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   row.frames = clip.frames();
   row.placed = score.placed;
-  row.right = score.placed > 1 ? score.right : 0;  // one frame alone is always where it is
+  row.right = score.placed > 1 ? score.right : 0;  // a single frame has no error
   row.wrong_as_good = score.wrong_as_good;
   row.mean_px = row.right > 0 ? score.mean_px : kNothing;
   row.max_px = row.right > 0 ? score.max_px : kNothing;
@@ -95,7 +95,7 @@ RegistrationBenchRow RunPeer(const authoring::Clip& clip, const authoring::Recti
   row.outcome = peer.outcome;
   row.cpu_ms = 1e3 * peer.cpu_seconds / static_cast<double>(greys.size());
   Score(clip, view, results, row);
-  row.covered = std::numeric_limits<double>::quiet_NaN();  // it expects no error
+  row.covered = std::numeric_limits<double>::quiet_NaN();  // the peer expects no error
   return row;
 }
 

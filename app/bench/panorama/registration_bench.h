@@ -1,7 +1,6 @@
-// Speed against error of registration, on phantom clips whose every homography is known: detectors,
-// working scales and stages of our chain, and OpenCV's stitcher as peer, on the same frames in one
-// run. Processor time is the process's own, of everything from the decoded raw frame to the places;
-// drawing the clip and scoring are not counted.
+// Speed against error of registration, on phantom clips with known homographies: detectors, working
+// scales and stages of our chain, and OpenCV's stitcher on the same frames. The processor time
+// spans from the decoded raw frame to its place, without drawing and scoring of the clip.
 #pragma once
 
 #include <string>
@@ -25,15 +24,16 @@ struct RegistrationBenchOptions {
   double peer_limit = 60;
   template <class V>
   void Visit(V&& v) {
-    v("seed", seed, Range{0, 2147483647}, "", "Which phantom clips.");
-    v("frames", frames, Range{0, 2000}, "", "Frames of each clip; 0: as many as its kind has.");
+    v("seed", seed, Range{0, 2147483647}, "", "Seed of the phantom clips.");
+    v("frames", frames, Range{0, 2000}, "",
+      "Frames of each clip; 0 takes the number of its preset.");
     v("width", width, Range{64, 4096}, "px", "Width of a frame.");
     v("height", height, Range{64, 4096}, "px", "Height of a frame.");
     v("every_chain", every_chain, Any{}, "",
-      "Every detector at every scale with every set of stages, not only along the axes.");
+      "Run every detector at every scale with every set of stages, instead of varying one at a "
+      "time.");
     v("peers", peers, Any{}, "", "Run OpenCV's stitcher beside ours.");
-    v("peer_limit", peer_limit, Range{1, 3600}, "s",
-      "Processor time after which the peer is stopped.");
+    v("peer_limit", peer_limit, Range{1, 3600}, "s", "Processor time limit of OpenCV's stitcher.");
   }
 };
 
@@ -43,9 +43,9 @@ struct RegistrationBenchRow {
   bool is_peer = false;
   std::string outcome = "done";
   int frames = 0, placed = 0, right = 0, wrong_as_good = 0;
-  double mean_px = 0, max_px = 0;  // NaN when nothing is right
+  double mean_px = 0, max_px = 0;  // NaN when no frame is right
   double covered = 0;              // share of placed frames within their expected error
-  double cpu_ms = 0;               // a frame
+  double cpu_ms = 0;               // per frame
 };
 
 struct RegistrationBench {
@@ -53,7 +53,7 @@ struct RegistrationBench {
   std::vector<RegistrationBenchRow> rows;
 };
 
-// The chains in the order in which they are run: name and what it sets.
+// Chains in the order of the runs.
 struct BenchChain {
   std::string words;
   double scale = 0.5;

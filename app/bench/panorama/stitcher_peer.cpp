@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFeatures = 1500;  // a frame; as in the measurements of peers that we compare with
+constexpr int kFeatures = 1500;  // per frame
 
 std::string FrameName(std::size_t i) { return fmt::format("{:04d}.png", i); }
 
@@ -89,7 +89,7 @@ void Work(const fs::path& folder, PeerMode mode) {
       cameras[k].R.convertTo(rotation, CV_64F);
       cameras[k].K().convertTo(intrinsics, CV_64F);
       const cv::Matx33d r(rotation), c(intrinsics);
-      // The affine warper maps mosaic to frame, the plane warper by R K⁻¹ onto z = 1.
+      // The affine warper maps mosaic to frame; the plane warper maps by R K⁻¹ onto z = 1.
       const cv::Matx33d mosaic_from_frame =
           scans ? r.inv() * work_from_frame : r * c.inv() * work_from_frame;
       out << component[k];
@@ -123,7 +123,7 @@ PeerResult StitchWithPeer(const std::vector<cv::Mat>& frames, const cv::Mat& mas
   for (std::size_t i = 0; i < frames.size(); ++i)
     cv::imwrite((scratch.path() / FrameName(i)).string(), frames[i],
                 {cv::IMWRITE_PNG_COMPRESSION, 1});
-  // Wall time can be longer than processor time on a busy machine.
+  // On a busy machine, wall-clock time exceeds processor time.
   const authoring::ChildResult child = authoring::RunChild(
       authoring::kThisProgram,
       {"stitcher-worker", scratch.path().string(),
@@ -153,7 +153,7 @@ PeerResult StitchWithPeer(const std::vector<cv::Mat>& frames, const cv::Mat& mas
     }
     cv::Matx33d h;
     bool is_finite = true;
-    for (double& e : h.val) {  // its bundle adjustment can give "nan", which streams do not read
+    for (double& e : h.val) {  // bundle adjustment can give "nan", which streams do not read
       std::string number;
       in >> number;
       e = std::strtod(number.c_str(), nullptr);

@@ -1,6 +1,6 @@
-// OpenCV's own stitcher on frames that we prepared, as the peer that our registration is held
-// against [OpenCV 4, stitching module]. It runs in a process of its own, under a limit of processor
-// time and memory: on arthroscopic frames it may not end, and may abort.
+// OpenCV's stitcher [OpenCV 4, stitching module] on prepared frames, for comparison with our
+// registration. It runs in a process of its own, with limits of processor time and memory: on
+// arthroscopic frames it may never end, or abort.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@
 
 namespace arthro::app {
 
-enum class PeerMode { kScans, kPanorama };  // affine, or a turning camera with bundle adjustment
+enum class PeerMode { kScans, kPanorama };  // affine; rotating camera with bundle adjustment
 
 struct PeerOptions {
   PeerMode mode = PeerMode::kScans;
   double cpu_limit = 60;      // s of processor time
-  double memory_limit = 2e9;  // bytes on top of the program itself
+  double memory_limit = 2e9;  // bytes, beyond those of the program
 };
 
 struct PeerResult {
-  std::string outcome;      // "done", or why there is nothing: its status, a signal, out of time
-  std::vector<int> frames;  // that it placed
-  std::vector<cv::Matx33d> mosaic_from_frame;  // px of the frames as given
-  double cpu_seconds = 0;                      // of its estimation, reading not counted
+  std::string outcome;      // "done", or the reason for no result: status, signal, time limit
+  std::vector<int> frames;  // indices of the placed frames
+  std::vector<cv::Matx33d> mosaic_from_frame;  // px of the given frames
+  double cpu_seconds = 0;                      // s of estimation, without reading
   double peak_memory = 0;                      // bytes, the whole process
 };
 
@@ -34,7 +34,7 @@ struct PeerResult {
 PeerResult StitchWithPeer(const std::vector<cv::Mat>& frames, const cv::Mat& mask,
                           const PeerOptions& options, const Progress& progress);
 
-// In the child: reads the frames of a folder, leaves the result there. Returns an exit status.
+// Reads the frames of a folder and writes the result there, in the child. Returns its exit status.
 int RunStitcherWorker(const std::filesystem::path& folder, PeerMode mode, double cpu_limit,
                       double memory_limit) noexcept;
 

@@ -24,7 +24,7 @@ struct BenchAllOptions {
 };
 
 struct BenchPlot {
-  std::string name;  // of its file, without .svg
+  std::string name;  // file name without .svg
   std::string svg;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kBudgetTolerance = 1e-2;  // what frames are solved to when nothing else is said
+constexpr double kBudgetTolerance = 1e-2;  // default tolerance of a frame
 
 const char* LawWords(simulation::Law law) {
   return law == simulation::Law::kCorotated ? "cor" : "snh";
@@ -30,7 +30,7 @@ bool IsBudgetRow(const TissueBenchRow& row) {
 
 std::string TableOf(const TissueBench& bench) {
   std::string table = fmt::format(
-      "# tissue: speed against error | {} | processor time of one thread, {:g} frames a second\n"
+      "# tissue: speed against error | {} | processor time of one thread, {:g} frames per second\n"
       "{:<7} {:<15} {:<18} {:<4}{:>7} {:>6}{:>7}{:>10}{:>9}{:>9}{:>8}{:>7}{:>6}{:>10}{:>11}{:>5}"
       "{:>5}\n",
       MachineWords(), bench.options.frame_rate, "course", "case", "mesh", "law", "toler.", "elem.",

@@ -1,9 +1,9 @@
-// Speed against error of deformable tissue, for element, mesh, tolerance and law, on cases whose
-// continuum answer is known. Two errors stand apart: what the mesh is off by when it is solved
-// exactly (to 1e-10), and what the solver is off by on that mesh. Processor time of one thread.
-// Statics: the whole solve, to 1e-8. Frames: a load that comes at once, stays, and then swings as a
-// hand does; time a frame, with the factor of the rest state throughout, and the largest difference
-// from the same frames solved to 1e-10.
+// Speed against error of deformable tissue, by element, mesh, tolerance and law, on cases with
+// known continuum answers. Two errors are separate: the mesh's error when it is solved exactly (to
+// 1e-10), and the solver's error on that mesh. Times are processor times of one thread. Statics:
+// one whole solve, to 1e-8. Frames: a step load that holds, then oscillates like a hand; time per
+// frame with the factor of the rest state throughout, and the largest difference from the same
+// frames solved to 1e-10.
 #pragma once
 
 #include <string>
@@ -24,29 +24,31 @@ struct TissueBenchOptions {
   int max_elements = 10000;
   template <class V>
   void Visit(V&& v) {
-    v("only", only, Any{}, "", "Cases whose name begins so; empty: all.");
-    v("frames", frames, Range{4, 100000}, "", "Frames of a load course; a third of them it stays.");
-    v("frame_rate", frame_rate, Range{1, 10000}, "Hz", "Frames a second.");
+    v("only", only, Any{}, "", "Cases whose names begin so; empty for all of them.");
+    v("frames", frames, Range{4, 100000}, "",
+      "Frames of a load course; the load is constant for a third of them.");
+    v("frame_rate", frame_rate, Range{1, 10000}, "Hz", "Frames per second.");
     v("max_elements", max_elements, Range{1, 1000000}, "",
-      "Meshes of more are left out; the largest has 20736.");
+      "Largest mesh that is measured; the largest of all has 20736.");
   }
 };
 
 struct TissueBenchRow {
   std::string course;  // "static" or "frames"
-  std::string name;    // of the case
+  std::string name;    // case
   std::string mesh;    // "T10 24x4x2"
   int order = 1;
   simulation::Law law = simulation::Law::kStableNeoHookean;
   double tolerance = 0;
   int elements = 0, nodes = 0;
   double factor_ms = 0;
-  double step_ms = 0, step_p99_ms = 0;     // static: the whole solve
-  double newton = 0, iterations = 0;       // mean a step; static: sum
-  int most_iterations = 0;                 // of a step
-  double model_error = 0;                  // share of the continuum's value, signed
-  double solver_error = 0;                 // share of this mesh's exact value
-  int frames_to_5 = -1, frames_to_1 = -1;  // until the step load's answer stays within 5 %, 1 %
+  double step_ms = 0, step_p99_ms = 0;  // per frame; static: whole solve
+  double newton = 0, iterations = 0;    // mean per step; static: sum
+  int most_iterations = 0;              // per step
+  double model_error = 0;               // relative to the continuum, signed
+  double solver_error = 0;              // relative to this mesh's exact value
+  int frames_to_5 = -1,
+      frames_to_1 = -1;  // until the answer to the step load stays within 5 %, 1 %
   bool converged = true;
 };
 
@@ -59,10 +61,10 @@ struct TissueBenchMesh {
   std::string words;
   TetMesh mesh;
 };
-// T4 then T10, from coarse to fine, as far as `max_elements`.
+// Meshes of T4, then T10, from coarse to fine, up to `max_elements`.
 std::vector<TissueBenchMesh> TissueBenchMeshes(test::TissueBody body, int max_elements);
 
-// A case solved exactly on a mesh: what is watched there, and how far from the continuum it is.
+// A case solved exactly on a mesh: the watched value, and its error against the continuum.
 struct ExactAnswer {
   double value = 0, model_error = 0;
   simulation::StepReport report;

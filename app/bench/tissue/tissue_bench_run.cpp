@@ -36,7 +36,7 @@ BodyState AtRest(const TissueProblem& problem) {
   return {rest, std::vector<glm::dvec3>(rest.size(), glm::dvec3(0.0))};
 }
 
-// Full at once for a third of the course, then between full and half, 1.5 times a second.
+// Share of the load: full for a third of the course, then between full and half at 1.5 Hz.
 double ShareAt(int frame, const TissueBenchOptions& options) {
   const int hold = options.frames / 3;
   if (frame < hold) return 1;
@@ -45,7 +45,7 @@ double ShareAt(int frame, const TissueBenchOptions& options) {
 }
 
 struct Course {
-  std::vector<double> watch, ms;  // a frame
+  std::vector<double> watch, ms;  // per frame
   double newton = 0, iterations = 0;
   int most_iterations = 0;
   bool converged = true;
@@ -75,7 +75,7 @@ Course RunCourse(const TissueProblem& problem, const SolverOptions& solver_optio
   return course;
 }
 
-// Ordering and factor of the rest state: what a new body or a new cut costs.
+// Time of ordering and factoring the rest state, as for a new body or a new cut.
 double FactorMs(const TissueProblem& problem) {
   const double start = ThreadCpuMs();
   const ImplicitSolver solver(problem.model, problem.fixed);
@@ -162,7 +162,7 @@ TissueBench RunTissueBench(const TissueBenchOptions& options, const Progress& pr
   std::vector<const TissueCase*> cases;
   for (const TissueCase& c : TissueCases())
     if (std::string(c.name).starts_with(options.only)) cases.push_back(&c);
-  if (cases.empty()) TissueCaseOf(options.only);  // says which there are
+  if (cases.empty()) TissueCaseOf(options.only);  // throws and lists the cases
 
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const TissueCase& c = *cases[k];
@@ -199,7 +199,7 @@ TissueBench RunTissueBench(const TissueBenchOptions& options, const Progress& pr
               std::abs(Watch(problem, state.x, solver.reactions()) / exact.value - 1);
           bench.rows.push_back(row);
         }
-        // Frames for the tissue itself, with its own law.
+        // Frames are measured for the meniscus, under its own law.
         if (c.body != TissueBody::kMeniscus || law != Law::kStableNeoHookean) continue;
         const Course truth = RunCourse(problem, Exact(), options);
         for (const double tolerance : kFrameTolerances) {

@@ -9,9 +9,9 @@ namespace {
 
 using namespace test;
 
-constexpr double kWithin = 0.45;       // of the picture's side, from its middle
+constexpr double kWithin = 0.45;       // share of the picture's side, from its centre
 constexpr double kPanoramaMargin = 9;  // px
-constexpr int kMostRounds = 20;        // of looking for pixels that will do
+constexpr int kMostRounds = 20;        // limit of the search for usable pixels
 
 bool IsWellInside(const glm::dvec2& place, const ColourImage& panorama) {
   return place.x >= kPanoramaMargin && place.y >= kPanoramaMargin &&

@@ -1,5 +1,5 @@
-// A drawn picture held against the reference tracer, at random pixels of it: where their rays end,
-// and in what colour.
+// Agreement of a drawn picture with the reference tracer, at random pixels: end of each ray, and
+// its colour.
 #pragma once
 
 #include <limits>
@@ -12,8 +12,8 @@
 
 namespace arthro::app {
 
-inline constexpr double kSameDistance = 1e-4;  // m; what is asked of a depth, at some 20 mm
-inline constexpr double kSameColour = 8;       // of 255, in the worst channel
+inline constexpr double kSameDistance = 1e-4;  // m; required of a depth near 20 mm
+inline constexpr double kSameColour = 8;       // in the worst channel, 0 to 255
 
 struct TracedPixel {
   int x = 0, y = 0;
@@ -21,21 +21,21 @@ struct TracedPixel {
   glm::dvec3 colour{0.0};
 };
 
-// What `count` pixels of a size x size picture must show: the same ones each time, well inside the
-// window, whose rim is blended and bears a mark, and, where they show the backdrop, inside the
-// panorama, at whose end the relief ends in a wall. Fewer where a picture has few such.
+// Expected values of `count` pixels of a size x size picture, the same ones in every run. Leaves
+// out the window's rim, which is blended and bears a mark, and the panorama's edge, at which the
+// relief ends in a wall. Returns fewer where a picture has fewer such pixels.
 std::vector<TracedPixel> TracePixels(const LoadedScene& loaded, const Picture& picture, int size,
                                      int count, std::span<const test::ReferenceMesh> meshes = {});
 
 struct TracedAgreement {
   int compared = 0;
   double elsewhere = 0;  // share whose distance is off by more than kSameDistance
-  double rms = 0;        // m, of the others
-  // Share off by more than kSameColour; NaN where colours are not compared.
+  double rms = 0;        // m, over the others
+  // Share whose colour is off by more than kSameColour; NaN where colours are not compared.
   double off_colour = std::numeric_limits<double>::quiet_NaN();
 };
 
-// `distances` and, if given, `colours` are a size x size picture's.
+// Compares the `distances` and, if given, the `colours` of a size x size picture.
 TracedAgreement CompareWithTraced(std::span<const TracedPixel> traced,
                                   std::span<const float> distances, int size,
                                   const ColourImage* colours = nullptr);

@@ -1,9 +1,8 @@
-// Speed against error of the arthroscopic view: what a frame takes, by the search for the relief,
-// the looks at the panorama a pixel, resolution, size of the panorama, and what is in the picture;
-// beside it how far the picture is from the ray tracer in double precision (where a ray ends, and
-// in what colour) or, for the looks, how far the lines of a grid are from the closed form. Wall
-// clock is what a user waits; processor time is of all threads, which is what software rendering
-// takes. All but the times is the same in every run on one renderer.
+// Speed against error of the arthroscopic view. Times of a frame vary with relief search, samples
+// per pixel, resolution, panorama size and picture content. The error is the difference from a ray
+// tracer in double precision (end and colour of each ray) or, for samples, the distance of grid
+// lines from their closed form. Processor time counts all threads, as software rendering uses them.
+// Only the times differ between runs on one renderer.
 #pragma once
 
 #include <optional>
@@ -27,19 +26,19 @@ struct ViewBenchOptions {
   int pixels = 3000;
   template <class V>
   void Visit(V&& v) {
-    v("frames", frames, Range{2, 100000}, "", "Frames that are timed a row.");
+    v("frames", frames, Range{2, 100000}, "", "Frames that are timed per row.");
     v("size", size, Range{64, 4096}, "px", "Side of the larger picture; the other has half of it.");
     v("panorama", panorama, Range{256, 16384}, "px",
       "Width of the larger panorama; the other has a quarter of it.");
     v("triangles", triangles, Range{200, 2000000}, "",
-      "Of the finer tissue; the other has a fifth of it.");
+      "Triangles of the finer tissue; the other has a fifth of them.");
     v("pixels", pixels, Range{1, 1000000}, "",
-      "Random pixels of a picture that are held against the ray tracer.");
+      "Random pixels per picture that are compared with the ray tracer.");
   }
 };
 
 struct FrameTimes {
-  double wall = 0, wall_p99 = 0;  // s a frame; the median, and the 99th percentile
+  double wall = 0, wall_p99 = 0;  // s per frame: median and 99th percentile
   double cpu = 0, cpu_p99 = 0;
 };
 
@@ -49,10 +48,10 @@ struct ViewBenchRow {
   int size = 0, panorama = 0;
   ReliefSearch relief;
   int samples = 2;
-  int triangles = 0;  // of tissue that moves in every frame
+  int triangles = 0;  // tissue that moves in every frame
   FrameTimes times;
-  std::optional<TracedAgreement> traced;    // of relief and scene; a lit scene's without colours
-  std::optional<test::GridAgreement> grid;  // of samples
+  std::optional<TracedAgreement> traced;  // parts "relief" and "scene"; no colours for a lit scene
+  std::optional<test::GridAgreement> grid;  // part "samples"
 };
 
 struct ViewBench {
@@ -66,8 +65,8 @@ ViewBench RunViewBench(const ViewBenchOptions& options, const Progress& progress
 
 std::string TableOf(const ViewBench& bench);
 nlohmann::json JsonOf(const ViewBench& bench);
-// SVG: share of the pixels that end elsewhere, over the frame's time. The grid's rows have another
-// error and are left out.
+// SVG of the share of pixels whose ray ends elsewhere, over the frame's time. Leaves out the rows
+// of the grid, whose error is another one.
 std::string PlotOf(const ViewBench& bench);
 
 }  // namespace arthro::app

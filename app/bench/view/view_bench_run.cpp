@@ -24,7 +24,7 @@ constexpr std::array kSearches = {ReliefSearch{0, 1},  ReliefSearch{64, 16}, kUs
 constexpr std::array kSamples = {1, 2, 4, 8};
 constexpr int kWarmUp = 5;  // frames, in which drivers compile and upload
 
-// What a trainee sees beside the backdrop. `fineness`: share of the options' triangles.
+// Content of a picture beside the backdrop. `fineness` is the share of the options' triangles.
 struct SceneKind {
   const char* words;
   double fineness = 0;
@@ -37,10 +37,10 @@ constexpr std::array kScenes = {SceneKind{"two instruments"},
                                 SceneKind{"two instruments, {} triangles, lamp", 0.2, 1},
                                 SceneKind{"the same, haze and bubbles", 0.2, 1, true}};
 
-// As many steps as there are rows.
+// Number of rows, for the progress.
 constexpr double kRows = 3 * kSearches.size() + 2 * kSamples.size() + 2 * kScenes.size();
 
-// Nothing where there was nothing to compare, rather than an error of 0.
+// No error, rather than an error of 0, where there was nothing to compare.
 std::optional<TracedAgreement> Held(const TracedAgreement& agreement) {
   return agreement.compared > 0 ? std::optional(agreement) : std::nullopt;
 }
@@ -48,8 +48,8 @@ std::optional<GridAgreement> Held(const GridAgreement& agreement) {
   return agreement.crossings > 0 ? std::optional(agreement) : std::nullopt;
 }
 
-// What the tracer is held against: the relief with its outlines laid smooth, as it is drawn, but of
-// every pixel. Its stairs, as they are, have rows of their own.
+// Reference relief: with smooth outlines, as it is drawn, but for every pixel. The map's own stairs
+// have rows of their own.
 LoadedScene WithSmoothOutlines(LoadedScene loaded) {
   DepthMap smooth = *loaded.depth;
   SmoothOutlines(smooth, false);
@@ -164,7 +164,7 @@ void ViewBenchRun::MeasureSamples(int size) {
     const GridAgreement agreement =
         CompareWithGrid(view_.ReadPixels(), grid, backdrop, picture.view, picture.field_of_view);
     picture.plain = false;
-    const std::string words = fmt::format("grid, {} looks a pixel", samples);
+    const std::string words = fmt::format("grid, {} samples per pixel", samples);
     const FrameTimes times = TimeFrames(words, [&] {
       picture.view.tip.x += 1e-7;
       view_.Render(picture, size);
@@ -213,7 +213,7 @@ void ViewBenchRun::MeasureScenes(int size) {
       picture.disturbances.time += 0.03;
       view_.Render(picture, size);
     });
-    // Of the last frame.
+    // Compares the last frame.
     const SurfaceMesh lies = Moved(lying, tissues[0].pose), moves = Moved(now, tissues[1].pose);
     const ReferenceMesh meshes[] = {{&probe}, {&lies}, {&moves}};
     const std::vector<TracedPixel> traced =

@@ -1,7 +1,6 @@
 // Numbers that are none, through the program itself: refused at once, before anything is read.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -40,7 +39,6 @@ constexpr std::array kCases = {
 TEST(BadNumber, IsWrongUseAtOnceAndIsNamedWithItsFlag) {
   for (const Case& test : kCases)
     for (const std::string value : {"nan", "99999999999999999999"}) {
-      const auto start = std::chrono::steady_clock::now();
       const auto result = test::RunProgram(std::string(test.job) + " " + test.flag + " " + value,
                                            "DISPLAY= WAYLAND_DISPLAY=");
       EXPECT_EQ(result.exit_code, 2) << test.job << " " << test.flag << " " << value;
@@ -48,7 +46,7 @@ TEST(BadNumber, IsWrongUseAtOnceAndIsNamedWithItsFlag) {
       EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
       EXPECT_NE(result.err.find(test.flag), std::string::npos) << result.err;
       EXPECT_NE(result.err.find(value), std::string::npos) << result.err;
-      EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+      EXPECT_EQ(result.out, "") << "nothing was begun";
     }
 }
 

@@ -1,5 +1,6 @@
 // Files that once crashed the program, made it hang or took all memory: each gets one sentence on
-// stderr and exit 1, in under 2 s of processor time and 1 GB of memory.
+// stderr and exit 1, in under 2 s of processor time and 1 GB of memory. Volumes, cases and
+// archives: tests/hostile/fault_inputs_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,7 +14,6 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
 #include "tests/support/run_measured.h"
-#include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro {
@@ -51,66 +51,6 @@ std::string RefusalOf(const Words& arguments, const Words& environment = {}) {
   EXPECT_LT(run.megabytes, kMostMegabytes) << line << "\n" << run.err;
   return run.err;
 }
-
-TEST(FileFaults, VolumesThatBrokeTheSolverAreRefused) {
-  ARTHRO_REQUIRE_SHARED(faults, "faults/vtk");
-  TempFolder folder;
-  int count = 0;
-  for (const auto& entry : fs::directory_iterator(faults)) {
-    const std::string name = entry.path().filename().string();
-    if (!fs::exists(entry.path() / "case.json")) continue;
-    const std::string said = RefusalOf(
-        {"solve", (entry.path() / "case.json").string(), "-o", (folder / "r.json").string()});
-    EXPECT_NE(said.find("block.vtu"), said.npos) << said;
-    ++count;
-  }
-  EXPECT_GE(count, 9);
-  EXPECT_FALSE(fs::exists(folder / "r.json"));
-}
-
-TEST(FileFaults, ASceneWithABrokenVolumeIsRefusedByEveryJob) {
-  ARTHRO_REQUIRE_SHARED(scene, "faults/vtk/scene_NumberOfCells_-1");
-  TempFolder folder;
-  const std::string said = RefusalOf({"replay", scene.string(), (scene / "trace.csv").string(),
-                                      "-o", (folder / "f.csv").string()});
-  EXPECT_NE(said.find("NumberOfCells is \"-1\""), said.npos) << said;
-  const MeasuredRun check = RunMeasured({"check", scene.string()});
-  EXPECT_EQ(check.exit_code, 1) << check.err;
-  EXPECT_NE(check.err.find("NumberOfCells is \"-1\""), check.err.npos) << check.err;
-}
-
-TEST(FileFaults, DamagedXmlOfAFuzzerIsRefusedOrRead) {
-  ARTHRO_REQUIRE_SHARED(faults, "faults/ipf");
-  TempFolder folder;
-  RefusalOf({"tetrahedralize", (faults / "vtp.7/in.vtp").string(), "--unit", "m", "-o",
-             (folder / "o.vtu").string()});
-  ARTHRO_REQUIRE_SHARED(solve, "faults/vtk/vtu_types_as_Bit/case.json");
-  fs::copy_file(solve, folder / "case.json");
-  fs::copy_file(faults / "vtu.7/in.vtu", folder / "block.vtu");
-  RefusalOf({"solve", (folder / "case.json").string(), "-o", (folder / "r.json").string()});
-}
-
-TEST(FileFaults, ArchivesThatBrokeReadingAreRefusedByTheirOwnName) {
-  ARTHRO_REQUIRE_SHARED(faults, "faults/archive");
-  TempFolder folder;
-  int count = 0;
-  for (const auto& entry : fs::directory_iterator(faults)) {
-    const std::string archive = entry.path().string();
-    const bool has_no_temporary = entry.path().stem() == "TMPDIR_missing";
-    const std::string said =
-        RefusalOf({"centres", archive, "--view-angle-deg", "30", "--insertion-mm", "5", "-o",
-                   (folder / "c.csv").string()},
-                  {"TMPDIR=" + (has_no_temporary ? "/nonexistent" : folder.path().string())});
-    EXPECT_NE(said.find(has_no_temporary ? "TMPDIR" : archive), said.npos) << said;
-    EXPECT_EQ(said.find(folder.path().string() + "/arthroscene-"), said.npos) << said;
-    ++count;
-  }
-  EXPECT_GE(count, 7);
-  for (const auto& left : fs::directory_iterator(folder.path()))
-    ADD_FAILURE() << "left behind: " << left.path();
-}
-
-// --- made here, so that they are tried on every machine ---
 
 ColourImage Picture(int width, int height) {
   ColourImage image(width, height);

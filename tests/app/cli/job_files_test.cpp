@@ -18,9 +18,8 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_format.h"
 #include "simulation/scene/archive_io.h"
+#include "tests/app/cli/job_inputs.h"
 #include "tests/support/run_program.h"
-#include "tests/support/small_scene.h"
-#include "tests/support/temp_folder.h"
 
 namespace arthro::test {
 namespace {
@@ -31,10 +30,10 @@ using Tree = std::map<std::string, std::string>;  // bytes of each file
 const char* const kForeign = "a letter to somebody";
 
 // Everything that the jobs read, in one folder.
-class JobFiles : public ::testing::Test {
+class JobFiles : public JobInputs {
  protected:
   void SetUp() override {
-    WriteSmallScene(At("S"));
+    JobInputs::SetUp();
     PackScene(At("S"), At("S.arthro"));
     fs::create_directory(At("F"));
     for (const char* name : {"0001.png", "0002.png", "0003.png"})
@@ -43,29 +42,11 @@ class JobFiles : public ::testing::Test {
     WriteDepthMap(At("y.tiff"), DepthMap(64, 48, 0.01f));
     WriteAtomically(At("o.json"), "{}");
     WriteAtomically(At("lens.json"), R"({"schema": "arthroscene.lens/1"})");
-    WriteAtomically(At("po.csv"),
-                    "hip_x,hip_y,hip_z,tip_x,tip_y,tip_z\n"
-                    "0.041,0.02,-0.016,-0.011,0.02,0.177\n-0.021,0.02,-0.016,0.031,0.02,0.177\n");
     WriteAtomically(At("t.csv"),
                     "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n"
                     "0,scope,0,0,-0.18,1,0,0,0,0\n0.01,scope,0,0,-0.18,1,0,0,0,0\n");
     WriteSurface(At("s.stl"), Octahedron(0.006));
-    WriteAtomically(At("case.json"), R"({"mesh": "m.vtu", "order": 1,
-        "material": {"model": "corotated", "young_modulus": 1e6, "poisson_ratio": 0.3,
-                     "density": 1100}, "fixed": [{"set": "all", "axes": "xyz"}]})");
-    TetMesh tetrahedron;
-    tetrahedron.rest_positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
-    tetrahedron.elements = {0, 1, 2, 3};
-    tetrahedron.sets["all"] = {1, 1, 1, 1};
-    WriteTetMesh(At("m.vtu"), tetrahedron);
     WriteAtomically(At("rig.json"), R"({"schema": "arthroscene.rig/1", "title": "t"})");
-  }
-
-  std::string At(const std::string& name) const { return (folder_ / name).string(); }
-
-  // `@` before a name stands for the folder.
-  std::string Whole(std::string arguments) const {
-    return std::regex_replace(arguments, std::regex("@"), folder_.path().string() + "/");
   }
 
   Tree Files() const {
@@ -89,8 +70,6 @@ class JobFiles : public ::testing::Test {
     EXPECT_EQ(run.out, "") << arguments;
     EXPECT_TRUE(Files() == before) << arguments << " changed a file";
   }
-
-  TempFolder folder_;
 };
 
 TEST_F(JobFiles, AnOutputThatIsAnInputIsRefusedAlsoWithOverwrite) {

@@ -10,21 +10,20 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/lens_io.h"
+#include "tests/app/cli/job_inputs.h"
 #include "tests/authoring/panorama/tiny_clip.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"
-#include "tests/support/small_scene.h"
-#include "tests/support/temp_folder.h"
 
 namespace arthro::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-class ShortWrite : public ::testing::Test {
+class ShortWrite : public JobInputs {
  protected:
   void SetUp() override {
-    WriteSmallScene(At("S"));
+    JobInputs::SetUp();
     WriteColourImage(At("g.png"), KneePicture(400, 300));
     TinyClip().WriteAll(At("F"), TinyClip::Arc(3));
     Lens lens;
@@ -39,29 +38,14 @@ class ShortWrite : public ::testing::Test {
     fs::create_directory(At("R"));
     for (const char* name : {"1.png", "2.png"})
       WriteColourImage(At("R") + "/" + name, KneePicture(96, 64));
-    WriteAtomically(At("po.csv"),
-                    "hip_x,hip_y,hip_z,tip_x,tip_y,tip_z\n"
-                    "0.041,0.02,-0.016,-0.011,0.02,0.177\n-0.021,0.02,-0.016,0.031,0.02,0.177\n");
     std::string trace = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n";
     for (int i = 0; i < 100; ++i)
       trace += std::to_string(0.01 * i) + ",scope,0,0,-0.18,1,0,0,0,0\n";
     WriteAtomically(At("t.csv"), trace);
     WriteSurface(At("s.obj"), Box({0, 0, 0}, {10, 10, 10}));
-    WriteAtomically(At("case.json"), R"({"mesh": "m.vtu", "order": 1,
-        "material": {"model": "corotated", "young_modulus": 1e6, "poisson_ratio": 0.3,
-                     "density": 1100}, "fixed": [{"set": "all", "axes": "xyz"}]})");
-    TetMesh tetrahedron;
-    tetrahedron.rest_positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}};
-    tetrahedron.elements = {0, 1, 2, 3};
-    tetrahedron.sets["all"] = {1, 1, 1, 1};
-    WriteTetMesh(At("m.vtu"), tetrahedron);
     fs::create_directory(At("out"));
   }
 
-  std::string At(const std::string& name) const { return (folder_ / name).string(); }
-  std::string Whole(const std::string& arguments) const {
-    return std::regex_replace(arguments, std::regex("@"), folder_.path().string() + "/");
-  }
   // `line` with PROGRAM for the program, by a shell.
   ProgramResult Shell(const std::string& line) const {
     const std::string program =
@@ -83,8 +67,6 @@ class ShortWrite : public ::testing::Test {
     EXPECT_TRUE(sentences.starts_with("arthroscene: ")) << line << "\n" << run.err;
     EXPECT_EQ(std::count(sentences.begin(), sentences.end(), '\n'), 1) << line << "\n" << run.err;
   }
-
-  TempFolder folder_;
 };
 
 // A block of `ulimit -f` is 512 bytes in this shell; each result is larger. The signal of a limit

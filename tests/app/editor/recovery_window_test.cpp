@@ -121,7 +121,7 @@ TEST_F(EditorEnd, ACopyOfAnEditorThatStillRunsIsNotOffered) {
                       {"DISPLAY=" + server->name(), "HOME=" + temp.path().string(),
                        "LIBGL_ALWAYS_SOFTWARE=1", "LP_NUM_THREADS=1"},
                       temp / "other.log");
-  EXPECT_EQ(other.Wait(60), 0) << TextOf(temp / "other.log");
+  EXPECT_EQ(other.Wait(600), 0) << TextOf(temp / "other.log");
   EXPECT_FALSE(Copy().empty());
 }
 

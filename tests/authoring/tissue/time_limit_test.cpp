@@ -29,7 +29,6 @@ const SurfaceMesh& LargeSurface() {
 struct Outcome {
   std::string sentence;
   std::set<std::string> stages;
-  double seconds = 0;
 };
 
 template <class Work>
@@ -38,13 +37,11 @@ Outcome Watch(const Work& work, const std::atomic<bool>* stop = nullptr) {
   Progress progress;
   progress.stop = stop;
   progress.report = [&](std::string_view stage, double) { outcome.stages.emplace(stage); };
-  const auto start = Clock::now();
   try {
     work(progress);
   } catch (const Error& error) {
     outcome.sentence = error.sentence();
   }
-  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return outcome;
 }
 
@@ -63,8 +60,7 @@ TEST(TimeLimit, EndsABudgetInTheStagesOfTheSurface) {
   EXPECT_NE(outcome.sentence.find("did not finish in time (0.2 s)"), std::string::npos)
       << outcome.sentence;
   EXPECT_NE(outcome.sentence.find("131072"), std::string::npos) << outcome.sentence;
-  // Ten busy processes beside it; without a limit it takes most of a minute on an idle machine.
-  EXPECT_LT(outcome.seconds, 20.0);
+  EXPECT_FALSE(outcome.stages.contains("filling it with tetrahedra")) << "the mesher was reached";
 }
 
 TEST(TimeLimit, RunsFromWhenTheJobBegan) {

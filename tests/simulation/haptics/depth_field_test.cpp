@@ -17,6 +17,7 @@ namespace arthro::simulation {
 namespace {
 
 using test::AnalyticRelief;
+using test::PaperQuery;
 
 class DepthFieldIn : public testing::TestWithParam<ProjectionType> {};
 

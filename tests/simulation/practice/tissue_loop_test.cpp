@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <numbers>
 #include <thread>
 #include <utility>
@@ -35,6 +37,11 @@ bool IsFinite(const WorldPicture& picture) {
   for (const glm::dvec3& x : picture.bodies[0].positions)
     if (!std::isfinite(x.x + x.y + x.z)) return false;
   return true;
+}
+
+int ThreadsOfThisProcess() {
+  using Folder = std::filesystem::directory_iterator;
+  return static_cast<int>(std::distance(Folder("/proc/self/task"), Folder()));
 }
 
 // Ticks as fast as a thread may, until `is_done` or five minutes have gone: a bound against a hang,
@@ -97,9 +104,17 @@ TEST(TissueLoop, ResetWhileItStepsLeavesItWholeAndGoingOn) {
 
 TEST(TissueLoop, EndsWhileItSteps) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
+  const int threads = ThreadsOfThisProcess();
   for (int ticks : {0, 17, 18, 40}) {
-    TissueLoop loop(World(spec), TissuePace::kThread);
-    for (int i = 0; i < ticks; ++i) loop.Tick(Probe(spec), kTick);
+    {
+      TissueLoop loop(World(spec), TissuePace::kThread);
+      EXPECT_EQ(ThreadsOfThisProcess(), threads + 1) << ticks;
+      for (int i = 0; i < ticks; ++i) loop.Tick(Probe(spec), kTick);
+    }
+    // A thread that was joined can stand in the table of processes for a moment.
+    for (int i = 0; i < 1000 && ThreadsOfThisProcess() > threads; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(ThreadsOfThisProcess(), threads) << ticks;
   }
 }
 

@@ -24,9 +24,9 @@ constexpr double kRadius = 0.05, kSpacing = 0.018;         // m
 constexpr double kSlowest = 0.02, kFastest = 0.15;         // m/s
 constexpr double kShallowest = -0.003, kMiddling = 0.006;  // m, of a waypoint below the sphere
 constexpr double kDeepest = 0.030;
-constexpr double kFreeShare = 0.4;       // of the radius: where a cycle begins
-constexpr double kSmallestPatch = 0.05;  // of the picture, over which a cycle goes
-constexpr double kMargin = 0.06;         // of the picture, by which waypoints lie outside its edges
+constexpr double kFreeShare = 0.4;       // share of the radius at which a cycle begins
+constexpr double kSmallestPatch = 0.05;  // share of the picture that a cycle covers
+constexpr double kMargin = 0.06;  // share of the picture by which waypoints lie outside its edges
 constexpr int kSamplesPerLeg = 400;
 constexpr int kStill = 20;  // ticks without motion before and after a cycle
 

@@ -1,7 +1,6 @@
-// How far the force on a tip is from a closed form: strokes under surfaces that are known exactly,
-// felt by the paper's kernel, by our proxy over a depth map, and by it over triangles. Friction and
-// viscosity are off: they are not part of the reference. Targets: [benchmarks.md, Haptics].
-// Portal frame, m, N.
+// Error of the force on a tip against a closed form, on strokes under exactly known surfaces: the
+// paper's kernel, the proxy over a depth map, the proxy over triangles. Friction and viscosity are
+// off, since the reference has none. Targets: [benchmarks.md, Haptics]. Portal frame, m, N.
 #pragma once
 
 #include <vector>
@@ -14,15 +13,15 @@
 
 namespace arthro::test {
 
-// One point a tick: where the tip is, and the exact force there.
+// One point per tick: place of the tip, and the exact force there.
 struct TouchStroke {
   std::vector<glm::dvec3> tip, reference;
-  std::vector<glm::dvec2> pixel;  // of the point of the surface that is nearest to the tip
+  std::vector<glm::dvec2> pixel;  // pixel of the surface point that is nearest to the tip
 };
 inline constexpr double kTouchStiffness = 500;  // N/m
 inline constexpr double kTouchTick = 1e-3;      // s
-// 4 s of a wandering stroke over half of the picture's width, 10 to 25 mm/s where it is 1024 px
-// wide, 1 mm ± 0.3 mm under the exact surface.
+// A stroke of 4 s over half of the picture's width, 1 mm ± 0.3 mm under the exact surface, at 10 to
+// 25 mm/s in a picture 1024 px wide.
 TouchStroke StrokeUnder(const AnalyticRelief& relief);
 
 // The contact of a bare spring.
@@ -35,11 +34,11 @@ std::vector<glm::dvec3> PaperForces(const Backdrop& backdrop, const DepthMap& ma
                                     const TouchStroke& stroke);
 
 struct ForceErrors {
-  double rms = 0;                       // share of the reference's rms
+  double rms = 0;                       // relative to the reference's rms
   double angle_p99 = 0, angle_max = 0;  // rad
-  double excess_step = 0;               // N, largest change in a tick beyond the reference's
+  double excess_step = 0;               // N, largest change per tick beyond the reference's
 };
-// The first tenth of a second is left out: the tip comes from its portal there.
+// Leaves out the first 0.1 s, in which the tip comes from its portal.
 ForceErrors ErrorsOf(const std::vector<glm::dvec3>& force,
                      const std::vector<glm::dvec3>& reference);
 

@@ -18,7 +18,7 @@ using namespace simulation;
 constexpr double kSpring = 500, kSlope = 500, kGrowth = 6e4;  // N/m, N/m, N/m²
 constexpr double kTick = 1e-3;                                // s
 constexpr int kTicks = 4000;
-constexpr int kSettled = 500;  // of them, before it counts
+constexpr int kSettled = 500;  // ticks before the measurement
 
 // How far the tissue gives way.
 double Dent(double depth) noexcept {
@@ -33,7 +33,7 @@ double Stiffness(double depth) noexcept {
   return own * kSpring / (own + kSpring);
 }
 
-// What a step says that was solved with the tip so deep.
+// Coupling of a step that was solved at this depth of the tip.
 ToolCoupling CouplingAt(double depth, std::uint64_t step) {
   ContactPoint contact;
   contact.owner = 0;
@@ -51,8 +51,8 @@ ToolCoupling CouplingAt(double depth, std::uint64_t step) {
   return coupling;
 }
 
-// As the servo has it: a step that began when the one before it was finished is known when it is
-// finished itself.
+// The servo's view of the steps: a step begins when the one before it ends, and its result is known
+// when it ends itself.
 class Servo {
  public:
   explicit Servo(Bridge bridge) : bridge_(bridge) {}
@@ -90,7 +90,7 @@ double BridgedForce(double depth) noexcept {
   return kSlope * x + kGrowth * x * x;
 }
 
-const char* Word(Bridge bridge) noexcept {
+const char* ToString(Bridge bridge) noexcept {
   switch (bridge) {
     case Bridge::kHold:
       return "hold the last force";
@@ -113,7 +113,7 @@ BridgeRow MeasureBridge(Bridge bridge, double step_rate, double stroke_rate, int
         2e-3 + 1.5e-3 * std::sin(2.0 * std::numbers::pi * stroke_rate * i * kTick);
   for (int round = 0; round < rounds; ++round) {
     Servo servo(bridge);
-    double under_way = depth[0];  // where the step began that is being solved
+    double under_way = depth[0];  // depth at which the step under way began
     long frames = 0;
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < depth.size(); ++i) {

@@ -1,7 +1,7 @@
-// How far the force that the servo makes of a tissue between two steps of it is from the tissue's
-// own: a tip strokes in and out of a tissue whose force is a closed form, of which the servo is
-// told a few times a second, one step late. Ours (simulation/tissue/contact/coupling.h) beside the
-// three that others use. [method.md, Tissue coupling] N, m, s.
+// Error of the servo's force between two steps of a tissue [method.md, Tissue coupling]. A tip
+// strokes in and out of a tissue whose force is a closed form; the servo gets a few samples per
+// second, one step late. Compares simulation/tissue/contact/coupling.h with three common methods.
+// N, m, s.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ double BridgedForce(double depth) noexcept;
 enum class Bridge { kHold, kSecant, kTangent, kOurs };
 inline constexpr std::array kBridges{Bridge::kHold, Bridge::kSecant, Bridge::kTangent,
                                      Bridge::kOurs};
-const char* Word(Bridge bridge) noexcept;
+const char* ToString(Bridge bridge) noexcept;
 
 struct BridgeRow {
   Bridge bridge{};
   double step_rate = 0;    // Hz, of the tissue
   double stroke_rate = 0;  // Hz, of the tip: 2 mm ± 1.5 mm deep
-  double rms = 0;          // share of the tissue's own rms
-  double excess_step = 0;  // N, largest change in a tick beyond the tissue's own
-  double seconds = 0;      // a tick, mean; of the rounds the least
+  double rms = 0;          // relative to the tissue's own rms
+  double excess_step = 0;  // N, largest change per tick beyond the tissue's own
+  double seconds = 0;      // per tick, mean; the least of all rounds
 };
 BridgeRow MeasureBridge(Bridge bridge, double step_rate, double stroke_rate, int rounds);
 std::vector<BridgeRow> MeasureBridges(int rounds);

@@ -49,7 +49,7 @@ double RuleStiffness(double period, double damping, int delay) {
 
 double LargestStableStiffness(double period, double damping, int delay) {
   double low = 0, high = 2 * RuleStiffness(period, damping, delay);
-  const double least = 1e-3 * high;  // where even that swings, nothing is stable
+  const double least = 1e-3 * high;  // N/m; a wall that oscillates even here is never stable
   while (high - low > 2e-3 * high && high > least) {
     const double middle = 0.5 * (low + high);
     (ComesToRest(middle, period, damping, delay) ? low : high) = middle;

@@ -1,7 +1,7 @@
-// Simulated hands on a sampled wall: where it begins to swing, whether random hands come to rest on
-// it, what energy it gives them [method.md, Stability; benchmarks.md, Haptics]. The wall is the
-// program's own contact and output chain on a bare sphere so large that it is flat; one tick a
-// period, on the plant's clock. m, N, s.
+// Simulated hands on a sampled wall: largest stable stiffness, rest of random hands, energy that
+// they gain [method.md, Stability; benchmarks.md, Haptics]. The wall is the program's own contact
+// and output chain on a bare sphere so large that it is flat, with one tick per period of the
+// plant's clock. m, N, s.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace arthro::test {
 
-// What a servo is.
+// Parameters of a servo.
 struct WallServo {
   double period = 1e-3;
   int delay = 1;  // ticks

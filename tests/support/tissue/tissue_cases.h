@@ -1,6 +1,5 @@
-// Tissue problems whose continuum answer is known: what a body is made of, how it is held and
-// loaded, what is watched, and the value that finer and finer quadratic hexahedra tend to
-// [benchmarks.md, Tissue references]. SI.
+// Tissue problems with known continuum answers: material, support, load, watched value, and the
+// limit of that value on ever finer quadratic hexahedra [benchmarks.md, Tissue references]. SI.
 #pragma once
 
 #include <memory>
@@ -48,8 +47,8 @@ const ContinuumValue& ContinuumOf(const TissueCase& c, simulation::Law law);
 struct TissueProblem {
   std::shared_ptr<const simulation::FemModel> model;
   simulation::FixedAxes fixed;
-  std::vector<glm::dvec3> load;    // N a node
-  std::vector<glm::dvec3> target;  // m a node: where fixed axes go; empty: they stay
+  std::vector<glm::dvec3> load;    // N per node
+  std::vector<glm::dvec3> target;  // m per node: displacement of fixed axes; empty: none
   std::vector<int> watched;        // nodes
   bool watches_force = false;
   int axis = 2;
@@ -57,7 +56,7 @@ struct TissueProblem {
 // Throws Error(kBadArgument) when a set of the case has no node on this mesh.
 TissueProblem ProblemOf(const TissueCase& c, simulation::Law law, const TetMesh& mesh);
 
-// What the case watches, of nodes at x that are held by `reaction` (N a node).
+// Watched value of the case, for nodes at x that are held by `reaction` (N per node).
 double Watch(const TissueProblem& problem, std::span<const glm::dvec3> x,
              std::span<const glm::dvec3> reaction);
 

@@ -1,4 +1,4 @@
-// The bodies on which tissue is measured, made in code at any resolution: a cantilever beam, Cook's
+// Bodies on which tissue is measured, made in code at any resolution: a cantilever beam, Cook's
 // membrane with a thickness, a bonded block, and a meniscus as a crescent wedge [benchmarks.md,
 // Tissue references]. Each is a grid of hexahedra cut in six tetrahedra about the diagonal, and a
 // map from the grid's parameters into space: middle nodes of T10 lie where the map puts the middle
@@ -15,7 +15,7 @@
 
 namespace arthro::test {
 
-// Where the cells of a grid end along each of its three parameters; rising, two at least.
+// Ends of the cells of a grid along each of its three parameters; rising, two at least.
 using GridTicks = std::array<std::vector<double>, 3>;
 using Cells = std::array<int, 3>;
 
@@ -49,7 +49,7 @@ TetMesh MeniscusMesh(int order, const GridTicks& ticks);
 
 inline constexpr double kMeniscusInner = 0.010, kMeniscusOuter = 0.020;   // m
 inline constexpr double kPatchInner = 0.0125, kPatchOuter = 0.015;        // m
-inline constexpr double kSweepDegrees = 200, kPatchDegrees = 100.0 / 12;  // of half the patch
+inline constexpr double kSweepDegrees = 200, kPatchDegrees = 100.0 / 12;  // sweep of half the patch
 
 // Even cells: 24 × 4 × 2 is the reference's S, 48 × 8 × 4 its M, 72 × 12 × 4 its L.
 GridTicks MeniscusTicks(const Cells& cells);

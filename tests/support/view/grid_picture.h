@@ -1,8 +1,8 @@
-// A panorama of thin grid lines, and a rendered picture of it measured to sub-pixel: how far, in
-// pixels of the picture, each rendered line lies from where the closed form [method.md, Oblique
-// view] puts it [paper, 3.3, Fig. 7]. Channels keep the parts apart: red holds the vertical lines
-// (u = k·spacing), green the horizontal ones (v = k·spacing), blue one level a cell that no
-// neighbour shares, so that a picture that is off by a whole cell is caught too.
+// A panorama of thin grid lines, and the sub-pixel distance of each rendered line from its closed
+// form [method.md, Oblique view; paper, 3.3, Fig. 7], in pixels of the picture. Channels keep the
+// parts apart: red holds the vertical lines (u = k·spacing), green the horizontal ones (v =
+// k·spacing), blue one level a cell that no neighbour shares, so that a picture that is off by a
+// whole cell is caught too.
 #pragma once
 
 #include <vector>

@@ -26,7 +26,7 @@ glm::dmat3 TurnZ(double a) {
 struct SeenTriangle {
   glm::dvec3 corner, edge1, edge2;  // relative to the tip
   glm::dvec3 middle;                // unit
-  double cos_cone;                  // of the cone's half angle; -1 where it is all around
+  double cos_cone;                  // cosine of the cone's half angle; -1 for all directions
   int mesh;
 };
 
@@ -234,7 +234,7 @@ TracedPicture TraceWindow(const Backdrop& backdrop, const ColourImage& panorama,
                       TracedPicture::kOutside);
   picture.distance.assign(picture.what.size(), 0.0);
   std::vector<glm::dvec3> rays;
-  std::vector<std::size_t> pixels;  // of each ray
+  std::vector<std::size_t> pixels;  // one per ray
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
       if (const auto ray = ReferenceRay(view, field_of_view, size, {x, y}, lens)) {

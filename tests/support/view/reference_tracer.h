@@ -38,14 +38,14 @@ std::optional<glm::dvec3> ReferenceRay(const simulation::ScopeView& view, double
                                        int size, const glm::dvec2& pixel,
                                        const Lens* lens = nullptr);
 
-// Where a ray from `origin` meets the sphere ahead of it; nothing if it does not.
+// Point at which a ray from `origin` meets the sphere ahead of it; nothing if it does not.
 std::optional<glm::dvec3> ReferenceSphereHit(const glm::dvec3& origin, const glm::dvec3& direction,
                                              double radius);
 
 std::optional<glm::dvec2> ReferencePixel(const Projection& projection, const glm::dvec3& direction);
 
-// Where a ray first comes to lie behind the relief, or meets the bare sphere: looked at every
-// `radius / 2000` of its way and then halved down to 1e-12 of it. The relief between pixels is
+// First point of a ray behind the relief or on the bare sphere: sampled every `radius / 2000` and
+// then bisected to 1e-12 of the radius. The relief between pixels is
 // bilinear; beyond the panorama, and where it is not known, there is none.
 std::optional<glm::dvec3> ReferenceReliefHit(const Backdrop& backdrop, const DepthMap& depth,
                                              const glm::dvec3& origin, const glm::dvec3& direction);
@@ -66,7 +66,7 @@ struct ReferenceMesh {
   glm::dvec3 colour{255.0};
 };
 
-// What a ray meets first.
+// First hit of a ray.
 struct TracedRay {
   static constexpr int kNothing = -1;
   static constexpr int kBackdrop = 0;  // 1 + i is mesh i

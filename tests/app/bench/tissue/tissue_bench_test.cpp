@@ -48,8 +48,8 @@ double ModelError(const char* name, const TetMesh& mesh) {
   return exact.model_error;
 }
 
-// Of the watched value after a second of frames with the solver's own tolerance, 1e-2, the load on
-// at once.
+// Error of the watched value under a step load, after 1 s of frames with the solver's default
+// tolerance, 1e-2.
 double FrameError(const char* name, const TetMesh& mesh) {
   const TissueCase& c = TissueCaseOf(name);
   const TissueProblem problem = ProblemOf(c, kLaw, mesh);

@@ -1,4 +1,4 @@
-// What `bench view` says of a picture, on pictures whose error is known: nothing is drawn.
+// Errors that `bench view` reports, on pictures with a known error: nothing is drawn.
 #include "app/bench/view/traced_agreement.h"
 
 #include <cmath>

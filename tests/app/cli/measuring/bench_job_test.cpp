@@ -1,6 +1,7 @@
 // Claims about the benchmarks, run as a user runs it, on clips small enough.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -201,6 +202,53 @@ TEST(BenchJob, AReportThatCannotBeWrittenIsRefusedBeforeAnythingIsMeasured) {
       EXPECT_NE(result.err.find("create it first"), std::string::npos) << words << result.err;
       EXPECT_EQ(result.out, "") << words;
     }
+}
+
+// 30 s of processor time.
+TEST(BenchJob, AllWritesOneReportOverEveryBenchmark) {
+  test::TempFolder folder;
+  const auto result = test::RunProgram("bench all --quick -o " + (folder / "report").string(),
+                                       "env -u DISPLAY -u WAYLAND_DISPLAY");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("report.html"), std::string::npos) << result.out;
+  const std::string html = ReadWholeFile(folder / "report/report.html");
+  const auto report = nlohmann::json::parse(ReadWholeFile(folder / "report/report.json"));
+  EXPECT_EQ(report.at("schema"), "arthroscene.bench.all/1");
+  for (const char* name : {"panorama", "tissue", "haptics", "view", "micro"}) {
+    const auto& bench = report.at("benchmarks").at(name);
+    if (bench.contains("fault")) {
+      EXPECT_STREQ(name, "view") << bench;  // no renderer
+      continue;
+    }
+    EXPECT_EQ(bench.at("schema"), "arthroscene.bench." + std::string(name) + "/1");
+    EXPECT_NE(html.find(std::string("# ") + name), std::string::npos) << "no table of " << name;
+    const std::string plot =
+        name == std::string("micro") ? "micro-lens.svg" : name + std::string(".svg");
+    const std::string svg = ReadWholeFile(folder / ("report/" + plot));
+    EXPECT_NE(svg.find("reference: "), std::string::npos) << plot;
+    EXPECT_EQ(svg.find("nan"), std::string::npos) << plot;
+    EXPECT_NE(html.find(svg), std::string::npos) << plot;
+  }
+}
+
+// Beside a copy of the program there are no benchmarks.
+TEST(BenchJob, WithoutItsProgramIsRefusedInOneSentence) {
+  test::TempFolder folder;
+  std::filesystem::copy_file(ARTHRO_PROGRAM, folder / "arthroscene");
+  const std::string err = (folder / "err").string();
+  const int status =
+      std::system(((folder / "arthroscene").string() + " bench view 2>" + err).c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const std::string said = ReadWholeFile(err);
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  for (const char* word : {"arthroscene: ", "arthroscene-bench", "not installed"})
+    EXPECT_NE(said.find(word), std::string::npos) << said;
+}
+
+TEST(BenchJob, LeavesNothingOfThePeerInTheProgram) {
+  const std::string program = ReadWholeFile(ARTHRO_PROGRAM);
+  for (const char* word : {"libopencv_stitching", "stitcher-worker"})
+    EXPECT_EQ(program.find(word), std::string::npos) << word;
 }
 
 TEST(BenchJob, TwoThingsToStandardOutputAreRefused) {
