@@ -77,7 +77,7 @@ void CheckCuts(const LoadedScene& loaded, SceneFindings& findings) {
                       tissue.name));
       continue;
     }
-    if (loaded.surfaces[i].triangles.empty()) continue;  // said already
+    if (loaded.surfaces[i].triangles.empty()) continue;  // CheckScene reports it
     try {
       LookAtCuts(tissue, loaded.surfaces[i], findings);
     } catch (const Error& error) {

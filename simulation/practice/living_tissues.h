@@ -1,5 +1,5 @@
-// The tissues of a scene that deform, made ready: those with tetrahedra, with their preset and what
-// the scene says otherwise. Frames: each body's own is its tissue's with the scale applied.
+// Specifications of the deformable tissues of a scene, from their presets and the values that the
+// scene overrides. The frame of a body is that of its tissue with the scale applied.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace arthro::simulation {
 
-// A tissue's surface and places in the frame of its body: the scale of its pose applied.
+// Surface, balls, cuts and regions of a tissue in the frame of its body.
 struct BodyPlaces {
   SurfaceMesh surface;
   std::vector<Ball> fixed;
@@ -26,22 +26,22 @@ struct BodyPlaces {
 };
 BodyPlaces PlacesOf(const Tissue& tissue, const SurfaceMesh& surface);
 
-// Where the bytes of an asset lie, by the name that the scene uses.
+// Returns the file of an asset that the scene names.
 using FileOf = std::function<std::filesystem::path(const std::filesystem::path& name)>;
 
-// `surfaces` has one a tissue. What reading a mesh repaired goes to `messages`, a sentence each.
-// Throws Error for a mesh that cannot be read or does not fill its surface and a preset that is not
-// there.
+// Bodies of the tissues with tetrahedra. `surfaces` has one entry per tissue. Repairs made while
+// reading a mesh are added to `messages`, one sentence each. Throws Error for a mesh that cannot be
+// read or does not fill its surface, and for an unknown preset.
 std::vector<BodySpec> LivingTissues(const Scene& scene, std::span<const SurfaceMesh> surfaces,
                                     const FileOf& file_of, const std::vector<TissuePreset>& presets,
                                     std::vector<std::string>* messages = nullptr);
 
-// The tissues that give way as thin layers: those without tetrahedra whose preset is thin, with
-// what the scene says otherwise. Throws Error for values that are none of a layer.
+// Thin elastic layers: the tissues without tetrahedra whose preset is thin. Throws Error for values
+// that are not those of a layer.
 std::vector<LayerSpec> LayersOf(const Scene& scene, std::span<const SurfaceMesh> surfaces,
                                 const std::vector<TissuePreset>& presets);
 
-// The tissues that the scene calls implicit and that have no tetrahedra.
+// Implicit tissues: those that the scene declares implicit and that have no tetrahedra.
 std::vector<ImplicitSpec> ImplicitOf(const Scene& scene, std::span<const SurfaceMesh> surfaces);
 
 }  // namespace arthro::simulation
