@@ -1,7 +1,7 @@
-// The last stage on every way to a device, with or without hardware [method.md, Output chain].
-// In this order: not a number → zero and a fault · length clamped, direction kept · rise limited,
-// fall free · hand too fast → zero · ramp after arming. After a fault the ramp starts again. N, s,
-// m/s; noexcept, allocates nothing.
+// Last stage of the output chain, which every force passes [method.md, Output chain]. In this
+// order: not a number → zero and a fault · length clamped, direction kept · rise limited, fall free
+// · hand too fast → zero · ramp after arming. After a fault the ramp starts again. N, s, m/s;
+// noexcept, allocates nothing.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -43,7 +43,8 @@ struct LimitedForce {
   Fault fault = Fault::kNone;
 };
 
-// `fault` is what went wrong before (no sample, stale…): it gives zero. `hand_speed` in m/s.
+// Limits a force. A `fault` of an earlier stage (no sample, stale…) gives zero. `hand_speed` in
+// m/s.
 LimitedForce LimitForce(const LimiterOptions& options, const glm::dvec3& force, double hand_speed,
                         Fault fault, double dt, LimiterState& state) noexcept;
 

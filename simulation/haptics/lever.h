@@ -1,8 +1,8 @@
-// The rod about the incision is a lever [method.md, Lever]: with u the unit vector from pivot
-// to hand, r its length and L the rod's, tip − pivot = (r − L) u and
+// Lever of the rod about the incision [method.md, Lever]. With u the unit vector from pivot to
+// hand, r the distance of the hand and L the rod length, tip − pivot = (r − L) u and
 //   J = d tip/d hand = u uᵀ + (1 − L/r)(I − u uᵀ),   F_hand = Jᵀ F_tip.
-// Across the rod a force grows by |1 − L/r| and a stiffness by its square, so limits of the device
-// hold for the product. Any one frame for all vectors; m, N, N/m.
+// Across the rod a force grows by |1 − L/r| and a stiffness by its square, so the limits of the
+// device apply to the product. All vectors are in the same frame; m, N, N/m.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,9 +13,9 @@ namespace arthro::simulation {
 
 struct LeverOptions {
   double fade_begin =
-      0.015;  // 13 times the force at L = 0.2; nearer, the hand's own tremor steers it
+      0.015;  // m; 13 times the force at L = 0.2; nearer, tremor of the hand dominates
   double fade_end = 0.005;
-  double max_stiffness = 780.0;  // notes 4.5: the bound at 1 kHz, one tick of delay, b = 1.2 Ns/m
+  double max_stiffness = 780.0;  // N/m; stability bound at 1 kHz, one tick of delay, b = 1.2 Ns/m
   template <class V>
   void Visit(V&& v) {
     v("fade_begin", fade_begin, Range{1e-3, 0.1}, "m",
@@ -30,13 +30,14 @@ struct Lever {
   glm::dvec3 axis{0, 0, -1};  // u
   double across = 1;          // 1 − L/r
   double fade = 0;            // 0..1
-  double max_stiffness = 0;   // at the tip, so that the hand feels at most the device's
+  double max_stiffness =
+      0;  // N/m at the tip, for which the hand feels at most the limit of the device
 };
 
 Lever LeverAt(const glm::dvec3& hand_from_pivot, double rod_length,
               const LeverOptions& options) noexcept;
 
-// Jᵀ F_tip, faded.
+// Returns Jᵀ F_tip, faded.
 glm::dvec3 HandForce(const Lever& lever, const glm::dvec3& tip_force) noexcept;
 
 }  // namespace arthro::simulation
