@@ -7,8 +7,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::uint8_t kBluetoothSeed =
-    0xa2;  // header byte that is part of the checksum and absent over USB
+constexpr std::uint8_t kBluetoothSeed = 0xa2;  // header byte in the checksum, absent over USB
 
 std::uint8_t Byte(double amplitude) noexcept {
   if (!(amplitude > 0)) return 0;  // also for NaN
