@@ -32,7 +32,7 @@ struct NearestFree {
 };
 
 // Tries every active set of up to three planes; the one that satisfies all planes is the solution.
-// Where rounding leaves none, returns `otherwise` without pushes.
+// Returns `otherwise` without pushes if rounding leaves none.
 NearestFree NearestPoint(const PlaneSet& planes, const glm::dvec3& goal,
                          const glm::dvec3& otherwise) noexcept;
 

@@ -140,7 +140,8 @@ class Session {
   Tool scope_, instrument_;
   Snapshot snapshot_;
   ToolKind kind_ = ToolKind::kProbe;
-  std::array<ToolShape, static_cast<std::size_t>(ToolKind::kGrasper) + 1> shapes_;  // by kind
+  std::array<ToolShape, static_cast<std::size_t>(ToolKind::kGrasper) + 1>
+      shapes_;  // indexed by kind
   ToolShape scope_shape_;
   std::unique_ptr<TissueLoop> tissues_;
 };

@@ -182,7 +182,7 @@ bool LiveLink::Open() {
     if (lock->is_held_elsewhere()) {
       trouble = DeviceTrouble::kHeldElsewhere;
       detail = fmt::format("{} {} is used by process {}", Name(device.family), id, lock->holder());
-      continue;  // where any serial number is allowed, the next device may be free
+      continue;  // the next device may be free where any serial number is allowed
     }
     OpenFault fault = OpenFault::kNone;
     auto link = bus_.Open(device.node, fault);

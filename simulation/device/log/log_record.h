@@ -18,7 +18,7 @@ namespace arthro::simulation {
 // A plugged-in device, or a simulated one.
 struct LogSource {
   std::string family;  // text of DeviceFamily; empty: it has no reports
-  std::string model;   // of a WoodenHaptics
+  std::string model;   // WoodenHaptics only
   std::string serial;
   std::array<std::optional<DeviceRole>, 2> roles;  // roles of its hands
   friend bool operator==(const LogSource&, const LogSource&) = default;

@@ -14,7 +14,7 @@ namespace {
 
 const std::string kHeader = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n";
 
-// What ParseTrace says; empty when it takes the text.
+// Message of ParseTrace; empty where it accepts the text.
 std::string Refusal(const std::string& text) {
   try {
     ParseTrace(text, "trace.csv");

@@ -66,7 +66,7 @@ TEST(WoodenHaptics, HardCase06NoForceChangesItsSignInSixteenBits) {
   for (const double newton : {1e-310, 1e6, 1e300}) {
     const glm::dvec3 way = glm::normalize(glm::dvec3(1, -2, 0.5));
     const glm::dvec3 amperes = WoodenCurrents(arm, angles, newton * way);
-    // What the motors give points where the force does: Jᵀ⁻¹ of their torques.
+    // The force of the motors, Jᵀ⁻¹ of their torques, has the direction of the command.
     const glm::dvec3 torque = amperes * arm.torque_constant / arm.transmission;
     const glm::dvec3 given = glm::inverse(glm::transpose(WoodenJacobian(arm, angles))) * torque;
     if (newton < 1) continue;

@@ -1,4 +1,4 @@
-// What a live device's log gives when it is played again.
+// Replay of the log of a live device.
 #include "simulation/device/log/log_replay.h"
 
 #include <random>
