@@ -37,7 +37,7 @@ TEST(PlantDevice, PushesOnlyWhenArmed) {
   EXPECT_EQ(device.force(), glm::dvec3(0.0)) << "let go";
 }
 
-TEST(PlantDevice, SilenceStopsTheForceInFiveMillisecondsAndIsALossInTwenty) {
+TEST(PlantDevice, SilenceStopsTheForceAfter5MillisecondsAndIsALossAfter20) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
   Hold(device, now, 10, {1, 0, 0}, false);
@@ -57,7 +57,7 @@ TEST(PlantDevice, SilenceStopsTheForceInFiveMillisecondsAndIsALossInTwenty) {
   EXPECT_EQ(device.force(), glm::dvec3(0.0)) << "it must be let go first";
 }
 
-TEST(PlantDevice, AForceThatIsNoNumberIsAFaultAndNoForce) {
+TEST(PlantDevice, ANaNForceIsAFaultAndGivesNoForce) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
   Hold(device, now, 10, {0, 0, 0}, false);
@@ -71,7 +71,7 @@ TEST(PlantDevice, AForceThatIsNoNumberIsAFaultAndNoForce) {
   EXPECT_EQ(device.force(), glm::dvec3(0.0));
 }
 
-TEST(PlantDevice, UnpluggedItIsAbsentAndComesBack) {
+TEST(PlantDevice, IsAbsentWhileUnplugged) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
   Hold(device, now, 10, {0, 0, 0}, false);

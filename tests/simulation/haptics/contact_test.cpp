@@ -330,7 +330,7 @@ Felt DrawnThroughAPlate(double from_z, double to_z, int still) {
               [&](int i) { return path[static_cast<std::size_t>(i)]; });
 }
 
-TEST(Contact, AProxyCaughtBehindAnEdgeIsLetGoWhereTheRodIsFree) {
+TEST(Contact, AProxyCaughtBehindAnEdgeIsReleasedWhereTheRodIsFree) {
   const Felt run = DrawnThroughAPlate(0.045, 0.020, 0);
   double furthest = 0, largest_fall = 0;
   for (std::size_t i = 1; i < run.contact.size(); ++i) {
@@ -354,7 +354,7 @@ TEST(Contact, AToolThatHooksBehindAnEdgeIsHeld) {
 }
 
 // Drawn 15 mm up, but under a second plate, through which no rod comes.
-TEST(Contact, AProxyIsNotLetGoThroughASurface) {
+TEST(Contact, AProxyIsNotReleasedThroughASurface) {
   const DepthField nothing;
   const std::vector<SurfaceBvh> meshes{
       SurfaceBvh(test::Box({-0.01, -0.01, 0.040}, {0.01, 0.01, 0.042}), {}),

@@ -74,7 +74,7 @@ TEST_P(DepthFieldIn, NormalIsContinuousAcrossPixels) {
   EXPECT_GT(paper, ours);
 }
 
-TEST_P(DepthFieldIn, NothingIsFeltOutsideTheImagedRegion) {
+TEST_P(DepthFieldIn, GivesNoContactOutsideTheImagedRegion) {
   const AnalyticRelief relief = AnalyticRelief::Make(GetParam(), [](glm::dvec2) { return 0.004; });
   const DepthField field(relief.backdrop, relief.Float());
   const Projection& projection = relief.backdrop.projection;
@@ -126,7 +126,7 @@ TEST(DepthField, HolesNeitherPullNorSpread) {
   }
 }
 
-TEST(DepthField, BareSphereIsFeltWhereThePictureLies) {
+TEST(DepthField, TheBareSphereIsInContactWithinThePicture) {
   const AnalyticRelief relief = AnalyticRelief::Make(ProjectionType::kEquirectangular, {});
   const DepthField field(relief.backdrop, 1024, 1024);
   const glm::dvec3 out = glm::normalize(glm::dvec3(0.1, 0.2, 1.0));
@@ -138,14 +138,14 @@ TEST(DepthField, BareSphereIsFeltWhereThePictureLies) {
   EXPECT_EQ(field.free_radius(), 0.05);
 }
 
-TEST(DepthField, NoPictureIsNoField) {
+TEST(DepthField, WithoutAPictureThereIsNoField) {
   EXPECT_TRUE(DepthField().empty());
   EXPECT_TRUE(DepthField(Backdrop{}, 0, 0).empty());
   EXPECT_TRUE(DepthField(Backdrop{}, DepthMap()).empty());
   EXPECT_EQ(DepthField().Query({0, 0, 0.05}).weight, 0.0);
 }
 
-TEST(DepthField, TellsStepsFromASmoothMap) {
+TEST(DepthField, DistinguishesAQuantisedFromASmoothMap) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   EXPECT_NEAR(QuantumOf(relief.EightBit()), 0.007 / 255, 1e-8);
   EXPECT_LT(QuantumOf(relief.Float()), 1e-7);

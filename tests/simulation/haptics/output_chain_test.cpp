@@ -135,7 +135,7 @@ TEST(OutputChain, HardCase15NearTheIncisionTheForceFadesAndNeverFlutters) {
 }
 
 // One hour of a hand that is asked for 3 N all the time.
-TEST(OutputChain, HardCase24OverAnHourTheMeanIsBelowWhatTheMotorBears) {
+TEST(OutputChain, HardCase24TheMeanOverAnHourIsBelowTheContinuousForce) {
   Chain chain;
   chain.thermal.continuous_force = 0.88;
   const TipForce tip = Push({0, 0, 3});
@@ -149,7 +149,7 @@ TEST(OutputChain, HardCase24OverAnHourTheMeanIsBelowWhatTheMotorBears) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-TEST(OutputChain, TheGuardActsBeforeTheClampAndKnowsWhatWasSent) {
+TEST(OutputChain, TheGuardPrecedesTheClampAndUsesTheSentForce) {
   // A wall of 4000 N/m felt one tick late, against a hand of 300 N/m.
   double swing[2];
   for (const bool is_guarded : {false, true}) {

@@ -52,7 +52,7 @@ Touch TouchWall(double stiffness, const HandModel& hand, bool is_guarded,
   return touch;
 }
 
-TEST(Passivity, AWallThatIsTooStiffSwingsLessAndGivesLess) {
+TEST(Passivity, ReducesSwingAndEnergyOfATooStiffWall) {
   const Touch bare = TouchWall(4000, kHand, false), guarded = TouchWall(4000, kHand, true);
   std::printf("4000 N/m: swing %.2f -> %.2f mm\n", 1e3 * bare.swing, 1e3 * guarded.swing);
   EXPECT_GT(bare.swing, 0.3e-3) << "else there is nothing to guard against";
@@ -68,7 +68,7 @@ TEST(Passivity, AWallThatIsTooStiffSwingsLessAndGivesLess) {
 
 // A hand at rest on the edge of two counts, its force a tick late: what it seems to do to and fro
 // would soon be owed. Then one count after a long rest, which looks fast.
-TEST(Passivity, CountsOfTheDeviceAreNoMotion) {
+TEST(Passivity, SingleEncoderCountsAreNotDamped) {
   constexpr double kCount = 5.5e-5;  // m
   PassivityOptions options;
   options.quantum = kCount;
@@ -88,7 +88,7 @@ TEST(Passivity, CountsOfTheDeviceAreNoMotion) {
   EXPECT_LT(braked.x, push.x);
 }
 
-TEST(Passivity, AWallThatIsSoftEnoughIsLeftAsItIs) {
+TEST(Passivity, DoesNotChangeAStableWall) {
   const Touch bare = TouchWall(500, kHand, false), guarded = TouchWall(500, kHand, true);
   std::printf("500 N/m: swing %.3f -> %.3f mm, force off by %.3f N rms\n", 1e3 * bare.swing,
               1e3 * guarded.swing, guarded.rms_error);
@@ -96,7 +96,7 @@ TEST(Passivity, AWallThatIsSoftEnoughIsLeftAsItIs) {
   EXPECT_LT(guarded.rms_error, 0.02);
 }
 
-TEST(Passivity, WhatIsTakenIsGivenBackWithoutADamper) {
+TEST(Passivity, ReturnsStoredEnergyWithoutDamping) {
   // In and out of a spring, exactly: it takes and gives the same.
   PassivityState guard;
   double most = 0;
@@ -110,7 +110,7 @@ TEST(Passivity, WhatIsTakenIsGivenBackWithoutADamper) {
   EXPECT_EQ(most, 0.0);
 }
 
-TEST(Passivity, WhatWasRubbedAwayIsNoLicenceToSwing) {
+TEST(Passivity, EnergyLostToFrictionGivesNoCredit) {
   PassivityState guard;
   // Half a joule of rubbing.
   for (int i = 0; i < 1000; ++i) {
@@ -146,7 +146,7 @@ double GainOfALoop(bool is_bounded, double speed) {
   return work;
 }
 
-TEST(Passivity, ASpringThatIsStifferOnTheWayOutGivesBackWhatWasPaid) {
+TEST(Passivity, ASpringThatIsStifferOnTheWayOutReturnsOnlyTheEnergyPaid) {
   for (const double speed : {0.02, 0.05, 0.15}) {
     const double bare = GainOfALoop(false, speed), bounded = GainOfALoop(true, speed);
     std::printf("%.2f m/s: %.2f mJ gained with the damper alone, %.3f mJ with the credit\n", speed,
@@ -158,7 +158,7 @@ TEST(Passivity, ASpringThatIsStifferOnTheWayOutGivesBackWhatWasPaid) {
   }
 }
 
-TEST(Passivity, TheBoundIsContinuousAndLeavesAPaidSpringAlone) {
+TEST(Passivity, TheBoundIsContinuousAndKeepsAPaidSpring) {
   // The clamp is felt as long as what was paid lasts, and the force falls steadily after it.
   const HandSpring spring{500, 3.3};
   double last = 0;
@@ -181,7 +181,7 @@ TEST(Passivity, TheBoundIsContinuousAndLeavesAPaidSpringAlone) {
   EXPECT_EQ(BoundByCredit({}, {10, 0, 0}, {}, spring, false, kTick, paid), glm::dvec3(10, 0, 0));
 }
 
-TEST(Passivity, TakesAnythingAndAllocatesNothing) {
+TEST(Passivity, HandlesAnyInputAndAllocatesNothing) {
   PassivityState guard;
   const long before = test::Allocations();
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300})

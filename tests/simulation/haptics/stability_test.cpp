@@ -17,7 +17,7 @@ using app::RuleStiffness;
 using app::TouchedWall;
 using app::WallServo;
 
-TEST(Stability, TheMeasuredLimitIsTheRulesWithinFourPercent) {
+TEST(Stability, TheMeasuredLimitAgreesWithTheRuleWithinFourPercent) {
   double worst = 0;
   for (const double period : {0.5e-3, 1e-3})
     for (const double damping : {0.0, 1.0})
@@ -35,7 +35,7 @@ TEST(Stability, TheMeasuredLimitIsTheRulesWithinFourPercent) {
 }
 
 // 2000 here; `arthroscene bench haptics` tries 10 000.
-TEST(Stability, NoHandEscapesAtTheDefaultGains) {
+TEST(Stability, EveryHandIsStableAtTheDefaultGains) {
   int escaped = 0;
   double most = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
@@ -92,7 +92,7 @@ Rest ComeToRest(const WallServo& servo, const HandModel& hand) {
 
 // A heavy hand does not settle in 0.1 s on any spring (an arm of 0.6 kg with 6.7 N s/m takes
 // 0.18 s for a factor e), so the 0.1 s are beside the same hand on a wall that is felt at once.
-TEST(Stability, HardCase11AtTheBoundHandsSettleAndAboveTheGuardHoldsTheSwing) {
+TEST(Stability, HardCase11HandsSettleAtTheBoundAndTheGuardLimitsTheSwingAboveIt) {
   double latest = 0, widest_below = 0, widest_above = 0;
   for (const HandModel& hand : {kSoftHand, kHand, kStiffHand, kWholeArm})
     for (const int delay : {0, 1, 2})

@@ -15,7 +15,7 @@ DeviceCaps TouchClass() {
   return caps;
 }
 
-TEST(DeviceOptions, TheRuleIsThatOfTheNotes) {
+TEST(DeviceOptions, StableStiffnessMatchesTheTable) {
   ContactOptions contact;
   contact.stiffness = 10;
   // Table of the notes: T, B, delay in ticks, N/m.
@@ -29,7 +29,7 @@ TEST(DeviceOptions, TheRuleIsThatOfTheNotes) {
   }
 }
 
-TEST(DeviceOptions, AStifferCouplingThatIsLoweredKeepsTheRuleWithTheViscosityThatIsLeft) {
+TEST(DeviceOptions, ALoweredCouplingIsStableWithItsReducedViscosity) {
   ContactOptions contact;
   contact.stiffness = 3000;
   const double lowered = StableStiffness(0.2, contact, 1e-3, 1e-3);
@@ -38,14 +38,14 @@ TEST(DeviceOptions, AStifferCouplingThatIsLoweredKeepsTheRuleWithTheViscosityTha
   EXPECT_LT(lowered, 200);
 }
 
-TEST(DeviceOptions, DefaultsStayBelowTheRuleForATouchClassDevice) {
+TEST(DeviceOptions, DefaultsAreStableForATouchClassDevice) {
   const SessionOptions options = OptionsFor(TouchClass(), 1e-3, {});
   EXPECT_EQ(options.lever.max_stiffness, 780) << "the rule gives 800";
   EXPECT_EQ(options.limiter.max_force, 3.3);
   EXPECT_NEAR(options.thermal.continuous_force, 0.88, 1e-12);
 }
 
-TEST(DeviceOptions, OnlyEverLower) {
+TEST(DeviceOptions, OnlyLowerLimits) {
   SessionOptions low;
   low.lever.max_stiffness = 100;
   low.limiter.max_force = 1;
@@ -70,7 +70,7 @@ TEST(DeviceOptions, OnlyEverLower) {
             OptionsFor(TouchClass(), 1e-3, {}).lever.max_stiffness);
 }
 
-TEST(DeviceOptions, WithoutForceNothingChanges) {
+TEST(DeviceOptions, ADeviceWithoutForceChangesNothing) {
   DeviceCaps pad = TouchClass();
   pad.feedback = Feedback::kRumble;
   pad.peak_force = 0.1;
@@ -78,7 +78,7 @@ TEST(DeviceOptions, WithoutForceNothingChanges) {
 }
 
 // What the hand feels of a surface, over what it feels without a device: that is what was lowered.
-TEST(DeviceOptions, AreFelt) {
+TEST(DeviceOptions, LowerTheForceOfASurface) {
   LoadedScene loaded = SceneOf({}, {});
   loaded.scene.tissues.clear();
   loaded.surfaces.clear();

@@ -35,7 +35,7 @@ std::shared_ptr<ImplicitTissue> MakeField(const LoadedScene& loaded) {
                                           loaded.scene.tissues[0].pose);
 }
 
-TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
+TEST(FieldTissue, GivesTheForceOfTheSampledBall) {
   const LoadedScene loaded = MakeScene();
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
@@ -60,7 +60,7 @@ TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
   EXPECT_LT(worst_turn, 0.03 + kSpacing / kBall / 4);
 }
 
-TEST(FieldTissue, AToolThatAppearsBeyondAThinOneIsHeldBeforeIt) {
+TEST(FieldTissue, AToolThatAppearsBehindAThinFlapIsHeldInFrontOfIt) {
   // A flap of 1 mm. (A ball would be slid around: beyond its centre its near side is no minimum.)
   LoadedScene loaded = MakeScene();
   loaded.surfaces[0] = test::Box({-5e-3, -5e-3, -5e-4}, {5e-3, 5e-3, 5e-4});
@@ -73,7 +73,7 @@ TEST(FieldTissue, AToolThatAppearsBeyondAThinOneIsHeldBeforeIt) {
   EXPECT_EQ(tool.contact, 1);
 }
 
-TEST(FieldTissue, WhatIsBittenOffIsNotFeltAnyMore) {
+TEST(FieldTissue, RemovedTissueGivesNoForce) {
   const LoadedScene loaded = MakeScene();
   Hand hand(loaded);
   const auto whole = MakeField(loaded);
@@ -99,7 +99,7 @@ TEST(FieldTissue, WhatIsBittenOffIsNotFeltAnyMore) {
   EXPECT_NEAR(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).penetration, 1e-3, 1e-5) << "its mesh again";
 }
 
-TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
+TEST(FieldTissue, IsSampledFromTheSurfaceOfAnImplicitTissue) {
   LoadedScene loaded = MakeScene();
   loaded.scene.tissues[0].pose.scale = 0.5;
   Hand given(loaded);
@@ -117,7 +117,7 @@ TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
   EXPECT_THROW(Hand{loaded}, Error) << "an open surface has no inside";
 }
 
-TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
+TEST(FieldTissue, AServoTickInContactAllocatesNothing) {
   const LoadedScene loaded = MakeScene();
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
@@ -151,7 +151,7 @@ double Shave(Hand& hand, int ticks) {
   return hand.session.tissues()->bodies[0].cut.removed;
 }
 
-TEST(FieldTissue, AShaverAndABiteInASessionTakeOfItAndWhatIsGoneIsNotFelt) {
+TEST(FieldTissue, AShaverAndAPunchRemoveTissueInASession) {
   Hand hand(MakeImplicit());
   hand.session.Enliven({}, TissuePace::kInline);
   ASSERT_NE(hand.session.tissues(), nullptr);
@@ -188,7 +188,7 @@ TEST(FieldTissue, AShaverAndABiteInASessionTakeOfItAndWhatIsGoneIsNotFelt) {
 constexpr double kPixel = 0.08 / 500;
 constexpr double kStep = kSpring * 2.2 * kPixel;
 
-TEST(FieldTissue, WhatIsTakenFromUnderATipOrComesBackOverItIsFeltWithoutAJump) {
+TEST(FieldTissue, RemovingOrRestoringTissueAtATipGivesNoForceJump) {
   const LoadedScene loaded = MakeImplicit();
   Hand hand(loaded);
   const glm::dvec3 face = kCentre - glm::dvec3(0, 0, kBall);
@@ -219,7 +219,7 @@ TEST(FieldTissue, WhatIsTakenFromUnderATipOrComesBackOverItIsFeltWithoutAJump) {
   EXPECT_LE(largest, kStep + (kSpring + 1e3) * 1e-6) << "the hand's own step, and its viscosity";
 }
 
-TEST(FieldTissue, ItsCutsAreTheSameBytesEveryTimeAndATickOnThemAllocatesNothing) {
+TEST(FieldTissue, CutsAreReproducibleAndATickOnThemAllocatesNothing) {
   std::array<std::vector<glm::dvec3>, 2> forces;
   std::array<std::vector<glm::dvec3>, 2> shapes;
   for (std::size_t run = 0; run < 2; ++run) {

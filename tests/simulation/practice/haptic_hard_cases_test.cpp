@@ -85,7 +85,7 @@ void ExpectWithinRise(const glm::dvec3& force, const glm::dvec3& last,
 
 // The depth map changes under a tip that strokes it: nearer, further, a slope, a hole, 8 bits.
 class HardCase8 : public testing::TestWithParam<int> {};
-TEST_P(HardCase8, ADepthMapThatIsSwappedInContactNeitherKicksNorThrowsTheProxy) {
+TEST_P(HardCase8, ASwappedDepthMapGivesNoForceJump) {
   const AnalyticRelief low = Flat(0.004);
   AnalyticRelief other =
       GetParam() == 0   ? Flat(0.007)
@@ -198,7 +198,7 @@ TEST(HardCase10, AnEightBitStaircaseDoesNotBuzzInTheHand) {
 
 // What tissue says of its stiffness and of how its skin bends may be any matrices. 300 N/m hold the
 // instrument; its hand goes round in circles through the surface.
-TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
+TEST(HardCase14, AnyReportedStiffnessIsMadePassive) {
   LoadedScene bare = SceneOf({}, {});
   bare.scene.tissues.clear();
   bare.surfaces.clear();
@@ -271,7 +271,7 @@ TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
 
 // The hand goes through the incision and comes back, at 1 mm beside it and right through it, with
 // its tip in the wall while it is there.
-TEST(HardCase15, AHandThatCrossesTheIncisionGetsAForceThatFadesAndNeverFlutters) {
+TEST(HardCase15, ForceFadesWithoutFlutterWhereTheHandCrossesTheIncision) {
   const AnalyticRelief relief = Flat();
   for (const double beside : {0.0, 1e-6, 1e-3, 4e-3}) {
     LoadedScene loaded = SceneOver(relief, relief.Float());
@@ -329,7 +329,7 @@ const KnownForce kKnownForces[] = {
 
 // Ten minutes of both hands over hilly ground: three runs to the bit, and what other compilers made
 // of them to 1 nN.
-TEST(HardCase27, TenMinutesAreTheSameToTheBitThreeTimes) {
+TEST(HardCase27, TenMinutesAreBitIdenticalOverThreeRuns) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   const LoadedScene loaded = SceneOver(relief, relief.EightBit());
   const Session session(loaded);
@@ -366,7 +366,7 @@ TEST(HardCase27, TenMinutesAreTheSameToTheBitThreeTimes) {
 // limit cycle swings on and on: nine tenths of the ticks of 0.1 s are then further apart than a
 // swing of that size lets them be. Nor does the passivity guard strike at each count of the device,
 // which looks like 55 mm/s.
-TEST(HardCase23, ASlowStrokeStaysStillWhenItIsHeldAndDoesNotSwing) {
+TEST(HardCase23, ASlowStrokeComesToRestWithoutALimitCycle) {
   const AnalyticRelief relief = Flat();
   for (const HandModel& hand : {kSoftHand, kHand, kStiffHand}) {
     const auto tip_at = [](double along) {

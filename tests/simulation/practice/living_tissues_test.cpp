@@ -10,7 +10,7 @@ namespace arthro::simulation {
 namespace {
 
 // A tissue that is laid in at twice its size: what is written in its own frame grows with it.
-TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
+TEST(LivingTissues, ScalesFixedPlacesCutsAndRegionsByThePose) {
   test::TempFolder folder;
   const SurfaceMesh surface = {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}},
                                {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -74,7 +74,7 @@ std::string SaidOf(double scale, const glm::dvec3& shift) {
 }
 
 // By less than a fifth of the surface's diagonal, 3.46 mm, a coarse mesh may be off it.
-TEST(LivingTissues, AMeshThatDoesNotFillItsSurfaceIsRefused) {
+TEST(LivingTissues, RefusesAMeshThatDoesNotFillItsSurface) {
   EXPECT_EQ(SaidOf(1.0, {}), "nothing");
   EXPECT_EQ(SaidOf(1.0, {0.0034, 0, 0}), "nothing");
   EXPECT_EQ(SaidOf(0.81, {}), "nothing");

@@ -56,7 +56,7 @@ std::vector<std::vector<std::string>> Table(const std::string& text) {
 }
 
 // A shaver runs beside a loose body that is a function, its window to it.
-TEST(Replay, OfAShaverOnALooseBodySaysWhatItTookAndGivesTheSameBytesTwice) {
+TEST(Replay, ReportsTheVolumeThatAShaverRemovesAndGivesTheSameBytesTwice) {
   LoadedScene loaded = MakeScene();
   loaded.depth = {};
   Tissue tissue;
@@ -84,7 +84,7 @@ TEST(Replay, OfAShaverOnALooseBodySaysWhatItTookAndGivesTheSameBytesTwice) {
   EXPECT_EQ(report["loose body"]["removed_mm3"], first.tissues[0].cut.removed * 1e9);
 }
 
-TEST(Replay, GivesOneRowForARowOfTheTrace) {
+TEST(Replay, GivesOneRowPerRowOfTheTrace) {
   const LoadedScene loaded = MakeScene();
   const auto trace = MakeTrace(0.5, 250);
   const auto forces = Replay(loaded, trace);
@@ -112,7 +112,7 @@ TEST(Replay, IsBitIdenticalOverThreeRuns) {
 }
 
 // The clock is the servo's whatever the recording's rate; the hand moves evenly between rows.
-TEST(Replay, SlowRecordingFeelsAsTheFastOne) {
+TEST(Replay, ASlowRecordingGivesTheForcesOfAFastOne) {
   const LoadedScene loaded = MakeScene();
   const auto fast = Replay(loaded, MakeTrace(2.0, 1000)),
              slow = Replay(loaded, MakeTrace(2.0, 100));
@@ -150,7 +150,7 @@ TEST(Replay, ReportAddsUp) {
   EXPECT_GT(json.at("tick_us").at("median"), 0.0);
 }
 
-TEST(Replay, ReportTellsWhatWasTakenByRegion) {
+TEST(Replay, ReportsTheRemovedVolumePerRegion) {
   LoadedScene loaded = MakeScene();
   Tissue& tissue = loaded.scene.tissues.emplace_back();
   tissue.name = "meniscus";
@@ -222,7 +222,7 @@ TEST_F(ReplayJob, StiffnessIsAnOption) {
   EXPECT_EQ(Run(Path("trace.csv") + " -o " + Path("c.csv") + " --stiffness 1e9").exit_code, 2);
 }
 
-TEST_F(ReplayJob, AHandThatIsNowhereGetsAFaultAndNoForce) {
+TEST_F(ReplayJob, AnInvalidHandPositionGivesAFaultAndNoForce) {
   WriteAtomically(folder_ / "far.csv",
                   std::string_view("t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n"
                                    "0,scope,0,0,-0.15,1,0,0,0,0\n"

@@ -38,7 +38,7 @@ TEST(ScriptedDevice, StaysWithinItsLimits) {
 }
 
 // A mouse moves once a frame; the hand that the servo sees must not jump by a frame's worth.
-TEST(ScriptedDevice, SpreadsAFrameOverItsTicks) {
+TEST(ScriptedDevice, SpreadsTheMotionOfAFrameOverItsTicks) {
   DeviceRig rig;
   ScriptedDevice device(rig);
   device.Sample(0.0);

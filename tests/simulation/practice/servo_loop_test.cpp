@@ -80,7 +80,7 @@ TEST(ServoLoop, PushesAHandOutOfTheWallOnceItIsArmed) {
   EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0));
 }
 
-TEST(ServoLoop, TheSecondButtonOfAHandleIsADeadManToo) {
+TEST(ServoLoop, TheSecondButtonOfAHandleIsADeadMan) {
   Servo servo;
   servo.Tick(10);
   servo.scope.SetButtons(1);
@@ -147,7 +147,7 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
 
 // The wall is touched at 2 Hz the while; what is compared is the work of the force on the hand.
 class HardCase12 : public testing::TestWithParam<int> {};
-TEST_P(HardCase12, ALateTickGivesNoEnergyAndIsToldTheTrueTime) {
+TEST_P(HardCase12, ALateTickGivesNoEnergyAndUsesTheTrueTimeStep) {
   const int late = GetParam();  // ms
   double given[2];
   for (const bool is_late : {false, true}) {
@@ -186,7 +186,7 @@ TEST_P(HardCase12, ALateTickGivesNoEnergyAndIsToldTheTrueTime) {
 }
 INSTANTIATE_TEST_SUITE_P(Lateness, HardCase12, testing::Values(1, 3, 25));
 
-TEST(ServoLoop, MoreThanThreeTicksLateIsATickWithoutForceAndOneOnly) {
+TEST(ServoLoop, ATickMoreThanThreePeriodsLateGivesNoForceOnce) {
   Servo servo;
   servo.Arm();
   const double before = glm::length(servo.scope.force());
@@ -219,7 +219,7 @@ TEST(ServoLoop, ALostDeviceGetsNoForceBeforeSixMillisecondsAndIsLostBefore25) {
   EXPECT_LT(lost, 25e-3);
 }
 
-TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
+TEST(ServoLoop, ZeroForceModeComputesForcesGivesNoneAndEndsWithARamp) {
   Servo servo;
   servo.Arm();
   ASSERT_GT(glm::length(servo.scope.force()), 0.1);
@@ -245,7 +245,7 @@ TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
   EXPECT_GT(glm::length(servo.scope.force()), 0.1);
 }
 
-TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
+TEST(ServoLoop, IgnoresTheDeadManAfterRequestsHaveStopped) {
   ServoOptions options;
   options.request_lasts = 0.5;
   Servo servo(options);
@@ -265,7 +265,7 @@ TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
   EXPECT_GT(glm::length(servo.scope.force()), 0.1) << "it is back, and so is the force";
 }
 
-TEST(ServoLoop, WhoWatchesIsToldOfEachTickWithItsTime) {
+TEST(ServoLoop, CallsItsObserverAfterEachTickWithTheTimeStep) {
   struct Watch final : ServoWatch {
     void AfterTick(const Snapshot& snapshot, double dt) noexcept override {
       ++ticks;
@@ -323,7 +323,7 @@ class Tracker final : public Device {
   long sent_ = 0;
 };
 
-TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
+TEST(ServoLoop, SamplesOfA250HertzDeviceAreNotStale) {
   const auto stale = [](Feedback feedback, double period) {
     Session session(BareSphere());
     Tracker tracker(HipFromRodPose({0, 0, 0, 0.05}, session.scope_rig()), feedback);
@@ -351,7 +351,7 @@ TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
   EXPECT_GT(stale(Feedback::kForce, 0.001), 0) << "who is pushed is not spared";
 }
 
-TEST(ServoLoop, LimitsAreThoseOfTheDevicesAndWishesOnlyLowerThem) {
+TEST(ServoLoop, AppliesTheLowerOfDeviceLimitsAndRequestedLimits) {
   PlantOptions weak;
   weak.peak_force = 0.2;
   Servo servo({}, weak);
@@ -374,7 +374,7 @@ TEST(ServoLoop, LimitsAreThoseOfTheDevicesAndWishesOnlyLowerThem) {
   EXPECT_EQ(servo.session.instrument(), ToolKind::kShaver);
 }
 
-TEST(ServoLoop, ForcesAreInTheDevicesFrame) {
+TEST(ServoLoop, CommandsForcesInTheFrameOfTheDevice) {
   LoadedScene loaded = BareSphere();
   // A quarter turn about x: the device's y is the portal's z.
   loaded.scene.rig.scope.portal_from_device = glm::dquat(std::sqrt(0.5), std::sqrt(0.5), 0, 0);
@@ -392,7 +392,7 @@ TEST(ServoLoop, ForcesAreInTheDevicesFrame) {
   EXPECT_NEAR(scope.force().z, -in_portal.y, 1e-9);
 }
 
-TEST(ServoLoop, WithNothingThatPushesItRunsAt250Hertz) {
+TEST(ServoLoop, RunsAt250HertzWithoutAForceDevice) {
   Session session(BareSphere());
   EXPECT_EQ(ServoLoop(session, nullptr, nullptr).period(), 0.004);
   EXPECT_EQ(session.options().lever.max_stiffness, SessionOptions{}.lever.max_stiffness);
@@ -400,7 +400,7 @@ TEST(ServoLoop, WithNothingThatPushesItRunsAt250Hertz) {
   EXPECT_EQ(ServoLoop(session, nullptr, &device).period(), 0.001);
 }
 
-TEST(ServoLoop, HoweverItEndsTheLastCommandIsNoForce) {
+TEST(ServoLoop, EndsWithACommandOfNoForce) {
   Session session(BareSphere());
   PlantDevice scope({}, kHand, HipFromRodPose({0, 0, 0, 0.08 + kDepth}, session.scope_rig()));
   for (const bool is_thrown : {false, true}) {
@@ -423,7 +423,7 @@ TEST(ServoLoop, HoweverItEndsTheLastCommandIsNoForce) {
 
 // Four minutes of pushing against the wall, in and out: past the 190 s after which what warming up
 // took is made up for (thermal.cpp). The hour is in OutputChain.HardCase24.
-TEST(ServoLoop, HardCase24ALongSessionHeatsNoMotorAndAllocatesNothing) {
+TEST(ServoLoop, HardCase24ALongSessionStaysBelowTheContinuousForceAndAllocatesNothing) {
   PlantOptions plant;
   plant.friction = 0;
   Servo servo({}, plant, kStiffHand);
@@ -471,7 +471,7 @@ TEST(ServoLoop, DrivesRecordedHandsOnTheClockAndTheTimeStepOfItsCaller) {
   EXPECT_EQ(loop.ReadReport().compute.count(), 2);
 }
 
-TEST(ServoLoop, ItsThreadTicksTellsAndStops) {
+TEST(ServoLoop, ThreadTicksReportsAndStops) {
   Servo servo;
   servo.loop.Start();
   using Clock = std::chrono::steady_clock;

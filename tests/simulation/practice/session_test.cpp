@@ -237,7 +237,7 @@ ToolCoupling TissueSpring(const glm::dvec3& tip, std::uint64_t step, double k = 
   return coupling;
 }
 
-TEST(LiveTissue, IsFeltAsItsCouplingSaysAndTheToolIsDrawnWhereItHoldsIt) {
+TEST(LiveTissue, GivesTheForceOfItsCouplingAndHoldsTheDrawnTool) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   for (int step = 1; step <= 20; ++step) {
@@ -287,7 +287,7 @@ TEST(LiveTissue, BackdropAndTissueTogetherAreNotCountedTwice) {
   EXPECT_EQ(stiff.contact, 1);
 }
 
-TEST(LiveTissue, IsLeftOutOfTheRigidSurfaces) {
+TEST(LiveTissue, IsNotARigidSurface) {
   Hands hands(MakeScene());
   hands.session.SetLiveTissues(std::array<std::uint8_t, 1>{1});
   EXPECT_EQ(hands.Lead({0.0115, 0, 0.0368}, 3000).instrument.contact, kNoContact);
@@ -332,7 +332,7 @@ TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
   }
 }
 
-TEST(LiveTissue, ATissueThatAppearsIsNotAKick) {
+TEST(LiveTissue, ATissueThatAppearsGivesNoForceJump) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.036}, 1000);
   hands.Tick(1000);
@@ -350,7 +350,7 @@ TEST(LiveTissue, ATissueThatAppearsIsNotAKick) {
 
 // From 60 steps a second to five: what is known is felt for 0.1 s and fades, and what comes then is
 // blended in over a frame.
-TEST(LiveTissue, HardCase13FiveStepsASecondNeitherJumpNorPushForLong) {
+TEST(LiveTissue, HardCase13FiveStepsPerSecondGiveNoJumpsAndAFadingForce) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   double largest = 0, strongest = 0, last = 0, faded = 1;
@@ -371,7 +371,7 @@ TEST(LiveTissue, HardCase13FiveStepsASecondNeitherJumpNorPushForLong) {
   EXPECT_LE(largest, 0.6 * 60 * kTick * 1.01) << "over a frame";
 }
 
-TEST(LiveTissue, HardCase13ThatFallsSilentFades) {
+TEST(LiveTissue, HardCase13ForceFadesWithoutFurtherSteps) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   hands.session.SetCoupling(TissueSpring({0.03, 0, 0.032}, 1));
@@ -380,7 +380,7 @@ TEST(LiveTissue, HardCase13ThatFallsSilentFades) {
 }
 
 // The tip stays 4 mm under the backdrop while the instrument is changed.
-TEST(Session, AnotherInstrumentEntersAnewAndItsForceRisesFromZero) {
+TEST(Session, AChangedInstrumentEntersAnewAndItsForceRisesFromZero) {
   Hands hands(MakeScene(true, false));
   hands.instrument.Set({0, -0.5, 0, 0.04});
   hands.Tick(700);  // armed, in free space

@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, HardCase9,
 
 // A limiter that is far stricter than the tissue: the hand is told just what it allows, and the
 // tissue behind does not know of it.
-TEST(HardCase9, HardCase9OnlyTheHandIsSparedByTheLimiter) {
+TEST(HardCase9, HardCase9TheLimiterAffectsOnlyTheHand) {
   LimiterOptions strict;
   strict.max_rise = 20.0;
   strict.max_force = 0.8;

@@ -49,7 +49,7 @@ struct LayerHand : Hand {
   std::vector<LayerSpec> layers;
 };
 
-TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
+TEST(ThinLayer, GivesTheForceOfTheSpringInSeriesWithItsClosedForm) {
   LayerHand hand(MakeScene(Block()));
   ASSERT_EQ(hand.layers.size(), 1u);
   hand.session.SetInstrument(ToolKind::kShaver);
@@ -86,7 +86,7 @@ TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
   EXPECT_EQ(hand.session.snapshot().instrument.tip_force, glm::dvec3(0.0));
 }
 
-TEST(ThinLayer, WithAWallBehindItAllOfTheForceIsTheSpringsOnce) {
+TEST(ThinLayer, WithAWallBehindItTheSpringForceIsCountedOnce) {
   // The slab's far corner stands 1 mm before the backdrop's sphere; the tip goes past its edge and
   // onto the wall while the rod lies on the slab.
   LoadedScene loaded = MakeScene(test::Box({-0.02, 0.001, -0.02}, {0.02, 0.02, 0.0}));
@@ -126,7 +126,7 @@ TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
   EXPECT_GT(last, 0.1);
 }
 
-TEST(ThinLayer, OfAnotherTissueChangesNothing) {
+TEST(ThinLayer, ALayerDoesNotChangeTheForceOfAnotherTissue) {
   // Block 1 is a layer, block 2 beside it is not: pressing 2 feels the same to the last bit.
   LoadedScene loaded = MakeScene(Block());
   loaded.scene.tissues.push_back(loaded.scene.tissues[0]);
@@ -148,7 +148,7 @@ TEST(ThinLayer, OfAnotherTissueChangesNothing) {
   EXPECT_EQ(with.session.snapshot().instrument.contact, 2);
 }
 
-TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
+TEST(ThinLayer, ACurvedLayerGivesNoJumpsAcrossItsTriangles) {
   // A condyle of 10 mm radius in facets of 0.5 mm, slid over at a depth of 1 mm.
   LayerHand soft(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)));
   LayerHand rigid(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
@@ -169,7 +169,7 @@ TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
   EXPECT_LE(jump[0], jump[1]) << "softer, so no rougher";
 }
 
-TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
+TEST(ThinLayer, AServoTickInContactAllocatesNothing) {
   LayerHand hand(MakeScene(Block()));
   hand.Press(0.5e-3);
   const long before = test::Allocations();
@@ -181,7 +181,7 @@ TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
+TEST(ThinLayer, DentsUnderTheToolAndRecovers) {
   const LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
   LayerHand hand(loaded);
   hand.session.SetInstrument(ToolKind::kShaver);
@@ -284,7 +284,7 @@ TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
   }
 }
 
-TEST(ThinLayer, TakesWhatTheSceneSaysOtherwise) {
+TEST(ThinLayer, UsesTheValuesThatTheSceneOverrides) {
   LoadedScene loaded = MakeScene(Block());
   loaded.scene.tissues[0].elasticity.layer_thickness = 1e-3;
   loaded.scene.tissues[0].elasticity.young_modulus = 3e6;

@@ -50,7 +50,7 @@ bool TickUntil(TissueLoop& loop, const Instrumentation& hand, Done&& is_done) {
   return false;
 }
 
-TEST(TissueLoop, OnAThreadCouplingsComeAndThePictureMoves) {
+TEST(TissueLoop, ThreadPublishesCouplingsAndPictures) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueLoop loop(World(spec), TissuePace::kThread);
   const std::vector<glm::dvec3> at_rest = loop.Read().bodies[0].positions;
@@ -75,7 +75,7 @@ TEST(TissueLoop, OnAThreadCouplingsComeAndThePictureMoves) {
   EXPECT_TRUE(IsFinite(picture));
 }
 
-TEST(TissueLoop, ResetWhileItStepsLeavesItWholeAndGoingOn) {
+TEST(TissueLoop, ResetDuringAStepRestoresTheTissueAndStepsGoOn) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueLoop loop(World(spec), TissuePace::kThread);
   const std::vector<glm::dvec3> at_rest = loop.Read().bodies[0].positions;
@@ -103,7 +103,7 @@ TEST(TissueLoop, EndsWhileItSteps) {
   }
 }
 
-TEST(TissueLoop, InlineStepsComeOncePerPeriodAndAreTheSameAgain) {
+TEST(TissueLoop, InlineStepsRunOncePerPeriodAndAreReproducible) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueLoop one(World(spec), TissuePace::kInline), other(World(spec), TissuePace::kInline);
   ToolCoupling of_one, of_other;
@@ -122,7 +122,7 @@ TEST(TissueLoop, InlineStepsComeOncePerPeriodAndAreTheSameAgain) {
   EXPECT_EQ(taken, 30) << "half a second at 60 steps a second";
 }
 
-TEST(TissueLoop, SceneWithoutTissueIsNoWork) {
+TEST(TissueLoop, ASceneWithoutTissueRunsNoStep) {
   TissueLoop loop(TissueWorld({}, {}, nullptr, true), TissuePace::kThread);
   ToolCoupling coupling;
   for (int i = 0; i < 100; ++i) {

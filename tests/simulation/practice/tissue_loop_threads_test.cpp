@@ -40,7 +40,7 @@ bool IsWhole(const WorldPicture& picture) {
   return true;
 }
 
-TEST(TissueLoop, ServoAndPictureGoOnBesideTheTissueAndItEndsInTheMiddleOfAStep) {
+TEST(TissueLoop, ServoAndPictureContinueDuringAStepAndItEndsWithinOne) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   auto loop = std::make_unique<TissueLoop>(SlabWorld(spec, true), TissuePace::kThread);
@@ -84,7 +84,7 @@ TEST(TissueLoop, ServoAndPictureGoOnBesideTheTissueAndItEndsInTheMiddleOfAStep) 
   loop.reset();
 }
 
-TEST(TissueLoop, IsWholeAgainAfterAResetInTheMiddleOfAStep) {
+TEST(TissueLoop, ResetDuringAStepRestoresTheTissue) {
   const BodySpec spec = test::SlabBody();
   TissueLoop loop(SlabWorld(spec, true), TissuePace::kThread);
   const std::vector<glm::dvec3> rest = loop.Read().bodies[0].positions;

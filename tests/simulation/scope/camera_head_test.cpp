@@ -58,7 +58,7 @@ TEST(CameraHead, UprightKeepsThePicturesUpWhileTheRodRollsThroughHalfATurn) {
   }
 }
 
-TEST(CameraHead, WordsAreRefusedThatSayNeither) {
+TEST(CameraHead, RefusesOtherText) {
   EXPECT_EQ(CameraHeadFromString("scope"), CameraHead{});
   EXPECT_EQ(CameraHeadFromString("upright"), CameraHead{.is_upright = true});
   EXPECT_THROW(CameraHeadFromString("Upright"), Error);

@@ -172,7 +172,7 @@ TEST(PivotCalibration, NoisyParallelPressesAreRefused) {
 
 // The target: predicted within 30 % of what chance does, or refused. As the program comes, every
 // nearly parallel set is refused, also where noise of the handle's angles spreads what is seen.
-TEST(PivotCalibration, HardCase17NearlyParallelPressesAreRefusedAsTheProgramComes) {
+TEST(PivotCalibration, HardCase17RefusesNearlyParallelPressesByDefault) {
   for (const double degrees : {0.1, 1.0, 5.0})
     for (const int n : {2, 8, 32})
       for (const double gimbal_deg : {0.0, 0.05, 0.5, 2.0}) {
@@ -240,7 +240,7 @@ TEST(PivotCalibration, HardCase18MovedIncisionIsFlagged) {
   }
 }
 
-TEST(PivotCalibration, NoiseAloneIsSeldomFlagged) {
+TEST(PivotCalibration, NoiseAloneIsRarelyFlagged) {
   Device device(7);
   int flagged = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -269,7 +269,7 @@ TEST(PivotCalibration, HardCase19PivotOutsideTheRodIsSolvedAndReported) {
 // 30 presses, positions quantised to 0.055 mm, one press 20 mm off. With the noise of
 // the gimbals stated or not: unstated noise shows in the residual, and the prediction grows with
 // it.
-TEST(PivotCalibration, HardCase20OneOutlierInThirtyIsSurvivedAtEveryGimbalNoise) {
+TEST(PivotCalibration, HardCase20ToleratesOneOutlierInThirtyAtEveryGimbalNoise) {
   for (double gimbal_deg : {0.0, 0.35, 2.0})
     for (const bool is_stated : {true, false}) {
       Device device(9);
@@ -316,7 +316,7 @@ TEST(PivotCalibration, HardCase20OneOutlierInThirtyIsSurvivedAtEveryGimbalNoise)
     }
 }
 
-TEST(PivotCalibration, UnstatedGimbalNoiseIsNamed) {
+TEST(PivotCalibration, ReportsUnstatedGimbalNoise) {
   Device device(10);
   std::vector<PivotPress> presses;
   for (int i = 0; i < 30; ++i)
@@ -371,7 +371,7 @@ TEST(PivotCalibration, FewerThanTwoUsablePressesAreTooFew) {
 }
 
 // A minute of swinging at a kilohertz must not try all two thousand million pairs.
-TEST(PivotCalibration, ManyThousandPressesTakeNoLongerThanTheyMust) {
+TEST(PivotCalibration, ManyThousandPressesAreFittedWithoutTryingAllPairs) {
   Device device(13);
   std::vector<PivotPress> presses;
   for (int i = 0; i < 60000; ++i)
@@ -383,7 +383,7 @@ TEST(PivotCalibration, ManyThousandPressesTakeNoLongerThanTheyMust) {
   EXPECT_LT(ErrorOf(calibration), 3.0 * calibration.sigma);
 }
 
-TEST(PivotCalibration, IsTheSameBitForBit) {
+TEST(PivotCalibration, IsReproducibleBitForBit) {
   Device device(12);
   std::vector<PivotPress> presses;
   for (int i = 0; i < 60; ++i)  // more pairs than trials, so that they are drawn

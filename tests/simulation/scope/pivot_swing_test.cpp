@@ -52,7 +52,7 @@ PivotOptions Options() {
   return options;
 }
 
-TEST(PivotSwing, APressOfAHandleIsItsRod) {
+TEST(PivotSwing, PressOfASampleIsItsRod) {
   const RodPose pose{0.3, -0.2, 1.1, 0.05};
   const Sample sample = Exact(pose);
   const PivotPress press = PressOf(sample.hip, sample.handle, kRig.rod_length);
@@ -60,7 +60,7 @@ TEST(PivotSwing, APressOfAHandleIsItsRod) {
 }
 
 // Notes, 9: within 3 sigma in 99 of 100.
-TEST(PivotSwing, TwentySecondsOfSwingingFindTheIncisionWithinThreeSigma) {
+TEST(PivotSwing, ASwingOfTwentySecondsFindsTheIncisionWithinThreeSigma) {
   int within = 0;
   double largest = 0, sigma = 0;
   constexpr int kTrials = 100;
@@ -84,7 +84,7 @@ TEST(PivotSwing, TwentySecondsOfSwingingFindTheIncisionWithinThreeSigma) {
 }
 
 // In motion: the trocar slips by 20 mm for a second of twenty.
-TEST(PivotSwing, HardCase20WhatSlipsForAWhileIsLeftOut) {
+TEST(PivotSwing, HardCase20LeavesOutATemporarySlip) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
   DeviceRig slipped = kRig;
@@ -100,7 +100,7 @@ TEST(PivotSwing, HardCase20WhatSlipsForAWhileIsLeftOut) {
   EXPECT_LT(glm::length(*found.pivot - kRig.pivot), 3 * found.sigma);
 }
 
-TEST(PivotSwing, AHandThatRestsCountsOnce) {
+TEST(PivotSwing, ARestingHandCountsOnce) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
   for (int i = 0; i < 5000; ++i) {
@@ -123,7 +123,7 @@ TEST(PivotSwing, HardCase16InAndOutAloneIsRefused) {
 }
 
 // Whoever swings has pressed nothing.
-TEST(PivotSwing, EverySentenceSpeaksOfPoses) {
+TEST(PivotSwing, EverySentenceRefersToPoses) {
   const auto reason_of = [](const std::vector<PivotPress>& poses, PivotStatus status) {
     const PivotCalibration found = CalibratePivot(poses, {}, PivotSource::kSwing);
     EXPECT_EQ(found.status, status) << found.reason;

@@ -29,7 +29,7 @@ PressAverage Pressed(const std::function<glm::dvec3(double)>& moved, double rate
   return press;
 }
 
-TEST(PressAverage, OfAHandAtRestIsItsRodAtAnyRate) {
+TEST(PressAverage, ARestingHandGivesItsRodAtAnyRate) {
   for (const double rate : {4000.0, 1000.0, 250.0, 60.0}) {
     const PressAverage press = Pressed([](double) { return glm::dvec3(0); }, rate);
     ASSERT_TRUE(press.press()) << press.refusal();
@@ -54,7 +54,7 @@ TEST(PressAverage, NoiseIsAveragedAway) {
 }
 
 // Even motion over a span has a standard deviation of its √12th part: 0.1 mm of 0.35.
-TEST(PressAverage, AHandThatMovesByMoreThanATenthOfAMillimetreIsRefusedInWords) {
+TEST(PressAverage, RefusesAHandThatMovesByMoreThanATenthOfAMillimetre) {
   const auto moving = [](double span) {
     return Pressed([=](double t) { return glm::dvec3(0, span * t / 0.1, 0); });
   };
@@ -66,7 +66,7 @@ TEST(PressAverage, AHandThatMovesByMoreThanATenthOfAMillimetreIsRefusedInWords) 
   EXPECT_NE(refused.refusal().find("press again"), std::string::npos);
 }
 
-TEST(PressAverage, ADeviceThatFallsSilentOrSpeaksSeldomIsNamed) {
+TEST(PressAverage, RefusesASilentOrRarelyReportingDevice) {
   PressAverage press(kRig.rod_length);
   EXPECT_FALSE(press.Add(0, {0, 0, 0}, {1, 0, 0, 0}));
   EXPECT_TRUE(press.Miss());

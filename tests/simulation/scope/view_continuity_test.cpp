@@ -125,7 +125,7 @@ TEST_P(ViewContinuity, HardCase21OverPolesDateLineAndRollWrapTheViewTurnsNoFurth
               DegreesFromRadians(worst.right));
 }
 
-TEST_P(ViewContinuity, AHeadThatIsHeldChangesNothingOfTheViewsDirection) {
+TEST_P(ViewContinuity, AHeldHeadDoesNotChangeTheViewDirection) {
   for (const Path& path : kPaths) {
     const Turns turns = TurnsAlong(path, alpha(), {.is_upright = true});
     EXPECT_LE(turns.view, kStep + kRounding) << path.over;

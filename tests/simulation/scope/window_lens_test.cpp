@@ -27,7 +27,7 @@ Lens MakeLens(LensModel model, double focal, std::array<double, 4> k, double rad
 }
 
 // Every pixel of the window goes where the lens' own model says, and back.
-TEST(WindowLens, GoesWhereTheLensGoes) {
+TEST(WindowLens, MapsPixelsAsTheLensDoes) {
   struct Case {
     const char* name;
     Lens lens;
@@ -84,14 +84,14 @@ TEST(WindowLens, WithoutAFileItIsEquisolid) {
   EXPECT_EQ(LensFactor(optics.lens.inward, 0.7), 1.0);
 }
 
-TEST(WindowLens, AnAskedForFieldCountsBeforeTheLensAndTheLensBeforeTheScene) {
+TEST(WindowLens, TheRequestedFieldOfViewPrecedesTheLensAndTheLensTheScene) {
   const Lens lens = MakeLens(LensModel::kKannalaBrandt, 330, {}, 250);
   const double own = OpticsOf({}, lens).field_of_view;
   EXPECT_NEAR(own, 2 * 250.0 / 330, 1e-9);
   EXPECT_EQ(OpticsOf({}, lens, 1.0).field_of_view, 1.0);
 }
 
-TEST(WindowLens, ALensThatEndsWithinItsWindowIsRefused) {
+TEST(WindowLens, RefusesALensThatEndsWithinItsWindow) {
   const auto sentence = [](const Lens& lens, double field) -> std::string {
     try {
       FitWindowLens(lens, field);

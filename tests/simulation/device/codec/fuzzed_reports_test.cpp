@@ -13,7 +13,7 @@
 namespace arthro::simulation {
 namespace {
 
-TEST(FuzzedReports, HardCase04NeverBecomeWhatIsNotANumber) {
+TEST(FuzzedReports, HardCase04NeverDecodeToNaN) {
   Random random(4);
   SpaceMouse mouse;
   EncoderUnwrap unwrap(93);

@@ -20,7 +20,7 @@ TEST(RumblePad, UsbReportsDriveBothMotors) {
   EXPECT_EQ(shock[5], 64);
 }
 
-TEST(RumblePad, NothingAndMoreThanEverythingStayInAByte) {
+TEST(RumblePad, ClampsTheAmplitudeToAByte) {
   for (const double none : {0.0, -3.0, std::nan("")}) EXPECT_EQ(DualSenseUsb({none, none})[4], 0);
   EXPECT_EQ(DualSenseUsb({1e300, 0})[4], 255);
 }

@@ -19,7 +19,7 @@ std::unique_ptr<DeviceDriver> Make(DeviceFamily family, bool is_bluetooth = fals
   return MakeDriver(device, "polhem_v1", refusal);
 }
 
-TEST(SpaceMouseDriver, SaysPushTurnAndButtonsOfBothKinds) {
+TEST(SpaceMouseDriver, ReadsPushTurnAndButtonsOfBothLayouts) {
   const auto driver = Make(DeviceFamily::kSpaceMouse);
   EXPECT_EQ(driver->caps().input, HandInput::kRate);
   EXPECT_EQ(driver->Take(Bytes{1, 0x5e, 1, 0xa2, 0xfe, 0xaf, 0}), ReportNews::kTaken);
@@ -40,7 +40,7 @@ TEST(SpaceMouseDriver, SaysPushTurnAndButtonsOfBothKinds) {
   EXPECT_EQ(driver->Hand(0).turn, glm::dvec3(0.0)) << "plugged in again it stands still";
 }
 
-TEST(HydraDriver, OneReportIsTwoHands) {
+TEST(HydraDriver, ReadsTwoHandsFromOneReport) {
   const auto driver = Make(DeviceFamily::kHydra);
   ASSERT_EQ(driver->hands(), 2);
   Bytes report(52);
@@ -59,7 +59,7 @@ TEST(HydraDriver, OneReportIsTwoHands) {
   EXPECT_EQ(driver->Hand(1).sample.buttons, 0u);
 }
 
-TEST(HydraDriver, IsToldToSendAndToStop) {
+TEST(HydraDriver, EncodesStartAndStop) {
   const auto driver = Make(DeviceFamily::kHydra);
   const Bytes start = BytesOf(driver->StartFeature()), stop = BytesOf(driver->StopFeature());
   ASSERT_EQ(start.size(), 91u);
@@ -70,7 +70,7 @@ TEST(HydraDriver, IsToldToSendAndToStop) {
   EXPECT_EQ(stop, golden);
 }
 
-TEST(PadDriver, ForceIsAmplitudeWhereverItPoints) {
+TEST(PadDriver, AmplitudeIsTheForceInAnyDirection) {
   const auto dual_sense = Make(DeviceFamily::kDualSense);
   EXPECT_EQ(dual_sense->caps().feedback, Feedback::kRumble);
   EXPECT_FALSE(HasHand(dual_sense->caps()));
@@ -88,7 +88,7 @@ TEST(PadDriver, ForceIsAmplitudeWhereverItPoints) {
   EXPECT_EQ(Make(DeviceFamily::kDualShock4, true)->ForceReport({}, {}).bytes[0], 0x11);
 }
 
-TEST(PadDriver, ButtonsHaveOneOrderOnBothPadsAndBothWires) {
+TEST(PadDriver, ButtonsHaveTheSameOrderOnBothPadsAndLinks) {
   // The report's number, its length and where its buttons begin.
   const auto check = [](DeviceFamily family, std::uint8_t id, std::size_t size, std::size_t at) {
     const auto driver = Make(family);

@@ -22,7 +22,7 @@ bool IsSame(const HandReading& a, const HandReading& b) {
 
 class FuzzedDriver : public testing::TestWithParam<DeviceFamily> {};
 
-TEST_P(FuzzedDriver, HardCase04RejectsWhatIsNoReportAndStaysANumber) {
+TEST_P(FuzzedDriver, HardCase04RejectsInvalidReportsAndStaysFinite) {
   KnownDevice device;
   device.family = GetParam();
   std::string refusal;

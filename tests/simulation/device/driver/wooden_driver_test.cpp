@@ -31,7 +31,7 @@ void Home(DeviceDriver& driver, const std::array<int, 6>& home) {
   driver.Take(Report(home));
 }
 
-TEST(WoodenDriver, IsHomedByItsButtonAndTheCountersThatFollow) {
+TEST(WoodenDriver, IsHomedByItsButton) {
   const auto driver = Make("woodenhaptics_2015");
   EXPECT_EQ(driver->Take(Report({0, 0, 6000, 0, 0, 0})), ReportNews::kTaken);
   EXPECT_FALSE(driver->Hand(0).is_homed) << "by chance there, but nobody said so";
@@ -54,7 +54,7 @@ TEST(WoodenDriver, IsHomedByItsButtonAndTheCountersThatFollow) {
   EXPECT_FALSE(driver->Hand(0).is_homed);
 }
 
-TEST(WoodenDriver, IsHomedWhenSomebodySaysSo) {
+TEST(WoodenDriver, IsHomedByARequest) {
   const auto driver = Make("woodenhaptics_2015");
   driver->AskHome();
   EXPECT_TRUE(driver->WantsHome());
@@ -62,7 +62,7 @@ TEST(WoodenDriver, IsHomedWhenSomebodySaysSo) {
   EXPECT_TRUE(driver->Hand(0).is_homed);
 }
 
-TEST(WoodenDriver, PushesWhereTheForcePoints) {
+TEST(WoodenDriver, PushesInTheDirectionOfTheForce) {
   for (const WoodenModel& model : WoodenModels()) {
     const auto driver = Make(model.word);
     std::array<int, 6> home{};
@@ -89,14 +89,14 @@ TEST(WoodenDriver, PushesWhereTheForcePoints) {
   }
 }
 
-TEST(WoodenDriver, ARawHidBoardIsWritten65Bytes) {
+TEST(WoodenDriver, Writes65BytesToARawHidBoard) {
   const auto driver = Make("polhem_v1", true);
   EXPECT_EQ(driver->ForceReport(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1)).size, 65u);
   EXPECT_EQ(driver->HomeReport().size, 65u);
   EXPECT_EQ(driver->Take(Report({0, 0, 0, 0, 0, 0}, 0, 64)), ReportNews::kTaken);
 }
 
-TEST(WoodenDriver, APolhemSaysButtonAndHandleInReverse) {
+TEST(WoodenDriver, ReadsButtonAndGimbalOfAPolhem) {
   const auto driver = Make("polhem_v1");
   Home(*driver, {0, 0, -5000, 0, 0, 0});
   ASSERT_TRUE(driver->Hand(0).is_homed);
@@ -141,7 +141,7 @@ TEST(WoodenDriver, HardCase05AWrapIsUnwrappedAndAFlippedBitRejected) {
   EXPECT_LT(glm::distance(driver->Hand(0).sample.hip_in_device, last), 1e-12);
 }
 
-TEST(WoodenDriver, ASecretOrUnnamedGeometryIsRefused) {
+TEST(WoodenDriver, RefusesAnUnknownGeometry) {
   KnownDevice device;
   device.family = DeviceFamily::kWoodenHaptics;
   std::string refusal;
@@ -156,7 +156,7 @@ TEST(WoodenDriver, ASecretOrUnnamedGeometryIsRefused) {
   EXPECT_TRUE(MakeDriver(device, "polhem_v1", refusal));
 }
 
-TEST(WoodenDriver, ItsCapsAreThoseOfItsArm) {
+TEST(WoodenDriver, CapabilitiesMatchTheArm) {
   const DeviceCaps polhem = Make("polhem_v1")->caps(), wooden = Make("woodenhaptics_2015")->caps();
   EXPECT_EQ(polhem.sensed_dof, 6);
   EXPECT_EQ(wooden.sensed_dof, 3);

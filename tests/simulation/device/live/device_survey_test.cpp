@@ -13,7 +13,7 @@ using test::FakeUsb;
 
 const std::string kPath = "/dev/fake0";
 
-TEST(DeviceSurvey, SaysWhatIsThereAndWhatIsInTheWay) {
+TEST(DeviceSurvey, ListsDevicesWithTheirObstacles) {
   test::TempFolder folder;
   FakeUsb usb;
   const auto bus = MachineHidBus();
@@ -42,7 +42,7 @@ TEST(DeviceSurvey, SaysWhatIsThereAndWhatIsInTheWay) {
   EXPECT_EQ(usb.misuses(), 0);
 }
 
-TEST(DeviceTrial, AnArmThatAnswersIsHeardAndGetsNoForce) {
+TEST(DeviceTrial, AnAnsweringArmPassesWithoutForce) {
   test::TempFolder folder;
   FakeUsb usb;
   test::Board board(usb, kPath);
@@ -60,7 +60,7 @@ TEST(DeviceTrial, AnArmThatAnswersIsHeardAndGetsNoForce) {
   for (const auto& report : usb.Written(kPath)) EXPECT_EQ(report, test::Bytes(15));
 }
 
-TEST(DeviceTrial, WhatCannotBeUnderstoodFailsIt) {
+TEST(DeviceTrial, InvalidReportsFailIt) {
   test::TempFolder folder;
   FakeUsb usb;
   usb.OnWrite(kPath, [&](const test::Bytes&) { usb.Send(kPath, test::Bytes(13)); });

@@ -74,7 +74,7 @@ TEST(LiveArm, IsHomedArmedAndPushes) {
   EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
 }
 
-TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
+TEST(LiveArm, HardCase01OldReportsAfterAStallGiveNoForceAndNoLeap) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 5; ++i) bench.Tick(kPush, true);
@@ -127,7 +127,7 @@ double HoldingSeconds() noexcept {
   return test::BenchSeconds();
 }
 
-TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
+TEST(LiveArm, HardCase01WaitingReportsAreNotFreshWhereverTheReaderStalls) {
   for (int look = 1; look <= 10; ++look) {
     Plugged bench;
     LiveOptions options;
@@ -157,7 +157,7 @@ TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
   }
 }
 
-TEST(LiveArm, HardCase02UnpluggedInContactItIsLostAndComesBackBySerial) {
+TEST(LiveArm, HardCase02IsLostWhenUnpluggedAndComesBackBySerialNumber) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -292,7 +292,7 @@ TEST(LiveArm, HardCase05AFlippedBitGivesNoForcePulse) {
   EXPECT_GT(largest, 0.0005);
 }
 
-TEST(LiveArm, HardCase06WhatIsNoNumberIsZeroAndOneFault) {
+TEST(LiveArm, HardCase06NaNGivesZeroAndOneFault) {
   Plugged bench;
   bench.Arm();
   int faults = 0;
@@ -312,7 +312,7 @@ TEST(LiveArm, HardCase06WhatIsNoNumberIsZeroAndOneFault) {
   EXPECT_TRUE(AreZeros({bench.usb.Written(kPath).back()}));
 }
 
-TEST(LiveArm, HardCase25ASecondProgramIsRefusedByName) {
+TEST(LiveArm, HardCase25RefusesASecondProgram) {
   Plugged bench;
   bench.Arm();
   LiveOptions options;
@@ -372,7 +372,7 @@ TEST(LiveArm, HardCase26AWriteThatBlocksIsOneFaultAndZero) {
   EXPECT_EQ(bench.link->opening(), 1) << "it stays open";
 }
 
-TEST(LiveArm, AWriteThatFailsIsALossAndItIsOpenedAgain) {
+TEST(LiveArm, AFailedWriteIsALossAndTheDeviceIsOpenedAgain) {
   Plugged bench;
   bench.Arm();
   for (const int result : {-1, 7}) {  // an error; fewer bytes than it was given
@@ -390,7 +390,7 @@ TEST(LiveArm, AWriteThatFailsIsALossAndItIsOpenedAgain) {
   }
 }
 
-TEST(LiveArm, AReadThatFailsIsALossAndItIsOpenedAgain) {
+TEST(LiveArm, AFailedReadIsALossAndTheDeviceIsOpenedAgain) {
   Plugged bench;
   bench.Arm();
   bench.usb.SetReadResult(kPath, -1);
@@ -405,7 +405,7 @@ TEST(LiveArm, AReadThatFailsIsALossAndItIsOpenedAgain) {
   EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
 }
 
-TEST(LiveArm, AServoThatFallsSilentIsWrittenAsZero) {
+TEST(LiveArm, WritesZeroWhileTheServoIsSilent) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -416,7 +416,7 @@ TEST(LiveArm, AServoThatFallsSilentIsWrittenAsZero) {
 
 // The program is stopped (a debugger, a machine that slept) between the servo's word and its
 // writing.
-TEST(LiveArm, AForceThatWaitedTooLongIsWrittenAsZero) {
+TEST(LiveArm, WritesZeroInPlaceOfAnOutdatedForce) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -434,7 +434,7 @@ TEST(LiveArm, AForceThatWaitedTooLongIsWrittenAsZero) {
       << "after the one that was being written";
 }
 
-TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
+TEST(LiveArm, WritesZeroFiveTimesOnEveryWayOut) {
   for (const bool throws : {false, true}) {
     std::vector<Bytes> written;
     test::TempFolder folder;
@@ -465,7 +465,7 @@ TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
   }
 }
 
-TEST(LiveArm, ReleasedItIsNeverPushedAgain) {
+TEST(LiveArm, GivesNoForceAfterRelease) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -498,7 +498,7 @@ void Crash(const std::filesystem::path& file, int signal) {
   signal == 0 ? std::exit(4) : std::abort();
 }
 
-TEST(LiveArmDeathTest, AProgramThatCrashesOrIsEndedByALibrarySaysZeroFirst) {
+TEST(LiveArmDeathTest, ACrashOrExitWritesZeroFirst) {
   test::TempFolder folder;
   const auto last = [&](const std::string& name) {
     std::ifstream lines(folder / name);
@@ -512,7 +512,7 @@ TEST(LiveArmDeathTest, AProgramThatCrashesOrIsEndedByALibrarySaysZeroFirst) {
   EXPECT_EQ(last("exit"), "0\n");
 }
 
-TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {
+TEST(LiveArm, AnUnknownGeometryIsAFaultAndNotOpened) {
   ArmBench bench;
   bench.usb.Plug(test::WoodenArm(L"A", kPath));
   LiveOptions options;

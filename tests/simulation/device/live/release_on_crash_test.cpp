@@ -60,7 +60,7 @@ class EverySignalDeathTest : public ReleaseOnCrashDeathTest,
                              public testing::WithParamInterface<int> {};
 
 // Sent from outside, as by a shell, and raised by a thread that has nothing to do with devices.
-TEST_P(EverySignalDeathTest, ReleasesThenEndsTheProgramAsItWouldHave) {
+TEST_P(EverySignalDeathTest, ReleasesThenEndsTheProgramAsBefore) {
   const int signal = GetParam();
   EXPECT_EXIT(
       {
@@ -120,7 +120,7 @@ TEST_F(ReleaseOnCrashDeathTest, ASecondSignalMeanwhileDoesNotCutTheReleaseShort)
       [](int status) { return WIFSIGNALED(status); }, kReleased);
 }
 
-TEST_F(ReleaseOnCrashDeathTest, SignalsThatTheProgramIgnoresOrHandlesStayItsOwn) {
+TEST_F(ReleaseOnCrashDeathTest, KeepsSignalsThatTheProgramIgnoresOrHandles) {
   EXPECT_EXIT(
       {
         std::signal(SIGPIPE, SIG_IGN);

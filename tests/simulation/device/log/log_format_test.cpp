@@ -105,7 +105,7 @@ TEST(LogFormat, ReadsBackToTheBit) {
   EXPECT_EQ(log.records[3].status.reason, DeviceTrouble::kSlowWrite);
 }
 
-TEST(LogFormat, TheLargestRecordFitsItsRoom) {
+TEST(LogFormat, TheLargestRecordFitsKLargestRecord) {
   LogRecord largest = Report(0, 0, kReportRoom);
   std::string payload;
   Append(largest, payload);
@@ -135,14 +135,14 @@ TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
   EXPECT_FALSE(ParseDeviceLog(half).torn.empty());
 }
 
-TEST(LogFormat, AHeadThatIsNotWholeIsRefused) {
+TEST(LogFormat, RefusesAnIncompleteHead) {
   const std::string head = kOldHead;
   for (std::size_t size = 1; size < head.size(); ++size)
     ASSERT_NE(Refusal(head.substr(0, size)), "") << size;
   EXPECT_EQ(Refusal(head), "");
 }
 
-TEST(LogFormat, NoFlippedBitGoesUnseen) {
+TEST(LogFormat, DetectsEveryFlippedBit) {
   const std::string whole = Sample();
   for (std::size_t byte = 0; byte < whole.size(); ++byte)
     for (int bit = 0; bit < 8; ++bit) {
@@ -156,7 +156,7 @@ TEST(LogFormat, NoFlippedBitGoesUnseen) {
     }
 }
 
-TEST(LogFormat, SaysInOneSentenceWhatItIsNot) {
+TEST(LogFormat, RefusesOtherFilesWithOneSentence) {
   EXPECT_NE(Refusal("").find("empty"), std::string::npos);
   EXPECT_NE(Refusal("t,device,hip_x").find("no device log"), std::string::npos);
   std::string other = Sample();
@@ -166,7 +166,7 @@ TEST(LogFormat, SaysInOneSentenceWhatItIsNot) {
   }
 }
 
-TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
+TEST(LogFormat, RefusesHugeLengthsBeforeAllocating) {
   const auto put = [](std::string& bytes, std::size_t at, std::uint32_t value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
   };
@@ -202,7 +202,7 @@ TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
   EXPECT_NE(Refusal(head + LogBlock("xyz", 0) + empty).find("longer"), std::string::npos);
 }
 
-TEST(LogFormat, CountsWhatWasDropped) {
+TEST(LogFormat, CountsDroppedRecords) {
   const DeviceLogContent log =
       ParseDeviceLog(kOldHead + BlockOf({Tick(1, 2), Tick(2, 3), Report(3, 1, 14)}));
   EXPECT_EQ(log.missing, 3) << "ticks 0 and 1, report 0";
@@ -213,7 +213,7 @@ std::string Ended(std::uint64_t pushed) {
   return LogHead(kSources) + BlockOf({Tick(1, 0), Tick(2, 1), Report(3, 0, 14)}) + LogEnd(pushed);
 }
 
-TEST(LogFormat, TheEndIsTheseBytes) {
+TEST(LogFormat, TheEndHasConstantBytes) {
   const unsigned char golden[] = {
       0x1c, 0, 0, 0, 1, 0, 0, 0, 0x25, 0x5a, 0xfe, 0xd8, 0x33, 0x04, 0x9d, 0x4a,  // block
       5,    0, 8, 0, 0, 0, 0, 0, 0,    0,    0,    0,    0,    0,    0,    0,     // record
@@ -223,7 +223,7 @@ TEST(LogFormat, TheEndIsTheseBytes) {
   EXPECT_EQ(std::memcmp(end.data(), golden, sizeof golden), 0) << testing::PrintToString(end);
 }
 
-TEST(LogFormat, TheEndSaysWhatWasDroppedAfterTheLastThatWasKept) {
+TEST(LogFormat, TheEndCountsRecordsDroppedAfterTheLastOne) {
   const DeviceLogContent whole = ParseDeviceLog(Ended(3));
   EXPECT_EQ(whole.records.size(), 3u) << "the end is none of them";
   EXPECT_EQ(whole.missing, 0);
@@ -233,7 +233,7 @@ TEST(LogFormat, TheEndSaysWhatWasDroppedAfterTheLastThatWasKept) {
   EXPECT_NE(Refusal(Ended(2)).find("counts fewer records than there are"), std::string::npos);
 }
 
-TEST(LogFormat, WithoutItsEndALogOfTheSecondVersionSaysSoAtEveryByte) {
+TEST(LogFormat, ReportsAMissingEndOfVersion2AtEveryByte) {
   const std::string whole = Ended(5);
   const std::size_t without = whole.size() - LogEnd(5).size();
   for (std::size_t size = without; size < whole.size(); ++size) {
@@ -245,7 +245,7 @@ TEST(LogFormat, WithoutItsEndALogOfTheSecondVersionSaysSoAtEveryByte) {
   }
 }
 
-TEST(LogFormat, NothingComesAfterTheEndAndNoneIsAmongRecords) {
+TEST(LogFormat, RefusesRecordsAfterTheEnd) {
   EXPECT_NE(Refusal(Ended(3) + BlockOf({Tick(9, 2)})).find("comes after the end"),
             std::string::npos);
   LogRecord end;

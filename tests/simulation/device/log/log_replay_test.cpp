@@ -81,7 +81,7 @@ struct Recorded : testing::Test {
 
 using LogReplay = Recorded;
 
-TEST(LogReplayOfAMinute, IsTheSameToTheBitThreeTimes) {
+TEST(LogReplayOfAMinute, IsBitIdenticalOverThreeRuns) {
   // A minute at 1 kHz: a hand that wanders over the counters' ends, and what is no report.
   KnownDevice device;
   device.family = DeviceFamily::kWoodenHaptics;
@@ -133,7 +133,7 @@ TEST(LogReplayOfAMinute, IsTheSameToTheBitThreeTimes) {
   }
 }
 
-TEST_F(LogReplay, BytesThroughTheDriverGiveTheSameHandsEachTime) {
+TEST_F(LogReplay, BytesThroughTheDriverGiveTheSameHands) {
   const DeviceLogContent log = ReadDeviceLog(file);
   EXPECT_EQ(log.missing, 0);
   EXPECT_TRUE(log.torn.empty());
@@ -159,7 +159,7 @@ TEST_F(LogReplay, BytesThroughTheDriverGiveTheSameHandsEachTime) {
   }
 }
 
-TEST_F(LogReplay, ADriverThatSaysSomethingElseIsSeen) {
+TEST_F(LogReplay, DetectsADriverWithADifferentResult) {
   DeviceLogContent log = ReadDeviceLog(file);
   for (LogRecord& record : log.records)
     if (record.kind == LogKind::kReport && record.hand[0].sample.valid) {
@@ -177,7 +177,7 @@ TEST_F(LogReplay, ADriverThatSaysSomethingElseIsSeen) {
   EXPECT_THROW(ReplayReports(log, 0), Error) << "it is not driven";
 }
 
-TEST_F(LogReplay, ItsTicksAreARecordingOfHands) {
+TEST_F(LogReplay, TicksAreARecordingOfHands) {
   const DeviceLogContent log = ReadDeviceLog(file);
   const auto rows = TraceOf(log, file);
   ASSERT_GT(rows.size(), 60u);
@@ -199,7 +199,7 @@ TEST_F(LogReplay, ItsTicksAreARecordingOfHands) {
   EXPECT_EQ(ParseTrace(TraceText(rows)).size(), rows.size());
 }
 
-TEST_F(LogReplay, IsToldFromATraceByItsBytesAndNotByItsName) {
+TEST_F(LogReplay, IsDistinguishedFromATraceByItsBytes) {
   const auto rows = TraceOf(ReadDeviceLog(file));
   std::string notice;
   std::filesystem::copy(file, folder / "log.csv");
@@ -210,7 +210,7 @@ TEST_F(LogReplay, IsToldFromATraceByItsBytesAndNotByItsName) {
   EXPECT_EQ(notice, "");
 }
 
-TEST_F(LogReplay, ALogThatWasCutShortIsPlayedAndSaysSo) {
+TEST_F(LogReplay, ReplaysAnIncompleteLogWithANotice) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
   std::string notice;
   const DeviceLogContent log = ReadDeviceLog(file);
@@ -219,7 +219,7 @@ TEST_F(LogReplay, ALogThatWasCutShortIsPlayedAndSaysSo) {
   EXPECT_NE(notice.find("was cut short"), std::string::npos) << notice;
 }
 
-TEST_F(LogReplay, WithoutAHandItIsRefused) {
+TEST_F(LogReplay, RefusesALogWithoutAHand) {
   DeviceLogContent log = ReadDeviceLog(file);
   log.sources[0].roles = {};
   EXPECT_THROW(TraceOf(log), Error);

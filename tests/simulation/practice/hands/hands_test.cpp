@@ -163,7 +163,7 @@ class PractisedHands : public testing::Test {
   std::optional<Practice> practice;
 };
 
-TEST_F(PractisedHands, ADeviceTakesItsHandWhenItIsPluggedInAndMouseAndKeysGoOnWhenItIsNot) {
+TEST_F(PractisedHands, APluggedInDeviceTakesItsHandAndMouseAndKeysContinueAfterIt) {
   HandsChoice choice;
   choice.rig = Rig();
   Make(choice);
@@ -207,7 +207,7 @@ TEST_F(PractisedHands, ADeviceTakesItsHandWhenItIsPluggedInAndMouseAndKeysGoOnWh
   EXPECT_TRUE(FramesUntil([&] { return hands->Leads(DeviceRole::kScope); }));
 }
 
-TEST_F(PractisedHands, APadsButtonClosesTheJawsAndThePadRumblesByTheForce) {
+TEST_F(PractisedHands, APadClosesTheJawsByItsButtonAndRumblesWithTheForce) {
   HandsChoice choice;
   choice.rig = Rig();
   Make(choice);
@@ -240,7 +240,7 @@ TEST_F(PractisedHands, APadsButtonClosesTheJawsAndThePadRumblesByTheForce) {
   EXPECT_TRUE(FramesUntil([&] { return sockets[1].Told()[4] == 0; }));
 }
 
-TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZeroForceMode) {
+TEST_F(PractisedHands, ASimulatedHandIsPushedOnlyWhileArmed) {
   HandsChoice choice;
   choice.is_simulated = true;
   Make(choice);
@@ -291,7 +291,7 @@ TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZero
   EXPECT_EQ(instrument().given, 0);
 }
 
-TEST_F(PractisedHands, ARecordedPairIsPlayedAndThenHandsItsHandsToTheMouse) {
+TEST_F(PractisedHands, MouseAndKeysContinueAfterARecordingEnds) {
   // Half a second of the scope going in by 5 mm; the instrument is not in it.
   const DeviceRig& rig = loaded.scene.rig.scope;
   HandsChoice choice;
@@ -315,7 +315,7 @@ TEST_F(PractisedHands, ARecordedPairIsPlayedAndThenHandsItsHandsToTheMouse) {
   EXPECT_NEAR(practice->snapshot().scope.pose.depth, 0.017, 2e-5);
 }
 
-TEST_F(PractisedHands, ALogHoldsWhatTheServoSawOfBothHandsAndWhatItCommanded) {
+TEST_F(PractisedHands, LogsSamplesAndCommandsOfBothHands) {
   HandsChoice choice;
   choice.is_simulated = true;
   choice.log = folder / "practice.log";
@@ -341,7 +341,7 @@ TEST_F(PractisedHands, ALogHoldsWhatTheServoSawOfBothHandsAndWhatItCommanded) {
   EXPECT_NEAR(trace.back().sample.t, t, 3e-3);
 }
 
-TEST_F(PractisedHands, ALogThatCannotBeWrittenIsToldAtTheBeginning) {
+TEST_F(PractisedHands, RefusesALogThatCannotBeWritten) {
   HandsChoice choice;
   choice.is_simulated = true;
   choice.log = folder / "no such folder" / "practice.log";
@@ -404,7 +404,7 @@ class PractisedArm : public testing::Test {
   std::optional<Practice> practice;
 };
 
-TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
+TEST_F(PractisedArm, IsPushedOnlyWhileAPracticeRuns) {
   FramesUntil(
       [&] { return hands->Now(DeviceRole::kScope).situation.status.state == DeviceState::kReady; });
   hands->HoldDeadMan(true);
@@ -428,7 +428,7 @@ TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
   EXPECT_TRUE(Begin()) << "and in the next one again";
 }
 
-TEST_F(PractisedArm, IsLetGoWhenTheDeadManOrTheModeOrTheWindowSaysSo) {
+TEST_F(PractisedArm, GetsNoForceWithoutDeadManInZeroForceModeOrWithAHangingWindow) {
   ASSERT_TRUE(Begin());
   hands->HoldDeadMan(false);
   EXPECT_TRUE(FramesUntil([&] { return !IsPushed(); }));
@@ -448,7 +448,7 @@ TEST_F(PractisedArm, IsLetGoWhenTheDeadManOrTheModeOrTheWindowSaysSo) {
 }
 
 // However the dead-man is held; and it comes back by a ramp, where the incision then is.
-TEST_F(PractisedArm, IsNotPushedWhileAnIncisionIsCalibratedAndGentlyAfterIt) {
+TEST_F(PractisedArm, GetsNoForceDuringACalibrationAndARampAfterIt) {
   ASSERT_TRUE(Begin());
   hands->Calibrate(DeviceRole::kInstrument);
   ASSERT_TRUE(FramesUntil([&] { return !IsPushed(); })) << "whichever hand it is";
@@ -471,7 +471,7 @@ TEST_F(PractisedArm, IsNotPushedWhileAnIncisionIsCalibratedAndGentlyAfterIt) {
   EXPECT_EQ(state(), DeviceState::kArmed);
 }
 
-TEST_F(PractisedArm, IsLetGoByAnException) {
+TEST_F(PractisedArm, GetsNoForceAfterAnException) {
   ASSERT_TRUE(Begin());
   try {
     const std::unique_ptr<Hands> own = std::move(hands);
@@ -487,7 +487,7 @@ TEST_F(PractisedArm, IsLetGoByAnException) {
     EXPECT_EQ(written[i], test::Bytes(15)) << i;
 }
 
-TEST(HeldHands, AHandThatItsDeviceLeavesStaysAtThePoseThatTheSessionComputed) {
+TEST(HeldHands, AHandLeftByItsDeviceContinuesFromThePoseOfTheSession) {
   const DeviceRig rig;
   const auto sample_at = [&rig](double t, const RodPose& pose) {
     return DeviceSample{t, HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig), 0, true};

@@ -130,7 +130,7 @@ class PractisedTouch : public testing::Test {
   std::optional<Practice> practice;
 };
 
-TEST_F(PractisedTouch, ItsPoseLeadsTheInstrumentAndTheScopeStaysTheMouses) {
+TEST_F(PractisedTouch, PoseLeadsTheInstrumentAndTheMouseLeadsTheScope) {
   Make();
   ASSERT_TRUE(FramesUntil([&] { return hands->Leads(kInstrument); }));
   EXPECT_FALSE(hands->Leads(DeviceRole::kScope));
@@ -147,7 +147,7 @@ TEST_F(PractisedTouch, ItsPoseLeadsTheInstrumentAndTheScopeStaysTheMouses) {
       << told().longitude;
 }
 
-TEST_F(PractisedTouch, ForceReachesItOnlyWhileTheBoundButtonIsHeldAndWithinWhatItBears) {
+TEST_F(PractisedTouch, GetsForceWithinItsLimitsOnlyWhileTheBoundButtonIsHeld) {
   Make();
   const auto tip_force = [&] { return glm::length(practice->snapshot().instrument.tip_force); };
   ASSERT_TRUE(FramesUntil([&] { return hands->Leads(kInstrument) && tip_force() > 0.1; }))
@@ -178,7 +178,7 @@ TEST_F(PractisedTouch, ForceReachesItOnlyWhileTheBoundButtonIsHeldAndWithinWhatI
   });
 }
 
-TEST_F(PractisedTouch, TheEndOfAPracticeAndOfTheProgramAreWithoutForce) {
+TEST_F(PractisedTouch, GetsNoForceAfterThePracticeAndTheProgramEnd) {
   Make();
   ASSERT_TRUE(Push());
   practice.reset();
@@ -199,7 +199,7 @@ TEST_F(PractisedTouch, TheEndOfAPracticeAndOfTheProgramAreWithoutForce) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(PractisedTouch, ALostOneIsTheMousesAndIsTheHandsAgainInTheNextPractice) {
+TEST_F(PractisedTouch, AfterALossTheMouseLeadsUntilTheNextPractice) {
   Make();
   ASSERT_TRUE(Push());
   Touch([](FakeTouch& touch) { touch.errors = {HD_COMM_ERROR}; });
@@ -215,7 +215,7 @@ TEST_F(PractisedTouch, ALostOneIsTheMousesAndIsTheHandsAgainInTheNextPractice) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(PractisedTouch, OneThatIsNotThereLeavesItsHandToTheMouse) {
+TEST_F(PractisedTouch, AnAbsentDeviceLeavesItsHandToTheMouse) {
   Touch([](FakeTouch& touch) { touch.opens = false; });
   Make();
   for (int i = 0; i < 5; ++i) Frame();
@@ -233,7 +233,7 @@ TEST_F(PractisedTouch, OneThatIsNotThereLeavesItsHandToTheMouse) {
   EXPECT_TRUE(FramesUntil([&] { return hands->Leads(kInstrument); }));
 }
 
-TEST_F(PractisedTouch, ItsPracticeIsLoggedTickByTick) {
+TEST_F(PractisedTouch, LogsEachTickOfThePractice) {
   log = folder / "practice.log";
   Make();
   ASSERT_TRUE(Push());
@@ -250,7 +250,7 @@ TEST_F(PractisedTouch, ItsPracticeIsLoggedTickByTick) {
   EXPECT_FALSE(TraceOf(content).empty());
 }
 
-TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIs) {
+TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIsInstalled) {
   EXPECT_NO_THROW(ReadHands(
       std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/presets/rigs/touch_instrument.json",
       ""));

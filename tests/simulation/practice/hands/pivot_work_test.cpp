@@ -46,7 +46,7 @@ RodPose Tilted(double degrees) { return {0.1, RadiansFromDegrees(degrees), 0.2, 
 
 double ErrorOf(const PivotWork& work) { return glm::distance(*work.found().pivot, kRig.pivot); }
 
-TEST(PivotWork, TwoPressesOfTheHandlesButtonFindTheIncisionWithinThreeSigma) {
+TEST(PivotWork, TwoPressesFindTheIncisionWithinThreeSigma) {
   PivotWork work(kRig.rod_length, PivotOptionsOf(Caps()));
   Hand hand(work);
   hand.Rest(Tilted(0), 0.2, 1);
@@ -73,7 +73,7 @@ TEST(PivotWork, TwoPressesOfTheHandlesButtonFindTheIncisionWithinThreeSigma) {
   EXPECT_FALSE(work.MayBeUsed());
 }
 
-TEST(PivotWork, ANarrowPairAndAMovingHandAreRefusedInWords) {
+TEST(PivotWork, RefusesANarrowPairAndAMovingHandWithAReason) {
   PivotWork work(kRig.rod_length, PivotOptionsOf(Caps()));
   Hand hand(work);
   hand.Rest(Tilted(0), 0.05);
@@ -101,7 +101,7 @@ TEST(PivotWork, ANarrowPairAndAMovingHandAreRefusedInWords) {
   EXPECT_TRUE(work.MayBeUsed()) << "the presses before stand";
 }
 
-TEST(PivotWork, AWrongRodLengthIsWarnedOfAndMayBeUsed) {
+TEST(PivotWork, WarnsOfAWrongRodLengthAndAllowsIt) {
   PivotWork work(0.10, PivotOptionsOf(Caps()));  // the incision is 0.15 from the hand
   Hand hand(work);
   for (const double degrees : {0.0, 35.0}) {
@@ -114,7 +114,7 @@ TEST(PivotWork, AWrongRodLengthIsWarnedOfAndMayBeUsed) {
   EXPECT_LT(ErrorOf(work), 3 * work.found().sigma) << "the number is right";
 }
 
-TEST(PivotWork, ASwingIsFittedFourTimesASecondBesideTheWindow) {
+TEST(PivotWork, FitsASwingFourTimesPerSecond) {
   PivotWork work(kRig.rod_length, PivotOptionsOf(Caps()));
   work.Begin(PivotSource::kSwing);
   Hand hand(work);
@@ -145,7 +145,7 @@ TEST(PivotWork, ASwingIsFittedFourTimesASecondBesideTheWindow) {
 }
 
 // Stated noise changes what is found at once.
-TEST(PivotWork, NoiseOfTheHandleIsTakenIntoAccount) {
+TEST(PivotWork, UsesTheStatedNoiseOfTheHandle) {
   DeviceCaps caps = Caps();
   caps.gimbal_sigma = RadiansFromDegrees(0.1);
   PivotWork work(kRig.rod_length, PivotOptionsOf(caps));

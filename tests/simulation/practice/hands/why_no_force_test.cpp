@@ -27,9 +27,9 @@ bool Says(const ForceSituation& situation, const char* part) {
   return sentence.find(part) != std::string::npos;
 }
 
-TEST(WhyNoForce, IsSilentWhereThereIsForce) { EXPECT_STREQ(WhyNoForce(Pushing()), ""); }
+TEST(WhyNoForce, IsEmptyWhereThereIsForce) { EXPECT_STREQ(WhyNoForce(Pushing()), ""); }
 
-TEST(WhyNoForce, NamesEachThingThatIsAloneInTheWay) {
+TEST(WhyNoForce, NamesEachSingleObstacle) {
   const auto with = [](auto change) {
     ForceSituation s = Pushing();
     change(s);
@@ -66,7 +66,7 @@ TEST(WhyNoForce, NamesEachThingThatIsAloneInTheWay) {
   EXPECT_TRUE(Says(with([](auto& s) { s.has_force = false; }), "Nothing is touched"));
 }
 
-TEST(WhyNoForce, NamesFirstWhatMustBeMendedFirst) {
+TEST(WhyNoForce, NamesTheFirstObstacleToRemove) {
   ForceSituation s = Pushing();
   s.has_force = s.is_dead_man_held = false;
   s.is_zero_force = true;
