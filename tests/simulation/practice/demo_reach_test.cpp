@@ -164,7 +164,7 @@ TEST_F(DemoReach, TheShaftLiesOnNothingWhileTheTipIsBesideTheFreeEdge) {
 
 TEST_F(DemoReach, AHookLiftsTheFreeEdgeAndLetsItGoWhenDrawnIn) {
   Hand hand(demo, bodies, layers, ToolKind::kProbe);
-  constexpr double kReach = 3.4 * kMm;  // of the hook from its rod
+  constexpr double kReach = 3.4 * kMm;  // m, distance of the hook from its rod
   const double level = hand.RollTowards(under_edge, outwards);
   // The hook's end this far past the edge; which way of turning lowers it follows from the side
   // that the rod comes from.
@@ -259,7 +259,7 @@ TEST_F(DemoReach, AShaverTakesOfTheFreeEdge) {
   EXPECT_LT(peak, kSafe);
 }
 
-// What `arthroscene demo` plays: it lifts the edge, and nothing before that does.
+// The trace of `arthroscene demo` lifts the edge, and nothing lifts it earlier.
 TEST_F(DemoReach, TheDemosOwnTraceLiftsTheFreeEdgeAndLetsItGo) {
   double lifted = 0, before = 0, after = 0, peak = 0;
   Replay(demo, ReadTrace(demo.folder / "trace.csv"), {}, {}, nullptr, bodies, layers,

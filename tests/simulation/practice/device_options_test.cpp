@@ -18,7 +18,7 @@ DeviceCaps TouchClass() {
 TEST(DeviceOptions, StableStiffnessMatchesTheTable) {
   ContactOptions contact;
   contact.stiffness = 10;
-  // Table of the notes: T, B, delay in ticks, N/m.
+  // Columns: T, B, delay in ticks, N/m.
   struct Row {
     double period, damping, ticks, bound;
   };
@@ -65,7 +65,7 @@ TEST(DeviceOptions, OnlyLowerLimits) {
     EXPECT_EQ(both.lever.max_stiffness, 300);
     EXPECT_EQ(both.thermal.continuous_force, 0.4);
   }
-  // A longer period, or reports that come later, allow less.
+  // A longer period and later reports allow less.
   EXPECT_LT(OptionsFor(TouchClass(), 4e-3, {}).lever.max_stiffness,
             OptionsFor(TouchClass(), 1e-3, {}).lever.max_stiffness);
 }
@@ -77,7 +77,7 @@ TEST(DeviceOptions, ADeviceWithoutForceChangesNothing) {
   EXPECT_EQ(JsonFromOptions(OptionsFor(pad, 1e-3, {})), JsonFromOptions(SessionOptions{}));
 }
 
-// What the hand feels of a surface, over what it feels without a device: that is what was lowered.
+// Ratio of the hand force of a surface to that without a device.
 TEST(DeviceOptions, LowerTheForceOfASurface) {
   LoadedScene loaded = SceneOf({}, {});
   loaded.scene.tissues.clear();

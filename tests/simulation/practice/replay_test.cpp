@@ -30,7 +30,7 @@ LoadedScene MakeScene() {
   return loaded;
 }
 
-// Both hands stroke the backdrop; `rate` rows a second for each.
+// Both hands stroke the backdrop; `rate` rows per second each.
 std::vector<TraceRow> MakeTrace(double seconds, double rate) {
   ScriptedDevice scope({}), instrument({});
   std::vector<TraceRow> rows;
@@ -55,7 +55,7 @@ std::vector<std::vector<std::string>> Table(const std::string& text) {
   return table;
 }
 
-// A shaver runs beside a loose body that is a function, its window to it.
+// A shaver runs beside a loose implicit body, with its window towards it.
 TEST(Replay, ReportsTheVolumeThatAShaverRemovesAndGivesTheSameBytesTwice) {
   LoadedScene loaded = MakeScene();
   loaded.depth = {};
@@ -111,7 +111,8 @@ TEST(Replay, IsBitIdenticalOverThreeRuns) {
   EXPECT_EQ(ForcesText(Replay(loaded, trace), loaded.scene), first);
 }
 
-// The clock is the servo's whatever the recording's rate; the hand moves evenly between rows.
+// The tick rate does not depend on the rate of the recording; the hand is interpolated between
+// rows.
 TEST(Replay, ASlowRecordingGivesTheForcesOfAFastOne) {
   const LoadedScene loaded = MakeScene();
   const auto fast = Replay(loaded, MakeTrace(2.0, 1000)),
@@ -169,7 +170,7 @@ TEST(Replay, ReportsTheRemovedVolumePerRegion) {
   EXPECT_FALSE(json.at("labrum").contains("removed_mm3_by_region"));
 }
 
-// A tissue's name may hold anything.
+// The name of a tissue may contain any characters.
 TEST(Replay, ContactNamesAreQuotedWhereNeeded) {
   LoadedScene loaded = MakeScene();
   Tissue tissue;
@@ -181,7 +182,7 @@ TEST(Replay, ContactNamesAreQuotedWhereNeeded) {
   EXPECT_NE(text.find(",\"medial, \"\"torn\"\"\","), std::string::npos) << text;
 }
 
-// The job, as a user runs it.
+// Runs the job as a user does.
 class ReplayJob : public testing::Test {
  protected:
   void SetUp() override {
@@ -205,7 +206,7 @@ TEST_F(ReplayJob, WritesForcesAndReport) {
   const auto table = Table(ReadWholeFile(folder_ / "f.csv"));
   EXPECT_EQ(table.size(), 103u);
   EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(folder_ / "r.json")).at("ticks"), 501);
-  // The same on standard output, and the same again.
+  // Standard output gives the same text, and so does a second run.
   const auto printed = Run(Path("trace.csv") + " -o -");
   EXPECT_EQ(printed.exit_code, 0) << printed.err;
   EXPECT_EQ(printed.out, ReadWholeFile(folder_ / "f.csv"));

@@ -1,5 +1,5 @@
-// The servo with plants for devices, ticked by hand on the plants' clock; one test lets its thread
-// run. Hard cases: HAP in resources/doc/hard-cases.md.
+// Servo loop with simulated devices, ticked on their clock; one test runs its thread. Hard cases:
+// HAP in resources/doc/hard-cases.md.
 #include "simulation/practice/servo_loop.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace arthro::simulation {
 namespace {
 
-// The bare sphere of 80 mm and nothing else.
+// Bare sphere of 80 mm.
 LoadedScene BareSphere() {
   LoadedScene loaded = SceneOf({}, {});
   loaded.scene.tissues.clear();
@@ -29,7 +29,7 @@ LoadedScene BareSphere() {
   return loaded;
 }
 
-constexpr double kDepth = 1e-3;  // m, that both hands mean to be under the sphere
+constexpr double kDepth = 1e-3;  // m, intended depth of both hands below the sphere
 
 struct Servo {
   explicit Servo(const ServoOptions& options = {}, const PlantOptions& plant = {},
@@ -50,7 +50,7 @@ struct Servo {
     for (int i = 0; i < ticks; ++i) loop.TickOnce(now += dt);
     return loop.ReadSnapshot();
   }
-  // Opened, homed, armed and ramped.
+  // Opens, homes, arms and ramps.
   void Arm() {
     Tick(10);
     HoldDeadMan(true);
@@ -72,7 +72,8 @@ TEST(ServoLoop, PushesAHandOutOfTheWallOnceItIsArmed) {
   servo.Arm();
   EXPECT_EQ(servo.scope.state(), DeviceState::kArmed);
   EXPECT_EQ(servo.loop.ReadSnapshot().scope.fault, Fault::kNone);
-  // 500 N/m of the wall against 300 of the hand, less the device's friction of 0.26 N.
+  // Spring of the wall, 500 N/m, against that of the hand, 300 N/m, less 0.26 N of friction of the
+  // device.
   EXPECT_NEAR(servo.scope.force().z, -500 * 300 * kDepth / 800, 0.26 * 500 / 800 + 0.03);
   EXPECT_EQ(servo.instrument.force(), glm::dvec3(0.0)) << "it touches nothing";
   servo.HoldDeadMan(false);
@@ -106,10 +107,10 @@ TEST(ServoLoop, HardCase7ArmedInsideAWallTheHandIsPushedOutOverHalfASecond) {
   EXPECT_GT(peak, 0.05);
 }
 
-// A pivot that a calibration found is taken over while the device is armed and its tip in a wall:
-// of which there is more at once, or less. It is pushed as one that is armed there.
+// Sets a calibrated pivot while the device is armed and its tip in a wall, which changes the depth
+// at once. The device is then pushed as one that is armed there.
 TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick) {
-  for (const double deeper : {3e-3, -0.5e-3, 0.05, 0.2}) {  // m; beyond the hand at last
+  for (const double deeper : {3e-3, -0.5e-3, 0.05, 0.2}) {  // m; the last is beyond the hand
     Servo servo;
     servo.Arm();
     servo.Tick(1000);
@@ -127,7 +128,7 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
       servo.Tick();
       EXPECT_EQ(servo.scope.state(), DeviceState::kArmed);
       const glm::dvec3 force = servo.scope.force();
-      // The spring's own at most, over half a second; a device's peak at most, at 300 N/s.
+      // Bounds: the force of the spring over half a second, and the peak of the device at 300 N/s.
       const double whole = std::min(3.3, 500 * (kDepth + std::max(0.0, deeper)));
       ASSERT_LE(glm::length(force), whole * std::min(1.0, (i + 1) * kTick / 0.5) + 1e-9)
           << i << " ms after " << deeper;
@@ -138,14 +139,14 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
     if (deeper > 0 && deeper < 0.1) {
       EXPECT_GT(peak, 0.5) << "and it is pushed again";
     }
-    // The same mount once more is no change.
+    // Setting the same mount again changes nothing.
     servo.HoldDeadMan(true);
     servo.Tick();
     EXPECT_EQ(servo.loop.ReadSnapshot().scope.fault, Fault::kNone);
   }
 }
 
-// The wall is touched at 2 Hz the while; what is compared is the work of the force on the hand.
+// Touches the wall at 2 Hz and compares the work of the force on the hand.
 class HardCase12 : public testing::TestWithParam<int> {};
 TEST_P(HardCase12, ALateTickGivesNoEnergyAndUsesTheTrueTimeStep) {
   const int late = GetParam();  // ms
@@ -154,7 +155,8 @@ TEST_P(HardCase12, ALateTickGivesNoEnergyAndUsesTheTrueTimeStep) {
     Servo servo({}, {0.045, 0.2, 0, 5.5e-5, 3.3, 1});
     servo.Arm();
     const glm::dvec3 rest = servo.scope.plant().position();
-    // The most that is given between any two moments of a run, over what an even servo gives.
+    // Largest energy given between any two moments of a run, minus that of a servo without late
+    // ticks.
     double lowest = servo.scope.plant().work(), most = 0;
     for (int i = 0; i < 3000; ++i) {
       const double s = std::sin(4 * 3.14159265358979 * i * kTick);
@@ -249,7 +251,7 @@ TEST(ServoLoop, IgnoresTheDeadManAfterRequestsHaveStopped) {
   ServoOptions options;
   options.request_lasts = 0.5;
   Servo servo(options);
-  servo.scope.SetButtons(2);  // of the handle, and it stays down
+  servo.scope.SetButtons(2);  // second button of the handle, held down
   servo.HoldDeadMan(false);
   servo.Tick(10);
   servo.scope.SetButtons(0);
@@ -285,7 +287,7 @@ TEST(ServoLoop, CallsItsObserverAfterEachTickWithTheTimeStep) {
   EXPECT_EQ(watch.newest, servo.loop.ReadSnapshot().t);
 }
 
-// As a Hydra: a report each 4 ms, that comes up to 4 ms late, and a servo that ticks as often.
+// Simulates a Hydra: a report every 4 ms, up to 4 ms late, and a servo with the same period.
 class Tracker final : public Device {
  public:
   explicit Tracker(const glm::dvec3& at, Feedback feedback) {
@@ -335,7 +337,7 @@ TEST(ServoLoop, SamplesOfA250HertzDeviceAreNotStale) {
       const Fault fault = loop.ReadSnapshot().scope.fault;
       count += fault == Fault::kStale || fault == Fault::kLost;
     }
-    // It stops: stale and lost are told as ever.
+    // Stops reporting: stale and lost are reported as usual.
     tracker.Stop();
     bool is_stale = false;
     for (const double end = now + 0.05; now < end; now += period) {
@@ -376,7 +378,7 @@ TEST(ServoLoop, AppliesTheLowerOfDeviceLimitsAndRequestedLimits) {
 
 TEST(ServoLoop, CommandsForcesInTheFrameOfTheDevice) {
   LoadedScene loaded = BareSphere();
-  // A quarter turn about x: the device's y is the portal's z.
+  // A quarter turn about x: y of the device is z of the portal.
   loaded.scene.rig.scope.portal_from_device = glm::dquat(std::sqrt(0.5), std::sqrt(0.5), 0, 0);
   Session session(loaded);
   PlantDevice scope({}, kStiffHand, HipFromRodPose({0, 0, 0, 0.08 + kDepth}, session.scope_rig()));
@@ -421,8 +423,8 @@ TEST(ServoLoop, EndsWithACommandOfNoForce) {
   }
 }
 
-// Four minutes of pushing against the wall, in and out: past the 190 s after which what warming up
-// took is made up for (thermal.cpp). The hour is in OutputChain.HardCase24.
+// Pushes in and out of the wall for four minutes, longer than the 190 s after which the warm-up is
+// compensated (thermal.cpp). The test of one hour is OutputChain.HardCase24….
 TEST(ServoLoop, HardCase24ALongSessionStaysBelowTheContinuousForceAndAllocatesNothing) {
   PlantOptions plant;
   plant.friction = 0;
@@ -487,7 +489,7 @@ TEST(ServoLoop, ThreadTicksReportsAndStops) {
   EXPECT_GT(report.sample_age[0].count(), 0);
   EXPECT_EQ(DescribeTrouble(report).empty(), report.has_priority);
   EXPECT_EQ(report.true_period > report.period, !report.has_priority);
-  // Where ticks come late, stiffness is less.
+  // Late ticks lower the stiffness.
   EXPECT_NEAR(servo.session.options().lever.max_stiffness, 500 * report.period / report.true_period,
               1e-9);
   std::printf(
@@ -498,7 +500,7 @@ TEST(ServoLoop, ThreadTicksReportsAndStops) {
   const long ticks = report.ticks;
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(servo.loop.ReadReport().ticks, ticks);
-  servo.loop.Start();  // and again
+  servo.loop.Start();  // starts again
   servo.loop.Stop();
 }
 

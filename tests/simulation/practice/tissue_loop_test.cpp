@@ -1,5 +1,5 @@
-// Living tissue on a thread of its own beside a servo that ticks: nothing waits, nothing is lost,
-// and it may end or begin anew at any moment.
+// Deformable tissue on a thread beside a ticking servo: nothing waits, no result is lost, and it
+// may end or restart at any time.
 #include "simulation/practice/tissue_loop.h"
 
 #include <chrono>
@@ -20,7 +20,7 @@ constexpr double kTick = 0.001;
 
 TissueWorld World(const BodySpec& spec) { return {{spec}, {}, nullptr, true}; }
 
-// A probe 1 mm deep in the middle of the top, or far above it.
+// Probe 1 mm deep in the middle of the top, or far above it.
 Instrumentation Probe(const BodySpec& spec, bool is_in = true) {
   Instrumentation hand;
   hand.kind = ToolKind::kProbe;
@@ -37,8 +37,7 @@ bool IsFinite(const WorldPicture& picture) {
   return true;
 }
 
-// Ticks as fast as a thread may, until `is_done` or five minutes have gone: a bound against a hang,
-// not a time to keep.
+// Ticks as fast as possible until `is_done`, for at most five minutes as a bound against a hang.
 template <class Done>
 bool TickUntil(TissueLoop& loop, const Instrumentation& hand, Done&& is_done) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
@@ -84,7 +83,7 @@ TEST(TissueLoop, ResetDuringAStepRestoresTheTissueAndStepsGoOn) {
     int taken = 0;
     ASSERT_TRUE(
         TickUntil(loop, Probe(spec), [&] { return (taken += loop.TakeCoupling(coupling)) > 3; }));
-    // One more is under way now.
+    // Another step is running now.
     for (int i = 0; i < 20; ++i) loop.Tick(Probe(spec), kTick);
     loop.Reset();
     EXPECT_EQ(loop.Read().bodies[0].positions, at_rest) << round;

@@ -57,7 +57,7 @@ TEST(TissueLoop, ServoAndPictureContinueDuringAStepAndItEndsWithinOne) {
       ++pictures;
     }
   });
-  // As fast as the tissue follows: the clock is the ticks', not the wall's.
+  // Ticks as fast as the tissue follows: time is that of the ticks, not of the machine.
   int couplings = 0, pushes = 0;
   ToolCoupling coupling;
   for (int tick = 0; tick < 2000; ++tick) {

@@ -1,4 +1,4 @@
-// The one sentence about a hand without force (simulation/practice/hands/why_no_force.h).
+// Sentence about a hand without force (simulation/practice/hands/why_no_force.h).
 #include "simulation/practice/hands/why_no_force.h"
 
 #include <limits>
@@ -9,7 +9,7 @@
 namespace arthro::simulation {
 namespace {
 
-// A force device that pushes.
+// Situation of a force device that pushes.
 ForceSituation Pushing() {
   ForceSituation s;
   s.kind = HandKind::kPluggedIn;
