@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTick = 1e-3;
 
-// Ticks with one force; the last sample.
+// Ticks with a constant force and returns the last sample.
 DeviceSample Hold(Device& device, double& now, int ticks, const glm::dvec3& force, bool is_held) {
   DeviceSample sample;
   for (int i = 0; i < ticks; ++i, now += kTick) {
@@ -31,7 +31,7 @@ TEST(PlantDevice, PushesOnlyWhenArmed) {
   EXPECT_EQ(device.state(), DeviceState::kReady);
   const DeviceSample pushed = Hold(device, now, 500, {1, 0, 0}, true);
   EXPECT_EQ(device.state(), DeviceState::kArmed);
-  // At rest the hand's spring of 300 N/m holds 1 N, less at most the friction of 0.26 N.
+  // At rest the spring of the hand, 300 N/m, holds 1 N less at most 0.26 N of friction.
   EXPECT_NEAR(pushed.hip_in_device.x, 1.0 / 300, 0.26 / 300);
   Hold(device, now, 1, {1, 0, 0}, false);
   EXPECT_EQ(device.force(), glm::dvec3(0.0)) << "let go";

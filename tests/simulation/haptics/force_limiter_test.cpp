@@ -53,7 +53,7 @@ TEST(ForceLimiter, NotANumberGivesZeroAndAFault) {
     const LimitedForce limited = LimitForce({}, force, 0, Fault::kNone, kTick, state);
     EXPECT_EQ(limited.force, glm::dvec3(0.0));
     EXPECT_EQ(limited.fault, Fault::kNotFinite);
-    // One bad tick must not poison the next.
+    // A NaN tick must not affect the next one.
     const LimitedForce next = LimitForce({}, {1, 0, 0}, 0, Fault::kNone, kTick, state);
     EXPECT_TRUE(std::isfinite(next.force.x));
     EXPECT_EQ(next.fault, Fault::kNone);

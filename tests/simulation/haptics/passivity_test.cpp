@@ -1,4 +1,4 @@
-// The guard on a wall that a simulated device with and without a hand touches, one tick late.
+// Guard on a wall with a delay of one tick, touched by a simulated device with and without a hand.
 #include "simulation/haptics/passivity.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ constexpr double kTick = 1e-3;  // s
 
 struct Touch {
   double swing = 0;      // m, of the last half second
-  double work = 0;       // J, that the wall did on the hand in all
-  double rms_error = 0;  // N, of the force beside the bare spring's
+  double work = 0;       // J, total work of the wall on the hand
+  double rms_error = 0;  // N, of the force compared with the bare spring
 };
 
 // Two seconds against a one-sided wall at x = 0, one tick of delay, no friction, clamped to 3.3 N.
@@ -58,7 +58,7 @@ TEST(Passivity, ReducesSwingAndEnergyOfATooStiffWall) {
   EXPECT_GT(bare.swing, 0.3e-3) << "else there is nothing to guard against";
   EXPECT_LT(guarded.swing, 0.5 * bare.swing);
   EXPECT_LT(guarded.swing, 0.5e-3);
-  // Told of the device's counts it holds it as well.
+  // The guard works with the counts of the device too.
   PassivityOptions counts;
   counts.quantum = 5.5e-5;
   const Touch told = TouchWall(4000, kHand, true, counts);
@@ -66,8 +66,8 @@ TEST(Passivity, ReducesSwingAndEnergyOfATooStiffWall) {
   EXPECT_LT(told.swing, 0.5e-3);
 }
 
-// A hand at rest on the edge of two counts, its force a tick late: what it seems to do to and fro
-// would soon be owed. Then one count after a long rest, which looks fast.
+// A hand at rest on the edge between two counts, with a force one tick late: its apparent motion
+// would soon add up to a debt. Then one count after a long rest, which looks fast.
 TEST(Passivity, SingleEncoderCountsAreNotDamped) {
   constexpr double kCount = 5.5e-5;  // m
   PassivityOptions options;
@@ -97,7 +97,7 @@ TEST(Passivity, DoesNotChangeAStableWall) {
 }
 
 TEST(Passivity, ReturnsStoredEnergyWithoutDamping) {
-  // In and out of a spring, exactly: it takes and gives the same.
+  // Moves in and out of a spring: it returns exactly the energy that it took.
   PassivityState guard;
   double most = 0;
   for (int i = 0; i <= 200; ++i) {
@@ -112,7 +112,7 @@ TEST(Passivity, ReturnsStoredEnergyWithoutDamping) {
 
 TEST(Passivity, EnergyLostToFrictionGivesNoCredit) {
   PassivityState guard;
-  // Half a joule of rubbing.
+  // Half a joule of friction.
   for (int i = 0; i < 1000; ++i) {
     GuardPassivity({}, {0, 0, 1}, {1e-3 * i, 0, 0}, 500, kTick, guard);
     NoteSent({-0.5, 0, 1}, guard);
@@ -120,8 +120,8 @@ TEST(Passivity, EnergyLostToFrictionGivesNoCredit) {
   EXPECT_LE(guard.energy, 0.5 * 1.0 / 500 + 1e-15);
 }
 
-// In where the force is 0.3 of what it is where the hand comes out, as a lever or the fade at the
-// edge of a map makes it; slowly, so that the damper is weak.
+// Enters where the force is 0.3 of that at the exit, as with a lever or a fade at the edge of a
+// map. The motion is slow, so that the damper is weak.
 double GainOfALoop(bool is_bounded, double speed) {
   constexpr double kDeep = 0.02, kAcross = 0.03, kStiffness = 500, kClamp = 3.3;  // m, N/m, N
   PassivityState guard;
@@ -159,7 +159,7 @@ TEST(Passivity, ASpringThatIsStifferOnTheWayOutReturnsOnlyTheEnergyPaid) {
 }
 
 TEST(Passivity, TheBoundIsContinuousAndKeepsAPaidSpring) {
-  // The clamp is felt as long as what was paid lasts, and the force falls steadily after it.
+  // The force stays at the clamp while the credit lasts, and falls steadily after it.
   const HandSpring spring{500, 3.3};
   double last = 0;
   for (int i = 0; i <= 2000; ++i) {

@@ -157,13 +157,13 @@ TEST(MeshContact, CornerOfARoomHoldsWithThreeFaces) {
     const glm::dvec3 tip = (half - r + depth) * std::min(1.0, i / 100.0);
     contact = TickContact({DepthField(), room}, Bare(r), kStiffness, {}, tip, kTick, state);
   }
-  // The skin is 1 µm: 0.5 mN a face.
+  // The skin is 1 µm: 0.5 mN per face.
   EXPECT_LT(glm::length(contact.force + kStiffness * depth), 1e-3);
   EXPECT_LT(glm::length(state.proxy.position - (half - r)), 3e-6);
   EXPECT_NEAR(contact.penetration, glm::length(depth), 3e-6);
 }
 
-// From the edge of a room along two faces, and out again.
+// Slides from the edge of a room along two faces, and leaves it.
 TEST(MeshContact, SlidesAlongAnEdgeOfARoomAndLeavesIt) {
   const std::vector<SurfaceBvh> room{
       SurfaceBvh(test::InsideOut(test::Box(glm::dvec3(-0.01), glm::dvec3(0.01))), {})};
@@ -185,7 +185,7 @@ TEST(MeshContact, SlidesAlongAnEdgeOfARoomAndLeavesIt) {
   EXPECT_LT(glm::length(state.proxy.position - glm::dvec3(0.005, 0.005, 0.008)), 1e-7);
 }
 
-// Whatever the hand does, the proxy stays outside a closed surface.
+// For random motions of the hand, the proxy stays outside a closed surface.
 TEST(MeshContact, NothingTunnels) {
   const double size = 0.006;
   for (double r : {0.0, 0.001}) {

@@ -18,7 +18,7 @@ namespace {
 const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
 const RodPose kPose{0.3, -0.2, 1.1, 0.05};
 
-// A press of a hand that is off by `moved` at each time.
+// Makes a press of a hand that is displaced by `moved` at each time.
 PressAverage Pressed(const std::function<glm::dvec3(double)>& moved, double rate = 1000) {
   PressAverage press(kRig.rod_length);
   for (int i = 0; i < 1000; ++i) {
@@ -39,8 +39,8 @@ TEST(PressAverage, ARestingHandGivesItsRodAtAnyRate) {
   }
 }
 
-// A hundred samples: noise of 0.05 mm on each axis leaves 0.005; five times that is once in a
-// million.
+// With a hundred samples, noise of 0.05 mm per axis is averaged to 0.005 mm; five times that occurs
+// once in a million.
 TEST(PressAverage, NoiseIsAveragedAway) {
   Random random(3);
   const auto noise = [&](double) {
@@ -53,7 +53,7 @@ TEST(PressAverage, NoiseIsAveragedAway) {
   EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kRig)), 0.025e-3 * 1.8);
 }
 
-// Even motion over a span has a standard deviation of its √12th part: 0.1 mm of 0.35.
+// Uniform motion over a distance has a standard deviation of 1/√12 of it: 0.1 mm for 0.35 mm.
 TEST(PressAverage, RefusesAHandThatMovesByMoreThanATenthOfAMillimetre) {
   const auto moving = [](double span) {
     return Pressed([=](double t) { return glm::dvec3(0, span * t / 0.1, 0); });

@@ -1,4 +1,4 @@
-// The round window's own lens as polynomials, against the lens itself.
+// Polynomials of the lens of the round window, compared with the lens itself.
 #include "simulation/scope/window_lens.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ Lens MakeLens(LensModel model, double focal, std::array<double, 4> k, double rad
   return lens;
 }
 
-// Every pixel of the window goes where the lens' own model says, and back.
+// Maps every pixel of the window as the model of the lens does, and back.
 TEST(WindowLens, MapsPixelsAsTheLensDoes) {
   struct Case {
     const char* name;
@@ -72,7 +72,7 @@ TEST(WindowLens, MapsPixelsAsTheLensDoes) {
                 DegreesFromRadians(field), worst_in, worst_out, worst_ray);
     EXPECT_LT(worst_in, kWindowLensError) << c.name;
     EXPECT_LT(worst_out, kWindowLensError) << c.name;
-    // An error of q moves θ by 2 tan(θ/2) of it at most, below 2 here.
+    // An error of q changes θ by at most 2 tan(θ/2) times that, below 2 here.
     EXPECT_LT(worst_ray, 2 * kWindowLensError) << c.name;
   }
 }
@@ -104,7 +104,7 @@ TEST(WindowLens, RefusesALensThatEndsWithinItsWindow) {
   EXPECT_NE(sentence(pinhole, 3.2).find("ends within a field of view of 183.3 degrees"),
             std::string::npos);
   EXPECT_NE(sentence(pinhole, 2.95).find("choose a smaller field of view"), std::string::npos);
-  // A profile that falls again before the circle's rim.
+  // A profile that decreases again before the rim of the circle.
   Lens folded = MakeLens(LensModel::kKannalaBrandt, 200, {-0.5, 0, 0, 0}, 250);
   folded.field_of_view = 1.0;
   EXPECT_NE(sentence(folded, 1.0).find("ends within its round window"), std::string::npos)

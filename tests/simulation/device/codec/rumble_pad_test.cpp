@@ -25,7 +25,7 @@ TEST(RumblePad, ClampsTheAmplitudeToAByte) {
   EXPECT_EQ(DualSenseUsb({1e300, 0})[4], 255);
 }
 
-// The checksum over a seed byte and the report, of a bit by bit division.
+// Reference checksum over a seed byte and the report, by bitwise division.
 template <std::size_t kSize>
 std::uint32_t SlowSum(const std::array<std::uint8_t, kSize>& report) {
   std::uint32_t sum = 0xffffffff;

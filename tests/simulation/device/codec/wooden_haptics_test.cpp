@@ -85,7 +85,7 @@ TEST(WoodenHaptics, OneCountAndOneMilliampereMatchTheDesign) {
   const double step =
       glm::distance(WoodenPosition(arm, WoodenAngles(arm, one)), WoodenPosition(arm, at));
   EXPECT_NEAR(step, 0.054e-3, 0.001e-3) << "m";
-  // 1 N up at the upper link, level.
+  // 1 N up at the level upper link.
   const glm::dvec3 level(0, 0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
   const glm::dvec3 amperes = WoodenCurrents(arm, level, {0, 0, 1});
   EXPECT_NEAR(1.0 / std::abs(1e3 * amperes.y), 1.5e-3, 0.1e-3) << "N a mA";

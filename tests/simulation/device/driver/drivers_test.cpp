@@ -48,7 +48,7 @@ TEST(HydraDriver, ReadsTwoHandsFromOneReport) {
     PutSigned(report, at, static_cast<std::int16_t>(value));
   };
   put(8, 100), put(10, -200), put(12, 300), put(14, 32767);
-  report[22] = 0x81;  // the top bit is none
+  report[22] = 0x81;  // the top bit is no button
   report[27] = 255;
   put(30, -1), put(32, -2), put(34, -3), put(38, -32768);
   ASSERT_EQ(driver->Take(report), ReportNews::kTaken);
@@ -89,7 +89,7 @@ TEST(PadDriver, AmplitudeIsTheForceInAnyDirection) {
 }
 
 TEST(PadDriver, ButtonsHaveTheSameOrderOnBothPadsAndLinks) {
-  // The report's number, its length and where its buttons begin.
+  // Number of the report, its length and the offset of its buttons.
   const auto check = [](DeviceFamily family, std::uint8_t id, std::size_t size, std::size_t at) {
     const auto driver = Make(family);
     Bytes report(size);

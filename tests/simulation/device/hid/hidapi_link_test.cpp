@@ -1,4 +1,4 @@
-// Our calls of hidapi, against a library that is scripted.
+// Calls of hidapi, tested with a scripted library.
 #include <array>
 #include <atomic>
 #include <filesystem>
@@ -108,7 +108,7 @@ TEST(HidapiLinkDeathTest, DistinguishesAMissingPermissionFromAnAbsentDevice) {
   std::filesystem::permissions(node_path, std::filesystem::perms::none);
   EXPECT_EXIT(
       {
-        // The superuser may open everything; nobody may not.
+        // The superuser may open everything, so this runs as user nobody.
         if (getuid() == 0 && setresuid(65534, 65534, 65534) != 0) _exit(3);
         HidNode node;
         node.path = node_path.string();

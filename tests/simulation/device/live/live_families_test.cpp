@@ -1,4 +1,4 @@
-// Devices that do not push, at work.
+// Live devices without force.
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST(LivePad, RumblesAtMost60TimesPerSecondAndStopsAtOnce) {
     for (const Bytes& written : bench.usb.Written(kPath)) count += written[4] > 0;
     return count;
   };
-  // A second of the bench's time, which the machine takes as long as it likes for.
+  // One second of bench time, independent of machine time.
   for (int i = 0; i < 1000; ++i) {
     bench.Tick(0, true, {0, 0, 3.3});
     std::this_thread::sleep_for(std::chrono::microseconds(50));

@@ -77,7 +77,7 @@ TEST(DeviceLog, PushNeitherAllocatesNorWaitsAndCountsDroppedRecords) {
   constexpr int kTicks = 1000;
   DeviceLogOptions options;
   options.ring = 64;
-  options.write_every = 3600;  // the log's thread does not come
+  options.write_every = 3600;  // the thread of the log does not write
   {
     DeviceLog log(folder / "a.log", kPlant, options);
     LoggedDevice device(Plant(), log, 0);
@@ -107,7 +107,7 @@ TEST(DeviceLog, DropsNothingAtAModerateRate) {
     record.t_ns = i;
     channel.Push(record);
     if (i % 128 == 127) {
-      // The log is given its time.
+      // Gives the log time to write.
       const auto size = std::filesystem::file_size(folder / "a.log");
       for (int j = 0; j < 300000 && std::filesystem::file_size(folder / "a.log") == size; ++j)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -124,7 +124,7 @@ TEST(DeviceLog, DropsNothingAtAModerateRate) {
   EXPECT_EQ(whole.torn, "");
 }
 
-// One sentence: what, where, what to do.
+// Message: one sentence with the cause, the file and what to do.
 void ExpectRefused(const std::filesystem::path& file, const std::string& why) {
   try {
     DeviceLog log(file, kPlant);

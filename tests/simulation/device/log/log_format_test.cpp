@@ -18,7 +18,7 @@ const std::vector<LogSource> kSources = {
     {"razer_hydra", "", "é\"7", {DeviceRole::kInstrument, DeviceRole::kScope}},
     {"", "", "1", {}}};
 
-// Without an end, as the first version was.
+// Bytes of version 1, without an end.
 const std::string kOldHead = LogHead(kSources, 1);
 
 LogRecord Tick(std::int64_t t_ns, std::uint64_t number) {
@@ -72,7 +72,7 @@ std::string Sample() {
          BlockOf({Tick(20, 0), Report(30, 1, kReportRoom), Tick(40, 1)});
 }
 
-// The sentence with which it is refused; empty: it is not.
+// Message of the refusal; empty where the log is accepted.
 std::string Refusal(const std::string& bytes) {
   try {
     ParseDeviceLog(bytes);
@@ -123,7 +123,7 @@ TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
     else
       ASSERT_NE(log.torn.find("was cut short"), std::string::npos) << size;
   }
-  // A file system may have made room that was never filled.
+  // A file system may have allocated space that was never written.
   for (const std::size_t zeros : {1, 16, 4096}) {
     const DeviceLogContent log = ParseDeviceLog(head + first + std::string(zeros, '\0'));
     EXPECT_EQ(log.records.size(), 2u);
@@ -149,7 +149,7 @@ TEST(LogFormat, DetectsEveryFlippedBit) {
       std::string flipped = whole;
       flipped[byte] = static_cast<char>(flipped[byte] ^ 1 << bit);
       if (!Refusal(flipped).empty()) continue;
-      // Only in the last block may what is before be given, and it is said.
+      // Only damage in the last block may return the blocks before, with a notice.
       const DeviceLogContent log = ParseDeviceLog(flipped);
       ASSERT_EQ(log.records.size(), 3u) << byte;
       ASSERT_FALSE(log.torn.empty()) << byte;
@@ -171,21 +171,20 @@ TEST(LogFormat, RefusesHugeLengthsBeforeAllocating) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
   };
   const std::string head = kOldHead;
-  // A block that claims too much, its own checksum right.
+  // A block with a too large size and a valid checksum.
   std::string empty = LogBlock("", 0);
   for (const std::uint32_t size : {std::uint32_t{kLargestBlock} + 1, 0x7fffffffu, 0xffffffffu}) {
     std::string claims = LogBlock(std::string(16, 'x'), 1);
     put(claims, 0, size);
     EXPECT_NE(Refusal(head + claims + empty).find("damaged"), std::string::npos);
   }
-  // More records than there are, none of them whole; a record that is longer than its block.
+  // More records than there are, incomplete ones, and a record longer than its block.
   EXPECT_NE(Refusal(head + LogBlock("", 0xffffffffu) + empty).find("cannot be"), std::string::npos);
   std::string payload;
   Append(Tick(1, 0), payload);
   payload[2] = payload[3] = '\xff';
   EXPECT_NE(Refusal(head + LogBlock(payload, 1) + empty).find("cannot be"), std::string::npos);
-  // A report of more bytes than a report has room for; a hand, a state, a source, a kind that there
-  // is not.
+  // A report with too many bytes; an unknown hand, state, source and kind.
   const auto broken = [&](const LogRecord& record, std::size_t at) {
     std::string bytes;
     Append(record, bytes);
@@ -198,7 +197,7 @@ TEST(LogFormat, RefusesHugeLengthsBeforeAllocating) {
   for (const std::size_t at : {0, 1, 2, 20}) {
     EXPECT_NE(broken(Tick(1, 0), at).find("cannot be"), std::string::npos) << at;
   }
-  // Bytes that no record claims.
+  // Bytes after the last record.
   EXPECT_NE(Refusal(head + LogBlock("xyz", 0) + empty).find("longer"), std::string::npos);
 }
 
@@ -208,7 +207,7 @@ TEST(LogFormat, CountsDroppedRecords) {
   EXPECT_EQ(log.missing, 3) << "ticks 0 and 1, report 0";
 }
 
-// Of version 2.
+// Bytes of version 2.
 std::string Ended(std::uint64_t pushed) {
   return LogHead(kSources) + BlockOf({Tick(1, 0), Tick(2, 1), Report(3, 0, 14)}) + LogEnd(pushed);
 }

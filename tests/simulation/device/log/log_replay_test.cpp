@@ -17,8 +17,8 @@ using test::WaitUntil;
 
 const std::string kPath = "/dev/fake0";
 
-// A WoodenHaptics that is homed, moved, sends what is no report, is pulled out and comes back, with
-// all of it in `file`.
+// A WoodenHaptics that is homed, moved, sends an invalid report, is unplugged and comes back;
+// logged in `file`.
 void Record(const std::filesystem::path& file) {
   test::ArmBench bench;
   bench.usb.Plug(test::WoodenArm(L"A", kPath));
@@ -67,7 +67,7 @@ void Record(const std::filesystem::path& file) {
     EXPECT_TRUE(until(DeviceState::kLost));
     bench.usb.Plug(test::WoodenArm(L"A", kPath));
   }
-  // Both hold the link, whose threads push.
+  // Both hold the link, whose threads push records.
   bench.link.reset();
   logged.reset();
   log.Close();
@@ -82,7 +82,7 @@ struct Recorded : testing::Test {
 using LogReplay = Recorded;
 
 TEST(LogReplayOfAMinute, IsBitIdenticalOverThreeRuns) {
-  // A minute at 1 kHz: a hand that wanders over the counters' ends, and what is no report.
+  // One minute at 1 kHz: a hand that passes the ends of the counters, and invalid reports.
   KnownDevice device;
   device.family = DeviceFamily::kWoodenHaptics;
   device.node.vendor = 0x1234;
@@ -102,7 +102,7 @@ TEST(LogReplayOfAMinute, IsBitIdenticalOverThreeRuns) {
   long rejected = 0;
   for (int i = 0; i < 60000; ++i) {
     for (std::size_t j = 0; j < counter.size(); ++j) {
-      counter[j] += static_cast<int>(random() % 9) - 3;  // up, as a whole
+      counter[j] += static_cast<int>(random() % 9) - 3;  // mean drift upwards
       PutSigned(report, 2 * j, static_cast<std::int16_t>(counter[j]));
     }
     const std::size_t size = i % 97 == 0 ? 13 : 14;
@@ -195,7 +195,7 @@ TEST_F(LogReplay, TicksAreARecordingOfHands) {
       ++next;
   }
   EXPECT_LT(next, log.records.size()) << "each row is what a tick saw, in that order";
-  // As text it is a trace that is read.
+  // Its text can be read as a trace.
   EXPECT_EQ(ParseTrace(TraceText(rows)).size(), rows.size());
 }
 

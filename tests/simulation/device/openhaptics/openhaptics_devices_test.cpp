@@ -1,5 +1,5 @@
-// Devices behind the maker's library, which is a fake one here: its scheduler ticks when the test
-// says, on the test's clock.
+// Devices behind a fake library of the maker, whose scheduler is ticked by the test on the clock of
+// the test.
 #include "simulation/device/openhaptics/openhaptics_devices.h"
 
 #include <HD/hd.h>
@@ -50,7 +50,7 @@ class OpenHapticsTest : public testing::Test {
     devices = std::make_unique<OpenHapticsDevices>(std::vector<std::string>{"left", "right"}, Now);
     Hold();
   }
-  // As a practice that begins does.
+  // Makes the hands as a beginning practice does.
   void Hold() {
     hands.clear();
     devices->OpenMissing();
@@ -60,7 +60,7 @@ class OpenHapticsTest : public testing::Test {
     hands.clear();
     devices.reset();
   }
-  // As the library's thread and the servo do, one after the other.
+  // Ticks the thread of the library and the servo, one after the other.
   DeviceSample Tick(int ticks = 1, const glm::dvec3& force = {}) {
     DeviceSample sample;
     for (int i = 0; i < ticks; ++i) {
@@ -95,7 +95,7 @@ class OpenHapticsTest : public testing::Test {
 
 TEST_F(OpenHapticsTest, ReportsPositionAndOrientation) {
   Left().position_mm = {10, -20, 30};
-  // A quarter turn about z: x goes to y.
+  // A quarter turn about z maps x to y.
   Left().transform = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, -20, 30, 1};
   Left().buttons = 3;
   Open();
@@ -212,7 +212,7 @@ TEST_F(OpenHapticsTest, ALostLinkStaysLost) {
   EXPECT_EQ(hands[0]->state(), DeviceState::kLost);
 }
 
-// As where the library's thread hangs.
+// Case of a hanging library thread.
 TEST_F(OpenHapticsTest, ADeviceThatIsSilentFor20MillisecondsIsLost) {
   Arm();
   Tick(3, kForce);
@@ -247,7 +247,7 @@ TEST_F(OpenHapticsTest, IsHomedByTheLibraryOrWaitsForTheUser) {
   EXPECT_EQ(Left().calibrated, 1);
   EXPECT_EQ(hands[0]->state(), DeviceState::kReady);
   EXPECT_EQ(hands[1]->state(), DeviceState::kHoming);
-  Right().calibration = HD_CALIBRATION_OK;  // somebody put it into its rest
+  Right().calibration = HD_CALIBRATION_OK;  // the user put it into its rest
   Tick(110);
   EXPECT_EQ(hands[1]->state(), DeviceState::kReady);
 }
@@ -266,7 +266,7 @@ TEST_F(OpenHapticsTest, NamesADeviceThatDoesNotOpenAndUsesTheOther) {
             "begins");
   EXPECT_FALSE(HasForce(hands[1]->caps())) << "nobody knows what it bears";
 
-  // Switched on: as long as a servo runs it is left alone, and the next one has it.
+  // Switched on later: it is not opened while a servo runs, but for the next one.
   Right().opens = true;
   Tick(10);
   EXPECT_EQ(hands[1]->state(), DeviceState::kAbsent);
@@ -350,7 +350,7 @@ TEST_F(OpenHapticsDeathTest, ACrashingProgramWritesZeroFirst) {
     const std::shared_ptr<OpenHapticsDevices> shared = std::move(devices);
     const ReleaseOnCrash guard({shared});
     const int out = ::open(file.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
-    // The library's thread; `now` stands still, so that nobody falls silent.
+    // Thread of the library; `now` is constant, so that the servo does not count as silent.
     std::thread scheduler([&] {
       for (;;) {
         OpenHaptics().Tick();
@@ -359,7 +359,7 @@ TEST_F(OpenHapticsDeathTest, ACrashingProgramWritesZeroFirst) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });
-    // It ticks, at whatever rate the machine has for it.
+    // Waits for ticks, at any rate.
     for (int i = 0; i < 300000 && std::filesystem::file_size(file) < 5; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::abort();
