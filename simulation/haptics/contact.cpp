@@ -137,7 +137,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
   state.tip = tip;
   state.held = held;
 
-  // What the tissue does, whatever the surfaces add.
+  // Adds the force of the tissue, independent of the surfaces.
   ContactForce result;
   if (is_pulled) {
     result.contact = tissue.contact;
@@ -146,7 +146,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
                    Viscosity(options, stiffness, state.velocity, tissue.normal, 1.0, tissue.depth);
     result.force *= state.hold;
   }
-  // What holds the proxy away from there, and how hard. Friction drew it aside from the goal.
+  // Finds the planes that hold the proxy away from the goal, and their push.
   const auto leave = [&state]() noexcept {
     state.normal = glm::dvec3(0.0);
     state.share = 0.0;

@@ -15,7 +15,7 @@
 namespace arthro::simulation {
 namespace {
 
-// Share of a change of the surfaces' push that is applied per tick.
+// Share of a change of the surfaces' push that a tick passes on to tissue and layers.
 constexpr double kPushedAtOnce = 0.5;
 
 bool IsFinite(const glm::dvec3& x) noexcept {
@@ -231,7 +231,7 @@ LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::d
   LayerHold hold;
   hold.tip = held;
   if (layers_.empty()) return hold;
-  // As it is drawn: turned by where its tip was let be, and moved along from there.
+  // Pose as drawn: turned by the tip of the last tick, and moved along from there.
   const glm::dvec3 before = tool.let_be.value_or(portal);
   ToolInput as_drawn;
   as_drawn.is_present = true;
