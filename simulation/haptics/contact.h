@@ -37,10 +37,10 @@ struct ContactOptions {
       "Stiffness of the coupling of tip and proxy.");
     v("damping", damping, Range{0, 10}, "N s/m", "Viscosity along the normal while approaching.");
     v("damping_onset", damping_onset, Range{1e-6, 1e-2}, "m",
-      "Penetration at which the viscosity is fully there.");
+      "Penetration at which the viscosity reaches its full value.");
     v("static_friction", static_friction, Range{0, 2}, "", "Coulomb coefficient at rest.");
     v("sliding_friction", sliding_friction, Range{0, 2}, "", "Coulomb coefficient in motion.");
-    v("tip_radius", tip_radius, Range{0, 5e-3}, "m", "Radius of the tip's ball.");
+    v("tip_radius", tip_radius, Range{0, 5e-3}, "m", "Radius of the ball at the tip.");
     v("velocity_cutoff", velocity_cutoff, Range{10, 1000}, "Hz",
       "First-order filter of the tip's velocity.");
   }

@@ -29,9 +29,9 @@ struct DepthFieldOptions {
   template <class V>
   void Visit(V&& v) {
     v("smoothing_passes", smoothing_passes, Range{0, 30}, "",
-      "Binomial 3x3 passes over the depth map before it is felt.");
+      "Binomial 3x3 passes over the depth map before contact is computed.");
     v("quantised_passes", quantised_passes, Range{0, 100}, "",
-      "The same for a depth map that rises in steps, as one made from 8-bit grey does.");
+      "Binomial 3x3 passes over a quantised depth map, as one from 8-bit grey.");
     v("fade_px", fade_px, Range{1, 64}, "px",
       "The force fades over this many pixels towards holes and borders of the depth map.");
   }

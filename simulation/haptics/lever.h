@@ -19,8 +19,9 @@ struct LeverOptions {
   template <class V>
   void Visit(V&& v) {
     v("fade_begin", fade_begin, Range{1e-3, 0.1}, "m",
-      "With the hand nearer to the incision than this, the force fades.");
-    v("fade_end", fade_end, Range{1e-4, 0.1}, "m", "Here it is gone.");
+      "Distance of the hand from the incision below which the force fades.");
+    v("fade_end", fade_end, Range{1e-4, 0.1}, "m",
+      "Distance of the hand from the incision at which the force is zero.");
     v("max_stiffness", max_stiffness, Range{10, 1e5}, "N/m",
       "Largest stiffness that the device can show at the hand.");
   }

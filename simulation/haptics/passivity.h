@@ -28,13 +28,13 @@ struct PassivityOptions {
   template <class V>
   void Visit(V&& v) {
     v("guard_damping", max_damping, Range{0, 200}, "N s/m",
-      "Strongest damper of the passivity guard; 0: no guard.");
+      "Largest damping of the passivity guard; 0 turns the guard off.");
     v("guard_allowance", allowance, Range{0, 0.01}, "J",
       "Energy that a surface may give back beyond what it took.");
     v("guard_delay", delay, Range{0, 7}, "",
-      "Servo ticks from a command to the force; what a device says of itself counts if more.");
+      "Servo ticks from a command to the force; a larger value of the device takes precedence.");
     v("guard_quantum", quantum, Range{0, 1e-3}, "m",
-      "Motion by less is not damped; a count of the device, if that is more.");
+      "Motion smaller than this is not damped; a larger count of the device takes precedence.");
   }
 };
 

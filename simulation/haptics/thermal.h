@@ -13,8 +13,8 @@ struct ThermalOptions {
   template <class V>
   void Visit(V&& v) {
     v("continuous_force", continuous_force, Range{0, 20}, "N",
-      "What a device bears for ever; a longer mean above it is not asked of it. 0: no limit.");
-    v("thermal_memory", memory, Range{0.1, 600}, "s", "Time over which that mean is taken.");
+      "Force that a device can give permanently; the mean force stays below it. 0: no limit.");
+    v("thermal_memory", memory, Range{0.1, 600}, "s", "Time over which the mean force is taken.");
   }
 };
 
