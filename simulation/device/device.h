@@ -21,9 +21,8 @@ class Device {
 
   // Constants, readable from any thread.
   virtual const DeviceCaps& caps() const noexcept = 0;
-  virtual const std::string& name() const noexcept = 0;  // for the user
-  virtual const std::string& serial()
-      const noexcept = 0;  // tells equal devices apart; roles follow it
+  virtual const std::string& name() const noexcept = 0;    // for the user
+  virtual const std::string& serial() const noexcept = 0;  // identifies it; roles follow it
 
   // Returns the newest sample and advances the state. `now` must rise, on the clock of
   // DeviceSample::t, so that now − t is the age of the sample. The sample is not valid where there

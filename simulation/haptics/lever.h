@@ -12,8 +12,8 @@
 namespace arthro::simulation {
 
 struct LeverOptions {
-  double fade_begin =
-      0.015;  // m; 13 times the force at L = 0.2; nearer, tremor of the hand dominates
+  // 13 times the force at L = 0.2 m; nearer, tremor of the hand dominates.
+  double fade_begin = 0.015;
   double fade_end = 0.005;
   double max_stiffness = 780.0;  // N/m; stability bound at 1 kHz, one tick of delay, b = 1.2 Ns/m
   template <class V>
@@ -31,8 +31,7 @@ struct Lever {
   glm::dvec3 axis{0, 0, -1};  // u
   double across = 1;          // 1 − L/r
   double fade = 0;            // 0..1
-  double max_stiffness =
-      0;  // N/m at the tip, for which the hand feels at most the limit of the device
+  double max_stiffness = 0;   // N/m at the tip, at the limit of the device at the hand
 };
 
 Lever LeverAt(const glm::dvec3& hand_from_pivot, double rod_length,

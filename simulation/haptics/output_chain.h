@@ -32,8 +32,7 @@ struct TipForce {
   double hand_speed = 0;       // m/s
   Fault fault = Fault::kNone;  // fault of an earlier stage
   HandPush push = HandPush::kYes;
-  bool is_elastic =
-      false;  // force of springs alone, whose returned energy is bounded by the energy paid
+  bool is_elastic = false;  // springs alone: returned energy is bounded by the energy paid
 };
 
 struct OutputState {
