@@ -4,11 +4,11 @@ namespace arthro::simulation {
 namespace {
 
 bool IsFresh(const DeviceEvents& events) noexcept {
-  // What is not a number is not fresh.
+  // A NaN age is not fresh.
   return events.has_sample && events.sample_age >= 0 && events.sample_age < kFreshFor - kClockGrain;
 }
 
-// A fault is ours or of what we were told; what breaks the link is a loss.
+// Distinguishes faults, of the command or the device itself, from losses of the link.
 bool IsFault(DeviceTrouble trouble) noexcept {
   return trouble != DeviceTrouble::kNone &&
          (trouble < DeviceTrouble::kReadError || trouble == DeviceTrouble::kProtected);
@@ -24,7 +24,7 @@ DeviceStatus Running(const DeviceStatus& status, const DeviceEvents& events) noe
     return {kLost, DeviceTrouble::kSilent, true};
   const bool must_release = status.must_release && events.is_dead_man_held;
   const bool may_arm = events.is_dead_man_held && !must_release;
-  // Where it is armed already, a sample that comes a little late only pauses the force.
+  // An armed device stays armed with a slightly late sample, which only pauses the force.
   if (may_arm && (status.state == kArmed || IsFresh(events))) return {kArmed, {}, false};
   return {kReady, {}, must_release};
 }
@@ -51,13 +51,13 @@ DeviceStatus Next(const DeviceStatus& status, const DeviceEvents& events) noexce
     case kLost: {
       const bool is_over = events.trouble == DeviceTrouble::kNone;
       if (!is_over) {
-        // The first reason stays, but for the end of the link.
+        // Keeps the first reason, unless the link is lost.
         const bool is_lost_now = status.state == kFault && !IsFault(events.trouble);
         return is_lost_now ? DeviceStatus{kLost, events.trouble, true}
                            : DeviceStatus{status.state, status.reason, true};
       }
       if (!events.is_present) return {kAbsent, {}, true};
-      // A fault is over when the hand has let go; a loss when the device speaks again.
+      // A fault ends when the dead-man is released, a loss when the device reports again.
       if (status.state == kFault && events.is_dead_man_held) return {kFault, status.reason, true};
       if (!events.is_open) return {kOpening, {}, true};
       if (status.state == kLost && !IsFresh(events)) return {kLost, status.reason, true};

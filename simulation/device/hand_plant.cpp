@@ -32,10 +32,10 @@ void HandPlant::Tick(const glm::dvec3& command, double dt) noexcept {
   const int steps = std::max(1, static_cast<int>(std::ceil(dt / kLongestStep - 1e-9)));
   const double h = dt / steps;
   for (int i = 0; i < steps; ++i) {
-    // Damping by the mean of both ends, so that nothing but it damps.
+    // Damping uses the mean velocity of the step, so that the integrator adds no damping.
     const glm::dvec3 push = force + hand_.stiffness * (intent_ - x_);
     glm::dvec3 v = ((mass - 0.5 * h * damping) * v_ + h * push) / (mass + 0.5 * h * damping);
-    // Friction stops what it can stop within the step and slows the rest.
+    // Friction stops a motion that it can stop within the step, and slows others.
     const double speed = glm::length(v), slowed = h * options_.friction / mass;
     v = speed > slowed ? v * (1.0 - slowed / speed) : glm::dvec3(0.0);
     const glm::dvec3 way = 0.5 * h * (v_ + v);

@@ -1,9 +1,9 @@
-// A force device with a hand on it, as a plant to try a servo on [devices.md, Simulated hand]: on
+// Simulated force device with a hand on it, for tests of a servo [devices.md, Simulated hand]. On
 // each axis
 //   (m_d + m_h) a = k_h (x_intent − x) − (b_d + b_h) v − f_c sgn(v) + F,
-// F what the device was commanded `delay` ticks ago, clamped to its peak. Integrated in steps of at
-// most 20 µs; what is read is quantised as its encoders do. Device frame, m, N, kg, s. Same inputs,
-// same bits; allocates nothing once made.
+// where F is the command of `delay` ticks ago, clamped to the peak force. Integrated in steps of at
+// most 20 µs; positions are quantised as by encoders. Device frame, m, N, kg, s. The same inputs
+// give the same bits; allocates only when constructed.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace arthro::simulation {
 
-// Values of a Touch-class device; 0 leaves a part out.
+// Values of a Touch-class device; 0 omits a term.
 struct PlantOptions {
   double mass = 0.045;      // kg
   double damping = 0.2;     // N s/m
-  double friction = 0.26;   // N, Coulomb's
+  double friction = 0.26;   // N, Coulomb friction
   double quantum = 5.5e-5;  // m
   double peak_force = 3.3;  // N
   int delay = 1;            // ticks from command to force, at most 7
@@ -34,18 +34,18 @@ class HandPlant {
  public:
   HandPlant(const PlantOptions& options, const HandModel& hand, const glm::dvec3& at);
 
-  // Where the hand means to be. Without stiffness it means nothing.
+  // Sets the intended position of the hand. It has no effect without stiffness.
   void SetIntent(const glm::dvec3& intent) noexcept { intent_ = intent; }
-  // One tick of a servo: the force that it commands now, then `dt` of time. What is not finite is
-  // no force.
+  // Advances by one servo tick of `dt` after a command. A command that is not finite counts as no
+  // force.
   void Tick(const glm::dvec3& command, double dt) noexcept;
 
-  // What the device says now; orientation is none.
+  // Sample of the device, without an orientation.
   DeviceSample Sample() const noexcept;
   const glm::dvec3& position() const noexcept { return x_; }
   const glm::dvec3& velocity() const noexcept { return v_; }
   void SetVelocity(const glm::dvec3& v) noexcept { v_ = v; }
-  // J, work that the commanded forces have done on the hand so far.
+  // J, work of the commanded forces on the hand so far.
   double work() const noexcept { return work_; }
 
  private:

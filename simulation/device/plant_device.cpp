@@ -13,7 +13,7 @@ PlantDevice::PlantDevice(const PlantOptions& options, const HandModel& hand, con
   caps_.sensed_dof = caps_.actuated_dof = 3;
   caps_.position_quantum = options.quantum;
   caps_.peak_force = options.peak_force;
-  caps_.continuous_force = 0.88 / 3.3 * options.peak_force;  // as of a Touch-class device
+  caps_.continuous_force = 0.88 / 3.3 * options.peak_force;  // ratio of a Touch-class device
   caps_.max_stiffness = 500;
   caps_.damping = options.damping;
   caps_.rate = 1000;
@@ -43,7 +43,7 @@ DeviceSample PlantDevice::Read(double now) noexcept {
   }
   events_.sample_age = now - newest_.t;
   status_ = Next(status_, events_);
-  events_.trouble = DeviceTrouble::kNone;  // told once
+  events_.trouble = DeviceTrouble::kNone;  // reported once
   DeviceSample sample = newest_;
   sample.valid = status_.state == DeviceState::kReady || status_.state == DeviceState::kArmed;
   return sample;

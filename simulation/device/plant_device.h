@@ -1,5 +1,5 @@
-// A HandPlant as a Device: what a servo is tried on where there is no hardware. Time is what Read
-// is told; faults are asked for. Device frame, m, N, s.
+// A HandPlant as a Device, for tests of a servo without hardware. Time is the argument of Read;
+// faults are injected. Device frame, m, N, s.
 #pragma once
 
 #include "simulation/device/device.h"
@@ -15,19 +15,18 @@ class PlantDevice final : public Device {
   const DeviceCaps& caps() const noexcept override { return caps_; }
   const std::string& name() const noexcept override { return name_; }
   const std::string& serial() const noexcept override { return serial_; }
-  // Lets the plant go on to `now` under the last command, then says where it is.
+  // Advances the plant to `now` under the last command, then returns its sample.
   DeviceSample Read(double now) noexcept override;
   void HoldDeadMan(bool is_held) noexcept override { events_.is_dead_man_held = is_held; }
   void Command(const glm::dvec3& force_in_device) noexcept override;
   DeviceStatus status() const noexcept override { return status_; }
 
   HandPlant& plant() noexcept { return plant_; }
-  // What is done to it: pulled from its port and plugged in again, silent while it stays open,
-  // buttons.
+  // Injected events: unplugged and plugged in again, silent while it stays open, buttons.
   void SetPlugged(bool is_plugged) noexcept;
   void SetSilent(bool is_silent) noexcept { is_silent_ = is_silent; }
   void SetButtons(std::uint32_t buttons) noexcept { buttons_ = buttons; }
-  // N, that it pushes with now.
+  // N, present force.
   const glm::dvec3& force() const noexcept { return force_; }
 
  private:

@@ -1,4 +1,4 @@
-// What can be told to push no more.
+// Interface of devices that can be released at the end of the program.
 #pragma once
 
 namespace arthro::simulation {
@@ -10,7 +10,7 @@ class Releasable {
   Releasable(const Releasable&) = delete;
   Releasable& operator=(const Releasable&) = delete;
 
-  // No force any more, for good: the application is about to end. Also from a signal handler.
+  // Ends all force permanently, before the application ends. Callable from a signal handler.
   virtual void Release() noexcept = 0;
 };
 

@@ -18,12 +18,12 @@ constexpr std::string_view kHeader = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,but
 constexpr std::array kNames = {"t",  "device", "hip_x", "hip_y", "hip_z",
                                "qw", "qx",     "qy",    "qz",    "buttons"};
 constexpr std::size_t kColumns = kNames.size();
-constexpr double kUnitTolerance = 1e-3;  // four decimals in a file that a person wrote
+constexpr double kUnitTolerance = 1e-3;  // precision of four decimals, in files written by hand
 
 class Parser {
  public:
   Parser(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets put it first
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // written first by spreadsheets
     if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
   }
 

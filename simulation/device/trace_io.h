@@ -1,4 +1,4 @@
-// Recorded hands as TRACE.csv [method.md, File formats]: one row a sample, in the order of time.
+// Recorded hands as TRACE.csv [method.md, File formats]: one row per sample, in order of time.
 //   t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons
 // s, `scope`|`instrument`, m and unit quaternion in the device frame, bit field. Numbers are
 // written with the fewest digits that read back to the same bits.
@@ -14,7 +14,7 @@
 
 namespace arthro::simulation {
 
-// Of a recording; more is a slip of the unit or two recordings in one.
+// Longest gap in a recording; a longer one is an error of the unit or two recordings in one.
 inline constexpr double kLongestGap = 60.0;  // s
 
 struct TraceRow {
@@ -22,9 +22,9 @@ struct TraceRow {
   DeviceSample sample;  // valid
 };
 
-// Throws Error(kBadData) with the line: a wrong header or number of columns, an unknown device, a
-// number that is none or not finite, a quaternion whose length is off by more than 1e-3, time that
-// runs backwards or leaps by more than a minute, or no rows at all.
+// Reads a trace. Throws Error(kBadData) with the line: a wrong header or number of columns, an
+// unknown device, a number that is invalid or not finite, a quaternion whose length differs from 1
+// by more than 1e-3, time that runs backwards or leaps by more than a minute, or no rows.
 std::vector<TraceRow> ParseTrace(std::string_view text, const std::filesystem::path& file = {});
 std::vector<TraceRow> ReadTrace(const std::filesystem::path& file);
 

@@ -8,23 +8,23 @@
 namespace arthro::simulation {
 namespace {
 
-// Nearer to its tip than this the proxy is at it; 10 µN.
+// A proxy nearer to its tip than this counts as at the tip; 10 µN.
 constexpr double kAtTip = 2e-8;  // m
 
-// Curvature times pixel turns the normal by at most a degree or so; at 1 mm that is a fifth of one.
+// Curvature turns the normal by about 1° per pixel; at a depth of 1 mm that is a fifth of a pixel.
 constexpr double kKink = 0.2;  // pixels
 
-// A tip that comes out of the unknown from below a surface catches up with it in a few ticks; its
-// force takes this long.
+// Rise time of the force of a tip that enters the known region from below a surface; the proxy
+// itself arrives in a few ticks.
 constexpr double kFadeIn = 0.010;  // s
 
 // A tool may hook behind an edge and pull. At this distance the coupling of 500 N/m pulls with 4 N,
-// more than any device of its stiffness gives.
+// more than the devices of that stiffness give.
 constexpr double kFarOff = 8e-3;      // m
-constexpr double kCaughtFor = 0.050;  // s; a hand that turns round does not stay for so long
+constexpr double kCaughtFor = 0.050;  // s; a hand that reverses its motion stays for less
 constexpr double kLetGo = 0.100;      // s
 
-// Reduces the force of a proxy that is caught. At 0 the proxy is at its tip again.
+// Reduces the force of a caught proxy. At 0 the proxy is moved to its tip.
 void LetGoIfCaught(const Surroundings& surroundings, double radius, const glm::dvec3& portal,
                    const glm::dvec3& tip, double dt, ContactState& state) noexcept {
   const bool is_caught = glm::length(state.proxy.position - tip) > kFarOff &&
@@ -40,8 +40,8 @@ void LetGoIfCaught(const Surroundings& surroundings, double radius, const glm::d
   state.caught = 0.0;
 }
 
-// Where the proxy is drawn to: under itself as far as friction holds it, else to the edge of the
-// friction cone. True: it sticks.
+// Computes the goal of the proxy: below itself while friction holds it, else at the edge of the
+// friction cone. Returns true where it sticks.
 bool Grip(const ContactOptions& options, const ContactState& state, const glm::dvec3& tip,
           glm::dvec3& goal) noexcept {
   goal = tip;
@@ -59,11 +59,11 @@ bool Grip(const ContactOptions& options, const ContactState& state, const glm::d
   return false;
 }
 
-// How far the surfaces push the goal out, to the foot of their planes; `state` takes which of them
-// pushes most and what the fade leaves of all pushes. The interpolated normals of a relief turn
-// smoothly while its height has a faint kink at every pixel, in which the proxy rests: the foot
-// leaves that out. A foot further off means a crease that the planes do not know, or a proxy that
-// is still on its way; then the proxy itself counts.
+// Returns the push of the surfaces from the goal to the foot of their planes. Writes the surface
+// that pushes most and the factor of the fade to `state`. The interpolated normals of a relief turn
+// smoothly, while its height has a faint kink at every pixel, in which the proxy rests; using the
+// foot avoids it. A foot further from the proxy means a crease that the planes do not represent, or
+// a proxy that is still moving; then the proxy itself is used.
 glm::dvec3 PushOf(const PlaneSet& planes, const glm::dvec3& goal, double kink, double dt,
                   ContactState& state) noexcept {
   const bool is_new = state.contact < 0;
@@ -88,7 +88,7 @@ glm::dvec3 PushOf(const PlaneSet& planes, const glm::dvec3& goal, double kink, d
   return free.nearest - goal + (length > kink ? 1.0 - kink / length : 0.0) * rest;
 }
 
-// Against the approach, coming in over the onset.
+// Damping force against the approach, which sets in over the onset depth.
 glm::dvec3 Viscosity(const ContactOptions& options, double stiffness, const glm::dvec3& velocity,
                      const glm::dvec3& normal, double share, double depth) noexcept {
   const double approach = glm::dot(velocity, normal);
@@ -137,7 +137,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
   state.tip = tip;
   state.held = held;
 
-  // What the tissue does, whatever the surfaces add.
+  // Adds the force of the tissue, independent of the surfaces.
   ContactForce result;
   if (is_pulled) {
     result.contact = tissue.contact;
@@ -146,7 +146,7 @@ ContactForce TickContact(const Surroundings& surroundings, const ContactOptions&
                    Viscosity(options, stiffness, state.velocity, tissue.normal, 1.0, tissue.depth);
     result.force *= state.hold;
   }
-  // What holds the proxy away from there, and how hard. Friction drew it aside from the goal.
+  // Finds the planes that hold the proxy away from the goal, and their push.
   const auto leave = [&state]() noexcept {
     state.normal = glm::dvec3(0.0);
     state.share = 0.0;

@@ -12,15 +12,16 @@
 namespace arthro::simulation {
 namespace {
 
-// A step of this is 1 mN at 500 N/m, and turns the normal by 2° on a 0.05 mm pixel.
+// A step of this height changes the force by 1 mN at 500 N/m and turns the normal by 2° on a 0.05
+// mm pixel.
 constexpr double kFeltStep = 2e-6;  // m
 
-// Smoothed relief and how much imaged surface stands behind each pixel.
+// Smoothed relief, and the share of imaged pixels in each value.
 struct Smoothed {
   std::vector<float> value, mass;
 };
 
-// Weights of `passes` passes of (1 2 1)/4, that is the binomial row 2·passes.
+// Returns the weights of `passes` passes of (1 2 1)/4, which is the binomial row 2·passes.
 std::vector<float> BinomialKernel(int passes) {
   std::vector<double> kernel{1.0};
   for (int pass = 0; pass < passes; ++pass) {
@@ -35,7 +36,7 @@ std::vector<float> BinomialKernel(int passes) {
   return {kernel.begin(), kernel.end()};
 }
 
-// The separable filter, row by row. Beyond the border nothing is imaged: no mass.
+// Applies the separable filter, row by row. Pixels beyond the border have no mass.
 void Filter(std::vector<float>& data, int width, int height, const std::vector<float>& kernel) {
   const int half = static_cast<int>(kernel.size()) / 2;
   const auto w = static_cast<std::size_t>(width);
@@ -61,7 +62,7 @@ void Filter(std::vector<float>& data, int width, int height, const std::vector<f
   }
 }
 
-// Normalised convolution: holes neither pull the relief nor spread.
+// Smooths by normalised convolution, so that holes neither pull the relief nor spread.
 Smoothed SmoothRelief(const DepthMap& depth, int passes) {
   Smoothed smoothed{depth.relief, std::vector<float>(depth.relief.size())};
   for (std::size_t i = 0; i < depth.relief.size(); ++i) {
@@ -109,7 +110,8 @@ std::vector<float> DistanceToUnknown(const DepthMap& depth) {
   return distance;
 }
 
-// Pixels next to an unknown one weigh nothing, so no query with weight sees a made-up relief.
+// Gives pixels next to an unknown one no weight, so that no query with weight reads an invented
+// relief.
 double FadeWeight(double distance_px, double fade_px) noexcept {
   const double s = std::clamp((distance_px - 1.0) / fade_px, 0.0, 1.0);
   return s * s * (3.0 - 2.0 * s);
@@ -118,8 +120,8 @@ double FadeWeight(double distance_px, double fade_px) noexcept {
 }  // namespace
 
 double QuantumOf(const DepthMap& depth) {
-  // In a map with steps many neighbours are equal and the others differ by a step or more; in a
-  // smooth one some neighbours differ by next to nothing.
+  // In a quantised map many neighbours are equal and the others differ by a step or more. In a
+  // smooth map some neighbours differ by almost nothing.
   std::vector<float> steps;
   std::size_t pairs = 0;
   for (int y = 0; y < depth.height; ++y)

@@ -1,10 +1,10 @@
-// The backdrop as something to touch [paper, 3.4; method.md, Backdrop]: the sphere of radius D
-// about the scope portal with the depth map h as relief. Free space is inside:
+// Contact model of the backdrop [paper, 3.4; method.md, Backdrop]: the sphere of radius D about the
+// scope portal with the depth map h as relief. Free space is inside:
 //   c(x) = (D − h(π(x))) − |x| > 0,   ∇c = −(h_u ∇u + h_v ∇v) − x/|x|,
 //   clearance = c/|∇c| (distance to first order),   normal = ∇c/|∇c| (into free space)
-// Built once: relief smoothed by a binomial filter over imaged pixels only, central differences
-// h_u, h_v stored beside it, all interpolated bilinearly, so the normal is continuous; a weight
-// that fades to 0 towards holes (NaN) and borders, where nothing is known and nothing is felt.
+// Built once: the relief is smoothed by a binomial filter over imaged pixels only, and its central
+// differences h_u, h_v are stored. All are interpolated bilinearly, so the normal is continuous. A
+// weight fades to 0 towards holes (NaN) and borders, where the surface is unknown.
 // Portal frame, m. Query is noexcept, allocates nothing.
 #pragma once
 
@@ -19,39 +19,39 @@
 namespace arthro::simulation {
 
 struct DepthFieldOptions {
-  // A pass blurs by σ² = ½ px². Two take away noise of single pixels and keep the normal of relief
-  // with slopes of 1 over 0.05 mm pixels within 0.1°.
+  // One pass blurs by σ² = ½ px². Two passes remove noise of single pixels, and keep the normal of
+  // a relief with slopes of 1 over 0.05 mm pixels within 0.1°.
   int smoothing_passes = 2;
-  // A map in steps, as from 8-bit depth, needs more: the force jumps at each step otherwise
+  // A quantised map, as from 8-bit depth, needs more passes, or the force jumps at each step
   // [method.md, Backdrop force].
   int quantised_passes = 24;
-  double fade_px = 8.0;  // wide enough that K·1 mm fades by less than 0.1 N a pixel
+  double fade_px = 8.0;  // wide enough that K·1 mm fades by less than 0.1 N per pixel
   template <class V>
   void Visit(V&& v) {
     v("smoothing_passes", smoothing_passes, Range{0, 30}, "",
-      "Binomial 3x3 passes over the depth map before it is felt.");
+      "Binomial 3x3 passes over the depth map before contact is computed.");
     v("quantised_passes", quantised_passes, Range{0, 100}, "",
-      "The same for a depth map that rises in steps, as one made from 8-bit grey does.");
+      "Binomial 3x3 passes over a quantised depth map, as one from 8-bit grey.");
     v("fade_px", fade_px, Range{1, 64}, "px",
       "The force fades over this many pixels towards holes and borders of the depth map.");
   }
 };
 
-// The step in which a depth map rises, m; 0 for a smooth one.
+// Quantisation step of a depth map, m; 0 for a smooth one.
 double QuantumOf(const DepthMap& depth);
 
-// What is known of the surface at a point. weight 0: nothing is there to touch.
+// Result of a query at a point. weight 0: there is no surface.
 struct FieldQuery {
   double clearance = 0;         // m, negative below the surface
   glm::dvec3 normal{0, 0, -1};  // unit, into free space
   double weight = 0;            // 0..1
-  double px_per_m = 0;          // how fast the pixel moves with x; 0 where there is none
+  double px_per_m = 0;  // largest motion of the pixel per motion of x; 0 where there is no pixel
 };
 
 class DepthField {
  public:
-  DepthField() = default;  // nothing to touch
-  // Without a depth map the bare sphere is felt where a picture of width x height lies.
+  DepthField() = default;  // no surface
+  // Bare sphere, over the area of a picture of width x height.
   DepthField(const Backdrop& backdrop, int width, int height,
              const DepthFieldOptions& options = {});
   DepthField(const Backdrop& backdrop, const DepthMap& depth,
@@ -60,13 +60,13 @@ class DepthField {
   FieldQuery Query(const glm::dvec3& x_in_portal) const noexcept;
 
   bool empty() const { return width_ == 0; }
-  // Nothing can be touched nearer to the portal than this; infinite where there is no field.
+  // Radius about the portal within which there is no contact; 1e300 where there is no field.
   double free_radius() const { return free_radius_; }
-  // Size of a pixel on the sphere at the centre of the picture.
+  // m, size of a pixel on the sphere at the centre of the picture.
   double pixel_size() const { return pixel_size_; }
 
  private:
-  // Four floats side by side: one cache line holds all that a corner of a query needs.
+  // Keeps the four values of a pixel in one cache line.
   struct Texel {
     float h, hu, hv, weight;
   };

@@ -1,5 +1,5 @@
-// Why a device is given no force. A fault is a value in the snapshot: the servo path throws and
-// logs nothing [method.md, Threads].
+// Reason why a device is given no force. A fault is a value in the snapshot, since the servo path
+// neither throws nor logs [method.md, Threads].
 #pragma once
 
 namespace arthro::simulation {
@@ -16,7 +16,7 @@ enum class Fault {
   kTissue,     // a tissue could not be computed and was reset
 };
 
-// One word, as written to forces.csv.
+// Text in forces.csv.
 constexpr const char* ToString(Fault fault) noexcept {
   switch (fault) {
     case Fault::kNone:

@@ -24,7 +24,7 @@ LimitedForce LimitForce(const LimiterOptions& options, const glm::dvec3& force, 
     state = LimiterState{};
     return {glm::dvec3(0.0), fault};
   }
-  // Divided by the largest part first, so that neither 1e300 nor a denormal spoils the length.
+  // Divides by the largest component first, so that neither 1e300 nor a denormal breaks the length.
   const double largest = std::max({std::abs(force.x), std::abs(force.y), std::abs(force.z)});
   glm::dvec3 direction(0.0);
   double length = 0.0;
@@ -33,8 +33,8 @@ LimitedForce LimitForce(const LimiterOptions& options, const glm::dvec3& force, 
     direction = glm::normalize(scaled);
     length = std::min(largest * glm::length(scaled), options.max_force);
   }
-  // What is held already in this direction may stay; beyond it the force grows at the limit. A
-  // force that turns round starts from zero.
+  // Keeps the component of the last force along the new direction; beyond it the force rises at the
+  // limit. A reversed force starts from zero.
   const double held = std::max(0.0, glm::dot(state.held, direction));
   state.held = std::min(length, held + options.max_rise * step) * direction;
   state.ramp = options.ramp_time > 0.0 ? std::min(1.0, state.ramp + step / options.ramp_time) : 1.0;

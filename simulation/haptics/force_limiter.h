@@ -1,7 +1,7 @@
-// The last stage on every way to a device, with or without hardware [method.md, Output chain].
-// In this order: not a number → zero and a fault · length clamped, direction kept · rise limited,
-// fall free · hand too fast → zero · ramp after arming. After a fault the ramp starts again. N, s,
-// m/s; noexcept, allocates nothing.
+// Last stage of the output chain, which every force passes [method.md, Output chain]. In this
+// order: not a number → zero and a fault · length clamped, direction kept · rise limited, fall free
+// · hand too fast → zero · ramp after arming. After a fault the ramp starts again. N, s, m/s;
+// noexcept, allocates nothing.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -20,14 +20,14 @@ struct LimiterOptions {
   double lost_after = 0.020;      // s
   template <class V>
   void Visit(V&& v) {
-    v("max_force", max_force, Range{0, 20}, "N", "No device is ever told more than this.");
+    v("max_force", max_force, Range{0, 20}, "N", "Largest force that is sent to a device.");
     v("max_rise", max_rise, Range{10, 10000}, "N/s",
-      "How fast a force may grow; it may fall at once.");
+      "Largest rise of a force; it may fall at once.");
     v("max_hand_speed", max_hand_speed, Range{0.05, 10}, "m/s", "A faster hand gets no force.");
     v("ramp_time", ramp_time, Range{0, 5}, "s",
-      "From no force to full force after arming or a fault.");
+      "Time from no force to full force after arming or a fault.");
     v("max_sample_age", max_sample_age, Range{0.001, 1}, "s",
-      "A sample that is as old gets no force.");
+      "A sample of this age gets no force.");
     v("lost_after", lost_after, Range{0.001, 10}, "s",
       "With no new sample for this long a device is lost.");
   }
@@ -43,7 +43,8 @@ struct LimitedForce {
   Fault fault = Fault::kNone;
 };
 
-// `fault` is what went wrong before (no sample, stale…): it gives zero. `hand_speed` in m/s.
+// Limits a force. A `fault` of an earlier stage (no sample, stale…) gives zero. `hand_speed` in
+// m/s.
 LimitedForce LimitForce(const LimiterOptions& options, const glm::dvec3& force, double hand_speed,
                         Fault fault, double dt, LimiterState& state) noexcept;
 

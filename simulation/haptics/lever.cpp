@@ -11,7 +11,7 @@ Lever LeverAt(const glm::dvec3& hand_from_pivot, double rod_length,
   Lever lever;
   const double r = glm::length(hand_from_pivot);
   const double end = std::min(options.fade_end, options.fade_begin);
-  if (!(r > end) || !(r > 0.0)) return lever;  // no force: its direction is not known well enough
+  if (!(r > end) || !(r > 0.0)) return lever;  // no force: its direction is too uncertain
   const double s =
       options.fade_begin > end ? std::clamp((r - end) / (options.fade_begin - end), 0.0, 1.0) : 1.0;
   lever.axis = hand_from_pivot / r;

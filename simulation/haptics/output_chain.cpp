@@ -21,8 +21,8 @@ LimitedForce ForceToHand(const OutputOptions& options, const TipForce& tip, doub
   if (fault != Fault::kNone) {
     state.guard = PassivityState{};
   } else {
-    // The lever changes forces by its gain and stiffnesses by its square, energies not at all: the
-    // spring at the hand is the one that holds as much. What fades holds less.
+    // The lever changes forces by its gain and stiffnesses by its square, but no energies: the
+    // spring at the hand stores the same energy, less where it fades.
     const double at_tip = glm::dot(tip.force, tip.force), at_hand = glm::dot(bare, bare);
     const double stiffness = at_tip > 0 ? tip.stiffness * (at_hand / at_tip) : tip.stiffness;
     if (tip.is_elastic) {

@@ -1,8 +1,8 @@
-// From the force on a tip to what a hand is given, the one way that every force takes, with or
-// without hardware [method.md, Output chain]. In this order: not a number → zero and a fault ·
-// lever · passivity guard · clamp, lower while the motors are warm · rise · speed guard · ramp.
-// Before it stands the virtual coupling (contact.h), behind it the conversion to a device's own
-// numbers, that saturates. Any one frame; m, N, s; noexcept, allocates nothing.
+// Output chain: converts the force on a tip to the force for a hand; every force passes it
+// [method.md, Output chain]. In this order: not a number → zero and a fault · lever · passivity
+// guard · clamp, lower while the motors are warm · rise · speed guard · ramp. The virtual coupling
+// (contact.h) comes before it; the saturating conversion to the numbers of a device comes after it.
+// All vectors are in the same frame; m, N, s; noexcept, allocates nothing.
 #pragma once
 
 #include "simulation/haptics/force_limiter.h"
@@ -14,8 +14,8 @@ namespace arthro::simulation {
 
 enum class HandPush {
   kYes,
-  kPause,  // not in this tick; from zero again, at the rise
-  kNo,     // the device is not armed; ramps when it is
+  kPause,  // no force in this tick; then rises from zero
+  kNo,     // the device is not armed; ramps up when it is
 };
 
 struct OutputOptions {
@@ -26,13 +26,13 @@ struct OutputOptions {
 
 struct TipForce {
   glm::dvec3 force{0.0};       // on the tip
-  double stiffness = 0;        // N/m, at the tip, of all that gave way for it
-  Lever lever;                 // of the rod
-  glm::dvec3 hand{0.0};        // where it is
+  double stiffness = 0;        // N/m at the tip, of all compliances in series
+  Lever lever;                 // lever of the rod
+  glm::dvec3 hand{0.0};        // position of the hand
   double hand_speed = 0;       // m/s
-  Fault fault = Fault::kNone;  // what went wrong before
+  Fault fault = Fault::kNone;  // fault of an earlier stage
   HandPush push = HandPush::kYes;
-  bool is_elastic = false;  // of springs alone: what they give back is bounded by what was paid
+  bool is_elastic = false;  // springs alone: returned energy is bounded by the energy paid
 };
 
 struct OutputState {

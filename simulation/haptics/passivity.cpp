@@ -9,19 +9,21 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of a count
-constexpr double kForgiving = 0.1;  // s, three swings of a hand that is thrown
-// Above the damper's one, so that a spring is softened only where the damper was too weak.
+constexpr double kRounding = 1e-6;  // counts
+constexpr double kForgiving = 0.1;  // s, three oscillations of a hand that a surface throws back
+// Larger than the allowance of the damper, so that a spring is softened only where the damper was
+// too weak.
 constexpr double kCreditAllowances = 2.0;
 
-// What the motors did since the last tick.
+// Force that acted since the last tick.
 const glm::dvec3& Acting(const PassivityOptions& options, const PassivityState& state) noexcept {
   const std::size_t size = state.sent.size();
   const auto delay = static_cast<std::uint64_t>(std::clamp(options.delay, 0, 7));
   return state.sent[(state.count + size - 1 - delay) % size];
 }
 
-// Axis by axis, as a device counts: along one a hand may rest while it strokes along another.
+// Applies backlash per axis, as a device counts: a hand may rest along one axis while it moves
+// along another.
 glm::dvec3 WithPlay(const glm::dvec3& off, double play) noexcept {
   glm::dvec3 way = off;
   for (int axis = 0; axis < 3 && play > 0; ++axis) {
@@ -31,11 +33,11 @@ glm::dvec3 WithPlay(const glm::dvec3& off, double play) noexcept {
   return way;
 }
 
-// Share of a spring of this force that holds no more than `energy`.
+// Factor by which a spring of this force must be softened to store no more than `energy`.
 double ShareFor(const HandSpring& spring, double force, double energy) noexcept {
   const double stretch = force / spring.stiffness;
   if (!(energy > 0)) return 0;
-  // The softer spring is still clamped, or it is not.
+  // Distinguishes whether the softer spring is still clamped.
   if (energy > 0.5 * spring.max_force * stretch)
     return 0.5 * spring.max_force * spring.max_force /
            (spring.stiffness * (spring.max_force * stretch - energy));
@@ -70,7 +72,7 @@ glm::dvec3 BoundByCredit(const PassivityOptions& options, const glm::dvec3& forc
   const glm::dvec3 way = WithPlay(hand - state.paid_at, options.quantum);
   state.paid_at += way;
   state.credit -= glm::dot(Acting(options, state), way);
-  // More than the spring holds was rubbed or damped away.
+  // Credit beyond the energy of the spring was lost to friction or damping.
   state.credit = is_paid ? held : std::min(state.credit, held);
   if (!(size > 0)) {
     state.credit *= kForgiving / (kForgiving + dt);
@@ -105,18 +107,18 @@ glm::dvec3 GuardPassivity(const PassivityOptions& options, const glm::dvec3& for
   const double took = is_count ? state.still + dt : dt;
   state.still = seen2 > 0 ? 0.0 : state.still + dt;
   state.energy -= glm::dot(Acting(options, state), way);
-  // What the spring holds now, and nothing of what was rubbed away.
+  // Keeps at most the energy of the spring, and none that friction took.
   const double held = stiffness > 0 ? 0.5 * force2 / stiffness : 0.0;
   state.energy = std::min(state.energy, held);
-  // In the air there is nothing to damp. What was owed is forgiven in time, not at once: a hand
-  // that a surface throws comes back soon.
+  // Without contact there is nothing to damp. The debt decays slowly, since a hand that a surface
+  // throws back returns soon.
   if (!(force2 > 0)) {
     state.energy *= kForgiving / (kForgiving + dt);
     return force;
   }
   const double over = -options.allowance - state.energy;
   if (!(over > 0) || !(seen2 > 0)) return force;
-  // A damper that would take it out within this tick, at the speed of the last one.
+  // Chooses the damping that removes the excess within this tick at the present speed.
   const double damping = std::min(over * took * took / (seen2 * dt), options.max_damping);
   return force - damping / took * seen;
 }

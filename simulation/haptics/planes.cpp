@@ -8,10 +8,11 @@ namespace arthro::simulation {
 namespace {
 
 constexpr double kSamePlane = 1e-10;   // 1 − cosine, 14 µrad
-constexpr double kFeasible = 1e-9;     // m, rounding at the worst determinant below
+constexpr double kFeasible = 1e-9;     // m, rounding error at the smallest determinant below
 constexpr double kIndependent = 1e-9;  // determinant of unit normals' products
 
-// Pushes p of the planes a, b, c (c may be -1, then b too) with normals·(goal + Σ p n) = offsets.
+// Solves for pushes p of the planes a, b, c with normals·(goal + Σ p n) = offsets; c, or b and c,
+// may be -1.
 bool Solve(const PlaneSet& planes, const glm::dvec3& goal, int a, int b, int c,
            double push[3]) noexcept {
   const auto normal = [&](int i) { return planes.plane[static_cast<std::size_t>(i)].normal; };

@@ -1,5 +1,5 @@
-// A few planes that bound free space near a proxy, and the point of free space nearest to a goal:
-// the god-object of Zilles and Salisbury [Zilles & Salisbury 1995] with its constraint forces. m.
+// Planes that bound free space near a proxy, and the nearest point of free space to a goal: the
+// god-object method [Zilles & Salisbury 1995] with its constraint forces. m.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace arthro::simulation {
 struct Plane {
   glm::dvec3 normal{0.0};  // unit
   double offset = 0;
-  int contact = 0;    // whose surface: see snapshot.h
-  double weight = 1;  // of its force, 0..1
+  int contact = 0;    // surface of the plane, see snapshot.h
+  double weight = 1;  // factor of its force, 0..1
 };
 
 struct PlaneSet {
@@ -21,7 +21,7 @@ struct PlaneSet {
   std::array<Plane, kCapacity> plane;
   int count = 0;
 
-  // A plane that is there already, up to rounding, is replaced. False: the set is full.
+  // Adds a plane, or replaces an equal one up to rounding. Returns false where the set is full.
   bool Add(const Plane& added) noexcept;
 };
 
@@ -31,8 +31,8 @@ struct NearestFree {
   std::array<double, PlaneSet::kCapacity> push{};
 };
 
-// Tries every active set of up to three planes; the one that satisfies all is the solution. Where
-// rounding leaves none, `otherwise` is the answer, with no pushes.
+// Tries every active set of up to three planes; the one that satisfies all planes is the solution.
+// Returns `otherwise` without pushes if rounding leaves none.
 NearestFree NearestPoint(const PlaneSet& planes, const glm::dvec3& goal,
                          const glm::dvec3& otherwise) noexcept;
 

@@ -9,17 +9,17 @@
 namespace arthro::simulation {
 namespace {
 
-// Kept between proxy and surfaces so that rounding never puts it behind one. 1 µm is 0.5 mN.
+// Gap between proxy and surfaces, so that rounding never puts it behind one. 1 µm is 0.5 mN.
 constexpr double kSkin = 1e-6;      // m
-constexpr double kTouching = 2e-6;  // m; nearer than this a surface bears
-// A foot that is off by s is further from a tip at depth d by s²/2d only, so the surface must be
-// met much better than the foot: 0.1 nm of height is 0.4 µm of foot at 1 mm.
+constexpr double kTouching = 2e-6;  // m; a surface nearer than this is in contact
+// A foot with an error s is further from a tip at depth d by only s²/2d, so the surface must be met
+// more precisely than the foot: 0.1 nm of height is 0.4 µm of foot at 1 mm.
 constexpr double kOnSurface = 1e-10;  // m
 constexpr double kNearer = 1e-11;     // m
 constexpr double kArrived = 1e-8;     // m; 5 µN
-constexpr double kNearEnough = 1e-7;  // m, along the field: 50 µN, for a third of the queries
-constexpr double kBlindStep = 1e-3;   // m; where no pixel tells how fine to step
-// Bounds of the work a tick; what is left over is made up in the next one.
+constexpr double kNearEnough = 1e-7;  // m along the field; 50 µN, for a third of the queries
+constexpr double kBlindStep = 1e-3;   // m; step where no pixel size is known
+// Bounds of the work per tick; the rest is done in the next one.
 constexpr int kMaxSlides = 48, kMaxHalvings = 5, kMaxMarch = 4096, kMaxFaces = 4;
 constexpr int kMaxProjections = 4, kMaxBisections = 24;
 
@@ -32,7 +32,7 @@ class Mover {
     if (IsClearOfField(x)) return {};
     return around_.field.Query(x);
   }
-  // Further in than any of the backdrop: nothing needs to be asked.
+  // Skips the query where the ball is nearer to the portal than any of the backdrop.
   bool IsClearOfField(const glm::dvec3& x) const noexcept { return ClearBy(x) > 0.0; }
   double ClearBy(const glm::dvec3& x) const noexcept {
     return around_.field.free_radius() - radius_ - kTouching - glm::length(x);
@@ -44,7 +44,8 @@ class Mover {
     return query.weight > 0.0 && query.clearance - radius_ < kTouching;
   }
 
-  // The first mesh on the way. True: `hit` and `plane` are set, in the fraction of the way.
+  // Finds the first mesh on the way. Returns true where `hit` and `plane` are set; the fraction is
+  // that of the way.
   bool SweepMeshes(const glm::dvec3& from, const glm::dvec3& to, SweepHit& hit,
                    Plane& plane) noexcept {
     int met = -1;
@@ -68,7 +69,7 @@ class Mover {
     return true;
   }
 
-  // Free way through the field from `from`, which is not in it: the fraction of the way to `to`.
+  // Returns the free fraction of the way from `from`, which is outside the field, to `to`.
   double March(const glm::dvec3& from, const glm::dvec3& to) const noexcept {
     const double length = glm::length(to - from);
     if (IsClearOfField(from) && IsClearOfField(to)) return 1.0;  // a ball is convex
@@ -82,7 +83,7 @@ class Mover {
       const bool was_free = query.weight > 0.0 ? query.clearance >= radius_ : clear > 0.0;
       query = Query(from + next * (to - from));
       if (was_free && query.weight > 0.0 && query.clearance < radius_) {
-        // The way crosses the surface between s and next.
+        // Refines the crossing between s and next.
         double low = s, high = next;
         for (int i = 0; i < kMaxBisections && (high - low) * length > 0.1 * kArrived; ++i) {
           const double middle = 0.5 * (low + high);
@@ -96,7 +97,7 @@ class Mover {
     return s;
   }
 
-  // Out of the field without entering a mesh. False: it could not be left.
+  // Moves x out of the field without entering a mesh. Returns false where this fails.
   bool Project(PlaneSet planes, glm::dvec3& x) noexcept {
     for (int i = 0; i < kMaxProjections; ++i) {
       const FieldQuery query = Query(x);
@@ -117,8 +118,9 @@ class Mover {
     return query.weight <= 0.0 || query.clearance >= radius_ - kSkin;
   }
 
-  // From x along the planes towards the goal, adding the planes of what it meets. `reach` limits
-  // the way, unless it `is_free` and no plane holds it. True: x is elsewhere, `travelled` longer.
+  // Moves x along the planes towards the goal and adds the planes of the surfaces that it meets.
+  // `reach` limits the way, unless it `is_free` and no plane holds it. Returns true where x has
+  // moved; adds to `travelled`.
   bool Slide(const glm::dvec3& goal, double reach, bool is_free, bool is_on_field, PlaneSet& planes,
              glm::dvec3& x, double& travelled) noexcept {
     bool has_moved = false;
@@ -163,10 +165,10 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
   Mover mover(surroundings, radius, proxy);
   glm::dvec3& x = proxy.position;
   double budget = max_travel;
-  double stride = std::numeric_limits<double>::infinity();  // m; near its goal it goes by less
+  double stride = std::numeric_limits<double>::infinity();  // m; smaller near the goal
   for (int slide = 0; slide < kMaxSlides && budget > kArrived; ++slide) {
     const FieldQuery query = mover.Query(x);
-    // Below a surface that was not there before: out along its normal first.
+    // Moves out along the normal first where a new surface covers the proxy.
     if (query.weight > 0.0 && query.clearance < radius - kSkin) {
       const glm::dvec3 before = x;
       const double depth = std::min(radius - query.clearance, budget);
@@ -184,7 +186,8 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
       budget -= travelled;
       continue;
     }
-    // On the backdrop: one pixel at a time, back onto the surface, and only if that comes nearer.
+    // Descends along the backdrop: one pixel at a time, back onto the surface, accepted only if it
+    // comes nearer.
     planes.Add(mover.FieldPlane(query, x));
     const glm::dvec3 start = x;
     const double distance = glm::length(goal - start);
@@ -196,7 +199,7 @@ void MoveProxy(const Surroundings& surroundings, double radius, const glm::dvec3
       glm::dvec3 trial = start;
       double way = 0.0;
       if (!mover.Slide(goal, reach, false, true, met, trial, way)) return;
-      PlaneSet faces;  // the meshes' only; Project finds the backdrop's own
+      PlaneSet faces;  // planes of meshes only; Project finds that of the backdrop
       for (int i = 0; i < met.count; ++i)
         if (met.plane[static_cast<std::size_t>(i)].contact > 0)
           faces.Add(met.plane[static_cast<std::size_t>(i)]);
@@ -223,7 +226,7 @@ bool IsWayFree(const Surroundings& surroundings, double radius, const glm::dvec3
                const glm::dvec3& to) noexcept {
   Proxy copy;
   Mover mover(surroundings, radius, copy);
-  // Most tips that are far from their proxy are below the backdrop: one query tells.
+  // Most tips that are far from their proxy are below the backdrop, which one query shows.
   const FieldQuery query = mover.Query(to);
   if (query.weight > 0.0 && query.clearance < radius) return false;
   SweepHit hit;

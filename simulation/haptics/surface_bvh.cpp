@@ -11,10 +11,10 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kLeafSize = 4;    // below four triangles a further box costs more than it saves
-constexpr int kStackSize = 64;  // a median split of 2^31 triangles is 31 deep
+constexpr int kLeafSize = 4;    // triangles; below four, another box costs more than it saves
+constexpr int kStackSize = 64;  // levels; a median split of 2^31 triangles has 31
 
-// A motion closer to parallel than this does not approach; it drifts 1 pm over 1 mm.
+// Cosine below which a motion counts as parallel; it then drifts by 1 pm over 1 mm.
 constexpr double kParallel = 1e-9;
 
 float RoundDown(double x) noexcept {
@@ -24,8 +24,8 @@ float RoundUp(double x) noexcept {
   return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
-// A ball against a point: |offset + t·motion| = radius, offset from the point to the ball's centre.
-// Gives the first t ≥ 0 while approaching; infinity for none.
+// Solves |offset + t·motion| = radius for a ball and a point, with the offset from the point to the
+// centre of the ball. Returns the first t ≥ 0 while approaching, infinity where there is none.
 double TimeOfTouch(const glm::dvec3& offset, const glm::dvec3& motion, double radius) noexcept {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double a = glm::dot(motion, motion), b = glm::dot(offset, motion);
@@ -45,8 +45,8 @@ bool Contains(const std::array<glm::dvec3, 3>& corner, const glm::dvec3& normal,
   return true;
 }
 
-// Of a long way the box is mostly empty, and a tree's box is apart from the ball as well where the
-// shadows of both are, seen along the way and a side of the box.
+// Separating-axis test for a long way, whose own box is mostly empty: a box is apart from the swept
+// ball where their projections on an axis perpendicular to the way and to a side of the box are.
 class LongWay {
  public:
   LongWay(const glm::dvec3& from, const glm::dvec3& motion, double radius) noexcept
@@ -72,7 +72,7 @@ class LongWay {
 
  private:
   glm::dvec3 from_, motion_, reach_;
-  glm::dvec3 beside_{0.0};  // the ball's shadow, times the way's
+  glm::dvec3 beside_{0.0};  // projected radius of the ball, times the length of the way
 };
 
 }  // namespace
@@ -119,7 +119,7 @@ void SurfaceBvh::Build(int first, int count) {
     nodes_[node].count = count;
     return;
   }
-  // Halved along the axis in which the triangles spread most; ties keep the order of the file.
+  // Splits along the axis of largest extent; ties keep the order of the file.
   const glm::dvec3 spread = high_centre - low_centre;
   const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
   const int half = count / 2;
@@ -136,9 +136,9 @@ bool SurfaceBvh::SweepTriangle(const Triangle& triangle, const glm::dvec3& from,
   const auto& corner = triangle.corner;
   const double towards = -glm::dot(triangle.normal, motion);
   const double height = glm::dot(triangle.normal, from - corner[0]);
-  if (height < 0.0 || towards <= 0.0) return false;  // behind it, or leaving
+  if (height < 0.0 || towards <= 0.0) return false;  // behind the triangle, or leaving
   if (towards * towards <= kParallel * kParallel * glm::dot(motion, motion)) return false;
-  // The ball meets the plane before anything in it.
+  // The ball meets the plane before the triangle.
   const double plane = std::max(0.0, (height - radius) / towards);
   if (plane >= hit.fraction) return false;
   const glm::dvec3 centre = from + plane * motion;
@@ -148,7 +148,7 @@ bool SurfaceBvh::SweepTriangle(const Triangle& triangle, const glm::dvec3& from,
     hit.gap = std::min(0.0, height - radius);
     return true;
   }
-  // Beside the face: the rounded edges, whose ends are the rounded corners.
+  // Outside the face: tests the rounded edges, whose ends are the rounded corners.
   bool found = false;
   const auto keep = [&](double t, const glm::dvec3& offset) {
     const double distance = glm::length(offset);
@@ -186,17 +186,18 @@ bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
   };
   if (first >= 0 && first < static_cast<int>(triangles_.size())) test(first);
   glm::dvec3 low, high;
-  // A way of a few triangles fills its box.
+  // A short way, of a few triangles, fills its box.
   std::optional<LongWay> long_way;
   const double few = 4.0 * (radius + triangle_size_);
   if (glm::dot(motion, motion) > few * few) long_way.emplace(from, motion, radius);
-  const auto shrink = [&] {  // the box of what is left of the way
+  const auto shrink = [&] {  // box of the remaining way
     const glm::dvec3 end = from + hit.fraction * motion;
     low = glm::min(from, end);
     high = glm::max(from, end);
   };
   shrink();
-  // A ball that rests on a surface has little of it within its radius, though its box has much.
+  // Compares distances instead of boxes: the box of a resting ball holds much more of the surface
+  // than the ball.
   const auto is_apart = [&](const Node& node) {
     double distance2 = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -221,7 +222,7 @@ bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
     const int index = stack[--depth];
     const Node& node = nodes_[static_cast<std::size_t>(index)];
     if (is_apart(node) || (long_way && long_way->IsApart(node.low, node.high))) continue;
-    if (node.count == 0) {  // the nearer child first: what it finds shortens the way
+    if (node.count == 0) {  // visits the nearer child first, since a hit shortens the way
       const int first_child = index + 1;
       const bool is_second_nearer = along(nodes_[static_cast<std::size_t>(node.next)]) <
                                     along(nodes_[static_cast<std::size_t>(first_child)]);

@@ -1,7 +1,7 @@
-// A triangle surface as something to bump into: a ball is swept along a segment and the first
-// triangle it meets is found through a bounding-volume tree in flat arrays. Exact for faces, edges
-// and corners, so a proxy that moves only by sweeps cannot tunnel. Triangles stop what comes from
-// their outside (counter-clockwise) and let pass what leaves. Portal frame, m. Sweep is noexcept,
+// Contact with a triangle surface: sweeps a ball along a segment and finds the first triangle that
+// it meets, by a bounding-volume hierarchy in flat arrays. Exact for faces, edges and corners, so a
+// proxy that moves only by sweeps cannot tunnel. Triangles stop motion from their outside
+// (counter-clockwise) and let motion from the inside pass. Portal frame, m. Sweep is noexcept,
 // allocates nothing.
 #pragma once
 
@@ -17,21 +17,21 @@
 namespace arthro::simulation {
 
 struct SweepHit {
-  double fraction = 1;         // of the way, 0..1, where the ball touches
-  glm::dvec3 normal{0, 0, 1};  // unit, from the surface to the ball's centre
-  double gap = 0;              // m, negative where the ball was in the surface at the start
-  int triangle = -1;           // of the tree; give it back as `first` next time
+  double fraction = 1;         // share of the way at contact, 0..1
+  glm::dvec3 normal{0, 0, 1};  // unit, from the surface to the centre of the ball
+  double gap = 0;              // m, negative where the ball started inside the surface
+  int triangle = -1;           // index in the hierarchy; pass it as `first` next time
 };
 
 class SurfaceBvh {
  public:
-  SurfaceBvh() = default;  // nothing to bump into
-  // Triangles with no area are left out.
+  SurfaceBvh() = default;  // no surface
+  // Omits triangles without area.
   SurfaceBvh(const SurfaceMesh& mesh, const Pose& portal_from_mesh);
 
-  // Does a ball going from `from` to `to` meet the surface? `hit` is changed only for a meeting
-  // earlier than hit.fraction. The triangle `first` is tried first: in lasting contact it ends the
-  // search at once.
+  // Sweeps a ball from `from` to `to`. Returns true and changes `hit` only for a contact earlier
+  // than hit.fraction. The triangle `first` is tried first, which ends the search at once in
+  // lasting contact.
   bool Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius, int first,
              SweepHit& hit) const noexcept;
 
@@ -43,7 +43,8 @@ class SurfaceBvh {
     std::array<glm::dvec3, 3> corner;
     glm::dvec3 normal;
   };
-  // Children of an inner node are node + 1 and `next`; a leaf has count > 0 triangles from `next`.
+  // Children of an inner node are node + 1 and `next`; a leaf has count > 0 triangles, beginning at
+  // `next`.
   struct Node {
     std::array<float, 3> low, high;  // rounded outwards
     std::int32_t next = 0, count = 0;
@@ -54,7 +55,7 @@ class SurfaceBvh {
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;
-  double triangle_size_ = 0;  // m, root of their mean area
+  double triangle_size_ = 0;  // m, square root of the mean area
 };
 
 }  // namespace arthro::simulation

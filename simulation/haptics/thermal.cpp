@@ -6,8 +6,8 @@
 namespace arthro::simulation {
 namespace {
 
-// Of the continuous force. A twentieth is kept back for what warming up took: ∫F dt is at most
-// kUpper·(t + memory), below t from 190 s on.
+// Shares of the continuous force. A twentieth compensates for the warm-up: ∫F dt is at most
+// kUpper·(t + memory), which is below t from 190 s on.
 constexpr double kLower = 0.75, kUpper = 0.95;
 
 }  // namespace
@@ -24,7 +24,7 @@ double ThermalClamp(const ThermalOptions& options, double max_force,
 void NoteHeat(const ThermalOptions& options, double force, double dt,
               ThermalState& state) noexcept {
   if (!std::isfinite(force) || !(dt > 0) || !std::isfinite(dt)) return;
-  // Exact for a force that is held over the step, however long.
+  // Exact for a force that is constant over the step.
   state.mean = force + (state.mean - force) * std::exp(-dt / options.memory);
 }
 

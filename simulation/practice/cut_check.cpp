@@ -78,7 +78,7 @@ void CheckCuts(const LoadedScene& loaded, SceneFindings& findings) {
       continue;
     }
     const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
-    if (surface.triangles.empty()) continue;  // reported by CheckScene
+    if (surface.triangles.empty()) continue;  // CheckScene reports it
     try {
       LookAtCuts(tissue, surface, findings);
     } catch (const Error& error) {

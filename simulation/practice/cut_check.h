@@ -1,6 +1,6 @@
-// What the author's cuts and regions of a scene come to, beside what CheckScene finds: what each
-// cut takes, one that misses its tissue, a piece that nothing holds any more. Costs nothing for
-// tissues that have neither.
+// Findings about the author's cuts and regions, in addition to those of CheckScene: the volume that
+// the cuts remove, a cut that misses its tissue, a piece that is no longer held. Tissues without
+// cuts and regions cost nothing.
 #pragma once
 
 #include "simulation/scene/scene_check.h"

@@ -1,5 +1,5 @@
-// A tissue as its author's cuts leave it, for pictures while no session runs: the same skin that a
-// session begins with.
+// Skin of a tissue after its author's cuts, for pictures while no session runs. A session begins
+// with the same skin.
 #pragma once
 
 #include "simulation/scene/scene.h"
@@ -9,14 +9,14 @@
 
 namespace arthro::simulation {
 
-// With cuts that are made: some, and tetrahedra to make them in.
+// True where the tissue has cuts, and tetrahedra in which to make them.
 bool HasCutsMade(const Tissue& tissue);
 
-// The whole tissue, in the frame of its body; the longest part of it, so that who cuts again keeps
-// it. Throws Error(kBadMesh) for a surface that is empty or open.
+// Field of the uncut tissue, in the frame of its body. It takes most of the time of CutSkin, so
+// keep it to cut again. Throws Error(kBadMesh) for a surface that is empty or open.
 SolidField WholeField(const Tissue& tissue, const SurfaceMesh& surface);
 
-// In the tissue's own frame. Throws Error, as MakeCuts does, with the tissue's name.
+// Skin in the frame of the tissue. Throws Error as MakeCuts does, with the name of the tissue.
 BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface, const SolidField& whole);
 BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface);
 

@@ -14,8 +14,7 @@ double StableStiffness(double device_damping, const ContactOptions& contact, dou
 }
 
 double FreshFor(const DeviceCaps& caps, double period) noexcept {
-  constexpr double kReports =
-      2.0;  // intervals, between two reports where the second is late by one
+  constexpr double kReports = 2.0;  // report intervals between two samples, the second late by one
   return HasForce(caps) || !IsSteady(caps) || caps.rate <= 0 ? 0.0 : kReports / caps.rate + period;
 }
 

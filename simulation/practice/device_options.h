@@ -1,6 +1,6 @@
-// What a device can bear and show, as the options of a session that feels through it [method.md,
-// Output chain; method.md, Stability]. It only ever lowers, and makes the guard look further back,
-// so that several devices may be asked one after the other. N, N/m, s.
+// Session options limited by the capabilities of a device [method.md, Output chain; method.md,
+// Stability]. Limits are only lowered and the delay of the guard only grows, so several devices can
+// be applied one after the other. N, N/m, s.
 #pragma once
 
 #include "simulation/device/device_caps.h"
@@ -8,19 +8,19 @@
 
 namespace arthro::simulation {
 
-// Largest stiffness at the hand that a sampled spring with viscosity may have and not swing when
-// nobody holds the device: K (T/2 + t_d) < b + B [Gil et al. 2004; Hulin et al. 2006]. b: of the
-// device; the coupling's own viscosity B goes down with its stiffness (contact.h), so that one
-// that is lowered to s K must keep s K (T/2 + t_d) < b + s B.
+// Largest stiffness at the hand with which a sampled viscous spring does not oscillate when nobody
+// holds the device: K (T/2 + t_d) < b + B [Gil et al. 2004; Hulin et al. 2006]. b is the damping of
+// the device. The viscosity B of the coupling falls with its stiffness (contact.h), so a spring
+// lowered to s K must satisfy s K (T/2 + t_d) < b + s B.
 double StableStiffness(double device_damping, const ContactOptions& contact, double period,
                        double delay) noexcept;
 
-// s, that a sample of it is fresh for though the session's options may say less, so that a report
-// that comes late by a whole interval is not called stale: the Hydra's 4 ms alone are nearly the
-// 5 ms that a hand with force is allowed. 0 where there is force: then the options hold.
+// Time in s for which a sample of the device counts as fresh, where the session options say less. A
+// report that comes late by one interval is then not stale: the Hydra reports every 4 ms, and the
+// limit for a hand with force is 5 ms. 0 for a device with force, for which the options hold.
 double FreshFor(const DeviceCaps& caps, double period) noexcept;
 
-// `period` of the servo. A device without force changes nothing.
+// `period` is that of the servo, s. A device without force changes nothing.
 SessionOptions OptionsFor(const DeviceCaps& caps, double period, SessionOptions options) noexcept;
 
 }  // namespace arthro::simulation

@@ -1,4 +1,4 @@
-// An implicit-function tissue [paper, 3.4] as the servo bumps into it. Portal frame, m.
+// Surface of an implicit-function tissue [paper, 3.4], swept by the servo. Portal frame, m.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@ namespace arthro::simulation {
 
 class FieldSurface : public SweptSurface {
  public:
-  // Nobody changes it while it is touched, and it outlives that.
+  // Refers to `solid`, which must be constant while it is touched and must outlive this.
   explicit FieldSurface(const PosedField& solid) : now_(&solid) {}
-  // The same, shared with who draws it.
+  // Shares the tissue with the picture.
   explicit FieldSurface(std::shared_ptr<const ImplicitTissue> tissue)
       : kept_(std::move(tissue)), now_(&kept_->solid()) {}
-  // From now on this one, between ticks.
+  // Replaces the solid; call between ticks.
   void Become(const PosedField& solid) noexcept { now_ = &solid; }
   bool Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius, int /*first*/,
              SweepHit& hit) const noexcept override {

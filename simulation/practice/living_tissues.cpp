@@ -27,8 +27,8 @@ Bounds BoundsOf(std::span<const glm::dvec3> points) {
   return bounds;
 }
 
-// Of the surface's diagonal. What a mesh within its budget leaves out of a surface is far less; a
-// mesh of another tissue, or in another unit, is further off.
+// Largest distance between the bounds of mesh and surface, as a share of the surface's diagonal. A
+// mesh within its budget differs by far less, a mesh of another tissue or in another unit by more.
 constexpr double kMostOff = 0.2;
 
 void CheckFills(const TetMesh& mesh, const SurfaceMesh& surface, const std::string& name,

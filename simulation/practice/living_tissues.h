@@ -1,5 +1,5 @@
-// The tissues of a scene that deform, made ready: those with tetrahedra, with their preset and what
-// the scene says otherwise. Frames: each body's own is its tissue's with the scale applied.
+// Specifications of the deformable tissues of a scene, from their presets and the values that the
+// scene overrides. The frame of a body is that of its tissue with the scale applied.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace arthro::simulation {
 
-// A tissue's surface and places in the frame of its body: the scale of its pose applied.
+// Surface, balls, cuts and regions of a tissue in the frame of its body.
 struct BodyPlaces {
   SurfaceMesh surface;
   std::vector<Ball> fixed;

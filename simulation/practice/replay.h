@@ -49,7 +49,7 @@ struct TissueReport {
 struct ReplayReport {
   double duration = 0;  // s of the trace
   long ticks = 0;
-  std::array<HandReport, 2> hand;        // by DeviceRole
+  std::array<HandReport, 2> hand;        // indexed by DeviceRole
   double tick_median = 0, tick_p99 = 0;  // s, without tissue, to 1/32 of their value
   std::vector<TissueReport> tissues;     // deformable tissues
   std::vector<std::string> messages;     // repairs made while reading tetrahedra, one sentence each

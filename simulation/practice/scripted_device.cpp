@@ -5,7 +5,7 @@
 namespace arthro::simulation {
 namespace {
 
-// The hand keeps this far from the incision; nearer, the rod has no direction.
+// Least distance of the hand from the incision, where the rod still has a direction.
 constexpr double kHandClearance = 0.02;  // m
 
 RodPose Within(const RodPose& pose, const RodLimits& limits, double rod_length) noexcept {

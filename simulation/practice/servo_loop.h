@@ -53,9 +53,9 @@ struct ServoRequest {
   SessionOptions options;  // before the limits of the devices are applied
   double incision_spacing = 0, view_angle = 0;
   ToolKind instrument = ToolKind::kProbe;
-  std::array<bool, 2> is_dead_man_held{};  // by DeviceRole; by a key or a pedal
+  std::array<bool, 2> is_dead_man_held{};  // indexed by DeviceRole; by a key or a pedal
   bool is_zero_force = false;
-  std::array<std::optional<DeviceRig>, 2> mount{};  // by DeviceRole; nullopt: unchanged
+  std::array<std::optional<DeviceRig>, 2> mount{};  // indexed by DeviceRole; nullopt: unchanged
 };
 
 struct ServoReport {
@@ -67,7 +67,7 @@ struct ServoReport {
   long overruns = 0;  // ticks without force because they came late
   TimeHistogram lateness;
   TimeHistogram compute;  // s, from reading the devices to commanding them, without tissue
-  std::array<TimeHistogram, 2> sample_age;  // by DeviceRole
+  std::array<TimeHistogram, 2> sample_age;  // indexed by DeviceRole
 };
 // A sentence for the user about missing priority; empty where there is none to report.
 std::string DescribeTrouble(const ServoReport& report);
@@ -77,7 +77,7 @@ class ServoLoop {
   // A null device is absent. All three must outlive the loop, and nothing else may tick the session
   // or call the devices meanwhile.
   ServoLoop(Session& session, Device* scope, Device* instrument, const ServoOptions& options = {});
-  ~ServoLoop();  // as Stop
+  ~ServoLoop();  // calls Stop
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
 

@@ -50,7 +50,7 @@ std::shared_ptr<const DepthField> MakeField(const LoadedScene& loaded,
   return std::make_shared<const DepthField>(backdrop, panorama.width, panorama.height, options);
 }
 
-// m/N, how far a tip goes into living tissue for a force on it; 0: nothing is known.
+// Compliance of deformable tissue along `force`, m/N; 0 where it is unknown.
 double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept {
   double stiffness = 0;
   for (int i = 0; i < std::min(coupling.count, kMaxToolContacts); ++i)
@@ -58,32 +58,32 @@ double GiveAlong(const ToolCoupling& coupling, const glm::dvec3& force) noexcept
   return stiffness > 0 ? glm::dot(force, force) / stiffness : 0.0;
 }
 
-// Beyond what a tool bends soft tissue by.
+// Larger than the displacement of soft tissue by a tool.
 constexpr double kHeldFromAfar = 5e-3;  // m
 
-// Jaws close and open in this time, so that what they bite is between them.
+// Time in which the jaws close or open, so that tissue can enter between them.
 constexpr double kJawTime = 0.15;  // s
 
-// Rods are half a metre at most; what is further off is not a hand but a broken number.
-constexpr double kFarthestHand = 10.0;  // m, from its incision
+// Rods are at most 0.5 m long, so a hand further from the incision is an invalid number.
+constexpr double kFarthestHand = 10.0;  // m, from the incision
 
-// The round end of the arthroscope's tube of 4 mm.
+// Radius of the arthroscope's tube of 4 mm, with a round end.
 constexpr double kScopeRadius = 2e-3;  // m
 
-// As the arthroscope's tube: one rod to its tip.
+// Shape of the arthroscope: one capsule to the tip.
 ToolShape ScopeShape() {
-  constexpr double kLength = 0.12;  // m, more than goes into a joint
+  constexpr double kLength = 0.12;  // m, longer than the part inside a joint
   ToolShape shape;
   shape.capsules = {{{0, 0, -kLength}, {0, 0, -kScopeRadius}, kScopeRadius}};
   return shape;
 }
 
-// The backdrop as what tissue rests on.
+// Backdrop as the rigid obstacle of the tissues.
 class BackdropObstacle : public RigidObstacle {
  public:
   explicit BackdropObstacle(std::shared_ptr<const DepthField> field) : field_(std::move(field)) {}
   double Gap(const glm::dvec3& x, glm::dvec3& normal) const noexcept override {
-    // Nothing is asked of pixels there while the whole backdrop is further out.
+    // Skips the query where the whole backdrop is further away.
     const double clear = field_->free_radius() - glm::length(x);
     if (clear > kFar) return clear;
     const FieldQuery query = field_->Query(x);
@@ -130,7 +130,7 @@ Session::Session(const LoadedScene& loaded, const SessionOptions& options)
 void Session::SetInstrument(ToolKind kind) noexcept {
   if (kind == kind_) return;
   kind_ = kind;
-  if (!instrument_.contact.has_started) return;  // it has yet to enter
+  if (!instrument_.contact.has_started) return;  // it has not entered yet
   instrument_.is_remounted = true;
   instrument_.entry = 0.0;
 }
@@ -166,7 +166,7 @@ void Session::Enliven(std::vector<BodySpec> bodies, TissuePace pace,
       is_live[static_cast<std::size_t>(tissue)] = 1;
   };
   for (const LayerSpec& layer : layers) {
-    // The inside of one that is not closed is not known: it stays as rigid as its triangles.
+    // A layer with an open surface has no inside, so it stays rigid.
     try {
       under.emplace_back(layer.surface, layer.portal_from_body, layer.layer, layer.tissue);
     } catch (const Error&) {
@@ -199,8 +199,8 @@ void Session::PlaceField(std::size_t tissue, std::unique_ptr<FieldSurface> field
   instead_[tissue] = fields_[tissue].get();
 }
 
-// A cut is felt from the tick after its step on. The proxy goes after it, or out of it after a
-// reset, by two pixels a tick (haptics/proxy.h), so the force does not jump.
+// Applies cuts from the tick after their step. The proxy follows by two pixels per tick
+// (haptics/proxy.h), also out of a reset tissue, so the force does not jump.
 void Session::FeelSolids() noexcept {
   if (!tissues_) return;
   for (std::size_t i = 0; i < tissues_->solid_count(); ++i)
@@ -216,7 +216,7 @@ void Session::SetCoupling(const ToolCoupling& coupling) noexcept {
   if (coupling.step != instrument_.tissue.to.step) TakeCoupling(instrument_.tissue, coupling);
 }
 
-// Is the sample new, how old is it, how fast is the hand?
+// Updates age, speed and fault of the hand from its sample.
 Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexcept {
   if (!sample.valid) {
     tool.has_sample = false;
@@ -240,13 +240,13 @@ Fault Session::Receive(Tool& tool, const DeviceSample& sample, double dt) noexce
   return Fault::kNone;
 }
 
-// Where the layers let the tool be whose tip a spring pulls to `held`.
+// Computes where the layers hold a tool whose tip a spring pulls to `held`.
 LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::dvec3& held,
                               double stiffness, const ToolState& state) const noexcept {
   LayerHold hold;
   hold.tip = held;
   if (layers_.empty()) return hold;
-  // As it is drawn: turned by where its tip was let be, and moved along from there.
+  // Pose as drawn: turned by the tip of the last tick, and moved along from there.
   const glm::dvec3 before = tool.let_be.value_or(portal);
   ToolInput as_drawn;
   as_drawn.is_present = true;
@@ -264,7 +264,7 @@ LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::d
   return hold;
 }
 
-// Where the tool was: it enters anew.
+// Clears the contact of the tool, so that it enters anew.
 void Session::Forget(Tool& tool) noexcept {
   tool.contact = ContactState{};
   tool.let_be.reset();
@@ -372,7 +372,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
   state.fault = limited.fault;
 }
 
-// The jaws follow the button, and the tissue the tool.
+// Moves the jaws by the button, and hands the tool to the tissue.
 void Session::TickTissues(double dt) noexcept {
   ToolState& state = snapshot_.instrument;
   const bool is_pressed = instrument_.has_sample && (instrument_.last.buttons & 1u) != 0;

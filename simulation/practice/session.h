@@ -1,8 +1,6 @@
-// A practice session: two hands in, poses, contacts and forces out, one servo tick at a time
-// [paper, 3.2, 3.4; method.md, Threads]. It draws nothing and has no threads: a servo thread calls
-// Tick at 1 kHz where there is a force device, the window calls it in 1 ms steps where there is
-// none. Both tools go the same way: rod pose, contact of the tip, output chain. Portal frame, m, N,
-// s.
+// A practice session: samples of two hands in, poses, contacts and forces out, one tick at a time
+// [paper, 3.2, 3.4; method.md, Threads]. It draws nothing; a ServoLoop ticks it. Both tools take
+// the same path: rod pose, contact of the tip, output chain. Portal frame, m, N, s.
 #pragma once
 
 #include <array>
@@ -27,70 +25,69 @@ namespace arthro::simulation {
 
 class Session {
  public:
-  // Without a depth map the bare sphere is felt where the panorama lies. A tissue without a surface
-  // is not felt. A tissue that the scene calls implicit is sampled and touched as a function; its
-  // surface must be closed: throws Error(kBadMesh). Copies what it needs from `loaded`.
+  // Without a depth map the bare sphere is touched where the panorama lies. A tissue without a surface
+  // has no contact. An implicit tissue is sampled as a field and must be closed; throws
+  // Error(kBadMesh). Copies what it needs from `loaded`.
   explicit Session(const LoadedScene& loaded, const SessionOptions& options = {});
 
-  // Advances the session by dt. A sample that repeats its t grows older by dt each tick; after
-  // max_sample_age its device gets no force. Call for fresh samples each tick.
+  // Advances the session by dt. A sample whose t repeats ages by dt each tick; after max_sample_age
+  // its device gets no force.
   void Tick(const DeviceSample& scope, const DeviceSample& instrument, double dt) noexcept;
   const Snapshot& snapshot() const noexcept { return snapshot_; }
 
-  // Live, between ticks, from the thread that ticks. A moved portal lets the instrument enter anew.
+  // The setters below are called between ticks, by the thread that ticks. After a move of its
+  // portal the instrument enters anew.
   void SetIncisionSpacing(double spacing) noexcept;
   double incision_spacing() const noexcept { return spacing_; }
   void SetViewAngle(double view_angle) noexcept { view_angle_ = view_angle; }
   double view_angle() const noexcept { return view_angle_; }
-  // Contact, lever and limiter at once; the depth map's own options need a new session.
+  // Applies contact, lever and limiter at once; options of the depth field need a new session.
   void SetOptions(const SessionOptions& options) noexcept { options_ = options; }
   const SessionOptions& options() const noexcept { return options_; }
 
-  // May the hand be pushed in the ticks to come? Without a device nobody is, and it may.
+  // Sets whether the hand may be pushed in the next ticks; default yes.
   void SetPush(DeviceRole role, HandPush push) noexcept {
     (role == DeviceRole::kScope ? scope_ : instrument_).push = push;
   }
 
-  // A sample is fresh for so long even where the options say less, s: of a device that speaks too
-  // seldom for them and has no force to be pushed with.
+  // Sets the least time in s for which a sample is fresh, for a device without force that reports
+  // rarely.
   void SetFreshFor(DeviceRole role, double seconds) noexcept {
     (role == DeviceRole::kScope ? scope_ : instrument_).fresh_for = seconds;
   }
 
-  // From now on these tissues live: they deform, and are left out of the rigid surfaces. With
-  // TissuePace::kInline the same inputs give the same bits. `layers` give way to both tools, all
-  // along them, by their closed form, in the servo; their picture is beside the bodies'. One whose
-  // surface is not closed stays rigid. What is a function of space is cut by the instrument, and
-  // felt by the servo as it is then. Not on the servo path. Throws Error.
+  // Makes these tissues deformable and removes them from the rigid surfaces. With
+  // TissuePace::kInline the same inputs give the same bits. `layers` yield to both tools along
+  // their whole length, in closed form within the servo tick; a layer with an open surface stays
+  // rigid. Implicit tissues can then be cut by the instrument. Not on the servo path. Throws Error.
   void Enliven(std::vector<BodySpec> bodies, TissuePace pace, std::vector<LayerSpec> layers = {});
-  // After each tick, by the same thread: the jaws and the tissue's own, slower clock. Inline it
-  // steps here; on a thread this only hands the tool over.
+  // Moves the jaws and advances the clock of the tissue. Call after each Tick, on the same thread.
+  // TissuePace::kInline steps the tissue here; kThread only hands over the tool.
   void TickTissues(double dt) noexcept;
-  // The picture of them, from the one thread that draws; nullptr: none lives.
+  // Picture of the deformable tissues, for the one thread that draws; nullptr: there are none.
   const WorldPicture* tissues() noexcept { return tissues_ ? &tissues_->Read() : nullptr; }
   bool HasNewTissues() const noexcept { return tissues_ && tissues_->HasNew(); }
-  void ResetTissues();  // whole and at rest again; not on the servo path
-  // The instrument in the hand, between ticks. Another one enters anew, and its force rises from
-  // zero within the ramp of the limiter, on the tip as on the hand: no force of the one before, nor
-  // of a shape that appears inside tissue, is given or recorded.
+  void ResetTissues();  // restores all tissues; not on the servo path
+  // Changes the instrument, between ticks. The new one enters anew and its force on tip and hand
+  // rises from zero with the ramp of the limiter. No force of the old instrument, nor of a shape
+  // that appears inside tissue, is given or recorded.
   void SetInstrument(ToolKind kind) noexcept;
   ToolKind instrument() const noexcept { return kind_; }
 
-  // Which tissues are computed as living ones, a flag each (missing: not); those are left out of
+  // Sets one flag per tissue that is simulated as deformable (missing: 0); those are removed from
   // the rigid surfaces. Not on the servo path: it moves meshes.
   void SetLiveTissues(std::span<const std::uint8_t> is_live);
-  // From now on this tissue is touched as a function and not as its mesh; null: as its mesh again.
-  // Who bites of it edits a copy and gives that; after Enliven only for tissues that the scene does
-  // not call implicit. Not on the servo path.
+  // Replaces the mesh of a tissue by a field for contact; null restores the mesh. A cut is made in
+  // a copy that is then set here. After Enliven, only for tissues that the scene does not declare
+  // implicit. Not on the servo path.
   void SetField(int tissue, std::shared_ptr<const ImplicitTissue> field);
-  // What living tissue does to the instrument from now on; call with each step of the tissue, every
-  // frame also when it rests, or the force fades. The same step again changes nothing. A faulty one
-  // gives Fault::kTissue and no force until a good one comes.
+  // Sets the force of deformable tissue on the instrument. Call once per step of the tissue, also
+  // while it rests, or the force fades. Repeating a step changes nothing. A faulty coupling gives
+  // Fault::kTissue and no force until the next valid one.
   void SetCoupling(const ToolCoupling& coupling) noexcept;
 
-  // How a hand's device is mounted on its incision, live, between ticks: a calibration found it.
-  // The tool then is somewhere else at once, so it enters anew, and its hand is pushed gently at
-  // first.
+  // Sets the mount of a hand's device after a calibration, between ticks. The tool changes place at
+  // once, so it enters anew and its force ramps up.
   void SetMount(DeviceRole role, const DeviceRig& mount) noexcept;
   const DeviceRig& scope_rig() const noexcept { return scope_.rig; }
   const DeviceRig& instrument_rig() const noexcept { return instrument_.rig; }
@@ -98,19 +95,19 @@ class Session {
  private:
   struct Tool {
     DeviceRig rig;
-    glm::dvec3 beside{0.0};            // m, how far surfaces hold it off where tissue has it
-    glm::dvec3 layer_push{0.0};        // m, how far layers held it off its hand in the last tick
-    std::optional<glm::dvec3> let_be;  // where they let its tip be then; none: it was away
+    glm::dvec3 beside{0.0};            // m, push of the surfaces where tissue holds the tool
+    glm::dvec3 layer_push{0.0};        // m, push of the layers in the last tick
+    std::optional<glm::dvec3> let_be;  // tip as the layers held it; nullopt: no contact
     ContactState contact;
     OutputState output;
     HandPush push = HandPush::kYes;
     bool is_remounted = false;  // since the last tick
-    double entry = 1;           // of its force on the tip: 0 to 1 after it was changed for another
+    double entry = 1;           // factor of the tip force, 0 to 1 after a change of instrument
     bool has_sample = false;
-    DeviceSample last;      // the newest one
-    double age = 0;         // s since it came
-    double fresh_for = 0;   // s, at least
-    double hand_speed = 0;  // m/s, between the last two
+    DeviceSample last;      // newest sample
+    double age = 0;         // s, age of the newest sample
+    double fresh_for = 0;   // s, least time for which a sample is fresh
+    double hand_speed = 0;  // m/s, from the last two samples
     CouplingBlend tissue;
   };
   static void Forget(Tool& tool) noexcept;
@@ -123,20 +120,22 @@ class Session {
                 ToolState& state) noexcept;
 
   SessionOptions options_;
-  std::shared_ptr<const DepthField> field_;  // shared with what tissue rests on
-  std::vector<SurfaceBvh> meshes_;           // one a tissue; of living ones nothing
-  std::vector<SurfaceBvh> away_;             // what living ones are when they do not live
+  std::shared_ptr<const DepthField> field_;  // shared with the obstacle of the tissues
+  std::vector<SurfaceBvh> meshes_;           // one per tissue; empty for deformable ones
+  std::vector<SurfaceBvh>
+      away_;  // bounding-volume hierarchies of deformable tissues while they are simulated as rigid
   std::vector<std::uint8_t> is_live_;
-  std::vector<ImplicitBody> implicit_;                 // whole; what is cut is the tissue loop's
-  std::vector<std::unique_ptr<FieldSurface>> fields_;  // one a tissue, or none at all
-  std::vector<const SweptSurface*> instead_;           // the same, as contact takes them
-  std::vector<LayerUnder> layers_;                     // that give way to both tools
+  std::vector<ImplicitBody> implicit_;                 // uncut; the tissue loop holds the cut ones
+  std::vector<std::unique_ptr<FieldSurface>> fields_;  // one per tissue, or empty
+  std::vector<const SweptSurface*> instead_;           // the same, as contact reads them
+  std::vector<LayerUnder> layers_;                     // elastic layers, in contact with both tools
   Projection projection_;
   double radius_, spacing_, view_angle_;
   Tool scope_, instrument_;
   Snapshot snapshot_;
   ToolKind kind_ = ToolKind::kProbe;
-  std::array<ToolShape, static_cast<std::size_t>(ToolKind::kGrasper) + 1> shapes_;  // by kind
+  std::array<ToolShape, static_cast<std::size_t>(ToolKind::kGrasper) + 1>
+      shapes_;  // indexed by kind
   ToolShape scope_shape_;
   std::unique_ptr<TissueLoop> tissues_;
 };

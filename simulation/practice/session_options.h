@@ -1,5 +1,4 @@
-// All options of a practice session in one list: what the backdrop feels like, how contact is
-// rendered, what the lever does, and what a device is spared.
+// Options of a practice session: backdrop, contact, lever, and limits of the devices.
 #pragma once
 
 #include "simulation/haptics/contact.h"
@@ -19,7 +18,7 @@ struct SessionOptions {
   PassivityOptions passivity;
   ThermalOptions thermal;
   LimiterOptions limiter;
-  BodyOptions tissue;  // its tool spring is contact.stiffness, whatever it says itself
+  BodyOptions tissue;  // its tool spring is replaced by contact.stiffness
   template <class V>
   void Visit(V&& v) {
     depth.Visit(v);

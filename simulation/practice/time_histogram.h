@@ -1,5 +1,5 @@
-// How long something took, over and over: counts in fixed bins, 32 to each doubling, from 0.1 µs to
-// a second and more. A quantile is exact to a 32nd. s; a plain value, allocates nothing.
+// Histogram of durations in fixed bins, 32 per doubling, from 0.1 µs to 1.7 s. A quantile is exact
+// to 1/32. s; a plain value, allocates nothing.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@ namespace arthro::simulation {
 
 class TimeHistogram {
  public:
-  // What is negative or not a number counts as nothing at all, no time.
+  // Counts a negative or NaN duration as 0.
   void Add(double seconds) noexcept {
     const double place = seconds > kLeast ? kPerDoubling * std::log2(seconds / kLeast) : 0.0;
     ++bins_[static_cast<std::size_t>(std::min(place, static_cast<double>(kBins - 1)))];
     ++count_;
     if (seconds > largest_) largest_ = seconds;
   }
-  // The upper end of the bin in which it lies; 0 without counts.
+  // Upper end of the bin of the quantile; 0 without counts.
   double Quantile(double share) const noexcept {
     std::int64_t seen = 0;
     for (std::size_t i = 0; i < bins_.size(); ++i) {

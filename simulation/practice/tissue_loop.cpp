@@ -9,16 +9,15 @@
 namespace arthro::simulation {
 namespace {
 
-// A step covers no more than this; after a longer pause the tissue stood still.
+// Longest time step; the rest of a longer pause is skipped.
 constexpr double kLongestStep = 0.05;  // s
 
 }  // namespace
 
-// The worker's own thread does a step at a time; `is_busy` is the servo's way of asking without
-// waiting.
+// Runs one step at a time on the thread of the worker. The servo reads `is_busy` without waiting.
 struct TissueLoop::Thread {
   std::atomic<bool> is_busy{false};
-  BackgroundWorker worker{true};  // last: its work ends before is_busy does
+  BackgroundWorker worker{true};  // last member: its work ends before is_busy is destroyed
 };
 
 TissueLoop::TissueLoop(TissueWorld world, TissuePace pace, double period)
@@ -48,7 +47,7 @@ void TissueLoop::PublishSolids() noexcept {
   }
 }
 
-// A scene that sleeps is not copied again and again.
+// Skips writing while every body sleeps and slept before.
 void TissueLoop::Publish() noexcept {
   const auto is_asleep = [](const BodyPicture& body) { return body.report.is_asleep; };
   const bool slept = std::ranges::all_of(shown_.bodies, is_asleep);

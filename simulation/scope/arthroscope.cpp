@@ -34,7 +34,7 @@ double CentreAngle(double view_angle, double insertion_depth, double radius) noe
 
 glm::dvec3 SphereHit(const glm::dvec3& origin, const glm::dvec3& direction,
                      double radius) noexcept {
-  // |o + s d|² = D² with the larger root; b² + c is kept from falling under zero.
+  // Solves |o + s d|² = D² for the larger root; b² + c is kept at zero or above.
   const double b = glm::dot(origin, direction);
   const double c = radius * radius - glm::dot(origin, origin);
   return origin + direction * (std::sqrt(std::max(b * b + c, 0.0)) - b);
@@ -68,7 +68,7 @@ glm::dvec2 PixelFromRay(const RoundWindow& window, const ScopeView& view,
   if (across == 0.0 && z >= 0.0) return window.centre_px;
   const double theta = std::atan2(across, z);
   const double r = window.radius_px * std::sin(theta / 2.0) / std::sin(window.field_of_view / 4.0);
-  // Straight behind, every side is as good.
+  // Straight behind, every side is equivalent.
   const glm::dvec2 side = across > 0.0 ? glm::dvec2(x, y) / across : glm::dvec2(1.0, 0.0);
   return window.centre_px + r * side;
 }

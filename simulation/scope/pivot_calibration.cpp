@@ -18,15 +18,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kShortestRod = 1e-6;  // m; a shorter one has no direction
-constexpr double kOutlier = 4.0;       // sigmas; Gaussian noise is further out once in 3000 presses
-constexpr int kFewestForOutliers = 5;  // with four, two pairs could each be right
+constexpr double kOutlier = 4.0;       // sigmas; Gaussian noise exceeds it once in 3000 presses
+constexpr int kFewestForOutliers = 5;  // presses; with four, two pairs could each be right
 
-// Of the square that the noise of angles scatters directions by, about two axes. Rods that are as
-// good as parallel and seen through noise turn about the hand, which then passes for the incision.
-// Of two presses noise alone does this once in e⁸ = 3000, of more hardly ever.
+// Multiple of the squared scatter of directions that angle noise causes about two axes. Nearly
+// parallel rods seen through noise turn about the hand, which then looks like the incision. With
+// two presses noise alone does this once in e⁸ = 3000 cases, with more almost never.
 constexpr double kLeastScatter = 8.0;
 
-constexpr std::size_t kManyLines = 2000;  // beyond, not every line is held against every other
+constexpr std::size_t kManyLines = 2000;  // lines; above this number, not all pairs are compared
 
 struct Line {
   Vector3d hand, direction;  // unit, from hand to tip
@@ -70,7 +70,7 @@ double Reach(const Line& line, const Vector3d& pivot) {
   return line.direction.dot(pivot - line.hand);
 }
 
-// Distance of the pivot from the line over the noise that it has there.
+// Returns the distance of the pivot from the line, divided by the noise of the line there.
 double Misfit(const Line& line, const Vector3d& pivot, const Noise& noise) {
   return Across(line, pivot - line.hand).norm() / noise.At(Reach(line, pivot));
 }
@@ -84,9 +84,10 @@ double SquaredMisfit(const Lines& lines, const Vector3d& pivot, const Noise& noi
   return sum;
 }
 
-// Gauss-Newton on e/s(r): what is left of a press when its true direction is solved for in closed
-// form beside the pivot, weighing position by s_p and angle by s_θ. Minimising e alone, as the
-// linear equations do, draws the pivot towards the hands, where noisy directions miss by less.
+// Gauss-Newton on e/s(r): the residual of a press when its true direction is solved for in closed
+// form together with the pivot, with position weighted by s_p and angle by s_θ. Minimising e alone,
+// as the linear equations do, biases the pivot towards the hands, where noisy directions miss by
+// less.
 void Refine(const Lines& lines, const Noise& noise, Fit& fit) {
   double cost = SquaredMisfit(lines, fit.pivot, noise);
   for (int iteration = 0; iteration < 30; ++iteration) {
@@ -103,7 +104,7 @@ void Refine(const Lines& lines, const Noise& noise, Fit& fit) {
     }
     const Vector3d step = -normal.ldlt().solve(gradient);
     if (!step.allFinite()) return;
-    // A step that does not help is halved; noise may bend the cost far from the solution.
+    // Halves a step that does not lower the cost; noise may distort it far from the solution.
     double share = 1.0;
     while (share > 1e-3 && !(SquaredMisfit(lines, fit.pivot + share * step, noise) <= cost))
       share /= 2.0;
@@ -135,7 +136,7 @@ Fit FitPivot(const Lines& lines, const Noise& noise) {
   return fit;
 }
 
-// By how much the lines miss the pivot more (or less) than the noise explains.
+// Ratio of the misses of the lines to those that the noise explains.
 double ScaleOf(const Lines& lines, const Vector3d& pivot, const Noise& noise) {
   const double freedom = 2.0 * static_cast<double>(lines.size()) - 3.0;
   return std::sqrt(SquaredMisfit(lines, pivot, noise) / freedom);
@@ -148,12 +149,12 @@ Lines LinesWithin(const Lines& lines, const Vector3d& pivot, const Noise& noise,
   return within;
 }
 
-// The lines that agree on one point: the pair of lines whose common point has the smallest median
-// misfit starts, then fitting and choosing alternate. The scale is taken from the lines where they
-// are noisier than stated, so that noise is not taken for outliers.
+// Finds the lines that agree on one point. It starts from the pair of lines whose common point has
+// the smallest median misfit, then alternates fitting and selection. Where the lines are noisier
+// than stated, the scale is taken from them, so that noise does not count as outliers.
 Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& options) {
   const int n = static_cast<int>(lines.size());
-  // Some thousand lines judge a pair as well as all of them do.
+  // Some thousand lines are enough to judge a pair.
   Lines judges;
   const std::size_t stride = 1 + lines.size() / kManyLines;
   for (std::size_t k = 0; k < lines.size(); k += stride) judges.push_back(lines[k]);
@@ -178,7 +179,7 @@ Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& 
     for (int i = 0; i < n; ++i)
       for (int j = i + 1; j < n; ++j) try_pair(i, j);
   } else {
-    // Not std::uniform_int_distribution, whose numbers differ between libraries.
+    // Avoids std::uniform_int_distribution, whose numbers differ between libraries.
     std::mt19937 random(static_cast<std::uint32_t>(options.seed));
     for (int trial = 0; trial < options.max_trials; ++trial) {
       const int i = static_cast<int>(random() % static_cast<unsigned>(n));
@@ -188,7 +189,7 @@ Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& 
   }
   if (!std::isfinite(best_median)) return lines;
 
-  // The median length of a two-dimensional Gaussian is 1.177 sigma; small samples run low.
+  // The median length of a two-dimensional Gaussian is 1.177 sigma; small samples underestimate it.
   const double scale = best_median / 1.1774 * (1.0 + 5.0 / (n - 2));
   Lines agreeing = LinesWithin(lines, best, noise, kOutlier * std::max(1.0, scale));
   for (int round = 0; round < 10 && agreeing.size() >= 3; ++round) {
@@ -206,9 +207,9 @@ Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& 
   return agreeing;
 }
 
-// What the stated noise does not explain is put down to the handle's angles. With noise of 2
-// degrees that nobody stated, 32 presses within 20 degrees and 100 mm of reach, this brings the
-// error from 7.7 to 3.7 mm, as predicted; for the stated noise it changes nothing.
+// Attributes misses that the stated noise does not explain to the angles of the handle. With
+// unstated noise of 2 degrees, 32 presses within 20 degrees and 100 mm of reach, this lowers the
+// error from 7.7 to 3.7 mm, as predicted; with correctly stated noise it changes nothing.
 Noise NoiseOf(const Lines& lines, const Vector3d& pivot, const Noise& stated, double scale) {
   double sum = 0.0;
   for (const Line& line : lines) sum += Reach(line, pivot) * Reach(line, pivot);
@@ -217,7 +218,7 @@ Noise NoiseOf(const Lines& lines, const Vector3d& pivot, const Noise& stated, do
   return {stated.position, std::hypot(stated.angle, unexplained / reach)};
 }
 
-// Line furthest from line `i` in direction, and the cosine of the angle between the two.
+// Finds the line furthest from line `i` in direction, and the cosine of the angle between the two.
 std::pair<std::size_t, double> FurthestFrom(const Lines& lines, std::size_t i) {
   std::pair<std::size_t, double> furthest{i, 1.0};
   for (std::size_t j = 0; j < lines.size(); ++j) {
@@ -227,8 +228,8 @@ std::pair<std::size_t, double> FurthestFrom(const Lines& lines, std::size_t i) {
   return furthest;
 }
 
-// Largest angle between two lines, as lines: 0 to π/2. Over thousands of presses, of somebody who
-// keeps swinging, going from one furthest line to the next finds it without trying all pairs.
+// Returns the largest angle between two undirected lines, 0 to π/2. Among the thousands of presses
+// of a swing, going from one furthest line to the next finds it without trying all pairs.
 double SpreadOf(const Lines& lines) {
   double least = 1.0;
   if (lines.size() <= kManyLines) {
@@ -245,7 +246,8 @@ double SpreadOf(const Lines& lines) {
   return std::acos(std::clamp(least, 0.0, 1.0));
 }
 
-// Mean squared sine of the angle between the lines and their common direction, as of a sample.
+// Returns the mean squared sine of the angle between the lines and their common direction, as a
+// sample variance.
 double ScatterOf(const Lines& lines) {
   Matrix3d sum = Matrix3d::Zero();
   for (const Line& line : lines) sum += line.direction * line.direction.transpose();
@@ -254,8 +256,8 @@ double ScatterOf(const Lines& lines) {
   return std::max(0.0, n - solver.eigenvalues()[2]) / (n - 1.0);
 }
 
-// Noise of the ends shows at the pivot by where it lies on the rod: at an end in full, beyond it
-// more.
+// Returns the noise at the pivot from the noise of both ends: at an end it is that of the end,
+// beyond it more.
 double EndNoiseFactor(const Lines& lines, const Vector3d& pivot) {
   double factor = 1.0;
   for (const Line& line : lines) {
@@ -286,7 +288,7 @@ std::string InMm(double metres) {
                                : std::string("nothing");
 }
 
-// For a person who presses a button, or one who keeps swinging.
+// Advice for presses of a button, or for a swing.
 struct Wording {
   const char *one, *many, *start, *wider, *while_moved, *again, *longer;
 };
@@ -313,7 +315,7 @@ std::string WiderWords(const Wording& words, double angle) {
   return fmt::format(fmt::runtime(words.wider), std::max(30.0, DegreesFromRadians(angle)));
 }
 
-// Presses whose pivot lies outside the stretch from hand to tip by more than `margin`.
+// Finds the presses whose pivot lies outside the segment from hand to tip by more than `margin`.
 std::string OutsideReason(const Lines& lines, const Vector3d& pivot, double margin,
                           const Wording& words) {
   int outside = 0;
@@ -365,15 +367,14 @@ PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const Pivot
     return result;
   }
 
-  // Which presses agree, and where.
+  // Selects the presses that agree, and their point.
   const Lines used =
       lines.size() < kFewestForOutliers ? lines : AgreeingLines(lines, noise, options);
   const bool agree =
       used.size() >= 2 && static_cast<double>(used.size()) >=
                               options.min_agreement * static_cast<double>(lines.size()) - 1e-9;
   const Lines& chosen = agree ? used : lines;
-  for (std::size_t k = 0, next = 0; k < lines.size();
-       ++k) {  // both are in the order of the presses
+  for (std::size_t k = 0, next = 0; k < lines.size(); ++k) {  // both are in press order
     if (next < chosen.size() && chosen[next].press == lines[k].press)
       ++next;
     else
@@ -385,7 +386,7 @@ PivotCalibration CalibratePivot(std::span<const PivotPress> presses, const Pivot
   result.condition = ConditionOf(chosen);
   Fit fit = FitPivot(chosen, noise);
 
-  // How far off it may be: from the stated noise, and from the residual where that is larger.
+  // Predicts the error from the stated noise, or from the residual where that is larger.
   double expected = INFINITY, scale = 0.0;
   result.sigma = INFINITY;
   if (fit.solved) {

@@ -1,12 +1,12 @@
-// Where the incision lies in a device's frame, from presses of its button at several handle
-// positions [paper, 3.2]; any number of presses, by weighted least squares. A press gives the
-// line of the rod; the pivot is the point nearest to all lines. Device frame, m, rad.
+// Calibration of the pivot, the incision in the frame of a device, from presses of its button at
+// several handle positions [paper, 3.2]. A press gives the line of the rod; the pivot is the point
+// nearest to all lines, by weighted least squares over any number of presses. Device frame, m, rad.
 //   M = I − u uᵀ,  A = Σ w M,  p = A⁻¹ Σ w M a;   two lines: the middle of their common
 //   perpendicular
-// A line that is off by noise s at the pivot, s² = s_p² + (r s_θ)², r = hand to pivot, leaves
+// A line with noise s at the pivot, s² = s_p² + (r s_θ)², r = distance from hand to pivot, gives
 //   covariance (Σ M / s²)⁻¹,  sigma = √trace; two lines at angle φ: s √(1/2 + 1/(1+cos φ) +
 //   1/(1−cos φ))
-// An unusable result is no exception: it has a status and says what to do.
+// An unusable result is no exception: it has a status and a sentence with advice.
 #pragma once
 
 #include <limits>
@@ -65,29 +65,29 @@ enum class PivotStatus {
   kTooFew,        // fewer than two usable presses
   kTooNarrow,     // the rods are too nearly parallel
   kInconsistent,  // they do not meet in one point
-  kOutsideRod,    // they do, but not between hand and tip
+  kOutsideRod,    // they meet in one point, but not between hand and tip
 };
-const char* ToString(PivotStatus status);  // "ok", "too_few"…, as in pivot.json
+const char* ToString(PivotStatus status);  // text in pivot.json: "ok", "too_few"…
 
 struct PivotCalibration {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   PivotStatus status = PivotStatus::kTooFew;
-  std::string reason;               // a sentence; empty where all is well
-  std::optional<glm::dvec3> pivot;  // none with kTooFew and kTooNarrow
-  double sigma = kUnknown;          // predicted rms error, m, from the larger of noise and residual
-  double condition = kUnknown;      // of Σ M; two rods: 1/sin²(φ/2)
-  double residual = kUnknown;       // rms distance of the rods from the pivot, m
-  double spread = kUnknown;         // largest angle between two rods, 0 to π/2
+  std::string reason;               // a sentence; empty for kOk
+  std::optional<glm::dvec3> pivot;  // nullopt with kTooFew and kTooNarrow
+  double sigma = kUnknown;          // m, predicted rms error from the larger of noise and residual
+  double condition = kUnknown;      // condition number of Σ M; two rods: 1/sin²(φ/2)
+  double residual = kUnknown;       // m, rms distance of the rods from the pivot
+  double spread = kUnknown;         // rad, largest angle between two rods, 0 to π/2
   int poses_used = 0;
-  std::vector<int> left_out;  // outliers, and presses without a direction; indices of presses
+  std::vector<int> left_out;  // indices of outliers and of presses without a direction
 };
 
-// How they were gathered: what the sentences speak of and advise.
+// Method of gathering the presses, to which the sentences refer.
 enum class PivotSource { kPresses, kSwing };
 
-// The same presses and options give the same bits. Presses whose hand and tip coincide or are not
-// finite are left out.
+// Computes the pivot. The same presses and options give the same bits. Presses whose hand and tip
+// coincide or are not finite are left out.
 PivotCalibration CalibratePivot(std::span<const PivotPress> presses,
                                 const PivotOptions& options = {},
                                 PivotSource source = PivotSource::kPresses);

@@ -35,7 +35,7 @@ std::vector<std::string_view> Cells(std::string_view line) {
   }
 }
 
-// At most 40 characters of foreign text, so that a binary file does not fill the terminal.
+// Shortens text of a file to 40 characters, so that a binary file does not fill the terminal.
 std::string Quoted(std::string_view text) {
   std::string quoted;
   for (const char c : text.substr(0, 40)) quoted += c >= ' ' && c < 127 ? c : '?';
@@ -49,7 +49,8 @@ class PressTable {
   std::vector<PivotPress> Read() {
     const std::string text = ReadWholeFile(file_, kMostTableBytes);
     std::string_view rest = text;
-    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // as spreadsheets write it
+    if (rest.starts_with("\xEF\xBB\xBF"))
+      rest.remove_prefix(3);  // byte order mark, as spreadsheets write it
     bool has_header = false;
     std::vector<PivotPress> presses;
     while (!rest.empty()) {

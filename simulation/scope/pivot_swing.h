@@ -1,8 +1,8 @@
-// Poses for a pivot calibration from a hand that keeps swinging a rod through the incision, out of
-// its device's samples at whatever rate [method.md, Pivot calibration]. Samples of one pose share
-// the error of their encoders and count as one, or the calibration would believe itself too well: a
-// sample is kept when the hand has moved on by `step` since the one before. Where there are too
-// many, each other one goes and the step doubles. Device frame, m.
+// Selects poses for a pivot calibration from the samples of a rod that swings through the incision,
+// at any sample rate [method.md, Pivot calibration]. Samples of one pose share the error of their
+// encoders; counting each would predict too small an error. A sample is therefore kept when the
+// hand has moved by `step` since the last one. Where there are too many, every second one is
+// dropped and the step doubles. Device frame, m.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace arthro::simulation {
 
-// The handle's z runs along the rod, from hand to tip (rod_pose.h).
+// Makes a press from a sample; z of the handle points along the rod, from hand to tip (rod_pose.h).
 PivotPress PressOf(const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device,
                    double rod_length) noexcept;
 
@@ -25,7 +25,8 @@ class PivotSwing {
   static constexpr double kStep = 1e-3;  // m; twenty quanta of a Touch-class device
 
   explicit PivotSwing(double rod_length) : rod_length_(rod_length) {}
-  // True: it was kept. What is not finite or has no direction is not.
+  // Returns true where the sample was kept. Samples that are not finite or have no direction are
+  // not.
   bool Add(const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device);
   std::span<const PivotPress> presses() const noexcept { return presses_; }
 

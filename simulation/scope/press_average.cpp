@@ -27,10 +27,10 @@ bool PressAverage::Add(double t, const glm::dvec3& hip_in_device,
   const PivotPress sample = PressOf(hip_in_device, handle_in_device, 1.0);
   if (!std::isfinite(t + glm::length(sample.hip) + glm::length(sample.tip))) return Miss();
   if (!began_) began_ = t;
-  constexpr double kRounding = 1e-9;  // s, of a sum of ticks
+  constexpr double kRounding = 1e-9;  // s, error of a sum of ticks
   done_ = std::clamp((t - *began_ + kRounding) / kDuration, 0.0, 1.0);
 
-  // Running mean and squares [Welford 1962]: a hand lies far from the device's origin.
+  // Running mean and variance [Welford 1962], since the hand is far from the origin of the device.
   ++count_;
   const glm::dvec3 before = sample.hip - mean_;
   mean_ += before / static_cast<double>(count_);

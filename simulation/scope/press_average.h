@@ -1,6 +1,6 @@
-// One press of a pivot calibration: no hand is quite still and no sensor quite sharp, so what
-// arrives in a tenth of a second is averaged, and refused, in words, where the hand moved the while
-// [method.md, Pivot calibration]. Device frame, m, s.
+// One press of a pivot calibration. Hands tremble and sensors are noisy, so the samples of 0.1 s
+// are averaged; a press during which the hand moved is refused with a sentence [method.md, Pivot
+// calibration]. Device frame, m, s.
 #pragma once
 
 #include <optional>
@@ -21,13 +21,13 @@ class PressAverage {
 
   explicit PressAverage(double rod_length) : rod_length_(rod_length) {}
 
-  // What the device said at `t`, which rises. True: the press is over.
+  // Adds a sample at `t`, which must rise. Returns true when the press is over.
   bool Add(double t, const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device);
-  // The device said nothing. True: the press is over, and refused.
+  // Reports a missing sample. Returns true: the press is over, and refused.
   bool Miss();
 
   double done() const noexcept { return done_; }  // 0 to 1
-  // When it is over: one of the two.
+  // After the end, one of these two has a value.
   const std::optional<PivotPress>& press() const noexcept { return press_; }
   const std::string& refusal() const noexcept { return refusal_; }
 
@@ -37,8 +37,8 @@ class PressAverage {
   std::optional<double> began_;
   double done_ = 0;
   int count_ = 0;
-  glm::dvec3 mean_{0.0}, direction_{0.0};  // of the hand; sum
-  double squares_ = 0;                     // m², of the hand's distances from its mean
+  glm::dvec3 mean_{0.0}, direction_{0.0};  // mean of the hand, m; sum of the directions
+  double squares_ = 0;  // m², sum of squared distances of the hand from its mean
   std::optional<PivotPress> press_;
   std::string refusal_;
 };

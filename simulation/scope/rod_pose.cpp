@@ -10,8 +10,8 @@
 namespace arthro::simulation {
 namespace {
 
-// Closer than this the hand is on the pivot and the rod's direction is unknown: there, sensor noise
-// of 0.055 mm an axis (nine times less) would turn the rod end over end.
+// Distance from the pivot below which the direction of the rod is unknown: sensor noise of 0.055 mm
+// per axis, nine times less, would turn the rod around.
 constexpr double kHandOnPivot = 0.5e-3;  // m
 
 }  // namespace
@@ -46,12 +46,11 @@ RodPose RodPoseFromHip(const glm::dvec3& hip_in_device, const glm::dquat& handle
   if (distance > kHandOnPivot) {
     const glm::dvec3 u = hand_to_pivot / distance;
     const double from_axis = std::hypot(u.x, u.z);
-    pose.latitude = std::atan2(-u.y, from_axis);  // an arc sine is good to 1e-8 only at the poles
-    // At a pole every longitude is the same direction; keeping the last one keeps north where it
-    // was.
+    pose.latitude = std::atan2(-u.y, from_axis);  // an arc sine is exact to only 1e-8 at the poles
+    // At a pole every longitude is the same direction; the previous one is kept, and so is north.
     if (from_axis > 1e-12) pose.longitude = std::atan2(u.x, u.z);
   }
-  // The handle's up axis, seen along the rod, shows the roll.
+  // The up axis of the handle, projected along the rod, gives the roll.
   const double handle_length = glm::length(handle_in_device);
   if (!(handle_length > 1e-6) || !std::isfinite(handle_length)) return pose;
   const RodBasis basis = BasisOf(pose);

@@ -25,25 +25,26 @@ struct RodBasis {
 };
 RodBasis BasisOf(const RodPose& pose) noexcept;
 
-// A straight tool of which the portal and the tip are known, z along it from portal to tip, y the
-// way its hook points (north at no roll). A tip at the portal: as if it pointed along the portal's
-// z.
+// Frame of a straight tool from its portal and tip: z along the tool from portal to tip, y in the
+// direction of its hook (north without roll). A tip at the portal gives a tool along z of the
+// portal.
 Rigid3 PortalFromTool(const glm::dvec3& portal, const glm::dvec3& tip, double roll) noexcept;
 
-// Tip relative to the rod's own portal: ρ u.
+// Returns the tip relative to the portal of the rod: ρ u.
 glm::dvec3 TipInOwnPortal(const RodPose& pose) noexcept;
 
-// The pose from a device's hand position and handle orientation (need not be of unit length). Roll
-// is read from the handle: the angle by which the handle's up axis (-y), laid flat against the rod,
-// is turned from north towards east; an identity orientation has no roll. It is continued from
-// `previous` so that it never jumps by a whole turn. With the hand within 0.5 mm of the pivot the
-// rod has no direction that can be measured, and the previous one is kept; a hand that goes on to
-// the other side turns the rod about once. A sample that is not finite leaves the pose as it was.
+// Computes the pose from the hand position and handle orientation of a device; the quaternion need
+// not be of unit length. Roll is the angle from north towards east of the up axis of the handle
+// (-y), projected perpendicular to the rod; an identity orientation has no roll. Roll is continued
+// from `previous`, so it never jumps by a whole turn. With the hand within 0.5 mm of the pivot the
+// direction of the rod cannot be measured, and the previous one is kept. A hand that passes through
+// the pivot turns the rod around once. A sample that is not finite keeps the previous pose.
 RodPose RodPoseFromHip(const glm::dvec3& hip_in_device, const glm::dquat& handle_in_device,
                        const DeviceRig& rig, const RodPose& previous = {}) noexcept;
 
-// The inverse, for scripted hands and tests: where the hand is, in the device frame. A depth beyond
-// the rod's length would need the hand inside the joint and does not come back.
+// Inverse functions, for scripted hands and tests: position of the hand and orientation of the
+// handle in the device frame. A depth beyond the rod length would need the hand inside the joint
+// and is not recovered by RodPoseFromHip.
 glm::dvec3 HipFromRodPose(const RodPose& pose, const DeviceRig& rig) noexcept;
 glm::dquat HandleFromRodPose(const RodPose& pose, const DeviceRig& rig) noexcept;
 

@@ -16,8 +16,8 @@ namespace {
 
 using Terms = std::array<double, WindowLens::kTerms>;
 
-// The polynomial in s through f at Chebyshev's points of 0 to `end`: divided differences, then
-// multiplied out.
+// Interpolates f by a polynomial in s at the Chebyshev nodes of 0 to `end`: divided differences,
+// then expansion into powers.
 template <class F>
 Terms Through(double end, F&& f) {
   constexpr int n = WindowLens::kTerms;
@@ -74,7 +74,8 @@ WindowLens FitWindowLens(const Lens& lens, double field_of_view) {
     if (!theta) return std::nullopt;
     return std::sin(0.5 * *theta) / scale;
   };
-  // To the rim's furthest point from the axis, and a little beyond where the lens goes so far.
+  // Fits up to the point of the rim that is furthest from the axis, and slightly beyond where the
+  // lens extends so far.
   const double furthest = 1.0 + glm::length(window.axis);
   double reach = furthest;
   for (const double more : {1.25, 1.1, 1.03})

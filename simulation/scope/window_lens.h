@@ -1,7 +1,7 @@
-// The scope's own lens in the round window, as a shader can take it: how its radii differ from the
-// equisolid ones [method.md, Oblique view] of the same field of view. Radii are in those of the
-// window; q = sin(θ/2) / sin(fov/4) is the equisolid one, r the lens', both from the optical axis,
-// and the window is the lens' own circle, about whose centre the axis may lie aside.
+// Lens of the scope in the round window, in a form for shaders: the difference of its radii from
+// the equisolid ones [method.md, Oblique view] of the same field of view. Radii are in units of the
+// window radius, from the optical axis; q = sin(θ/2) / sin(fov/4) is the equisolid one and r that
+// of the lens. The window is the circle of the lens; the axis may lie beside its centre.
 //   q = r · inward(r²),  r = q · outward(q²)
 #pragma once
 
@@ -18,26 +18,26 @@ namespace arthro::simulation {
 
 struct WindowLens {
   static constexpr int kTerms = 10;
-  glm::dvec2 axis{0.0};  // where the axis stands in the window, right and up
+  glm::dvec2 axis{0.0};  // position of the axis in the window, right and up
   std::array<double, kTerms> inward{1.0}, outward{1.0};
-  double end = 4.0;  // r² and q² beyond which the factors stay as they are
+  double end = 4.0;  // r² and q² above which the factors are constant
   friend bool operator==(const WindowLens&, const WindowLens&) = default;
 };
 inline bool IsEquisolid(const WindowLens& lens) { return lens == WindowLens(); }
 
-// Full angle of the lens' window, rad: what its file says, else to the rim of its circle, else of
-// its picture's corners.
+// Returns the full angle of the window of the lens, rad: from its file, else to the rim of its
+// circle, else to the corners of its picture.
 double WindowFieldOfView(const Lens& lens);
 
-// The window is as wide as `field_of_view`; where that is the lens' own it is its circle.
-// Polynomials through Chebyshev's points, off by at most kWindowLensError radii: a twentieth of a
-// pixel of 1024. Throws Error(kBadData) for a lens that ends within the window, or bends too much
-// for that.
+// Fits the lens to a window of `field_of_view`, which is its circle where that is the lens' own
+// field of view. Interpolates at Chebyshev nodes, with an error of at most kWindowLensError radii,
+// 1/20 px in a picture of 1024 px. Throws Error(kBadData) for a lens that ends within the window,
+// or whose distortion cannot be fitted to that error.
 inline constexpr double kWindowLensError = 1e-4;
 WindowLens FitWindowLens(const Lens& lens, double field_of_view);
 
-// What the scope of a scene looks through. A lens file's own field of view counts before the
-// scene's, and one that is asked for before both. Throws as FitWindowLens, naming the file.
+// Optics of the scope of a scene. The field of view of a lens file has precedence over that of the
+// scene, and `field_of_view` over both. Throws as FitWindowLens does, with the name of the file.
 struct ScopeOptics {
   double field_of_view = 1.5707963267948966;  // full
   WindowLens lens;
@@ -45,11 +45,12 @@ struct ScopeOptics {
 ScopeOptics OpticsOf(const ScopeSpec& scope, const std::optional<Lens>& lens,
                      std::optional<double> field_of_view = std::nullopt);
 
-// Unit ray in the portal frame of a place in the window, right and up in its radii.
+// Returns the unit ray in the portal frame of a place in the window, right and up in units of its
+// radius.
 glm::dvec3 RayThrough(const ScopeOptics& optics, const ScopeView& view,
                       const glm::dvec2& place) noexcept;
 
-// Even polynomial `factor` of a squared radius.
+// Evaluates the even polynomial `factor` at a squared radius.
 double LensFactor(const std::array<double, WindowLens::kTerms>& factor, double squared) noexcept;
 
 }  // namespace arthro::simulation

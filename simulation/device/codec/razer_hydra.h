@@ -1,7 +1,7 @@
 // Razer Hydra: two hands with position and orientation in one report at 250 Hz [devices.md, Report
-// layouts]. A hand: int16 position in mm at 0, 2, 4 of its part, int16 quaternion w, x, y, z over
-// 32768 at 6 to 12, 7 bits of buttons at 14, int16 stick at 15 and 17, byte of the trigger at 19;
-// the parts begin at 8 and 30. Frame of the base: m.
+// layouts]. Layout of a hand: int16 position in mm at 0, 2, 4 of its part, int16 quaternion w, x,
+// y, z over 32768 at 6 to 12, 7 bits of buttons at 14, int16 stick at 15 and 17, byte of the
+// trigger at 19; the parts begin at 8 and 30. Frame of the base: m.
 #pragma once
 
 #include <array>
@@ -24,10 +24,11 @@ struct HydraHand {
   double trigger = 0;                  // 0 to 1
 };
 
-// Nothing: too short or long, or a quaternion that is none (its length off by a tenth).
+// Decodes a report. nullopt: a wrong length, or an invalid quaternion (its length differs from 1 by
+// 0.1).
 std::optional<std::array<HydraHand, 2>> ParseHydra(ReportBytes report) noexcept;
 
-// The feature report that has the base send motion, or stop.
+// Returns the feature report that makes the base send motion, or stop.
 std::array<std::uint8_t, 91> HydraMotionReport(bool is_on) noexcept;
 
 }  // namespace arthro::simulation

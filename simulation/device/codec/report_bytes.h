@@ -25,8 +25,8 @@ constexpr void PutSigned(std::span<std::uint8_t> report, std::size_t at,
   report[at + 1] = static_cast<std::uint8_t>(bits >> 8);
 }
 
-// The nearest number that 16 bits hold; 0 of what is not a number. A cast of a larger one would
-// change its sign, and the force with it.
+// Rounds to the nearest 16-bit number, NaN to 0. A cast of a larger number would change its sign,
+// and so the direction of the force.
 inline std::int16_t Saturated(double value) noexcept {
   if (std::isnan(value)) return 0;
   if (value >= 32767.0) return 32767;

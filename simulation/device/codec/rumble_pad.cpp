@@ -7,14 +7,14 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::uint8_t kBluetoothSeed = 0xa2;  // header byte that the checksum counts but USB lacks
+constexpr std::uint8_t kBluetoothSeed = 0xa2;  // header byte in the checksum, absent over USB
 
 std::uint8_t Byte(double amplitude) noexcept {
-  if (!(amplitude > 0)) return 0;  // nor what is not a number
+  if (!(amplitude > 0)) return 0;  // also for NaN
   return static_cast<std::uint8_t>(std::lround(255.0 * std::min(amplitude, 1.0)));
 }
 
-// Where a pad's report of one kind has what: `head` bytes as they are, then zeros but for the two
+// Layout of one kind of report of a pad: constant `head` bytes, then zeros except for the two
 // motors, the weak one first.
 template <std::size_t kSize, std::size_t kHead>
 std::array<std::uint8_t, kSize> Report(const std::array<std::uint8_t, kHead>& head,
@@ -35,14 +35,14 @@ std::array<std::uint8_t, kSize> Closed(std::array<std::uint8_t, kSize> report) n
   return report;
 }
 
-// After the report's number: what it is to change.
-constexpr std::uint8_t kSenseMotors = 0x03;  // both
+// Flags after the report number: the outputs to change.
+constexpr std::uint8_t kSenseMotors = 0x03;  // both motors
 constexpr std::uint8_t kShockMotors = 0x01;  // neither light nor flash
 constexpr std::uint8_t kShockHid = 0xc0;     // HID, with checksum
 constexpr std::uint8_t kSenseHid = 0x02;
 
-// Three bytes: square, cross, circle, triangle above four bits of the cross of arrows; L1 to R3; PS
-// and the touchpad.
+// Decodes three bytes: square, cross, circle, triangle above four bits of the direction pad; L1 to
+// R3; PS and the touchpad.
 std::uint32_t ButtonsAt(ReportBytes report, std::size_t at) noexcept {
   const std::uint32_t face = report[at] >> 4;
   const std::uint32_t square = face & 1, others = face >> 1;  // cross, circle, triangle
@@ -51,7 +51,7 @@ std::uint32_t ButtonsAt(ReportBytes report, std::size_t at) noexcept {
 }
 
 constexpr std::size_t kUsbReport = 64, kShortReport = 10, kLongReport = 78;
-constexpr std::size_t kShortButtons = 5;  // also where a DualShock 4 has them over USB
+constexpr std::size_t kShortButtons = 5;  // also their place in the USB report of a DualShock 4
 
 }  // namespace
 

@@ -1,7 +1,8 @@
-// The SpaceMouse family: six axes pushed and turned, and buttons [devices.md, Report layouts].
+// Codec of the SpaceMouse family: six axes of push and turn, and buttons [devices.md, Report
+// layouts].
 // Reports begin with their ID: 1 = int16 x, y, z, or on newer ones all six; 2 = int16 rx, ry, rz; 3
-// = bits of buttons; others (battery) say nothing to us. Axes go to ±350 counts and are told apart
-// by length, never by product.
+// = bits of buttons; others (battery) are ignored. Axes range to ±350 counts; layouts are
+// distinguished by length, never by product.
 #pragma once
 
 #include <array>
@@ -13,14 +14,14 @@
 
 namespace arthro::simulation {
 
-// The newest of each; −1 to 1.
+// Newest value of each axis; −1 to 1.
 struct SpaceMouse {
   glm::dvec3 push{0.0}, turn{0.0};
   std::uint32_t buttons = 0;
 };
 
 enum class SpaceMouseNews { kRejected, kIgnored, kTaken };
-// Rejected: an ID that is none, or a length that is not its own; `mouse` stays as it was.
+// Takes a report. Rejects an unknown ID or a wrong length, and then leaves `mouse` unchanged.
 SpaceMouseNews TakeReport(ReportBytes report, SpaceMouse& mouse) noexcept;
 
 std::array<std::uint8_t, 2> SpaceMouseLight(bool is_on) noexcept;

@@ -14,7 +14,7 @@ constexpr std::size_t kReport = 14, kPadded = 64;
 constexpr int kPolhemButton = 10000, kPolhemPressed = 5000;  // counts
 constexpr double kMilli = 1000.0;
 
-// The way from one 16-bit count to another, the short way round.
+// Returns the shorter difference of two 16-bit counts.
 std::int32_t Way(std::int16_t from, std::int16_t to) noexcept {
   const int way = static_cast<int>(to) - static_cast<int>(from);
   return way > 32767 ? way - 65536 : way < -32768 ? way + 65536 : way;
@@ -112,7 +112,7 @@ bool EncoderUnwrap::Take(const std::array<std::int16_t, 6>& encoder) noexcept {
   if (!has_last_) {
     for (std::size_t i = 0; i < 6; ++i) total_[i] = encoder[i];
   } else {
-    // What leapt is doubted; if the next report is there too, that is where the device is.
+    // Rejects a leap once; if the next report agrees, it is the true position.
     if (!goes_on_from(last_) && !(has_doubt_ && goes_on_from(doubt_))) {
       doubt_ = encoder;
       has_doubt_ = true;

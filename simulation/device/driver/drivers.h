@@ -1,4 +1,4 @@
-// The drivers that there are, and which one a device gets.
+// Drivers of all families, and the choice for a device.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,16 @@
 
 namespace arthro::simulation {
 
-// `is_padded`: RawHID boards, whose reports are 64 bytes.
+// `is_padded`: for RawHID boards, whose reports have 64 bytes.
 std::unique_ptr<DeviceDriver> MakeWoodenDriver(const WoodenModel& model, bool is_padded);
 std::unique_ptr<DeviceDriver> MakeSpaceMouseDriver();
 std::unique_ptr<DeviceDriver> MakeHydraDriver();
 // `family`: kDualSense or kDualShock4.
 std::unique_ptr<DeviceDriver> MakePadDriver(DeviceFamily family, bool is_bluetooth);
 
-// `model` is needed where one family has several geometries (WoodenHaptics), since the numbers on
-// the bus do not tell them apart. nullptr: `refusal` says in a sentence why it is not driven.
+// Makes the driver of a device. `model` is needed where a family has several geometries
+// (WoodenHaptics), which the numbers on the bus do not distinguish. nullptr: `refusal` is a
+// sentence with the reason.
 std::unique_ptr<DeviceDriver> MakeDriver(const KnownDevice& device, std::string_view model,
                                          std::string& refusal);
 

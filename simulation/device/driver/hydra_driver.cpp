@@ -6,7 +6,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kPulled = 0.5;             // of the trigger
+constexpr double kPulled = 0.5;             // travel of the trigger
 constexpr std::uint32_t kTrigger = 1 << 7;  // bit after the seven buttons
 
 class HydraDriver final : public DeviceDriver {
@@ -15,7 +15,7 @@ class HydraDriver final : public DeviceDriver {
     caps_.input = HandInput::kAbsolute;
     caps_.sensed_dof = 6;
     caps_.position_quantum = 1e-3;
-    // rad; no maker's value is known. It is a magnetic tracker: calibrate with a wide swing.
+    // rad; the maker states no value. It is a magnetic tracker: calibrate with a wide swing.
     caps_.gimbal_sigma = 0.01;
     caps_.rate = 250;
     caps_.min_hip = glm::dvec3(-0.5);

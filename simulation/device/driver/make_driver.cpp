@@ -5,7 +5,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::uint16_t kTeensy = 0x16c0;  // whose RawHID reports are 64 bytes
+constexpr std::uint16_t kTeensy = 0x16c0;  // vendor; its RawHID reports have 64 bytes
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFullForce = 3.3;  // N, felt as the strongest rumble; a Touch's peak
+constexpr double kFullForce = 3.3;  // N, force at full rumble; peak of a Touch
 
 class PadDriver final : public DeviceDriver {
  public:
@@ -28,7 +28,7 @@ class PadDriver final : public DeviceDriver {
     buttons_ = *buttons;
     return ReportNews::kTaken;
   }
-  // It has no hand: only the buttons are said.
+  // A pad has no hand and reports buttons only.
   HandReading Hand(int /*hand*/) const noexcept override {
     HandReading hand;
     hand.sample.buttons = buttons_;

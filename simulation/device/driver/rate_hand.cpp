@@ -9,13 +9,13 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kLongestStep = 0.1;  // s; after a pause nothing leaps
+constexpr double kLongestStep = 0.1;  // s; avoids a leap after a pause
 
 }  // namespace
 
 double Meant(double push, double dead_zone) noexcept {
   const double beyond = std::min(std::abs(push), 1.0) - dead_zone;
-  if (!(beyond > 0)) return 0;  // nor what is not a number
+  if (!(beyond > 0)) return 0;  // also for NaN
   return std::copysign(beyond / (1 - dead_zone), push);
 }
 

@@ -1,5 +1,5 @@
-// A hand that is led by how hard a knob is pushed and turned: speed by the push beyond a dead zone,
-// within a box. Device frame, m, rad, s.
+// Hand that is led by a knob: its speed is proportional to the push beyond a dead zone, within a
+// box. Device frame, m, rad, s.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -8,8 +8,8 @@
 namespace arthro::simulation {
 
 struct RateOptions {
-  double dead_zone = 0.06;  // of full push, 21 of 350 counts; knobs at rest show up to 15
-  double speed = 0.08;      // m/s at full push; surgery's slow strokes
+  double dead_zone = 0.06;  // share of full push, 21 of 350 counts; knobs at rest show up to 15
+  double speed = 0.08;      // m/s at full push, as slow strokes in surgery
   double turn_speed = 1.5;  // rad/s at full turn
 };
 
@@ -18,11 +18,11 @@ struct RateHand {
   glm::dquat orientation{1, 0, 0, 0};  // unit
 };
 
-// What of −1 to 1 is meant: nothing within the dead zone, and from its edge on evenly to 1.
+// Applies the dead zone to a value of −1 to 1: zero within it, then linear from its edge to 1.
 double Meant(double push, double dead_zone) noexcept;
 
-// `push` and `turn` in −1 to 1 each; what is not a number moves nothing. A turn is about the
-// device's axes.
+// Moves the hand by `push` and `turn`, each −1 to 1; NaN moves nothing. A turn is about the axes of
+// the device.
 void Advance(RateHand& hand, const glm::dvec3& push, const glm::dvec3& turn, double dt,
              const glm::dvec3& min, const glm::dvec3& max, const RateOptions& options) noexcept;
 

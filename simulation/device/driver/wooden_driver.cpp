@@ -10,15 +10,17 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::uint16_t kHomeButton = 1;  // bit of info, held up by the board until it is homed
-constexpr double kLargestStep = 0.005;    // m a report; 5 m/s is no hand
-// counts; a handle that rests trembles less, and counters that were not set are further off.
+constexpr std::uint16_t kHomeButton = 1;  // bit of info, set by the board until it is homed
+constexpr double kLargestStep = 0.005;    // m per report; no hand moves at 5 m/s
+// counts; a resting handle trembles less, and counters that were not set differ by more
 constexpr int kAtHome = 50;
-// Of the peak; a third of the current may flow for ever, until somebody reads the motors' sheet.
+// Share of the peak force. Assumes that a third of the current may flow permanently; the data sheet
+// of the motors was not consulted.
 constexpr double kContinuous = 1.0 / 3;
-constexpr double kLongestWatchdog = 0.5;  // s, of both boards that there are
+constexpr double kLongestWatchdog = 0.5;  // s, longest of both known boards
 
-// Smallest step of the hand that a counter shows, at its coarsest joint, with the arm at rest.
+// Returns the smallest step of the hand that a counter resolves, at its coarsest joint, with the
+// arm at rest.
 double QuantumOf(const WoodenModel& model) {
   std::array<std::int64_t, 6> home{};
   std::copy(model.home.begin(), model.home.end(), home.begin());
@@ -40,7 +42,7 @@ class WoodenDriver final : public DeviceDriver {
     caps_.sensed_dof = model.has_gimbal ? 6 : 3;
     caps_.actuated_dof = 3;
     caps_.position_quantum = QuantumOf(model);
-    if (model.has_gimbal)  // even error within a count
+    if (model.has_gimbal)  // uniform error within a count
       caps_.gimbal_sigma =
           2 * std::numbers::pi / model.arm.gimbal_counts_per_turn / std::sqrt(12.0);
     caps_.peak_force = model.peak_force;
@@ -88,7 +90,7 @@ class WoodenDriver final : public DeviceDriver {
     hand_.is_homed = false;
     wants_home_ = false;
   }
-  // Until the counters are set it may be anywhere.
+  // The position is unknown until the counters are set.
   void AskHome() noexcept override {
     wants_home_ = true;
     hand_.is_homed = false;

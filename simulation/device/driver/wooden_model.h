@@ -1,6 +1,6 @@
-// The arms that speak as WoodenHaptics does: their measures as published with their software
+// Arms with the protocol of WoodenHaptics, with dimensions as published with their software
 // [devices.md, Report layouts]. Polhem from version 2 on has a linkage whose kinematics are not
-// public: it is refused by name, since a wrong geometry would push the wrong way.
+// public; it is refused by name, since a wrong geometry would push in a wrong direction.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,21 @@
 namespace arthro::simulation {
 
 struct WoodenModel {
-  const char* word;  // as in rig files
+  const char* word;  // text in rig files
   const char* name;
   WoodenArm arm;
-  bool has_gimbal;                   // its encoders come as F, E, D, with the button in D
+  bool has_gimbal;                   // its encoders are sent as F, E, D, with the button in D
   std::array<std::int16_t, 6> home;  // counters with the handle in its rest
-  double peak_force, max_stiffness;  // N, N/m; what its makers state
-  double reach;                      // m, about the middle of the workspace
+  double peak_force, max_stiffness;  // N, N/m, as stated by its makers
+  double reach;                      // m, radius about the middle of the workspace
 };
 
 std::span<const WoodenModel> WoodenModels() noexcept;
-// Nothing: unknown, or refused.
+// Returns nullptr for an unknown or refused model.
 const WoodenModel* FindWoodenModel(std::string_view word) noexcept;
-// The words of those that are driven: "a or b".
+// Lists the models that are driven: "a or b".
 std::string WoodenModelWords();
-// One whose geometry is not public.
+// Returns true for a model whose geometry is not public.
 bool IsSecretWoodenModel(std::string_view word) noexcept;
 
 }  // namespace arthro::simulation

@@ -1,5 +1,5 @@
-// An open line to one HID device: reports in and out, as bytes. Of a link one thread may read while
-// one other writes; all else is one call at a time, and it is closed when neither is under way
+// Open link to one HID device: input and output reports as bytes. One thread may read while another
+// writes; all other calls are one at a time, and the link is closed when neither is running
 // [devices.md, hidapi].
 #pragma once
 
@@ -13,21 +13,21 @@
 
 namespace arthro::simulation {
 
-inline constexpr std::size_t kReportRoom = 128;  // bytes; what does not fit in is lost unseen
+inline constexpr std::size_t kReportRoom = 128;  // bytes; the rest of a longer report is lost
 inline constexpr int kLinkIsDead = -1;
 
 class HidLink {
  public:
   HidLink() = default;
-  virtual ~HidLink() = default;  // closes
+  virtual ~HidLink() = default;  // closes the link
   HidLink(const HidLink&) = delete;
   HidLink& operator=(const HidLink&) = delete;
 
-  // Bytes of the next report; 0: none came in time; kLinkIsDead: none will come any more. Give it
-  // kReportRoom.
+  // Reads the next report into at least kReportRoom bytes and returns its size; 0: none came in
+  // time; kLinkIsDead: the link is lost.
   virtual int Read(std::span<std::uint8_t> report, int timeout_ms) noexcept = 0;
-  // Bytes that were taken, the report's number included (0 where it has none), or kLinkIsDead.
-  // That they were taken does not prove that the device knows the report.
+  // Writes a report, its number first (0 where it has none), and returns the bytes taken or
+  // kLinkIsDead. A report that was taken need not be known to the device.
   virtual int Write(ReportBytes report) noexcept = 0;
   virtual int SendFeature(ReportBytes report) noexcept = 0;
   virtual int GetFeature(std::span<std::uint8_t> report) noexcept = 0;
@@ -35,16 +35,16 @@ class HidLink {
 
 enum class OpenFault { kNone, kGone, kNoPermission, kRefused };
 
-// Where devices are plugged in. Both may take some 10 ms; any thread.
+// Bus of plugged-in devices. Both functions may take 10 ms; callable from any thread.
 class HidBus {
  public:
   virtual ~HidBus() = default;
   virtual std::vector<HidNode> List() = 0;
-  // nullptr: `fault` says why.
+  // nullptr: `fault` is the reason.
   virtual std::unique_ptr<HidLink> Open(const HidNode& node, OpenFault& fault) = 0;
 };
 
-// This machine's, through hidapi.
+// Returns the bus of this machine, through hidapi.
 std::unique_ptr<HidBus> MachineHidBus();
 
 }  // namespace arthro::simulation

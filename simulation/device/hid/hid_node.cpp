@@ -40,11 +40,11 @@ bool Holds(std::string_view text, std::string_view part) {
          }) != text.end();
 }
 
-// Whether this is the part of the device that speaks of the hand.
+// Returns true for the part of a device that reports the hand.
 bool IsHandOf(DeviceFamily family, const HidNode& node) {
   switch (family) {
     case kWoodenHaptics:
-      // Every Teensy that speaks RawHID has these numbers.
+      // All Teensy boards with RawHID share these numbers.
       return node.vendor != kTeensy ||
              (node.usage_page >= kFirstVendor &&
               (Holds(node.product_name, "wooden") || Holds(node.product_name, "polhem") ||
@@ -116,7 +116,7 @@ std::vector<KnownDevice> KnownAmong(std::span<const HidNode> nodes) {
   std::vector<KnownDevice> known;
   for (const HidNode& node : nodes) {
     const auto family = FamilyOf(node);
-    // A node is listed once a usage.
+    // A node is listed once per usage.
     const auto is_same = [&](const KnownDevice& other) { return other.node.path == node.path; };
     if (family && std::none_of(known.begin(), known.end(), is_same))
       known.push_back({node, *family});

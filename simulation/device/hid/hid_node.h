@@ -1,5 +1,6 @@
-// What is plugged in, and which of it we know: by vendor, product and usage, since one vendor's
-// numbers are on mice and keyboards too [devices.md, Families].
+// HID nodes that are plugged in, and the families that this program knows. Nodes are identified by
+// vendor, product and usage, since mice and keyboards share the numbers of a vendor [devices.md,
+// Families].
 #pragma once
 
 #include <cstdint>
@@ -20,20 +21,21 @@ struct HidNode {
 
 enum class DeviceFamily { kWoodenHaptics, kSpaceMouse, kHydra, kDualSense, kDualShock4 };
 
-// One word, as in rig files, and the name for a person.
+// Text in rig files, and the name for the user.
 const char* ToString(DeviceFamily family) noexcept;
 const char* Name(DeviceFamily family) noexcept;
 std::optional<DeviceFamily> DeviceFamilyFromString(std::string_view word) noexcept;
 std::span<const DeviceFamily> AllFamilies() noexcept;
 
-// The numbers that a family is known by.
+// Vendor and product numbers of a family.
 struct HidNumber {
   std::uint16_t vendor, product;
   DeviceFamily family;
 };
 std::span<const HidNumber> KnownNumbers() noexcept;
 
-// Nothing: a device that is not ours, or a part of one that does not speak of hands.
+// Returns the family of a node; nullopt for an unknown device, or a part of one that does not
+// report the hand.
 std::optional<DeviceFamily> FamilyOf(const HidNode& node) noexcept;
 
 struct KnownDevice {
@@ -41,7 +43,7 @@ struct KnownDevice {
   DeviceFamily family;
 };
 
-// Those of `nodes` that we know, each once, in the order of family, serial and path.
+// Returns the known devices among `nodes`, each once, in order of family, serial number and path.
 std::vector<KnownDevice> KnownAmong(std::span<const HidNode> nodes);
 
 }  // namespace arthro::simulation

@@ -1,5 +1,5 @@
-// The one file that knows hidapi (0.13 of Debian 12: a read and a write share one error text, so it
-// is never asked for while a link is open).
+// Only file that uses hidapi (0.13 of Debian 12). Reading and writing share one error text there,
+// so it is never queried while a link is open.
 #include <cerrno>
 #include <cstdlib>
 #include <cwchar>
@@ -14,7 +14,7 @@
 namespace arthro::simulation {
 namespace {
 
-// wchar_t is a code point here. What is none becomes a question mark.
+// Converts wchar_t code points to UTF-8; an invalid one becomes a question mark.
 std::string Utf8(const wchar_t* text) {
   std::string utf8;
   for (; text && *text; ++text) {
@@ -96,7 +96,7 @@ class HidapiBus final : public HidBus {
     fault = OpenFault::kNone;
     if (hid_device* device = hid_open_path(node.path.c_str()))
       return std::make_unique<HidapiLink>(device);
-    // hidapi does not say why; the file system does.
+    // hidapi gives no reason, but the file system does.
     if (access(node.path.c_str(), R_OK | W_OK) == 0)
       fault = OpenFault::kRefused;
     else
@@ -105,8 +105,8 @@ class HidapiBus final : public HidBus {
   }
 
  private:
-  // What lists and opens shares one error text in hidapi. It is not let go again: other buses may
-  // be open.
+  // Listing and opening share one error text in hidapi. hidapi is not closed again, since other
+  // buses may be open.
   std::mutex mutex_;
 };
 

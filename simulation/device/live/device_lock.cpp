@@ -30,12 +30,12 @@ DeviceLock::DeviceLock(const std::filesystem::path& folder, const std::string& d
   const std::filesystem::path path = folder / FileName(device);
   constexpr int kForAll = 0666;
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kForAll);
-  // Another user's file in a shared folder may only be read; that is enough to hold it.
+  // A file of another user in a shared folder can only be read, which is enough to lock it.
   if (file_ < 0) file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file_ < 0) return;
   if (flock(file_, LOCK_EX | LOCK_NB) == 0) {
     const std::string process = std::to_string(getpid()) + "\n";
-    // Who cannot write it down holds it all the same.
+    // The lock is held even where its process number cannot be written.
     if (ftruncate(file_, 0) == 0 && pwrite(file_, process.data(), process.size(), 0) < 0) errno = 0;
     return;
   }

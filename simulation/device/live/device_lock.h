@@ -1,6 +1,5 @@
-// One program at a time has a device: the system itself would let two open the same node. A lock
-// file for each serial number, held as long as this lives and let go by the system if the program
-// dies.
+// Lock that lets one program at a time use a device, since the system lets two open the same node.
+// Holds a lock file per serial number while this lives; the system releases it if the program dies.
 #pragma once
 
 #include <filesystem>
@@ -8,21 +7,20 @@
 
 namespace arthro::simulation {
 
-// Where lock files lie unless somebody says otherwise: the user's runtime folder, or the temporary
-// one.
+// Default folder of lock files: the runtime folder of the user, or the temporary folder.
 std::filesystem::path DeviceLockFolder();
 
 class DeviceLock {
  public:
-  // `device`: family and serial number. Where no file can be made (a read-only system) it goes
-  // without.
+  // `device` is family and serial number. Does without a lock where no file can be made (a
+  // read-only system).
   DeviceLock(const std::filesystem::path& folder, const std::string& device);
   ~DeviceLock();
   DeviceLock(const DeviceLock&) = delete;
   DeviceLock& operator=(const DeviceLock&) = delete;
 
   bool is_held_elsewhere() const noexcept { return is_held_elsewhere_; }
-  // Number of the process that holds it; 0: not known.
+  // Number of the process that holds it; 0: unknown.
   int holder() const noexcept { return holder_; }
 
  private:

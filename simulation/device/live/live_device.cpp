@@ -6,7 +6,7 @@
 namespace arthro::simulation {
 namespace {
 
-// A knob that is held repeats itself every 8 to 16 ms; one that fell silent is not held.
+// A held knob repeats its report every 8 to 16 ms; a silent one is released.
 constexpr double kPushLasts = 0.25;  // s
 
 }  // namespace
@@ -31,13 +31,13 @@ DeviceSample LiveDevice::Read(double now) noexcept {
   events_.is_open = opening != 0;
   if (IsSteady(caps)) {
     events_.has_sample = is_current;
-    // What came since `now` was taken is of now.
+    // A report that arrived after `now` was measured counts as of `now`.
     events_.sample_age = age < 0 ? 0 : age;
   } else {
     events_.has_sample = events_.is_open;
     events_.sample_age = 0;
   }
-  // Only an arm has to be told where it is.
+  // Only an arm needs homing.
   events_.is_homed = is_current ? news.reading.is_homed : !IsSteady(caps);
   events_.trouble = link_->trouble();
   const double began = link_->write_began();

@@ -16,24 +16,24 @@ namespace arthro::simulation {
 namespace {
 
 constexpr int kReadTimeout = 20;        // ms
-constexpr int kRing = 63;               // reports that wait at most
-constexpr int kLongestBurst = 1024;     // reports; what comes faster than it is read ends nothing
-constexpr double kServoSilent = 0.010;  // s; then it is written zero, which also wakes a board
-constexpr double kIdle = 0.050;         // s, between looks of a writer that has nothing to write
-constexpr int kZeroReports = 5;         // at the end
-constexpr int kStartTries = 50;         // of a feature report, as the Hydra needs
+constexpr int kRing = 63;               // reports, capacity of the ring of the system
+constexpr int kLongestBurst = 1024;     // reports; bounds the loop at a high rate
+constexpr double kServoSilent = 0.010;  // s; then zero is written, which also wakes a board
+constexpr double kIdle = 0.050;         // s, poll interval of a writer without commands
+constexpr int kZeroReports = 5;         // zero reports before closing
+constexpr int kStartTries = 50;         // tries of a feature report, as the Hydra needs
 constexpr double kStartPause = 0.05;    // s
-constexpr int kPriority = 79;           // of SCHED_FIFO, under the servo's
+constexpr int kPriority = 79;           // SCHED_FIFO priority, below that of the servo
 
-// Beside a servo of that kind a device's threads must not wait for other programs. Where it is not
-// allowed they do their best.
+// Raises the priority of a device's thread, so that it does not wait for other programs. Ignored
+// where it is not allowed.
 void AskForRealTime() noexcept {
   sched_param parameters{};
   parameters.sched_priority = kPriority;
   pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
 }
 
-// False: nobody posted within that time.
+// Waits for a post. Returns false after the timeout.
 bool WaitFor(sem_t& semaphore, double seconds) noexcept {
   timespec until{};
   clock_gettime(CLOCK_MONOTONIC, &until);
@@ -50,8 +50,8 @@ bool WaitFor(sem_t& semaphore, double seconds) noexcept {
   }
 }
 
-// Blocks what is sent to the process while the link's threads are made, which inherit the mask: a
-// handler that waits for the writer must not interrupt the writer itself.
+// Blocks signals to the process while the threads of the link are made, which inherit the mask. A
+// signal handler that waits for the writer must not interrupt the writer itself.
 class BlockSignals {
  public:
   BlockSignals() noexcept {
@@ -97,7 +97,7 @@ LiveLink::~LiveLink() {
   stop_ = true;
   sem_post(&wake_);
   sem_post(&stopped_);
-  // The writer says zero while the link is still open; who reads does not close it meanwhile.
+  // The writer writes zero while the link is open; the reader does not close it meanwhile.
   writer_.join();
   reader_.join();
   driver_.reset();
@@ -143,7 +143,7 @@ void LiveLink::ReadLoop() noexcept {
     bool is_open = false;
     try {
       is_open = Open();
-    } catch (const std::exception& fault) {  // no memory, no hidapi: it is away, for now
+    } catch (const std::exception& fault) {  // no memory, no hidapi: absent for now
       is_present_ = false;
       try {
         SetDetail(fault.what());
@@ -152,7 +152,7 @@ void LiveLink::ReadLoop() noexcept {
     }
     if (is_open) {
       Serve();
-      if (stop_) return;  // the writer is still to say zero
+      if (stop_) return;  // the writer still has to write zero
       Close();
     }
     Pause(options_.list_every);
@@ -182,7 +182,7 @@ bool LiveLink::Open() {
     if (lock->is_held_elsewhere()) {
       trouble = DeviceTrouble::kHeldElsewhere;
       detail = fmt::format("{} {} is used by process {}", Name(device.family), id, lock->holder());
-      continue;  // where any will do, the next may be free
+      continue;  // the next device may be free where any serial number is allowed
     }
     OpenFault fault = OpenFault::kNone;
     auto link = bus_.Open(device.node, fault);
@@ -240,7 +240,7 @@ void LiveLink::Serve() noexcept {
   }
 }
 
-// Waits for a report, takes all that have come and hands over what they say together.
+// Waits for a report, takes all waiting ones and publishes their combined state.
 bool LiveLink::Drain(double& empty_at) noexcept {
   std::array<std::uint8_t, kReportRoom> report;
   int count = 0, good = 0, bad = 0;
@@ -269,9 +269,9 @@ bool LiveLink::Drain(double& empty_at) noexcept {
       news_[static_cast<std::size_t>(hand)].Write(news);
     }
   }
-  // Held up after the read that found nothing, we do not know what came meanwhile.
+  // After a delay behind an empty read it is unknown when later reports arrived.
   empty_at = count > 0 ? asked_at : std::min(now, asked_at + 1e-3 * kReadTimeout);
-  // Who sees these has the news, too.
+  // The counts are written last, so that a reader of them sees the readings too.
   if (count >= kRing) ++full_rings_;
   rejected_ += bad;
   taken_ += good;
@@ -314,13 +314,13 @@ void LiveLink::WriteLoop() noexcept {
     link_->SendFeature(stop.span());
 }
 
-// `is_silent`: the servo said nothing for long.
+// `is_silent`: the servo has sent no command for kServoSilent.
 void LiveLink::WriteOne(const ForceCommand& command, bool is_silent) noexcept {
   const bool is_new = command.number != written_number_;
-  // Woken by a command that was written already: that one stands.
+  // Skips a command that was written already.
   if (!is_new && !is_silent && (!is_released_ || is_zero_written_)) return;
   const double now = options_.clock();
-  // A program that was stopped in between goes on with a force of then.
+  // Drops an outdated force after the program was stopped in between.
   const bool is_of_now = is_new && now - command.at <= kServoSilent;
   const glm::dvec3 force = is_of_now && !is_released_ ? command.force : glm::dvec3(0.0);
   const bool is_zero = force == glm::dvec3(0.0);
@@ -336,7 +336,7 @@ void LiveLink::WriteOne(const ForceCommand& command, bool is_silent) noexcept {
   write_began_ = 0;
   if (size != static_cast<int>(report.size)) {
     trouble_ = DeviceTrouble::kWriteError;
-    is_dead_ = true;  // who reads closes it
+    is_dead_ = true;  // the reader closes it
     return;
   }
   written_at_ = now;

@@ -1,9 +1,9 @@
-// A plugged-in device at work: found by family and serial number, opened, read, written, and found
-// again when it comes back. Two threads of its own. One opens, reads all that waits and hands over
-// the newest; it also looks for the device every half second while it is away. One writes the
-// newest force, so that a slow endpoint holds up neither the servo nor the other device; where the
-// servo is silent for 10 ms it writes zero by itself. On every way out it writes zero five times,
-// then closes. Device frame, m, N, s.
+// Link to a plugged-in device: finds it by family and serial number, opens, reads and writes it,
+// and finds it again when it comes back. It has two threads. The reader opens the device, reads all
+// waiting reports and publishes the newest; while the device is absent it searches every 0.5 s. The
+// writer writes the newest force, so that a slow endpoint delays neither the servo nor the other
+// device; when the servo is silent for 10 ms it writes zero. Before closing it writes zero five
+// times. Device frame, m, N, s.
 #pragma once
 
 #include <array>
@@ -25,13 +25,13 @@
 
 namespace arthro::simulation {
 
-// The clock of live devices: s, rises evenly.
+// Clock of live devices: s, monotonic.
 double SteadySeconds() noexcept;
 
 struct DeviceRequest {
   DeviceFamily family = DeviceFamily::kSpaceMouse;
-  std::string serial;  // empty: any; kept once one was opened
-  std::string model;   // of a WoodenHaptics
+  std::string serial;  // empty: any; then that of the device opened first
+  std::string model;   // WoodenHaptics only
 };
 
 struct LiveOptions {
@@ -41,14 +41,14 @@ struct LiveOptions {
   ReportTap* tap = nullptr;           // must outlive the link
 };
 
-// What passed since it was made.
+// Counters since construction.
 struct LinkCounts {
   long taken = 0, rejected = 0;  // reports
   long full_rings = 0;           // bursts in which reports must have been lost
   long written = 0, opened = 0;
 };
 
-// One hand's newest reading, of the opening with this number.
+// Newest reading of a hand, and the number of the opening that it belongs to.
 struct HandNews {
   HandReading reading;
   int opening = 0;
@@ -58,7 +58,7 @@ class LiveLink final : public Releasable {
  public:
   static constexpr int kMostHands = 2;
 
-  // `bus` must outlive it. Opens later, by itself.
+  // `bus` must outlive this. The reader opens the device later.
   LiveLink(HidBus& bus, const DeviceRequest& request, const LiveOptions& options = {});
   ~LiveLink() override;
 
@@ -66,29 +66,30 @@ class LiveLink final : public Releasable {
   const DeviceRequest& request() const noexcept { return request_; }
   int hands() const noexcept { return hands_; }
 
-  // The servo; none of these waits. Each hand is read by one thread.
+  // Called by the servo; none of these waits. Each hand is read by one thread.
   const HandNews& Newest(int hand) noexcept { return news_[static_cast<std::size_t>(hand)].Read(); }
   bool is_present() const noexcept { return is_present_.load(std::memory_order_acquire); }
-  // Number of the opening that lasts; 0: it is closed.
+  // Number of the present opening; 0: closed.
   int opening() const noexcept { return opening_.load(std::memory_order_acquire); }
   DeviceTrouble trouble() const noexcept { return trouble_.load(std::memory_order_acquire); }
-  // When the write under way began; 0: none is.
+  // Start time of the running write; 0: none.
   double write_began() const noexcept { return write_began_.load(std::memory_order_acquire); }
   void Send(const glm::dvec3& force, const glm::dvec3& joints) noexcept;
 
-  // The handle is in its rest: counts from here. Any thread.
+  // Homes the device: its handle is in its rest. Any thread.
   void AskHome() noexcept { asks_home_.store(true); }
   void Release() noexcept override;
 
-  // Any thread; these may wait.
+  // Callable from any thread; these may wait.
   LinkCounts counts() const noexcept;
-  std::string detail() const;  // more than a state says: who holds it, why it is not driven
+  std::string detail()
+      const;  // detail beyond the state: the program that holds it, or why it is not driven
 
  private:
   struct ForceCommand {
     glm::dvec3 force{0.0}, joints{0.0};
     long number = 0;
-    double at = 0;  // s, when the servo said it
+    double at = 0;  // s, time of the command
   };
   void ReadLoop() noexcept;
   void WriteLoop() noexcept;
@@ -98,7 +99,7 @@ class LiveLink final : public Releasable {
   void Close() noexcept;
   bool Drain(double& empty_at) noexcept;
   void WriteOne(const ForceCommand& command, bool is_silent) noexcept;
-  bool Pause(double seconds) noexcept;  // false: it shall stop
+  bool Pause(double seconds) noexcept;  // false: the link is stopping
   void SetDetail(const std::string& text);
 
   HidBus& bus_;
@@ -106,22 +107,23 @@ class LiveLink final : public Releasable {
   LiveOptions options_;
   DeviceCaps caps_;
   int hands_ = 1;
-  std::string refusal_;  // why it is never driven
+  std::string refusal_;  // reason why it is never driven
 
-  // The reading thread's own.
-  std::string serial_;  // of the one that was opened first
+  // Used by the reader only.
+  std::string serial_;  // serial number of the device opened first
   int openings_ = 0;
   std::unique_ptr<DeviceLock> lock_;
 
-  std::mutex link_mutex_;  // the writer while it writes; the reader while it exchanges both
+  std::mutex
+      link_mutex_;  // held by the writer while it writes, by the reader while it exchanges both
   std::unique_ptr<HidLink> link_;
   std::unique_ptr<DeviceDriver> driver_;
 
   std::array<LatestValue<HandNews>, kMostHands> news_;
   LatestValue<ForceCommand> commands_;
-  ForceCommand sent_;        // the servo's
-  long written_number_ = 0;  // the writer's
-  double written_at_ = -1;   // the writer's
+  ForceCommand sent_;        // used by the servo
+  long written_number_ = 0;  // used by the writer
+  double written_at_ = -1;   // used by the writer
   bool is_zero_written_ = false;
   std::atomic<bool> is_present_{false}, is_dead_{false}, wants_home_{false}, asks_home_{false},
       is_released_{false}, stop_{false};
@@ -131,7 +133,7 @@ class LiveLink final : public Releasable {
   std::atomic<long> taken_{0}, rejected_{0}, full_rings_{0}, written_{0}, opened_{0};
   mutable std::mutex detail_mutex_;
   std::string detail_;
-  sem_t wake_, stopped_;  // commands; the end, for who pauses
+  sem_t wake_, stopped_;  // posted at commands; posted at the end
   std::thread reader_, writer_;
 };
 

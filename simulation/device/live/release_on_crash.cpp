@@ -12,21 +12,21 @@ namespace arthro::simulation {
 namespace {
 
 constexpr std::array kFaults{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS};
-// Signals whose default action ends no process, and those that cannot be handled.
+// Signals whose default action does not end a process, and those that cannot be handled.
 constexpr std::array kEndNothing{SIGKILL,  SIGSTOP, SIGCHLD, SIGCONT, SIGURG,
                                  SIGWINCH, SIGTSTP, SIGTTIN, SIGTTOU};
-constexpr long kForWriters = 20'000'000;  // ns; ten times what a report takes
+constexpr long kForWriters = 20'000'000;  // ns; ten times the duration of a report
 
 std::array<std::atomic<Releasable*>, ReleaseOnCrash::kMost> to_release{};
 static_assert(std::atomic<Releasable*>::is_always_lock_free);
 
-// Indexed by the signal's number; set for those that are handled.
+// Indexed by signal number; set for handled signals.
 std::array<struct sigaction, NSIG> actions_before{};
 std::array<bool, NSIG> is_handled{};
 
 void LetGoAndDie(int signal);
 
-// Keeps what was installed since by others.
+// Keeps handlers that were installed later by others.
 void RestoreActions() noexcept {
   for (std::size_t i = 1; i < is_handled.size(); ++i) {
     if (!is_handled[i]) continue;
@@ -37,7 +37,7 @@ void RestoreActions() noexcept {
   }
 }
 
-// These call only what a handler may call.
+// These functions call only async-signal-safe functions.
 void LetGo() {
   bool is_any = false;
   for (auto& device : to_release)
@@ -79,7 +79,7 @@ ReleaseOnCrash::ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices)
   sigfillset(&action.sa_mask);
   for (int signal = 1; signal < NSIG; ++signal) {
     const auto i = static_cast<std::size_t>(signal);
-    // The C library keeps two of them for itself and refuses those.
+    // The C library reserves two signals and refuses them.
     is_handled[i] = MustHandle(signal) && sigaction(signal, &action, &actions_before[i]) == 0;
   }
   [[maybe_unused]] static const int registered = std::atexit(LetGo);

@@ -17,14 +17,14 @@ namespace arthro::simulation {
 
 class ReleaseOnCrash {
  public:
-  // One at a time, since a signal handler can reach nothing but what is the process's own. The
+  // Only one may exist at a time, since a signal handler can access only data of the process. The
   // thread that makes it gets a CrashStack.
   explicit ReleaseOnCrash(std::vector<std::shared_ptr<Releasable>> devices);
   ~ReleaseOnCrash();
   ReleaseOnCrash(const ReleaseOnCrash&) = delete;
   ReleaseOnCrash& operator=(const ReleaseOnCrash&) = delete;
 
-  static constexpr int kMost = 4;  // two roles and pedals, and one to spare
+  static constexpr int kMost = 4;  // devices: two roles, pedals, and one spare
 
  private:
   CrashStack stack_;

@@ -1,5 +1,5 @@
-// Who wants to know all that passes between a driver and its device: a log. Called by the thread
-// that reads; must not wait. s, on the link's clock.
+// Observer of all reports between a driver and its device, for a log. Called by the reading thread;
+// must not wait. s, on the clock of the link.
 #pragma once
 
 #include "simulation/device/driver/device_driver.h"
@@ -10,10 +10,10 @@ namespace arthro::simulation {
 class ReportTap {
  public:
   virtual ~ReportTap() = default;
-  // The driver is as after Forget.
+  // The driver is in the state after Forget.
   virtual void Opened(double t, const HidNode& node) noexcept = 0;
   virtual void HomeAsked(double t) noexcept = 0;
-  // `driver` has taken `report`, and said `news` of it.
+  // `driver` has taken `report` and returned `news`.
   virtual void Took(double t, ReportBytes report, ReportNews news,
                     const DeviceDriver& driver) noexcept = 0;
 };

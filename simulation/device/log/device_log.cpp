@@ -13,11 +13,12 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr std::size_t kBlock = 1 << 16;  // bytes; a fuller one is written at once
+constexpr std::size_t kBlock = 1 << 16;  // bytes; a block of this size is written at once
 static_assert(kBlock + kLargestRecord < kLargestBlock);
 
-// A descriptor, or -1 and errno. What identifies a person is its owner's alone, so a new file is
-// private. Devices and pipes are opened as they are; a file with content is kept.
+// Opens the file and returns a descriptor, or -1 and errno. A new file is private to its owner,
+// since its content can identify a person. Devices and pipes are opened too; a file with content is
+// kept.
 int Open(const std::filesystem::path& file) {
   constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC;
   constexpr mode_t kPrivate = 0600;
@@ -55,7 +56,7 @@ DeviceLog::DeviceLog(const std::filesystem::path& file, std::vector<LogSource> s
 DeviceLog::~DeviceLog() {
   try {
     Close();
-  } catch (const Error&) {  // who wants to know calls Close
+  } catch (const Error&) {  // Close reports the error
   }
 }
 
@@ -114,7 +115,7 @@ void DeviceLog::WriteBlock() {
   count_ = 0;
 }
 
-// After a fault nothing more is written: the file stays readable up to there.
+// Writes nothing after a fault, so that the file stays readable up to there.
 void DeviceLog::Write(const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size() && error_ == 0;) {
     const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);

@@ -1,6 +1,6 @@
-// A device log that is being recorded. Threads that must not wait hand it records through channels,
-// each a ring of its own; a thread of the log writes them out, in blocks. What finds its ring full
-// is dropped and counted.
+// Device log under recording. Threads that must not wait push records into channels, one ring each;
+// a thread of the log writes them in blocks. A record that finds its ring full is dropped and
+// counted.
 #pragma once
 
 #include <atomic>
@@ -18,18 +18,18 @@
 namespace arthro::simulation {
 
 struct DeviceLogOptions {
-  std::size_t ring = 4096;    // records a channel; four seconds at 1 kHz
-  double write_every = 0.25;  // s; what is lost if the machine goes off
+  std::size_t ring = 4096;    // records per channel; four seconds at 1 kHz
+  double write_every = 0.25;  // s; lost where the machine loses power
 };
 
-// From one thread to the log's. Push neither waits nor allocates.
+// Channel from one thread to that of the log. Push neither waits nor allocates.
 class LogChannel {
  public:
   explicit LogChannel(std::size_t ring) : records_(ring) {}
-  // The number is written here.
+  // Pushes a record and sets its number.
   void Push(const LogRecord& record) noexcept;
   long dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
-  // Dropped or not.
+  // Number of pushed records, dropped ones included.
   std::uint64_t pushed() const noexcept {
     return records_.pushed() + static_cast<std::uint64_t>(dropped());
   }
@@ -38,22 +38,22 @@ class LogChannel {
   friend class DeviceLog;
   BoundedQueue<LogRecord> records_;
   std::atomic<long> dropped_{0};
-  std::uint64_t number_ = 0;  // who pushes
+  std::uint64_t number_ = 0;  // used by the pushing thread
 };
 
 class DeviceLog {
  public:
-  // Refuses a file that has content. Throws Error(kFile), also where it cannot be written.
+  // Creates the log. Throws Error(kFile) where the file has content or cannot be written.
   DeviceLog(const std::filesystem::path& file, std::vector<LogSource> sources,
             const DeviceLogOptions& options = {});
   ~DeviceLog();
   DeviceLog(const DeviceLog&) = delete;
   DeviceLog& operator=(const DeviceLog&) = delete;
 
-  // Lives as long as the log. Not on the servo path.
+  // Adds a channel, which lives as long as the log. Not on the servo path.
   LogChannel& AddChannel();
-  // Writes what is left, and the end; no channel may be pushed to any more. Throws Error(kFile)
-  // where something could not be written: then the file ends before that.
+  // Writes the remaining records and the end; call after the last Push. Throws Error(kFile) where a
+  // write failed; the file then ends before that write.
   void Close();
   long dropped() const;
 
@@ -68,7 +68,7 @@ class DeviceLog {
   int descriptor_ = -1, error_ = 0;
   std::string payload_;
   std::uint32_t count_ = 0;
-  mutable std::mutex mutex_;  // channels, and the end; never held by who pushes
+  mutable std::mutex mutex_;  // guards the channels and the end; never locked by Push
   std::condition_variable ended_;
   bool has_ended_ = false;
   std::vector<std::unique_ptr<LogChannel>> channels_;

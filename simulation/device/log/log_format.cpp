@@ -46,7 +46,7 @@ void Put(std::string& bytes, const DeviceSample& sample) {
   Put(bytes, static_cast<std::uint8_t>(sample.valid));
 }
 
-// Takes values off the front of bytes; where there are too few it is broken from then on.
+// Reads values from the front of bytes; with too few bytes it fails from then on.
 class Taker {
  public:
   explicit Taker(std::string_view bytes) : bytes_(bytes) {}
@@ -99,7 +99,7 @@ class Taker {
   bool is_good_ = true;
 };
 
-// False: what these bytes say cannot be.
+// Decodes the body of a record. Returns false for impossible values.
 bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
   record.kind = static_cast<LogKind>(taker.Take<std::uint8_t>());
   record.source = taker.Take<std::uint8_t>();
@@ -165,7 +165,7 @@ std::vector<LogSource> SourcesIn(std::string_view text) {
   return sources;
 }
 
-// Records that were dropped: of each channel the numbers go up by one.
+// Counts dropped records: the numbers of a channel rise by one.
 long CountMissing(std::span<const LogRecord> records) {
   struct Channel {
     std::uint64_t end = 0, count = 0;
@@ -284,7 +284,7 @@ std::string LogHead(std::span<const LogSource> sources, std::uint32_t version) {
   }
   std::string head(kMagic);
   Put(head, version);
-  // A serial number may hold what is no UTF-8.
+  // A serial number may contain invalid UTF-8.
   const std::string text =
       json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   return head + LogBlock(text, static_cast<std::uint32_t>(sources.size()));
@@ -304,7 +304,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
                     "that recorded it",
                     version, kOldestLogVersion, kLogVersion));
   DeviceLogContent log;
-  std::optional<std::uint64_t> pushed;  // once the end was read
+  std::optional<std::uint64_t> pushed;  // set once the end was read
   bool has_sources = false;
   while (taker.left() > 0 || !has_sources) {
     const std::size_t at = bytes.size() - taker.left();
@@ -335,7 +335,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
     if (!has_sources) {
       try {
         log.sources = SourcesIn(payload);
-      } catch (const std::exception&) {  // no JSON, or JSON of another form
+      } catch (const std::exception&) {  // invalid JSON, or JSON of another form
         refuse("the head of this device log cannot be; record it again");
       }
       has_sources = true;

@@ -1,12 +1,12 @@
-// A device log as bytes, little-endian, version 2:
+// Bytes of a device log, little-endian, version 2:
 //   "ARTHRLOG", u32 version, then blocks to the end of the file
 //   block: u32 size of the payload, u32 records in it, u32 CRC-32 of the payload, u32 CRC-32 of the
 //          twelve bytes before; payload
-// The first block's payload is JSON, {"sources": [{family, model, serial, roles}]}, its count that
-// of the sources. Of the others it is records: u8 kind, u8 source, u16 size of what follows the
-// head, i64 t_ns, u64 number; then, by kind, what Append writes. The last block holds one record
-// alone, the end. Whoever dies while it writes leaves none, and perhaps a block that is not whole;
-// nothing else is lost. Version 1 has no end, and is read.
+// The payload of the first block is JSON, {"sources": [{family, model, serial, roles}]}, and its
+// count that of the sources. Other blocks contain records: u8 kind, u8 source, u16 size of the
+// body, i64 t_ns, u64 number; then, by kind, the body that Append writes. The last block holds a
+// single record, the end. A program that dies while writing leaves no end, and perhaps an
+// incomplete block; nothing else is lost. Version 1 has no end, and can be read.
 #pragma once
 
 #include <filesystem>
@@ -22,31 +22,31 @@ namespace arthro::simulation {
 inline constexpr std::uint32_t kLogVersion = 2, kOldestLogVersion = 1;
 inline constexpr std::size_t kLargestBlock = 1 << 20;  // bytes of payload
 
-// Appends to `payload`; allocates nothing where there is room for kLargestRecord more.
+// Appends a record to `payload`; allocates nothing where kLargestRecord more bytes are reserved.
 inline constexpr std::size_t kLargestRecord = 512;  // bytes
 void Append(const LogRecord& record, std::string& payload);
 
-// The beginning of a file, the first block with it; and a block.
+// Return the beginning of a file with its first block, and a block.
 std::string LogHead(std::span<const LogSource> sources, std::uint32_t version = kLogVersion);
 std::string LogBlock(std::string_view payload, std::uint32_t records);
-// The last block: so many records were pushed, what was dropped included.
+// Returns the last block, with the number of pushed records, dropped ones included.
 std::string LogEnd(std::uint64_t pushed);
 
 struct DeviceLogContent {
   std::vector<LogSource> sources;
-  std::vector<LogRecord> records;  // in the order of time, without the end
-  // That were dropped when it was recorded; where there is no end, those that can be seen to be.
+  std::vector<LogRecord> records;  // in order of time, without the end
+  // Number of records that were dropped while recording; without an end, a lower bound.
   long missing = 0;
-  // Empty: it is whole, as far as its version can tell. Else what became of its end, in words.
+  // A sentence about a missing end; empty where the log is complete, as far as its version shows.
   std::string torn;
 };
 
-// Whether these bytes begin as a log does.
+// Returns true for bytes that begin as a log.
 bool IsDeviceLog(std::string_view bytes) noexcept;
 
-// Where a recording was cut short (the machine went off: its last block is not whole, the rest is
-// zeros, or it has no end) what is whole before is given, and `torn` says so. Throws
-// Error(kBadData): no log, another version, damaged in the middle.
+// Reads a log. Where the recording was cut short (its last block is incomplete, the rest is zeros,
+// or it has no end) the complete blocks are returned, and `torn` is set. Throws Error(kBadData) for
+// other data, another version, or damage in the middle.
 DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::path& file = {});
 DeviceLogContent ReadDeviceLog(const std::filesystem::path& file);
 

@@ -1,6 +1,6 @@
-// What a device log holds: who was plugged in, each report as it came with what the driver made of
-// it, each tick of the servo with what was commanded [devices.md, Simulated hand]. Device frame, m,
-// N, s; times on the clock of live devices.
+// Records of a device log: the sources, each report with the state that the driver decoded from it,
+// and each tick of the servo with its command [devices.md, Simulated hand]. Device frame, m, N, s;
+// times on the clock of live devices.
 #pragma once
 
 #include <array>
@@ -15,39 +15,39 @@
 
 namespace arthro::simulation {
 
-// One plugged-in device, or one that is computed.
+// A plugged-in device, or a simulated one.
 struct LogSource {
-  std::string family;  // word of DeviceFamily; empty: it has no reports
-  std::string model;   // of a WoodenHaptics
+  std::string family;  // text of DeviceFamily; empty: it has no reports
+  std::string model;   // WoodenHaptics only
   std::string serial;
-  std::array<std::optional<DeviceRole>, 2> roles;  // of its hands
+  std::array<std::optional<DeviceRole>, 2> roles;  // roles of its hands
   friend bool operator==(const LogSource&, const LogSource&) = default;
 };
 
 enum class LogKind : std::uint8_t {
-  kOpened = 1,  // the driver forgot what it knew
+  kOpened = 1,  // the driver forgot its state
   kHomeAsked,
   kReport,
   kTick,
-  kEnd,  // the last one, of the log itself
+  kEnd,  // last record, of the log itself
 };
 
-// A hand as the driver said it after a report. Of what the servo does not see (joints, push and
-// turn) only a checksum.
+// State of a hand after a report. Joints, push and turn, which the servo does not see, are kept as
+// a checksum only.
 struct LoggedHand {
-  DeviceSample sample;  // no time: a driver knows none
+  DeviceSample sample;  // without a time, which a driver does not know
   bool is_homed = false;
   std::uint32_t rest = 0;
 };
 LoggedHand LoggedHandOf(const HandReading& reading) noexcept;
-// To the bit; of two that are not numbers, too.
+// Compares bit by bit, NaN included.
 bool IsSame(const LoggedHand& a, const LoggedHand& b) noexcept;
 
 struct LogRecord {
   LogKind kind = LogKind::kTick;
   std::uint8_t source = 0;
   std::int64_t t_ns = 0;
-  std::uint64_t number = 0;  // of its channel, from 0; where some are missing, they were dropped
+  std::uint64_t number = 0;  // number in its channel, from 0; missing numbers were dropped
 
   // kOpened
   std::uint16_t vendor = 0;
@@ -67,7 +67,7 @@ struct LogRecord {
   bool is_dead_man_held = false;
 
   // kEnd
-  std::uint64_t pushed = 0;  // records of all channels, those that were dropped included
+  std::uint64_t pushed = 0;  // records of all channels, dropped ones included
 };
 
 }  // namespace arthro::simulation

@@ -59,7 +59,7 @@ ReportReplay ReplayReports(const DeviceLogContent& log, int source) {
 
 std::vector<TraceRow> TraceOf(const DeviceLogContent& log, const std::filesystem::path& file) {
   std::vector<TraceRow> rows;
-  std::array<double, 2> newest{-1, -1};  // by role; a sample that is read again has the same t
+  std::array<double, 2> newest{-1, -1};  // s, by role; a sample that is read again has the same t
   for (const LogRecord& record : log.records) {
     if (record.kind != LogKind::kTick || !record.sample.valid) continue;
     const auto role = log.sources[record.source].roles[record.tick_hand];

@@ -1,4 +1,4 @@
-// A device, and all that passes through it in a log.
+// Device whose samples and commands are logged.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@
 
 namespace arthro::simulation {
 
-// Usable wherever the device is. Writes a record at each Command, which ends a tick.
+// Replaces the device that it wraps. Writes a record at each Command, which ends a tick.
 class LoggedDevice final : public Device {
  public:
-  // `source`: of the log's; `hand`: of that source. The log must outlive it.
+  // `source` is that of the log, `hand` that of the source. The log must outlive this.
   LoggedDevice(std::unique_ptr<Device> device, DeviceLog& log, int source, int hand = 0);
 
   const DeviceCaps& caps() const noexcept override { return device_->caps(); }
@@ -29,8 +29,8 @@ class LoggedDevice final : public Device {
   LogRecord tick_;
 };
 
-// Each report of a link, with what its driver made of it. Give it to LiveOptions; the log and this
-// must outlive the link.
+// Logs each report of a link with the state that its driver decoded. Pass it in LiveOptions; the
+// log and this must outlive the link.
 class LoggedReports final : public ReportTap {
  public:
   LoggedReports(DeviceLog& log, int source);

@@ -17,15 +17,15 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kSilentServo = 0.010;  // s; then the scheduler gives no force by itself
+constexpr double kSilentServo = 0.010;  // s; then the scheduler sets no force
 constexpr int kLastZeros = 5;           // frames; one may be lost
 constexpr int kCalibrationEvery = 100;  // frames
-constexpr int kMostErrors = 16;         // that are taken out of the library's list in a frame
+constexpr int kMostErrors = 16;  // errors that are taken from the list of the library per frame
 
-// Values that the library does not report [devices.md, Families]: values of a Touch.
+// Values of a Touch, which the library does not report [devices.md, Families].
 constexpr double kQuantum = 5.5e-5;                              // m
 constexpr double kGimbalSigma = 1.0 / 180.0 * std::numbers::pi;  // rad, potentiometers
-constexpr double kPeriod = 1e-3;                                 // s, of the scheduler
+constexpr double kPeriod = 1e-3;                                 // s, period of the scheduler
 
 struct News {
   DeviceSample sample;
@@ -37,7 +37,7 @@ struct Push {
   double t = -1;  // s
 };
 
-// The handle's own protection, or the end of the link?
+// Distinguishes the protection of the handle from the end of the link.
 DeviceTrouble TroubleOf(HDerror error) noexcept {
   switch (error) {
     case HD_WARM_MOTORS:
@@ -68,7 +68,7 @@ std::string StringOf(HDenum what) {
   return text != nullptr ? text : "";
 }
 
-// Of the current device.
+// Reads the capabilities of the current device.
 DeviceCaps CapsOf() {
   DeviceCaps caps;
   caps.input = HandInput::kAbsolute;
@@ -79,12 +79,12 @@ DeviceCaps CapsOf() {
   caps.gimbal_sigma = kGimbalSigma;
   caps.peak_force = DoubleOf(HD_NOMINAL_MAX_FORCE);
   caps.continuous_force = DoubleOf(HD_NOMINAL_MAX_CONTINUOUS_FORCE);
-  caps.max_stiffness = 1e3 * DoubleOf(HD_NOMINAL_MAX_STIFFNESS);  // from N/mm
+  caps.max_stiffness = 1e3 * DoubleOf(HD_NOMINAL_MAX_STIFFNESS);  // N/m, from N/mm
   // Damping that a wall of that stiffness needs to be passive at this rate: b = K T/2 [Colgate &
   // Schenkel 1997].
   caps.damping = 0.5 * kPeriod * caps.max_stiffness;
   caps.rate = 1 / kPeriod;
-  caps.delay_ticks = 2;  // one until its scheduler takes the force, one until it is read
+  caps.delay_ticks = 2;  // one until the scheduler takes the force, one until it is read
   std::array<HDdouble, 6> box{};
   hdGetDoublev(HD_USABLE_WORKSPACE_DIMENSIONS, box.data());
   caps.min_hip = 1e-3 * glm::dvec3(box[0], box[1], box[2]);
@@ -93,7 +93,7 @@ DeviceCaps CapsOf() {
   return caps;
 }
 
-// What was said before is not of what comes now.
+// Discards errors of earlier calls.
 void ForgetErrors() {
   for (int i = 0; i < kMostErrors && HD_DEVICE_ERROR(hdGetError()); ++i) {
   }
@@ -101,7 +101,7 @@ void ForgetErrors() {
 
 }  // namespace
 
-// One device, open or not: what its scheduler reads and writes, and what a servo takes and gives.
+// State of one device, open or not, shared by the scheduler and a servo.
 class OpenHapticsDevices::Line {
  public:
   Line(std::string configured, double (*clock)() noexcept)
@@ -110,7 +110,7 @@ class OpenHapticsDevices::Line {
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
-  // These while the scheduler stands still.
+  // Call these while the scheduler is stopped.
   void Open() {
     Close();
     ForgetErrors();
@@ -162,7 +162,7 @@ class OpenHapticsDevices::Line {
   }
   long frames() const noexcept { return frames_; }
 
-  // Who reads: one servo, or the window while there is none.
+  // Called by the reader: one servo, or the window while there is none.
   const News& Newest() noexcept { return news_.Read(); }
   DeviceTrouble trouble() const noexcept { return trouble_.load(std::memory_order_acquire); }
   void ForgetProtection() noexcept {
@@ -171,7 +171,7 @@ class OpenHapticsDevices::Line {
   }
   void Send(const glm::dvec3& force) noexcept { pushes_.Write({force, clock_()}); }
 
-  // Scheduler: one frame. `is_released`: no force.
+  // Called by the scheduler, once per frame. `is_released`: sets no force.
   void Frame(bool is_released) noexcept {
     if (!is_open_) return;
     hdBeginFrame(handle_);
@@ -192,7 +192,7 @@ class OpenHapticsDevices::Line {
     const std::array<HDdouble, 3> newtons{force.x, force.y, force.z};
     hdSetDoublev(HD_CURRENT_FORCE, newtons.data());
     hdEndFrame(handle_);
-    if (TakeErrors()) return;  // what it read is not to be believed
+    if (TakeErrors()) return;  // the sample is not valid
 
     news.sample.t = now;
     news.sample.hip_in_device = 1e-3 * glm::dvec3(position[0], position[1], position[2]);
@@ -217,7 +217,7 @@ class OpenHapticsDevices::Line {
     }
     is_homed_ = calibration == HD_CALIBRATION_OK;
   }
-  // True: there was one that ends the link.
+  // Takes all errors. Returns true where one of them ends the link.
   bool TakeErrors() noexcept {
     for (int i = 0; i < kMostErrors; ++i) {
       const HDErrorInfo error = hdGetError();
@@ -237,13 +237,13 @@ class OpenHapticsDevices::Line {
   std::atomic<DeviceTrouble> trouble_{DeviceTrouble::kNone};
   std::atomic<long> frames_{0};
   std::atomic<bool> is_open_{false};
-  // The scheduler's.
+  // Used by the scheduler only.
   long frames_of_opening_ = 0;
   bool is_homed_ = false;
 };
 
-// A servo's side of a line. What a line becomes while this lives is not its own to see: it is
-// opened again for the next one.
+// Device of a servo on a line. A line that is opened again while this lives is used only by the
+// next device.
 class OpenHapticsDevices::OneHand final : public Device {
  public:
   explicit OneHand(Line& line)
@@ -269,8 +269,8 @@ class OpenHapticsDevices::OneHand final : public Device {
       events_.trouble = DeviceTrouble::kNotFinite;
     is_not_finite_ = false;
     status_ = Next(status_, events_);
-    // Its protection has been told of: it goes on when the hand has let go. What ended the link
-    // stays.
+    // A trip of the protection is reported once, and the device continues after the dead-man is
+    // released. A lost link stays lost.
     line_.ForgetProtection();
     events_.trouble = line_.trouble();
     DeviceSample sample = news.sample;

@@ -1,8 +1,8 @@
-// Force devices that only their maker's library drives (OpenHaptics: Touch, Touch X and their
-// forebears). Built where that library is installed; none of its types is here. Its one scheduler,
-// a thread of its own at 1 kHz, reads and writes all of them; a servo takes the newest. Where no
-// servo spoke for 10 ms, the handle's guard steps in or this ends, they are given no force. Device
-// frame of the library: x right, y up, z towards who sits there; m, N, s.
+// Force devices that only the library of their maker drives (OpenHaptics: Touch, Touch X and their
+// predecessors). Built where that library is installed; none of its types appears here. Its single
+// scheduler, a thread at 1 kHz, reads and writes all devices; a servo reads the newest sample. They
+// get no force where no servo sent a command for 10 ms, where the protection of the handle trips,
+// and at the end. Device frame of the library: x right, y up, z towards the user; m, N, s.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@
 
 namespace arthro::simulation {
 
-// As in rig files, and for a person.
+// Text in rig files, and for the user.
 inline constexpr const char* kOpenHapticsWord = "openhaptics";
 inline constexpr const char* kOpenHapticsName = "OpenHaptics device";
 
-// Whether this program was built with the library; a sentence where it was not.
+// True where this program was built with the library; and the sentence where it was not.
 bool HasOpenHaptics() noexcept;
 inline constexpr const char* kNoOpenHaptics =
     "this program was built without OpenHaptics, through which a Touch and its kin speak; install "
@@ -26,26 +26,26 @@ inline constexpr const char* kNoOpenHaptics =
 
 class OpenHapticsDevices final : public Releasable {
  public:
-  // Each by the name that the maker's setup tool gave it; an empty one is the tool's default. Opens
-  // those that are there. `clock` rises evenly, s. The library has one scheduler a program, so only
-  // one of these may live at a time.
+  // Opens the devices that are present. Each is given by the name from the setup tool of its maker;
+  // an empty name is the default of the tool. `clock` is monotonic, s. The library has one
+  // scheduler per program, so only one of these may exist at a time.
   OpenHapticsDevices(const std::vector<std::string>& names, double (*clock)() noexcept);
-  ~OpenHapticsDevices() override;  // as Release, five times no force, then closed
+  ~OpenHapticsDevices() override;  // releases, writes zero force five times, then closes
 
   std::size_t size() const noexcept;
-  // Tries again what is not open, or was lost. All of them are without force meanwhile, and it may
-  // take a second: not while a servo runs.
+  // Opens devices again that are not open or were lost. All devices are without force meanwhile,
+  // and it may take a second: not while a servo runs.
   void OpenMissing();
-  // What a servo reads and commands, no force to begin with; this must outlive it. Its caps are
-  // those that the device says; one that is not open now is absent as long as the hand lives, since
-  // nobody knows what it bears.
+  // Makes the device for a servo, without force at first; this must outlive it. Its capabilities
+  // are those that the device reports. A device that is not open now stays absent while the
+  // returned object lives, since its limits are unknown.
   std::unique_ptr<Device> Hand(std::size_t i);
-  // While no servo reads it.
+  // Polls the status while no servo reads the device.
   DeviceStatus Look(std::size_t i) noexcept;
-  // More than a state says: why it is not open, and what to do. Empty: it is open.
+  // Detail beyond the state: why it is not open and what to do; empty where it is open.
   std::string detail(std::size_t i) const;
   bool is_open(std::size_t i) const noexcept;
-  // Frames of the scheduler in which the device was read, so far.
+  // Number of scheduler frames in which the device was read.
   long frames(std::size_t i) const noexcept;
 
   void Release() noexcept override;

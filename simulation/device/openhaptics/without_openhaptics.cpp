@@ -1,4 +1,4 @@
-// Where the library is not installed: none of its devices is ever there.
+// Build without the library: none of its devices exists.
 #include "simulation/device/openhaptics/openhaptics_devices.h"
 
 namespace arthro::simulation {
@@ -6,7 +6,7 @@ namespace arthro::simulation {
 class OpenHapticsDevices::Line {};
 struct OpenHapticsDevices::Scheduled {};
 
-// One that is absent for good.
+// Device that is permanently absent.
 class OpenHapticsDevices::OneHand final : public Device {
  public:
   const DeviceCaps& caps() const noexcept override { return caps_; }

@@ -1,5 +1,5 @@
-// The last ten seconds of a hand, for a plot: the largest |force| and sample age of each 20 ms, in
-// a fixed ring. N, ms, s.
+// History of the last 10 s of a hand, for plots: the largest |force| and sample age per 20 ms, in a
+// ring of fixed size. N, ms, s.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@ class ForceHistory {
  public:
   static constexpr int kLength = 500;
   static constexpr double kBin = 0.020;      // s
-  static constexpr double kRounding = 1e-9;  // s, of a sum of ticks
+  static constexpr double kRounding = 1e-9;  // s, error of a sum of ticks
 
-  // What was felt; counts into the bin under way.
+  // Adds a force to the present bin.
   void Feel(double force) noexcept { force_ = std::max(force_, force); }
-  // `seconds` more have passed, the sample `age` old at their end.
+  // Advances by `seconds`, at whose end the sample is `age` old.
   void Pass(double seconds, double age) noexcept {
     age_ = std::max(age_, age);
-    // Longer than the ring: all of it is that.
+    // A time longer than the ring fills all of it.
     pending_ = std::min(pending_ + std::max(0.0, seconds), kLength * kBin);
     if (pending_ < kBin - kRounding) return;
     for (; pending_ >= kBin - kRounding; pending_ -= kBin) {
@@ -29,7 +29,7 @@ class ForceHistory {
     force_ = age_ = 0;
   }
 
-  // As ImGui::PlotLines takes them: the oldest is at `oldest()`.
+  // Rings as ImGui::PlotLines reads them; the oldest value is at `oldest()`.
   const std::array<float, kLength>& forces() const noexcept { return forces_; }
   const std::array<float, kLength>& ages() const noexcept { return ages_; }
   int oldest() const noexcept { return next_; }

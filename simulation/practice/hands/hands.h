@@ -129,16 +129,17 @@ class Hands {
   std::unique_ptr<HidBus> bus_;  // outlives the links, as do the next three members
   std::unique_ptr<DeviceLog> log_;
   std::vector<std::unique_ptr<LoggedReports>> taps_;  // one per link, where there is a log
-  std::array<Logged, 2> logged_{};                    // by DeviceRole
-  std::array<bool, 2> is_recorded_{};                 // by DeviceRole
+  std::array<Logged, 2> logged_{};                    // indexed by DeviceRole
+  std::array<bool, 2> is_recorded_{};                 // indexed by DeviceRole
   std::vector<Link> links_;
   std::shared_ptr<OpenHapticsDevices> openhaptics_;  // null: the rig names no such device
   std::optional<ReleaseOnCrash> crash_;
-  std::array<Role, 2> roles_;  // by DeviceRole
+  std::array<Role, 2> roles_;  // indexed by DeviceRole
   std::shared_ptr<LiveLink> pedals_;
   std::weak_ptr<HeldHands> held_;
   std::optional<DeviceRole> calibrated_;
-  std::array<std::optional<glm::dvec3>, 2> pivots_;  // by DeviceRole; calibrated since the start
+  std::array<std::optional<glm::dvec3>, 2>
+      pivots_;  // indexed by DeviceRole; calibrated since the start
   bool is_key_held_ = false, is_zero_force_ = false;
 };
 

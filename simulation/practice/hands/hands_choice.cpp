@@ -11,7 +11,7 @@
 namespace arthro::simulation {
 namespace {
 
-// One that is never driven is told at once, and not by a hand that never comes.
+// Refuses a device that this program cannot drive, before the practice begins.
 void CheckDriven(const RigDevice& own, const char* where, const std::filesystem::path& rig) {
   if (IsOpenHaptics(own)) {
     if (!HasOpenHaptics())

@@ -1,5 +1,5 @@
-// What a person chose to hold the two hands of a practice: the devices of a rig, a recorded pair,
-// simulated devices, or nothing, and then mouse and keys. SI.
+// Choice of the user for the two hands of a practice: devices of a rig, a recording, simulated
+// devices, or mouse and keys. SI units.
 #pragma once
 
 #include <filesystem>
@@ -14,19 +14,20 @@ namespace arthro::simulation {
 
 struct HandsChoice {
   std::optional<RigFile> rig;
-  std::filesystem::path rig_file;  // that it was read from
-  std::vector<TraceRow> trace;     // recorded hands; empty: none
+  std::filesystem::path rig_file;  // file of the rig
+  std::vector<TraceRow> trace;     // recorded hands; may be empty
   bool is_simulated = false;
   bool is_zero_force = false;
-  std::filesystem::path log;  // that all of it is written to; empty: none
-  std::string notice;         // a sentence where the recording is not whole
+  std::filesystem::path log;  // log of the practice; may be empty
+  std::string notice;         // a sentence where the recording is incomplete
 };
 
-// `rig`: a rig file or empty; `hands`: TRACE.csv, a device log, "plant" or empty. Of both, the
-// recording or the simulated devices stand in for the rig's, on its mounts. Throws Error.
+// Reads the choice: `rig` is a rig file or empty; `hands` is TRACE.csv, a device log, "plant" or
+// empty. With both, the recording or the simulated devices replace those of the rig, on its mounts.
+// Throws Error.
 HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands);
 
-// A device of a rig that its maker's library drives, and not hidapi.
+// True for a device that is driven by its maker's library instead of hidapi.
 bool IsOpenHaptics(const RigDevice& device);
 
 }  // namespace arthro::simulation

@@ -44,14 +44,14 @@ struct PedalParts {
 // Input from the window, once per frame.
 struct HandsRequest {
   struct Hand {
-    RodPose pose;               // where mouse and keys lead the hand
+    RodPose pose;               // pose to which mouse and keys lead the hand
     int episode = 0;            // HandsReport::Hand::episode that `pose` continues
     std::uint32_t buttons = 0;  // bit field, buttons of the session
     // New mount of the device; nullopt: unchanged. Simulated devices ignore it, since their rod
     // goes through the true incision.
     std::optional<DeviceRig> mount;
   };
-  std::array<Hand, 2> hand;  // by DeviceRole
+  std::array<Hand, 2> hand;  // indexed by DeviceRole
   // Hand whose incision is being calibrated. Its samples are then queued for ReadSample, no device
   // is armed or given a force, and buttons have no other effect.
   std::optional<DeviceRole> calibrated;
@@ -74,7 +74,7 @@ struct HandsReport {
     double given = 0;  // N, force that the device was commanded
     ForceHistory history;
   };
-  std::array<Hand, 2> hand;  // by DeviceRole
+  std::array<Hand, 2> hand;  // indexed by DeviceRole
   double peak_force = 0;     // N, largest on the instrument's tip so far
   double running = 0;        // s, running time of the shaver
   int next_presses = 0;      // presses of the button for the next instrument
@@ -103,8 +103,9 @@ class HeldHands final : public ServoWatch {
   void BeginTick(double now) noexcept;
   bool IsHeld(RigAction action) const noexcept;
 
-  std::array<std::unique_ptr<Device>, 2> devices_;  // by DeviceRole; the hands, logged or not
-  std::array<Hand*, 2> hands_{};                    // inside them
+  std::array<std::unique_ptr<Device>, 2>
+      devices_;                   // indexed by DeviceRole; the hands, logged or not
+  std::array<Hand*, 2> hands_{};  // inside them
   PedalParts pedals_;
   DeviceSample pedal_sample_;
   double tick_ = -1;  // s, time of the newest tick

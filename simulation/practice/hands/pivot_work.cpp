@@ -9,7 +9,7 @@ namespace arthro::simulation {
 
 PivotOptions PivotOptionsOf(const DeviceCaps& caps) {
   PivotOptions options;
-  // Rounding to a quantum is even noise.
+  // Rounding to a quantum is uniform noise.
   if (caps.position_quantum > 0) options.position_noise = caps.position_quantum / std::sqrt(12.0);
   options.angle_noise = caps.gimbal_sigma;
   return options;

@@ -1,6 +1,6 @@
-// The calibration of one hand's incision as it goes on: what the device says, sample by sample,
-// becomes presses or the poses of a swing, and those a pivot with its predicted error. Pure: no
-// thread, no clock, no window. Device frame, m, s.
+// A running calibration of one hand's incision. Samples of the device become presses or the poses
+// of a swing, and those a pivot with its predicted error. No thread, no clock, no window. Device
+// frame, m, s.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,10 @@
 
 namespace arthro::simulation {
 
-// The noise of a device, as far as it states it.
+// Calibration options with the noise that the device states.
 PivotOptions PivotOptionsOf(const DeviceCaps& caps);
 
-// A fit of many poses takes longer than a frame, so somebody else does it, beside the window.
+// A fit of a swing. It takes longer than a frame, so run it beside the window.
 struct PivotFit {
   std::vector<PivotPress> poses;
   PivotOptions options;
@@ -34,17 +34,17 @@ class PivotWork {
 
   PivotWork(double rod_length, const PivotOptions& options);
 
-  // From the beginning: by presses, or by swinging.
+  // Begins anew, by presses or by a swing.
   void Begin(PivotSource source);
   void Begin() { Begin(source_); }
-  // What the device said next; a button of its handle that goes down is a press.
+  // Takes the next sample of the device; a button of the handle that goes down is a press.
   void Take(const DeviceSample& sample);
-  // Now, by a key or a button on the screen; of a swing nothing.
+  // Begins a press, for a key or a button on the screen; ignored during a swing.
   void Press();
   void SetAngleNoise(double angle_noise);  // rad
 
-  // A swing's fit that is due; its result comes back by TakeFit, and is passed over where all was
-  // begun anew meanwhile.
+  // Returns the fit of a swing when it is due. TakeFit takes its result, and ignores it where the
+  // calibration was begun anew meanwhile.
   std::optional<PivotFit> DueFit();
   void TakeFit(const PivotFit& fit, const PivotCalibration& found);
 
@@ -53,11 +53,12 @@ class PivotWork {
   std::span<const PivotPress> poses() const noexcept;
   const PivotCalibration& found() const noexcept { return found_; }
   bool MayBeUsed() const noexcept;
-  // A press that is being averaged, 0 to 1; none: no press.
+  // Progress of the present press, 0 to 1; nullopt: no press.
   std::optional<double> pressing() const noexcept;
-  // Of the press before, empty where it counted.
+  // Reason why the last press was refused; empty where it was accepted.
   const std::string& refusal() const noexcept { return refusal_; }
-  // rad: between the rod as it is now and the press that is furthest from it, or of all poses.
+  // Angle in rad between the rod and the press that is furthest from it; during a swing, the spread
+  // of all poses.
   double angle() const noexcept;
 
  private:
@@ -71,7 +72,7 @@ class PivotWork {
   std::string refusal_;
   PivotCalibration found_;
   DeviceSample last_;
-  std::uint32_t buttons_ = ~0u;  // one that is held from the beginning is no press
+  std::uint32_t buttons_ = ~0u;  // a button that is held from the beginning is no press
   int generation_ = 0;
   std::size_t fitted_ = 0;  // poses
   double fitted_at_ = 0;

@@ -62,7 +62,7 @@ class Practice {
 
   // Pointers, since the servo refers to them and this is moved.
   std::unique_ptr<Session> session_;
-  std::array<ScriptedDevice, 2> by_mouse_;  // by DeviceRole
+  std::array<ScriptedDevice, 2> by_mouse_;  // indexed by DeviceRole
   ServoRequest request_;
   Snapshot snapshot_;
   std::uint32_t buttons_ = 0;

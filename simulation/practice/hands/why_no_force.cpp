@@ -3,7 +3,7 @@
 namespace arthro::simulation {
 
 const char* WhyNoForce(const ForceSituation& situation) noexcept {
-  // What there is.
+  // Reasons in the hardware.
   if (situation.kind == HandKind::kMouse)
     return "No device holds this hand: mouse and keys do. A rig file names one (--rig).";
   if (situation.kind == HandKind::kRecorded)
@@ -26,13 +26,13 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
   if (situation.caps.feedback == Feedback::kRumble) return "This device rumbles and cannot push.";
   if (!HasForce(situation.caps))
     return "This device has no motors; it only says where the hand is.";
-  // What was chosen.
+  // Reasons in the modes.
   if (situation.is_zero_force)
     return "Zero-force mode is on: the force is shown and none is given. 0 ends it.";
   if (situation.is_calibrating)
     return "An incision is being calibrated; no device pushes until that is closed.";
   if (!situation.is_practising) return "Devices push only in a practice; F5 begins one.";
-  // What comes from the device, and from the hand. What is no number is not fresh.
+  // Reasons in the samples and the dead-man. A sample age that is NaN is not fresh.
   if (!(situation.sample_age <= kLostAfter))
     return "The device has said nothing for more than 20 ms; check its cable.";
   if (!(situation.sample_age < kFreshFor))
@@ -46,7 +46,7 @@ const char* WhyNoForce(const ForceSituation& situation) noexcept {
   }
   if (!situation.is_dead_man_held)
     return "Nobody holds the dead-man: hold the handle's button, the pedal or V.";
-  // What the session has to give.
+  // Reasons in the session.
   switch (situation.fault) {
     case Fault::kTooFast:
       return "The hand is too fast; slow down.";

@@ -1,5 +1,5 @@
-// Why a hand feels no force, in one sentence for the person who asks, the first thing to be mended
-// first. Pure. s.
+// Explains in one sentence why a hand feels no force; the first obstacle to remove comes first.
+// Pure. s.
 #pragma once
 
 #include "simulation/device/device_caps.h"
@@ -8,7 +8,7 @@
 
 namespace arthro::simulation {
 
-// What holds a hand.
+// Kind of input that holds a hand.
 enum class HandKind { kMouse, kRecorded, kSimulated, kPluggedIn };
 
 struct ForceSituation {
@@ -17,14 +17,14 @@ struct ForceSituation {
   DeviceStatus status;
   double sample_age = 0;
   bool is_dead_man_held = false;
-  bool is_zero_force = false;   // the mode: shown, not commanded
-  bool is_calibrating = false;  // an incision: no device pushes meanwhile
-  bool is_practising = false;   // devices push only then
-  Fault fault = Fault::kNone;   // of the session
-  bool has_force = false;       // the session has one to give
+  bool is_zero_force = false;   // forces are shown and not commanded
+  bool is_calibrating = false;  // an incision is calibrated, and no device pushes
+  bool is_practising = false;   // devices push only in a practice
+  Fault fault = Fault::kNone;   // fault of the session
+  bool has_force = false;       // the session computes a force
 };
 
-// Empty: there is force.
+// Empty where there is force.
 const char* WhyNoForce(const ForceSituation& situation) noexcept;
 
 }  // namespace arthro::simulation

@@ -67,7 +67,7 @@ bool IsWhole(const DeviceEvents& e) {
   return e.is_present && e.is_open && e.is_homed && e.has_sample && e.trouble == kNone;
 }
 
-TEST(DeviceState, ArmsOnlyWhatIsWholeFreshHeldAndWasLetGo) {
+TEST(DeviceState, ArmsOnlyWithoutTroubleWithAFreshSampleAndAPressedDeadMan) {
   int armed = 0;
   ForAll([&](const DeviceStatus& status, const DeviceEvents& events) {
     if (Next(status, events).state != kArmed) return;
@@ -82,7 +82,7 @@ TEST(DeviceState, ArmsOnlyWhatIsWholeFreshHeldAndWasLetGo) {
   EXPECT_GT(armed, 0);
 }
 
-TEST(DeviceState, PushesOnlyWithASampleOfLessThanFiveMilliseconds) {
+TEST(DeviceState, PushesOnlyWithASampleYoungerThan5Milliseconds) {
   int pushes = 0;
   ForAll([&](const DeviceStatus& status, const DeviceEvents& events) {
     if (!MayPush(status, events)) return;
@@ -94,7 +94,7 @@ TEST(DeviceState, PushesOnlyWithASampleOfLessThanFiveMilliseconds) {
   EXPECT_GT(pushes, 0);
 }
 
-TEST(DeviceState, EveryTroubleEndsWhatRuns) {
+TEST(DeviceState, EveryTroubleEndsAReadyState) {
   const std::set<DeviceTrouble> faults{kNoPermission, kHeldElsewhere, kUnsupported, kNotFinite,
                                        kSlowWrite};
   ForAll([&](const DeviceStatus& status, const DeviceEvents& events) {
@@ -107,7 +107,7 @@ TEST(DeviceState, EveryTroubleEndsWhatRuns) {
   });
 }
 
-TEST(DeviceState, ASampleOlderThanTwentyMillisecondsIsALoss) {
+TEST(DeviceState, ASampleOlderThan20MillisecondsIsALoss) {
   for (const DeviceState state : {kReady, kArmed})
     for (const double age : kAges) {
       DeviceEvents events = Good();
@@ -121,7 +121,7 @@ TEST(DeviceState, ASampleOlderThanTwentyMillisecondsIsALoss) {
     }
 }
 
-TEST(DeviceState, GoesOneStepAtATime) {
+TEST(DeviceState, ChangesOnlyAlongAllowedTransitions) {
   const std::set<std::pair<DeviceState, DeviceState>> ways{
       {kAbsent, kOpening}, {kOpening, kAbsent}, {kOpening, kHoming}, {kOpening, kFault},
       {kHoming, kReady},   {kHoming, kFault},   {kHoming, kLost},    {kReady, kArmed},
@@ -140,7 +140,7 @@ TEST(DeviceState, GoesOneStepAtATime) {
   EXPECT_EQ(seen, ways) << "each of them can happen";
 }
 
-TEST(DeviceState, FromEverywhereAGoodDeviceIsReadyWithinFourSteps) {
+TEST(DeviceState, AnIntactDeviceIsReadyWithinFourStepsFromAnyState) {
   for (const DeviceState state : kStates)
     for (const DeviceTrouble reason : kTroubles) {
       DeviceStatus status{state, reason, true};
@@ -152,7 +152,7 @@ TEST(DeviceState, FromEverywhereAGoodDeviceIsReadyWithinFourSteps) {
     }
 }
 
-TEST(DeviceState, ADeadManThatIsHeldAllTheTimeNeverArms) {
+TEST(DeviceState, APermanentlyHeldDeadManNeverArms) {
   DeviceEvents held = Good();
   held.is_dead_man_held = true;
   for (const DeviceState start : {kAbsent, kOpening, kHoming, kFault, kLost}) {
@@ -165,7 +165,7 @@ TEST(DeviceState, ADeadManThatIsHeldAllTheTimeNeverArms) {
   }
 }
 
-TEST(DeviceState, AFaultWaitsForTheHandToLetGoAndKeepsItsReason) {
+TEST(DeviceState, AFaultLastsUntilTheDeadManIsReleased) {
   DeviceEvents events = Good();
   events.is_dead_man_held = true;
   events.trouble = kNotFinite;
@@ -181,7 +181,7 @@ TEST(DeviceState, AFaultWaitsForTheHandToLetGoAndKeepsItsReason) {
     EXPECT_EQ((status = Next(status, events)).state, next);
 }
 
-TEST(DeviceState, EveryStateAndReasonIsSaidInASentence) {
+TEST(DeviceState, DescribesEveryStateAndReason) {
   std::set<std::string> words, sentences;
   for (const DeviceState state : kStates) words.insert(ToString(state));
   EXPECT_EQ(words.size(), kStates.size());

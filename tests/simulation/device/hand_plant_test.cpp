@@ -13,7 +13,7 @@ constexpr double kTick = 1e-3;  // s
 
 PlantOptions Ideal(int delay = 0) { return {0.045, 0.2, 0, 0, 1e9, delay}; }
 
-TEST(HandPlant, AFreeDeviceIsPushedAsTheExactSolutionSays) {
+TEST(HandPlant, AFreeDeviceFollowsTheExactSolution) {
   HandPlant plant(Ideal(), kNoHand, glm::dvec3(0.0));
   const double force = 0.5, rate = 0.2 / 0.045;
   for (int i = 0; i < 200; ++i) plant.Tick({force, 0, 0}, kTick);
@@ -22,7 +22,7 @@ TEST(HandPlant, AFreeDeviceIsPushedAsTheExactSolutionSays) {
   EXPECT_NEAR(plant.position().x, end * (t - (1 - std::exp(-rate * t)) / rate), 1e-9);
 }
 
-TEST(HandPlant, WorkIsWhatTheHandGained) {
+TEST(HandPlant, WorkIsTheEnergyOfTheHand) {
   PlantOptions options = Ideal();
   options.damping = 0;
   HandPlant plant(options, kNoHand, glm::dvec3(0.0));
@@ -40,7 +40,7 @@ TEST(HandPlant, CommandsActAfterTheirDelay) {
   }
 }
 
-TEST(HandPlant, FrictionHoldsWhatIsPushedWithLess) {
+TEST(HandPlant, FrictionHoldsAgainstASmallerForce) {
   HandPlant plant({}, kNoHand, glm::dvec3(0.0));
   for (int i = 0; i < 1000; ++i) plant.Tick({0.2, 0.1, 0}, kTick);
   EXPECT_EQ(plant.position(), glm::dvec3(0.0)) << "0.22 N against 0.26";
@@ -51,7 +51,7 @@ TEST(HandPlant, FrictionHoldsWhatIsPushedWithLess) {
   EXPECT_EQ(plant.velocity(), glm::dvec3(0.0)) << "and stops what nobody pushes";
 }
 
-TEST(HandPlant, AHandGoesWhereItMeansTo) {
+TEST(HandPlant, AHandReachesItsIntent) {
   for (const HandModel& hand : {kSoftHand, kHand, kStiffHand, kWholeArm}) {
     HandPlant plant(Ideal(), hand, glm::dvec3(0.0));
     plant.SetIntent({0.02, 0, -0.01});
@@ -62,7 +62,7 @@ TEST(HandPlant, AHandGoesWhereItMeansTo) {
   }
 }
 
-TEST(HandPlant, SaysWhereItIsInWholeQuanta) {
+TEST(HandPlant, ReportsPositionsInWholeQuanta) {
   PlantOptions options;
   options.quantum = 1e-4;
   HandPlant plant(options, kHand, {1.26e-3, 0, -0.4e-4});
@@ -70,7 +70,7 @@ TEST(HandPlant, SaysWhereItIsInWholeQuanta) {
   EXPECT_TRUE(plant.Sample().valid);
 }
 
-TEST(HandPlant, WhatIsNoForcePushesNothingAndNoForceIsMoreThanItsPeak) {
+TEST(HandPlant, IgnoresNaNAndClampsToThePeak) {
   HandPlant plant(Ideal(), kNoHand, glm::dvec3(0.0));
   plant.Tick({std::nan(""), 0, 0}, kTick);
   plant.Tick({0, std::numeric_limits<double>::infinity(), 0}, kTick);

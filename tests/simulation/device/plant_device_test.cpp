@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTick = 1e-3;
 
-// Ticks with one force; the last sample.
+// Ticks with a constant force and returns the last sample.
 DeviceSample Hold(Device& device, double& now, int ticks, const glm::dvec3& force, bool is_held) {
   DeviceSample sample;
   for (int i = 0; i < ticks; ++i, now += kTick) {
@@ -31,13 +31,13 @@ TEST(PlantDevice, PushesOnlyWhenArmed) {
   EXPECT_EQ(device.state(), DeviceState::kReady);
   const DeviceSample pushed = Hold(device, now, 500, {1, 0, 0}, true);
   EXPECT_EQ(device.state(), DeviceState::kArmed);
-  // At rest the hand's spring of 300 N/m holds 1 N, less at most the friction of 0.26 N.
+  // At rest the spring of the hand, 300 N/m, holds 1 N less at most 0.26 N of friction.
   EXPECT_NEAR(pushed.hip_in_device.x, 1.0 / 300, 0.26 / 300);
   Hold(device, now, 1, {1, 0, 0}, false);
   EXPECT_EQ(device.force(), glm::dvec3(0.0)) << "let go";
 }
 
-TEST(PlantDevice, SilenceStopsTheForceInFiveMillisecondsAndIsALossInTwenty) {
+TEST(PlantDevice, SilenceStopsTheForceAfter5MillisecondsAndIsALossAfter20) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
   Hold(device, now, 10, {1, 0, 0}, false);
@@ -57,7 +57,7 @@ TEST(PlantDevice, SilenceStopsTheForceInFiveMillisecondsAndIsALossInTwenty) {
   EXPECT_EQ(device.force(), glm::dvec3(0.0)) << "it must be let go first";
 }
 
-TEST(PlantDevice, AForceThatIsNoNumberIsAFaultAndNoForce) {
+TEST(PlantDevice, ANaNForceIsAFaultAndGivesNoForce) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
   Hold(device, now, 10, {0, 0, 0}, false);
@@ -71,7 +71,7 @@ TEST(PlantDevice, AForceThatIsNoNumberIsAFaultAndNoForce) {
   EXPECT_EQ(device.force(), glm::dvec3(0.0));
 }
 
-TEST(PlantDevice, UnpluggedItIsAbsentAndComesBack) {
+TEST(PlantDevice, IsAbsentWhileUnplugged) {
   PlantDevice device({}, kHand, glm::dvec3(0.0));
   double now = 0;
   Hold(device, now, 10, {0, 0, 0}, false);

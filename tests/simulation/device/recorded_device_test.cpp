@@ -17,7 +17,7 @@ TraceRow Row(double t, double x, DeviceRole device = DeviceRole::kScope) {
   return row;
 }
 
-TEST(RecordedDevice, IsARowAtItsTimeAndMovesEvenlyBetween) {
+TEST(RecordedDevice, IsARowAtItsTimeAndInterpolatesBetweenRows) {
   const std::vector<TraceRow> rows{Row(1, 0.1), Row(1, 0.7, DeviceRole::kInstrument), Row(2, 0.3)};
   RecordedDevice scope(rows, DeviceRole::kScope);
   EXPECT_FALSE(scope.At(0.5).valid) << "before its first row there is no device";
@@ -32,14 +32,14 @@ TEST(RecordedDevice, IsARowAtItsTimeAndMovesEvenlyBetween) {
   EXPECT_FALSE(scope.At(2.001).valid) << "after its last row it is gone";
 }
 
-TEST(RecordedDevice, LastOfEqualTimesCounts) {
+TEST(RecordedDevice, TheLastOfEqualTimesCounts) {
   const std::vector<TraceRow> rows{Row(1, 0.1), Row(1, 0.2), Row(2, 0.4)};
   RecordedDevice scope(rows, DeviceRole::kScope);
   EXPECT_EQ(scope.At(1).hip_in_device.x, 0.2);
   EXPECT_NEAR(scope.At(1.5).hip_in_device.x, 0.3, 1e-15);
 }
 
-TEST(RecordedDevice, RoleWithoutRowsIsAbsent) {
+TEST(RecordedDevice, ARoleWithoutRowsIsAbsent) {
   const std::vector<TraceRow> rows{Row(1, 0.1)};
   RecordedDevice instrument(rows, DeviceRole::kInstrument);
   EXPECT_TRUE(instrument.empty());

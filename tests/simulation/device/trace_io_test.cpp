@@ -14,7 +14,7 @@ namespace {
 
 const std::string kHeader = "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n";
 
-// What ParseTrace says; empty when it takes the text.
+// Message of ParseTrace; empty where it accepts the text.
 std::string Refusal(const std::string& text) {
   try {
     ParseTrace(text, "trace.csv");
@@ -49,7 +49,7 @@ TEST(Trace, RoundTripsBitForBit) {
   std::vector<TraceRow> rows;
   double t = 0;
   for (int i = 0; i < 2000; ++i) {
-    const auto any = [&] {  // every finite bit pattern, denormals and -0 too
+    const auto any = [&] {  // any finite bit pattern, including denormals and -0
       for (;;)
         if (const double x = std::bit_cast<double>(random()); std::isfinite(x)) return x;
     };
@@ -109,7 +109,7 @@ TEST(Trace, RefusesWithTheLineAndTheReason) {
   }
 }
 
-// Any truncation of a good file is read or refused, never anything else.
+// Any truncation of a valid file is read or refused with an error.
 TEST(Trace, TruncatedTextIsReadOrRefused) {
   const std::string text =
       kHeader + "0,scope,0.125,0,0,1,0,0,0,0\n0.5,instrument,0,0,0,1,0,0,0,3\n";

@@ -1,5 +1,5 @@
-// The force against closed forms, with the paper's kernel beside it. Targets: [benchmarks.md,
-// Haptics].
+// Force compared with closed forms, with the kernel of the paper for comparison. Targets:
+// [benchmarks.md, Haptics].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -48,7 +48,7 @@ const char* Name(ProjectionType type) {
 
 class ContactAccuracy : public testing::TestWithParam<ProjectionType> {};
 
-// The foot of the reference is right: the tip was built from it.
+// Checks the foot of the reference, from which the tip was built.
 TEST_P(ContactAccuracy, ReferenceIsTheNearestPoint) {
   const AnalyticRelief relief = AnalyticRelief::Waves(GetParam());
   const TouchStroke stroke = StrokeUnder(relief);
@@ -107,7 +107,7 @@ TEST_P(ContactAccuracy, FlatDepthGivesANormalForce) {
       const glm::dvec3 out = DirectionFromPixel(relief.backdrop.projection, p);
       const ContactForce contact = TickContact({field, {}}, BareContact(), kTouchStiffness, {},
                                                (0.046 + depth) * out, kTouchTick, state);
-      // Float relief: 0.2 nm; the proxy's own tolerance is 10 nm, 5 µN.
+      // Float relief: 0.2 nm; the tolerance of the proxy is 10 nm, 5 µN.
       EXPECT_LT(glm::length(contact.force + kTouchStiffness * depth * out), 1e-5);
       EXPECT_EQ(contact.contact, depth > 0 ? 0 : contact.contact);
     }

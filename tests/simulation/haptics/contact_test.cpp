@@ -1,5 +1,5 @@
-// Contact on hard ground: cliffs, holes, borders, silhouettes, wedges, friction. Hard cases: HAP in
-// resources/doc/hard-cases.md.
+// Contact with difficult surfaces: cliffs, holes, borders, silhouettes, wedges, friction. Hard
+// cases: HAP in resources/doc/hard-cases.md.
 #include "simulation/haptics/contact.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ ContactOptions Bare() {
   return options;
 }
 
-// A hand that leads a tip along a path, and what it felt.
+// Leads a tip along a path and records its forces.
 struct Felt {
   std::vector<ContactForce> contact;
   std::vector<glm::dvec3> proxy, tip;
@@ -63,7 +63,7 @@ Felt Lead(const Surroundings& around, const ContactOptions& options, int ticks, 
   return run;
 }
 
-// HAP-09. The floor is at 49 mm; from x = 12.8 mm on it stands 5 mm nearer, in one pixel.
+// HAP-09. The floor is at 49 mm; from x = 12.8 mm on it is 5 mm nearer, within one pixel.
 class Cliff : public testing::TestWithParam<int> {};
 
 TEST_P(Cliff, HardCase9NoPopThroughBelowTwoHundredMillimetresASecond) {
@@ -75,7 +75,7 @@ TEST_P(Cliff, HardCase9NoPopThroughBelowTwoHundredMillimetresASecond) {
   const glm::dvec3 wall =
       glm::normalize(glm::dvec3(0.256, 0, 1.0));  // the cliff seen from the portal
   for (double speed : {0.02, 0.1, 0.199}) {
-    // Along the floor 0.5 mm under it, then on into the wall by 4 mm.
+    // Moves along the floor at a depth of 0.5 mm, then 4 mm into the wall.
     const double way = 0.01;
     const int ticks = static_cast<int>(way / speed / kTick);
     const glm::dvec3 right = glm::normalize(glm::dvec3(wall.z, 0, -wall.x));
@@ -84,12 +84,13 @@ TEST_P(Cliff, HardCase9NoPopThroughBelowTwoHundredMillimetresASecond) {
     });
     double highest = 1;
     for (const glm::dvec3& proxy : run.proxy) highest = std::min(highest, glm::length(proxy));
-    // The top of the cliff is at 44 mm; what the smoothing rounds off its foot is less than half.
+    // The top of the cliff is at 44 mm; the smoothing rounds off less than half of its foot.
     EXPECT_GT(highest, 0.0465) << "the proxy climbed the cliff at " << speed << " m/s";
-    // Held back by the wall, the force is that of the way into it: at most 4 mm and the floor's.
+    // Held by the wall, the force is that of the depth in it, at most 4 mm, and that of the floor.
     EXPECT_LT(glm::length(run.contact.back().force), kStiffness * 0.0045);
     EXPECT_LT(run.contact.back().force.x, -kStiffness * 0.0025) << "the wall pushes back";
-    // A tick's force changes by what tip and proxy moved: the tip's way twice, and two pixels.
+    // Per tick the force changes by at most the motion of tip and proxy: twice that of the tip, and
+    // two pixels.
     EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kPixel));
   }
 }
@@ -119,7 +120,7 @@ TEST(Contact, HardCase9HolesAndBordersFadeTheForce) {
     for (int x = 500; x < 560; ++x) map.at(x, y) = kHole;
   map.at(300, 511) = kHole;  // a single bad pixel
   const DepthField field(relief.backdrop, map);
-  // From one border to the other over pixel and hole, 1 mm under the surface, at 60 mm/s.
+  // Moves from one border to the other over pixel and hole, at a depth of 1 mm and 60 mm/s.
   const Felt run = Lead({field, {}}, Bare(), 900, [&](int i) {
     return 0.047 * DirectionFromPixel(relief.backdrop.projection, {-20.0 + 1.2 * i, 511.0});
   });
@@ -137,14 +138,14 @@ TEST(Contact, HardCase9HolesAndBordersFadeTheForce) {
   EXPECT_LT(at_pixel(300), 0.03) << "what is left of slipping off";
   EXPECT_NEAR(at_pixel(400), 0.5, 1e-3);
   EXPECT_NEAR(at_pixel(700), 0.5, 1e-3);
-  // 1 mm fades over 8 pixels, crossed in 7 ticks: a smooth step's steepest is 1.5 / 7 of 0.5 N.
-  // Coming in from below, the proxy also climbs and catches up.
+  // 1 mm fades over 8 pixels, crossed in 7 ticks: the steepest part of a smooth step is 1.5 / 7 of
+  // 0.5 N.
+  // For a tip from below, the proxy also climbs to the surface.
   EXPECT_LT(run.LargestStep(), 0.5 * 1.5 / 7 + kStiffness * (2 * 1.2 * kPixel + 2 * kPixel));
 }
 
-// One rule for both kinds of surface: off the top of a box that stands 2 mm out of the backdrop,
-// down to the backdrop, 0.5 mm under whatever is there; and back, which pushes the box from its
-// side.
+// Moves off the top of a box of 2 mm down to the backdrop, at a depth of 0.5 mm below either
+// surface, and back, which pushes the side of the box.
 TEST(Contact, SweepAcrossASilhouetteHasNoStep) {
   const AnalyticRelief relief = Flat(0.0);
   const DepthField field(relief.backdrop, relief.Float());
@@ -171,7 +172,7 @@ TEST(Contact, SweepAcrossASilhouetteHasNoStep) {
       }
       EXPECT_TRUE(has[0] && has[1]);
       if (!is_back) {
-        // At the edge, 0.5 mm beside the start of the way down, the tip is 0.79 mm under the top.
+        // At the edge, 0.5 mm beside the start of the descent, the tip is 0.79 mm below the top.
         EXPECT_NEAR(peak, kStiffness * (along(0.004).z - 0.048), 0.03) << "counted once";
       }
       const double bound = kStiffness * (2 * fastest + 2 * kPixel);
@@ -182,7 +183,7 @@ TEST(Contact, SweepAcrossASilhouetteHasNoStep) {
     }
 }
 
-// The tip pressed into the backdrop runs into a box that lies on it, and stays in the wedge.
+// A tip pressed into the backdrop meets a box that lies on it, and stays in the wedge.
 TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
   const AnalyticRelief relief = Flat(0.0);
   const DepthField field(relief.backdrop, relief.Float());
@@ -191,7 +192,7 @@ TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
   const double speed = 0.02;
   const Felt run = Lead({field, meshes}, Bare(), 300,
                         [&](int i) { return glm::dvec3(-0.004 + speed * i * kTick, 0.0, 0.0503); });
-  // 1.98 mm into the side of the box, and under the sphere by 0.3 mm: both push, each with its own.
+  // 1.98 mm deep in the side of the box and 0.3 mm below the sphere: each adds its own force.
   const glm::dvec3 force = run.contact.back().force;
   EXPECT_NEAR(force.x, -kStiffness * (speed * 299 * kTick - 0.004), 0.005);
   EXPECT_NEAR(force.z, -kStiffness * 0.0003, 0.005);
@@ -200,7 +201,7 @@ TEST(Contact, WedgeBetweenMeshAndBackdropHoldsTheTip) {
   EXPECT_LT(run.LargestStep(), kStiffness * (2 * speed * kTick + 2 * kPixel));
 }
 
-// HAP-08: another depth map while in contact, 3 mm nearer.
+// HAP-08: another depth map, 3 mm nearer, while in contact.
 TEST(Contact, HardCase8SwappedDepthMapDoesNotThrowTheProxy) {
   const AnalyticRelief low = Flat(0.004), high = Flat(0.007);
   const DepthField before(low.backdrop, low.Float()), after(high.backdrop, high.Float());
@@ -233,7 +234,7 @@ TEST(Contact, HardCase23FrictionHoldsWithoutDrift) {
   const auto tremble = [&](int i) {
     tick(foot - (1e-3 + 1e-4 * std::sin(0.05 * i)) * n + 1e-4 * std::sin(0.03 * i) * along);
   };
-  for (int i = 0; i < 2000; ++i) tremble(i);  // settles where the tremble leaves it
+  for (int i = 0; i < 2000; ++i) tremble(i);  // settles under the tremor
   const glm::dvec3 held = state.proxy.position;
   for (int i = 2000; i < 62000; ++i) tremble(i);  // 60 s
   EXPECT_LT(glm::length(state.proxy.position - held), 1e-5);
@@ -310,7 +311,7 @@ TEST(Contact, HardCase10EightBitStaircaseDoesNotBuzz) {
   EXPECT_LT(std::sqrt(above / 2), 0.05 * dc);
 }
 
-// A plate of 2 mm. The tip goes past its edge, through under it and back through the plate.
+// Plate of 2 mm. The tip moves past its edge, below it and back through the plate.
 Felt DrawnThroughAPlate(double from_z, double to_z, int still) {
   const DepthField nothing;
   const std::vector<SurfaceBvh> meshes{
@@ -330,7 +331,7 @@ Felt DrawnThroughAPlate(double from_z, double to_z, int still) {
               [&](int i) { return path[static_cast<std::size_t>(i)]; });
 }
 
-TEST(Contact, AProxyCaughtBehindAnEdgeIsLetGoWhereTheRodIsFree) {
+TEST(Contact, AProxyCaughtBehindAnEdgeIsReleasedWhereTheRodIsFree) {
   const Felt run = DrawnThroughAPlate(0.045, 0.020, 0);
   double furthest = 0, largest_fall = 0;
   for (std::size_t i = 1; i < run.contact.size(); ++i) {
@@ -341,7 +342,7 @@ TEST(Contact, AProxyCaughtBehindAnEdgeIsLetGoWhereTheRodIsFree) {
   std::printf("caught: %.1f mm at most, the force falls by %.3f N in a tick\n", 1e3 * furthest,
               largest_fall);
   EXPECT_GT(furthest, 8e-3) << "else it was not caught";
-  // 8 mm, and what 50 mm/s go in 0.15 s.
+  // 8 mm, and the path in 0.15 s at 50 mm/s.
   EXPECT_LT(furthest, 8e-3 + 7.5e-3 + 1e-4);
   EXPECT_LT(largest_fall, 0.2);
   EXPECT_EQ(run.contact.back().force, glm::dvec3(0.0));
@@ -353,8 +354,8 @@ TEST(Contact, AToolThatHooksBehindAnEdgeIsHeld) {
   EXPECT_NEAR(run.contact.back().force.z, kStiffness * 0.0065, 0.01);
 }
 
-// Drawn 15 mm up, but under a second plate, through which no rod comes.
-TEST(Contact, AProxyIsNotLetGoThroughASurface) {
+// Drawn 15 mm up, but below a second plate, which no rod can cross.
+TEST(Contact, AProxyIsNotReleasedThroughASurface) {
   const DepthField nothing;
   const std::vector<SurfaceBvh> meshes{
       SurfaceBvh(test::Box({-0.01, -0.01, 0.040}, {0.01, 0.01, 0.042}), {}),
@@ -380,7 +381,8 @@ TEST(Contact, EmptySurroundingsAreFree) {
   }
 }
 
-// Hands that jump, shake and leave the room: finite, and never stronger than K times the way.
+// Hands that jump, tremble and leave the workspace: the force is finite and at most K times the
+// distance.
 TEST(Contact, WildHandsStayFinite) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kEquirectangular);
   DepthMap map = relief.EightBit();

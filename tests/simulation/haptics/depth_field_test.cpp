@@ -21,7 +21,7 @@ using test::PaperQuery;
 
 class DepthFieldIn : public testing::TestWithParam<ProjectionType> {};
 
-// Near the surface the clearance is the distance to the exact one; on it, the normal is its normal.
+// Near the surface the clearance is the distance to the exact one, and on it the normals agree.
 TEST_P(DepthFieldIn, ClearanceAndNormalAreThoseOfTheExactSurface) {
   const AnalyticRelief relief = AnalyticRelief::Waves(GetParam());
   const DepthField field(relief.backdrop, relief.Float());
@@ -43,14 +43,13 @@ TEST_P(DepthFieldIn, ClearanceAndNormalAreThoseOfTheExactSurface) {
   const double p99 = DegreesFromRadians(angles[angles.size() * 99 / 100]);
   std::printf("clearance off by %.2f µm at worst, normal by %.3f deg (p99), %.3f deg (max)\n",
               1e6 * worst_height, p99, DegreesFromRadians(angles.back()));
-  // Two passes blur by σ² = 1 px² and interpolation by 1/4: ½ · 1.25 · |∇²h|, and the waves' ∇²h
-  // stays below 1.15e-6 m/px².
+  // Two passes blur by σ² = 1 px² and interpolation by 1/4: ½ · 1.25 · |∇²h|, where ∇²h of the
+  // waves is below 1.15e-6 m/px².
   EXPECT_LT(worst_height, 0.72e-6);
   EXPECT_LT(p99, 0.1);
 }
 
-// Moving by a micrometre turns the normal by no more than the curvature asks: nothing jumps at
-// pixels.
+// A motion of 1 µm turns the normal by no more than the curvature: there are no jumps at pixels.
 TEST_P(DepthFieldIn, NormalIsContinuousAcrossPixels) {
   const AnalyticRelief relief = AnalyticRelief::Waves(GetParam());
   const DepthMap map = relief.EightBit();
@@ -75,7 +74,7 @@ TEST_P(DepthFieldIn, NormalIsContinuousAcrossPixels) {
   EXPECT_GT(paper, ours);
 }
 
-TEST_P(DepthFieldIn, NothingIsFeltOutsideTheImagedRegion) {
+TEST_P(DepthFieldIn, GivesNoContactOutsideTheImagedRegion) {
   const AnalyticRelief relief = AnalyticRelief::Make(GetParam(), [](glm::dvec2) { return 0.004; });
   const DepthField field(relief.backdrop, relief.Float());
   const Projection& projection = relief.backdrop.projection;
@@ -86,7 +85,7 @@ TEST_P(DepthFieldIn, NothingIsFeltOutsideTheImagedRegion) {
   for (double bad :
        {std::numeric_limits<double>::quiet_NaN(), 1e300, std::numeric_limits<double>::infinity()})
     EXPECT_TRUE(std::isfinite(field.Query({bad, 0, 0.05}).weight));
-  // The weight rises without a step from the border to the fade's width.
+  // The weight rises continuously from the border over the width of the fade.
   double last = 0;
   for (double x = 0; x < 20; x += 0.05) {
     const double weight = field.Query(0.045 * DirectionFromPixel(projection, {x, 500})).weight;
@@ -127,7 +126,7 @@ TEST(DepthField, HolesNeitherPullNorSpread) {
   }
 }
 
-TEST(DepthField, BareSphereIsFeltWhereThePictureLies) {
+TEST(DepthField, TheBareSphereIsInContactWithinThePicture) {
   const AnalyticRelief relief = AnalyticRelief::Make(ProjectionType::kEquirectangular, {});
   const DepthField field(relief.backdrop, 1024, 1024);
   const glm::dvec3 out = glm::normalize(glm::dvec3(0.1, 0.2, 1.0));
@@ -139,14 +138,14 @@ TEST(DepthField, BareSphereIsFeltWhereThePictureLies) {
   EXPECT_EQ(field.free_radius(), 0.05);
 }
 
-TEST(DepthField, NoPictureIsNoField) {
+TEST(DepthField, WithoutAPictureThereIsNoField) {
   EXPECT_TRUE(DepthField().empty());
   EXPECT_TRUE(DepthField(Backdrop{}, 0, 0).empty());
   EXPECT_TRUE(DepthField(Backdrop{}, DepthMap()).empty());
   EXPECT_EQ(DepthField().Query({0, 0, 0.05}).weight, 0.0);
 }
 
-TEST(DepthField, TellsStepsFromASmoothMap) {
+TEST(DepthField, DistinguishesAQuantisedFromASmoothMap) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   EXPECT_NEAR(QuantumOf(relief.EightBit()), 0.007 / 255, 1e-8);
   EXPECT_LT(QuantumOf(relief.Float()), 1e-7);

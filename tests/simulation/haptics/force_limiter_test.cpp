@@ -53,7 +53,7 @@ TEST(ForceLimiter, NotANumberGivesZeroAndAFault) {
     const LimitedForce limited = LimitForce({}, force, 0, Fault::kNone, kTick, state);
     EXPECT_EQ(limited.force, glm::dvec3(0.0));
     EXPECT_EQ(limited.fault, Fault::kNotFinite);
-    // One bad tick must not poison the next.
+    // A NaN tick must not affect the next one.
     const LimitedForce next = LimitForce({}, {1, 0, 0}, 0, Fault::kNone, kTick, state);
     EXPECT_TRUE(std::isfinite(next.force.x));
     EXPECT_EQ(next.fault, Fault::kNone);
@@ -62,7 +62,7 @@ TEST(ForceLimiter, NotANumberGivesZeroAndAFault) {
   EXPECT_EQ(LimitForce({}, {1, 0, 0}, kNan, Fault::kNone, kTick, state).fault, Fault::kNotFinite);
 }
 
-TEST(ForceLimiter, FaultBeforeGivesZero) {
+TEST(ForceLimiter, AnEarlierFaultGivesZero) {
   for (Fault fault : {Fault::kNoSample, Fault::kStale, Fault::kLost, Fault::kNotFinite}) {
     LimiterState state;
     Settle({}, {1, 0, 0}, state);
@@ -87,7 +87,7 @@ TEST(ForceLimiter, RisesAtItsRateAndFallsAtOnce) {
   EXPECT_EQ(LimitForce(options, {0, 0, 0}, 0, Fault::kNone, kTick, state).force, glm::dvec3(0.0));
 }
 
-TEST(ForceLimiter, ForceThatTurnsRoundStartsFromZero) {
+TEST(ForceLimiter, AReversedForceStartsFromZero) {
   LimiterOptions options;
   LimiterState state;
   Settle(options, {3, 0, 0}, state);

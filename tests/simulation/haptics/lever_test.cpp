@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRod = 0.2;
 
-// tip − pivot of a rod through the pivot, for a hand anywhere.
+// Returns tip − pivot of a rod through the pivot for any hand position.
 glm::dvec3 Tip(const glm::dvec3& hand) {
   const double r = glm::length(hand);
   return (r - kRod) / r * hand;
@@ -35,7 +35,7 @@ TEST(Lever, HandForceDoesTheWorkOfTheTipForce) {
 }
 
 TEST(Lever, ForceAcrossIsReversedAndScaled) {
-  // Notes 4.3: L = 200 mm, r = 60 mm has gain 2.33 and the sign of a lever.
+  // L = 200 mm, r = 60 mm has gain 2.33 and the sign of a lever.
   const Lever lever = LeverAt({0, 0, -0.06}, kRod, {});
   const glm::dvec3 force = HandForce(lever, {1, 0, 3});
   EXPECT_NEAR(force.x, -7.0 / 3.0, 1e-12);
@@ -64,8 +64,8 @@ TEST(Lever, IsFiniteAndFadesAtTheIncision) {
   EXPECT_EQ(LeverAt({0, 0, -options.fade_begin}, kRod, options).fade, 1.0);
 }
 
-// The hand moves through the incision: as the stiffness is lowered with the lever, what 1 mm of
-// penetration gives at the hand neither grows nor jumps, and it is gone where its sign turns.
+// The hand moves through the incision: since the stiffness is lowered with the lever, the hand
+// force for 1 mm of penetration neither grows nor jumps, and it is zero where its sign changes.
 TEST(Lever, HandCrossingTheIncisionFeelsNoFlutter) {
   glm::dvec3 last(0.0);
   for (double x = -0.03; x < 0.03; x += 1e-4) {  // 0.1 m/s at 1 kHz

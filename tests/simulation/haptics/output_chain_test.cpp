@@ -1,4 +1,4 @@
-// The chain as a whole, stage by stage and in its order. Hard cases: HAP in
+// The whole output chain: its stages and their order. Hard cases: HAP in
 // resources/doc/hard-cases.md.
 #include "simulation/haptics/output_chain.h"
 
@@ -30,7 +30,7 @@ struct Chain {
   }
 };
 
-// A rod of 0.2 m, the hand 0.1 m from the incision: across it a force only turns round.
+// Rod of 0.2 m with the hand 0.1 m from the incision: across it a force is only reversed.
 TipForce Push(const glm::dvec3& force, double r = 0.1) {
   TipForce tip;
   tip.force = force;
@@ -105,7 +105,7 @@ TEST(OutputChain, HardCase15NearTheIncisionTheForceFadesAndNeverFlutters) {
   const TipForce far = Push({1, 0.3, 0.2}, 0.0151);
   chain.Send(far, 1000);
   glm::dvec3 last = chain.Send(far).force;
-  // Straight through the incision and out on the other side at 20 mm/s, in 0.02 mm steps.
+  // Moves straight through the incision to the other side at 20 mm/s, in steps of 0.02 mm.
   double strongest_inside = 0, largest_rise = 0;
   int turns = 0;
   for (double z = 0.0151; z > -0.0151; z -= 2e-5) {
@@ -128,14 +128,14 @@ TEST(OutputChain, HardCase15NearTheIncisionTheForceFadesAndNeverFlutters) {
     Chain at;
     EXPECT_EQ(at.Send(Push({1, 1, 1}, r), 10).force, glm::dvec3(0.0)) << r;
   }
-  // The tip at the incision: nothing across the rod, all of it along.
+  // Tip at the incision: no force across the rod, all of it along.
   Chain at;
   const LimitedForce sent = at.Send(Push({1, 1, 1}, 0.2), 1000);
   EXPECT_LT(glm::length(sent.force - glm::dvec3(0, 0, 1)), 1e-12);
 }
 
-// One hour of a hand that is asked for 3 N all the time.
-TEST(OutputChain, HardCase24OverAnHourTheMeanIsBelowWhatTheMotorBears) {
+// Requests 3 N for one hour.
+TEST(OutputChain, HardCase24TheMeanOverAnHourIsBelowTheContinuousForce) {
   Chain chain;
   chain.thermal.continuous_force = 0.88;
   const TipForce tip = Push({0, 0, 3});
@@ -149,8 +149,8 @@ TEST(OutputChain, HardCase24OverAnHourTheMeanIsBelowWhatTheMotorBears) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-TEST(OutputChain, TheGuardActsBeforeTheClampAndKnowsWhatWasSent) {
-  // A wall of 4000 N/m felt one tick late, against a hand of 300 N/m.
+TEST(OutputChain, TheGuardPrecedesTheClampAndUsesTheSentForce) {
+  // Wall of 4000 N/m with a delay of one tick, against a hand of 300 N/m.
   double swing[2];
   for (const bool is_guarded : {false, true}) {
     Chain chain;

@@ -1,4 +1,4 @@
-// The guard on a wall that a simulated device with and without a hand touches, one tick late.
+// Guard on a wall with a delay of one tick, touched by a simulated device with and without a hand.
 #include "simulation/haptics/passivity.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ constexpr double kTick = 1e-3;  // s
 
 struct Touch {
   double swing = 0;      // m, of the last half second
-  double work = 0;       // J, that the wall did on the hand in all
-  double rms_error = 0;  // N, of the force beside the bare spring's
+  double work = 0;       // J, total work of the wall on the hand
+  double rms_error = 0;  // N, of the force compared with the bare spring
 };
 
 // Two seconds against a one-sided wall at x = 0, one tick of delay, no friction, clamped to 3.3 N.
@@ -52,13 +52,13 @@ Touch TouchWall(double stiffness, const HandModel& hand, bool is_guarded,
   return touch;
 }
 
-TEST(Passivity, AWallThatIsTooStiffSwingsLessAndGivesLess) {
+TEST(Passivity, ReducesSwingAndEnergyOfATooStiffWall) {
   const Touch bare = TouchWall(4000, kHand, false), guarded = TouchWall(4000, kHand, true);
   std::printf("4000 N/m: swing %.2f -> %.2f mm\n", 1e3 * bare.swing, 1e3 * guarded.swing);
   EXPECT_GT(bare.swing, 0.3e-3) << "else there is nothing to guard against";
   EXPECT_LT(guarded.swing, 0.5 * bare.swing);
   EXPECT_LT(guarded.swing, 0.5e-3);
-  // Told of the device's counts it holds it as well.
+  // The guard works with the counts of the device too.
   PassivityOptions counts;
   counts.quantum = 5.5e-5;
   const Touch told = TouchWall(4000, kHand, true, counts);
@@ -66,9 +66,9 @@ TEST(Passivity, AWallThatIsTooStiffSwingsLessAndGivesLess) {
   EXPECT_LT(told.swing, 0.5e-3);
 }
 
-// A hand at rest on the edge of two counts, its force a tick late: what it seems to do to and fro
-// would soon be owed. Then one count after a long rest, which looks fast.
-TEST(Passivity, CountsOfTheDeviceAreNoMotion) {
+// A hand at rest on the edge between two counts, with a force one tick late: its apparent motion
+// would soon add up to a debt. Then one count after a long rest, which looks fast.
+TEST(Passivity, SingleEncoderCountsAreNotDamped) {
   constexpr double kCount = 5.5e-5;  // m
   PassivityOptions options;
   options.quantum = kCount;
@@ -88,7 +88,7 @@ TEST(Passivity, CountsOfTheDeviceAreNoMotion) {
   EXPECT_LT(braked.x, push.x);
 }
 
-TEST(Passivity, AWallThatIsSoftEnoughIsLeftAsItIs) {
+TEST(Passivity, DoesNotChangeAStableWall) {
   const Touch bare = TouchWall(500, kHand, false), guarded = TouchWall(500, kHand, true);
   std::printf("500 N/m: swing %.3f -> %.3f mm, force off by %.3f N rms\n", 1e3 * bare.swing,
               1e3 * guarded.swing, guarded.rms_error);
@@ -96,8 +96,8 @@ TEST(Passivity, AWallThatIsSoftEnoughIsLeftAsItIs) {
   EXPECT_LT(guarded.rms_error, 0.02);
 }
 
-TEST(Passivity, WhatIsTakenIsGivenBackWithoutADamper) {
-  // In and out of a spring, exactly: it takes and gives the same.
+TEST(Passivity, ReturnsStoredEnergyWithoutDamping) {
+  // Moves in and out of a spring: it returns exactly the energy that it took.
   PassivityState guard;
   double most = 0;
   for (int i = 0; i <= 200; ++i) {
@@ -110,9 +110,9 @@ TEST(Passivity, WhatIsTakenIsGivenBackWithoutADamper) {
   EXPECT_EQ(most, 0.0);
 }
 
-TEST(Passivity, WhatWasRubbedAwayIsNoLicenceToSwing) {
+TEST(Passivity, EnergyLostToFrictionGivesNoCredit) {
   PassivityState guard;
-  // Half a joule of rubbing.
+  // Half a joule of friction.
   for (int i = 0; i < 1000; ++i) {
     GuardPassivity({}, {0, 0, 1}, {1e-3 * i, 0, 0}, 500, kTick, guard);
     NoteSent({-0.5, 0, 1}, guard);
@@ -120,8 +120,8 @@ TEST(Passivity, WhatWasRubbedAwayIsNoLicenceToSwing) {
   EXPECT_LE(guard.energy, 0.5 * 1.0 / 500 + 1e-15);
 }
 
-// In where the force is 0.3 of what it is where the hand comes out, as a lever or the fade at the
-// edge of a map makes it; slowly, so that the damper is weak.
+// Enters where the force is 0.3 of that at the exit, as with a lever or a fade at the edge of a
+// map. The motion is slow, so that the damper is weak.
 double GainOfALoop(bool is_bounded, double speed) {
   constexpr double kDeep = 0.02, kAcross = 0.03, kStiffness = 500, kClamp = 3.3;  // m, N/m, N
   PassivityState guard;
@@ -146,7 +146,7 @@ double GainOfALoop(bool is_bounded, double speed) {
   return work;
 }
 
-TEST(Passivity, ASpringThatIsStifferOnTheWayOutGivesBackWhatWasPaid) {
+TEST(Passivity, ASpringThatIsStifferOnTheWayOutReturnsOnlyTheEnergyPaid) {
   for (const double speed : {0.02, 0.05, 0.15}) {
     const double bare = GainOfALoop(false, speed), bounded = GainOfALoop(true, speed);
     std::printf("%.2f m/s: %.2f mJ gained with the damper alone, %.3f mJ with the credit\n", speed,
@@ -158,8 +158,8 @@ TEST(Passivity, ASpringThatIsStifferOnTheWayOutGivesBackWhatWasPaid) {
   }
 }
 
-TEST(Passivity, TheBoundIsContinuousAndLeavesAPaidSpringAlone) {
-  // The clamp is felt as long as what was paid lasts, and the force falls steadily after it.
+TEST(Passivity, TheBoundIsContinuousAndKeepsAPaidSpring) {
+  // The force stays at the clamp while the credit lasts, and falls steadily after it.
   const HandSpring spring{500, 3.3};
   double last = 0;
   for (int i = 0; i <= 2000; ++i) {
@@ -181,7 +181,7 @@ TEST(Passivity, TheBoundIsContinuousAndLeavesAPaidSpringAlone) {
   EXPECT_EQ(BoundByCredit({}, {10, 0, 0}, {}, spring, false, kTick, paid), glm::dvec3(10, 0, 0));
 }
 
-TEST(Passivity, TakesAnythingAndAllocatesNothing) {
+TEST(Passivity, HandlesAnyInputAndAllocatesNothing) {
   PassivityState guard;
   const long before = test::Allocations();
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300})

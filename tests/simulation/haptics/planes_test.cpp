@@ -45,7 +45,7 @@ TEST(Planes, NearestPointIsOptimalForRandomPlanes) {
     PlaneSet set;
     for (int i = 0; i < 1 + trial % 4; ++i) {
       const glm::dvec3 n = glm::normalize(glm::dvec3(any(random), any(random), any(random)));
-      set.Add({n, -0.1 * std::abs(any(random)), i, 1.0});  // the origin is free
+      set.Add({n, -0.1 * std::abs(any(random)), i, 1.0});  // keeps the origin free
     }
     const glm::dvec3 goal(any(random), any(random), any(random));
     const NearestFree free = NearestPoint(set, goal, {});

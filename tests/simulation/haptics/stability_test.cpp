@@ -1,5 +1,5 @@
-// Where a sampled wall swings, against the rule; and that hands come to rest on ours. Targets:
-// [benchmarks.md, Haptics]. All on the plant's clock.
+// Stability limit of a sampled wall compared with the rule, and settling of hands on the rendered
+// wall. Targets: [benchmarks.md, Haptics]. Time is that of the plant.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,7 +17,7 @@ using test::RuleStiffness;
 using test::TouchedWall;
 using test::WallServo;
 
-TEST(Stability, TheMeasuredLimitIsTheRulesWithinFourPercent) {
+TEST(Stability, TheMeasuredLimitAgreesWithTheRuleWithinFourPercent) {
   double worst = 0;
   for (const double period : {0.5e-3, 1e-3})
     for (const double damping : {0.0, 1.0})
@@ -34,8 +34,8 @@ TEST(Stability, TheMeasuredLimitIsTheRulesWithinFourPercent) {
   std::printf("measured limit off the rule by %.2f %% at most\n", 100 * worst);
 }
 
-// 2000 here; `arthroscene bench haptics` tries 10 000.
-TEST(Stability, NoHandEscapesAtTheDefaultGains) {
+// Tries 2000 hands; `arthroscene bench haptics` tries 10 000.
+TEST(Stability, EveryHandIsStableAtTheDefaultGains) {
   int escaped = 0;
   double most = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
@@ -65,11 +65,11 @@ TEST(Stability, AClosedCycleGivesLessThanAMillijoule) {
 }
 
 struct Rest {
-  double time = 0;   // s, after which it stays within four quanta of where it comes to rest
+  double time = 0;   // s, after which it stays within four quanta of its rest position
   double swing = 0;  // m, in the last of two seconds
 };
 
-// A hand that leads the device in by 1 mm, from the wall.
+// A hand that leads the device 1 mm into the wall.
 Rest ComeToRest(const WallServo& servo, const HandModel& hand) {
   PlantOptions device;
   device.delay = servo.delay;
@@ -90,9 +90,9 @@ Rest ComeToRest(const WallServo& servo, const HandModel& hand) {
   return rest;
 }
 
-// A heavy hand does not settle in 0.1 s on any spring (an arm of 0.6 kg with 6.7 N s/m takes
-// 0.18 s for a factor e), so the 0.1 s are beside the same hand on a wall that is felt at once.
-TEST(Stability, HardCase11AtTheBoundHandsSettleAndAboveTheGuardHoldsTheSwing) {
+// A heavy hand settles on no spring within 0.1 s (an arm of 0.6 kg with 6.7 N s/m takes 0.18 s for
+// a factor e), so the limit of 0.1 s is added to the time of the same hand on a wall without delay.
+TEST(Stability, HardCase11HandsSettleAtTheBoundAndTheGuardLimitsTheSwingAboveIt) {
   double latest = 0, widest_below = 0, widest_above = 0;
   for (const HandModel& hand : {kSoftHand, kHand, kStiffHand, kWholeArm})
     for (const int delay : {0, 1, 2})

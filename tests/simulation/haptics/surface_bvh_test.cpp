@@ -40,7 +40,7 @@ TEST(SurfaceBvh, BallMeetsAFaceAnEdgeAndACornerOfABox) {
   EXPECT_FALSE(box.Sweep({0, 0, 0}, {0, 0, 0.05}, r, -1, none)) << "what leaves is let pass";
 }
 
-// The tree finds what trying every triangle finds.
+// The hierarchy finds the same contacts as a test of every triangle.
 TEST(SurfaceBvh, AgreesWithTryingEveryTriangle) {
   const SurfaceMesh ball = test::Sphere({0, 0, 0.03}, 0.01, 4);
   const SurfaceBvh tree(ball, {});
@@ -65,7 +65,7 @@ TEST(SurfaceBvh, AgreesWithTryingEveryTriangle) {
   EXPECT_GT(met, 300);
 }
 
-// A long way leaves out boxes in another manner than a short one.
+// A long way excludes boxes by a different test than a short one.
 TEST(SurfaceBvh, ALongWayMeetsWhatItsShortPiecesMeet) {
   const SurfaceBvh tree(test::Sphere({0, 0, 0.03}, 0.01, 4), {});
   constexpr double kPiece = 1e-3;  // m; triangles are 0.5 mm
@@ -75,7 +75,7 @@ TEST(SurfaceBvh, ALongWayMeetsWhatItsShortPiecesMeet) {
   for (int trial = 0; trial < 6000; ++trial) {
     glm::dvec3 from(any(random), any(random), 0.03 + any(random));
     glm::dvec3 to(any(random), any(random), 0.03 + any(random));
-    // Some along an axis, some in a plane of two, where shadows have no width.
+    // Some ways along an axis or in a plane of two, where projections have no width.
     if (trial % 4 == 1) to[trial % 3] = from[trial % 3];
     if (trial % 4 == 2) to = from, to[trial % 3] += 3.0 * any(random);
     const double radius = trial % 5 * 0.5e-3;
@@ -96,13 +96,13 @@ TEST(SurfaceBvh, ALongWayMeetsWhatItsShortPiecesMeet) {
 
 TEST(SurfaceBvh, NoMeshBuildsNothing) {
   EXPECT_TRUE(SurfaceBvh(SurfaceMesh{}, {}).empty());
-  SurfaceMesh flat;  // triangles with no area
+  SurfaceMesh flat;  // triangles without area
   flat.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   flat.triangles = {{0, 1, 2}, {1, 1, 2}};
   EXPECT_TRUE(SurfaceBvh(flat, {}).empty());
 }
 
-// Pose and scale lay the mesh into the scene.
+// Pose and scale place the mesh in the scene.
 TEST(SurfaceBvh, PoseAndScaleAreApplied) {
   Pose pose;
   pose.position = {0, 0, 0.03};
@@ -130,7 +130,7 @@ TEST(MeshContact, BallPushesAlongItsRadius) {
       const glm::dvec3 tip = centre + (big + r - depth) * out;
       const ContactForce contact =
           TickContact({DepthField(), meshes}, Bare(r), kStiffness, {}, tip, kTick, state);
-      if (i < 100) continue;  // it came from the portal, not along the radius
+      if (i < 100) continue;  // the tip comes from the portal, not along the radius
       ASSERT_EQ(contact.contact, 1);
       const glm::dvec3 reference = kStiffness * depth * out;
       worst_force = std::max(worst_force, glm::length(contact.force) / glm::length(reference) - 1);
@@ -157,13 +157,13 @@ TEST(MeshContact, CornerOfARoomHoldsWithThreeFaces) {
     const glm::dvec3 tip = (half - r + depth) * std::min(1.0, i / 100.0);
     contact = TickContact({DepthField(), room}, Bare(r), kStiffness, {}, tip, kTick, state);
   }
-  // The skin is 1 µm: 0.5 mN a face.
+  // The skin is 1 µm: 0.5 mN per face.
   EXPECT_LT(glm::length(contact.force + kStiffness * depth), 1e-3);
   EXPECT_LT(glm::length(state.proxy.position - (half - r)), 3e-6);
   EXPECT_NEAR(contact.penetration, glm::length(depth), 3e-6);
 }
 
-// From the edge of a room along two faces, and out again.
+// Slides from the edge of a room along two faces, and leaves it.
 TEST(MeshContact, SlidesAlongAnEdgeOfARoomAndLeavesIt) {
   const std::vector<SurfaceBvh> room{
       SurfaceBvh(test::InsideOut(test::Box(glm::dvec3(-0.01), glm::dvec3(0.01))), {})};
@@ -185,7 +185,7 @@ TEST(MeshContact, SlidesAlongAnEdgeOfARoomAndLeavesIt) {
   EXPECT_LT(glm::length(state.proxy.position - glm::dvec3(0.005, 0.005, 0.008)), 1e-7);
 }
 
-// Whatever the hand does, the proxy stays outside a closed surface.
+// For random motions of the hand, the proxy stays outside a closed surface.
 TEST(MeshContact, NothingTunnels) {
   const double size = 0.006;
   for (double r : {0.0, 0.001}) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTick = 1e-3, kPeak = 3.3;
 
-TEST(Thermal, ABurstHasThePeakAndALongPushTheContinuousForce) {
+TEST(Thermal, AllowsThePeakForABurstAndTheContinuousForceForALongPush) {
   const ThermalOptions options{0.88};
   ThermalState state;
   double full_for = 0, force = 0;
@@ -27,7 +27,7 @@ TEST(Thermal, ABurstHasThePeakAndALongPushTheContinuousForce) {
   EXPECT_GT(force, 0.9 * 0.88);
 }
 
-TEST(Thermal, WhatIsBelowTheContinuousForceIsNeverLowered) {
+TEST(Thermal, DoesNotLowerForcesBelowTheContinuousForce) {
   const ThermalOptions options{0.88};
   ThermalState state;
   for (int i = 0; i < 60000; ++i) {
@@ -36,7 +36,7 @@ TEST(Thermal, WhatIsBelowTheContinuousForceIsNeverLowered) {
   }
 }
 
-TEST(Thermal, WithNoMotorNothingIsLowered) {
+TEST(Thermal, DoesNotLowerForcesWithoutAMotor) {
   ThermalState state;
   NoteHeat({}, 1e6, 10.0, state);
   EXPECT_EQ(ThermalClamp({}, kPeak, state), kPeak);
@@ -44,7 +44,7 @@ TEST(Thermal, WithNoMotorNothingIsLowered) {
   EXPECT_EQ(ThermalClamp(strong, kPeak, state), kPeak) << "the peak is below what it bears";
 }
 
-TEST(Thermal, LongTicksAndBadNumbersAreTakenAsTheyAre) {
+TEST(Thermal, HandlesLongTicksAndNaN) {
   const ThermalOptions options{0.88};
   ThermalState fine, coarse;
   for (int i = 0; i < 1000; ++i) NoteHeat(options, 2.0, kTick, fine);

@@ -1,6 +1,6 @@
-// What an instrument reaches in the demo scene from the scene's own portal: the posteromedial
-// meniscus is pressed, lifted by its free edge, bitten and shaved, and the shaft lies on nothing on
-// the way.
+// Reach of an instrument in the demo scene from the portal of the scene: it presses the
+// posteromedial meniscus, lifts its free edge, bites and shaves it, and the shaft touches nothing
+// on the way.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,8 +21,8 @@ namespace arthro::simulation {
 namespace {
 
 constexpr double kMm = 1e-3, kTick = 1e-3;  // m, s
-constexpr int kMeniscus = 1;                // contact: the scene's first tissue
-// N; what surgeons stay under (PMC3023859).
+constexpr int kMeniscus = 1;                // contact index of the first tissue of the scene
+// N; upper limit of the force of surgeons (PMC3023859).
 constexpr double kSafe = 8.5;
 
 class DemoReach : public testing::Test {
@@ -32,8 +32,8 @@ class DemoReach : public testing::Test {
         ReadTissuePresets(std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues");
     bodies = LivingTissues(demo, presets);
     layers = LayersOf(demo, presets);
-    // The free edge at 55° from medial to posterior about the crescent's middle; the plateau is
-    // 0.3 mm below the middle of the edge's thickness.
+    // Free edge at 55° from medial to posterior about the middle of the crescent; the plateau is
+    // 0.3 mm below the middle of the edge.
     const Pose& pose = demo.scene.tissues[0].pose;
     const auto& skin = demo.surfaces[0]->vertices;
     constexpr double kAngle = 55.0 * std::numbers::pi / 180;
@@ -61,9 +61,9 @@ class DemoReach : public testing::Test {
   std::vector<BodySpec> bodies;
   std::vector<LayerSpec> layers;
   std::vector<std::size_t> near_edge;   // vertices of the skin
-  glm::dvec3 outwards, up, under_edge;  // portal frame; the place on the plateau
+  glm::dvec3 outwards, up, under_edge;  // portal frame; point on the plateau
 
-  // How far the highest place of the free edge is over where it lies at rest, m.
+  // Returns the height of the highest point of the free edge above its rest position, m.
   double Raised(const WorldPicture* world) const {
     double most = 0;
     for (const BodyPicture& body : world->bodies)
@@ -74,7 +74,7 @@ class DemoReach : public testing::Test {
   }
 };
 
-// A hand at the instrument's portal that goes evenly from place to place.
+// Hand at the portal of the instrument that moves at constant speed from point to point.
 class Hand {
  public:
   Hand(const LoadedScene& demo, std::vector<BodySpec> bodies, std::vector<LayerSpec> layers,
@@ -119,14 +119,14 @@ class Hand {
       if (body.tissue == 0) return body.cut.removed;
     return 0;
   }
-  // The roll at which what points along the tool's +y points as far this way as the rod lets it.
+  // Returns the roll at which +y of the tool is as close to this direction as the rod allows.
   double RollTowards(const glm::dvec3& tip, const glm::dvec3& way) const {
     const Rigid3 straight = PortalFromTool(portal_, tip, 0.0);
     const glm::dvec3 in_tool = glm::conjugate(straight.rotation) * way;
     // +y turns from north to east, which is the tool's −x (tool_shape.h).
     return std::atan2(-in_tool.x, in_tool.y);
   }
-  // Level, the way that the rod goes to `x`.
+  // Horizontal direction of the rod towards `x`.
   glm::dvec3 WayOf(const glm::dvec3& x, const glm::dvec3& up) const {
     const glm::dvec3 rod = x - portal_;
     return glm::normalize(rod - glm::dot(rod, up) * up);
@@ -142,8 +142,8 @@ class Hand {
   double roll_ = 0, t_ = 0;
 };
 
-// The shaft's way to the free edge is clear from the scene's portal; from one that is as far off as
-// it once was the shaft comes to lie on the anterior rim.
+// The path of the shaft to the free edge is clear from the portal of the scene; from a more distant
+// portal the shaft touches the anterior rim.
 TEST_F(DemoReach, TheShaftLiesOnNothingWhileTheTipIsBesideTheFreeEdge) {
   for (const double spacing : {demo.scene.portals.incision_spacing, 0.03}) {
     LoadedScene scene = demo;
@@ -163,13 +163,13 @@ TEST_F(DemoReach, TheShaftLiesOnNothingWhileTheTipIsBesideTheFreeEdge) {
 
 TEST_F(DemoReach, AHookLiftsTheFreeEdgeAndLetsItGoWhenDrawnIn) {
   Hand hand(demo, bodies, layers, ToolKind::kProbe);
-  constexpr double kReach = 3.4 * kMm;  // of the hook from its rod
+  constexpr double kReach = 3.4 * kMm;  // m, distance of the hook from its rod
   const double level = hand.RollTowards(under_edge, outwards);
-  // The hook's end this far past the edge; which way of turning lowers it follows from the side
-  // that the rod comes from.
+  // Distance of the hook's end past the edge; the direction of roll that lowers it depends on the
+  // side of the rod.
   const glm::dvec3 rod = hand.WayOf(under_edge, up);
-  const glm::dvec3 hook =
-      glm::normalize(outwards - glm::dot(outwards, rod) * rod);  // nearly: the rod is not level
+  const glm::dvec3 hook = glm::normalize(
+      outwards - glm::dot(outwards, rod) * rod);  // approximate, since the rod is not level
   const double lower = glm::dot(glm::cross(rod, hook), up) > 0.0 ? -1.0 : 1.0;
   const auto at = [&](double past, double height) {
     return under_edge + past * kMm * outwards - kReach * hook + height * kMm * up;
@@ -190,7 +190,7 @@ TEST_F(DemoReach, AHookLiftsTheFreeEdgeAndLetsItGoWhenDrawnIn) {
   EXPECT_EQ(hand.session.snapshot().instrument.contact, kMeniscus);
   EXPECT_GT(held, 2.0 * kMm);
   EXPECT_LT(std::max(peak, hand.peak), kSafe);
-  // Drawn in, the hook leaves it; it lies as before.
+  // Rolled back, the hook leaves the edge, which returns to rest.
   hand.Go(at(-4.5, 2), lifting, 1.0);
   hand.Go(at(-4.5, 2), lifting, 0.5);
   EXPECT_EQ(hand.most_on_meniscus, 0.0);
@@ -215,7 +215,7 @@ TEST_F(DemoReach, AProbePressesIt) {
 TEST_F(DemoReach, AForcepsBitesTheFreeEdge) {
   Hand hand(demo, bodies, layers, ToolKind::kPunch);
   const glm::dvec3 way = hand.WayOf(under_edge, up);
-  // Its jaws of 6 mm open upwards; the lower one goes under the edge.
+  // The jaws of 6 mm open upwards; the lower one goes below the edge.
   hand.Start(under_edge - 6.0 * kMm * way + 5.0 * kMm * up, 0.0);
   hand.Go(under_edge - 3.0 * kMm * way + 1.0 * kMm * up, 0.0, 0.8);
   EXPECT_EQ(hand.most_on_meniscus, 0.0);
@@ -230,7 +230,7 @@ TEST_F(DemoReach, AForcepsBitesTheFreeEdge) {
   hand.Go(under_edge - 6.0 * kMm * way + 4.0 * kMm * up, 0.0, 0.8);
   const double bite = hand.Removed();
   std::printf("a bite of %.1f mm3 with %.2f N\n", 1e9 * bite, peak);
-  // The window takes a capsule of 19 mm3; a mouthful is a fair part of it.
+  // The window takes a capsule of 19 mm3; one pass must remove a fair part of it.
   EXPECT_GT(bite, 1e-9);
   EXPECT_LT(bite, 19e-9);
   EXPECT_LT(peak, kSafe);
@@ -239,7 +239,7 @@ TEST_F(DemoReach, AForcepsBitesTheFreeEdge) {
 TEST_F(DemoReach, AShaverTakesOfTheFreeEdge) {
   Hand hand(demo, bodies, layers, ToolKind::kShaver);
   const glm::dvec3 way = hand.WayOf(under_edge, up);
-  // Its window looks down on the edge.
+  // The window faces down to the edge.
   constexpr double kDown = std::numbers::pi;
   const glm::dvec3 over = under_edge + 3.0 * kMm * way;
   hand.Start(over + 5.0 * kMm * up, kDown);
@@ -258,7 +258,7 @@ TEST_F(DemoReach, AShaverTakesOfTheFreeEdge) {
   EXPECT_LT(peak, kSafe);
 }
 
-// What `arthroscene demo` plays: it lifts the edge, and nothing before that does.
+// The trace of `arthroscene demo` lifts the edge, and nothing lifts it earlier.
 TEST_F(DemoReach, TheDemosOwnTraceLiftsTheFreeEdgeAndLetsItGo) {
   double lifted = 0, before = 0, after = 0, peak = 0;
   Replay(demo, ReadTrace(demo.folder / "trace.csv"), {}, {}, nullptr, presets,

@@ -15,10 +15,10 @@ DeviceCaps TouchClass() {
   return caps;
 }
 
-TEST(DeviceOptions, TheRuleIsThatOfTheNotes) {
+TEST(DeviceOptions, StableStiffnessMatchesTheTable) {
   ContactOptions contact;
   contact.stiffness = 10;
-  // Table of the notes: T, B, delay in ticks, N/m.
+  // Columns: T, B, delay in ticks, N/m.
   struct Row {
     double period, damping, ticks, bound;
   };
@@ -29,7 +29,7 @@ TEST(DeviceOptions, TheRuleIsThatOfTheNotes) {
   }
 }
 
-TEST(DeviceOptions, AStifferCouplingThatIsLoweredKeepsTheRuleWithTheViscosityThatIsLeft) {
+TEST(DeviceOptions, ALoweredCouplingIsStableWithItsReducedViscosity) {
   ContactOptions contact;
   contact.stiffness = 3000;
   const double lowered = StableStiffness(0.2, contact, 1e-3, 1e-3);
@@ -38,14 +38,14 @@ TEST(DeviceOptions, AStifferCouplingThatIsLoweredKeepsTheRuleWithTheViscosityTha
   EXPECT_LT(lowered, 200);
 }
 
-TEST(DeviceOptions, DefaultsStayBelowTheRuleForATouchClassDevice) {
+TEST(DeviceOptions, DefaultsAreStableForATouchClassDevice) {
   const SessionOptions options = OptionsFor(TouchClass(), 1e-3, {});
   EXPECT_EQ(options.lever.max_stiffness, 780) << "the rule gives 800";
   EXPECT_EQ(options.limiter.max_force, 3.3);
   EXPECT_NEAR(options.thermal.continuous_force, 0.88, 1e-12);
 }
 
-TEST(DeviceOptions, OnlyEverLower) {
+TEST(DeviceOptions, OnlyLowerLimits) {
   SessionOptions low;
   low.lever.max_stiffness = 100;
   low.limiter.max_force = 1;
@@ -65,20 +65,20 @@ TEST(DeviceOptions, OnlyEverLower) {
     EXPECT_EQ(both.lever.max_stiffness, 300);
     EXPECT_EQ(both.thermal.continuous_force, 0.4);
   }
-  // A longer period, or reports that come later, allow less.
+  // A longer period and later reports allow less.
   EXPECT_LT(OptionsFor(TouchClass(), 4e-3, {}).lever.max_stiffness,
             OptionsFor(TouchClass(), 1e-3, {}).lever.max_stiffness);
 }
 
-TEST(DeviceOptions, WithoutForceNothingChanges) {
+TEST(DeviceOptions, ADeviceWithoutForceChangesNothing) {
   DeviceCaps pad = TouchClass();
   pad.feedback = Feedback::kRumble;
   pad.peak_force = 0.1;
   EXPECT_EQ(JsonFromOptions(OptionsFor(pad, 1e-3, {})), JsonFromOptions(SessionOptions{}));
 }
 
-// What the hand feels of a surface, over what it feels without a device: that is what was lowered.
-TEST(DeviceOptions, AreFelt) {
+// Ratio of the hand force of a surface to that without a device.
+TEST(DeviceOptions, LowerTheForceOfASurface) {
   LoadedScene loaded = SceneOf({}, {});
   loaded.scene.tissues.clear();
   loaded.surfaces.clear();

@@ -9,7 +9,7 @@
 namespace arthro::test {
 namespace {
 
-// Promised: less than 1 mJ between any two moments without a force.
+// Bound: less than 1 mJ between any two moments without a force.
 TEST(EnergyOfSlowCycles, IsBelowOneMillijouleOnEveryGround) {
   constexpr int kCycles = 120;
   for (const EnergyRow& row : MeasureEnergy(kCycles, {})) {

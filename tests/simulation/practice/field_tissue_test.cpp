@@ -1,4 +1,4 @@
-// Claims about tissue that is a function [paper, 3.4], touched by the servo's own proxy.
+// Implicit tissue [paper, 3.4] in contact with the proxy of the servo.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 constexpr double kBall = 0.005, kSpacing = 0.35e-3;  // m
 const glm::dvec3 kCentre(0, 0, 0.04);
 
-// A loose body, a ball of 5 mm: once as a fine mesh, once as a function sampled on 0.35 mm.
+// A loose body, a ball of 5 mm: as a fine mesh, and as a field sampled at 0.35 mm.
 LoadedScene MakeScene() {
   Tissue tissue;
   tissue.name = "loose body";
@@ -35,7 +35,7 @@ std::shared_ptr<ImplicitTissue> MakeField(const LoadedScene& loaded) {
                                           loaded.scene.tissues[0].pose);
 }
 
-TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
+TEST(FieldTissue, GivesTheForceOfTheSampledBall) {
   const LoadedScene loaded = MakeScene();
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
@@ -53,15 +53,16 @@ TEST(FieldTissue, IsFeltAsTheBallThatItStandsFor) {
     }
   std::printf("[ field ] force %.2g N from k d at most, turned by %.2f degrees\n", worst,
               worst_turn * 180 / 3.14159265);
-  // The field's surface is off the ball by its trilinear cells' sagitta, h²/8R = 3 µm a direction
-  // and two of them, and the mesh that it is sampled from by 1 µm more.
+  // The surface of the field differs from the ball by the sagitta of its trilinear cells, h²/8R = 3
+  // µm in each of two directions, and the mesh that it is sampled from by 1 µm more.
   EXPECT_LT(worst, kSpring * (kSkin + 2 * kSpacing * kSpacing / (8 * kBall) + 1e-6));
-  // The proxy rests within friction's cone, 0.03 rad, of the foot.
+  // The proxy rests within the friction cone, 0.03 rad, of the foot.
   EXPECT_LT(worst_turn, 0.03 + kSpacing / kBall / 4);
 }
 
-TEST(FieldTissue, AToolThatAppearsBeyondAThinOneIsHeldBeforeIt) {
-  // A flap of 1 mm. (A ball would be slid around: beyond its centre its near side is no minimum.)
+TEST(FieldTissue, AToolThatAppearsBehindAThinFlapIsHeldInFrontOfIt) {
+  // A flap of 1 mm. (Around a ball the proxy would slide: beyond the centre, its near side is no
+  // minimum.)
   LoadedScene loaded = MakeScene();
   loaded.surfaces[0] = Share(test::Box({-5e-3, -5e-3, -5e-4}, {5e-3, 5e-3, 5e-4}));
   Hand hand(loaded);
@@ -73,7 +74,7 @@ TEST(FieldTissue, AToolThatAppearsBeyondAThinOneIsHeldBeforeIt) {
   EXPECT_EQ(tool.contact, 1);
 }
 
-TEST(FieldTissue, WhatIsBittenOffIsNotFeltAnyMore) {
+TEST(FieldTissue, RemovedTissueGivesNoForce) {
   const LoadedScene loaded = MakeScene();
   Hand hand(loaded);
   const auto whole = MakeField(loaded);
@@ -92,14 +93,14 @@ TEST(FieldTissue, WhatIsBittenOffIsNotFeltAnyMore) {
   hand.session.SetField(0, bitten);
   EXPECT_EQ(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).contact, kNoContact);
   const ToolState& tool = hand.Lead(face + glm::dvec3(0, 0, 2.5e-3));
-  // The bite's floor, to the resolution of cut faces: a tenth of the spacing of a sphere of 2 mm.
+  // Floor of the bite, to the resolution of cut faces: a tenth of the spacing for a sphere of 2 mm.
   EXPECT_NEAR(tool.penetration, 0.5e-3, 0.1 * kSpacing);
   hand.Lead({0, 0, 0.03});
   hand.session.SetField(0, nullptr);
   EXPECT_NEAR(hand.Lead(face + glm::dvec3(0, 0, 1e-3)).penetration, 1e-3, 1e-5) << "its mesh again";
 }
 
-TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
+TEST(FieldTissue, IsSampledFromTheSurfaceOfAnImplicitTissue) {
   LoadedScene loaded = MakeScene();
   loaded.scene.tissues[0].pose.scale = 0.5;
   Hand given(loaded);
@@ -119,7 +120,7 @@ TEST(FieldTissue, IsMadeOfTheSurfaceWhereTheSceneSaysSo) {
   EXPECT_THROW(Hand{loaded}, Error) << "an open surface has no inside";
 }
 
-TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
+TEST(FieldTissue, AServoTickInContactAllocatesNothing) {
   const LoadedScene loaded = MakeScene();
   Hand hand(loaded);
   hand.session.SetField(0, MakeField(loaded));
@@ -132,15 +133,15 @@ TEST(FieldTissue, AServoTickOnItAllocatesNothing) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-// The same ball as the scene's own implicit tissue, living.
+// The same ball as a deformable implicit tissue of the scene.
 LoadedScene MakeImplicit() {
   LoadedScene loaded = MakeScene();
   loaded.scene.tissues[0].is_implicit = true;
   return loaded;
 }
 
-// Beside the ball with 5.6 mm from its centre to the rod: its side with the shaver's window faces
-// the ball, 0.6 mm of which is between a punch's jaws.
+// Places the rod 5.6 mm from the centre of the ball: the window of the shaver faces the ball, and
+// 0.6 mm of it is between the jaws of a punch.
 const glm::dvec3 kBeside = 0.043 * glm::dvec3(0, std::sin(0.1405), std::cos(0.1405));
 
 double Shave(Hand& hand, int ticks) {
@@ -153,7 +154,7 @@ double Shave(Hand& hand, int ticks) {
   return hand.session.tissues()->bodies[0].cut.removed;
 }
 
-TEST(FieldTissue, AShaverAndABiteInASessionTakeOfItAndWhatIsGoneIsNotFelt) {
+TEST(FieldTissue, AShaverAndAPunchRemoveTissueInASession) {
   Hand hand(MakeImplicit());
   hand.session.Enliven({}, TissuePace::kInline);
   ASSERT_NE(hand.session.tissues(), nullptr);
@@ -174,7 +175,7 @@ TEST(FieldTissue, AShaverAndABiteInASessionTakeOfItAndWhatIsGoneIsNotFelt) {
   EXPECT_GT(cut.removed, shaved + 0.2e-9);
   std::printf("[ field ] shaved %.2f mm3, bitten %.2f mm3\n", 1e9 * shaved,
               1e9 * (cut.removed - shaved));
-  // The bite's groove, 0.6 mm deep, is not felt at the depth at which the ball was.
+  // The groove of the bite, 0.6 mm deep, gives no force at the former depth of the ball.
   hand.Lead({0, 0, 0.02});
   hand.session.SetInstrument(ToolKind::kProbe);
   const glm::dvec3 in_groove = kCentre + glm::dvec3(4.7e-3, 0, -0.5e-3);
@@ -185,12 +186,12 @@ TEST(FieldTissue, AShaverAndABiteInASessionTakeOfItAndWhatIsGoneIsNotFelt) {
   EXPECT_EQ(hand.session.tissues()->bodies[0].cut.removed, 0.0);
 }
 
-// The proxy goes by two pixels a tick beside what its tip goes (haptics/proxy.h), and the foot of
-// its planes may be a fifth of one off it (haptics/contact.cpp).
+// Per tick the proxy moves by two pixels more than its tip (haptics/proxy.h), and the foot of its
+// planes may differ from it by a fifth of a pixel (haptics/contact.cpp).
 constexpr double kPixel = 0.08 / 500;
 constexpr double kStep = kSpring * 2.2 * kPixel;
 
-TEST(FieldTissue, WhatIsTakenFromUnderATipOrComesBackOverItIsFeltWithoutAJump) {
+TEST(FieldTissue, RemovingOrRestoringTissueAtATipGivesNoForceJump) {
   const LoadedScene loaded = MakeImplicit();
   Hand hand(loaded);
   const glm::dvec3 face = kCentre - glm::dvec3(0, 0, kBall);
@@ -210,7 +211,7 @@ TEST(FieldTissue, WhatIsTakenFromUnderATipOrComesBackOverItIsFeltWithoutAJump) {
   watch(200);
   EXPECT_EQ(last, glm::dvec3(0.0)) << "there is nothing left under the tip";
   hand.session.SetField(0, MakeField(loaded));
-  // A tip that rests in what came back is let be; one that goes on is brought out of it.
+  // A tip that rests inside restored tissue stays there; a moving one is pushed out.
   for (int i = 0; i < 100; ++i) {
     hand.instrument.Advance({0, 0, 0, 1e-6});
     watch(1);
@@ -221,7 +222,7 @@ TEST(FieldTissue, WhatIsTakenFromUnderATipOrComesBackOverItIsFeltWithoutAJump) {
   EXPECT_LE(largest, kStep + (kSpring + 1e3) * 1e-6) << "the hand's own step, and its viscosity";
 }
 
-TEST(FieldTissue, ItsCutsAreTheSameBytesEveryTimeAndATickOnThemAllocatesNothing) {
+TEST(FieldTissue, CutsAreReproducibleAndATickOnThemAllocatesNothing) {
   std::array<std::vector<glm::dvec3>, 2> forces;
   std::array<std::vector<glm::dvec3>, 2> shapes;
   for (std::size_t run = 0; run < 2; ++run) {

@@ -1,5 +1,4 @@
-// A session and both hands in it, one servo tick at a time with the tissue inline on the same
-// clock. Portal frame, m, s.
+// Session with two scripted hands, ticked one by one with the tissue inline. Portal frame, m, s.
 #pragma once
 
 #include <cmath>
@@ -13,10 +12,11 @@
 namespace arthro::simulation {
 
 inline constexpr double kTick = 0.001, kSpring = 500.0;
-// The proxy keeps 1 µm off a surface and bears within 2.
+// The proxy keeps 1 µm from a surface and is in contact within 2 µm.
 inline constexpr double kSkin = 2e-6;
 
-// A bare sphere of 80 mm, far away, the instrument's portal at its centre, and one tissue.
+// Scene with a bare, distant sphere of 80 mm, the portal of the instrument at its centre, and one
+// tissue.
 inline LoadedScene SceneOf(const SurfaceMesh& surface, const Tissue& tissue) {
   LoadedScene loaded;
   loaded.scene.backdrop.radius = 0.08;
@@ -42,7 +42,7 @@ struct Hand {
     }
     return session.snapshot().instrument;
   }
-  // Leads the instrument's tip evenly to a point, and holds it there.
+  // Leads the tip of the instrument to a point at constant speed, and holds it there.
   const ToolState& Lead(const glm::dvec3& tip, int ticks = 500, int hold = 300) {
     const RodPose from = instrument.pose();
     const glm::dvec3 own = tip - glm::dvec3(session.incision_spacing(), 0, 0);

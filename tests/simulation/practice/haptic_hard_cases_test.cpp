@@ -1,6 +1,6 @@
-// Hard cases HAP of resources/doc/hard-cases.md, through the whole way from a device to its force:
-// session, contact, lever, output chain, and where a hand is pushed a simulated device that
-// somebody holds. Their parts are tested where they live.
+// Hard cases HAP of resources/doc/hard-cases.md through the whole path from a sample to a force:
+// session, contact, lever, output chain, and a simulated device with a hand where the hand is
+// pushed. Unit tests of the parts are beside the parts.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,7 +49,8 @@ RodPose PoseAt(const glm::dvec3& tip) {
   return pose;
 }
 
-// The scope's device, simulated, armed and ramped, its hand led by where its tip means to be.
+// Simulated device of the scope, armed and ramped; its hand is led by an intended position of the
+// tip.
 struct Held {
   Held(const LoadedScene& loaded, const glm::dvec3& tip, const PlantOptions& plant,
        const HandModel& hand, const SessionOptions& options = {})
@@ -75,7 +76,7 @@ struct Held {
   double now = 0;
 };
 
-// Every finite step of a force that grows is within the rise of the limiter.
+// Checks that every increase of a force is within the rise of the limiter.
 void ExpectWithinRise(const glm::dvec3& force, const glm::dvec3& last,
                       const LimiterOptions& limiter) {
   ASSERT_TRUE(std::isfinite(glm::length(force)));
@@ -83,9 +84,9 @@ void ExpectWithinRise(const glm::dvec3& force, const glm::dvec3& last,
   ASSERT_LE(glm::length(force) - glm::length(last), limiter.max_rise * kTick + 1e-9);
 }
 
-// The depth map changes under a tip that strokes it: nearer, further, a slope, a hole, 8 bits.
+// Changes the depth map under a stroking tip: nearer, further, a slope, a hole, 8 bits.
 class HardCase8 : public testing::TestWithParam<int> {};
-TEST_P(HardCase8, ADepthMapThatIsSwappedInContactNeitherKicksNorThrowsTheProxy) {
+TEST_P(HardCase8, ASwappedDepthMapGivesNoForceJump) {
   const AnalyticRelief low = Flat(0.004);
   AnalyticRelief other =
       GetParam() == 0   ? Flat(0.007)
@@ -106,7 +107,7 @@ TEST_P(HardCase8, ADepthMapThatIsSwappedInContactNeitherKicksNorThrowsTheProxy) 
   glm::dvec3 proxy(0.0), last(0.0);
   double largest = 0;
   for (int i = 0; i < 3000; ++i) {
-    const bool is_swapped = i / 300 % 2 == 1;  // to and fro, again and again
+    const bool is_swapped = i / 300 % 2 == 1;  // alternates
     const double x = 2e-3 * std::sin(2e-3 * i);
     const glm::dvec3 tip(x, 0, 0.047), hand(0.0, 0.0, -0.153);
     const Lever lever = LeverAt(hand, 0.2, options.lever);
@@ -128,7 +129,7 @@ TEST_P(HardCase8, ADepthMapThatIsSwappedInContactNeitherKicksNorThrowsTheProxy) 
 }
 INSTANTIATE_TEST_SUITE_P(Maps, HardCase8, testing::Values(0, 1, 2, 3, 4));
 
-// A held device is led over a cliff of 5 mm in one pixel, a bad pixel, a hole and off the picture.
+// Leads a held device over a cliff of 5 mm in one pixel, a bad pixel, a hole, and off the picture.
 TEST(HardCase9, AHeldDeviceOverCliffHoleBadPixelAndBorderIsNeverKicked) {
   AnalyticRelief relief = AnalyticRelief::Make(
       ProjectionType::kGnomonic, [](glm::dvec2 p) { return p.x < 611.5 ? 0.001 : 0.006; });
@@ -139,7 +140,7 @@ TEST(HardCase9, AHeldDeviceOverCliffHoleBadPixelAndBorderIsNeverKicked) {
   map.at(420, 511) = hole;
   for (const HandModel& hand : {kSoftHand, kHand, kStiffHand, kWholeArm})
     for (const double speed : {0.02, 0.1, 0.199}) {
-      // At the foot of the cliff the tip would have to climb 5 mm; it goes into it by 3.
+      // At the foot of the cliff the tip would have to climb 5 mm; it penetrates by 3 mm.
       const auto tip_at = [&](double x_px) {
         const double depth = 0.0495;
         return depth * DirectionFromPixel(relief.backdrop.projection, {x_px, 511.0});
@@ -163,8 +164,8 @@ TEST(HardCase9, AHeldDeviceOverCliffHoleBadPixelAndBorderIsNeverKicked) {
     }
 }
 
-// A stiff hand strokes an 8-bit ramp at 20 mm/s; the device counts finely, so that what trembles is
-// the staircase and not the encoder.
+// A stiff hand strokes an 8-bit ramp at 20 mm/s. The encoder is fine, so that vibration comes from
+// the staircase alone.
 TEST(HardCase10, AnEightBitStaircaseDoesNotBuzzInTheHand) {
   const AnalyticRelief ramp = AnalyticRelief::Make(
       ProjectionType::kGnomonic, [](glm::dvec2 p) { return 0.003 + 2e-6 * (p.x - 511.5); });
@@ -196,9 +197,9 @@ TEST(HardCase10, AnEightBitStaircaseDoesNotBuzzInTheHand) {
   EXPECT_LT(std::sqrt(above / 2), 0.05 * dc);
 }
 
-// What tissue says of its stiffness and of how its skin bends may be any matrices. 300 N/m hold the
-// instrument; its hand goes round in circles through the surface.
-TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
+// The reported stiffness and curvature of a tissue may be any matrices. A hand of 300 N/m moves the
+// instrument in circles through the surface.
+TEST(HardCase14, AnyReportedStiffnessIsMadePassive) {
   LoadedScene bare = SceneOf({}, {});
   bare.scene.tissues.clear();
   bare.surfaces.clear();
@@ -229,7 +230,7 @@ TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
         loop.SetRequest(request);
       }
       if (i % 16 == 0) {
-        // As a step of the tissue leaves it, at the tip where it is then.
+        // Coupling of a tissue step, at the present tip.
         const glm::dvec3 tip = session.snapshot().instrument.tissue_tip_in_portal;
         const double depth = tip.z - kLevel;
         ContactPoint contact;
@@ -257,7 +258,7 @@ TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
       device.plant().SetIntent(HipFromRodPose(PoseAt(tip), session.instrument_rig()));
       loop.TickOnce(now += kTick);
       ASSERT_TRUE(std::isfinite(glm::length(device.force()))) << seed;
-      // Whole rounds, once it is armed, ramped and going round evenly.
+      // Counts whole rounds, once it is armed, ramped and periodic.
       if (i >= 2000 && i % 500 == 0) {
         if (i > 2000) most = std::max(most, device.plant().work() - work);
         work = device.plant().work();
@@ -269,9 +270,9 @@ TEST(HardCase14, AnyLocalStiffnessIsMadeOneOfASpringAndGivesNoEnergy) {
   EXPECT_LT(most, 1e-3);
 }
 
-// The hand goes through the incision and comes back, at 1 mm beside it and right through it, with
-// its tip in the wall while it is there.
-TEST(HardCase15, AHandThatCrossesTheIncisionGetsAForceThatFadesAndNeverFlutters) {
+// The hand passes the incision and returns, 1 mm beside it and exactly through it, with its tip in
+// the wall.
+TEST(HardCase15, ForceFadesWithoutFlutterWhereTheHandCrossesTheIncision) {
   const AnalyticRelief relief = Flat();
   for (const double beside : {0.0, 1e-6, 1e-3, 4e-3}) {
     LoadedScene loaded = SceneOver(relief, relief.Float());
@@ -280,7 +281,7 @@ TEST(HardCase15, AHandThatCrossesTheIncisionGetsAForceThatFadesAndNeverFlutters)
     glm::dvec3 last(0.0);
     int turns = 0, felt = 0;
     double t = 0;
-    // Held still until it is ramped, then through at 20 mm/s and back.
+    // Rests until the force is ramped, then moves through at 20 mm/s and back.
     for (int i = 0; i < 1000 + 2 * 1400; ++i) {
       const int way = std::clamp(i - 1000, 0, 2 * 1400);
       const double z = -0.0139 + 2e-5 * (way < 1400 ? way : 2 * 1400 - way);
@@ -297,7 +298,7 @@ TEST(HardCase15, AHandThatCrossesTheIncisionGetsAForceThatFadesAndNeverFlutters)
       if (r < 5e-3) {
         ASSERT_EQ(tool.hand_force, glm::dvec3(0.0)) << r;
       }
-      // Of what can be felt.
+      // Checks perceptible forces only.
       turns += glm::dot(tool.hand_force, last) < 0 && glm::length(last) > 1e-3;
       felt += glm::length(tool.hand_force) > 0.01;
       last = tool.hand_force;
@@ -307,7 +308,7 @@ TEST(HardCase15, AHandThatCrossesTheIncisionGetsAForceThatFadesAndNeverFlutters)
   }
 }
 
-// Hands of that replay, N, as gcc 12.2 and clang 14 make them on x86-64: the same to the bit.
+// Hand forces of that replay, N; gcc 12.2 and clang 14 on x86-64 give the same bits.
 struct KnownForce {
   std::size_t row;
   glm::dvec3 hand;
@@ -327,9 +328,9 @@ const KnownForce kKnownForces[] = {
     {114702, {0, 0, 0}},
 };
 
-// Ten minutes of both hands over hilly ground: three runs to the bit, and what other compilers made
-// of them to 1 nN.
-TEST(HardCase27, TenMinutesAreTheSameToTheBitThreeTimes) {
+// Ten minutes of both hands over hilly ground: three bit-identical runs, within 1 nN of other
+// compilers.
+TEST(HardCase27, TenMinutesAreBitIdenticalOverThreeRuns) {
   const AnalyticRelief relief = AnalyticRelief::Waves(ProjectionType::kGnomonic);
   const LoadedScene loaded = SceneOver(relief, relief.EightBit());
   const Session session(loaded);
@@ -362,11 +363,11 @@ TEST(HardCase27, TenMinutesAreTheSameToTheBitThreeTimes) {
   }
 }
 
-// 0.1 mm/s along a wall for 60 s, then still for 20: device friction, quantum, delay and all. A
-// limit cycle swings on and on: nine tenths of the ticks of 0.1 s are then further apart than a
-// swing of that size lets them be. Nor does the passivity guard strike at each count of the device,
-// which looks like 55 mm/s.
-TEST(HardCase23, ASlowStrokeStaysStillWhenItIsHeldAndDoesNotSwing) {
+// Moves at 0.1 mm/s along a wall for 60 s, then rests for 20 s, with friction, quantum and delay of
+// a device. A limit cycle would swing without end, so that nine tenths of the ticks within 0.1 s
+// differ by more than the allowed swing. The passivity guard must not react to each count of the
+// device either, which looks like 55 mm/s.
+TEST(HardCase23, ASlowStrokeComesToRestWithoutALimitCycle) {
   const AnalyticRelief relief = Flat();
   for (const HandModel& hand : {kSoftHand, kHand, kStiffHand}) {
     const auto tip_at = [](double along) {

@@ -9,8 +9,8 @@
 namespace arthro::simulation {
 namespace {
 
-// A tissue that is laid in at twice its size: what is written in its own frame grows with it.
-TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
+// Tissue placed at twice its size: quantities in its own frame scale with it.
+TEST(LivingTissues, ScalesFixedPlacesCutsAndRegionsByThePose) {
   test::TempFolder folder;
   const SurfaceMesh surface = {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}},
                                {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -45,8 +45,7 @@ TEST(LivingTissues, HeldPlacesCutsAndRegionsTakeTheScaleOfThePose) {
   EXPECT_EQ(body.regions, (std::vector<Region>{{"horn", {{0, 0.002, 0}, 0.008}}}));
 }
 
-// What is said of a tetrahedron as surface, 17.3 mm across, that is filled with itself, scaled and
-// shifted.
+// Message for a tetrahedron of 17.3 mm as surface, filled with itself after scaling and shifting.
 std::string SaidOf(double scale, const glm::dvec3& shift) {
   test::TempFolder folder;
   const SurfaceMesh surface = {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}},
@@ -73,8 +72,8 @@ std::string SaidOf(double scale, const glm::dvec3& shift) {
   return "nothing";
 }
 
-// By less than a fifth of the surface's diagonal, 3.46 mm, a coarse mesh may be off it.
-TEST(LivingTissues, AMeshThatDoesNotFillItsSurfaceIsRefused) {
+// A coarse mesh may differ from its surface by less than a fifth of the diagonal, 3.46 mm.
+TEST(LivingTissues, RefusesAMeshThatDoesNotFillItsSurface) {
   EXPECT_EQ(SaidOf(1.0, {}), "nothing");
   EXPECT_EQ(SaidOf(1.0, {0.0034, 0, 0}), "nothing");
   EXPECT_EQ(SaidOf(0.81, {}), "nothing");

@@ -30,7 +30,7 @@ LoadedScene MakeScene() {
   return loaded;
 }
 
-// Both hands stroke the backdrop; `rate` rows a second for each.
+// Both hands stroke the backdrop; `rate` rows per second each.
 std::vector<TraceRow> MakeTrace(double seconds, double rate) {
   ScriptedDevice scope({}), instrument({});
   std::vector<TraceRow> rows;
@@ -55,8 +55,8 @@ std::vector<std::vector<std::string>> Table(const std::string& text) {
   return table;
 }
 
-// A shaver runs beside a loose body that is a function, its window to it.
-TEST(Replay, OfAShaverOnALooseBodySaysWhatItTookAndGivesTheSameBytesTwice) {
+// A shaver runs beside a loose implicit body, with its window towards it.
+TEST(Replay, ReportsTheVolumeThatAShaverRemovesAndGivesTheSameBytesTwice) {
   LoadedScene loaded = MakeScene();
   loaded.depth = nullptr;
   Tissue tissue;
@@ -84,7 +84,7 @@ TEST(Replay, OfAShaverOnALooseBodySaysWhatItTookAndGivesTheSameBytesTwice) {
   EXPECT_EQ(report["loose body"]["removed_mm3"], first.tissues[0].cut.removed * 1e9);
 }
 
-TEST(Replay, GivesOneRowForARowOfTheTrace) {
+TEST(Replay, GivesOneRowPerRowOfTheTrace) {
   const LoadedScene loaded = MakeScene();
   const auto trace = MakeTrace(0.5, 250);
   const auto forces = Replay(loaded, trace);
@@ -111,8 +111,9 @@ TEST(Replay, IsBitIdenticalOverThreeRuns) {
   EXPECT_EQ(ForcesText(Replay(loaded, trace), loaded.scene), first);
 }
 
-// The clock is the servo's whatever the recording's rate; the hand moves evenly between rows.
-TEST(Replay, SlowRecordingFeelsAsTheFastOne) {
+// The tick rate does not depend on the rate of the recording; the hand is interpolated between
+// rows.
+TEST(Replay, ASlowRecordingGivesTheForcesOfAFastOne) {
   const LoadedScene loaded = MakeScene();
   const auto fast = Replay(loaded, MakeTrace(2.0, 1000)),
              slow = Replay(loaded, MakeTrace(2.0, 100));
@@ -150,7 +151,7 @@ TEST(Replay, ReportAddsUp) {
   EXPECT_GT(json.at("tick_us").at("median"), 0.0);
 }
 
-TEST(Replay, ReportTellsWhatWasTakenByRegion) {
+TEST(Replay, ReportsTheRemovedVolumePerRegion) {
   LoadedScene loaded = MakeScene();
   Tissue& tissue = loaded.scene.tissues.emplace_back();
   tissue.name = "meniscus";
@@ -169,7 +170,7 @@ TEST(Replay, ReportTellsWhatWasTakenByRegion) {
   EXPECT_FALSE(json.at("labrum").contains("removed_mm3_by_region"));
 }
 
-// A tissue's name may hold anything.
+// The name of a tissue may contain any characters.
 TEST(Replay, ContactNamesAreQuotedWhereNeeded) {
   LoadedScene loaded = MakeScene();
   Tissue tissue;
@@ -181,7 +182,7 @@ TEST(Replay, ContactNamesAreQuotedWhereNeeded) {
   EXPECT_NE(text.find(",\"medial, \"\"torn\"\"\","), std::string::npos) << text;
 }
 
-// The job, as a user runs it.
+// Runs the job as a user does.
 class ReplayJob : public testing::Test {
  protected:
   void SetUp() override {
@@ -205,7 +206,7 @@ TEST_F(ReplayJob, WritesForcesAndReport) {
   const auto table = Table(ReadWholeFile(folder_ / "f.csv"));
   EXPECT_EQ(table.size(), 103u);
   EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(folder_ / "r.json")).at("ticks"), 501);
-  // The same on standard output, and the same again.
+  // Standard output gives the same text, and so does a second run.
   const auto printed = Run(Path("trace.csv") + " -o -");
   EXPECT_EQ(printed.exit_code, 0) << printed.err;
   EXPECT_EQ(printed.out, ReadWholeFile(folder_ / "f.csv"));
@@ -222,7 +223,7 @@ TEST_F(ReplayJob, StiffnessIsAnOption) {
   EXPECT_EQ(Run(Path("trace.csv") + " -o " + Path("c.csv") + " --stiffness 1e9").exit_code, 2);
 }
 
-TEST_F(ReplayJob, AHandThatIsNowhereGetsAFaultAndNoForce) {
+TEST_F(ReplayJob, AnInvalidHandPositionGivesAFaultAndNoForce) {
   WriteAtomically(folder_ / "far.csv",
                   std::string_view("t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n"
                                    "0,scope,0,0,-0.15,1,0,0,0,0\n"

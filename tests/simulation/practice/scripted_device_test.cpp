@@ -38,8 +38,8 @@ TEST(ScriptedDevice, StaysWithinItsLimits) {
   EXPECT_EQ(device.pose().depth, RodLimits{}.min_depth);
 }
 
-// A mouse moves once a frame; the hand that the servo sees must not jump by a frame's worth.
-TEST(ScriptedDevice, SpreadsAFrameOverItsTicks) {
+// A mouse moves once per frame; the hand of the servo must not jump by that motion.
+TEST(ScriptedDevice, SpreadsTheMotionOfAFrameOverItsTicks) {
   DeviceRig rig;
   ScriptedDevice device(rig);
   device.Sample(0.0);

@@ -1,5 +1,5 @@
-// The servo with plants for devices, ticked by hand on the plants' clock; one test lets its thread
-// run. Hard cases: HAP in resources/doc/hard-cases.md.
+// Servo loop with simulated devices, ticked on their clock; one test runs its thread. Hard cases:
+// HAP in resources/doc/hard-cases.md.
 #include "simulation/practice/servo_loop.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace arthro::simulation {
 namespace {
 
-// The bare sphere of 80 mm and nothing else.
+// Bare sphere of 80 mm.
 LoadedScene BareSphere() {
   LoadedScene loaded = SceneOf({}, {});
   loaded.scene.tissues.clear();
@@ -29,7 +29,7 @@ LoadedScene BareSphere() {
   return loaded;
 }
 
-constexpr double kDepth = 1e-3;  // m, that both hands mean to be under the sphere
+constexpr double kDepth = 1e-3;  // m, intended depth of both hands below the sphere
 
 struct Servo {
   explicit Servo(const ServoOptions& options = {}, const PlantOptions& plant = {},
@@ -50,7 +50,7 @@ struct Servo {
     for (int i = 0; i < ticks; ++i) loop.TickOnce(now += dt);
     return loop.ReadSnapshot();
   }
-  // Opened, homed, armed and ramped.
+  // Opens, homes, arms and ramps.
   void Arm() {
     Tick(10);
     HoldDeadMan(true);
@@ -72,7 +72,8 @@ TEST(ServoLoop, PushesAHandOutOfTheWallOnceItIsArmed) {
   servo.Arm();
   EXPECT_EQ(servo.scope.state(), DeviceState::kArmed);
   EXPECT_EQ(servo.loop.ReadSnapshot().scope.fault, Fault::kNone);
-  // 500 N/m of the wall against 300 of the hand, less the device's friction of 0.26 N.
+  // Spring of the wall, 500 N/m, against that of the hand, 300 N/m, less 0.26 N of friction of the
+  // device.
   EXPECT_NEAR(servo.scope.force().z, -500 * 300 * kDepth / 800, 0.26 * 500 / 800 + 0.03);
   EXPECT_EQ(servo.instrument.force(), glm::dvec3(0.0)) << "it touches nothing";
   servo.HoldDeadMan(false);
@@ -80,7 +81,7 @@ TEST(ServoLoop, PushesAHandOutOfTheWallOnceItIsArmed) {
   EXPECT_EQ(servo.scope.force(), glm::dvec3(0.0));
 }
 
-TEST(ServoLoop, TheSecondButtonOfAHandleIsADeadManToo) {
+TEST(ServoLoop, TheSecondButtonOfAHandleIsADeadMan) {
   Servo servo;
   servo.Tick(10);
   servo.scope.SetButtons(1);
@@ -106,10 +107,10 @@ TEST(ServoLoop, HardCase7ArmedInsideAWallTheHandIsPushedOutOverHalfASecond) {
   EXPECT_GT(peak, 0.05);
 }
 
-// A pivot that a calibration found is taken over while the device is armed and its tip in a wall:
-// of which there is more at once, or less. It is pushed as one that is armed there.
+// Sets a calibrated pivot while the device is armed and its tip in a wall, which changes the depth
+// at once. The device is then pushed as one that is armed there.
 TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick) {
-  for (const double deeper : {3e-3, -0.5e-3, 0.05, 0.2}) {  // m; beyond the hand at last
+  for (const double deeper : {3e-3, -0.5e-3, 0.05, 0.2}) {  // m; the last is beyond the hand
     Servo servo;
     servo.Arm();
     servo.Tick(1000);
@@ -127,7 +128,7 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
       servo.Tick();
       EXPECT_EQ(servo.scope.state(), DeviceState::kArmed);
       const glm::dvec3 force = servo.scope.force();
-      // The spring's own at most, over half a second; a device's peak at most, at 300 N/s.
+      // Bounds: the force of the spring over half a second, and the peak of the device at 300 N/s.
       const double whole = std::min(3.3, 500 * (kDepth + std::max(0.0, deeper)));
       ASSERT_LE(glm::length(force), whole * std::min(1.0, (i + 1) * kTick / 0.5) + 1e-9)
           << i << " ms after " << deeper;
@@ -138,23 +139,24 @@ TEST(ServoLoop, HardCase7AMountThatChangesUnderAnArmedDeviceRampsAndDoesNotKick)
     if (deeper > 0 && deeper < 0.1) {
       EXPECT_GT(peak, 0.5) << "and it is pushed again";
     }
-    // The same mount once more is no change.
+    // Setting the same mount again changes nothing.
     servo.HoldDeadMan(true);
     servo.Tick();
     EXPECT_EQ(servo.loop.ReadSnapshot().scope.fault, Fault::kNone);
   }
 }
 
-// The wall is touched at 2 Hz the while; what is compared is the work of the force on the hand.
+// Touches the wall at 2 Hz and compares the work of the force on the hand.
 class HardCase12 : public testing::TestWithParam<int> {};
-TEST_P(HardCase12, ALateTickGivesNoEnergyAndIsToldTheTrueTime) {
+TEST_P(HardCase12, ALateTickGivesNoEnergyAndUsesTheTrueTimeStep) {
   const int late = GetParam();  // ms
   double given[2];
   for (const bool is_late : {false, true}) {
     Servo servo({}, {0.045, 0.2, 0, 5.5e-5, 3.3, 1});
     servo.Arm();
     const glm::dvec3 rest = servo.scope.plant().position();
-    // The most that is given between any two moments of a run, over what an even servo gives.
+    // Largest energy given between any two moments of a run, minus that of a servo without late
+    // ticks.
     double lowest = servo.scope.plant().work(), most = 0;
     for (int i = 0; i < 3000; ++i) {
       const double s = std::sin(4 * 3.14159265358979 * i * kTick);
@@ -186,7 +188,7 @@ TEST_P(HardCase12, ALateTickGivesNoEnergyAndIsToldTheTrueTime) {
 }
 INSTANTIATE_TEST_SUITE_P(Lateness, HardCase12, testing::Values(1, 3, 25));
 
-TEST(ServoLoop, MoreThanThreeTicksLateIsATickWithoutForceAndOneOnly) {
+TEST(ServoLoop, ATickMoreThanThreePeriodsLateGivesNoForceOnce) {
   Servo servo;
   servo.Arm();
   const double before = glm::length(servo.scope.force());
@@ -219,7 +221,7 @@ TEST(ServoLoop, ALostDeviceGetsNoForceBeforeSixMillisecondsAndIsLostBefore25) {
   EXPECT_LT(lost, 25e-3);
 }
 
-TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
+TEST(ServoLoop, ZeroForceModeComputesForcesGivesNoneAndEndsWithARamp) {
   Servo servo;
   servo.Arm();
   ASSERT_GT(glm::length(servo.scope.force()), 0.1);
@@ -245,11 +247,11 @@ TEST(ServoLoop, InZeroForceModeForcesAreShownAndNoneIsGivenAndItEndsGently) {
   EXPECT_GT(glm::length(servo.scope.force()), 0.1);
 }
 
-TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
+TEST(ServoLoop, IgnoresTheDeadManAfterRequestsHaveStopped) {
   ServoOptions options;
   options.request_lasts = 0.5;
   Servo servo(options);
-  servo.scope.SetButtons(2);  // of the handle, and it stays down
+  servo.scope.SetButtons(2);  // second button of the handle, held down
   servo.HoldDeadMan(false);
   servo.Tick(10);
   servo.scope.SetButtons(0);
@@ -265,7 +267,7 @@ TEST(ServoLoop, WhereNobodyWishesAnyMoreNoDeadManCounts) {
   EXPECT_GT(glm::length(servo.scope.force()), 0.1) << "it is back, and so is the force";
 }
 
-TEST(ServoLoop, WhoWatchesIsToldOfEachTickWithItsTime) {
+TEST(ServoLoop, CallsItsObserverAfterEachTickWithTheTimeStep) {
   struct Watch final : ServoWatch {
     void AfterTick(const Snapshot& snapshot, double dt) noexcept override {
       ++ticks;
@@ -285,7 +287,7 @@ TEST(ServoLoop, WhoWatchesIsToldOfEachTickWithItsTime) {
   EXPECT_EQ(watch.newest, servo.loop.ReadSnapshot().t);
 }
 
-// As a Hydra: a report each 4 ms, that comes up to 4 ms late, and a servo that ticks as often.
+// Simulates a Hydra: a report every 4 ms, up to 4 ms late, and a servo with the same period.
 class Tracker final : public Device {
  public:
   explicit Tracker(const glm::dvec3& at, Feedback feedback) {
@@ -323,7 +325,7 @@ class Tracker final : public Device {
   long sent_ = 0;
 };
 
-TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
+TEST(ServoLoop, SamplesOfA250HertzDeviceAreNotStale) {
   const auto stale = [](Feedback feedback, double period) {
     Session session(BareSphere());
     Tracker tracker(HipFromRodPose({0, 0, 0, 0.05}, session.scope_rig()), feedback);
@@ -335,7 +337,7 @@ TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
       const Fault fault = loop.ReadSnapshot().scope.fault;
       count += fault == Fault::kStale || fault == Fault::kLost;
     }
-    // It stops: stale and lost are told as ever.
+    // Stops reporting: stale and lost are reported as usual.
     tracker.Stop();
     bool is_stale = false;
     for (const double end = now + 0.05; now < end; now += period) {
@@ -351,7 +353,7 @@ TEST(ServoLoop, ADeviceThatSpeaksEachFourMillisecondsIsNotStaleForThat) {
   EXPECT_GT(stale(Feedback::kForce, 0.001), 0) << "who is pushed is not spared";
 }
 
-TEST(ServoLoop, LimitsAreThoseOfTheDevicesAndWishesOnlyLowerThem) {
+TEST(ServoLoop, AppliesTheLowerOfDeviceLimitsAndRequestedLimits) {
   PlantOptions weak;
   weak.peak_force = 0.2;
   Servo servo({}, weak);
@@ -374,9 +376,9 @@ TEST(ServoLoop, LimitsAreThoseOfTheDevicesAndWishesOnlyLowerThem) {
   EXPECT_EQ(servo.session.instrument(), ToolKind::kShaver);
 }
 
-TEST(ServoLoop, ForcesAreInTheDevicesFrame) {
+TEST(ServoLoop, CommandsForcesInTheFrameOfTheDevice) {
   LoadedScene loaded = BareSphere();
-  // A quarter turn about x: the device's y is the portal's z.
+  // A quarter turn about x: y of the device is z of the portal.
   loaded.scene.rig.scope.portal_from_device = glm::dquat(std::sqrt(0.5), std::sqrt(0.5), 0, 0);
   Session session(loaded);
   PlantDevice scope({}, kStiffHand, HipFromRodPose({0, 0, 0, 0.08 + kDepth}, session.scope_rig()));
@@ -392,7 +394,7 @@ TEST(ServoLoop, ForcesAreInTheDevicesFrame) {
   EXPECT_NEAR(scope.force().z, -in_portal.y, 1e-9);
 }
 
-TEST(ServoLoop, WithNothingThatPushesItRunsAt250Hertz) {
+TEST(ServoLoop, RunsAt250HertzWithoutAForceDevice) {
   Session session(BareSphere());
   EXPECT_EQ(ServoLoop(session, nullptr, nullptr).period(), 0.004);
   EXPECT_EQ(session.options().lever.max_stiffness, SessionOptions{}.lever.max_stiffness);
@@ -400,7 +402,7 @@ TEST(ServoLoop, WithNothingThatPushesItRunsAt250Hertz) {
   EXPECT_EQ(ServoLoop(session, nullptr, &device).period(), 0.001);
 }
 
-TEST(ServoLoop, HoweverItEndsTheLastCommandIsNoForce) {
+TEST(ServoLoop, EndsWithACommandOfNoForce) {
   Session session(BareSphere());
   PlantDevice scope({}, kHand, HipFromRodPose({0, 0, 0, 0.08 + kDepth}, session.scope_rig()));
   for (const bool is_thrown : {false, true}) {
@@ -421,9 +423,9 @@ TEST(ServoLoop, HoweverItEndsTheLastCommandIsNoForce) {
   }
 }
 
-// Four minutes of pushing against the wall, in and out: past the 190 s after which what warming up
-// took is made up for (thermal.cpp). The hour is in OutputChain.HardCase24.
-TEST(ServoLoop, HardCase24ALongSessionHeatsNoMotorAndAllocatesNothing) {
+// Pushes in and out of the wall for four minutes, longer than the 190 s after which the warm-up is
+// compensated (thermal.cpp). The test of one hour is OutputChain.HardCase24….
+TEST(ServoLoop, HardCase24ALongSessionStaysBelowTheContinuousForceAndAllocatesNothing) {
   PlantOptions plant;
   plant.friction = 0;
   Servo servo({}, plant, kStiffHand);
@@ -471,7 +473,7 @@ TEST(ServoLoop, DrivesRecordedHandsOnTheClockAndTheTimeStepOfItsCaller) {
   EXPECT_EQ(loop.ReadReport().compute.count(), 2);
 }
 
-TEST(ServoLoop, ItsThreadTicksTellsAndStops) {
+TEST(ServoLoop, ThreadTicksReportsAndStops) {
   Servo servo;
   servo.loop.Start();
   using Clock = std::chrono::steady_clock;
@@ -487,7 +489,7 @@ TEST(ServoLoop, ItsThreadTicksTellsAndStops) {
   EXPECT_GT(report.sample_age[0].count(), 0);
   EXPECT_EQ(DescribeTrouble(report).empty(), report.has_priority);
   EXPECT_EQ(report.true_period > report.period, !report.has_priority);
-  // Where ticks come late, stiffness is less.
+  // Late ticks lower the stiffness.
   EXPECT_NEAR(servo.session.options().lever.max_stiffness, 500 * report.period / report.true_period,
               1e-9);
   std::printf(
@@ -498,7 +500,7 @@ TEST(ServoLoop, ItsThreadTicksTellsAndStops) {
   const long ticks = report.ticks;
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(servo.loop.ReadReport().ticks, ticks);
-  servo.loop.Start();  // and again
+  servo.loop.Start();  // starts again
   servo.loop.Stop();
 }
 

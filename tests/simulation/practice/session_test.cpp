@@ -18,7 +18,7 @@
 namespace arthro::simulation {
 namespace {
 
-// A flat relief of 4 mm on a sphere of 50 mm, and a box of tissue in front of it.
+// Flat relief of 4 mm on a sphere of 50 mm, with a box of tissue in front of it.
 LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
   LoadedScene loaded;
   loaded.scene.backdrop.radius = 0.05;
@@ -37,7 +37,7 @@ LoadedScene MakeScene(bool has_depth = true, bool has_tissue = true) {
   return loaded;
 }
 
-// What both tools are after it.
+// Snapshot of both tools after the ticks.
 struct Hands : Hand {
   using Hand::Hand;
   const Snapshot& Tick(int ticks = 1) {
@@ -76,7 +76,7 @@ TEST(Session, PixelsAreTheCentreOfTheViewAndThePointUnderTheTip) {
   EXPECT_LT(glm::length(snapshot.scope.pixel - *centre), 1e-6);
   const glm::dvec3 tip = snapshot.instrument.tip_in_portal;
   EXPECT_NEAR(snapshot.instrument.pixel.x, 511.5 + 500 * tip.x / tip.z, 1e-9);
-  // Drawn out, behind the portal, the tip is over no pixel.
+  // A tip that is drawn out behind the portal is over no pixel.
   hands.instrument.Set({0, 0, 0, -0.01});
   EXPECT_TRUE(std::isnan(hands.Tick().instrument.pixel.x));
 }
@@ -102,9 +102,9 @@ TEST(Session, BothToolsFeelTheBackdrop) {
     EXPECT_NEAR(tool->tip_force.z, -0.5, 0.02);
     EXPECT_NEAR(glm::length(tool->proxy_in_portal), 0.046, 1e-5);
   }
-  // The scope's rod is along z: no lever, the hand feels what the tip feels.
+  // The rod of the scope is along z, so hand and tip force are equal.
   EXPECT_NEAR(snapshot.scope.hand_force.z, -0.5, 1e-3);
-  // The instrument comes in from the side; across its rod, 1 − 0.2/r < 0 turns the force round.
+  // The instrument comes in from the side; across its rod, 1 − 0.2/r < 0 reverses the force.
   EXPECT_GT(glm::length(snapshot.instrument.hand_force - snapshot.instrument.tip_force), 0.01);
 }
 
@@ -128,7 +128,7 @@ TEST(Session, MovedIncisionMovesTheInstrumentOnly) {
 
 TEST(Session, HandForceRampsFromZeroAndIsLimited) {
   Hands hands(MakeScene(true, false));
-  hands.scope.Set({0, 0, 0, 0.049});  // 3 mm in at the first sample
+  hands.scope.Set({0, 0, 0, 0.049});  // 3 mm deep at the first sample
   double last = 0;
   for (int i = 1; i <= 600; ++i) {
     const ToolState& scope = hands.Tick().scope;
@@ -154,7 +154,7 @@ TEST(Session, StaleAndLostSamplesGetNoForce) {
     EXPECT_EQ(scope.fault, expected) << i;
     EXPECT_EQ(glm::length(scope.hand_force) > 0, i < 5) << i;
   }
-  // Back again, the force ramps.
+  // After a fresh sample the force ramps up.
   hands.Tick();
   EXPECT_EQ(hands.session.snapshot().scope.fault, Fault::kNone);
   EXPECT_LT(glm::length(hands.session.snapshot().scope.hand_force), 0.01);
@@ -174,7 +174,7 @@ TEST(Session, BadSamplesGiveAFaultAndNoForce) {
     EXPECT_EQ(scope.hand_force, glm::dvec3(0.0));
     EXPECT_TRUE(std::isfinite(scope.tip_in_portal.x)) << "what is drawn stays finite";
   }
-  // A number, and no hand: from the first sample on, and for as long as it stays.
+  // A finite position that no hand can have is a fault from the first sample on.
   Session fresh(MakeScene(true, false));
   for (const glm::dvec3& far :
        {glm::dvec3(1e300, 0, 0), glm::dvec3(0, -11, 0), glm::dvec3(1e160)}) {
@@ -202,7 +202,7 @@ TEST(Session, FastHandGetsNoForce) {
   Hands hands(MakeScene(true, false));
   hands.scope.Set({0, 0, 0, 0.047});
   hands.Tick(1000);
-  hands.scope.Advance({0, 0, 0, 0.0012});  // in one tick: 1.2 m/s
+  hands.scope.Advance({0, 0, 0, 0.0012});  // per tick: 1.2 m/s
   EXPECT_EQ(hands.Tick().scope.fault, Fault::kTooFast);
   EXPECT_EQ(hands.session.snapshot().scope.hand_force, glm::dvec3(0.0));
 }
@@ -222,7 +222,7 @@ TEST(Session, SceneWithNothingToTouchHasNoForce) {
   EXPECT_EQ(hands.session.snapshot().scope.contact, kNoContact);
 }
 
-// What a tissue gives that is a spring of 300 N/m at z = 0.030, pushing towards the portal.
+// Coupling of a tissue that is a spring of 300 N/m at z = 0.030 m, pushing towards the portal.
 ToolCoupling TissueSpring(const glm::dvec3& tip, std::uint64_t step, double k = 300.0,
                           double level = 0.030) {
   ToolCoupling coupling;
@@ -237,7 +237,7 @@ ToolCoupling TissueSpring(const glm::dvec3& tip, std::uint64_t step, double k = 
   return coupling;
 }
 
-TEST(LiveTissue, IsFeltAsItsCouplingSaysAndTheToolIsDrawnWhereItHoldsIt) {
+TEST(LiveTissue, GivesTheForceOfItsCouplingAndHoldsTheDrawnTool) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   for (int step = 1; step <= 20; ++step) {
@@ -254,7 +254,7 @@ TEST(LiveTissue, IsFeltAsItsCouplingSaysAndTheToolIsDrawnWhereItHoldsIt) {
   EXPECT_EQ(hands.session.snapshot().scope.contact, kNoContact) << "only the instrument touches it";
 }
 
-// The hand is 1 mm deep in the backdrop at 46 mm and 0.5 mm in tissue that lies on it.
+// The hand is 1 mm deep in the backdrop at 46 mm, and 0.5 mm deeper in tissue that lies on it.
 TEST(LiveTissue, BackdropAndTissueTogetherAreNotCountedTwice) {
   SessionOptions options;
   options.contact.static_friction = options.contact.sliding_friction = 0.0;
@@ -287,7 +287,7 @@ TEST(LiveTissue, BackdropAndTissueTogetherAreNotCountedTwice) {
   EXPECT_EQ(stiff.contact, 1);
 }
 
-TEST(LiveTissue, IsLeftOutOfTheRigidSurfaces) {
+TEST(LiveTissue, IsNotARigidSurface) {
   Hands hands(MakeScene());
   hands.session.SetLiveTissues(std::array<std::uint8_t, 1>{1});
   EXPECT_EQ(hands.Lead({0.0115, 0, 0.0368}, 3000).instrument.contact, kNoContact);
@@ -296,7 +296,7 @@ TEST(LiveTissue, IsLeftOutOfTheRigidSurfaces) {
   EXPECT_EQ(hands.Lead({0.0115, 0, 0.0368}, 3000).instrument.contact, 1);
 }
 
-// HAP-16: what a tissue says that is not a number is a fault, and the session goes on.
+// HAP-16: a NaN coupling is a fault, and the session continues.
 TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
@@ -323,7 +323,7 @@ TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
     EXPECT_EQ(tool.hand_force, glm::dvec3(0.0));
     EXPECT_TRUE(std::isfinite(tool.proxy_in_portal.z));
     EXPECT_EQ(hands.session.snapshot().scope.fault, Fault::kNone);
-    // The next good step is felt again, from nothing.
+    // The next valid step gives a force again, rising from zero.
     feel(1);
     EXPECT_EQ(hands.session.snapshot().instrument.fault, Fault::kNone);
     EXPECT_LT(glm::length(hands.session.snapshot().instrument.hand_force), 0.05);
@@ -332,7 +332,7 @@ TEST(LiveTissue, HardCase16ACouplingThatIsNotANumberGivesNoForceAndAFault) {
   }
 }
 
-TEST(LiveTissue, ATissueThatAppearsIsNotAKick) {
+TEST(LiveTissue, ATissueThatAppearsGivesNoForceJump) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.036}, 1000);
   hands.Tick(1000);
@@ -348,9 +348,9 @@ TEST(LiveTissue, ATissueThatAppearsIsNotAKick) {
   EXPECT_LT(largest, 1.8 * 60 * kTick * 1.01) << "over a frame";
 }
 
-// From 60 steps a second to five: what is known is felt for 0.1 s and fades, and what comes then is
-// blended in over a frame.
-TEST(LiveTissue, HardCase13FiveStepsASecondNeitherJumpNorPushForLong) {
+// Changes from 60 steps per second to five: the last coupling gives force for 0.1 s and fades, and
+// the next one is blended in over a frame.
+TEST(LiveTissue, HardCase13FiveStepsPerSecondGiveNoJumpsAndAFadingForce) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   double largest = 0, strongest = 0, last = 0, faded = 1;
@@ -371,7 +371,7 @@ TEST(LiveTissue, HardCase13FiveStepsASecondNeitherJumpNorPushForLong) {
   EXPECT_LE(largest, 0.6 * 60 * kTick * 1.01) << "over a frame";
 }
 
-TEST(LiveTissue, HardCase13ThatFallsSilentFades) {
+TEST(LiveTissue, HardCase13ForceFadesWithoutFurtherSteps) {
   Hands hands(MakeScene(false, false));
   hands.Lead({0.03, 0, 0.032}, 1000);
   hands.session.SetCoupling(TissueSpring({0.03, 0, 0.032}, 1));
@@ -379,8 +379,8 @@ TEST(LiveTissue, HardCase13ThatFallsSilentFades) {
   EXPECT_EQ(hands.Tick(70).instrument.tip_force, glm::dvec3(0.0));
 }
 
-// The tip stays 4 mm under the backdrop while the instrument is changed.
-TEST(Session, AnotherInstrumentEntersAnewAndItsForceRisesFromZero) {
+// The tip stays 4 mm below the backdrop while the instrument is changed.
+TEST(Session, AChangedInstrumentEntersAnewAndItsForceRisesFromZero) {
   Hands hands(MakeScene(true, false));
   hands.instrument.Set({0, -0.5, 0, 0.04});
   hands.Tick(700);  // armed, in free space
@@ -397,7 +397,8 @@ TEST(Session, AnotherInstrumentEntersAnewAndItsForceRisesFromZero) {
     for (int i = 0; i < 600; ++i) {
       const ToolState& tool = hands.Tick().instrument;
       const double at_tip = glm::length(tool.tip_force), in_hand = glm::length(tool.hand_force);
-      // A fifth more: its proxy comes straight from the portal and slides to the nearest point.
+      // Allows a fifth more: the proxy comes straight from the portal and slides to the nearest
+      // point.
       ASSERT_LE(at_tip, 1.2 * before * std::min(1.0, i * kTick / ramp) + 1e-6) << i;
       ASSERT_LE(at_tip - last_tip, 1.2 * before * kTick / ramp) << i;
       ASSERT_LE(in_hand - last_hand, 0.02) << i;

@@ -1,5 +1,5 @@
-// FEM-09, as a hand feels it: the instrument is 5 mm deep in
-// living tissue from one step to the next. The tissue's own half is in tissue/body/probing_test.
+// FEM-09 at the hand: the instrument is 5 mm deep in deformable tissue from one step to the next.
+// The part within the tissue is tested in tissue/body/probing_test.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,11 +18,12 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kFace = 0.036, kThickness = 0.012;  // m; up is the shortest way out
+constexpr double kFace = 0.036, kThickness = 0.012;  // m; the shortest way out is up
 constexpr double kDeep = 0.005;                      // m
-constexpr int kFrame = 17;                           // ticks from a step of the tissue to the next
+constexpr int kFrame = 17;                           // ticks per step of the tissue
 
-// A slab of 0.5 MPa, 20 × 20 × 12 mm, its top across the instrument's axis, held at its underside.
+// Slab of 0.5 MPa, 20 × 20 × 12 mm, with its top across the axis of the instrument, fixed at its
+// underside.
 BodySpec Slab() {
   const glm::dvec3 low(-0.01, -0.01, -kThickness);
   BodySpec spec;
@@ -31,24 +32,24 @@ BodySpec Slab() {
   spec.surface = test::BoundaryOf(test::SlabMesh(1, {40, 40, 24}, low));
   for (const glm::dvec3& x : spec.mesh.rest_positions)
     if (x.z < low.z + 1e-6) spec.fixed.push_back({x, 1e-5});
-  // Under the axis is the place at which the tissue's own half is pressed.
+  // The axis meets the place that the test within the tissue presses.
   spec.portal_from_body = {glm::angleAxis(std::numbers::pi, glm::dvec3(1, 0, 0)),
                            {-3e-4, 2e-3, kFace}};
   return spec;
 }
 
-// How it comes to be there: within one tick of the servo, 5 m/s; evenly within one step of the
-// tissue, 0.3 m/s, which a hand can do; or its device falls silent before and comes back there.
+// Ways to get there: within one tick of the servo, 5 m/s; within one step of the tissue, 0.3 m/s,
+// which a hand can do; or through a device that was silent and reports again there.
 enum class Way { kInATick, kInAFrame, kFromNowhere };
 
 struct Course {
-  std::vector<glm::dvec3> tip_force, hand_force;  // a tick each, from the first one there
-  std::vector<double> depth;                      // m, left in what is drawn, a frame each
+  std::vector<glm::dvec3> tip_force, hand_force;  // one per tick, from the first one there
+  std::vector<double> depth;  // m, remaining depth in the picture, one per frame
   std::vector<Fault> faults;
-  std::vector<glm::dvec3> positions;  // of the skin, at the end
+  std::vector<glm::dvec3> positions;  // positions of the skin at the end
 };
 
-// How deep the probe as it is drawn is in the skin as it is drawn.
+// Returns the depth of the drawn probe in the drawn skin.
 double DepthLeft(Hand& hand, const BodySpec& spec) {
   const ToolState& tool = hand.session.snapshot().instrument;
   std::array<Capsule, kMaxCapsules> capsules;
@@ -132,15 +133,15 @@ TEST_P(HardCase9, HardCase9AHandThatIsFiveMillimetresDeepAtOnceIsPushedOutGently
       "most, hand %.2f N at most, %.3f N a tick\n",
       1e3 * course.depth[0], 1e3 * course.depth[1], 1e3 * course.depth[2], 1e3 * course.depth[3],
       1e3 * course.depth[4], 1e3 * course.depth.back(), settled, peak, peak_hand, slew);
-  // Of a tool that comes from nowhere no way is known: the tissue needs eight frames to lead it out
-  // instead of three, before the ramp lets the hand feel a third of it.
+  // A tool that appears has no known path: the tissue needs eight frames to lead it out instead of
+  // three, before the ramp reaches a third of the force.
   EXPECT_LT(GetParam() == Way::kFromNowhere ? course.depth.back() : course.depth[4], 2e-4);
   EXPECT_EQ(course.faults.front(), GetParam() == Way::kInATick ? Fault::kTooFast : Fault::kNone);
   EXPECT_GT(settled, 0.5);
   EXPECT_LT(course.tip_force.back().z, -0.9 * settled) << "up, the way it came from";
   EXPECT_LE(peak, 2.0 * settled);
   EXPECT_LE(peak_hand, 2.0 * settled);
-  // Either the rise is limited or the ramp is still going: never more than both in a tick.
+  // The step per tick is at most that of the rise limit plus that of the ramp.
   EXPECT_LE(slew, (limiter.max_rise + peak_hand / limiter.ramp_time) * kTick + 1e-12);
   EXPECT_LE(ramped, 1e-12) << "N above what the ramp lets through";
 }
@@ -153,9 +154,9 @@ INSTANTIATE_TEST_SUITE_P(Ways, HardCase9,
                                                                 : "FromNowhere";
                          });
 
-// A limiter that is far stricter than the tissue: the hand is told just what it allows, and the
-// tissue behind does not know of it.
-TEST(HardCase9, HardCase9OnlyTheHandIsSparedByTheLimiter) {
+// A limiter far stricter than the tissue: the hand gets exactly the allowed force, and the tissue
+// is unaffected.
+TEST(HardCase9, HardCase9TheLimiterAffectsOnlyTheHand) {
   LimiterOptions strict;
   strict.max_rise = 20.0;
   strict.max_force = 0.8;

@@ -1,4 +1,4 @@
-// Claims about cartilage without a mesh: a thin layer that gives way in the servo and dents.
+// Cartilage without a mesh: a thin elastic layer that yields in the servo and shows a dent.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +20,10 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kTip = 2.25e-3;  // m, the shaver's round end: what touches where it stands
-constexpr double kFace = 0.036;   // m, where the tissue begins on the way of the instrument
+constexpr double kTip = 2.25e-3;  // m, round end of the shaver, which is in contact
+constexpr double kFace = 0.036;   // m, front of the tissue on the path of the instrument
 
-// One tissue on the instrument's axis.
+// Scene with one tissue on the axis of the instrument.
 LoadedScene MakeScene(const SurfaceMesh& surface, double scale = 1.0) {
   Tissue tissue;
   tissue.name = "plateau";
@@ -32,7 +32,7 @@ LoadedScene MakeScene(const SurfaceMesh& surface, double scale = 1.0) {
   tissue.pose.scale = scale;
   return SceneOf(surface, tissue);
 }
-// The corner off the axis keeps the face's diagonal from under the tip.
+// A corner off the axis keeps the diagonal of the face away from the tip.
 SurfaceMesh Block() { return test::Box({-0.013, -0.009, -0.01}, {0.011, 0.014, 0.01}); }
 
 std::vector<TissuePreset> Presets() {
@@ -44,14 +44,14 @@ struct LayerHand : Hand {
     if (has_layers) layers = LayersOf(loaded, Presets());
     session.Enliven({}, TissuePace::kInline, layers);
   }
-  // Along the axis to this far past the face, and held.
+  // Moves along the axis to a depth below the face, and holds.
   const ToolState& Press(double depth, int hold = 400) {
     return Lead({0, 0, kFace + depth}, 400, hold);
   }
   std::vector<LayerSpec> layers;
 };
 
-TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
+TEST(ThinLayer, GivesTheForceOfTheSpringInSeriesWithItsClosedForm) {
   LayerHand hand(MakeScene(Block()));
   ASSERT_EQ(hand.layers.size(), 1u);
   hand.session.SetInstrument(ToolKind::kShaver);
@@ -59,8 +59,8 @@ TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
   double worst = 0;
   for (double depth : {0.02e-3, 0.1e-3, 0.3e-3, 1e-3, 2e-3, 4e-3, 12e-3}) {
     const ToolState& tool = hand.Press(depth);
-    // Independently of the servo's own solver: halving of how deep it is. Towards the bone the
-    // force rises without bound (tool_on_layers.h).
+    // Reference that is independent of the solver of the servo: bisection of the depth. Towards the
+    // bone the force rises without bound (tool_on_layers.h).
     const auto force_at = [&](double sink) {
       const double way = sink / layer.thickness();
       return layer.PressBall(kTip, sink).force / (1 - way * way * way * way);
@@ -88,9 +88,9 @@ TEST(ThinLayer, IsFeltAsTheToolsSpringInSeriesWithItsClosedForm) {
   EXPECT_EQ(hand.session.snapshot().instrument.tip_force, glm::dvec3(0.0));
 }
 
-TEST(ThinLayer, WithAWallBehindItAllOfTheForceIsTheSpringsOnce) {
-  // The slab's far corner stands 1 mm before the backdrop's sphere; the tip goes past its edge and
-  // onto the wall while the rod lies on the slab.
+TEST(ThinLayer, WithAWallBehindItTheSpringForceIsCountedOnce) {
+  // The far corner of the slab is 1 mm in front of the backdrop; the tip passes its edge onto the
+  // wall while the rod lies on the slab.
   LoadedScene loaded = MakeScene(test::Box({-0.02, 0.001, -0.02}, {0.02, 0.02, 0.0}));
   loaded.scene.backdrop.radius = 0.05;
   LayerHand hand(loaded);
@@ -160,7 +160,7 @@ TEST(ThinLayer, DoesNotPressTheScopeAgainstTheBackdropBehindItsEdge) {
 TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
   LayerHand hand(MakeScene(Block()));
   hand.Press(-0.05e-3);
-  constexpr double kStep = 1e-6;  // m a tick: 1 mm/s
+  constexpr double kStep = 1e-6;  // m per tick: 1 mm/s
   double last = 0, largest = 0;
   for (int i = 0; i < 600; ++i) {
     hand.instrument.Advance({0, 0, 0, kStep});
@@ -169,15 +169,15 @@ TEST(ThinLayer, IsNeverStifferThanTheSpringFromTheFirstTouchOn) {
     largest = std::max(largest, std::abs(force - last));
     last = force;
   }
-  // The spring's own step, and the viscosity that comes in over 0.1 mm: 1 mm/s · 1 Ns/m / 100.
+  // Step of the spring, plus the viscosity that sets in over 0.1 mm: 1 mm/s · 1 Ns/m / 100.
   EXPECT_LE(largest, kSpring * (kStep + kSkin) + 1e-5);
   std::printf("[ layer ] largest step of force %.2g N in %.0f um steps, spring alone %.2g N\n",
               largest, 1e6 * kStep, kSpring * kStep);
   EXPECT_GT(last, 0.1);
 }
 
-TEST(ThinLayer, OfAnotherTissueChangesNothing) {
-  // Block 1 is a layer, block 2 beside it is not: pressing 2 feels the same to the last bit.
+TEST(ThinLayer, ALayerDoesNotChangeTheForceOfAnotherTissue) {
+  // Block 1 is a layer, block 2 beside it is not; pressing 2 gives the same bits.
   LoadedScene loaded = MakeScene(Block());
   loaded.scene.tissues.push_back(loaded.scene.tissues[0]);
   loaded.scene.tissues[0].pose.position.x += 0.05;
@@ -198,8 +198,8 @@ TEST(ThinLayer, OfAnotherTissueChangesNothing) {
   EXPECT_EQ(with.session.snapshot().instrument.contact, 2);
 }
 
-TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
-  // A condyle of 10 mm radius in facets of 0.5 mm, slid over at a depth of 1 mm.
+TEST(ThinLayer, ACurvedLayerGivesNoJumpsAcrossItsTriangles) {
+  // The tip slides over a condyle of 10 mm radius in facets of 0.5 mm, at a depth of 1 mm.
   LayerHand soft(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)));
   LayerHand rigid(MakeScene(test::Sphere({0, 0, 0}, 0.01, 4)), false);
   double jump[2] = {0, 0};
@@ -219,7 +219,7 @@ TEST(ThinLayer, OfACurvedSurfaceGivesNoJumpsAcrossItsTriangles) {
   EXPECT_LE(jump[0], jump[1]) << "softer, so no rougher";
 }
 
-TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
+TEST(ThinLayer, AServoTickInContactAllocatesNothing) {
   LayerHand hand(MakeScene(Block()));
   hand.Press(0.5e-3);
   const long before = test::Allocations();
@@ -231,7 +231,7 @@ TEST(ThinLayer, AServoTickOnItAllocatesNothing) {
   EXPECT_EQ(test::Allocations(), before);
 }
 
-TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
+TEST(ThinLayer, DentsUnderTheToolAndRecovers) {
   const LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.005, 5), 2.0);
   LayerHand hand(loaded);
   hand.session.SetInstrument(ToolKind::kShaver);
@@ -252,7 +252,8 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   const BodyPicture pressed = hand.session.tissues()->bodies[0];
   EXPECT_FALSE(pressed.report.is_asleep);
   ASSERT_GT(sink, 2e-4);
-  // The tool as it is drawn: none of the surface is left in it, and the rest is pressed no deeper.
+  // The drawn tool contains no part of the surface, and the rest of the surface is not pressed
+  // deeper.
   std::array<Capsule, kMaxCapsules> capsules;
   ToolInput drawn{true, PortalFromTool({0, 0, 0}, tool.proxy_in_portal, tool.pose.roll), 1, false};
   const int count = PosedCapsules(ShapeOf(ToolKind::kShaver), drawn, capsules);
@@ -270,7 +271,7 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
   EXPECT_LT(worst_inside, 1e-7) << "the exit is found to 40 nm";
   EXPECT_GT(deepest, 0.9 * sink) << "a vertex each 0.3 mm";
   EXPECT_LT(deepest, sink + 2e-6);
-  // The rim is smooth: no edge is turned by more than the ball's own flank is steep there.
+  // The rim is smooth: no edge turns by more than the slope of the ball's flank there.
   for (const auto& triangle : loaded.surfaces[0]->triangles)
     for (int k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]);
@@ -292,7 +293,7 @@ TEST(ThinLayer, DentsUnderTheToolAndIsAtRestWhenLetGo) {
 }
 
 TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
-  // A condyle of 10 mm beside the rod: shaft, frame or hook press it, far behind the tip.
+  // A condyle of 10 mm beside the rod is pressed by shaft, frame or hook, far behind the tip.
   for (const ToolKind kind : {ToolKind::kPunch, ToolKind::kProbe, ToolKind::kShaver}) {
     LoadedScene loaded = MakeScene(test::Sphere({0, 0, 0}, 0.01, 5));
     loaded.scene.tissues[0].pose.position = {0, 0.0105, 0.032};
@@ -328,13 +329,13 @@ TEST(ThinLayer, NoPartOfAToolThatLiesOnItIsDrawnDeeperThanItsDent) {
                                    : "shaver",
         1e3 * deepest, 1e3 * worst_inside, least_force);
     EXPECT_GT(least_force, 0.1);
-    // The picture's frame is up to a sixtieth of a second behind: at a hand at rest it is not.
+    // The picture is up to 1/60 s behind, so this compares at a resting hand.
     EXPECT_LT(worst_inside, 2e-6);
     EXPECT_LT(deepest, 2.5e-3);
   }
 }
 
-TEST(ThinLayer, TakesWhatTheSceneSaysOtherwise) {
+TEST(ThinLayer, UsesTheValuesThatTheSceneOverrides) {
   LoadedScene loaded = MakeScene(Block());
   loaded.scene.tissues[0].elasticity.layer_thickness = 1e-3;
   loaded.scene.tissues[0].elasticity.young_modulus = 3e6;

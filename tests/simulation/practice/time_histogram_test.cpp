@@ -7,7 +7,7 @@
 namespace arthro::simulation {
 namespace {
 
-TEST(TimeHistogram, QuantilesAreExactToAThirtySecond) {
+TEST(TimeHistogram, QuantilesAreExactToOneThirtySecond) {
   TimeHistogram times;
   EXPECT_EQ(times.Quantile(0.5), 0.0);
   for (int i = 1; i <= 1000; ++i) times.Add(1e-6 * i);
@@ -20,7 +20,7 @@ TEST(TimeHistogram, QuantilesAreExactToAThirtySecond) {
   EXPECT_EQ(times.count(), 1000);
 }
 
-TEST(TimeHistogram, TakesAnything) {
+TEST(TimeHistogram, AcceptsAnyDuration) {
   TimeHistogram times;
   for (const double bad : {std::nan(""), -1.0, 0.0, 1e300, HUGE_VAL}) times.Add(bad);
   EXPECT_EQ(times.count(), 5);

@@ -1,5 +1,5 @@
-// Living tissue on a thread of its own beside a servo that ticks: nothing waits, nothing is lost,
-// and it may end or begin anew at any moment.
+// Deformable tissue on a thread beside a ticking servo: nothing waits, no result is lost, and it
+// may end or restart at any time.
 #include "simulation/practice/tissue_loop.h"
 
 #include <chrono>
@@ -22,7 +22,7 @@ constexpr double kTick = 0.001;
 
 TissueWorld World(const BodySpec& spec) { return {{spec}, {}, nullptr, true}; }
 
-// A probe 1 mm deep in the middle of the top, or far above it.
+// Probe 1 mm deep in the middle of the top, or far above it.
 Instrumentation Probe(const BodySpec& spec, bool is_in = true) {
   Instrumentation hand;
   hand.kind = ToolKind::kProbe;
@@ -44,8 +44,7 @@ int ThreadsOfThisProcess() {
   return static_cast<int>(std::distance(Folder("/proc/self/task"), Folder()));
 }
 
-// Ticks as fast as a thread may, until `is_done` or five minutes have gone: a bound against a hang,
-// not a time to keep.
+// Ticks as fast as possible until `is_done`, for at most five minutes as a bound against a hang.
 template <class Done>
 bool TickUntil(TissueLoop& loop, const Instrumentation& hand, Done&& is_done) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
@@ -57,7 +56,7 @@ bool TickUntil(TissueLoop& loop, const Instrumentation& hand, Done&& is_done) {
   return false;
 }
 
-TEST(TissueLoop, OnAThreadCouplingsComeAndThePictureMoves) {
+TEST(TissueLoop, ThreadPublishesCouplingsAndPictures) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueLoop loop(World(spec), TissuePace::kThread);
   const std::vector<glm::dvec3> at_rest = loop.Read().bodies[0].positions;
@@ -82,7 +81,7 @@ TEST(TissueLoop, OnAThreadCouplingsComeAndThePictureMoves) {
   EXPECT_TRUE(IsFinite(picture));
 }
 
-TEST(TissueLoop, ResetWhileItStepsLeavesItWholeAndGoingOn) {
+TEST(TissueLoop, ResetDuringAStepRestoresTheTissueAndStepsGoOn) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueLoop loop(World(spec), TissuePace::kThread);
   const std::vector<glm::dvec3> at_rest = loop.Read().bodies[0].positions;
@@ -91,7 +90,7 @@ TEST(TissueLoop, ResetWhileItStepsLeavesItWholeAndGoingOn) {
     int taken = 0;
     ASSERT_TRUE(
         TickUntil(loop, Probe(spec), [&] { return (taken += loop.TakeCoupling(coupling)) > 3; }));
-    // One more is under way now.
+    // Another step is running now.
     for (int i = 0; i < 20; ++i) loop.Tick(Probe(spec), kTick);
     loop.Reset();
     EXPECT_EQ(loop.Read().bodies[0].positions, at_rest) << round;
@@ -118,7 +117,7 @@ TEST(TissueLoop, EndsWhileItSteps) {
   }
 }
 
-TEST(TissueLoop, InlineStepsComeOncePerPeriodAndAreTheSameAgain) {
+TEST(TissueLoop, InlineStepsRunOncePerPeriodAndAreReproducible) {
   const BodySpec spec = test::MeniscusBody({8, 2, 1});
   TissueLoop one(World(spec), TissuePace::kInline), other(World(spec), TissuePace::kInline);
   ToolCoupling of_one, of_other;
@@ -137,7 +136,7 @@ TEST(TissueLoop, InlineStepsComeOncePerPeriodAndAreTheSameAgain) {
   EXPECT_EQ(taken, 30) << "half a second at 60 steps a second";
 }
 
-TEST(TissueLoop, SceneWithoutTissueIsNoWork) {
+TEST(TissueLoop, ASceneWithoutTissueRunsNoStep) {
   TissueLoop loop(TissueWorld({}, {}, nullptr, true), TissuePace::kThread);
   ToolCoupling coupling;
   for (int i = 0; i < 100; ++i) {

@@ -40,7 +40,7 @@ bool IsWhole(const WorldPicture& picture) {
   return true;
 }
 
-TEST(TissueLoop, ServoAndPictureGoOnBesideTheTissueAndItEndsInTheMiddleOfAStep) {
+TEST(TissueLoop, ServoAndPictureContinueDuringAStepAndItEndsWithinOne) {
   BodySpec spec = test::SlabBody();
   spec.is_cuttable = true;
   auto loop = std::make_unique<TissueLoop>(SlabWorld(spec, true), TissuePace::kThread);
@@ -57,7 +57,7 @@ TEST(TissueLoop, ServoAndPictureGoOnBesideTheTissueAndItEndsInTheMiddleOfAStep) 
       ++pictures;
     }
   });
-  // As fast as the tissue follows: the clock is the ticks', not the wall's.
+  // Ticks as fast as the tissue follows: time is that of the ticks, not of the machine.
   int couplings = 0, pushes = 0;
   ToolCoupling coupling;
   for (int tick = 0; tick < 2000; ++tick) {
@@ -84,7 +84,7 @@ TEST(TissueLoop, ServoAndPictureGoOnBesideTheTissueAndItEndsInTheMiddleOfAStep) 
   loop.reset();
 }
 
-TEST(TissueLoop, IsWholeAgainAfterAResetInTheMiddleOfAStep) {
+TEST(TissueLoop, ResetDuringAStepRestoresTheTissue) {
   const BodySpec spec = test::SlabBody();
   TissueLoop loop(SlabWorld(spec, true), TissuePace::kThread);
   const std::vector<glm::dvec3> rest = loop.Read().bodies[0].positions;

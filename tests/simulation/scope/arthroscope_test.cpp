@@ -86,7 +86,7 @@ TEST(Arthroscope, DirectionsOutsideTheWindowLandOutsideIt) {
     EXPECT_GT(glm::length(PixelFromRay(window, view, away) - window.centre_px), window.radius_px);
 }
 
-// The picture's side of it.
+// The same case for the picture.
 TEST(Arthroscope, HardCase15ViewAndCentreAreFiniteAtEveryDepth) {
   for (double depth : {-0.4, -0.05, -0.01, 0.0, 0.01, 0.05 - 1e-15, 0.05, 0.05 + 1e-15, 0.06, 0.2})
     for (double alpha_deg : {0.0, 30.0, 70.0, 90.0})

@@ -13,7 +13,8 @@
 namespace arthro::simulation {
 namespace {
 
-// North laid from the rod's direction to the view's along the shortest arc (Rodrigues).
+// North carried from the direction of the rod to that of the view along the shortest arc
+// (Rodrigues).
 glm::dvec3 CarriedNorth(const RodPose& pose, const glm::dvec3& view) {
   const RodBasis rod = BasisOf(pose);
   const glm::dvec3 axis = glm::cross(rod.axis, view);
@@ -33,7 +34,7 @@ TEST(CameraHead, TurnsWithTheScopeUnlessItIsHeld) {
   }
 }
 
-// As a device delivers it: the hand turns the handle through half a turn either way, and on.
+// Samples as a device gives them: the hand turns the handle by half a turn either way, and further.
 TEST(CameraHead, UprightKeepsThePicturesUpWhileTheRodRollsThroughHalfATurn) {
   const double step = RadiansFromDegrees(0.1);
   for (const double alpha_deg : {0.0, 30.0, 70.0, 90.0}) {
@@ -53,12 +54,12 @@ TEST(CameraHead, UprightKeepsThePicturesUpWhileTheRodRollsThroughHalfATurn) {
     std::printf("%2.0f degrees: up is north within %.1e, and turns by at most %.4f of a step\n",
                 alpha_deg, worst, worst_turn / step);
     EXPECT_LT(worst, 1e-12);
-    // Up is carried round a cone about the rod: with α = 0 it stands still.
+    // Up moves on a cone about the rod; with α = 0 it is constant.
     EXPECT_LE(worst_turn, 2 * std::sin(alpha / 2) * step + 1e-12);
   }
 }
 
-TEST(CameraHead, WordsAreRefusedThatSayNeither) {
+TEST(CameraHead, RefusesOtherText) {
   EXPECT_EQ(CameraHeadFromString("scope"), CameraHead{});
   EXPECT_EQ(CameraHeadFromString("upright"), CameraHead{.is_upright = true});
   EXPECT_THROW(CameraHeadFromString("Upright"), Error);

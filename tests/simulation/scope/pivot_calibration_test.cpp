@@ -17,11 +17,11 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kNoise = 0.055e-3;  // m, of a Touch-class device
+constexpr double kNoise = 0.055e-3;  // m, noise of a Touch-class device
 constexpr double kRod = 0.2;         // m
 const glm::dvec3 kPivot(0.012, -0.034, 0.11);
 
-// Noise as devices have it; numbers that do not depend on the standard library's distributions.
+// Sensor noise; its numbers do not depend on the distributions of the standard library.
 class Device {
  public:
   explicit Device(unsigned seed) : random_(seed) {}
@@ -29,7 +29,7 @@ class Device {
   double Between(double a, double b) {
     return a + (b - a) * static_cast<double>(random_()) / 4294967295.0;
   }
-  double Gauss() {  // Box and Muller
+  double Gauss() {  // Box-Muller transform
     return std::sqrt(-2.0 * std::log(Between(1e-12, 1.0))) *
            std::cos(Between(0.0, 2.0 * std::numbers::pi));
   }
@@ -39,8 +39,8 @@ class Device {
   }
   glm::dvec3 Direction() { return glm::normalize(Gauss3(1.0)); }
 
-  // A press with the rod along `direction` and the hand `reach` behind the pivot. Position noise
-  // moves hand and tip together, angle noise turns the rod about the hand.
+  // Makes a press with the rod along `direction` and the hand `reach` behind the pivot. Position
+  // noise moves hand and tip together; angle noise turns the rod about the hand.
   PivotPress Press(const glm::dvec3& direction, double reach, double position_noise,
                    double angle_noise = 0.0, double step = 0.0) {
     const glm::dvec3 noise = Gauss3(angle_noise);
@@ -65,7 +65,7 @@ double ErrorOf(const PivotCalibration& calibration) {
   return glm::length(*calibration.pivot - kPivot);
 }
 
-// The middle of the common perpendicular of two lines, by the textbook's formula.
+// Middle of the common perpendicular of two lines, by the textbook formula.
 glm::dvec3 MiddleOfPerpendicular(const PivotPress& a, const PivotPress& b) {
   const glm::dvec3 u = glm::normalize(a.tip - a.hip), v = glm::normalize(b.tip - b.hip);
   const glm::dvec3 w = a.hip - b.hip;
@@ -106,7 +106,7 @@ TEST(PivotCalibration, ManyCleanPressesGiveThePivotToRounding) {
 // The target: 0.055 mm noise, rods spread by 20 degrees or more, true error within three predicted
 // sigmas in at least 99 of 100 trials.
 TEST(PivotCalibration, ErrorIsWithinThreePredictedSigmas) {
-  for (const bool is_common : {true, false}) {  // noise on hand and tip together, or each its own
+  for (const bool is_common : {true, false}) {  // noise on hand and tip together, or independent
     Device device(3);
     int trials = 0, accepted = 0, within = 0;
     double worst = 0.0;
@@ -115,7 +115,7 @@ TEST(PivotCalibration, ErrorIsWithinThreePredictedSigmas) {
       const double spread = RadiansFromDegrees(device.Between(20.0, 90.0));
       std::vector<PivotPress> presses;
       for (int i = 0; i < n; ++i) {
-        // The first two are apart by the spread, the others anywhere between.
+        // The first two differ by the spread; the others lie between.
         const glm::dvec3 direction = i < 2 ? OnCone(i, 2, spread)
                                            : OnCone(static_cast<int>(device.Between(0, 359)), 360,
                                                     device.Between(0.0, spread));
@@ -142,7 +142,7 @@ TEST(PivotCalibration, ErrorIsWithinThreePredictedSigmas) {
   }
 }
 
-// And rods held in parallel.
+// Includes parallel rods.
 TEST(PivotCalibration, HardCase16SameOppositeAndParallelDirectionsAreRefusedWithTheReason) {
   const glm::dvec3 u = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
   const PivotPress press{kPivot - 0.1 * u, kPivot + 0.1 * u};
@@ -170,9 +170,9 @@ TEST(PivotCalibration, NoisyParallelPressesAreRefused) {
   }
 }
 
-// The target: predicted within 30 % of what chance does, or refused. As the program comes, every
-// nearly parallel set is refused, also where noise of the handle's angles spreads what is seen.
-TEST(PivotCalibration, HardCase17NearlyParallelPressesAreRefusedAsTheProgramComes) {
+// Target: predicted within 30 % of the Monte Carlo error, or refused. By default every nearly
+// parallel set is refused, also where angle noise of the handle spreads the directions.
+TEST(PivotCalibration, HardCase17RefusesNearlyParallelPressesByDefault) {
   for (const double degrees : {0.1, 1.0, 5.0})
     for (const int n : {2, 8, 32})
       for (const double gimbal_deg : {0.0, 0.05, 0.5, 2.0}) {
@@ -192,14 +192,14 @@ TEST(PivotCalibration, HardCase17NearlyParallelPressesAreRefusedAsTheProgramCome
       }
 }
 
-// Where somebody lowers the limits as far as the options go, what is then accepted is predicted
-// rightly, and a tenth of a degree is still refused.
+// With the limits lowered as far as the options allow, the prediction for accepted sets is correct,
+// and a spread of 0.1° is still refused.
 TEST(PivotCalibration, HardCase17PredictedSigmaIsTheMonteCarloErrorWhereTheLimitsAreLowered) {
   for (const double degrees : {0.1, 1.0, 5.0, 10.0, 20.0, 40.0, 60.0})
     for (const int n : {2, 8, 32}) {
       Device device(5);
       PivotOptions options;
-      options.min_spread = RadiansFromDegrees(0.999);  // 1, and rounding
+      options.min_spread = RadiansFromDegrees(0.999);  // 1°, less rounding
       options.max_sigma = 0.1;
       double error2 = 0.0, sigma2 = 0.0;
       constexpr int kTrials = 300;
@@ -240,7 +240,7 @@ TEST(PivotCalibration, HardCase18MovedIncisionIsFlagged) {
   }
 }
 
-TEST(PivotCalibration, NoiseAloneIsSeldomFlagged) {
+TEST(PivotCalibration, NoiseAloneIsRarelyFlagged) {
   Device device(7);
   int flagged = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -269,7 +269,7 @@ TEST(PivotCalibration, HardCase19PivotOutsideTheRodIsSolvedAndReported) {
 // 30 presses, positions quantised to 0.055 mm, one press 20 mm off. With the noise of
 // the gimbals stated or not: unstated noise shows in the residual, and the prediction grows with
 // it.
-TEST(PivotCalibration, HardCase20OneOutlierInThirtyIsSurvivedAtEveryGimbalNoise) {
+TEST(PivotCalibration, HardCase20ToleratesOneOutlierInThirtyAtEveryGimbalNoise) {
   for (double gimbal_deg : {0.0, 0.35, 2.0})
     for (const bool is_stated : {true, false}) {
       Device device(9);
@@ -309,14 +309,14 @@ TEST(PivotCalibration, HardCase20OneOutlierInThirtyIsSurvivedAtEveryGimbalNoise)
           gimbal_deg, is_stated ? "stated" : "unstated", within, kTrials, worst,
           1e3 * std::sqrt(error2), found, only);
       EXPECT_GE(within, kTrials * 99 / 100);
-      // With 2 degrees, 20 mm is four to six sigmas of the noise itself and may well pass for it.
+      // With 2 degrees, 20 mm is four to six sigmas of the noise, and can look like noise.
       if (gimbal_deg < 1.0) {
         EXPECT_EQ(found, kTrials);
       }
     }
 }
 
-TEST(PivotCalibration, UnstatedGimbalNoiseIsNamed) {
+TEST(PivotCalibration, ReportsUnstatedGimbalNoise) {
   Device device(10);
   std::vector<PivotPress> presses;
   for (int i = 0; i < 30; ++i)
@@ -329,7 +329,7 @@ TEST(PivotCalibration, UnstatedGimbalNoiseIsNamed) {
   EXPECT_EQ(CalibratePivot(presses, options).status, PivotStatus::kOk);
 }
 
-// Weighing angles brings back what the plain linear equations lose to noisy directions.
+// Weighting angles removes the bias of the plain linear equations by noisy directions.
 TEST(PivotCalibration, AngleWeightingHalvesTheErrorOfNarrowNoisyPresses) {
   Device device(11);
   PivotOptions options;
@@ -370,8 +370,8 @@ TEST(PivotCalibration, FewerThanTwoUsablePressesAreTooFew) {
   EXPECT_EQ(calibration.left_out, (std::vector<int>{1, 2, 3}));
 }
 
-// A minute of swinging at a kilohertz must not try all two thousand million pairs.
-TEST(PivotCalibration, ManyThousandPressesTakeNoLongerThanTheyMust) {
+// A swing of one minute at 1 kHz must not try all 2·10⁹ pairs.
+TEST(PivotCalibration, ManyThousandPressesAreFittedWithoutTryingAllPairs) {
   Device device(13);
   std::vector<PivotPress> presses;
   for (int i = 0; i < 60000; ++i)
@@ -383,10 +383,10 @@ TEST(PivotCalibration, ManyThousandPressesTakeNoLongerThanTheyMust) {
   EXPECT_LT(ErrorOf(calibration), 3.0 * calibration.sigma);
 }
 
-TEST(PivotCalibration, IsTheSameBitForBit) {
+TEST(PivotCalibration, IsReproducibleBitForBit) {
   Device device(12);
   std::vector<PivotPress> presses;
-  for (int i = 0; i < 60; ++i)  // more pairs than trials, so that they are drawn
+  for (int i = 0; i < 60; ++i)  // more pairs than trials, so that pairs are drawn at random
     presses.push_back(device.Press(OnCone(i, 60, 0.5), 0.1, kNoise, 0.01));
   const PivotCalibration a = CalibratePivot(presses), b = CalibratePivot(presses);
   EXPECT_EQ(std::memcmp(&*a.pivot, &*b.pivot, sizeof(glm::dvec3)), 0);

@@ -1,4 +1,4 @@
-// A hand that keeps swinging the rod through an incision whose place is known. Hard cases: HAP in
+// A hand swings the rod through an incision of known position. Hard cases: HAP in
 // resources/doc/hard-cases.md.
 #include "simulation/scope/pivot_swing.h"
 
@@ -19,8 +19,8 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr double kQuantum = 0.055e-3;                   // m, of a Touch-class device
-constexpr double kAngleNoise = 0.1 * kRadianPerDegree;  // encoders of 0.35° a count
+constexpr double kQuantum = 0.055e-3;                   // m, quantum of a Touch-class device
+constexpr double kAngleNoise = 0.1 * kRadianPerDegree;  // rad; encoders of 0.35° per count
 const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
 
 struct Sample {
@@ -28,7 +28,7 @@ struct Sample {
   glm::dquat handle{1, 0, 0, 0};
 };
 
-// At time t of a swing 20° either way and 40 mm in and out; from then on exact, or as sensors say.
+// Pose at time t of a swing by 20° either way and 40 mm in and out, exact or with sensor noise.
 RodPose PoseAt(double t) {
   return {0.35 * std::sin(2.1 * t), 0.35 * std::sin(1.3 * t), 0.5 * t,
           0.08 + 0.02 * std::sin(0.7 * t)};
@@ -39,7 +39,7 @@ Sample Exact(const RodPose& pose, const DeviceRig& rig = kRig) {
 Sample Sensed(const RodPose& pose, Random& random, const DeviceRig& rig = kRig) {
   Sample sample = Exact(pose, rig);
   sample.hip = kQuantum * glm::round(sample.hip / kQuantum);
-  const double even = kAngleNoise * std::sqrt(3.0);  // even noise of that rms
+  const double even = kAngleNoise * std::sqrt(3.0);  // half width of uniform noise with that rms
   const glm::dvec3 turn(random.Uniform(-even, even), random.Uniform(-even, even), 0);
   sample.handle = sample.handle * glm::dquat(1, turn.x / 2, turn.y / 2, 0);
   return sample;
@@ -52,15 +52,15 @@ PivotOptions Options() {
   return options;
 }
 
-TEST(PivotSwing, APressOfAHandleIsItsRod) {
+TEST(PivotSwing, PressOfASampleIsItsRod) {
   const RodPose pose{0.3, -0.2, 1.1, 0.05};
   const Sample sample = Exact(pose);
   const PivotPress press = PressOf(sample.hip, sample.handle, kRig.rod_length);
   EXPECT_LT(glm::length(press.tip - (kRig.pivot + TipInOwnPortal(pose))), 1e-15);
 }
 
-// Notes, 9: within 3 sigma in 99 of 100.
-TEST(PivotSwing, TwentySecondsOfSwingingFindTheIncisionWithinThreeSigma) {
+// Target: within 3 sigma in 99 of 100 trials.
+TEST(PivotSwing, ASwingOfTwentySecondsFindsTheIncisionWithinThreeSigma) {
   int within = 0;
   double largest = 0, sigma = 0;
   constexpr int kTrials = 100;
@@ -83,8 +83,8 @@ TEST(PivotSwing, TwentySecondsOfSwingingFindTheIncisionWithinThreeSigma) {
   EXPECT_GE(within, 99);
 }
 
-// In motion: the trocar slips by 20 mm for a second of twenty.
-TEST(PivotSwing, HardCase20WhatSlipsForAWhileIsLeftOut) {
+// The trocar slips by 20 mm during one of twenty seconds.
+TEST(PivotSwing, HardCase20LeavesOutATemporarySlip) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
   DeviceRig slipped = kRig;
@@ -100,7 +100,7 @@ TEST(PivotSwing, HardCase20WhatSlipsForAWhileIsLeftOut) {
   EXPECT_LT(glm::length(*found.pivot - kRig.pivot), 3 * found.sigma);
 }
 
-TEST(PivotSwing, AHandThatRestsCountsOnce) {
+TEST(PivotSwing, ARestingHandCountsOnce) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
   for (int i = 0; i < 5000; ++i) {
@@ -110,7 +110,7 @@ TEST(PivotSwing, AHandThatRestsCountsOnce) {
   EXPECT_EQ(CalibratePivot(swing.presses(), Options()).status, PivotStatus::kTooFew);
 }
 
-// However many poses there are.
+// For any number of poses.
 TEST(PivotSwing, HardCase16InAndOutAloneIsRefused) {
   Random random(1);
   PivotSwing swing(kRig.rod_length);
@@ -122,8 +122,8 @@ TEST(PivotSwing, HardCase16InAndOutAloneIsRefused) {
   EXPECT_EQ(CalibratePivot(swing.presses(), Options()).status, PivotStatus::kTooNarrow);
 }
 
-// Whoever swings has pressed nothing.
-TEST(PivotSwing, EverySentenceSpeaksOfPoses) {
+// A swing has no presses.
+TEST(PivotSwing, EverySentenceRefersToPoses) {
   const auto reason_of = [](const std::vector<PivotPress>& poses, PivotStatus status) {
     const PivotCalibration found = CalibratePivot(poses, {}, PivotSource::kSwing);
     EXPECT_EQ(found.status, status) << found.reason;

@@ -18,7 +18,7 @@ namespace {
 const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
 const RodPose kPose{0.3, -0.2, 1.1, 0.05};
 
-// A press of a hand that is off by `moved` at each time.
+// Makes a press of a hand that is displaced by `moved` at each time.
 PressAverage Pressed(const std::function<glm::dvec3(double)>& moved, double rate = 1000) {
   PressAverage press(kRig.rod_length);
   for (int i = 0; i < 1000; ++i) {
@@ -29,7 +29,7 @@ PressAverage Pressed(const std::function<glm::dvec3(double)>& moved, double rate
   return press;
 }
 
-TEST(PressAverage, OfAHandAtRestIsItsRodAtAnyRate) {
+TEST(PressAverage, ARestingHandGivesItsRodAtAnyRate) {
   for (const double rate : {4000.0, 1000.0, 250.0, 60.0}) {
     const PressAverage press = Pressed([](double) { return glm::dvec3(0); }, rate);
     ASSERT_TRUE(press.press()) << press.refusal();
@@ -39,8 +39,8 @@ TEST(PressAverage, OfAHandAtRestIsItsRodAtAnyRate) {
   }
 }
 
-// A hundred samples: noise of 0.05 mm on each axis leaves 0.005; five times that is once in a
-// million.
+// With a hundred samples, noise of 0.05 mm per axis is averaged to 0.005 mm; five times that occurs
+// once in a million.
 TEST(PressAverage, NoiseIsAveragedAway) {
   Random random(3);
   const auto noise = [&](double) {
@@ -53,8 +53,8 @@ TEST(PressAverage, NoiseIsAveragedAway) {
   EXPECT_LT(glm::distance(press.press()->hip, HipFromRodPose(kPose, kRig)), 0.025e-3 * 1.8);
 }
 
-// Even motion over a span has a standard deviation of its √12th part: 0.1 mm of 0.35.
-TEST(PressAverage, AHandThatMovesByMoreThanATenthOfAMillimetreIsRefusedInWords) {
+// Uniform motion over a distance has a standard deviation of 1/√12 of it: 0.1 mm for 0.35 mm.
+TEST(PressAverage, RefusesAHandThatMovesByMoreThanATenthOfAMillimetre) {
   const auto moving = [](double span) {
     return Pressed([=](double t) { return glm::dvec3(0, span * t / 0.1, 0); });
   };
@@ -66,7 +66,7 @@ TEST(PressAverage, AHandThatMovesByMoreThanATenthOfAMillimetreIsRefusedInWords) 
   EXPECT_NE(refused.refusal().find("press again"), std::string::npos);
 }
 
-TEST(PressAverage, ADeviceThatFallsSilentOrSpeaksSeldomIsNamed) {
+TEST(PressAverage, RefusesASilentOrRarelyReportingDevice) {
   PressAverage press(kRig.rod_length);
   EXPECT_FALSE(press.Add(0, {0, 0, 0}, {1, 0, 0, 0}));
   EXPECT_TRUE(press.Miss());

@@ -67,7 +67,7 @@ TEST(RodPose, HardCase21RollIsContinuousOverSeveralTurns) {
   }
 }
 
-// At its hardest: beside the pole an arc sine would lose half of the digits.
+// Hardest case: beside the pole an arc sine would lose half of the digits.
 TEST(RodPose, HardCase22InAndOutLeavesTheAnglesBesideThePole) {
   const DeviceRig rig;
   for (double from_pole : {1e-3, 1e-5, 1e-7, 1e-8}) {
@@ -99,12 +99,12 @@ TEST(RodPose, HardCase15LeverIsFiniteAtEveryHandAndOnBothSidesOfThePivot) {
   }
 }
 
-// A hand that rests on the pivot is seen through sensor noise; were its direction believed, the
-// scope would turn end over end at every tick.
+// A resting hand at the pivot has sensor noise; using its direction would turn the scope around in
+// every tick.
 TEST(RodPose, NoiseOnAHandAtThePivotDoesNotTurnTheRod) {
   const DeviceRig rig = TiltedRig();
   std::mt19937 random(5);
-  std::normal_distribution<double> noise(0.0, 0.055e-3);  // m, of a Touch-class encoder
+  std::normal_distribution<double> noise(0.0, 0.055e-3);  // m, noise of a Touch-class encoder
   RodPose pose{0.3, -0.5, 0.7, 0.01};
   for (int tick = 0; tick < 2000; ++tick) {
     const glm::dvec3 hip = rig.pivot + glm::dvec3(noise(random), noise(random), noise(random));
@@ -155,7 +155,7 @@ TEST(RodPose, ToolLiesAlongItsRodWithItsHookNorthAtNoRoll) {
     const glm::dvec3 along = tool.rotation * glm::dvec3(0, 0, 1);
     EXPECT_NEAR(glm::distance(along, glm::normalize(tip - portal)), 0.0, 1e-15);
     const glm::dvec3 hook = tool.rotation * glm::dvec3(0, 1, 0);
-    // North is up (-y) as far as the rod lets it; east is right.
+    // North is up (-y), perpendicular to the rod; east is right.
     EXPECT_NEAR(roll == 0.0 ? -hook.y : hook.x, roll == 0.0 ? along.z : 1.0, 1e-12);
   }
   EXPECT_TRUE(std::isfinite(PortalFromTool(portal, portal, 0.3).rotation.w)) << "no rod at all";

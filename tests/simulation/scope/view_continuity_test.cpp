@@ -1,9 +1,9 @@
-// What the picture promises of a hand that moves by a tenth of a degree, as a device delivers it:
-// hand and handle, not angles. VIEW-01.
+// Bounds of the change of the picture when a device reports a motion by a tenth of a degree, as
+// hand position and handle orientation. VIEW-01.
 //
-// The rod's direction u and the handle's mark laid flat against it, t, are all that the view is
-// made of: north, east and the angles between cancel. So where rod and handle turn as one body, by
-// δ,
+// The view depends only on the direction u of the rod and on t, the mark of the handle projected
+// perpendicular to u: north, east and the angles between them cancel. So where rod and handle turn
+// as one body, by δ,
 //   with no head roll, or a head that was turned on the scope by some angle: view, up and right
 //   each
 //     turn by δ at most, at the poles and everywhere;
@@ -28,7 +28,7 @@ namespace arthro::simulation {
 namespace {
 
 constexpr double kStep = RadiansFromDegrees(0.1);
-constexpr double kRounding = 1e-9;  // rad, of thousands of products of rotations
+constexpr double kRounding = 1e-9;  // rad, error of thousands of products of rotations
 
 DeviceRig TiltedRig() {
   DeviceRig rig;
@@ -38,7 +38,7 @@ DeviceRig TiltedRig() {
   return rig;
 }
 
-// A hand on its device.
+// State of a hand on its device.
 struct Hand {
   DeviceRig rig = TiltedRig();
   glm::dvec3 hip{0.0};
@@ -47,7 +47,7 @@ struct Hand {
 
   explicit Hand(const RodPose& start)
       : hip(HipFromRodPose(start, rig)), handle(HandleFromRodPose(start, rig)), pose(start) {}
-  // By an angle about an axis of the portal frame, the rod alone or the handle with it.
+  // Turns the rod by an angle about an axis of the portal frame, alone or with the handle.
   void Turn(const glm::dvec3& axis_in_portal, double angle, bool with_handle = true) {
     const glm::dquat turn = glm::angleAxis(
         angle, glm::conjugate(rig.portal_from_device) * glm::normalize(axis_in_portal));
@@ -57,7 +57,7 @@ struct Hand {
   }
 };
 
-// Largest turns from one picture to the next, rad.
+// Largest turns between successive pictures, rad.
 struct Turns {
   double view = 0, up = 0, right = 0;
   void Add(const ScopeView& before, const ScopeView& after) {
@@ -73,7 +73,7 @@ struct Turns {
 struct Path {
   const char* over;
   RodPose start;
-  glm::dvec3 axis;  // portal frame; none: the rod's own
+  glm::dvec3 axis;  // portal frame; zero: the axis of the rod
 };
 const Path kPaths[] = {
     {"both poles", {0.0, 0.0, 0.3, 0.02}, {1, 0, 0}},
@@ -125,7 +125,7 @@ TEST_P(ViewContinuity, HardCase21OverPolesDateLineAndRollWrapTheViewTurnsNoFurth
               DegreesFromRadians(worst.right));
 }
 
-TEST_P(ViewContinuity, AHeadThatIsHeldChangesNothingOfTheViewsDirection) {
+TEST_P(ViewContinuity, AHeldHeadDoesNotChangeTheViewDirection) {
   for (const Path& path : kPaths) {
     const Turns turns = TurnsAlong(path, alpha(), {.is_upright = true});
     EXPECT_LE(turns.view, kStep + kRounding) << path.over;
@@ -138,7 +138,7 @@ TEST_P(ViewContinuity, WithAHeadThatIsHeldRollTurnsThePictureByTheChordOfTheView
   const double most = 2.0 * std::sin(0.5 * alpha()) * kStep;
   EXPECT_LE(turns.up, most + kRounding);
   EXPECT_LE(turns.right, most + kRounding);
-  // A bound that nothing comes near would prove little.
+  // The bound must be nearly reached, or it would prove little.
   EXPECT_GE(turns.up, 0.999 * most - kRounding);
 }
 
@@ -170,7 +170,8 @@ TEST_P(ViewContinuity, WithAHeadThatIsHeldASwingBelow80DegreesKeepsItsBound) {
 }
 
 TEST_P(ViewContinuity, AHandleThatStaysWhileTheHandMovesTurnsTheViewWithinItsBound) {
-  // About the handle's mark, and across it: rod and mark come within 30 degrees of each other.
+  // Turns about the mark of the handle, and across it: rod and mark come within 30 degrees of each
+  // other.
   for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 1, 1)}) {
     Hand hand({0.0, 0.0, 0.0, 0.02});
     const glm::dvec3 mark =

@@ -1,4 +1,4 @@
-// The round window's own lens as polynomials, against the lens itself.
+// Polynomials of the lens of the round window, compared with the lens itself.
 #include "simulation/scope/window_lens.h"
 
 #include <cmath>
@@ -26,8 +26,8 @@ Lens MakeLens(LensModel model, double focal, std::array<double, 4> k, double rad
   return lens;
 }
 
-// Every pixel of the window goes where the lens' own model says, and back.
-TEST(WindowLens, GoesWhereTheLensGoes) {
+// Maps every pixel of the window as the model of the lens does, and back.
+TEST(WindowLens, MapsPixelsAsTheLensDoes) {
   struct Case {
     const char* name;
     Lens lens;
@@ -72,7 +72,7 @@ TEST(WindowLens, GoesWhereTheLensGoes) {
                 DegreesFromRadians(field), worst_in, worst_out, worst_ray);
     EXPECT_LT(worst_in, kWindowLensError) << c.name;
     EXPECT_LT(worst_out, kWindowLensError) << c.name;
-    // An error of q moves θ by 2 tan(θ/2) of it at most, below 2 here.
+    // An error of q changes θ by at most 2 tan(θ/2) times that, below 2 here.
     EXPECT_LT(worst_ray, 2 * kWindowLensError) << c.name;
   }
 }
@@ -84,14 +84,14 @@ TEST(WindowLens, WithoutAFileItIsEquisolid) {
   EXPECT_EQ(LensFactor(optics.lens.inward, 0.7), 1.0);
 }
 
-TEST(WindowLens, AnAskedForFieldCountsBeforeTheLensAndTheLensBeforeTheScene) {
+TEST(WindowLens, TheRequestedFieldOfViewPrecedesTheLensAndTheLensTheScene) {
   const Lens lens = MakeLens(LensModel::kKannalaBrandt, 330, {}, 250);
   const double own = OpticsOf({}, lens).field_of_view;
   EXPECT_NEAR(own, 2 * 250.0 / 330, 1e-9);
   EXPECT_EQ(OpticsOf({}, lens, 1.0).field_of_view, 1.0);
 }
 
-TEST(WindowLens, ALensThatEndsWithinItsWindowIsRefused) {
+TEST(WindowLens, RefusesALensThatEndsWithinItsWindow) {
   const auto sentence = [](const Lens& lens, double field) -> std::string {
     try {
       FitWindowLens(lens, field);
@@ -104,7 +104,7 @@ TEST(WindowLens, ALensThatEndsWithinItsWindowIsRefused) {
   EXPECT_NE(sentence(pinhole, 3.2).find("ends within a field of view of 183.3 degrees"),
             std::string::npos);
   EXPECT_NE(sentence(pinhole, 2.95).find("choose a smaller field of view"), std::string::npos);
-  // A profile that falls again before the circle's rim.
+  // A profile that decreases again before the rim of the circle.
   Lens folded = MakeLens(LensModel::kKannalaBrandt, 200, {-0.5, 0, 0, 0}, 250);
   folded.field_of_view = 1.0;
   EXPECT_NE(sentence(folded, 1.0).find("ends within its round window"), std::string::npos)

@@ -39,7 +39,7 @@ TEST(RazerHydra, ReadsBothHands) {
   EXPECT_EQ(hands->at(1).trigger, 0.0);
 }
 
-TEST(RazerHydra, HardCase04WhatIsNoReportIsNone) {
+TEST(RazerHydra, HardCase04RejectsInvalidReports) {
   for (const std::size_t length : {0, 1, 13, 15, 49, 65}) {
     std::vector<std::uint8_t> report = Golden();
     report.resize(length);

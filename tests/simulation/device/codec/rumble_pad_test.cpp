@@ -20,12 +20,12 @@ TEST(RumblePad, UsbReportsDriveBothMotors) {
   EXPECT_EQ(shock[5], 64);
 }
 
-TEST(RumblePad, NothingAndMoreThanEverythingStayInAByte) {
+TEST(RumblePad, ClampsTheAmplitudeToAByte) {
   for (const double none : {0.0, -3.0, std::nan("")}) EXPECT_EQ(DualSenseUsb({none, none})[4], 0);
   EXPECT_EQ(DualSenseUsb({1e300, 0})[4], 255);
 }
 
-// The checksum over a seed byte and the report, of a bit by bit division.
+// Reference checksum over a seed byte and the report, by bitwise division.
 template <std::size_t kSize>
 std::uint32_t SlowSum(const std::array<std::uint8_t, kSize>& report) {
   std::uint32_t sum = 0xffffffff;

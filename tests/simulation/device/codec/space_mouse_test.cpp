@@ -9,7 +9,7 @@ namespace {
 
 using enum SpaceMouseNews;
 
-TEST(SpaceMouse, OlderOnesSayPushAndTurnInTwoReports) {
+TEST(SpaceMouse, ReadsPushAndTurnFromTwoReports) {
   SpaceMouse mouse;
   EXPECT_EQ(TakeReport(std::vector<std::uint8_t>{1, 0x5e, 0x01, 0xa2, 0xfe, 0, 0}, mouse), kTaken);
   EXPECT_EQ(mouse.push, glm::dvec3(1, -1, 0));
@@ -19,7 +19,7 @@ TEST(SpaceMouse, OlderOnesSayPushAndTurnInTwoReports) {
   EXPECT_EQ(mouse.push, glm::dvec3(1, -1, 0)) << "stays until the next report of it";
 }
 
-TEST(SpaceMouse, NewerOnesSayBothInOne) {
+TEST(SpaceMouse, ReadsPushAndTurnFromOneReport) {
   SpaceMouse mouse;
   EXPECT_EQ(
       TakeReport(std::vector<std::uint8_t>{1, 0xaf, 0, 0, 0, 0, 0, 0x51, 0xff, 0, 0, 0, 0}, mouse),
@@ -28,7 +28,7 @@ TEST(SpaceMouse, NewerOnesSayBothInOne) {
   EXPECT_EQ(mouse.turn, glm::dvec3(-0.5, 0, 0));
 }
 
-TEST(SpaceMouse, ButtonsAreBitsAndWhatIsPushedBeyondFullIsFull) {
+TEST(SpaceMouse, ReadsButtonsAsBitsAndClampsThePush) {
   SpaceMouse mouse;
   EXPECT_EQ(TakeReport(std::vector<std::uint8_t>{3, 0x05, 0x80}, mouse), kTaken);
   EXPECT_EQ(mouse.buttons, 0x8005u);
@@ -36,7 +36,7 @@ TEST(SpaceMouse, ButtonsAreBitsAndWhatIsPushedBeyondFullIsFull) {
   EXPECT_EQ(mouse.push, glm::dvec3(1, -1, 0));
 }
 
-TEST(SpaceMouse, HardCase04WhatIsNoReportLeavesItAsItIs) {
+TEST(SpaceMouse, HardCase04InvalidReportsChangeNothing) {
   SpaceMouse mouse;
   mouse.push = {0.1, 0.2, 0.3};
   mouse.buttons = 2;
@@ -57,7 +57,7 @@ TEST(SpaceMouse, HardCase04WhatIsNoReportLeavesItAsItIs) {
   EXPECT_EQ(TakeReport(std::vector<std::uint8_t>{0x17, 80, 0}, mouse), kIgnored) << "its battery";
 }
 
-TEST(SpaceMouse, ItsLightIsOneByteBehindItsId) {
+TEST(SpaceMouse, WritesTheLightAsOneByteAfterTheId) {
   EXPECT_EQ(SpaceMouseLight(true), (std::array<std::uint8_t, 2>{4, 1}));
   EXPECT_EQ(SpaceMouseLight(false), (std::array<std::uint8_t, 2>{4, 0}));
 }

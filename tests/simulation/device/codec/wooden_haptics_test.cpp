@@ -27,12 +27,12 @@ TEST(WoodenHaptics, ReadsItsReport) {
   EXPECT_EQ(ParseWooden(padded)->encoder, report->encoder);
 }
 
-TEST(WoodenHaptics, HardCase04ReportsOfAnotherLengthAreNone) {
+TEST(WoodenHaptics, HardCase04RejectsReportsOfAnotherLength) {
   for (const std::size_t length : {0, 1, 13, 15, 63, 65})
     EXPECT_FALSE(ParseWooden(std::vector<std::uint8_t>(length, 1))) << length;
 }
 
-TEST(WoodenHaptics, ThePolhemsButtonIsTakenOutOfItsEncoder) {
+TEST(WoodenHaptics, RemovesTheButtonOfAPolhemFromItsEncoder) {
   WoodenReport report;
   report.encoder[3] = 9988;
   EXPECT_TRUE(TakePolhemButton(report));
@@ -66,7 +66,7 @@ TEST(WoodenHaptics, HardCase06NoForceChangesItsSignInSixteenBits) {
   for (const double newton : {1e-310, 1e6, 1e300}) {
     const glm::dvec3 way = glm::normalize(glm::dvec3(1, -2, 0.5));
     const glm::dvec3 amperes = WoodenCurrents(arm, angles, newton * way);
-    // What the motors give points where the force does: Jᵀ⁻¹ of their torques.
+    // The force of the motors, Jᵀ⁻¹ of their torques, has the direction of the command.
     const glm::dvec3 torque = amperes * arm.torque_constant / arm.transmission;
     const glm::dvec3 given = glm::inverse(glm::transpose(WoodenJacobian(arm, angles))) * torque;
     if (newton < 1) continue;
@@ -78,14 +78,14 @@ TEST(WoodenHaptics, HardCase06NoForceChangesItsSignInSixteenBits) {
     EXPECT_EQ(WoodenCurrents(arm, angles, {0, bad, 0}), glm::dvec3(0.0));
 }
 
-TEST(WoodenHaptics, OneCountAndOneMilliampereAreWhatTheDesignSays) {
+TEST(WoodenHaptics, OneCountAndOneMilliampereMatchTheDesign) {
   const WoodenArm arm;
   const std::array<std::int64_t, 6> none{}, one{0, 1, 0, 0, 0, 0};
   const glm::dvec3 at = WoodenAngles(arm, none);
   const double step =
       glm::distance(WoodenPosition(arm, WoodenAngles(arm, one)), WoodenPosition(arm, at));
   EXPECT_NEAR(step, 0.054e-3, 0.001e-3) << "m";
-  // 1 N up at the upper link, level.
+  // 1 N up at the level upper link.
   const glm::dvec3 level(0, 0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
   const glm::dvec3 amperes = WoodenCurrents(arm, level, {0, 0, 1});
   EXPECT_NEAR(1.0 / std::abs(1e3 * amperes.y), 1.5e-3, 0.1e-3) << "N a mA";
@@ -107,7 +107,7 @@ TEST(WoodenHaptics, TheJacobianIsTheDerivativeOfThePosition) {
   }
 }
 
-TEST(WoodenHaptics, AMotorThatTurnsTheOtherWayMovesAndPushesTheSameHand) {
+TEST(WoodenHaptics, AReversedMotorGivesTheSamePositionAndForce) {
   WoodenArm arm, turned;
   turned.sign = {-1, 1, -1};
   const std::array<std::int64_t, 6> counts{120, 900, 800, 10, -20, 30};
@@ -120,7 +120,7 @@ TEST(WoodenHaptics, AMotorThatTurnsTheOtherWayMovesAndPushesTheSameHand) {
             1e-15);
 }
 
-TEST(WoodenHaptics, TheHandleTurnsAsItsJointsDo) {
+TEST(WoodenHaptics, HandleOrientationFollowsTheJoints) {
   const WoodenArm arm;
   const double quarter = 0.5 * std::numbers::pi;
   const glm::dquat none = WoodenHandle(arm, {0, 0, quarter}, {});
@@ -130,7 +130,7 @@ TEST(WoodenHaptics, TheHandleTurnsAsItsJointsDo) {
   EXPECT_LT(glm::distance(y, glm::dvec3(0, 0, 1)), 1e-12) << "256 of 1024 counts are a quarter";
 }
 
-TEST(EncoderUnwrap, HardCase05GoesOnPastTheEndsOfSixteenBits) {
+TEST(EncoderUnwrap, HardCase05UnwrapsPastSixteenBits) {
   EncoderUnwrap unwrap(93);
   std::int64_t truth = 32000;
   const auto take = [&](std::int64_t count) {
@@ -144,7 +144,7 @@ TEST(EncoderUnwrap, HardCase05GoesOnPastTheEndsOfSixteenBits) {
   EXPECT_EQ(unwrap.total()[2], truth);
 }
 
-TEST(EncoderUnwrap, HardCase05AFlippedBitMovesNothing) {
+TEST(EncoderUnwrap, HardCase05RejectsAFlippedBit) {
   for (int bit = 7; bit < 16; ++bit) {
     EncoderUnwrap unwrap(93);
     const std::array<std::int16_t, 6> still{100, 200, 300, 0, 0, 0};
@@ -158,7 +158,7 @@ TEST(EncoderUnwrap, HardCase05AFlippedBitMovesNothing) {
   }
 }
 
-TEST(EncoderUnwrap, WhereTheDeviceStaysItIsBelieved) {
+TEST(EncoderUnwrap, AcceptsALeapThatTheNextReportConfirms) {
   EncoderUnwrap unwrap(93);
   ASSERT_TRUE(unwrap.Take({0, 0, 0, 0, 0, 0}));
   EXPECT_FALSE(unwrap.Take({500, 0, 0, 0, 0, 0}));

@@ -19,7 +19,7 @@ std::unique_ptr<DeviceDriver> Make(DeviceFamily family, bool is_bluetooth = fals
   return MakeDriver(device, "polhem_v1", refusal);
 }
 
-TEST(SpaceMouseDriver, SaysPushTurnAndButtonsOfBothKinds) {
+TEST(SpaceMouseDriver, ReadsPushTurnAndButtonsOfBothLayouts) {
   const auto driver = Make(DeviceFamily::kSpaceMouse);
   EXPECT_EQ(driver->caps().input, HandInput::kRate);
   EXPECT_EQ(driver->Take(Bytes{1, 0x5e, 1, 0xa2, 0xfe, 0xaf, 0}), ReportNews::kTaken);
@@ -40,7 +40,7 @@ TEST(SpaceMouseDriver, SaysPushTurnAndButtonsOfBothKinds) {
   EXPECT_EQ(driver->Hand(0).turn, glm::dvec3(0.0)) << "plugged in again it stands still";
 }
 
-TEST(HydraDriver, OneReportIsTwoHands) {
+TEST(HydraDriver, ReadsTwoHandsFromOneReport) {
   const auto driver = Make(DeviceFamily::kHydra);
   ASSERT_EQ(driver->hands(), 2);
   Bytes report(52);
@@ -48,7 +48,7 @@ TEST(HydraDriver, OneReportIsTwoHands) {
     PutSigned(report, at, static_cast<std::int16_t>(value));
   };
   put(8, 100), put(10, -200), put(12, 300), put(14, 32767);
-  report[22] = 0x81;  // the top bit is none
+  report[22] = 0x81;  // the top bit is no button
   report[27] = 255;
   put(30, -1), put(32, -2), put(34, -3), put(38, -32768);
   ASSERT_EQ(driver->Take(report), ReportNews::kTaken);
@@ -59,7 +59,7 @@ TEST(HydraDriver, OneReportIsTwoHands) {
   EXPECT_EQ(driver->Hand(1).sample.buttons, 0u);
 }
 
-TEST(HydraDriver, IsToldToSendAndToStop) {
+TEST(HydraDriver, EncodesStartAndStop) {
   const auto driver = Make(DeviceFamily::kHydra);
   const Bytes start = BytesOf(driver->StartFeature()), stop = BytesOf(driver->StopFeature());
   ASSERT_EQ(start.size(), 91u);
@@ -70,7 +70,7 @@ TEST(HydraDriver, IsToldToSendAndToStop) {
   EXPECT_EQ(stop, golden);
 }
 
-TEST(PadDriver, ForceIsAmplitudeWhereverItPoints) {
+TEST(PadDriver, AmplitudeIsTheForceInAnyDirection) {
   const auto dual_sense = Make(DeviceFamily::kDualSense);
   EXPECT_EQ(dual_sense->caps().feedback, Feedback::kRumble);
   EXPECT_FALSE(HasHand(dual_sense->caps()));
@@ -88,8 +88,8 @@ TEST(PadDriver, ForceIsAmplitudeWhereverItPoints) {
   EXPECT_EQ(Make(DeviceFamily::kDualShock4, true)->ForceReport({}, {}).bytes[0], 0x11);
 }
 
-TEST(PadDriver, ButtonsHaveOneOrderOnBothPadsAndBothWires) {
-  // The report's number, its length and where its buttons begin.
+TEST(PadDriver, ButtonsHaveTheSameOrderOnBothPadsAndLinks) {
+  // Number of the report, its length and the offset of its buttons.
   const auto check = [](DeviceFamily family, std::uint8_t id, std::size_t size, std::size_t at) {
     const auto driver = Make(family);
     Bytes report(size);

@@ -12,7 +12,7 @@ namespace {
 
 const glm::dvec3 kMin(-0.2), kMax(0.2), kStill(0.0);
 
-TEST(RateHand, AFullPushForASecondIsItsSpeed) {
+TEST(RateHand, AFullPushMovesAtFullSpeed) {
   RateHand hand;
   const RateOptions options;
   for (int i = 0; i < 1000; ++i) Advance(hand, {1, 0, -1}, kStill, 1e-3, kMin, kMax, options);
@@ -20,7 +20,7 @@ TEST(RateHand, AFullPushForASecondIsItsSpeed) {
   EXPECT_EQ(hand.orientation, glm::dquat(1, 0, 0, 0));
 }
 
-TEST(RateHand, RestsInTheDeadZoneAndBeginsThereWithoutALeap) {
+TEST(RateHand, RestsInTheDeadZoneAndStartsWithoutALeap) {
   EXPECT_EQ(Meant(0.06, 0.06), 0);
   EXPECT_EQ(Meant(-0.0599, 0.06), 0);
   EXPECT_NEAR(Meant(0.0601, 0.06), 0, 2e-4);
@@ -40,7 +40,7 @@ TEST(RateHand, StaysInItsBox) {
   EXPECT_EQ(hand.position, glm::dvec3(0.2, -0.2, 0));
 }
 
-TEST(RateHand, TurnsAboutTheDevicesAxesAndStaysAUnit) {
+TEST(RateHand, TurnsAboutTheAxesOfTheDeviceAndStaysUnit) {
   RateHand hand;
   const RateOptions options;
   const double quarter = 0.5 * std::numbers::pi / options.turn_speed;
@@ -55,7 +55,7 @@ TEST(RateHand, TurnsAboutTheDevicesAxesAndStaysAUnit) {
   EXPECT_NEAR(glm::length(hand.orientation), 1, 1e-12);
 }
 
-TEST(RateHand, NothingLeapsAfterAPauseNorByWhatIsNoNumber) {
+TEST(RateHand, DoesNotLeapAfterAPauseOrNaN) {
   RateHand hand;
   Advance(hand, {1, 0, 0}, kStill, 60, kMin, kMax, {});
   EXPECT_LE(hand.position.x, 0.0081) << "a tenth of a second's way";

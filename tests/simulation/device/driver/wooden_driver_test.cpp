@@ -25,13 +25,13 @@ std::unique_ptr<DeviceDriver> Make(const char* model, bool is_padded = false) {
   return driver;
 }
 
-// Presses its button in the rest and sets its counters.
+// Homes the arm: presses its button in the rest and sets its counters.
 void Home(DeviceDriver& driver, const std::array<int, 6>& home) {
   driver.Take(Report({1, 2, 3, 0, 0, 0}, 1));
   driver.Take(Report(home));
 }
 
-TEST(WoodenDriver, IsHomedByItsButtonAndTheCountersThatFollow) {
+TEST(WoodenDriver, IsHomedByItsButton) {
   const auto driver = Make("woodenhaptics_2015");
   EXPECT_EQ(driver->Take(Report({0, 0, 6000, 0, 0, 0})), ReportNews::kTaken);
   EXPECT_FALSE(driver->Hand(0).is_homed) << "by chance there, but nobody said so";
@@ -47,14 +47,14 @@ TEST(WoodenDriver, IsHomedByItsButtonAndTheCountersThatFollow) {
   driver->Take(Report({1, -1, 5999, 0, 0, 0}));
   EXPECT_FALSE(driver->WantsHome());
   EXPECT_TRUE(driver->Hand(0).is_homed);
-  // Upper link up, lower link level: 245 mm out of the column less 220, 285 mm up less 80.
+  // Upper link up, lower link level: 245 mm from the column minus 220, 285 mm up minus 80.
   const glm::dvec3 hip = driver->Hand(0).sample.hip_in_device;
   EXPECT_LT(glm::distance(hip, glm::dvec3(0.025, 0, 0.205)), 3e-4) << "m, within some counts";
   driver->Forget();
   EXPECT_FALSE(driver->Hand(0).is_homed);
 }
 
-TEST(WoodenDriver, IsHomedWhenSomebodySaysSo) {
+TEST(WoodenDriver, IsHomedByARequest) {
   const auto driver = Make("woodenhaptics_2015");
   driver->AskHome();
   EXPECT_TRUE(driver->WantsHome());
@@ -62,7 +62,7 @@ TEST(WoodenDriver, IsHomedWhenSomebodySaysSo) {
   EXPECT_TRUE(driver->Hand(0).is_homed);
 }
 
-TEST(WoodenDriver, PushesWhereTheForcePoints) {
+TEST(WoodenDriver, PushesInTheDirectionOfTheForce) {
   for (const WoodenModel& model : WoodenModels()) {
     const auto driver = Make(model.word);
     std::array<int, 6> home{};
@@ -80,7 +80,7 @@ TEST(WoodenDriver, PushesWhereTheForcePoints) {
           amperes * model.arm.sign * model.arm.torque_constant / model.arm.transmission;
       const glm::dvec3 force =
           glm::inverse(glm::transpose(WoodenJacobian(model.arm, joints))) * torque;
-      // A milliampere of rounding in some hundred is under half a degree.
+      // Rounding by 1 mA in some hundred is below 0.5°.
       EXPECT_GT(glm::dot(glm::normalize(force), way), 1 - 4e-5) << model.word << " " << newton;
       if (newton < 1) {
         EXPECT_NEAR(glm::length(force), newton, 0.005);
@@ -89,14 +89,14 @@ TEST(WoodenDriver, PushesWhereTheForcePoints) {
   }
 }
 
-TEST(WoodenDriver, ARawHidBoardIsWritten65Bytes) {
+TEST(WoodenDriver, Writes65BytesToARawHidBoard) {
   const auto driver = Make("polhem_v1", true);
   EXPECT_EQ(driver->ForceReport(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1)).size, 65u);
   EXPECT_EQ(driver->HomeReport().size, 65u);
   EXPECT_EQ(driver->Take(Report({0, 0, 0, 0, 0, 0}, 0, 64)), ReportNews::kTaken);
 }
 
-TEST(WoodenDriver, APolhemSaysButtonAndHandleInReverse) {
+TEST(WoodenDriver, ReadsButtonAndGimbalOfAPolhem) {
   const auto driver = Make("polhem_v1");
   Home(*driver, {0, 0, -5000, 0, 0, 0});
   ASSERT_TRUE(driver->Hand(0).is_homed);
@@ -123,7 +123,7 @@ TEST(WoodenDriver, HardCase05AWrapIsUnwrappedAndAFlippedBitRejected) {
   Home(*driver, {0, 0, 6000, 0, 0, 0});
   glm::dvec3 last = driver->Hand(0).sample.hip_in_device;
   double largest = 0;
-  // The base turns on past 32767 counts: more than once round, and no step of the hand.
+  // The base turns past 32767 counts, more than one turn, without a step of the hand.
   for (int count = 0; count < 40000; count += 60) {
     const int wrapped = count > 32767 ? count - 65536 : count;
     ASSERT_EQ(driver->Take(Report({wrapped, 0, 6000, 0, 0, 0})), ReportNews::kTaken) << count;
@@ -141,7 +141,7 @@ TEST(WoodenDriver, HardCase05AWrapIsUnwrappedAndAFlippedBitRejected) {
   EXPECT_LT(glm::distance(driver->Hand(0).sample.hip_in_device, last), 1e-12);
 }
 
-TEST(WoodenDriver, ASecretOrUnnamedGeometryIsRefused) {
+TEST(WoodenDriver, RefusesAnUnknownGeometry) {
   KnownDevice device;
   device.family = DeviceFamily::kWoodenHaptics;
   std::string refusal;
@@ -156,7 +156,7 @@ TEST(WoodenDriver, ASecretOrUnnamedGeometryIsRefused) {
   EXPECT_TRUE(MakeDriver(device, "polhem_v1", refusal));
 }
 
-TEST(WoodenDriver, ItsCapsAreThoseOfItsArm) {
+TEST(WoodenDriver, CapabilitiesMatchTheArm) {
   const DeviceCaps polhem = Make("polhem_v1")->caps(), wooden = Make("woodenhaptics_2015")->caps();
   EXPECT_EQ(polhem.sensed_dof, 6);
   EXPECT_EQ(wooden.sensed_dof, 3);

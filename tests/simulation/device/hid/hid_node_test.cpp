@@ -21,7 +21,7 @@ HidNode Node(std::uint16_t vendor, std::uint16_t product, std::uint16_t page, st
   return node;
 }
 
-TEST(HidNode, KnowsFamiliesByNumbersAndUsage) {
+TEST(HidNode, IdentifiesFamiliesByNumbersAndUsage) {
   EXPECT_EQ(FamilyOf(Node(0x1234, 0x0006, 0xff00, 1)), kWoodenHaptics);
   EXPECT_EQ(FamilyOf(Node(0x16c0, 0x0486, 0xffab, 0x200, 0, "Polhem v1")), kWoodenHaptics);
   EXPECT_EQ(FamilyOf(Node(0x256f, 0xc635, 1, 8)), kSpaceMouse);
@@ -31,7 +31,7 @@ TEST(HidNode, KnowsFamiliesByNumbersAndUsage) {
   EXPECT_EQ(FamilyOf(Node(0x054c, 0x09cc, 1, 5, 3)), kDualShock4);
 }
 
-TEST(HidNode, TakesNoMouseKeyboardOrForeignBoardForADevice) {
+TEST(HidNode, IgnoresMiceKeyboardsAndForeignBoards) {
   EXPECT_FALSE(FamilyOf(Node(0x256f, 0xc650, 1, 2))) << "CadMouse";
   EXPECT_FALSE(FamilyOf(Node(0x046d, 0xc626, 1, 6))) << "a keyboard part";
   EXPECT_FALSE(FamilyOf(Node(0x256f, 0xc635, 1, 2))) << "a mouse part";
@@ -42,7 +42,7 @@ TEST(HidNode, TakesNoMouseKeyboardOrForeignBoardForADevice) {
   EXPECT_FALSE(FamilyOf(Node(0, 0, 0, 0)));
 }
 
-TEST(HidNode, ListsADeviceOnceAndInTheSameOrder) {
+TEST(HidNode, ListsADeviceOnceInAFixedOrder) {
   HidNode mouse = Node(0x256f, 0xc635, 1, 8);
   mouse.path = "/dev/hidraw3", mouse.serial = "B";
   HidNode other = mouse, again = mouse, wooden = Node(0x1234, 6, 0xff00, 1);
@@ -57,7 +57,7 @@ TEST(HidNode, ListsADeviceOnceAndInTheSameOrder) {
   }
 }
 
-TEST(HidNode, FamiliesHaveWordsThatReadBack) {
+TEST(HidNode, FamiliesRoundTripThroughText) {
   std::set<std::string> names;
   for (const DeviceFamily family : AllFamilies()) {
     EXPECT_EQ(DeviceFamilyFromString(ToString(family)), family);
@@ -67,7 +67,7 @@ TEST(HidNode, FamiliesHaveWordsThatReadBack) {
   EXPECT_FALSE(DeviceFamilyFromString("touch"));
 }
 
-TEST(UdevRule, NamesEveryDeviceThatIsKnownAndNoOther) {
+TEST(UdevRule, NamesExactlyTheKnownDevices) {
   const std::string rule =
       ReadWholeFile(std::string(ARTHRO_SOURCE_DIR) + "/packaging/70-arthroscene.rules");
   std::size_t count = 0;

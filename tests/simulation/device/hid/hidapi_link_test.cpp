@@ -1,4 +1,4 @@
-// Our calls of hidapi, against a library that is scripted.
+// Calls of hidapi, tested with a scripted library.
 #include <array>
 #include <atomic>
 #include <filesystem>
@@ -25,7 +25,7 @@ std::unique_ptr<HidLink> OpenFirst(HidBus& bus) {
   return nodes.empty() ? nullptr : bus.Open(nodes.front(), fault);
 }
 
-TEST(HidapiLink, ListsWhatIsPluggedIn) {
+TEST(HidapiLink, ListsPluggedInDevices) {
   FakeUsb usb;
   usb.Plug({0x256f, 0xc635, 1, 8, 2, true, L"Sé\u20ac\U0001F600\xd800\n7", L"Space", "/dev/fake7"});
   const auto nodes = MachineHidBus()->List();
@@ -85,7 +85,7 @@ TEST(HidapiLink, EveryErrorIsADeadLink) {
   EXPECT_EQ(link->Read(report, 0), kLinkIsDead) << "plugged in again it is another link";
 }
 
-TEST(HidapiLink, TellsGoneFromRefused) {
+TEST(HidapiLink, DistinguishesAbsentFromRefused) {
   FakeUsb usb;
   const auto bus = MachineHidBus();
   OpenFault fault = OpenFault::kNone;
@@ -100,7 +100,7 @@ TEST(HidapiLink, TellsGoneFromRefused) {
   EXPECT_EQ(fault, OpenFault::kRefused) << "it may be opened, and is not";
 }
 
-TEST(HidapiLinkDeathTest, TellsAMissingPermissionFromAnAbsentDevice) {
+TEST(HidapiLinkDeathTest, DistinguishesAMissingPermissionFromAnAbsentDevice) {
   FakeUsb usb;
   const auto bus = MachineHidBus();
   const auto node_path = std::filesystem::temp_directory_path() / "arthroscene_hidapi_link_node";
@@ -108,7 +108,7 @@ TEST(HidapiLinkDeathTest, TellsAMissingPermissionFromAnAbsentDevice) {
   std::filesystem::permissions(node_path, std::filesystem::perms::none);
   EXPECT_EXIT(
       {
-        // The superuser may open everything; nobody may not.
+        // The superuser may open everything, so this runs as user nobody.
         if (getuid() == 0 && setresuid(65534, 65534, 65534) != 0) _exit(3);
         HidNode node;
         node.path = node_path.string();

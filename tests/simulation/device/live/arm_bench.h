@@ -1,6 +1,5 @@
-// A WoodenHaptics arm on the fake bus, its board as published: it answers each report that it is
-// written, sets its counters when it is told to. Time is the test's: a tick is a millisecond,
-// however long the machine takes for it.
+// A WoodenHaptics arm on the fake bus, with the published board: it answers each report and sets
+// its counters on request. Time is that of the test: a tick is 1 ms, independent of machine time.
 #pragma once
 
 #include <array>
@@ -14,10 +13,10 @@
 
 namespace arthro::test {
 
-// Until `is_true`, at most ten seconds of the machine's time.
+// Waits until `is_true`, at most ten seconds of machine time.
 bool WaitUntil(const std::function<bool()>& is_true);
 
-double BenchSeconds() noexcept;  // the clock of a bench; one bench at a time
+double BenchSeconds() noexcept;  // clock of a bench; one bench at a time
 void AdvanceBench(double seconds) noexcept;
 
 FakeHid WoodenArm(const std::wstring& serial, const std::string& path);
@@ -39,16 +38,16 @@ class Board {
   bool is_mute_ = false;
 };
 
-// Currents of the newest report that was written to `path`, mA.
+// Currents of the newest report written to `path`, mA.
 std::array<int, 3> CurrentsAt(FakeUsb& usb, const std::string& path);
 
 struct ArmBench {
   explicit ArmBench(const std::string& serial = "A", double list_every = 0.02);
-  // One servo tick, after `Read` has seen a sample of this tick.
+  // Runs one servo tick, after waiting for a sample of this tick.
   simulation::DeviceSample Tick(const glm::dvec3& force, bool is_held);
-  // One without waiting for a sample.
+  // Runs one servo tick without waiting for a sample.
   simulation::DeviceSample TickNow(const glm::dvec3& force, bool is_held);
-  void Arm();  // until it is armed, with no force
+  void Arm();  // ticks until it is armed, without force
 
   TempFolder folder;
   FakeUsb usb;

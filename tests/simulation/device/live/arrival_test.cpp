@@ -5,7 +5,7 @@
 namespace arthro::simulation {
 namespace {
 
-TEST(Arrival, AReportThatWasAwaitedIsOfNow) {
+TEST(Arrival, AnAwaitedReportIsNew) {
   EXPECT_EQ(ArrivalOf(1.000, 1.001, 1, 1e-3), 1.001);
   EXPECT_DOUBLE_EQ(ArrivalOf(1.000, 1.004, 1, 1e-3), 1.004) << "the answer to a servo of 250 Hz";
   EXPECT_EQ(ArrivalOf(1.000, 1.010, 10, 1e-3), 1.010) << "ten that waited ten milliseconds";

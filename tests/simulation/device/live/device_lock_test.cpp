@@ -10,7 +10,7 @@
 namespace arthro::simulation {
 namespace {
 
-TEST(DeviceLock, HardCase25OnlyOneHasADeviceAndSaysWho) {
+TEST(DeviceLock, HardCase25OneProgramHoldsADeviceAndIsNamed) {
   test::TempFolder folder;
   {
     const DeviceLock first(folder.path(), "space_mouse-A/../../x");
@@ -25,7 +25,7 @@ TEST(DeviceLock, HardCase25OnlyOneHasADeviceAndSaysWho) {
   EXPECT_FALSE(again.is_held_elsewhere());
 }
 
-TEST(DeviceLock, AProgramThatDiedHoldsNothing) {
+TEST(DeviceLock, ADeadProgramHoldsNoLock) {
   test::TempFolder folder;
   const pid_t child = fork();
   if (child == 0) {
@@ -38,7 +38,7 @@ TEST(DeviceLock, AProgramThatDiedHoldsNothing) {
   EXPECT_FALSE(DeviceLock(folder.path(), "A").is_held_elsewhere());
 }
 
-TEST(DeviceLock, GoesWithoutWhereNoFileCanBeMade) {
+TEST(DeviceLock, DoesWithoutALockWhereNoFileCanBeMade) {
   EXPECT_FALSE(DeviceLock("/not/there", "A").is_held_elsewhere());
 }
 

@@ -13,7 +13,7 @@ using test::FakeUsb;
 
 const std::string kPath = "/dev/fake0";
 
-TEST(DeviceSurvey, SaysWhatIsThereAndWhatIsInTheWay) {
+TEST(DeviceSurvey, ListsDevicesWithTheirObstacles) {
   test::TempFolder folder;
   FakeUsb usb;
   const auto bus = MachineHidBus();
@@ -42,7 +42,7 @@ TEST(DeviceSurvey, SaysWhatIsThereAndWhatIsInTheWay) {
   EXPECT_EQ(usb.misuses(), 0);
 }
 
-TEST(DeviceTrial, AnArmThatAnswersIsHeardAndGetsNoForce) {
+TEST(DeviceTrial, AnAnsweringArmPassesWithoutForce) {
   test::TempFolder folder;
   FakeUsb usb;
   test::Board board(usb, kPath);
@@ -52,7 +52,7 @@ TEST(DeviceTrial, AnArmThatAnswersIsHeardAndGetsNoForce) {
   const auto bus = MachineHidBus();
   const DeviceTrial trial =
       TryDevice(*bus, {DeviceFamily::kWoodenHaptics, "A", "polhem_v1"}, 0.3, options);
-  // How fast is the machine's affair: here only that the count is what was measured.
+  // The rate depends on the machine; this checks only that the count agrees with it.
   EXPECT_GT(trial.taken, 10);
   EXPECT_NEAR(trial.rate, static_cast<double>(trial.taken) / trial.seconds, 1e-9);
   EXPECT_EQ(trial.rejected, 0);
@@ -60,7 +60,7 @@ TEST(DeviceTrial, AnArmThatAnswersIsHeardAndGetsNoForce) {
   for (const auto& report : usb.Written(kPath)) EXPECT_EQ(report, test::Bytes(15));
 }
 
-TEST(DeviceTrial, WhatCannotBeUnderstoodFailsIt) {
+TEST(DeviceTrial, InvalidReportsFailIt) {
   test::TempFolder folder;
   FakeUsb usb;
   usb.OnWrite(kPath, [&](const test::Bytes&) { usb.Send(kPath, test::Bytes(13)); });

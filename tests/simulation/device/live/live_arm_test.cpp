@@ -1,4 +1,4 @@
-// A force device at work: what the hand is given when all is well, and when it is not.
+// A live force device: forces on the hand in normal operation and after failures.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -35,7 +35,7 @@ constexpr std::array<int, 3> kNoCurrents{};
 struct Plugged : ArmBench {
   Plugged() : board(usb, kPath) { usb.Plug(test::WoodenArm(L"A", kPath)); }
   ~Plugged() {
-    // The link's threads call the board.
+    // The threads of the link call the board.
     device.reset();
     link.reset();
     EXPECT_EQ(usb.misuses(), 0);
@@ -65,7 +65,7 @@ TEST(LiveArm, IsHomedArmedAndPushes) {
   EXPECT_TRUE(sample.valid);
   EXPECT_LT(glm::distance(sample.hip_in_device, glm::dvec3(0.025, 0, 0.205)), 1e-12);
   EXPECT_EQ(bench.device->force(), kPush);
-  // 3 N up: the lower link's motor alone, 3 N x 0.245 m / 12 / 0.0259 N m/A.
+  // 3 N up needs the motor of the lower link only: 3 N x 0.245 m / 12 / 0.0259 N m/A.
   EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == std::array{0, 0, 2365}; }));
   bench.Tick(kPush, false);
   EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
@@ -74,13 +74,13 @@ TEST(LiveArm, IsHomedArmedAndPushes) {
   EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
 }
 
-TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
+TEST(LiveArm, HardCase01OldReportsAfterAStallGiveNoForceAndNoLeap) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 5; ++i) bench.Tick(kPush, true);
   const DeviceSample before = bench.Tick(kPush, true);
   ASSERT_EQ(bench.device->force(), kPush);
-  // The reader hangs for 300 ms; the board goes on by itself and its ring of 63 fills with an even
+  // The reader hangs for 300 ms while the board continues, and the ring of 63 fills with a uniform
   // motion of 0.03 m/s.
   bench.usb.SetReadStall(kPath, 300);
   bench.TickNow(kPush, true);
@@ -98,11 +98,11 @@ TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
   EXPECT_EQ(bench.device->state(), DeviceState::kLost);
   const double age = test::BenchSeconds() - after.t;
   EXPECT_GT(age, 0.2) << "s";
-  // Of the samples' own times the speed is what the motion was.
+  // With the times of the samples, the speed is that of the motion.
   const double speed =
       glm::distance(after.hip_in_device, before.hip_in_device) / (after.t - before.t);
   EXPECT_LT(speed, 0.05) << "m/s";
-  // Fresh again: still no force until the dead-man was let go and held anew.
+  // Fresh samples: still no force until the dead-man is released and held again.
   Board again(bench.usb, kPath);
   again.SetCounters({0, 0, 6150, 0, 0, 0});
   for (int i = 0; i < 20; ++i) {
@@ -117,8 +117,8 @@ TEST(LiveArm, HardCase01AfterAStallOldReportsGiveNoForceAndNoLeap) {
   bench.link.reset();
 }
 
-// A clock that holds up who reads when so many of its looks are left. Held up, who writes would
-// leave the reader to empty the ring.
+// Clock that delays the reader at a chosen call. It does not delay the writer, since the reader
+// would then empty the ring.
 std::function<void()> hold_up;
 std::atomic<int> looks_left{0};
 std::atomic<std::thread::id> writer;
@@ -127,7 +127,7 @@ double HoldingSeconds() noexcept {
   return test::BenchSeconds();
 }
 
-TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
+TEST(LiveArm, HardCase01WaitingReportsAreNotFreshWhereverTheReaderStalls) {
   for (int look = 1; look <= 10; ++look) {
     Plugged bench;
     LiveOptions options;
@@ -139,7 +139,7 @@ TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
     bench.device = std::make_unique<LiveDevice>(bench.link, 0);
     bench.Arm();
     ASSERT_EQ(bench.device->state(), DeviceState::kArmed);
-    // The board is silent; a servo that says nothing is written as zero all the time.
+    // The board is silent; without commands of the servo, zero is written all the time.
     writer = std::thread::id();
     bench.usb.OnWrite(kPath, [](const auto&) { writer = std::this_thread::get_id(); });
     ASSERT_TRUE(WaitUntil([] { return writer.load() != std::thread::id(); }));
@@ -157,7 +157,7 @@ TEST(LiveArm, HardCase01HeldUpWhereverItIsWhatWaitedMeanwhileIsNotFresh) {
   }
 }
 
-TEST(LiveArm, HardCase02UnpluggedInContactItIsLostAndComesBackBySerial) {
+TEST(LiveArm, HardCase02IsLostWhenUnpluggedAndComesBackBySerialNumber) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -174,7 +174,7 @@ TEST(LiveArm, HardCase02UnpluggedInContactItIsLostAndComesBackBySerial) {
   EXPECT_LT(lost, 25) << "ms";
   EXPECT_GT(without_force, 0);
   EXPECT_GT(lost, 0);
-  // Another arm, with another number, is not it.
+  // Another arm with another serial number is not opened.
   ASSERT_TRUE(WaitUntil([&] { return !bench.link->is_present(); }));
   bench.usb.Plug(test::WoodenArm(L"B", kOther));
   const int listed = bench.usb.listed();
@@ -182,7 +182,7 @@ TEST(LiveArm, HardCase02UnpluggedInContactItIsLostAndComesBackBySerial) {
   bench.TickNow(kPush, false);
   EXPECT_EQ(bench.device->state(), DeviceState::kAbsent);
   EXPECT_EQ(bench.usb.opened(kOther), 0);
-  // In another port, and so under another path, it is.
+  // The same arm in another port, and so at another path, is opened.
   Board moved(bench.usb, "/dev/fake2");
   bench.usb.Plug(test::WoodenArm(L"A", "/dev/fake2"));
   ASSERT_TRUE(WaitUntil([&] { return bench.link->opening() == 2; }));
@@ -207,8 +207,7 @@ TEST(LiveArm, HardCase02ComesBackWithinASecondAndAHalf) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("reopened after %.3f s\n", seconds);
-  // Of the machine's time nothing is asked; at the first listing, one in half a second, it is
-  // there.
+  // Makes no claim on machine time: it is found at the first listing, which runs every 0.5 s.
   EXPECT_LE(bench.usb.listed() - listed, 1);
   EXPECT_LE(LiveOptions().list_every, 0.5);
 }
@@ -228,7 +227,7 @@ TEST(LiveArm, HardCase03RolesFollowSerialNumbersNotPorts) {
     scope.usb.Plug(test::WoodenArm(L"SCOPE", is_swapped ? kOther : kPath));
     scope.usb.Plug(test::WoodenArm(L"TOOL", is_swapped ? kPath : kOther));
     ASSERT_TRUE(WaitUntil([&] { return scope.link->opening() != 0 && tool.opening() != 0; }));
-    // Only the scope's arm speaks.
+    // Only the arm of the scope reports.
     Bytes report(14);
     const long scope_taken = scope.link->counts().taken, tool_taken = tool.counts().taken;
     scope.usb.Send(is_swapped ? kOther : kPath, report);
@@ -254,7 +253,7 @@ TEST(LiveArm, HardCase04ReportsOfAnotherLengthAreCountedAndChangeNothing) {
   EXPECT_EQ(after.hip_in_device, before.hip_in_device);
   EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
   EXPECT_EQ(bench.device->force(), kPush);
-  // One of no bytes is no report, and ends nothing.
+  // An empty report is ignored and does not close the link.
   bench.usb.Send(kPath, {});
   for (int i = 0; i < 5; ++i) bench.Tick(kPush, true);
   EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
@@ -275,7 +274,7 @@ TEST(LiveArm, HardCase05AFlippedBitGivesNoForcePulse) {
     EXPECT_LT(glm::distance(sample.hip_in_device, last), 1e-12) << "m, bit " << bit;
     EXPECT_TRUE(sample.valid);
   }
-  // And a wrap: the base goes on past 32767, in steps of 1 mm.
+  // Wraps: the base passes 32767 in steps of 1 mm.
   double largest = 0;
   for (int count = 20; count < 34000; count += 20) {
     bench.board.SetCounters({count > 32767 ? count - 65536 : count, 0, 6000, 0, 0, 0});
@@ -292,7 +291,7 @@ TEST(LiveArm, HardCase05AFlippedBitGivesNoForcePulse) {
   EXPECT_GT(largest, 0.0005);
 }
 
-TEST(LiveArm, HardCase06WhatIsNoNumberIsZeroAndOneFault) {
+TEST(LiveArm, HardCase06NaNGivesZeroAndOneFault) {
   Plugged bench;
   bench.Arm();
   int faults = 0;
@@ -312,7 +311,7 @@ TEST(LiveArm, HardCase06WhatIsNoNumberIsZeroAndOneFault) {
   EXPECT_TRUE(AreZeros({bench.usb.Written(kPath).back()}));
 }
 
-TEST(LiveArm, HardCase25ASecondProgramIsRefusedByName) {
+TEST(LiveArm, HardCase25RefusesASecondProgram) {
   Plugged bench;
   bench.Arm();
   LiveOptions options;
@@ -329,7 +328,7 @@ TEST(LiveArm, HardCase25ASecondProgramIsRefusedByName) {
   EXPECT_EQ(second->detail(),
             "WoodenHaptics or Polhem A is used by process " + std::to_string(getpid()));
   EXPECT_EQ(bench.usb.opened(kPath), 1) << "it was not even opened";
-  // When the first lets go it is had.
+  // It opens when the first program releases it.
   bench.device.reset();
   bench.link.reset();
   EXPECT_TRUE(WaitUntil([&] { return second->opening() != 0; }));
@@ -346,7 +345,7 @@ TEST(LiveArm, HardCase26AWriteThatBlocksIsOneFaultAndZero) {
   int faults = 0;
   DeviceState was = DeviceState::kArmed;
   const long taken = bench.link->counts().taken;
-  for (int i = 0; i < 30; ++i) {  // that many ms of the servo's, within the one write
+  for (int i = 0; i < 30; ++i) {  // ms of servo time within one write
     bench.board.SendNow();
     bench.TickNow(kPush, true);
     faults += bench.device->state() == DeviceState::kFault && was != DeviceState::kFault;
@@ -372,10 +371,10 @@ TEST(LiveArm, HardCase26AWriteThatBlocksIsOneFaultAndZero) {
   EXPECT_EQ(bench.link->opening(), 1) << "it stays open";
 }
 
-TEST(LiveArm, AWriteThatFailsIsALossAndItIsOpenedAgain) {
+TEST(LiveArm, AFailedWriteIsALossAndTheDeviceIsOpenedAgain) {
   Plugged bench;
   bench.Arm();
-  for (const int result : {-1, 7}) {  // an error; fewer bytes than it was given
+  for (const int result : {-1, 7}) {  // an error; fewer bytes than requested
     const int opening = bench.link->opening();
     bench.usb.SetWriteResult(kPath, result);
     ASSERT_TRUE(WaitUntil([&] {
@@ -390,7 +389,7 @@ TEST(LiveArm, AWriteThatFailsIsALossAndItIsOpenedAgain) {
   }
 }
 
-TEST(LiveArm, AReadThatFailsIsALossAndItIsOpenedAgain) {
+TEST(LiveArm, AFailedReadIsALossAndTheDeviceIsOpenedAgain) {
   Plugged bench;
   bench.Arm();
   bench.usb.SetReadResult(kPath, -1);
@@ -405,18 +404,18 @@ TEST(LiveArm, AReadThatFailsIsALossAndItIsOpenedAgain) {
   EXPECT_EQ(bench.device->state(), DeviceState::kArmed);
 }
 
-TEST(LiveArm, AServoThatFallsSilentIsWrittenAsZero) {
+TEST(LiveArm, WritesZeroWhileTheServoIsSilent) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
   ASSERT_EQ(bench.device->force(), kPush);
-  // Nobody ticks any more.
+  // The servo has stopped.
   EXPECT_TRUE(WaitUntil([&] { return CurrentsAt(bench.usb, kPath) == kNoCurrents; }));
 }
 
-// The program is stopped (a debugger, a machine that slept) between the servo's word and its
-// writing.
-TEST(LiveArm, AForceThatWaitedTooLongIsWrittenAsZero) {
+// The program is stopped (by a debugger or a sleeping machine) between the command of the servo and
+// its writing.
+TEST(LiveArm, WritesZeroInPlaceOfAnOutdatedForce) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -434,7 +433,7 @@ TEST(LiveArm, AForceThatWaitedTooLongIsWrittenAsZero) {
       << "after the one that was being written";
 }
 
-TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
+TEST(LiveArm, WritesZeroFiveTimesOnEveryWayOut) {
   for (const bool throws : {false, true}) {
     std::vector<Bytes> written;
     test::TempFolder folder;
@@ -444,7 +443,7 @@ TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
       for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
       ASSERT_NE(CurrentsAt(bench.usb, kPath), kNoCurrents);
       const std::size_t before = bench.usb.Written(kPath).size();
-      struct Look {  // destroyed after the link is, before the bus
+      struct Look {  // destroyed after the link and before the bus
         test::FakeUsb& usb;
         std::vector<Bytes>& written;
         std::size_t before;
@@ -465,7 +464,7 @@ TEST(LiveArm, EveryWayOutWritesZeroFiveTimes) {
   }
 }
 
-TEST(LiveArm, ReleasedItIsNeverPushedAgain) {
+TEST(LiveArm, GivesNoForceAfterRelease) {
   Plugged bench;
   bench.Arm();
   for (int i = 0; i < 3; ++i) bench.Tick(kPush, true);
@@ -477,7 +476,7 @@ TEST(LiveArm, ReleasedItIsNeverPushedAgain) {
   }
 }
 
-// Dies while it pushes; what its board was told goes to `file`, a line of currents each.
+// Crashes while it pushes; the currents written to its board go to `file`, one report per line.
 void Crash(const std::filesystem::path& file, int signal) {
   Plugged bench;
   bench.Arm();
@@ -498,7 +497,7 @@ void Crash(const std::filesystem::path& file, int signal) {
   signal == 0 ? std::exit(4) : std::abort();
 }
 
-TEST(LiveArmDeathTest, AProgramThatCrashesOrIsEndedByALibrarySaysZeroFirst) {
+TEST(LiveArmDeathTest, ACrashOrExitWritesZeroFirst) {
   test::TempFolder folder;
   const auto last = [&](const std::string& name) {
     std::ifstream lines(folder / name);
@@ -512,7 +511,7 @@ TEST(LiveArmDeathTest, AProgramThatCrashesOrIsEndedByALibrarySaysZeroFirst) {
   EXPECT_EQ(last("exit"), "0\n");
 }
 
-TEST(LiveArm, AGeometryThatIsNotKnownIsAFaultAndNotOpened) {
+TEST(LiveArm, AnUnknownGeometryIsAFaultAndNotOpened) {
   ArmBench bench;
   bench.usb.Plug(test::WoodenArm(L"A", kPath));
   LiveOptions options;

@@ -1,4 +1,4 @@
-// Devices that do not push, at work.
+// Live devices without force.
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ struct Bench {
   std::vector<std::unique_ptr<LiveDevice>> devices;
 };
 
-TEST(LiveSpaceMouse, LeadsAHandAndRestsWhenItFallsSilent) {
+TEST(LiveSpaceMouse, LeadsAHandAndRestsWhenSilent) {
   Bench bench(DeviceFamily::kSpaceMouse, {0x256f, 0xc635, 1, 8, 0, false, L"7", L"", kPath});
   for (int i = 0; i < 5; ++i) bench.Tick();
   EXPECT_EQ(bench.devices[0]->state(), DeviceState::kReady) << "it speaks only when it is pushed";
@@ -70,7 +70,7 @@ TEST(LiveSpaceMouse, LeadsAHandAndRestsWhenItFallsSilent) {
   EXPECT_FALSE(bench.Tick().valid);
 }
 
-TEST(LiveHydra, StartsAfterItsRetriesAndHasTwoHands) {
+TEST(LiveHydra, StartsAfterRetriesAndHasTwoHands) {
   FakeUsb* usb = nullptr;
   {
     test::TempFolder folder;
@@ -107,7 +107,7 @@ TEST(LiveHydra, StartsAfterItsRetriesAndHasTwoHands) {
   }
 }
 
-TEST(LiveHydra, IsToldToStopAtTheEnd) {
+TEST(LiveHydra, IsStoppedAtTheEnd) {
   Bench bench(DeviceFamily::kHydra, {0x1532, 0x0300, 0, 0, 0, false, L"", L"Hydra", kPath});
   bench.devices.clear();
   bench.link.reset();
@@ -117,7 +117,7 @@ TEST(LiveHydra, IsToldToStopAtTheEnd) {
   EXPECT_EQ(features[1][9], 0);
 }
 
-TEST(LivePad, RumblesAtMostSixtyTimesASecondAndStopsAtOnce) {
+TEST(LivePad, RumblesAtMost60TimesPerSecondAndStopsAtOnce) {
   Bench bench(DeviceFamily::kDualSense, {0x054c, 0x0ce6, 1, 5, 3, false, L"", L"", kPath});
   Bytes report(64);
   report[0] = 1, report[8] = 0x28;
@@ -130,7 +130,7 @@ TEST(LivePad, RumblesAtMostSixtyTimesASecondAndStopsAtOnce) {
     for (const Bytes& written : bench.usb.Written(kPath)) count += written[4] > 0;
     return count;
   };
-  // A second of the bench's time, which the machine takes as long as it likes for.
+  // One second of bench time, independent of machine time.
   for (int i = 0; i < 1000; ++i) {
     bench.Tick(0, true, {0, 0, 3.3});
     std::this_thread::sleep_for(std::chrono::microseconds(50));
@@ -144,7 +144,7 @@ TEST(LivePad, RumblesAtMostSixtyTimesASecondAndStopsAtOnce) {
   }));
 }
 
-TEST(LiveLink, AnyOfAFamilyTakesOneThatIsFree) {
+TEST(LiveLink, OpensAFreeDeviceOfTheFamily) {
   Bench bench(DeviceFamily::kSpaceMouse, {0x256f, 0xc635, 1, 8, 0, false, L"7", L"", kPath});
   bench.usb.Plug({0x256f, 0xc635, 1, 8, 0, false, L"8", L"", "/dev/fake1"});
   LiveOptions options;

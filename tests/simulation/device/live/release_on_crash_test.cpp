@@ -1,4 +1,4 @@
-// Every way in which a signal can end a program lets go of its devices first.
+// Devices are released before any signal ends the program.
 #include "simulation/device/live/release_on_crash.h"
 
 #include <atomic>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kReleased = "RELEASED";
 
-// Its writer is a thread of its own, as that of a real one, and outlives it.
+// Device with a writer thread, as a real one, that outlives it.
 std::atomic<bool> asked{false};
 class FakeDevice final : public Releasable {
  public:
@@ -32,7 +32,7 @@ class FakeDevice final : public Releasable {
   void Release() noexcept override { asked = true; }
 };
 
-// No optimiser may turn it into a loop, nor foresee that it does not end.
+// Recursion that no optimiser can turn into a loop or recognise as endless.
 int Overflow(volatile int* depth) {
   volatile char frame[4096];
   frame[0] = static_cast<char>(*depth);
@@ -59,8 +59,8 @@ class ReleaseOnCrashDeathTest : public testing::Test {
 class EverySignalDeathTest : public ReleaseOnCrashDeathTest,
                              public testing::WithParamInterface<int> {};
 
-// Sent from outside, as by a shell, and raised by a thread that has nothing to do with devices.
-TEST_P(EverySignalDeathTest, ReleasesThenEndsTheProgramAsItWouldHave) {
+// Signals sent from outside, as by a shell, and raised by an unrelated thread.
+TEST_P(EverySignalDeathTest, ReleasesThenEndsTheProgramAsBefore) {
   const int signal = GetParam();
   EXPECT_EXIT(
       {
@@ -120,7 +120,7 @@ TEST_F(ReleaseOnCrashDeathTest, ASecondSignalMeanwhileDoesNotCutTheReleaseShort)
       [](int status) { return WIFSIGNALED(status); }, kReleased);
 }
 
-TEST_F(ReleaseOnCrashDeathTest, SignalsThatTheProgramIgnoresOrHandlesStayItsOwn) {
+TEST_F(ReleaseOnCrashDeathTest, KeepsSignalsThatTheProgramIgnoresOrHandles) {
   EXPECT_EXIT(
       {
         std::signal(SIGPIPE, SIG_IGN);
@@ -130,7 +130,7 @@ TEST_F(ReleaseOnCrashDeathTest, SignalsThatTheProgramIgnoresOrHandlesStayItsOwn)
           const ReleaseOnCrash guard({std::make_shared<FakeDevice>()});
           ::raise(SIGPIPE);
           ::raise(SIGUSR1);
-          // A handler that is installed later stays when the guard goes.
+          // A handler that is installed later stays after the guard is destroyed.
           std::signal(SIGUSR2, SIG_IGN);
         }
         ::raise(SIGUSR2);

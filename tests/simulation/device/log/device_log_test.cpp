@@ -27,7 +27,7 @@ std::unique_ptr<PlantDevice> Plant() {
   return std::make_unique<PlantDevice>(PlantOptions{}, HandModel{}, glm::dvec3(0.01, 0.02, 0.03));
 }
 
-TEST(DeviceLog, EachTickIsReadBackAsTheDeviceSaidIt) {
+TEST(DeviceLog, ReadsBackEachTick) {
   test::TempFolder folder;
   const auto plain = Plant();
   std::vector<DeviceSample> samples;
@@ -72,12 +72,12 @@ TEST(DeviceLog, EachTickIsReadBackAsTheDeviceSaidIt) {
   EXPECT_TRUE(was_armed);
 }
 
-TEST(DeviceLog, WhoPushesNeitherAllocatesNorWaitsAndWhatDoesNotFitIsCounted) {
+TEST(DeviceLog, PushNeitherAllocatesNorWaitsAndCountsDroppedRecords) {
   test::TempFolder folder;
   constexpr int kTicks = 1000;
   DeviceLogOptions options;
   options.ring = 64;
-  options.write_every = 3600;  // the log's thread does not come
+  options.write_every = 3600;  // the thread of the log does not write
   {
     DeviceLog log(folder / "a.log", kPlant, options);
     LoggedDevice device(Plant(), log, 0);
@@ -95,7 +95,7 @@ TEST(DeviceLog, WhoPushesNeitherAllocatesNorWaitsAndWhatDoesNotFitIsCounted) {
   EXPECT_EQ(log.missing, kTicks - 64) << "those after the last that was kept, too";
 }
 
-TEST(DeviceLog, WithoutHasteNothingIsDroppedAndAllIsThereBeforeTheEnd) {
+TEST(DeviceLog, DropsNothingAtAModerateRate) {
   test::TempFolder folder;
   DeviceLogOptions options;
   options.ring = 256;
@@ -107,7 +107,7 @@ TEST(DeviceLog, WithoutHasteNothingIsDroppedAndAllIsThereBeforeTheEnd) {
     record.t_ns = i;
     channel.Push(record);
     if (i % 128 == 127) {
-      // The log is given its time.
+      // Gives the log time to write.
       const auto size = std::filesystem::file_size(folder / "a.log");
       for (int j = 0; j < 300000 && std::filesystem::file_size(folder / "a.log") == size; ++j)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -124,7 +124,7 @@ TEST(DeviceLog, WithoutHasteNothingIsDroppedAndAllIsThereBeforeTheEnd) {
   EXPECT_EQ(whole.torn, "");
 }
 
-// One sentence: what, where, what to do.
+// Message: one sentence with the cause, the file and what to do.
 void ExpectRefused(const std::filesystem::path& file, const std::string& why) {
   try {
     DeviceLog log(file, kPlant);
@@ -136,11 +136,11 @@ void ExpectRefused(const std::filesystem::path& file, const std::string& why) {
   }
 }
 
-TEST(DeviceLog, AFullDiskIsRefusedAtTheBeginning) {
+TEST(DeviceLog, RefusesAFullDisk) {
   ExpectRefused("/dev/full", "the disk is full; free some space");
 }
 
-TEST(DeviceLog, AFileWithContentIsKept) {
+TEST(DeviceLog, KeepsAFileWithContent) {
   test::TempFolder folder;
   WriteAtomically(folder / "a.log", "a scene");
   ExpectRefused(folder / "a.log", "exists");
@@ -150,7 +150,7 @@ TEST(DeviceLog, AFileWithContentIsKept) {
   EXPECT_EQ(ReadDeviceLog(folder / "a.log").torn, "");
 }
 
-TEST(DeviceLog, SaysThatItWasCutShortByAFileSizeLimit) {
+TEST(DeviceLog, ReportsAFileSizeLimit) {
   test::TempFolder folder;
   const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
@@ -166,7 +166,7 @@ TEST(DeviceLog, SaysThatItWasCutShortByAFileSizeLimit) {
   EXPECT_FALSE(ReadDeviceLog(folder / "a.log").torn.empty());
 }
 
-TEST(DeviceLog, IsItsOwnersAlone) {
+TEST(DeviceLog, IsReadableByItsOwnerOnly) {
   test::TempFolder folder;
   const mode_t before = ::umask(0);
   { DeviceLog log(folder / "a.log", kPlant); }
@@ -176,7 +176,7 @@ TEST(DeviceLog, IsItsOwnersAlone) {
   EXPECT_EQ(found.st_mode & 0777, 0600u);
 }
 
-TEST(DeviceLog, AFolderThatIsNotThereIsRefused) {
+TEST(DeviceLog, RefusesAMissingFolder) {
   test::TempFolder folder;
   ExpectRefused(folder / "no/a.log", "No such file or directory");
 }

@@ -18,7 +18,7 @@ const std::vector<LogSource> kSources = {
     {"razer_hydra", "", "é\"7", {DeviceRole::kInstrument, DeviceRole::kScope}},
     {"", "", "1", {}}};
 
-// Without an end, as the first version was.
+// Bytes of version 1, without an end.
 const std::string kOldHead = LogHead(kSources, 1);
 
 LogRecord Tick(std::int64_t t_ns, std::uint64_t number) {
@@ -72,7 +72,7 @@ std::string Sample() {
          BlockOf({Tick(20, 0), Report(30, 1, kReportRoom), Tick(40, 1)});
 }
 
-// The sentence with which it is refused; empty: it is not.
+// Message of the refusal; empty where the log is accepted.
 std::string Refusal(const std::string& bytes) {
   try {
     ParseDeviceLog(bytes);
@@ -105,7 +105,7 @@ TEST(LogFormat, ReadsBackToTheBit) {
   EXPECT_EQ(log.records[3].status.reason, DeviceTrouble::kSlowWrite);
 }
 
-TEST(LogFormat, TheLargestRecordFitsItsRoom) {
+TEST(LogFormat, TheLargestRecordFitsKLargestRecord) {
   LogRecord largest = Report(0, 0, kReportRoom);
   std::string payload;
   Append(largest, payload);
@@ -123,7 +123,7 @@ TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
     else
       ASSERT_NE(log.torn.find("was cut short"), std::string::npos) << size;
   }
-  // A file system may have made room that was never filled.
+  // A file system may have allocated space that was never written.
   for (const std::size_t zeros : {1, 16, 4096}) {
     const DeviceLogContent log = ParseDeviceLog(head + first + std::string(zeros, '\0'));
     EXPECT_EQ(log.records.size(), 2u);
@@ -135,28 +135,28 @@ TEST(LogFormat, ATornTailLosesOnlyTheLastBlockAtEveryByte) {
   EXPECT_FALSE(ParseDeviceLog(half).torn.empty());
 }
 
-TEST(LogFormat, AHeadThatIsNotWholeIsRefused) {
+TEST(LogFormat, RefusesAnIncompleteHead) {
   const std::string head = kOldHead;
   for (std::size_t size = 1; size < head.size(); ++size)
     ASSERT_NE(Refusal(head.substr(0, size)), "") << size;
   EXPECT_EQ(Refusal(head), "");
 }
 
-TEST(LogFormat, NoFlippedBitGoesUnseen) {
+TEST(LogFormat, DetectsEveryFlippedBit) {
   const std::string whole = Sample();
   for (std::size_t byte = 0; byte < whole.size(); ++byte)
     for (int bit = 0; bit < 8; ++bit) {
       std::string flipped = whole;
       flipped[byte] = static_cast<char>(flipped[byte] ^ 1 << bit);
       if (!Refusal(flipped).empty()) continue;
-      // Only in the last block may what is before be given, and it is said.
+      // Only damage in the last block may return the blocks before, with a notice.
       const DeviceLogContent log = ParseDeviceLog(flipped);
       ASSERT_EQ(log.records.size(), 3u) << byte;
       ASSERT_FALSE(log.torn.empty()) << byte;
     }
 }
 
-TEST(LogFormat, SaysInOneSentenceWhatItIsNot) {
+TEST(LogFormat, RefusesOtherFilesWithOneSentence) {
   EXPECT_NE(Refusal("").find("empty"), std::string::npos);
   EXPECT_NE(Refusal("t,device,hip_x").find("no device log"), std::string::npos);
   std::string other = Sample();
@@ -166,26 +166,25 @@ TEST(LogFormat, SaysInOneSentenceWhatItIsNot) {
   }
 }
 
-TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
+TEST(LogFormat, RefusesHugeLengthsBeforeAllocating) {
   const auto put = [](std::string& bytes, std::size_t at, std::uint32_t value) {
     std::memcpy(bytes.data() + at, &value, sizeof value);
   };
   const std::string head = kOldHead;
-  // A block that claims too much, its own checksum right.
+  // A block with a too large size and a valid checksum.
   std::string empty = LogBlock("", 0);
   for (const std::uint32_t size : {std::uint32_t{kLargestBlock} + 1, 0x7fffffffu, 0xffffffffu}) {
     std::string claims = LogBlock(std::string(16, 'x'), 1);
     put(claims, 0, size);
     EXPECT_NE(Refusal(head + claims + empty).find("damaged"), std::string::npos);
   }
-  // More records than there are, none of them whole; a record that is longer than its block.
+  // More records than there are, incomplete ones, and a record longer than its block.
   EXPECT_NE(Refusal(head + LogBlock("", 0xffffffffu) + empty).find("cannot be"), std::string::npos);
   std::string payload;
   Append(Tick(1, 0), payload);
   payload[2] = payload[3] = '\xff';
   EXPECT_NE(Refusal(head + LogBlock(payload, 1) + empty).find("cannot be"), std::string::npos);
-  // A report of more bytes than a report has room for; a hand, a state, a source, a kind that there
-  // is not.
+  // A report with too many bytes; an unknown hand, state, source and kind.
   const auto broken = [&](const LogRecord& record, std::size_t at) {
     std::string bytes;
     Append(record, bytes);
@@ -198,22 +197,22 @@ TEST(LogFormat, HugeLengthsAreRefusedBeforeTheyAreBelieved) {
   for (const std::size_t at : {0, 1, 2, 20}) {
     EXPECT_NE(broken(Tick(1, 0), at).find("cannot be"), std::string::npos) << at;
   }
-  // Bytes that no record claims.
+  // Bytes after the last record.
   EXPECT_NE(Refusal(head + LogBlock("xyz", 0) + empty).find("longer"), std::string::npos);
 }
 
-TEST(LogFormat, CountsWhatWasDropped) {
+TEST(LogFormat, CountsDroppedRecords) {
   const DeviceLogContent log =
       ParseDeviceLog(kOldHead + BlockOf({Tick(1, 2), Tick(2, 3), Report(3, 1, 14)}));
   EXPECT_EQ(log.missing, 3) << "ticks 0 and 1, report 0";
 }
 
-// Of version 2.
+// Bytes of version 2.
 std::string Ended(std::uint64_t pushed) {
   return LogHead(kSources) + BlockOf({Tick(1, 0), Tick(2, 1), Report(3, 0, 14)}) + LogEnd(pushed);
 }
 
-TEST(LogFormat, TheEndIsTheseBytes) {
+TEST(LogFormat, TheEndHasConstantBytes) {
   const unsigned char golden[] = {
       0x1c, 0, 0, 0, 1, 0, 0, 0, 0x25, 0x5a, 0xfe, 0xd8, 0x33, 0x04, 0x9d, 0x4a,  // block
       5,    0, 8, 0, 0, 0, 0, 0, 0,    0,    0,    0,    0,    0,    0,    0,     // record
@@ -223,7 +222,7 @@ TEST(LogFormat, TheEndIsTheseBytes) {
   EXPECT_EQ(std::memcmp(end.data(), golden, sizeof golden), 0) << testing::PrintToString(end);
 }
 
-TEST(LogFormat, TheEndSaysWhatWasDroppedAfterTheLastThatWasKept) {
+TEST(LogFormat, TheEndCountsRecordsDroppedAfterTheLastOne) {
   const DeviceLogContent whole = ParseDeviceLog(Ended(3));
   EXPECT_EQ(whole.records.size(), 3u) << "the end is none of them";
   EXPECT_EQ(whole.missing, 0);
@@ -233,7 +232,7 @@ TEST(LogFormat, TheEndSaysWhatWasDroppedAfterTheLastThatWasKept) {
   EXPECT_NE(Refusal(Ended(2)).find("counts fewer records than there are"), std::string::npos);
 }
 
-TEST(LogFormat, WithoutItsEndALogOfTheSecondVersionSaysSoAtEveryByte) {
+TEST(LogFormat, ReportsAMissingEndOfVersion2AtEveryByte) {
   const std::string whole = Ended(5);
   const std::size_t without = whole.size() - LogEnd(5).size();
   for (std::size_t size = without; size < whole.size(); ++size) {
@@ -245,7 +244,7 @@ TEST(LogFormat, WithoutItsEndALogOfTheSecondVersionSaysSoAtEveryByte) {
   }
 }
 
-TEST(LogFormat, NothingComesAfterTheEndAndNoneIsAmongRecords) {
+TEST(LogFormat, RefusesRecordsAfterTheEnd) {
   EXPECT_NE(Refusal(Ended(3) + BlockOf({Tick(9, 2)})).find("comes after the end"),
             std::string::npos);
   LogRecord end;

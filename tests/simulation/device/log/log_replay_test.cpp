@@ -1,4 +1,4 @@
-// What a live device's log gives when it is played again.
+// Replay of the log of a live device.
 #include "simulation/device/log/log_replay.h"
 
 #include <random>
@@ -17,8 +17,8 @@ using test::WaitUntil;
 
 const std::string kPath = "/dev/fake0";
 
-// A WoodenHaptics that is homed, moved, sends what is no report, is pulled out and comes back, with
-// all of it in `file`.
+// A WoodenHaptics that is homed, moved, sends an invalid report, is unplugged and comes back;
+// logged in `file`.
 void Record(const std::filesystem::path& file) {
   test::ArmBench bench;
   bench.usb.Plug(test::WoodenArm(L"A", kPath));
@@ -67,7 +67,7 @@ void Record(const std::filesystem::path& file) {
     EXPECT_TRUE(until(DeviceState::kLost));
     bench.usb.Plug(test::WoodenArm(L"A", kPath));
   }
-  // Both hold the link, whose threads push.
+  // Both hold the link, whose threads push records.
   bench.link.reset();
   logged.reset();
   log.Close();
@@ -81,8 +81,8 @@ struct Recorded : testing::Test {
 
 using LogReplay = Recorded;
 
-TEST(LogReplayOfAMinute, IsTheSameToTheBitThreeTimes) {
-  // A minute at 1 kHz: a hand that wanders over the counters' ends, and what is no report.
+TEST(LogReplayOfAMinute, IsBitIdenticalOverThreeRuns) {
+  // One minute at 1 kHz: a hand that passes the ends of the counters, and invalid reports.
   KnownDevice device;
   device.family = DeviceFamily::kWoodenHaptics;
   device.node.vendor = 0x1234;
@@ -102,7 +102,7 @@ TEST(LogReplayOfAMinute, IsTheSameToTheBitThreeTimes) {
   long rejected = 0;
   for (int i = 0; i < 60000; ++i) {
     for (std::size_t j = 0; j < counter.size(); ++j) {
-      counter[j] += static_cast<int>(random() % 9) - 3;  // up, as a whole
+      counter[j] += static_cast<int>(random() % 9) - 3;  // mean drift upwards
       PutSigned(report, 2 * j, static_cast<std::int16_t>(counter[j]));
     }
     const std::size_t size = i % 97 == 0 ? 13 : 14;
@@ -133,7 +133,7 @@ TEST(LogReplayOfAMinute, IsTheSameToTheBitThreeTimes) {
   }
 }
 
-TEST_F(LogReplay, BytesThroughTheDriverGiveTheSameHandsEachTime) {
+TEST_F(LogReplay, BytesThroughTheDriverGiveTheSameHands) {
   const DeviceLogContent log = ReadDeviceLog(file);
   EXPECT_EQ(log.missing, 0);
   EXPECT_TRUE(log.torn.empty());
@@ -159,7 +159,7 @@ TEST_F(LogReplay, BytesThroughTheDriverGiveTheSameHandsEachTime) {
   }
 }
 
-TEST_F(LogReplay, ADriverThatSaysSomethingElseIsSeen) {
+TEST_F(LogReplay, DetectsADriverWithADifferentResult) {
   DeviceLogContent log = ReadDeviceLog(file);
   for (LogRecord& record : log.records)
     if (record.kind == LogKind::kReport && record.hand[0].sample.valid) {
@@ -177,7 +177,7 @@ TEST_F(LogReplay, ADriverThatSaysSomethingElseIsSeen) {
   EXPECT_THROW(ReplayReports(log, 0), Error) << "it is not driven";
 }
 
-TEST_F(LogReplay, ItsTicksAreARecordingOfHands) {
+TEST_F(LogReplay, TicksAreARecordingOfHands) {
   const DeviceLogContent log = ReadDeviceLog(file);
   const auto rows = TraceOf(log, file);
   ASSERT_GT(rows.size(), 60u);
@@ -195,11 +195,11 @@ TEST_F(LogReplay, ItsTicksAreARecordingOfHands) {
       ++next;
   }
   EXPECT_LT(next, log.records.size()) << "each row is what a tick saw, in that order";
-  // As text it is a trace that is read.
+  // Its text can be read as a trace.
   EXPECT_EQ(ParseTrace(TraceText(rows)).size(), rows.size());
 }
 
-TEST_F(LogReplay, IsToldFromATraceByItsBytesAndNotByItsName) {
+TEST_F(LogReplay, IsDistinguishedFromATraceByItsBytes) {
   const auto rows = TraceOf(ReadDeviceLog(file));
   std::string notice;
   std::filesystem::copy(file, folder / "log.csv");
@@ -210,7 +210,7 @@ TEST_F(LogReplay, IsToldFromATraceByItsBytesAndNotByItsName) {
   EXPECT_EQ(notice, "");
 }
 
-TEST_F(LogReplay, ALogThatWasCutShortIsPlayedAndSaysSo) {
+TEST_F(LogReplay, ReplaysAnIncompleteLogWithANotice) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
   std::string notice;
   const DeviceLogContent log = ReadDeviceLog(file);
@@ -219,7 +219,7 @@ TEST_F(LogReplay, ALogThatWasCutShortIsPlayedAndSaysSo) {
   EXPECT_NE(notice.find("was cut short"), std::string::npos) << notice;
 }
 
-TEST_F(LogReplay, WithoutAHandItIsRefused) {
+TEST_F(LogReplay, RefusesALogWithoutAHand) {
   DeviceLogContent log = ReadDeviceLog(file);
   log.sources[0].roles = {};
   EXPECT_THROW(TraceOf(log), Error);

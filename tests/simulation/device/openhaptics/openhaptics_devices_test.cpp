@@ -1,5 +1,5 @@
-// Devices behind the maker's library, which is a fake one here: its scheduler ticks when the test
-// says, on the test's clock.
+// Devices behind a fake library of the maker, whose scheduler is ticked by the test on the clock of
+// the test.
 #include "simulation/device/openhaptics/openhaptics_devices.h"
 
 #include <HD/hd.h>
@@ -50,7 +50,7 @@ class OpenHapticsTest : public testing::Test {
     devices = std::make_unique<OpenHapticsDevices>(std::vector<std::string>{"left", "right"}, Now);
     Hold();
   }
-  // As a practice that begins does.
+  // Makes the hands as a beginning practice does.
   void Hold() {
     hands.clear();
     devices->OpenMissing();
@@ -60,7 +60,7 @@ class OpenHapticsTest : public testing::Test {
     hands.clear();
     devices.reset();
   }
-  // As the library's thread and the servo do, one after the other.
+  // Ticks the thread of the library and the servo, one after the other.
   DeviceSample Tick(int ticks = 1, const glm::dvec3& force = {}) {
     DeviceSample sample;
     for (int i = 0; i < ticks; ++i) {
@@ -93,9 +93,9 @@ class OpenHapticsTest : public testing::Test {
   bool is_held = false;
 };
 
-TEST_F(OpenHapticsTest, SaysWhereTheHandIsAndHowItHoldsTheHandle) {
+TEST_F(OpenHapticsTest, ReportsPositionAndOrientation) {
   Left().position_mm = {10, -20, 30};
-  // A quarter turn about z: x goes to y.
+  // A quarter turn about z maps x to y.
   Left().transform = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 10, -20, 30, 1};
   Left().buttons = 3;
   Open();
@@ -109,7 +109,7 @@ TEST_F(OpenHapticsTest, SaysWhereTheHandIsAndHowItHoldsTheHandle) {
   EXPECT_EQ(hands[1]->serial(), "T2");
 }
 
-TEST_F(OpenHapticsTest, SaysWhatItCanDo) {
+TEST_F(OpenHapticsTest, ReportsItsCapabilities) {
   Open();
   const DeviceCaps& caps = hands[0]->caps();
   EXPECT_TRUE(HasForce(caps));
@@ -122,7 +122,7 @@ TEST_F(OpenHapticsTest, SaysWhatItCanDo) {
   EXPECT_TRUE(Left().has_force_output);
 }
 
-TEST_F(OpenHapticsTest, PushesOnlyAnArmedHandAndEachItsOwn) {
+TEST_F(OpenHapticsTest, PushesOnlyTheArmedHand) {
   Open();
   Tick(10, kForce);
   EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0)) << "nobody holds the dead-man";
@@ -141,7 +141,7 @@ TEST_F(OpenHapticsTest, PushesOnlyAnArmedHandAndEachItsOwn) {
 }
 
 // 9 and 11 ms: a tick is not a whole number of binary fractions of a second.
-TEST_F(OpenHapticsTest, AServoThatFallsSilentLeavesNoForce) {
+TEST_F(OpenHapticsTest, ASilentServoLeavesNoForce) {
   Arm();
   Tick(3, kForce);
   for (int i = 1; i <= 20; ++i) {
@@ -153,7 +153,7 @@ TEST_F(OpenHapticsTest, AServoThatFallsSilentLeavesNoForce) {
   }
 }
 
-TEST_F(OpenHapticsTest, TheEndIsFiveTimesNoForceThenClosed) {
+TEST_F(OpenHapticsTest, EndsWithFiveZeroForcesAndCloses) {
   Arm();
   Tick(3, kForce);
   const std::size_t before = Left().forces.size();
@@ -170,7 +170,7 @@ TEST_F(OpenHapticsTest, TheEndIsFiveTimesNoForceThenClosed) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(OpenHapticsTest, ReleaseIsNoForceFromTheNextFrameOn) {
+TEST_F(OpenHapticsTest, ReleaseGivesNoForceFromTheNextFrameOn) {
   Arm();
   Tick(3, kForce);
   devices->Release();
@@ -178,7 +178,7 @@ TEST_F(OpenHapticsTest, ReleaseIsNoForceFromTheNextFrameOn) {
   EXPECT_EQ(LastForce(Left()), glm::dvec3(0.0));
 }
 
-TEST_F(OpenHapticsTest, WarmMotorsAreAFaultUntilTheHandLetsGo) {
+TEST_F(OpenHapticsTest, WarmMotorsAreAFaultUntilTheDeadManIsReleased) {
   Arm();
   Tick(3, kForce);
   Left().errors = {HD_WARM_MOTORS};
@@ -198,7 +198,7 @@ TEST_F(OpenHapticsTest, WarmMotorsAreAFaultUntilTheHandLetsGo) {
   EXPECT_EQ(LastForce(Left()), kForce);
 }
 
-TEST_F(OpenHapticsTest, ALostLinkIsLostAtOnceAndStaysSo) {
+TEST_F(OpenHapticsTest, ALostLinkStaysLost) {
   Arm();
   Tick(3, kForce);
   Left().errors = {HD_COMM_ERROR};
@@ -212,7 +212,7 @@ TEST_F(OpenHapticsTest, ALostLinkIsLostAtOnceAndStaysSo) {
   EXPECT_EQ(hands[0]->state(), DeviceState::kLost);
 }
 
-// As where the library's thread hangs.
+// Case of a hanging library thread.
 TEST_F(OpenHapticsTest, ADeviceThatIsSilentFor20MillisecondsIsLost) {
   Arm();
   Tick(3, kForce);
@@ -230,7 +230,7 @@ TEST_F(OpenHapticsTest, ADeviceThatIsSilentFor20MillisecondsIsLost) {
   EXPECT_EQ(left.status().reason, DeviceTrouble::kSilent);
 }
 
-TEST_F(OpenHapticsTest, HardCase6WhatIsNoNumberIsZeroAndAFault) {
+TEST_F(OpenHapticsTest, HardCase6NaNGivesZeroAndAFault) {
   Arm();
   Tick(1, glm::dvec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
   Tick(1, kForce);
@@ -239,7 +239,7 @@ TEST_F(OpenHapticsTest, HardCase6WhatIsNoNumberIsZeroAndAFault) {
   for (const auto& force : Left().forces) EXPECT_EQ(force, kNoForce);
 }
 
-TEST_F(OpenHapticsTest, IsHomedByTheLibraryOrWaitsForTheHand) {
+TEST_F(OpenHapticsTest, IsHomedByTheLibraryOrWaitsForTheUser) {
   Left().calibration = HD_CALIBRATION_NEEDS_UPDATE;
   Right().calibration = HD_CALIBRATION_NEEDS_MANUAL_INPUT;
   Open();
@@ -247,12 +247,12 @@ TEST_F(OpenHapticsTest, IsHomedByTheLibraryOrWaitsForTheHand) {
   EXPECT_EQ(Left().calibrated, 1);
   EXPECT_EQ(hands[0]->state(), DeviceState::kReady);
   EXPECT_EQ(hands[1]->state(), DeviceState::kHoming);
-  Right().calibration = HD_CALIBRATION_OK;  // somebody put it into its rest
+  Right().calibration = HD_CALIBRATION_OK;  // the user put it into its rest
   Tick(110);
   EXPECT_EQ(hands[1]->state(), DeviceState::kReady);
 }
 
-TEST_F(OpenHapticsTest, OneThatDoesNotOpenIsNamedAndTheOtherIsHeld) {
+TEST_F(OpenHapticsTest, NamesADeviceThatDoesNotOpenAndUsesTheOther) {
   Right().opens = false;
   Open();
   Tick(10);
@@ -266,7 +266,7 @@ TEST_F(OpenHapticsTest, OneThatDoesNotOpenIsNamedAndTheOtherIsHeld) {
             "begins");
   EXPECT_FALSE(HasForce(hands[1]->caps())) << "nobody knows what it bears";
 
-  // Switched on: as long as a servo runs it is left alone, and the next one has it.
+  // Switched on later: it is not opened while a servo runs, but for the next one.
   Right().opens = true;
   Tick(10);
   EXPECT_EQ(hands[1]->state(), DeviceState::kAbsent);
@@ -279,7 +279,7 @@ TEST_F(OpenHapticsTest, OneThatDoesNotOpenIsNamedAndTheOtherIsHeld) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(OpenHapticsTest, WhereNoneOpensNothingIsScheduled) {
+TEST_F(OpenHapticsTest, SchedulesNothingWhereNoDeviceOpens) {
   Left().opens = Right().opens = false;
   Open();
   EXPECT_FALSE(OpenHaptics().is_running);
@@ -289,7 +289,7 @@ TEST_F(OpenHapticsTest, WhereNoneOpensNothingIsScheduled) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(OpenHapticsTest, ASchedulerThatDoesNotStartIsToldAndNoDeviceStaysOpen) {
+TEST_F(OpenHapticsTest, ReportsASchedulerThatDoesNotStartAndClosesTheDevices) {
   OpenHaptics().starts = false;
   Open();
   EXPECT_NE(devices->detail(0).find("scheduler of OpenHaptics did not start"), std::string::npos);
@@ -302,7 +302,7 @@ TEST_F(OpenHapticsTest, ASchedulerThatDoesNotStartIsToldAndNoDeviceStaysOpen) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(OpenHapticsTest, TheNextServoMustSeeTheDeadManLetGo) {
+TEST_F(OpenHapticsTest, TheNextServoNeedsAReleasedDeadMan) {
   Arm();
   Tick(3, kForce);
   Hold();
@@ -316,7 +316,7 @@ TEST_F(OpenHapticsTest, TheNextServoMustSeeTheDeadManLetGo) {
   EXPECT_EQ(LastForce(Left()), kForce);
 }
 
-TEST_F(OpenHapticsTest, ALostOneIsOpenedAgainForTheNextServoAndItsFellowKeepsItsForce) {
+TEST_F(OpenHapticsTest, OpensALostDeviceAgainForTheNextServo) {
   Arm();
   Left().errors = {HD_COMM_ERROR};
   Tick(3, kForce);
@@ -341,7 +341,7 @@ TEST_F(OpenHapticsTest, ALostOneIsOpenedAgainForTheNextServoAndItsFellowKeepsIts
 
 using OpenHapticsDeathTest = OpenHapticsTest;
 
-TEST_F(OpenHapticsDeathTest, AProgramThatCrashesSaysZeroFirst) {
+TEST_F(OpenHapticsDeathTest, ACrashingProgramWritesZeroFirst) {
   test::TempFolder folder;
   const auto file = folder / "forces";
   const auto crash = [&] {
@@ -350,7 +350,7 @@ TEST_F(OpenHapticsDeathTest, AProgramThatCrashesSaysZeroFirst) {
     const std::shared_ptr<OpenHapticsDevices> shared = std::move(devices);
     const ReleaseOnCrash guard({shared});
     const int out = ::open(file.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0600);
-    // The library's thread; `now` stands still, so that nobody falls silent.
+    // Thread of the library; `now` is constant, so that the servo does not count as silent.
     std::thread scheduler([&] {
       for (;;) {
         OpenHaptics().Tick();
@@ -359,7 +359,7 @@ TEST_F(OpenHapticsDeathTest, AProgramThatCrashesSaysZeroFirst) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });
-    // It ticks, at whatever rate the machine has for it.
+    // Waits for ticks, at any rate.
     for (int i = 0; i < 300000 && std::filesystem::file_size(file) < 5; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::abort();

@@ -1,6 +1,5 @@
-// Devices that hold the hands of a practice (simulation/practice/hands/hands.h), on a bus made
-// here. Plugged-in devices are read by the servo's own thread; those tests wait for the expected
-// state.
+// Devices that hold the hands of a practice (simulation/practice/hands/hands.h), on a fake bus.
+// Plugged-in devices are read by the servo thread, so those tests wait for their result.
 #include "simulation/practice/hands/hands.h"
 
 #include <atomic>
@@ -31,7 +30,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr double kFrame = 1.0 / 60;
 
-// A socket of the bus: what is plugged in, what it says and what it was told.
+// Socket of the bus: its device, the reports of the device and those written to it.
 struct Socket {
   HidNode node;
   std::atomic<bool> is_plugged{false};
@@ -99,7 +98,7 @@ class SocketBus final : public HidBus {
   std::deque<Socket>& sockets_;
 };
 
-// 350 is a full push.
+// Push of a SpaceMouse, 350 counts at most.
 Bytes Push(int x, int y, int z) {
   Bytes report(13, 0);
   report[0] = 1;
@@ -114,7 +113,7 @@ Bytes Push(int x, int y, int z) {
 Bytes PadButtons(bool is_cross_down) {
   Bytes report(64, 0);
   report[0] = 1;
-  report[5] = is_cross_down ? 0x28 : 0x08;  // no arrow; cross
+  report[5] = is_cross_down ? 0x28 : 0x08;  // no direction; cross
   return report;
 }
 
@@ -141,7 +140,7 @@ class PractisedHands : public testing::Test {
     hands->Look();
     practice->Advance(kFrame, hands.get());
   }
-  // Frames until it is so, at least five minutes: a bound against a hang.
+  // Shows frames until the condition holds, for at least five minutes as a bound against a hang.
   bool FramesUntil(const std::function<bool()>& is_so) {
     for (int i = 0; i < 60000 && !is_so(); ++i) {
       if (practice) Frame();
@@ -164,7 +163,7 @@ class PractisedHands : public testing::Test {
   std::optional<Practice> practice;
 };
 
-TEST_F(PractisedHands, ADeviceTakesItsHandWhenItIsPluggedInAndMouseAndKeysGoOnWhenItIsNot) {
+TEST_F(PractisedHands, APluggedInDeviceTakesItsHandAndMouseAndKeysContinueAfterIt) {
   HandsChoice choice;
   choice.rig = Rig();
   Make(choice);
@@ -177,7 +176,7 @@ TEST_F(PractisedHands, ADeviceTakesItsHandWhenItIsPluggedInAndMouseAndKeysGoOnWh
   practice->scope().Advance({0, 0, 0, 0.002});
   EXPECT_TRUE(FramesUntil([&] { return std::abs(depth() - meant) < 1e-9; })) << "mouse and keys";
 
-  // Plugged in, and pushed to the right.
+  // Plugs it in and pushes it to the right.
   sockets[0].is_plugged = true;
   ASSERT_TRUE(FramesUntil([&] { return hands->Leads(DeviceRole::kScope); }));
   EXPECT_EQ(hands->Missing(DeviceRole::kScope), "");
@@ -189,7 +188,7 @@ TEST_F(PractisedHands, ADeviceTakesItsHandWhenItIsPluggedInAndMouseAndKeysGoOnWh
   EXPECT_LT(practice->snapshot().scope.tip_in_portal.x, tip.x)
       << "a rod turns about its incision: hand right, tip left";
 
-  // Pulled: the hand stays where it is, and keys move it on.
+  // Unplugs it: the hand stays where it is, and keys move it further.
   sockets[0].is_plugged = false;
   ASSERT_TRUE(FramesUntil([&] { return !hands->Leads(DeviceRole::kScope); }));
   const glm::dvec3 left = practice->snapshot().scope.tip_in_portal;
@@ -203,12 +202,12 @@ TEST_F(PractisedHands, ADeviceTakesItsHandWhenItIsPluggedInAndMouseAndKeysGoOnWh
   EXPECT_TRUE(FramesUntil([&] { return std::abs(depth() - meant) < 1e-6; })) << depth() - meant;
   EXPECT_NE(hands->Now(DeviceRole::kScope).last_fault.find("unplugged"), std::string::npos);
 
-  // And in again.
+  // Plugs it in again.
   sockets[0].is_plugged = true;
   EXPECT_TRUE(FramesUntil([&] { return hands->Leads(DeviceRole::kScope); }));
 }
 
-TEST_F(PractisedHands, APadsButtonClosesTheJawsAndThePadRumblesByTheForce) {
+TEST_F(PractisedHands, APadClosesTheJawsByItsButtonAndRumblesWithTheForce) {
   HandsChoice choice;
   choice.rig = Rig();
   Make(choice);
@@ -225,7 +224,7 @@ TEST_F(PractisedHands, APadsButtonClosesTheJawsAndThePadRumblesByTheForce) {
     return practice->snapshot().instrument.opening > 0.9;
   }));
 
-  // Into the wall, and still there.
+  // Moves into the wall and rests.
   practice->instrument().Advance({0, 0, 0, 0.1});
   const auto force = [&] { return glm::length(practice->snapshot().instrument.hand_force); };
   ASSERT_TRUE(FramesUntil([&] { return force() > 0.1; }));
@@ -241,14 +240,14 @@ TEST_F(PractisedHands, APadsButtonClosesTheJawsAndThePadRumblesByTheForce) {
   EXPECT_TRUE(FramesUntil([&] { return sockets[1].Told()[4] == 0; }));
 }
 
-TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZeroForceMode) {
+TEST_F(PractisedHands, ASimulatedHandIsPushedOnlyWhileArmed) {
   HandsChoice choice;
   choice.is_simulated = true;
   Make(choice);
   const auto frames = [&](int count) {
     for (int i = 0; i < count; ++i) Frame();
   };
-  // Some millimetres into the wall.
+  // Moves some millimetres into the wall.
   const auto pressed = [&] { return glm::length(practice->snapshot().instrument.tip_force); };
   for (int i = 0; i < 200 && pressed() < 1.0; ++i) {
     practice->instrument().Advance({0, 0, 0, 0.0005});
@@ -266,8 +265,8 @@ TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZero
   EXPECT_STREQ(WhyNoForce(instrument().situation), "");
   EXPECT_NEAR(instrument().given, instrument().felt, 1e-9);
   EXPECT_LT(practice->snapshot().instrument.penetration, unheld);
-  // In the mean over two seconds the force, the hand's spring of 300 N/m and at most 0.26 N of
-  // friction on each axis balance; a count of 0.055 mm is 0.017 N of that spring.
+  // In the mean over two seconds the force balances the spring of the hand, 300 N/m, and at most
+  // 0.26 N of friction per axis. A count of 0.055 mm is 0.017 N of that spring.
   const DeviceRig& rig = loaded.scene.rig.instrument;
   glm::dvec3 left(0.0);
   constexpr int kFrames = 120;
@@ -292,8 +291,8 @@ TEST_F(PractisedHands, TheSimulatedHandIsPushedWhileTheDeadManIsHeldAndNotInZero
   EXPECT_EQ(instrument().given, 0);
 }
 
-TEST_F(PractisedHands, ARecordedPairIsPlayedAndThenHandsItsHandsToTheMouse) {
-  // Half a second of the scope going in by 5 mm; the instrument is not in it.
+TEST_F(PractisedHands, MouseAndKeysContinueAfterARecordingEnds) {
+  // Records 0.5 s of the scope moving in by 5 mm, without the instrument.
   const DeviceRig& rig = loaded.scene.rig.scope;
   HandsChoice choice;
   for (const double t : {7.0, 7.5}) {
@@ -316,7 +315,7 @@ TEST_F(PractisedHands, ARecordedPairIsPlayedAndThenHandsItsHandsToTheMouse) {
   EXPECT_NEAR(practice->snapshot().scope.pose.depth, 0.017, 2e-5);
 }
 
-TEST_F(PractisedHands, ALogHoldsWhatTheServoSawOfBothHandsAndWhatItCommanded) {
+TEST_F(PractisedHands, LogsSamplesAndCommandsOfBothHands) {
   HandsChoice choice;
   choice.is_simulated = true;
   choice.log = folder / "practice.log";
@@ -342,14 +341,14 @@ TEST_F(PractisedHands, ALogHoldsWhatTheServoSawOfBothHandsAndWhatItCommanded) {
   EXPECT_NEAR(trace.back().sample.t, t, 3e-3);
 }
 
-TEST_F(PractisedHands, ALogThatCannotBeWrittenIsToldAtTheBeginning) {
+TEST_F(PractisedHands, RefusesALogThatCannotBeWritten) {
   HandsChoice choice;
   choice.is_simulated = true;
   choice.log = folder / "no such folder" / "practice.log";
   EXPECT_THROW(Make(choice), Error);
 }
 
-// A force device that holds the scope 20 mm behind the wall, on the machine's own clock.
+// A force device holds the scope 20 mm behind the wall, on the clock of the machine.
 class PractisedArm : public testing::Test {
  protected:
   static constexpr const char* kPath = "/dev/fake0";
@@ -361,7 +360,7 @@ class PractisedArm : public testing::Test {
     scope.device.serial = "A";
     scope.device.model = "woodenhaptics_2015";
     scope.mount.rod_length = 0.3;
-    // Home position of the arm; the rod points straight in from there.
+    // Pivot straight in from the home position of the arm.
     const double to_incision = 0.3 - loaded.scene.backdrop.radius - 0.02;
     scope.mount.pivot = glm::dvec3(0.025, 0, 0.205 + to_incision);
     LiveOptions options;
@@ -384,7 +383,7 @@ class PractisedArm : public testing::Test {
     });
   }
   bool IsPushed() { return test::CurrentsAt(usb, kPath) != std::array<int, 3>{}; }
-  // Until the wall pushes it.
+  // Begins a practice and waits until the wall pushes it.
   bool Begin() {
     practice.emplace(std::make_unique<Session>(loaded), loaded.scene);
     hands->HoldDeadMan(false);
@@ -405,7 +404,7 @@ class PractisedArm : public testing::Test {
   std::optional<Practice> practice;
 };
 
-TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
+TEST_F(PractisedArm, IsPushedOnlyWhileAPracticeRuns) {
   FramesUntil(
       [&] { return hands->Now(DeviceRole::kScope).situation.status.state == DeviceState::kReady; });
   hands->HoldDeadMan(true);
@@ -414,7 +413,7 @@ TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
       << hands->Now(DeviceRole::kScope).sentence;
   ASSERT_TRUE(Begin());
   EXPECT_TRUE(hands->Leads(DeviceRole::kScope));
-  // Peak of the device; a spring with its viscosity is stable to 781 N/m, at 3.3 N.
+  // Limits of the device: a viscous spring is stable to 781 N/m, at 3.3 N.
   EXPECT_LE(hands->Now(DeviceRole::kScope).given, hands->Now(DeviceRole::kScope).peak);
 
   // Esc.
@@ -429,7 +428,7 @@ TEST_F(PractisedArm, IsPushedByTheServoOfItsPracticeAndOnlyWhileOneRuns) {
   EXPECT_TRUE(Begin()) << "and in the next one again";
 }
 
-TEST_F(PractisedArm, IsLetGoWhenTheDeadManOrTheModeOrTheWindowSaysSo) {
+TEST_F(PractisedArm, GetsNoForceWithoutDeadManInZeroForceModeOrWithAHangingWindow) {
   ASSERT_TRUE(Begin());
   hands->HoldDeadMan(false);
   EXPECT_TRUE(FramesUntil([&] { return !IsPushed(); }));
@@ -449,7 +448,7 @@ TEST_F(PractisedArm, IsLetGoWhenTheDeadManOrTheModeOrTheWindowSaysSo) {
 }
 
 // However the dead-man is held; and it comes back by a ramp, where the incision then is.
-TEST_F(PractisedArm, IsNotPushedWhileAnIncisionIsCalibratedAndGentlyAfterIt) {
+TEST_F(PractisedArm, GetsNoForceDuringACalibrationAndARampAfterIt) {
   ASSERT_TRUE(Begin());
   hands->Calibrate(DeviceRole::kInstrument);
   ASSERT_TRUE(FramesUntil([&] { return !IsPushed(); })) << "whichever hand it is";
@@ -472,7 +471,7 @@ TEST_F(PractisedArm, IsNotPushedWhileAnIncisionIsCalibratedAndGentlyAfterIt) {
   EXPECT_EQ(state(), DeviceState::kArmed);
 }
 
-TEST_F(PractisedArm, IsLetGoByAnException) {
+TEST_F(PractisedArm, GetsNoForceAfterAnException) {
   ASSERT_TRUE(Begin());
   try {
     const std::unique_ptr<Hands> own = std::move(hands);
@@ -488,7 +487,7 @@ TEST_F(PractisedArm, IsLetGoByAnException) {
     EXPECT_EQ(written[i], test::Bytes(15)) << i;
 }
 
-TEST(HeldHands, AHandThatItsDeviceLeavesStaysAtThePoseThatTheSessionComputed) {
+TEST(HeldHands, AHandLeftByItsDeviceContinuesFromThePoseOfTheSession) {
   const DeviceRig rig;
   const auto sample_at = [&rig](double t, const RodPose& pose) {
     return DeviceSample{t, HipFromRodPose(pose, rig), HandleFromRodPose(pose, rig), 0, true};

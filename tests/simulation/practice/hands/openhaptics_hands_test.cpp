@@ -1,5 +1,5 @@
-// A Touch that holds the instrument of a practice, behind a fake library whose scheduler is a
-// thread here: from its pose to the scene, and from the wall's force to its motors.
+// A Touch holds the instrument of a practice, behind a fake library with a scheduler thread: tests
+// its pose in the scene and the force of the wall at its motors.
 #include <HD/hd.h>
 #include <atomic>
 #include <chrono>
@@ -28,7 +28,7 @@ using test::OpenHaptics;
 constexpr double kFrame = 1.0 / 60;
 constexpr DeviceRole kInstrument = DeviceRole::kInstrument;
 
-// The library's own thread, about 1 kHz.
+// Scheduler thread of the library, about 1 kHz.
 class SchedulerThread {
  public:
   ~SchedulerThread() {
@@ -66,7 +66,7 @@ class PractisedTouch : public testing::Test {
     Begin();
   }
   void Begin() { practice.emplace(std::make_unique<Session>(loaded), loaded.scene); }
-  // The hand straight in until the tip is so far behind the wall, m.
+  // Moves the hand straight in until the tip is `behind` the wall, m.
   void Place(double behind) {
     const glm::dvec3 hip = RestingHip(rig.instrument->mount, loaded.scene.backdrop.radius + behind);
     const auto lock = test::HoldOpenHaptics();
@@ -95,7 +95,7 @@ class PractisedTouch : public testing::Test {
     hands->Look();
     if (practice) practice->Advance(kFrame, hands.get());
   }
-  // At least five minutes: a bound against a hang.
+  // Waits at least five minutes, as a bound against a hang.
   bool FramesUntil(const std::function<bool()>& is_so) {
     for (int i = 0; i < 60000 && !is_so(); ++i) {
       Frame();
@@ -108,8 +108,8 @@ class PractisedTouch : public testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return is_so();
   }
-  // With the button held that the rig binds, as somebody does who wants to go on: let go where the
-  // device says so, which it may when this machine was held up.
+  // Holds the button that the rig binds, and releases it where the device asks for it, which
+  // happens when this machine stalls.
   bool HeldUntil(const std::function<bool()>& is_so) {
     return FramesUntil([&] {
       HoldStylusButton(!hands->Now(kInstrument).situation.status.must_release);
@@ -130,7 +130,7 @@ class PractisedTouch : public testing::Test {
   std::optional<Practice> practice;
 };
 
-TEST_F(PractisedTouch, ItsPoseLeadsTheInstrumentAndTheScopeStaysTheMouses) {
+TEST_F(PractisedTouch, PoseLeadsTheInstrumentAndTheMouseLeadsTheScope) {
   Make();
   ASSERT_TRUE(FramesUntil([&] { return hands->Leads(kInstrument); }));
   EXPECT_FALSE(hands->Leads(DeviceRole::kScope));
@@ -140,14 +140,14 @@ TEST_F(PractisedTouch, ItsPoseLeadsTheInstrumentAndTheScopeStaysTheMouses) {
   const double depth = loaded.scene.backdrop.radius + kBehind;
   const auto told = [&] { return practice->snapshot().instrument.pose; };
   EXPECT_TRUE(FramesUntil([&] { return std::abs(told().depth - depth) < 1e-9; })) << told().depth;
-  // To the right: the rod turns about its incision, so the tip goes left.
+  // A hand moving right turns the rod about its incision, so the tip moves left.
   Touch([](FakeTouch& touch) { touch.position_mm[0] = 10; });
   const double turned = std::atan2(0.010, 0.2 - depth);
   EXPECT_TRUE(FramesUntil([&] { return std::abs(told().longitude + turned) < 1e-9; }))
       << told().longitude;
 }
 
-TEST_F(PractisedTouch, ForceReachesItOnlyWhileTheBoundButtonIsHeldAndWithinWhatItBears) {
+TEST_F(PractisedTouch, GetsForceWithinItsLimitsOnlyWhileTheBoundButtonIsHeld) {
   Make();
   const auto tip_force = [&] { return glm::length(practice->snapshot().instrument.tip_force); };
   ASSERT_TRUE(FramesUntil([&] { return hands->Leads(kInstrument) && tip_force() > 0.1; }))
@@ -160,7 +160,7 @@ TEST_F(PractisedTouch, ForceReachesItOnlyWhileTheBoundButtonIsHeldAndWithinWhatI
             std::string::npos);
 
   ASSERT_TRUE(Push());
-  // Out of the wall, towards who sits there.
+  // The force points out of the wall, towards the user.
   EXPECT_GT(LastForce().z, 0);
   EXPECT_TRUE(HeldUntil([&] { return glm::length(LastForce()) > 0.3; }));
   HoldStylusButton(false);
@@ -170,7 +170,7 @@ TEST_F(PractisedTouch, ForceReachesItOnlyWhileTheBoundButtonIsHeldAndWithinWhatI
   EXPECT_TRUE(FramesUntil([&] { return !IsPushed(); }));
   hands->SetZeroForce(false);
   ASSERT_TRUE(Push());
-  // A window that hangs shows no frames.
+  // A hanging window shows no frames.
   EXPECT_TRUE(Until([&] { return !IsPushed(); }));
   Touch([](FakeTouch& touch) {
     for (const auto& f : touch.forces)
@@ -178,7 +178,7 @@ TEST_F(PractisedTouch, ForceReachesItOnlyWhileTheBoundButtonIsHeldAndWithinWhatI
   });
 }
 
-TEST_F(PractisedTouch, TheEndOfAPracticeAndOfTheProgramAreWithoutForce) {
+TEST_F(PractisedTouch, GetsNoForceAfterThePracticeAndTheProgramEnd) {
   Make();
   ASSERT_TRUE(Push());
   practice.reset();
@@ -199,7 +199,7 @@ TEST_F(PractisedTouch, TheEndOfAPracticeAndOfTheProgramAreWithoutForce) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(PractisedTouch, ALostOneIsTheMousesAndIsTheHandsAgainInTheNextPractice) {
+TEST_F(PractisedTouch, AfterALossTheMouseLeadsUntilTheNextPractice) {
   Make();
   ASSERT_TRUE(Push());
   Touch([](FakeTouch& touch) { touch.errors = {HD_COMM_ERROR}; });
@@ -215,7 +215,7 @@ TEST_F(PractisedTouch, ALostOneIsTheMousesAndIsTheHandsAgainInTheNextPractice) {
   EXPECT_EQ(OpenHaptics().wrong_calls, 0);
 }
 
-TEST_F(PractisedTouch, OneThatIsNotThereLeavesItsHandToTheMouse) {
+TEST_F(PractisedTouch, AnAbsentDeviceLeavesItsHandToTheMouse) {
   Touch([](FakeTouch& touch) { touch.opens = false; });
   Make();
   for (int i = 0; i < 5; ++i) Frame();
@@ -233,7 +233,7 @@ TEST_F(PractisedTouch, OneThatIsNotThereLeavesItsHandToTheMouse) {
   EXPECT_TRUE(FramesUntil([&] { return hands->Leads(kInstrument); }));
 }
 
-TEST_F(PractisedTouch, ItsPracticeIsLoggedTickByTick) {
+TEST_F(PractisedTouch, LogsEachTickOfThePractice) {
   log = folder / "practice.log";
   Make();
   ASSERT_TRUE(Push());
@@ -250,7 +250,7 @@ TEST_F(PractisedTouch, ItsPracticeIsLoggedTickByTick) {
   EXPECT_FALSE(TraceOf(content).empty());
 }
 
-TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIs) {
+TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIsInstalled) {
   EXPECT_NO_THROW(ReadHands(
       std::filesystem::path(ARTHRO_SOURCE_DIR) / "resources/presets/rigs/touch_instrument.json",
       ""));

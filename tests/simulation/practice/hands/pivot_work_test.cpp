@@ -1,5 +1,5 @@
-// The calibration of an incision as it goes on (simulation/practice/hands/pivot_work.h), fed with a
-// hand whose incision is known: 1 kHz, rounded to a Touch-class device's quantum.
+// A running calibration (simulation/practice/hands/pivot_work.h), fed with a hand of known incision
+// at 1 kHz, rounded to the quantum of a Touch-class device.
 #include "simulation/practice/hands/pivot_work.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ const DeviceRig kRig{{0.012, -0.034, 0.11}, {1, 0, 0, 0}, 0.2};
 
 struct Hand {
   explicit Hand(PivotWork& own) : work(own) {}
-  // Stays there for so long.
+  // Stays there for `seconds`.
   void Rest(const RodPose& pose, double seconds, std::uint32_t buttons = 0) {
     for (int i = 0; i < std::lround(1e3 * seconds); ++i) Say(pose, buttons);
   }
@@ -46,7 +46,7 @@ RodPose Tilted(double degrees) { return {0.1, RadiansFromDegrees(degrees), 0.2, 
 
 double ErrorOf(const PivotWork& work) { return glm::distance(*work.found().pivot, kRig.pivot); }
 
-TEST(PivotWork, TwoPressesOfTheHandlesButtonFindTheIncisionWithinThreeSigma) {
+TEST(PivotWork, TwoPressesFindTheIncisionWithinThreeSigma) {
   PivotWork work(kRig.rod_length, PivotOptionsOf(Caps()));
   Hand hand(work);
   hand.Rest(Tilted(0), 0.2, 1);
@@ -73,7 +73,7 @@ TEST(PivotWork, TwoPressesOfTheHandlesButtonFindTheIncisionWithinThreeSigma) {
   EXPECT_FALSE(work.MayBeUsed());
 }
 
-TEST(PivotWork, ANarrowPairAndAMovingHandAreRefusedInWords) {
+TEST(PivotWork, RefusesANarrowPairAndAMovingHandWithAReason) {
   PivotWork work(kRig.rod_length, PivotOptionsOf(Caps()));
   Hand hand(work);
   hand.Rest(Tilted(0), 0.05);
@@ -89,7 +89,7 @@ TEST(PivotWork, ANarrowPairAndAMovingHandAreRefusedInWords) {
   EXPECT_EQ(work.found().status, PivotStatus::kTooNarrow);
   EXPECT_NE(work.found().reason.find("degrees"), std::string::npos);
   EXPECT_FALSE(work.MayBeUsed());
-  // A third one further off mends it.
+  // A third press at a larger angle makes it usable.
   work.Press();
   hand.Rest(Tilted(-35), 0.2);
   EXPECT_TRUE(work.MayBeUsed()) << work.found().reason;
@@ -101,8 +101,8 @@ TEST(PivotWork, ANarrowPairAndAMovingHandAreRefusedInWords) {
   EXPECT_TRUE(work.MayBeUsed()) << "the presses before stand";
 }
 
-TEST(PivotWork, AWrongRodLengthIsWarnedOfAndMayBeUsed) {
-  PivotWork work(0.10, PivotOptionsOf(Caps()));  // the incision is 0.15 from the hand
+TEST(PivotWork, WarnsOfAWrongRodLengthAndAllowsIt) {
+  PivotWork work(0.10, PivotOptionsOf(Caps()));  // the incision is 0.15 m from the hand
   Hand hand(work);
   for (const double degrees : {0.0, 35.0}) {
     hand.Rest(Tilted(degrees), 0.05);
@@ -114,7 +114,7 @@ TEST(PivotWork, AWrongRodLengthIsWarnedOfAndMayBeUsed) {
   EXPECT_LT(ErrorOf(work), 3 * work.found().sigma) << "the number is right";
 }
 
-TEST(PivotWork, ASwingIsFittedFourTimesASecondBesideTheWindow) {
+TEST(PivotWork, FitsASwingFourTimesPerSecond) {
   PivotWork work(kRig.rod_length, PivotOptionsOf(Caps()));
   work.Begin(PivotSource::kSwing);
   Hand hand(work);
@@ -136,7 +136,7 @@ TEST(PivotWork, ASwingIsFittedFourTimesASecondBesideTheWindow) {
   EXPECT_EQ(work.found().status, PivotStatus::kOk) << work.found().reason;
   EXPECT_LT(ErrorOf(work), 3 * work.found().sigma);
   EXPECT_GT(DegreesFromRadians(work.angle()), 30);
-  // A fit that comes back after everything was begun anew is passed over.
+  // A fit that returns after a new beginning is ignored.
   work.Begin();
   work.TakeFit(*old, old->Found());
   EXPECT_FALSE(work.MayBeUsed());
@@ -144,8 +144,8 @@ TEST(PivotWork, ASwingIsFittedFourTimesASecondBesideTheWindow) {
   EXPECT_NE(work.found().reason.find("keep swinging"), std::string::npos) << work.found().reason;
 }
 
-// Stated noise changes what is found at once.
-TEST(PivotWork, NoiseOfTheHandleIsTakenIntoAccount) {
+// Stated noise changes the result at once.
+TEST(PivotWork, UsesTheStatedNoiseOfTheHandle) {
   DeviceCaps caps = Caps();
   caps.gimbal_sigma = RadiansFromDegrees(0.1);
   PivotWork work(kRig.rod_length, PivotOptionsOf(caps));

@@ -1,4 +1,4 @@
-// The one sentence about a hand without force (simulation/practice/hands/why_no_force.h).
+// Sentence about a hand without force (simulation/practice/hands/why_no_force.h).
 #include "simulation/practice/hands/why_no_force.h"
 
 #include <limits>
@@ -9,7 +9,7 @@
 namespace arthro::simulation {
 namespace {
 
-// A force device that pushes.
+// Situation of a force device that pushes.
 ForceSituation Pushing() {
   ForceSituation s;
   s.kind = HandKind::kPluggedIn;
@@ -27,9 +27,9 @@ bool Says(const ForceSituation& situation, const char* part) {
   return sentence.find(part) != std::string::npos;
 }
 
-TEST(WhyNoForce, IsSilentWhereThereIsForce) { EXPECT_STREQ(WhyNoForce(Pushing()), ""); }
+TEST(WhyNoForce, IsEmptyWhereThereIsForce) { EXPECT_STREQ(WhyNoForce(Pushing()), ""); }
 
-TEST(WhyNoForce, NamesEachThingThatIsAloneInTheWay) {
+TEST(WhyNoForce, NamesEachSingleObstacle) {
   const auto with = [](auto change) {
     ForceSituation s = Pushing();
     change(s);
@@ -66,7 +66,7 @@ TEST(WhyNoForce, NamesEachThingThatIsAloneInTheWay) {
   EXPECT_TRUE(Says(with([](auto& s) { s.has_force = false; }), "Nothing is touched"));
 }
 
-TEST(WhyNoForce, NamesFirstWhatMustBeMendedFirst) {
+TEST(WhyNoForce, NamesTheFirstObstacleToRemove) {
   ForceSituation s = Pushing();
   s.has_force = s.is_dead_man_held = false;
   s.is_zero_force = true;
