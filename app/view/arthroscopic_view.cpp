@@ -20,7 +20,7 @@
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/lens_model.h"
-#include "app/view/lens_shader.h"
+#include "app/view/shaders/constants.h"
 #include "app/view/srgb.h"
 #include "simulation/core/error.h"
 

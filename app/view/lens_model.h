@@ -18,13 +18,12 @@
 #include <vtkPolyData.h>
 
 #include "app/view/exposure/metered_models.h"
+#include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
-
-inline constexpr double kLampAside = 1.1e-3;  // m, of a 4 mm arthroscope
 
 // The instrument as it shades what is behind it: its rod, and the part that stands away from it, a
 // hook or an open jaw. m, in the lens' frame (x right, y up, -z along the view).

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/view/shaders/constants.h"
+
 namespace arthro::app {
 
 inline double LinearFromSrgb(std::uint8_t byte) {
@@ -20,7 +22,7 @@ inline double SrgbFromLinear(double linear) {
 
 // Of linear light [ITU-R BT.709].
 inline double Luma(const glm::dvec3& colour) {
-  return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+  return glm::dot(colour, glm::dvec3(kLumaRed, kLumaGreen, kLumaBlue));
 }
 
 }  // namespace arthro::app

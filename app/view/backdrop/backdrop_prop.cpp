@@ -14,10 +14,8 @@
 #include <vtkViewport.h>
 #include <vtk_glew.h>
 
-#include "app/view/backdrop/backdrop_shader.h"
-#include "app/view/backdrop/relief_shader.h"
 #include "app/view/exposure/automatic_gain.h"
-#include "app/view/lens_shader.h"
+#include "app/view/shader_text.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -157,40 +155,29 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   const bool has_lens = !simulation::IsEquisolid(picture_.lens);
   const bool is_relit = backdrop_.relight > 0 && !picture_.plain;
   const bool has_rod = shade_.rod.radius > 0 && !picture_.plain;
-  const std::size_t head_variant =
-      (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u) + (wraps_ ? 4u : 0u);
-  const std::size_t variant = head_variant + (has_relief ? 8u : 0u) + (has_cells ? 16u : 0u) +
-                              (picture_.plain ? 32u : 0u) + (is_relit ? 64u : 0u) +
-                              (has_rod ? 128u : 0u);
-  const auto head = [&] {
-    std::string source = kBackdropHead;
-    if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
-    if (wraps_) source += "#define WRAPS\n";
-    if (has_lens) source += std::string("#define LENS\n") + kLensUniforms + kLensFactor;
-    return source + kLensRay;
+  std::vector<std::string> defines;
+  std::size_t variant = 0, bit = 1;
+  const auto define = [&](bool is_on, const char* name) {
+    if (is_on) defines.push_back(name), variant |= bit;
+    bit <<= 1;
   };
+  define(is_equirectangular, "EQUIRECTANGULAR");
+  define(has_lens, "LENS");
+  define(wraps_, "WRAPS");
   relief_->Activate();
   if (has_relief) ceiling_->Activate();
   if (has_cells) {
-    if (!cells_.Has(head_variant)) cells_.SetShaders(head_variant, head());
+    if (!cells_.Has(variant)) cells_.SetShaders(variant, defines);
     cells_.Draw(window, size_, picture_.relief.cell,
                 [this](vtkShaderProgram& program) { SetUniforms(program); });
   }
+  define(has_relief, "RELIEF");
+  define(has_cells, "CELLS");
+  define(picture_.plain, "PLAIN");
+  define(is_relit, "RELIT");
+  define(has_rod, "ROD");
   auto& pass = passes_[variant];
-  if (!pass) {
-    std::string source = head();
-    if (picture_.plain) source += "#define PLAIN\n";
-    if (has_relief) source += "#define RELIEF\n";
-    if (has_cells) source += "#define CELLS\n";
-    if (is_relit) source += "#define RELIT\n";
-    if (has_rod) source += std::string("#define ROD\n") + kRodShade;
-    for (const char* part :
-         {kDepthShader, kLightShader, kLampShader, kPanoramaFilter, kPanoramaPlace,
-          has_relief ? kReliefSides : "", has_relief ? kReliefSearch : "",
-          has_cells ? kReliefFromCells : "", kBackdropMain})
-      source += part;
-    pass.emplace(source, ShaderPass::Shape::kRound);
-  }
+  if (!pass) pass.emplace(ShaderText("backdrop.glsl", defines), ShaderPass::Shape::kRound);
   vtkShaderProgram* program = pass->Ready(window);
   if (program == nullptr) return 0;
 

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/view/shaders/constants.h"
 #include "simulation/scene/image.h"
 #include "simulation/scene/scene.h"
 
@@ -65,9 +66,5 @@ FootageLight MeasureLight(const LightGrid& grid);
 // nothing.
 FootageLight MeasureLight(const LightGrid& grid, const Projection& projection,
                           const glm::dvec3& direction, double angle);
-
-// The lamp: light falls as reach² / (distance² + kLampRadius²), the fibres being a ring, not a
-// point.
-inline constexpr double kLampRadius = 0.004;  // m
 
 }  // namespace arthro::app

@@ -1,11 +1,12 @@
 // Where the relief lies along the rays through the corners of cells of pixels, found once a cell
-// instead of once a pixel, as textures for the backdrop's shader (relief_shader.h). Made anew for
-// each frame, in textures that stay.
+// instead of once a pixel, as textures for the backdrop's shader (relief_by_cells.glsl). Made anew
+// for each frame, in textures that stay.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
@@ -20,9 +21,9 @@ namespace arthro::app {
 
 class ReliefCells {
  public:
-  // `head`: what both passes' shaders begin with; `variant` tells one from another.
+  // `variant` is a number that stands for `defines`.
   bool Has(std::size_t variant) const { return find_corners_ && variant == variant_; }
-  void SetShaders(std::size_t variant, const std::string& head);
+  void SetShaders(std::size_t variant, const std::vector<std::string>& defines);
   // `set` gives a program its uniforms. A picture of size x size pixels, cells of cell x cell.
   void Draw(vtkOpenGLRenderWindow* window, int size, int cell,
             const std::function<void(vtkShaderProgram&)>& set);

@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/view/disturbances/disturbances.h"
+#include "app/view/shaders/constants.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/window_lens.h"
 
@@ -23,9 +24,6 @@ struct DriftingBit {
   double opacity = 1;
   double softness = 0;  // of its edge, in its radii: out of focus
 };
-
-inline constexpr int kMostBubbles = 24, kMostFlakes = 48;
-inline constexpr double kFibreShare = 0.45;
 
 // How many of them a strength gives: at least one where it is not 0. Not all are in sight.
 int BubbleCount(double strength);

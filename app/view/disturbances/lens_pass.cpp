@@ -9,9 +9,8 @@
 #include <vtk_glew.h>
 
 #include "app/view/disturbances/drifting_bits.h"
-#include "app/view/disturbances/lens_pass_shader.h"
 #include "app/view/disturbances/murk_field.h"
-#include "app/view/lens_shader.h"
+#include "app/view/shader_text.h"
 
 namespace arthro::app {
 namespace {
@@ -28,18 +27,14 @@ constexpr double kFogBlur = 0.09;
 // What of the picture a variant of a shader disturbs: a processor goes both ways of every if.
 constexpr std::size_t kHaze = 1, kFog = 2, kOverexposed = 4, kBlur = 8, kNearBlur = 16;
 
-std::string Defines(std::size_t variant) {
-  std::string defines;
-  if (variant & kHaze) defines += "#define HAZE\n";
-  if (variant & kFog) defines += "#define FOG\n";
-  if (variant & kOverexposed) defines += "#define OVEREXPOSED\n";
-  if (variant & kBlur) defines += "#define BLUR\n";
-  if (variant & kNearBlur) defines += "#define NEAR_BLUR\n";
+std::vector<std::string> DefinesOf(std::size_t variant) {
+  std::vector<std::string> defines;
+  if (variant & kHaze) defines.push_back("HAZE");
+  if (variant & kFog) defines.push_back("FOG");
+  if (variant & kOverexposed) defines.push_back("OVEREXPOSED");
+  if (variant & kBlur) defines.push_back("BLUR");
+  if (variant & kNearBlur) defines.push_back("NEAR_BLUR");
   return defines;
-}
-
-std::string Head() {
-  return std::string("//VTK::System::Dec\n//VTK::Output::Dec\n") + kDepthShader + kLensPassHead;
 }
 
 float Float(double value) { return static_cast<float>(value); }
@@ -136,9 +131,8 @@ void LensPass::Gather(const Frame& frame, bool is_far_only) {
   Resize(gathered_, frame.window, frame.size, kLevels, 0);
   Pass& pass = gather_passes_[is_far_only ? 1 : 0];
   vtkShaderProgram* program = Ready(pass, frame, [&] {
-    return ShaderPass(
-        Head() + (is_far_only ? "#define FAR_ONLY\n" : "") + kLightShader + kGatherMain,
-        ShaderPass::Shape::kRound);
+    const std::vector<std::string> defines(is_far_only ? 1 : 0, "FAR_ONLY");
+    return ShaderPass(ShaderText("gather.glsl", defines), ShaderPass::Shape::kRound);
   });
   if (program == nullptr) return;
   program->SetUniformi("picture", frame.colours->GetTextureUnit());
@@ -157,7 +151,7 @@ void LensPass::Spread(const Frame& frame) {
   const int size = std::max(frame.size / kCoarser, 1);
   Resize(spread_, frame.window, size, kLevels, 0);
   vtkShaderProgram* program = Ready(spread_pass_, frame, [] {
-    return ShaderPass(Head() + kSpreadMain, ShaderPass::Shape::kWhole);
+    return ShaderPass(ShaderText("spread.glsl"), ShaderPass::Shape::kWhole);
   });
   if (program == nullptr) return;
   program->SetUniformf("given_pixelsOfAngle",
@@ -206,13 +200,10 @@ void LensPass::SetDisturbed(vtkShaderProgram& program, const Frame& frame) const
 }
 
 void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, Pass& pass,
-                        const char* main) {
+                        const char* file, bool shows_scene) {
   if (bits.empty()) return;
   vtkShaderProgram* program = Ready(pass, frame, [&] {
-    return ShaderPass(Head() + Defines(frame.variant) + kLightShader + kDisturbShader +
-                          "const float fibreShare = " + std::to_string(kFibreShare) + ";\n" +
-                          kBitHead + main,
-                      kBitVertex);
+    return ShaderPass(ShaderText(file, DefinesOf(frame.variant)), ShaderText("bit_vertex.glsl"));
   });
   if (program == nullptr) return;
   places_.clear();
@@ -226,7 +217,7 @@ void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits
   const auto count = static_cast<int>(bits.size());
   program->SetUniform4fv("place", count, places_.data());
   program->SetUniform4fv("look", count, looks_.data());
-  if (main == kBubbleMain) program->SetUniformi("gathered", gathered_.texture->GetTextureUnit());
+  if (shows_scene) program->SetUniformi("gathered", gathered_.texture->GetTextureUnit());
   SetDisturbed(*program, frame);
   vtkOpenGLState* state = frame.window->GetState();
   state->vtkglEnable(GL_BLEND);
@@ -273,7 +264,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
       frame.variant + (is_blurred ? kBlur : 0u) + (d.near_blur > 0 ? kNearBlur : 0u);
   Pass& pass = disturb_passes_[variant];
   if (vtkShaderProgram* program = Ready(pass, frame, [&] {
-        return ShaderPass(Head() + Defines(variant) + kLightShader + kDisturbShader + kDisturbMain,
+        return ShaderPass(ShaderText("disturb.glsl", DefinesOf(variant)),
                           ShaderPass::Shape::kRound);
       })) {
     program->SetUniformi("picture", frame.colours->GetTextureUnit());
@@ -299,8 +290,8 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
     DrawInto(*target_.framebuffer, state, size);
     pass->Draw(size);
     DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens),
-             flake_passes_[frame.variant], kFlakeMain);
-    DrawBits(frame, bubbles, bubble_passes_[frame.variant], kBubbleMain);
+             flake_passes_[frame.variant], "flake.glsl", false);
+    DrawBits(frame, bubbles, bubble_passes_[frame.variant], "bubble.glsl", true);
   }
 
   if (d.haze > 0 || d.fog > 0) murk_->Deactivate();

@@ -48,7 +48,7 @@ class LensPass {
   void Spread(const Frame& frame);
   void TakeMurk(const Frame& frame);
   void DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, Pass& pass,
-                const char* main);
+                const char* file, bool shows_scene);
   void SetDisturbed(vtkShaderProgram& program, const Frame& frame) const;
 
   Target target_, gathered_, spread_;

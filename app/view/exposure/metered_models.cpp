@@ -7,18 +7,22 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "app/view/shaders/constants.h"
+
 namespace arthro::app {
 namespace {
 
-constexpr float kNearestMetered = 0.2e-3f;  // m, as drawn
+constexpr float kNearestMetered = kNearest;  // m
 // Further than this to the side of the view's axis, as a cosine, no lens shows anything.
 constexpr float kBehind = -0.5f;
 
-// Body light of a tissue by how it faces the lens, as its shader has it (app/view/lens_model.cpp).
+// Returns a tissue's diffuse light by its cosine to the lens, as in model_fragment.glsl.
 float FacingLight(float facing) {
-  const float t = std::min(facing / 0.75f, 1.0f);
-  const float scattered = 0.745f + 0.255f * t * t * (3 - 2 * t);
-  return scattered * (0.12f + 0.88f * (facing + 0.3f) / 1.3f);
+  constexpr float kEdge = kWhiteFacing, kOver = kWrap, kLeast = kAmbient;
+  constexpr float kScattered = 0.745f;  // luma of the shader's kScattered
+  const float t = std::min(facing / kEdge, 1.0f);
+  const float scattered = kScattered + (1 - kScattered) * t * t * (3 - 2 * t);
+  return scattered * (kLeast + (1 - kLeast) * (facing + kOver) / (1 + kOver));
 }
 
 float Cross(const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; }
