@@ -1,7 +1,6 @@
 #include "app/commands/tissue_work.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "app/commands/edits.h"
 #include "app/commands/scene_files.h"
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
@@ -18,14 +18,6 @@ namespace arthro::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A tissue's name as a file may bear it.
-std::string FileNameOf(const std::string& name) {
-  std::string file;
-  for (const char c : name)
-    file += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
-  return file.empty() ? "tissue" : file;
-}
 
 }  // namespace
 
@@ -69,7 +61,7 @@ void TetrahedraliseTissue(EditorState& state) {
   wish.fixed = tissue.fixed;
   wish.probed = tissue.probed;
   // Kept beside the window until the scene is saved; saving copies it into the scene's folder.
-  const fs::path file = state.scratch.path() / (FileNameOf(tissue.name) + ".vtu");
+  const fs::path file = state.scratch.path() / (FileNameFrom(tissue.name, "tissue") + ".vtu");
   state.jobs.Start("Make tetrahedra of " + tissue.name, [=](const Progress& progress) {
     authoring::SurfaceSource source;
     source.file = tissue.name;

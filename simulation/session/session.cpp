@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/core/finite.h"
 #include "simulation/device/device_state.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/session/living_tissues.h"
@@ -17,10 +18,6 @@ namespace {
 
 // Of a change of the surfaces' push, in a tick.
 constexpr double kPushedAtOnce = 0.5;
-
-bool IsFinite(const glm::dvec3& x) noexcept {
-  return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
-}
 
 glm::dvec2 PixelOrNan(const Projection& projection, const glm::dvec3& direction) noexcept {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

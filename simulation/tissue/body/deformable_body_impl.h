@@ -35,7 +35,7 @@ struct BodyShape {
 struct CutState {
   MeshCutter cutter;
   FieldSkin skin;
-  UncutSurface uncut;
+  SurfaceFinder uncut;
   SolidField original;                   // with the author's cuts, before the first tool's
   std::vector<int> element_of_vertex{};  // of the whole mesh, one a vertex of the field's skin
   std::vector<int>

@@ -7,12 +7,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "simulation/core/triangle.h"
+
 namespace arthro::simulation {
-
-using TriangleCorners = std::array<glm::dvec3, 3>;
-
-// Barycentric coordinates of the point of a triangle that is nearest to x.
-glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x) noexcept;
 
 // Barycentric coordinates of the point of a tetrahedron that is nearest to x (x itself, inside it).
 // Either handedness will do; a flat one is its faces.

@@ -19,6 +19,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/core/finite.h"
 #include "simulation/tissue/contact/contact_point.h"
 
 namespace arthro::simulation {
@@ -46,6 +47,7 @@ struct ToolCoupling {
 };
 
 // False: something in it is not a number or an infinity.
+using arthro::IsFinite;
 bool IsFinite(const ToolCoupling& coupling) noexcept;
 
 // What there is under a tool apart from the step's forces, in the body's frame.

@@ -17,10 +17,6 @@ namespace {
 // Nearer than this to the skin the way to it has no direction.
 constexpr double kOnSkin = 1e-9;  // m
 
-glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) noexcept {
-  return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
-}
-
 // What keeps out of the skin while a held tool follows its hand: the rest of the radius is room to
 // slide on a skin that bends.
 constexpr double kCore = 0.5;  // of the radius
@@ -49,7 +45,7 @@ SkinContact::OnSkin SkinContact::NearestTo(const glm::dvec3& x, double limit) co
   double limit2 = limit * limit;
   tree_.ForNear(x, limit2, [&](int i) noexcept {
     const TriangleCorners corner = Corners(i);
-    const glm::dvec3 l = ClosestOnTriangle(corner, x), way = x - At(corner, l);
+    const glm::dvec3 l = ClosestOnTriangle(corner, x), way = x - PointOn(corner, l);
     const double distance2 = glm::dot(way, way);
     if (!(distance2 <= limit2)) return;
     // Where two triangles meet both are as near; the first by index, whatever the tree's order.

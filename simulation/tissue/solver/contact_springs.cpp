@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double kPastAxis = 0.25;  // of a bar's radius
 constexpr int kMostRounds = 60;     // of a tool's way to its balance
 constexpr double kFarthest = 1e-2;  // m, one of them
 constexpr double kBalanced = 1e-9;  // m, a last step of it
-
-bool IsFinite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // How the point lies to what it touches.
 struct Gap {

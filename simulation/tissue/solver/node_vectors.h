@@ -8,6 +8,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 
 inline double Dot(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) noexcept {
@@ -23,12 +25,5 @@ inline double Dot(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) 
 }
 
 inline double Norm(std::span<const glm::dvec3> a) noexcept { return std::sqrt(Dot(a, a)); }
-
-// True where no number is NaN or infinite: 0 · it is then 0.
-inline bool AllFinite(std::span<const glm::dvec3> a) noexcept {
-  double sum = 0;
-  for (const glm::dvec3& v : a) sum += 0.0 * v.x + 0.0 * v.y + 0.0 * v.z;
-  return sum == 0.0;
-}
 
 }  // namespace arthro::simulation

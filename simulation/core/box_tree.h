@@ -1,6 +1,6 @@
-// A tree of boxes over items that move but stay neighbours: built once over the rest state, its
-// boxes fitted anew when the items have moved. m. Refit and Visit are noexcept and allocate
-// nothing; the order of visits depends on nothing but the boxes.
+// Bounding-volume hierarchy over items that move but stay neighbours: built once over the rest
+// state, its boxes refitted when the items have moved. m. Refit and ForNear are noexcept and
+// allocate nothing; the order of visits depends on the boxes alone.
 #pragma once
 
 #include <array>
@@ -12,18 +12,9 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/tissue/field/solid_field.h"
+#include "simulation/core/box3.h"
 
-namespace arthro::simulation {
-
-inline double Distance2(const Box3& box, const glm::dvec3& x) noexcept {
-  const glm::dvec3 d = glm::max(glm::max(box.low - x, x - box.high), glm::dvec3(0.0));
-  return d.x * d.x + d.y * d.y + d.z * d.z;
-}
-inline double Distance2(const Box3& a, const Box3& b) noexcept {
-  const glm::dvec3 d = glm::max(glm::max(a.low - b.high, b.low - a.high), glm::dvec3(0.0));
-  return d.x * d.x + d.y * d.y + d.z * d.z;
-}
+namespace arthro {
 
 class BoxTree {
  public:
@@ -31,16 +22,17 @@ class BoxTree {
   explicit BoxTree(std::span<const Box3> boxes);
 
   bool empty() const noexcept { return nodes_.empty(); }
-  const Box3& box() const noexcept { return nodes_.front().box; }  // of all; not when empty
+  // Box of all items; not for an empty tree.
+  const Box3& box() const noexcept { return nodes_.front().box; }
 
-  // Leaves in the order of their items; what they have in common is asked once a leaf by who knows.
+  // Leaves are numbered in the order of their items.
   int leaf_count() const noexcept { return static_cast<int>(leaf_.size()); }
   std::span<const int> ItemsOf(int leaf) const noexcept {
     const Node& node = nodes_[static_cast<std::size_t>(leaf_[static_cast<std::size_t>(leaf)])];
     return {items_.data() + node.next, static_cast<std::size_t>(node.count)};
   }
 
-  // `box_of(leaf)`: the box of all of its items now.
+  // `box_of(leaf)` returns the present box of all items of a leaf.
   template <class BoxOf>
   void RefitLeaves(BoxOf&& box_of) noexcept {
     int leaf = leaf_count();
@@ -55,7 +47,7 @@ class BoxTree {
     }
   }
 
-  // `box_of(i)`: the box of item i now.
+  // `box_of(i)` returns the present box of item i.
   template <class BoxOf>
   void Refit(BoxOf&& box_of) noexcept {
     RefitLeaves([&](int leaf) noexcept {
@@ -69,8 +61,8 @@ class BoxTree {
     });
   }
 
-  // Calls visit(i) for the items of every leaf whose box is not further from `shape` (a point or a
-  // box) than the root of `limit2`, nearer boxes first. `visit` may lower limit2; below zero: stop.
+  // Calls visit(i) for the items of every leaf whose squared distance from `shape` (a point or a box)
+  // is at most `limit2`, nearer boxes first. `visit` may lower limit2; a negative one ends the search.
   template <class Shape, class Visit>
   void ForNear(const Shape& shape, double& limit2, Visit&& visit) const noexcept {
     if (nodes_.empty()) return;
@@ -101,8 +93,8 @@ class BoxTree {
   }
 
  private:
-  // A path splits by 30 bits of a place and then halves what is at one place, 2^31 items at most;
-  // it leaves an entry a level.
+  // A path splits by 30 bits of a place and then halves the items of one place, 2^31 at most; each
+  // level leaves one entry.
   static constexpr std::size_t kDeepest = 64;
   // Children of an inner node are node + 1 and `next`; a leaf has count > 0 items from `next`.
   struct Node {
@@ -112,7 +104,7 @@ class BoxTree {
   void Build(std::span<const std::uint32_t> code, int first, int count);
 
   std::vector<Node> nodes_;
-  std::vector<int> items_, leaf_;  // leaf_: which nodes are leaves, rising
+  std::vector<int> items_, leaf_;  // leaf_: indices of the leaf nodes, ascending
 };
 
-}  // namespace arthro::simulation
+}  // namespace arthro

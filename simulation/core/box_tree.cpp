@@ -1,26 +1,26 @@
-#include "simulation/tissue/contact/box_tree.h"
+#include "simulation/core/box_tree.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
-namespace arthro::simulation {
+namespace arthro {
 namespace {
 
-constexpr int kLeafSize = 12;  // fewer items: a further box costs more than it saves
-constexpr int kBits = 10;      // of a place along each axis
+constexpr int kLeafSize = 12;  // items; for fewer a further box costs more than it saves
+constexpr int kBits = 10;      // bits of a place along each axis
 
-glm::dvec3 Centre(const Box3& box) { return box.low + box.high; }  // twice; only compared
+glm::dvec3 Centre(const Box3& box) { return box.low + box.high; }  // times 2; only compared
 
 struct Placed {
-  std::uint32_t code;  // bits of x, y and z in turn: where along a Morton curve
+  std::uint32_t code;  // Morton code: interleaved bits of x, y and z
   int item;
 };
 
-// The items in the order of a Morton curve, those of one cell by index: by radix, since a cut makes
-// a tree of some 33,000 triangles anew within a frame. Halving at medians took seven times as long;
-// queries of a crescent's skin are as quick.
+// Returns the items in the order of a Morton curve, those of one cell by index. Sorts by radix,
+// because a cut rebuilds a tree of some 33,000 triangles within a frame. Halving at medians took
+// seven times as long; queries of a crescent's skin are equally fast.
 std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const Box3& box : boxes) {
@@ -31,7 +31,7 @@ std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
   const glm::dvec3 size = high - low;
   const double longest = std::max({size.x, size.y, size.z});
   const double scale = longest > 0.0 && std::isfinite(longest) ? kCells / longest : 0.0;
-  const auto spread = [](std::uint32_t v) {  // two zeros after each bit
+  const auto spread = [](std::uint32_t v) {  // inserts two zeros after each bit
     v = (v | v << 16) & 0x030000ffu;
     v = (v | v << 8) & 0x0300f00fu;
     v = (v | v << 4) & 0x030c30c3u;
@@ -40,7 +40,7 @@ std::vector<Placed> AlongCurve(std::span<const Box3> boxes) {
   std::vector<Placed> sorted(boxes.size()), other(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const glm::dvec3 at = scale * (Centre(boxes[i]) - low);
-    const auto cell = [](double x) {  // in this order NaN becomes 0
+    const auto cell = [](double x) {  // this order of min and max turns NaN into 0
       return static_cast<std::uint32_t>(std::min(std::max(0.0, x), kCells - 1.0));
     };
     sorted[i] = {spread(cell(at.x)) << 2 | spread(cell(at.y)) << 1 | spread(cell(at.z)),
@@ -81,7 +81,7 @@ void BoxTree::Build(std::span<const std::uint32_t> code, int first, int count) {
     leaf_.push_back(static_cast<int>(node));
     return;
   }
-  // In two where the highest bit changes: a plane. What is in one cell is halved.
+  // Splits where the highest bit changes, which is a plane; items of one cell are halved.
   const auto begin = code.begin() + first, end = begin + count;
   const std::uint32_t differing = *begin ^ *(end - 1);
   int below = count / 2;
@@ -96,4 +96,4 @@ void BoxTree::Build(std::span<const std::uint32_t> code, int first, int count) {
   Build(code, first + below, count - below);
 }
 
-}  // namespace arthro::simulation
+}  // namespace arthro
