@@ -24,7 +24,7 @@
 namespace arthro::app {
 namespace {
 
-// Area vectors of a closed surface cancel; its volume is positive when they look outward.
+// Area vectors of a closed surface cancel; its volume is positive when they face outwards.
 bool IsClosedAndOutward(const SurfaceMesh& surface) {
   glm::dvec3 sum{0.0};
   double area = 0.0, volume = 0.0;
@@ -58,7 +58,7 @@ LensModel::LensModel(Look look) : look_(look) {
   }
   mapper_->SetInputData(data_);
   mapper_->ScalarVisibilityOff();
-  // Coordinates are metres within a joint: float holds them, and the shader wants them as they are.
+  // Coordinates are metres within a joint: float holds them, and the shader takes them unscaled.
   mapper_->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
   actor_->SetMapper(mapper_);
   actor_->ForceOpaqueOn();
@@ -111,7 +111,7 @@ void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint
   SetShape(surface.vertices);
   points_->Modified();
   data_->Modified();
-  // Of a closed surface the inside is never seen, and half the work is saved.
+  // The inside of a closed surface is never seen; culling saves half the work.
   is_closed_ = IsClosedAndOutward(surface);
   actor_->GetProperty()->SetBackfaceCulling(is_closed_ ? 1 : 0);
 }
@@ -190,7 +190,8 @@ void LensModel::SetFrame(const LensFrame& frame) {
   Set("given_relit", frame.relit);
   Set("given_lightColour", frame.light_colour);
   Set("given_surround", frame.surround);
-  // No steady one: with a lens a tissue's inputs are 59 numbers, of 60 that every card must have.
+  // Not a steady input: with a lens a tissue's inputs are 59 numbers, and OpenGL guarantees
+  // only 60.
   const float lamp[3] = {Float(frame.shade.lamp.x), Float(frame.shade.lamp.y), 0.0f};
   actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f("lampPlace", lamp);
   if (look_ == Look::kTissue) {

@@ -14,7 +14,7 @@ constexpr std::pair<std::string_view, std::string_view> kFiles[] = {
 #include "embedded_shaders.inc"
 };
 
-// How GLSL reads constants.inc.
+// Definitions by which GLSL reads constants.inc.
 constexpr std::string_view kMacros =
     "#define CONSTANT(name, value) const float name = value;\n"
     "#define COUNT(name, value) const int name = value;\n";

@@ -13,7 +13,7 @@ SteadyInputs TakeSteadyInputs(const std::string& fragment) {
     std::string steady, type, name;
     if (!(words >> steady >> type) || steady != "steady") {
       inputs.fragment += line + "\n";
-      // Inputs of a variant are those of its vertices too.
+      // Directives around the inputs of a variant hold for the vertex shader too.
       if (line.starts_with('#'))
         for (std::string* text : {&inputs.uniforms, &inputs.outputs, &body}) *text += line + "\n";
       continue;

@@ -24,11 +24,11 @@ vtkStandardNewMacro(BackdropProp);
 
 namespace {
 
-// Where the light is neutral, in radii of the backdrop: a usual working distance.
+// Distance of neutral light in radii of the backdrop: a usual working distance.
 constexpr double kLightReach = 0.55;
 
-// A cell's relief counts as smooth where the distances of its corners and those about it bend by
-// less than this share.
+// Largest second difference of the corners' distances, over the distance, at which the relief of a
+// cell counts as smooth.
 constexpr double kSmoothBend = 0.02;
 
 void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec3& value) {
@@ -147,7 +147,8 @@ void BackdropProp::SetPicture(const Picture& picture, int size, const LensShade&
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
   if (!window || !panorama_->GetHandle()) return 0;
-  // A processor goes both ways of every if of a shader, so what is not needed is not compiled.
+  // A software rasteriser executes both branches of a shader's `if`, so unused parts are not
+  // compiled.
   const bool is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
   if (picture_.relief.steps > 0) PrepareSearch(window);
   const bool has_relief = highest_ > 0.0 && picture_.relief.steps > 0;
@@ -225,7 +226,7 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
     SetUniform(program, "given_lensEnd", picture_.lens.end);
     SetUniform(program, "given_lensAxis", picture_.lens.axis);
   }
-  // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
+  // Pixel (0, 0) is the middle of the first texel; the last texel may extend beyond the panorama.
   const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
   const glm::dvec2 covered = texels * double(reduction_);
   const double pixels =

@@ -15,16 +15,16 @@
 namespace arthro::app {
 namespace {
 
-// Of the small copies: a blurred disc is at most some hundred pixels wide.
+// Mipmap levels: a blurred disc is at most some hundred pixels wide.
 constexpr int kLevels = 8;
-// The near blur is worked out at this part of the size.
+// The near blur is computed at this fraction of the resolution.
 constexpr int kCoarser = 4;
-// A near thing that would be a larger disc is drawn as one of this share of the window's radius.
+// Largest disc of the near blur, in window radii.
 constexpr double kMostBlur = 0.25;
-// Dew blurs what is seen through it: the disc's diameter in window radii.
+// Diameter of the disc by which dew blurs the picture, in window radii.
 constexpr double kFogBlur = 0.09;
 
-// What of the picture a variant of a shader disturbs: a processor goes both ways of every if.
+// Bits of a shader's variant. A software rasteriser executes both branches of every `if`.
 constexpr std::size_t kHaze = 1, kFog = 2, kOverexposed = 4, kBlur = 8, kNearBlur = 16;
 
 std::vector<std::string> DefinesOf(std::size_t variant) {
@@ -45,9 +45,9 @@ struct LensPass::Frame {
   vtkOpenGLRenderWindow* window;
   vtkTextureObject *colours, *depths;
   const Disturbances& disturbances;
-  double light_reach, radius;  // m; of the window, px
-  double pixels_of_angle;      // px that a radian takes in the middle of the window
-  std::size_t variant;         // of what all of it shares: haze, fog and overexposure
+  double light_reach, radius;  // m; radius of the window, px
+  double pixels_of_angle;      // px per radian in the middle of the window
+  std::size_t variant;         // haze, fog and overexposure, which all passes share
   int size;
 };
 
@@ -72,7 +72,7 @@ void LensPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
   murk_->ReleaseGraphicsResources(window);
 }
 
-// `levels` small copies, to be made once it is drawn; black, and of `alpha`, where nothing is.
+// Allocates `levels` mipmap levels, generated after drawing; clears to black with `alpha`.
 void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
                       float alpha) {
   if (target.size == size) return;
@@ -95,7 +95,7 @@ void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, i
   state->PushFramebufferBindings();
   target.framebuffer->Bind();
   // Attaches the new storage: VTK skips a texture object that is attached already, although its
-  // OpenGL texture was made anew.
+  // OpenGL texture is new.
   target.framebuffer->RemoveColorAttachment(0);
   target.framebuffer->AddColorAttachment(0, &texture);
   target.framebuffer->ActivateDrawBuffer(0);
@@ -166,7 +166,7 @@ void LensPass::Spread(const Frame& frame) {
 
 void LensPass::TakeMurk(const Frame& frame) {
   const Disturbances& d = frame.disturbances;
-  // Dew alone stands still.
+  // Dew alone does not move.
   const double time = d.haze > 0 ? d.time : 0.0;
   if (murk_->GetHandle() == 0 || d.seed != murk_seed_ || time != murk_time_) {
     std::vector<std::uint8_t> texels = MurkField(d.seed, time);
@@ -282,7 +282,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
                            Float(kBlurAperture * d.near_blur * frame.pixels_of_angle));
       program->SetUniformf("given_nearFocus", Float(kNearBlurFocus));
       program->SetUniformf("given_mostBlur", Float(kMostBlur * frame.radius));
-      // As wide as a disc of half the largest.
+      // Level at which a texel is as wide as a disc of half the largest diameter.
       program->SetUniformf(
           "given_spreadLod",
           Float(std::max(std::log2(0.3 * kMostBlur * frame.radius / kCoarser), 0.0)));

@@ -18,9 +18,9 @@ const vec3 endColour = vec3(0.105, 0.102, 0.1);
 
 // Refinement by the slope after a search by cells.
 const float kLeastDescent = 0.05;   // cosine between ray and surface normal
-const float kMostCorrection = 0.03; // of the distance
+const float kMostCorrection = 0.03; // share of the distance
 // Footprints at outlines, where neighbouring pixels lie elsewhere.
-const float kMostFootprint = 4.0;   // of that of a surface that faces the lens
+const float kMostFootprint = 4.0;   // times that of a surface that faces the lens
 // Sides of steps.
 const float kFullSide = 6.0;                         // slope of a certain side
 const float kTopStart = 0.1, kTopEnd = 0.3;          // share of the step below its upper edge
@@ -36,7 +36,7 @@ const float kRelitAmbient = 0.2;                     // diffuse light of what fa
 const float kMarkTip = 0.925;                        // window radii
 const float kMarkSlope = 0.5;                        // half its width over its length
 const float kMarkEdge = 0.9;                         // cosine of its sides, softens the edge by 1 px
-const float kLeastDepth = 1.001;                     // of kNearest
+const float kLeastDepth = 1.001;                     // times kNearest
 
 void main() {
   vec2 offset = gl_FragCoord.xy / windowRadius - 1.0;

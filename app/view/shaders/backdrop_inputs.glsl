@@ -11,7 +11,7 @@ steady float clearance;            // 1 - |tip|^2, computed in double precision
 steady vec3 viewAxis, rightAxis;
 steady float lensScale;            // sin(fov/4)
 steady float windowRadius;         // px
-steady vec2 centre, scale;         // of the projection, in texture units
+steady vec2 centre, scale;         // projection, texture units
 steady vec2 texels, reliefTexels;
 
 steady float samples;              // at most, per pixel

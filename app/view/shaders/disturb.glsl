@@ -10,7 +10,7 @@ steady float fogBlur;                         // px
 
 const float kLodShare = 0.33;                 // texel of the mipmap level over the diameter
 const float kDiscVariance = 16.0;             // diameter^2 over the variance of a disc
-const float kTexelVariance = 0.25;            // of a mipmap's texel, over the square of its side
+const float kTexelVariance = 0.25;            // variance of a mipmap's texel, over the square of its side
 const float kFirstVariance = 0.17;            // the same for the picture itself
 const float kRingGain = 2.5;                  // squared radius of the four samples over the variance
 const vec2 kRingTurn = vec2(0.9239, 0.3827);  // 22.5 deg, so that no axis is preferred

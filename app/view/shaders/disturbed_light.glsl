@@ -11,7 +11,7 @@ const float kDewEdgeWeak = 0.95, kDewEdgeStrong = -0.45;  // inner edge, window 
 const float kDewEdgeWidth = 0.75;                // window radii
 const float kDewUneven = 0.10;                   // window radii, by the texture of the dew
 const float kDewOnset = 6.0;                     // per strength: full effect from 1/6
-const float kLeastRimLight = 0.05;               // of the rim's vignetting, where it is divided by
+const float kLeastRimLight = 0.05;               // smallest vignetting factor that is divided by
 
 // Linear light is approximated by the square of a stored colour.
 vec3 hazed(vec3 colour, float distance, vec2 at, float rim) {

@@ -6,7 +6,7 @@ uniform sampler2D picture;
 #ifdef FAR_ONLY
 steady float pixelsOfAngle;  // aperture (m) times pixels per radian
 steady float farFocus;       // m
-const float kLeastWeight = 0.04;  // of a sharp pixel
+const float kLeastWeight = 0.04;  // weight of a sharp pixel
 #endif
 void main() {
   float stored = storedAt(texCoord);

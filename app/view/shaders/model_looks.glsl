@@ -1,10 +1,10 @@
 // Constants of how a model looks.
-const float kBackOfLens = 2.42;    // of lensScale^2: z of the widest direction that a model may have
+const float kBackOfLens = 2.42;    // times lensScale^2: z of the widest direction that a model may have
 const float kMostOffPlace = 0.12;  // window radii
 #ifdef TISSUE
 const float kFineRate = 1100.0;                    // 1/m, of the fine noise
-const float kFineSlope = 0.022, kCoarseSlope = 0.014;  // of the normal
-const float kFineTint = 0.02, kCoarseTint = 0.04;  // of the colour
+const float kFineSlope = 0.022, kCoarseSlope = 0.014;  // tilts of the normal
+const float kFineTint = 0.02, kCoarseTint = 0.04;  // shares of the colour
 const vec3 kPatchTint = vec3(1.0, 0.96, 0.92);     // colour factor of the warmest patches
 const vec3 kCutColour = vec3(0.86, 0.80, 0.62);    // cut face: paler than the skin, yellowish
 const float kCutStreaks = 0.10, kCutShare = 0.75;

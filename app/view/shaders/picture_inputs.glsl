@@ -6,7 +6,7 @@ steady float windowRadius;  // px
 steady float lightReach;    // m
 #include "light.glsl"
 
-const float kLeastRim = 0.02;  // of the rim's vignetting, where it is divided by
+const float kLeastRim = 0.02;  // smallest vignetting factor that is divided by
 const float kGamma = 2.2;      // approximates sRGB
 
 // Returns the stored depth; 0 outside the window and under its mark, where nothing was drawn.

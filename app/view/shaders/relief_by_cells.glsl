@@ -4,11 +4,11 @@
 // the side of a step run it three times more, for the relief around them. The break stands at the
 // end because a software rasteriser runs the body once more for a break at the beginning.
 const float kPaceTexels = 2.0;      // texels of the relief per step, at least
-const float kMostPace = 0.25;       // of the search range
+const float kMostPace = 0.25;       // share of the search range
 const float kStartGap = 1e-3;       // behind the relief at either end, until it is computed
 const float kCloseSteps = 6.0;      // steps that remain to refine a crossing
 const float kMostClosed = 4.0;      // refinements
-const float kSideShare = 0.8;       // of kSide^2: from here on the relief around is read
+const float kSideShare = 0.8;       // times kSide^2; from here on the relief around is read
 float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out bool imaged, out vec4 ground, out vec3 looks) {
   vec2 place = gl_FragCoord.xy / cellPixels;
   vec4 cell = texelFetch(cells, ivec2(place), 0);

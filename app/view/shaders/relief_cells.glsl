@@ -3,7 +3,7 @@
 // the range of distances that each of its pixels has to search.
 #include "backdrop_inputs.glsl"
 #include "relief.glsl"
-const float kSearchMargin = 0.15;  // of the range of the corners, on either side
+const float kSearchMargin = 0.15;  // share of the corners' range, on either side
 float bendOf(float a, float b, float c, float d) {
   return min(abs(a - 2.0 * b + c), abs(b - 2.0 * c + d));
 }
