@@ -1,6 +1,6 @@
 // Loose tissue: a flake with a ragged edge, or a bent fibre; whitish, lit by the lamp. The shapes
-// are sums of sines; their frequencies (rad per radius) and phases share no ratio, so that no two
-// bits look alike. Lengths are in radii of the bit.
+// are sums of sines (frequencies in rad per radius), with phases from the shape number. Lengths are
+// in radii of the bit.
 #include "bit.glsl"
 
 const float kSeedRange = 40.0;  // rad, spreads the shape number over the phases

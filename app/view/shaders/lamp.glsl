@@ -12,7 +12,7 @@ float lampAt(float distance) {
 #ifdef ROD
 const float kRodTaper = 0.5;          // loss of radius at the rod's tip
 const float kTaperLength = 0.006;     // m
-const float kPenumbra = 0.0014;       // m per unit of the way to the lamp, half its fibres' width
+const float kPenumbra = 0.0014;       // m, half width of the penumbra at the lamp, which is that of its fibres
 const float kLeastPenumbra = 0.00005; // m
 const float kInShadow = 0.4;          // light that is left in the full shadow
 const float kContactShade = 0.5;      // loss of light where the instrument touches

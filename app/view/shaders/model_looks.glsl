@@ -1,5 +1,5 @@
 // Constants of how a model looks.
-const float kBackOfLens = 2.42;    // times lensScale^2: z of the widest direction that a model may have
+const float kBackOfLens = 2.42;    // 2 * 1.1^2: directions beyond 1.1 window radii are not drawn
 const float kMostOffPlace = 0.12;  // window radii
 #ifdef TISSUE
 const float kFineRate = 1100.0;                    // 1/m, of the fine noise

@@ -1,6 +1,6 @@
 // Directions and places in the panorama, and its filtered colour. The gradients say how u and v
 // (texture units) change with a point x at any distance.
-const float kLeastLevel = 1e-8;  // squared distance from the poles' axis, over that of the point
+const float kLeastLevel = 1e-8;  // squared distance from the poles' axis, radii^2
 const float kLeastAhead = 1e-4;  // z of a direction in front of a gnomonic panorama
 #ifdef EQUIRECTANGULAR
 vec2 panoramaPlace(vec3 d) {
