@@ -17,26 +17,26 @@
 const vec3 endColour = vec3(0.105, 0.102, 0.1);
 
 // Refinement by the slope after a search by cells.
-const float kLeastDescent = 0.05;   // cosine between ray and surface normal
-const float kMostCorrection = 0.03; // share of the distance
+const float kLeastDescent = 0.05;    // cosine between ray and surface normal
+const float kMostCorrection = 0.03;  // share of the distance
 // Footprints at outlines, where neighbouring pixels lie elsewhere.
-const float kMostFootprint = 4.0;   // times that of a surface that faces the lens
+const float kMostFootprint = 4.0;  // times that of a surface that faces the lens
 // Sides of steps.
-const float kFullSide = 6.0;                         // slope of a certain side
-const float kTopStart = 0.1, kTopEnd = 0.3;          // share of the step below its upper edge
-const float kFoot = 0.95;                            // share of the step from which its foot begins
-const float kSideBlur = 12.0;                        // texels of the panorama
-const float kSideShift = 14.0;                       // texels towards the upper edge
-const float kWallShade = 0.35;                       // loss of light on a side
-const float kWallFacing = 0.8;                       // cosine to the lamp that a side counts as
+const float kFullSide = 6.0;                 // slope of a certain side
+const float kTopStart = 0.1, kTopEnd = 0.3;  // share of the step below its upper edge
+const float kFoot = 0.95;                    // share of the step from which its foot begins
+const float kSideBlur = 12.0;                // texels of the panorama
+const float kSideShift = 14.0;               // texels towards the upper edge
+const float kWallShade = 0.35;               // loss of light on a side
+const float kWallFacing = 0.8;               // cosine to the lamp that a side counts as
 // Fluid film under the lamp.
 const float kSheen = 0.02, kGlint = 0.30;
-const float kRelitAmbient = 0.2;                     // diffuse light of what faces away
+const float kRelitAmbient = 0.2;  // diffuse light of what faces away
 // Orientation mark at the rim: a triangle that points outwards.
-const float kMarkTip = 0.925;                        // window radii
-const float kMarkSlope = 0.5;                        // half its width over its length
-const float kMarkEdge = 0.9;                         // cosine of its sides, softens the edge by 1 px
-const float kLeastDepth = 1.001;                     // times kNearest
+const float kMarkTip = 0.925;     // window radii
+const float kMarkSlope = 0.5;     // half its width over its length
+const float kMarkEdge = 0.9;      // cosine of its sides, softens the edge by 1 px
+const float kLeastDepth = 1.001;  // times kNearest
 
 void main() {
   vec2 offset = gl_FragCoord.xy / windowRadius - 1.0;
@@ -73,7 +73,8 @@ void main() {
   // One Newton step along the ray, by the slope there.
   vec3 outward = normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0));
   float gap = (imaged ? ground.r : 0.0) - 1.0 + length(x);
-  float nearer = clamp(gap / max(dot(outward, ray), kLeastDescent), -kMostCorrection * reach, kMostCorrection * reach);
+  float nearer = clamp(gap / max(dot(outward, ray), kLeastDescent), -kMostCorrection * reach,
+                       kMostCorrection * reach);
   reach = min(reach - nearer, sphere);
   x -= nearer * ray;
   uv -= nearer * vec2(dot(alongU, ray), dot(alongV, ray));
@@ -95,13 +96,14 @@ void main() {
 #endif
   float wall = 0.0;
 #if defined(RELIEF) && !defined(PLAIN)
-  // The footage hardly saw surfaces that are nearly parallel to the direction from the portal: their
-  // texels are smeared. They are sides of a nearer part, so they get its mean colour, darkened.
+  // The footage hardly saw surfaces that are nearly parallel to the direction from the portal:
+  // their texels are smeared. They are sides of a nearer part, so they get its mean colour, darkened.
 #ifndef CELLS
   vec2 up = upwards(ground);
   float here = ground.r;
-  vec3 looks = perRadius * vec3(textureLod(relief, uv + up, 0.0).r, textureLod(relief, uv - up, 0.0).r,
-                                textureLod(relief, uv + 2.0 * up, 0.0).r);
+  vec3 looks =
+      perRadius * vec3(textureLod(relief, uv + up, 0.0).r, textureLod(relief, uv - up, 0.0).r,
+                       textureLod(relief, uv + 2.0 * up, 0.0).r);
 #endif
   float steep = imaged ? length(ground.g * alongU + ground.b * alongV) : 0.0;
   float side = smoothstep(kSide, kFullSide, steep);
@@ -110,7 +112,8 @@ void main() {
   // The foot of a step shows the surface behind it.
   float top = max(looks.x, looks.z);
   float foot = step(kFoot, (top - here) / max(top - looks.y, 1e-6));
-  wall = max(side * smoothstep(kTopStart, kTopEnd, down), smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
+  wall = max(side * smoothstep(kTopStart, kTopEnd, down),
+             smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
          (1.0 - foot);
   side *= 1.0 - foot;
   dx += side * kSideBlur / texels * vec2(1.0, 0.0);
@@ -136,14 +139,17 @@ void main() {
   float light = min(lightAt(distance), 1.0);
   light *= 1.0 - kWallShade * wall;
 #ifdef ROD
-  float shade = rodShade(distance * vec3(dot(ray, rightAxis), dot(ray, upAxis), -dot(ray, viewAxis)));
+  float shade =
+      rodShade(distance * vec3(dot(ray, rightAxis), dot(ray, upAxis), -dot(ray, viewAxis)));
   light *= shade;
 #endif
 #ifdef RELIT
   // Diffuse shading by low-pass filtered normals, and a film of fluid over them.
-  vec3 normal = -normalize(normalize(x) + (imaged ? broad.x * alongU + broad.y * alongV : vec3(0.0)));
+  vec3 normal =
+      -normalize(normalize(x) + (imaged ? broad.x * alongU + broad.y * alongV : vec3(0.0)));
   vec3 toLamp = normalize(tip + perRadius * (lampPlace.x * rightAxis + lampPlace.y * upAxis) - x);
-  float faces = mix(max(dot(normal, toLamp), 0.0), kWallFacing, wall), shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
+  float faces = mix(max(dot(normal, toLamp), 0.0), kWallFacing, wall),
+        shine = max(dot(normal, normalize(toLamp - ray)), 0.0);
   float lamp = lampAt(distance);
 #ifdef ROD
   lamp *= shade;
@@ -151,7 +157,10 @@ void main() {
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
   float wet = lamp * (kSheen * shine16 + kGlint * shine64 * shine64 * shine64);
-  vec3 body = colour * colour * mix(light, lamp * (kRelitAmbient + (1.0 - kRelitAmbient) * faces) * (1.0 - kWallShade * wall), relit);
+  vec3 body =
+      colour * colour *
+      mix(light, lamp * (kRelitAmbient + (1.0 - kRelitAmbient) * faces) * (1.0 - kWallShade * wall),
+          relit);
   vec3 lit = shoulder(sqrt(body + relit * wet));
 #else
   vec3 lit = shoulder(colour * sqrt(light));

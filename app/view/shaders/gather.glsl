@@ -4,8 +4,8 @@
 in vec2 texCoord;
 uniform sampler2D picture;
 #ifdef FAR_ONLY
-steady float pixelsOfAngle;  // aperture (m) times pixels per radian
-steady float farFocus;       // m
+steady float pixelsOfAngle;       // aperture (m) times pixels per radian
+steady float farFocus;            // m
 const float kLeastWeight = 0.04;  // weight of a sharp pixel
 #endif
 void main() {
@@ -16,6 +16,7 @@ void main() {
   weight *= clamp(0.5 * blur, kLeastWeight, 1.0);
 #endif
   // The vignetting is removed here, and applied again when the picture is composed.
-  vec3 colour = textureLod(picture, texCoord, 0.0).rgb / max(softRim(length(2.0 * texCoord - 1.0)), kLeastRim);
+  vec3 colour = textureLod(picture, texCoord, 0.0).rgb /
+                max(softRim(length(2.0 * texCoord - 1.0)), kLeastRim);
   gl_FragData[0] = vec4(min(colour, vec3(1.0)) * weight, weight);
 }

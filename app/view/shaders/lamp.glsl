@@ -10,13 +10,14 @@ float lampAt(float distance) {
 }
 
 #ifdef ROD
-const float kRodTaper = 0.5;          // loss of radius at the rod's tip
-const float kTaperLength = 0.006;     // m
-const float kPenumbra = 0.0014;       // m, half width of the penumbra at the lamp, which is that of its fibres
-const float kLeastPenumbra = 0.00005; // m
-const float kInShadow = 0.4;          // light that is left in the full shadow
-const float kContactShade = 0.5;      // loss of light where the instrument touches
-const float kLeastSquare = 1e-12;     // m^2, keeps divisions finite
+const float kRodTaper = 0.5;       // loss of radius at the rod's tip
+const float kTaperLength = 0.006;  // m
+const float kPenumbra =
+    0.0014;  // m, half width of the penumbra at the lamp, which is that of its fibres
+const float kLeastPenumbra = 0.00005;  // m
+const float kInShadow = 0.4;           // light that is left in the full shadow
+const float kContactShade = 0.5;       // loss of light where the instrument touches
+const float kLeastSquare = 1e-12;      // m^2, keeps divisions finite
 
 // Returns the share of the lamp's light that a capsule leaves at a point: its shadow with a
 // penumbra, and ambient occlusion near contact.
@@ -25,10 +26,13 @@ float shadeOf(vec3 point, vec3 from, vec3 to, float radius, float taper) {
   vec3 way = lampPlace - point, rod = to - from, between = point - from;
   float ways = dot(way, way), rods = max(dot(rod, rod), kLeastSquare), across = dot(way, rod);
   float c = dot(way, between), f = dot(rod, between);
-  float s = clamp((across * f - c * rods) / max(ways * rods - across * across, kLeastSquare * ways * rods), 0.0, 1.0);
+  float s = clamp(
+      (across * f - c * rods) / max(ways * rods - across * across, kLeastSquare * ways * rods), 0.0,
+      1.0);
   float t = clamp((across * s + f) / rods, 0.0, 1.0);
   s = clamp((across * t - c) / ways, 0.0, 1.0);
-  float thick = radius * (1.0 - taper + taper * smoothstep(0.0, kTaperLength, (1.0 - t) * sqrt(rods)));
+  float thick =
+      radius * (1.0 - taper + taper * smoothstep(0.0, kTaperLength, (1.0 - t) * sqrt(rods)));
   float gap = length(between + s * way - t * rod) - thick;
   float half_shadow = kPenumbra * s + kLeastPenumbra;
   float lamp = smoothstep(-half_shadow, half_shadow, gap);

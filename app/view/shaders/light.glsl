@@ -18,7 +18,8 @@ const float kVignette = 0.22;       // loss of light at the rim
 const float kVignetteStart = 0.55;  // window radii
 const float kRimStart = 0.975;      // window radii
 float softRim(float r) {
-  return (1.0 - kVignette * smoothstep(kVignetteStart, 1.0, r)) * (1.0 - smoothstep(kRimStart, 1.0, r));
+  return (1.0 - kVignette * smoothstep(kVignetteStart, 1.0, r)) *
+         (1.0 - smoothstep(kRimStart, 1.0, r));
 }
 
 // Compresses values above the knee exponentially, so that highlights do not clip to white. The

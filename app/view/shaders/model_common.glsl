@@ -1,9 +1,9 @@
-// Declarations of a model's shaders, after its inputs. VARYING is `out` for the vertices and `in` for
-// the fragments, which also define FRAGMENT.
+// Declarations of a model's shaders, after its inputs. VARYING is `out` for the vertices and `in`
+// for the fragments, which also define FRAGMENT.
 #include "distance.glsl"
 VARYING vec3 lensPoint, modelPoint;  // m, in the lens frame and in the model's
 #ifdef TISSUE
-VARYING float fresh;                 // 1: a vertex of a cut face
+VARYING float fresh;  // 1: a vertex of a cut face
 VARYING vec4 coarseNoise;
 #include "noise.glsl"
 #endif
@@ -13,7 +13,7 @@ VARYING vec4 coarseNoise;
 #include "model_looks.glsl"
 #elif defined(TISSUE)
 in float freshMC;
-const float kCoarseRate = 300.0;     // 1/m, of the coarse noise
+const float kCoarseRate = 300.0;  // 1/m, of the coarse noise
 #endif
 
 const float kLeastHalfCosine2 = 0.0025;  // squared cosine of theta/2, keeps places behind finite

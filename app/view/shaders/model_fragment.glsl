@@ -6,7 +6,8 @@
   vec2 lensPlace = placeInWindow(lensPoint, lensDistance);
   float coverage = rimCoverage(lensR, windowRadius);
   bool behind = lensPoint.z > (kBackOfLens * lensScale * lensScale - 1.0) * lensDistance;
-  if (behind || distance(lensPlace, lensOffset) > kMostOffPlace || coverage <= 0.0 || lensDistance < kNearest)
+  if (behind || distance(lensPlace, lensOffset) > kMostOffPlace || coverage <= 0.0 ||
+      lensDistance < kNearest)
     discard;
   gl_FragDepth = storedDepth(lensDistance);
   vec3 toLens = -lensPoint / lensDistance;
@@ -36,20 +37,28 @@
   float shine64 = shine8 * shine8;
   shine64 *= shine64 * shine64 * shine64;
   float glance = (1.0 - seen) * (1.0 - seen);
-  vec3 wet = lightColour * light * (kWetSheen * shine8 * shine4 * shine2 + kWetGlint * shine64 * shine64 * shine64);
+  vec3 wet = lightColour * light * (kWetSheen * shine8 * shine4 * shine2 +
+                                    kWetGlint * shine64 * shine64 * shine64);
   vec3 mirrored = surround * (kMirrored + kGrazing * glance * glance);
   vec3 linear = (body + wet) * rodShade(lensPoint) + mirrored;
 #else
   if (-modelPoint.z > rodLength) discard;
   float ring = -modelPoint.z / kRingDistance;
-  float etched = etchedRings > 0.5 && ring > kFirstRing && ring < kLastRing ? 1.0 - smoothstep(kRingHalf, kRingHalfSoft, abs(ring - round(ring))) : 0.0;
+  float etched = etchedRings > 0.5 && ring > kFirstRing && ring < kLastRing
+                     ? 1.0 - smoothstep(kRingHalf, kRingHalfSoft, abs(ring - round(ring)))
+                     : 0.0;
   vec3 steel = modelColour * (1.0 - kRingDark * etched);
   vec3 mirror = reflect(-toLens, normal);
   float lamp = max(dot(mirror, toLight), 0.0);
-  vec3 grey = mix(surround, vec3(dot(surround, vec3(kLumaRed, kLumaGreen, kLumaBlue))), kGreyShare);
+  vec3 grey = mix(surround, vec3(dot(surround, vec3(kLumaRed, kLumaGreen, kLumaBlue))),
+                  kGreyShare);
   float sky = 0.5 + 0.5 * dot(mirror, normalize(lampPlace));  // the joint's lit side
-  vec3 linear = steel * (grey * (kSkyLeast + kSkyGain * sky * sky + kEdgeGain * pow(1.0 - seen, kEdgePower)) +
-      lightColour * light * (kSteelDiffuse * facing * facing + kStreak * pow(lamp, kStreakPower) + kSteelGlint * pow(lamp, kGlintPower)));
+  vec3 linear =
+      steel *
+      (grey * (kSkyLeast + kSkyGain * sky * sky + kEdgeGain * pow(1.0 - seen, kEdgePower)) +
+       lightColour * light *
+           (kSteelDiffuse * facing * facing + kStreak * pow(lamp, kStreakPower) +
+            kSteelGlint * pow(lamp, kGlintPower)));
 #endif
   vec3 root = sqrt(max(linear, vec3(0.0))), root2 = sqrt(root);
   vec3 shown = kGammaRoots.x * root + kGammaRoots.y * root2 + kGammaRoots.z * sqrt(root2);

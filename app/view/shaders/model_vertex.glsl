@@ -5,7 +5,8 @@
   modelPoint = vertexMC.xyz;
   float lensDistance = max(length(lensPoint), 1e-7);
   vec2 lensPlace = placeInWindow(lensPoint, lensDistance);
-  float lensClip = 2.0 * kFarthest / (kFarthest - kNearest) * (lensDistance - kNearest) - lensDistance;
+  float lensClip =
+      2.0 * kFarthest / (kFarthest - kNearest) * (lensDistance - kNearest) - lensDistance;
   gl_Position = vec4(lensDistance * lensPlace, lensClip, lensDistance);
 #ifdef TISSUE
   fresh = freshMC;

@@ -6,14 +6,15 @@
 // Sides of steps from near to far relief. All texels that a step touches are steep, which gives a
 // jagged region, while the relief along the slope varies as smoothly as the outline. A place is
 // therefore compared with the relief a little above it, below it and further up (`looks`).
-const float kSide = 2.5;         // slope from which a place counts as the side of a step
-const float kLookTexels = 2.2;   // texels of the relief from a place to the one above it
+const float kSide = 2.5;        // slope from which a place counts as the side of a step
+const float kLookTexels = 2.2;  // texels of the relief from a place to the one above it
 const float kLeastSlope2 = 1e-18;
 
 // Returns the offset from a place to the one above it, in texture units.
 vec2 upwards(vec4 ground) {
   vec2 uphill = ground.gb / reliefTexels;
-  return uphill * (kLookTexels * inversesqrt(max(dot(uphill, uphill), kLeastSlope2))) / reliefTexels;
+  return uphill * (kLookTexels * inversesqrt(max(dot(uphill, uphill), kLeastSlope2))) /
+         reliefTexels;
 }
 // Returns the squared slope of a place, without the stretch of the projection.
 float steepness2(vec3 x, vec4 ground) {
@@ -29,13 +30,16 @@ float behind(vec3 x) {
 // Returns the maximum of the relief in the block around uv.
 float ceilingAt(vec2 uv) {
   ivec2 block = ivec2(uv * reliefTexels / blockTexels);
-  return texelFetch(reliefCeiling, clamp(block, ivec2(0), textureSize(reliefCeiling, 0) - 1), 0).r * perRadius;
+  return texelFetch(reliefCeiling, clamp(block, ivec2(0), textureSize(reliefCeiling, 0) - 1), 0).r *
+         perRadius;
 }
 // Returns an upper bound of the texels that x passes per radius of its way.
 float texelsPerRadius(vec3 x, vec3 ray) {
   float far = dot(x, x);
   float turn = length(cross(x, ray)) / far;
-  return max(turn * fineness(x, far) * max(abs(scale.x) * reliefTexels.x, abs(scale.y) * reliefTexels.y), 1.0);
+  return max(
+      turn * fineness(x, far) * max(abs(scale.x) * reliefTexels.x, abs(scale.y) * reliefTexels.y),
+      1.0);
 }
 
 // Returns the first crossing between `near` and `far`, or a value beyond `far` when there is none.
@@ -43,9 +47,9 @@ float texelsPerRadius(vec3 x, vec3 ray) {
 // the ray passes above the block's maximum, and kShortStep of it elsewhere; regula falsi refines
 // the crossing. With isClear nothing stands before `near`, so a place behind the relief there has
 // just been reached (by rounding, where the relief is level at its maximum).
-const float kShortStep = 0.125;                  // blocks
+const float kShortStep = 0.125;  // blocks
 const int kRefinements = 5;
-const float kLeastCut = 0.05, kMostCut = 0.95;   // share of the interval at which it is divided
+const float kLeastCut = 0.05, kMostCut = 0.95;  // share of the interval at which it is divided
 float firstBehind(vec3 ray, float b, float near, float far, bool isClear) {
   float least = (far - near) / reliefSteps;
   float low = near, high = near, gapLow = behind(tip + near * ray), gapHigh = gapLow;

@@ -19,6 +19,7 @@ void main() {
                    max(bendOf(t[1], t[5], t[9], t[13]), bendOf(t[2], t[6], t[10], t[14])));
   float low = min(min(t[5], t[6]), min(t[9], t[10])), high = max(max(t[5], t[6]), max(t[9], t[10]));
   float margin = max(kSearchMargin * (high - low), smoothBend * low);
-  gl_FragData[0] = bend <= smoothBend * low && steepest < kSide * kSide ? vec4(t[5], t[6], t[9], t[10])
-                                            : vec4(-1.0, max(low - margin, 0.0), high + margin, 0.0);
+  gl_FragData[0] = bend <= smoothBend * low && steepest < kSide * kSide
+                       ? vec4(t[5], t[6], t[9], t[10])
+                       : vec4(-1.0, max(low - margin, 0.0), high + margin, 0.0);
 }

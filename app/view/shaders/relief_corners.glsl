@@ -8,5 +8,6 @@ void main() {
   float sphere = sqrt(max(b * b + clearance, 0.0)) - b;
   float t = meetRelief(ray, b, sphere);
   vec3 x = tip + t * ray;
-  gl_FragData[0] = vec4(t, steepness2(x, textureLod(relief, panoramaPlace(x), 0.0) * perRadius), 0.0, 1.0);
+  gl_FragData[0] =
+      vec4(t, steepness2(x, textureLod(relief, panoramaPlace(x), 0.0) * perRadius), 0.0, 1.0);
 }
