@@ -97,7 +97,7 @@ void main() {
   float wall = 0.0;
 #if defined(RELIEF) && !defined(PLAIN)
   // The footage hardly saw surfaces that are nearly parallel to the direction from the portal:
-  // their texels are smeared. They are sides of a nearer part, so they get its mean colour, darkened.
+  // their texels are smeared. They are sides of a nearer part, so they get its mean colour, dimmed.
 #ifndef CELLS
   vec2 up = upwards(ground);
   float here = ground.r;
