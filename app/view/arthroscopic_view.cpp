@@ -18,21 +18,23 @@
 #include "app/view/disturbances/lens_pass.h"
 #include "app/view/drawing/context_render_window.h"
 #include "app/view/drawing/lens_model.h"
-#include "app/view/drawing/lens_shader.h"
 #include "app/view/drawing/srgb.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
+#include "app/view/shaders/constants.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {
 namespace {
 
-// How white the brightest parts of the footage count: a model of colour 1 is drawn as they are.
+// Brightness that the brightest parts of the footage count as: a model of colour 1 is drawn like
+// them.
 constexpr double kWhite = 0.85;
-// Share of the footage's own tint that the models' light takes.
+// Share of the footage's own tint in the models' light.
 constexpr double kTint = 0.6;
 
-// The lamp as the footage shows it: as bright as its brightest parts, and partly of their tint.
+// Returns the lamp's colour as the footage shows it: that of its brightest parts, partly with their
+// tint.
 glm::dvec3 LightOf(const glm::dvec3& bright) {
   const double luma = Luma(bright);
   if (!(luma > 0.0)) return glm::dvec3(1.0);
@@ -45,7 +47,8 @@ bool ShowsTool(const Picture& picture) {
          glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
 }
 
-// What of the instrument shades: its rod, and the hook or the jaw that moves, as it touches.
+// Returns the shading parts of the instrument: its rod, and the hook or moving jaw of its contact
+// shape.
 LensShade ShadeOf(const Picture& picture, const simulation::ToolShape& shape) {
   LensShade shade;
   shade.lamp = kLampAside * glm::dvec3(std::sin(picture.notch), std::cos(picture.notch), 0.0);
@@ -54,7 +57,7 @@ LensShade ShadeOf(const Picture& picture, const simulation::ToolShape& shape) {
     const glm::dvec3 d = x - view.tip;
     return glm::dvec3(glm::dot(d, view.right), glm::dot(d, view.up), -glm::dot(d, view.view));
   };
-  constexpr double kProbe = 0.9e-3, kOther = 1.7e-3;  // m, of their shafts' ends
+  constexpr double kProbe = 0.9e-3, kOther = 1.7e-3;  // m, radii of the shafts' ends
   const InstrumentView& tool = *picture.instrument;
   shade.rod = {in_lens(tool.portal), in_lens(tool.proxy),
                tool.kind == simulation::ToolKind::kProbe ? kProbe : kOther};
@@ -84,12 +87,12 @@ struct ArthroscopicView::Parts {
   vtkNew<vtkLight> light;
   vtkNew<BackdropProp> backdrop;
   LensModel tool{LensModel::Look::kSteel}, moving{LensModel::Look::kSteel};
-  simulation::ToolKind tool_kind = simulation::ToolKind::kNone;  // that these two are of
+  simulation::ToolKind tool_kind = simulation::ToolKind::kNone;  // kind of these two
   ToolMesh tool_mesh;
   simulation::ToolShape tool_shape;
   std::vector<std::unique_ptr<LensModel>> tissues;
   std::vector<std::size_t> vertex_counts;
-  // Where each tissue lies, and the light about it, found when it is asked for.
+  // Place of each tissue, and the light around it, computed on demand.
   struct Place {
     glm::dvec3 middle{0.0};  // in its own frame
     Pose pose;
@@ -98,7 +101,7 @@ struct ArthroscopicView::Parts {
   std::vector<Place> places;
   MeteredModels metered;
   LensPass lens_pass;
-  bool is_disturbed = false;  // the last frame, by that pass
+  bool is_disturbed = false;  // the last frame passed through lens_pass
   std::string notice;
   int size = 0;
 
@@ -124,12 +127,12 @@ const FootageLight& ArthroscopicView::Parts::LightAbout(std::size_t tissue) {
   return *place.about;
 }
 
-// In the light of its own surroundings, half way, so that it does not look pasted on.
+// Lights a model half by its own surroundings, so that it does not look pasted on.
 glm::dvec3 ArthroscopicView::Parts::LightColourAt(std::size_t tissue) {
   return 0.5 * (LightOf(backdrop->footage_light().bright) + LightOf(LightAbout(tissue).bright));
 }
 
-// Only where there is a gain to be found.
+// Meters the models only when there is a gain to compute.
 void ArthroscopicView::Parts::MeterModels(const Picture& picture) {
   metered.Begin(picture.view, {picture.field_of_view, picture.lens});
   if (!(backdrop->relight() > 0) || picture.plain) return;
@@ -172,7 +175,7 @@ ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
   p.window->SetSize(16, 16);
   p.renderer->SetBackground(0.0, 0.0, 0.0);
   p.renderer->SetBackgroundAlpha(1.0);
-  // What is outside a pinhole's view may be inside the lens': nothing may be culled by it.
+  // Parts outside a pinhole's view may be inside the lens' view: culling must not remove them.
   p.renderer->GetCullers()->RemoveAllItems();
   p.renderer->AutomaticLightCreationOff();
   p.light->SetLightTypeToHeadlight();
@@ -183,7 +186,7 @@ ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
     model->actor()->VisibilityOff();
     p.renderer->AddViewProp(model->actor());
   }
-  // The first frame initialises OpenGL, so that textures can be uploaded before the next.
+  // The first frame initialises OpenGL, so that textures can be uploaded before the next one.
   p.window->Render();
   if (!p.window->IsReady())
     throw Error(Code::kDisplay,
@@ -260,10 +263,10 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   Parts& p = *parts_;
   CheckDisturbances(picture.disturbances);
   p.size = size;
-  p.window->GetState()->Reset();  // others have drawn in this context
+  p.window->GetState()->Reset();  // other code has drawn in this context
   p.window->SetSize(size, size);
 
-  // Only the camera's place and axes are used; the lens is the shaders'.
+  // Only the camera's position and axes are used; the shaders apply the lens.
   const simulation::ScopeView& view = picture.view;
   const glm::dvec3 focus = view.tip + view.view;
   vtkCamera* camera = p.renderer->GetActiveCamera();
@@ -301,7 +304,7 @@ void ArthroscopicView::Finish() const { glFinish(); }
 
 unsigned int ArthroscopicView::TextureId() const {
   vtkTextureObject& shown = *parts_->shown().GetColorAttachmentAsTextureObject(0);
-  // Shown larger than it was drawn, it must not stand in blocks.
+  // Linear filtering, for a picture that is shown larger than it was drawn.
   if (shown.GetMagnificationFilter() != vtkTextureObject::Linear) {
     shown.SetMagnificationFilter(vtkTextureObject::Linear);
     shown.Activate();

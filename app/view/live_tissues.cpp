@@ -5,7 +5,8 @@
 namespace arthro::app {
 namespace {
 
-// A body's own frame is its tissue's after the scale of the pose; the views' is before it.
+// A body's own frame is its tissue's after the scale of the pose; the frame of the views is before
+// it.
 std::span<const glm::dvec3> Unscaled(std::span<const glm::dvec3> x, double scale,
                                      std::vector<glm::dvec3>& room) {
   if (scale == 1.0) return x;

@@ -1,5 +1,4 @@
-// Living tissue into the views: hands over what changed of each body since the last time, and only
-// that.
+// Hands over to the views what changed of each simulated body since the last call.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +15,10 @@ namespace arthro::app {
 
 class LiveTissues {
  public:
-  // `overview` may be null. True: something is to be drawn anew.
+  // `overview` may be null. Returns true when a view must be drawn again.
   bool Show(const simulation::WorldPicture& world, std::span<const Tissue> tissues,
             ArthroscopicView& scope, Overview* overview);
-  // Nothing is shown any more: the next world is handed over whole.
+  // Forgets what is shown: the next world is handed over completely.
   void Forget() { shown_.clear(); }
   bool empty() const { return shown_.empty(); }
 
@@ -29,7 +28,7 @@ class LiveTissues {
     std::uint64_t shape = 0;
   };
   std::vector<Shown> shown_;
-  std::vector<glm::dvec3> unscaled_;  // room
+  std::vector<glm::dvec3> unscaled_;  // reused memory
 };
 
 }  // namespace arthro::app

@@ -23,8 +23,8 @@ bool Has(const char* extensions, std::string_view name) {
   return extensions && std::string_view(extensions).find(name) != std::string_view::npos;
 }
 
-// Displays that need no screen, the steadiest first: Mesa without a surface, then each device (the
-// road of the proprietary drivers), then whatever EGL takes by itself.
+// Displays that need no screen, the most reliable first: Mesa without a surface, then each device
+// (for proprietary drivers), then EGL's default.
 std::vector<EGLDisplay> ScreenlessDisplays() {
   std::vector<EGLDisplay> displays;
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -49,7 +49,7 @@ struct Attempt {
   EGLSurface surface = EGL_NO_SURFACE;
 };
 
-// A current OpenGL 3.2 core context on an initialised display, or an empty attempt.
+// Returns a current OpenGL 3.2 core context on an initialised display, or an empty attempt.
 Attempt MakeContext(EGLDisplay display) {
   if (!eglBindAPI(EGL_OPENGL_API)) return {};
   const bool surfaceless =
@@ -89,7 +89,7 @@ Attempt MakeContext(EGLDisplay display) {
 }
 
 std::string DescribeCurrent() {
-  // glGetString through EGL, so that this file needs no OpenGL loader.
+  // Calls glGetString through EGL, so that this file needs no OpenGL loader.
   using GetString = const unsigned char* (*)(unsigned int);
   const auto get = Function<GetString>("glGetString");
   constexpr unsigned int kRenderer = 0x1F01, kVersion = 0x1F02;

@@ -1,5 +1,5 @@
-// An OpenGL context with no window and no display: a surfaceless EGL context, in software where the
-// machine has no graphics card. Pictures made in it have the same bytes run to run.
+// OpenGL context without window and display: a surfaceless EGL context, in software when the
+// machine has no graphics card. Pictures drawn in it have the same bytes in every run.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@ namespace arthro::app {
 
 class OffscreenContext {
  public:
-  // Makes the context and makes it current in this thread. Throws Error(kDisplay) where the machine
-  // has no EGL or one that cannot give OpenGL 3.2 core.
+  // Makes the context, current in this thread. Throws Error(kDisplay) when the machine has no EGL,
+  // or one without OpenGL 3.2 core.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 
   void MakeCurrent() const;
-  // What draws, e.g. "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5": for benchmarks and reports.
+  // Name of the renderer, such as "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5", for reports.
   const std::string& description() const { return description_; }
 
  private:
-  // EGL's handles; void* as in <EGL/egl.h>, which would bring X11's macros to every includer.
+  // Handles of EGL; void* as in <EGL/egl.h>, which would bring X11's macros to every includer.
   void* display_ = nullptr;
   void* context_ = nullptr;
-  void* surface_ = nullptr;  // only where the driver cannot do without one
+  void* surface_ = nullptr;  // only when the driver needs one
   std::string description_;
 };
 

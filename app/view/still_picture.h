@@ -1,5 +1,5 @@
-// Single pictures of a scene with no window, for the jobs `view` and `demo` and for tests. The same
-// scene and picture give the same bytes run to run.
+// Single pictures of a scene without a window, for the jobs `view` and `demo` and for tests. The
+// same scene and picture give the same bytes in every run.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace arthro::app {
 
-// The frame that a held scope gives. Without a head roll the camera head turns with the scope.
+// Returns the frame of a held scope. Without a head roll the camera head turns with the scope.
 Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, double field_of_view,
                         std::optional<double> head_roll = std::nullopt);
 
@@ -27,12 +27,12 @@ class StillPictures {
  public:
   static constexpr int kMinSize = 16, kMaxSize = 4096;  // px
 
-  // Throws Error(kDisplay) where nothing can draw, and Error for cuts of the author that cannot be
-  // made. `loaded` is copied to the renderer.
+  // Throws Error(kDisplay) when nothing can draw, and Error for an author's cut that cannot be
+  // made. Copies `loaded` to the renderer.
   explicit StillPictures(const LoadedScene& loaded);
 
-  // Four rays a pixel: drawn twice as large and averaged. Throws Error(kBadArgument) for a tip
-  // outside the backdrop's sphere, from where there is nothing to see, and for a size out of range.
+  // Draws four rays per pixel: twice as large, then averaged. Throws Error(kBadArgument) for a tip
+  // outside the backdrop's sphere, where there is nothing to see, and for a size out of range.
   ColourImage Draw(const Picture& picture, int size);
 
   ArthroscopicView& view() { return view_; }
@@ -40,7 +40,7 @@ class StillPictures {
 
  private:
   OffscreenContext context_;
-  ArthroscopicView view_;  // after the context: it must end first
+  ArthroscopicView view_;  // after the context, so that it is destroyed first
   double radius_;
 };
 

@@ -1,13 +1,13 @@
 #include "authoring/phantom/tissue_caster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "simulation/core/triangle.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
@@ -41,26 +41,6 @@ int BoxOf(double coordinate) {
   return std::clamp(static_cast<int>(std::floor(coordinate / kBox)) + kBoxes / 2, 0, kBoxes - 1);
 }
 constexpr double kReach = 1.9e-3;  // m, reach of a contact shadow
-
-// Squared distance of a point from a triangle: to its plane when the foot lies inside, otherwise to
-// its edges.
-double Distance2(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b,
-                 const glm::dvec3& c) {
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  double nearest2 = 1.0;
-  bool inside = true;
-  const std::array<const glm::dvec3*, 4> corners{&a, &b, &c, &a};
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 edge = *corners[i + 1] - *corners[i], from = x - *corners[i];
-    inside = inside && glm::dot(glm::cross(edge, from), normal) >= 0.0;
-    const glm::dvec3 off =
-        from - std::clamp(glm::dot(from, edge) / glm::dot(edge, edge), 0.0, 1.0) * edge;
-    nearest2 = std::min(nearest2, glm::dot(off, off));
-  }
-  if (!inside) return nearest2;
-  const double height = glm::dot(x - a, normal);
-  return height * height / glm::dot(normal, normal);
-}
 
 std::size_t BoxIndex(int i, int j, int k) {
   return (static_cast<std::size_t>(k) * kBoxes + j) * kBoxes + i;
@@ -139,7 +119,8 @@ double TissueCaster::ShadeAt(Surface surface, const glm::dvec3& x) const {
     const Triangle& t = triangles_[index];
     // The layer fills its bed flush and casts no shadow.
     if (t.surface == Surface::kCartilage) continue;
-    nearest2 = std::min(nearest2, Distance2(x, corners_[t.a].x, corners_[t.b].x, corners_[t.c].x));
+    nearest2 =
+        std::min(nearest2, Distance2({corners_[t.a].x, corners_[t.b].x, corners_[t.c].x}, x));
   }
   const double share = std::sqrt(nearest2) / kReach;
   return 1.0 - 0.50 * (1.0 - share) * (1.0 - share);

@@ -1,6 +1,5 @@
 // Writing a document as a scene (document_io.h).
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "authoring/project/file_ending.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/core/file_name.h"
 #include "simulation/core/fingerprint.h"
 #include "simulation/core/options_json.h"
 #include "simulation/scene/archive_io.h"
@@ -25,19 +25,6 @@ namespace arthro::authoring {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A file name from a person's words: "Medial meniscus" gives "medial-meniscus".
-std::string FileNameOf(const std::string& words) {
-  std::string name;
-  for (const unsigned char letter : words) {
-    if (std::isalnum(letter))
-      name += static_cast<char>(std::tolower(letter));
-    else if (!name.empty() && name.back() != '-')
-      name += '-';
-  }
-  while (!name.empty() && name.back() == '-') name.pop_back();
-  return name.empty() ? "tissue" : name;
-}
 
 // "depth-2.tiff" gives "depth.tiff", so that saving again and again does not lengthen the name.
 fs::path WithoutNumber(const fs::path& name) {
@@ -226,7 +213,8 @@ class Saving {
                                                tissue.name));
     const auto& surface = after_.surfaces[i];
     SavePart(tissue.surface, surface, HoldsSurface, [&] {
-      fs::path fresh = FreshName(tissue.surface, FileNameOf(tissue.name) + ".ply", surface);
+      fs::path fresh =
+          FreshName(tissue.surface, FileNameFrom(tissue.name, "tissue") + ".ply", surface);
       // STL rounds to 32 bits and OFF and VTP are read only, so memory is written as PLY.
       if (!IsOneOf(LowerExtension(fresh), {".ply", ".obj"})) fresh.replace_extension(".ply");
       SourceOf(tissue.surface, surface);  // refuses a link that leaves the folder

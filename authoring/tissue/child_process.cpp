@@ -20,10 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kCannotExec = 127;           // as a shell says it
-constexpr std::size_t kMostOutput = 4096;  // bytes kept of what a child prints
+constexpr int kCannotExec = 127;           // exit status of a shell for it
+constexpr std::size_t kMostOutput = 4096;  // bytes kept of a child's output
 
-// A file descriptor that is closed at the end.
+// File descriptor that is closed at the end.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -40,11 +40,11 @@ class Descriptor {
   int fd_;
 };
 
-// In the child, after fork: only calls that are safe there.
+// Runs in the child, after fork: only async-signal-safe calls.
 [[noreturn]] void Become(const char* program, char* const* arguments, int output, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(kCannotExec);  // it died in between
-  ::setpgid(0, 0);  // Ctrl-C goes to the parent alone, which ends the child in its own way
+  if (::getppid() != parent) ::_exit(kCannotExec);  // the parent died in between
+  ::setpgid(0, 0);  // Ctrl-C then reaches the parent alone, which ends the child in an orderly way
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);

@@ -2,33 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "authoring/tissue/surface_simplify.h"
+#include "authoring/tissue/surface_topology.h"
 #include "simulation/core/error.h"
+#include "simulation/core/finite.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/surface_finder.h"
 
 namespace arthro::authoring {
 namespace {
-
-// The solid angle of a closed surface is 4π from inside, 0 from outside; a triangle's is by Van
-// Oosterom and Strackee (1983).
-bool IsInside(const glm::dvec3& x, const SurfaceMesh& surface) {
-  double half = 0;
-  for (const auto& [i, j, k] : surface.triangles) {
-    const glm::dvec3 a = surface.vertices[i] - x, b = surface.vertices[j] - x,
-                     c = surface.vertices[k] - x;
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    half +=
-        std::atan2(glm::dot(a, glm::cross(b, c)),
-                   la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-  }
-  return half > std::numbers::pi;
-}
 
 std::string Words(const glm::dvec3& x) {
   const glm::dvec3 mm = x / kMetrePerMillimetre;
@@ -38,8 +24,9 @@ std::string Words(const glm::dvec3& x) {
 }  // namespace
 
 bool Touches(const Ball& ball, const SurfaceMesh& surface) {
-  return glm::distance(NearestOnSurface(ball.centre, surface), ball.centre) <= ball.radius ||
-         IsInside(ball.centre, surface);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    if (Distance2(CornersOf(surface, t), ball.centre) <= ball.radius * ball.radius) return true;
+  return WindingNumber(surface.vertices, surface.triangles, ball.centre) > 0.5;
 }
 
 void RequireTouching(std::span<const Ball> balls, const SurfaceMesh& surface,
@@ -50,7 +37,7 @@ void RequireTouching(std::span<const Ball> balls, const SurfaceMesh& surface,
       throw Error(Code::kBadArgument, fmt::format("{}, number {}, {}", what, i + 1, why),
                   source.file);
     };
-    if (!std::isfinite(ball.centre.x + ball.centre.y + ball.centre.z + ball.radius))
+    if (!IsFinite(ball.centre) || !std::isfinite(ball.radius))
       refuse("is not a number; give its centre and radius in millimetres");
     if (!(ball.radius > 0)) refuse("has no radius; give it one of more than 0 mm");
     if (Touches(ball, surface)) continue;

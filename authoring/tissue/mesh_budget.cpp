@@ -14,24 +14,25 @@
 namespace arthro::authoring {
 namespace {
 
-// By tests/benchmark/bench_mesh_budget: the digital knee's meniscus (seed 1) under a probe's 0.2 N
-// over 1 mm of the free edge, the worst of three places, against 7005 elements on the same surface,
-// 1.7 to 2.8 mm; the median of five meshes, which differ by 10 % in size and by up to 7 points in
-// error. Probed: told of the three places, 1.5 mm about each. Of 300 elements these take so many
-// that the rest of the edge bends less, and nothing is gained (8 instead of 16 times within two
-// instead of three radii leaves 19 %, but hardly makes a single place finer). A step: the thread's
-// own time with a factor made anew beside it, on a core with AVX-512 that others used too.
+// Measured by tests/benchmark/bench_mesh_budget on the digital knee's meniscus (seed 1): worst of
+// three places, 0.2 N of a probe over 1 mm of the free edge, against 7005 elements on the same
+// surface, 1.7 to 2.8 mm. Medians of five meshes, which differ by 10 % in size and by up to 7
+// points in error. probed_error: with the three places given, 1.5 mm around each. Of 300 elements
+// these places take so many that the rest of the edge is too stiff, and nothing is gained. (A
+// weight of 8 within two radii instead of 16 within three leaves 19 %, but hardly refines a single
+// place.) step_ms: time of the thread with a new factor computed beside it, on a shared core with
+// AVX-512.
 constexpr std::array<MeshBudget, 3> kBudgets = {
     {{MeshSize::kCoarse, "coarse", 150, 0.70, 0.50, 0.6},
      {MeshSize::kDefault, "default", 300, 0.31, 0.33, 1.9},
      {MeshSize::kFine, "fine", 600, 0.23, 0.11, 3.8}}};
 
-// Passes until the count is near what was asked for; elements grow a little faster than triangles.
+// Passes until the count is near the wish; elements grow slightly faster than triangles.
 constexpr int kPasses = 6;
 constexpr double kGrowth = 1.4;
 constexpr double kNear = 0.12;
 
-// 1 where it is held, up to kFree where it is freest.
+// Returns a weight of 1 where the tissue is held, up to kFree where it is freest.
 std::function<double(const glm::dvec3&)> FreedomWeight(const SurfaceMesh& surface,
                                                        const std::vector<Ball>& fixed) {
   constexpr double kFree = 12.0;
@@ -51,7 +52,7 @@ std::function<double(const glm::dvec3&)> FreedomWeight(const SurfaceMesh& surfac
   };
 }
 
-// kProbed in a probed place, less and less around it, 1 from kReach radii on.
+// Returns a weight of kProbed in a probed place, decreasing to 1 at kReach radii.
 std::function<double(const glm::dvec3&)> ProbingWeight(const std::vector<Ball>& probed) {
   constexpr double kProbed = 16.0, kReach = 3.0;
   return [probed](const glm::dvec3& x) {
@@ -89,7 +90,7 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
   TetrahedralizeOptions options;
   options.order = 2;
   options.keep_surface = true;
-  options.min_dihedral = 0;  // that is the triangles' matter here
+  options.min_dihedral = 0;  // the simplified triangles decide the angles here
   options.time_limit = wish.time_limit;
   options.begun = wish.begun.value_or(TimeLimit::Clock::now());
   options.memory_limit = wish.memory_limit;
@@ -98,7 +99,7 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
   const TimeLimit limit(options.time_limit, *options.begun);
   const Progress progress = limit.Watch(whole, source.file, surface.triangles.size());
 
-  // What the author drew is checked and told of before it is made coarse.
+  // Checks and reports the author's own surface, before it is simplified.
   RepairedSurface repaired = RepairSurface(surface, {}, progress);
   SurfaceSource repaired_source = source;
   repaired_source.triangle_in_file = repaired.source_triangle;
@@ -120,7 +121,7 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
     attempt.reading = result.reading;
     attempt.simplification = SimplifyEvenly(coarse, static_cast<int>(triangles), weight, progress);
     if (CheckSurface(coarse, progress).self_intersections.count > 0) {
-      triangles = fewest = 1.08 * triangles;  // so few run through one another
+      triangles = fewest = 1.08 * triangles;  // so few triangles intersect one another
       continue;
     }
     TetMesh mesh = Tetrahedralize(coarse, source, options, &attempt, whole, program);
@@ -136,7 +137,7 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
     const SurfaceReadReport reading = result.reading;
     result = attempt;
     result.reading = reading;
-    if (is_whole && attempt.elements < wanted) break;  // it has no more triangles
+    if (is_whole && attempt.elements < wanted) break;  // the surface has no more triangles
   }
   if (best.elements.empty())
     throw Error(Code::kBadMesh,

@@ -1,4 +1,4 @@
-// Curved quadratic elements: the middles of edges on the outside go onto the fine surface that the
+// Curved quadratic elements: moves the middles of outer edges onto the fine surface that the
 // corners were taken from, so that few elements keep its shape and volume. m.
 #pragma once
 
@@ -8,15 +8,15 @@
 
 namespace arthro::authoring {
 
-// No element's JacobianShare (tet_quality.h) falls below this; a middle goes only as far as that.
+// Least JacobianShare (tet_quality.h) of an element; a middle moves only as far as this allows.
 inline constexpr double kLeastJacobian = 0.3;
 
 struct PulledMiddles {
-  int pulled = 0, held_back = 0;  // all the way or not
+  int pulled = 0, held_back = 0;  // middles that moved completely, and the others
   double largest_move = 0;        // m
 };
 
-// Of an order-2 mesh with straight edges.
+// The mesh has order 2 and straight edges.
 PulledMiddles PullMiddles(TetMesh& mesh, const SurfaceMesh& fine, const Progress& progress = {});
 
 }  // namespace arthro::authoring

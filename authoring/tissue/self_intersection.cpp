@@ -12,12 +12,14 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/tissue/time_limit.h"
+#include "simulation/core/box_tree.h"
+#include "simulation/scene/surface_finder.h"
 
-// Of TetGen only Shewchuk's predicates are used here; the mesher itself runs in a process of its
+// TetGen's library provides Shewchuk's predicates here; the mesher itself runs in a process of its
 // own.
 #define TETLIBRARY
 #include <tetgen.h>
-double orient2d(double* a, double* b, double* c);  // is in the library but not in its header
+double orient2d(double* a, double* b, double* c);  // in the library, but not in its header
 
 namespace arthro::authoring {
 namespace {
@@ -28,12 +30,12 @@ int Sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 double* Raw(const Point& p) { return const_cast<double*>(&p.x); }
 
-// On which side of the plane through a, b, c lies d?
+// Returns the side of the plane through a, b, c on which d lies.
 int Side(const Point& a, const Point& b, const Point& c, const Point& d) {
   return Sign(orient3d(Raw(a), Raw(b), Raw(c), Raw(d)));
 }
 
-// Signs in the plane of one triangle, on its projection along the axis that it faces most: exact,
+// Signs in the plane of one triangle, on its projection along the axis that it faces most. Exact,
 // since projecting drops a coordinate.
 struct Plane {
   int u, v;
@@ -50,7 +52,7 @@ struct Plane {
     double pa[2] = {a[u], a[v]}, pb[2] = {b[u], b[v]}, pc[2] = {c[u], c[v]};
     return Sign(orient2d(pa, pb, pc));
   }
-  // p, q and x are on one line: is x between the two, or one of them?
+  // For p, q and x on one line: whether x lies between p and q, or on one of them.
   bool IsBetween(const Point& p, const Point& q, const Point& x) const {
     return std::min(p[u], q[u]) <= x[u] && x[u] <= std::max(p[u], q[u]) &&
            std::min(p[v], q[v]) <= x[v] && x[v] <= std::max(p[v], q[v]);
@@ -68,7 +70,7 @@ struct Plane {
   }
 };
 
-// Closed segment pq against the closed triangle abc.
+// Tests the closed segment pq against the closed triangle abc.
 bool SegmentMeetsTriangle(const Point& p, const Point& q, const Point& a, const Point& b,
                           const Point& c) {
   const int p_side = Side(a, b, c, p), q_side = Side(a, b, c, q);
@@ -82,7 +84,7 @@ bool SegmentMeetsTriangle(const Point& p, const Point& q, const Point& a, const 
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-// Triangles as corner lists, turned so that shared corners come first.
+// Corners of two triangles, rotated so that shared corners come first.
 struct Corners {
   std::array<int, 3> first, second;
   int shared = 0;
@@ -111,7 +113,7 @@ bool Intersect(const SurfaceMesh& surface, int s, int t) {
       return SegmentMeetsTriangle(a, b, d, e, f) || SegmentMeetsTriangle(b, c, d, e, f) ||
              SegmentMeetsTriangle(c, a, d, e, f) || SegmentMeetsTriangle(d, e, a, b, c) ||
              SegmentMeetsTriangle(e, f, a, b, c) || SegmentMeetsTriangle(f, d, a, b, c);
-    case 1:  // away from the shared corner, the sides opposite to it must stay clear
+    case 1:  // away from the shared corner, the opposite sides must stay clear
       return SegmentMeetsTriangle(b, c, d, e, f) || SegmentMeetsTriangle(e, f, a, b, c);
     case 2: {  // hinged at ab: they meet elsewhere only when folded flat onto one another
       if (Side(a, b, c, f) != 0) return false;
@@ -123,110 +125,35 @@ bool Intersect(const SurfaceMesh& surface, int s, int t) {
   }
 }
 
-struct Box {
-  Point low{std::numeric_limits<double>::infinity()};
-  Point high{-std::numeric_limits<double>::infinity()};
-
-  void Add(const Point& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  bool Meets(const Box& other) const {
-    for (int axis = 0; axis < 3; ++axis)
-      if (low[axis] > other.high[axis] || other.low[axis] > high[axis]) return false;
-    return true;
-  }
-};
-
-// A tree of boxes over triangles, halved at the median of the longest axis.
-class BoxTree {
- public:
-  BoxTree(const SurfaceMesh& surface, std::vector<int> triangles)
-      : triangles_(std::move(triangles)), boxes_(surface.triangles.size()) {
-    for (const int t : triangles_)
-      for (const int corner : surface.triangles[t]) boxes_[t].Add(surface.vertices[corner]);
-    if (!triangles_.empty()) Build(0, static_cast<int>(triangles_.size()));
-  }
-
-  // Pairs of leaves whose boxes meet, each once.
-  template <class F>
-  void ForEachPair(const Progress& progress, F&& visit) const {
-    StageSteps steps(progress, "looking for self-intersections", triangles_.size());
-    for (const int t : triangles_) {
-      steps.Next();
-      Query(0, t, visit);
-    }
-  }
-
- private:
-  static constexpr int kLeafSize = 4;
-  struct Node {
-    Box box;
-    int begin, end, right;  // right: index of the second child; the first follows its parent
-  };
-
-  int Build(int begin, int end) {
-    const int index = static_cast<int>(nodes_.size());
-    nodes_.push_back({{}, begin, end, -1});
-    Box box, centres;
-    for (int i = begin; i < end; ++i) {
-      const Box& own = boxes_[triangles_[i]];
-      box.Add(own.low);
-      box.Add(own.high);
-      centres.Add(own.low + own.high);
-    }
-    nodes_[index].box = box;
-    if (end - begin <= kLeafSize) return index;
-    const Point size = centres.high - centres.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto key = [&](int t) {
-      return std::pair(boxes_[t].low[axis] + boxes_[t].high[axis], t);
-    };
-    const int middle = (begin + end) / 2;
-    std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
-                     triangles_.begin() + end, [&](int s, int t) { return key(s) < key(t); });
-    Build(begin, middle);
-    nodes_[index].right = Build(middle, end);
-    return index;
-  }
-
-  template <class F>
-  void Query(int index, int t, F&& visit) const {
-    const Node& node = nodes_[index];
-    if (!node.box.Meets(boxes_[t])) return;
-    if (node.right < 0) {
-      for (int i = node.begin; i < node.end; ++i)
-        if (triangles_[i] > t && boxes_[triangles_[i]].Meets(boxes_[t])) visit(t, triangles_[i]);
-      return;
-    }
-    Query(index + 1, t, visit);
-    Query(node.right, t, visit);
-  }
-
-  std::vector<int> triangles_;
-  std::vector<Box> boxes_;
-  std::vector<Node> nodes_;
-};
-
 }  // namespace
 
 std::vector<IntersectingPair> FindSelfIntersections(const SurfaceMesh& surface, int most,
                                                     const Progress& progress) {
-  // The predicates keep their rounding constants in the library; without its static filter they
+  // The predicates keep their rounding constants in the library; without the static filter they
   // depend on nothing else.
   static std::once_flag once;
   std::call_once(once, [] { exactinit(0, 0, 1, 1.0, 1.0, 1.0); });
 
   std::vector<int> with_area;
+  std::vector<Box3> boxes;
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
-    const auto& [a, b, c] = surface.triangles[t];
-    const Point &x = surface.vertices[a], &y = surface.vertices[b], &z = surface.vertices[c];
-    if (glm::cross(y - x, z - x) != Point(0.0)) with_area.push_back(t);
+    const TriangleCorners corner = CornersOf(surface, static_cast<std::size_t>(t));
+    if (glm::cross(corner[1] - corner[0], corner[2] - corner[0]) == Point(0.0)) continue;
+    with_area.push_back(t);
+    boxes.push_back(BoxOf(corner));
   }
+  const BoxTree tree(boxes);
   std::vector<IntersectingPair> pairs;
-  BoxTree(surface, std::move(with_area)).ForEachPair(progress, [&](int s, int t) {
-    if (static_cast<int>(pairs.size()) < most && Intersect(surface, s, t)) pairs.push_back({s, t});
-  });
+  StageSteps steps(progress, "looking for self-intersections", with_area.size());
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
+    steps.Next();
+    double touching2 = 0;
+    tree.ForNear(boxes[i], touching2, [&](int j) {
+      if (j > i && Distance2(boxes[i], boxes[j]) == 0 && static_cast<int>(pairs.size()) < most &&
+          Intersect(surface, with_area[i], with_area[j]))
+        pairs.push_back({with_area[i], with_area[j]});
+    });
+  }
   std::sort(pairs.begin(), pairs.end(), [](const auto& p, const auto& q) {
     return std::pair(p.first, p.second) < std::pair(q.first, q.second);
   });
@@ -234,8 +161,8 @@ std::vector<IntersectingPair> FindSelfIntersections(const SurfaceMesh& surface, 
 }
 
 glm::dvec3 PlaceOf(const SurfaceMesh& surface, const IntersectingPair& pair) {
-  // Where a side of one goes through the plane of the other, in plain arithmetic; else between
-  // their centres.
+  // Point where a side of one triangle passes through the plane of the other, in plain arithmetic;
+  // else the mean of their corners.
   const auto corner = [&](int t, int i) { return surface.vertices[surface.triangles[t][i % 3]]; };
   const std::array<std::array<int, 2>, 2> orders = {
       {{pair.first, pair.second}, {pair.second, pair.first}}};

@@ -1,4 +1,4 @@
-// Where a triangle surface runs through itself. Exact: decided by signs of determinants in adaptive
+// Self-intersections of a triangle surface. Exact: decided by signs of determinants in adaptive
 // precision (Shewchuk's predicates), so neither a grazing touch nor a near miss is misjudged.
 #pragma once
 
@@ -17,14 +17,14 @@ struct IntersectingPair {
 
 inline constexpr int kMostPairs = 100000;
 
-// All pairs of triangles with a point in common that is neither a shared corner nor on a shared
-// edge, in ascending order. Triangles without area are left out. Equal triangles are not a pair
-// (they are duplicates). Stops after `most` pairs.
+// Returns all pairs of triangles with a common point that is neither a shared corner nor on a
+// shared edge, in ascending order. Leaves out triangles without area and equal triangles, which are
+// duplicates. Returns the first `most` pairs.
 std::vector<IntersectingPair> FindSelfIntersections(const SurfaceMesh& surface,
                                                     int most = kMostPairs,
                                                     const Progress& progress = {});
 
-// A point near which the two triangles of a pair meet, for the sentence that a person reads.
+// Returns a point near which the two triangles of a pair meet, for a message.
 glm::dvec3 PlaceOf(const SurfaceMesh& surface, const IntersectingPair& pair);
 
 }  // namespace arthro::authoring

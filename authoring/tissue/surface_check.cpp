@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -19,13 +18,11 @@
 namespace arthro::authoring {
 namespace {
 
-// A tissue's bounding box has a diagonal between these: from a trimmed piece of a horn to the
-// cartilage of a whole knee.
+// Range of the diagonal of a tissue's bounding box: from a trimmed piece of a horn to the cartilage
+// of a whole knee.
 constexpr double kSmallestTissue = 1e-3, kLargestTissue = 0.3;  // m
-// Twice the area over the longest side squared; a triangle below this is a line.
-constexpr double kNoArea = 1e-12;
 constexpr const char* kCheckStage = "checking the surface";
-constexpr double kTinyComponent = 1e-3;  // of the largest component's volume
+constexpr double kTinyComponent = 1e-3;  // share of the largest component's volume
 
 glm::dvec3 Centre(const SurfaceMesh& surface, int t) {
   const auto& [a, b, c] = surface.triangles[t];
@@ -40,11 +37,8 @@ void CheckTriangles(const SurfaceMesh& surface, SurfaceCheck& check, const Progr
     auto corners = surface.triangles[t];
     const glm::dvec3 &x = surface.vertices[corners[0]], &y = surface.vertices[corners[1]],
                      &z = surface.vertices[corners[2]];
-    const double twice_area = glm::length(glm::cross(y - x, z - x));
-    const double longest =
-        std::max({glm::distance(x, y), glm::distance(y, z), glm::distance(z, x)});
-    check.area += 0.5 * twice_area;
-    if (twice_area <= kNoArea * longest * longest) check.degenerate.Add(Centre(surface, t), t);
+    check.area += 0.5 * glm::length(glm::cross(y - x, z - x));
+    if (HasNoArea(surface, corners)) check.degenerate.Add(Centre(surface, t), t);
     std::sort(corners.begin(), corners.end());
     if (const auto [entry, is_new] = first.try_emplace(corners, t); !is_new)
       check.duplicate.Add(Centre(surface, t), entry->second, t);
@@ -64,7 +58,7 @@ void CheckEdges(const SurfaceMesh& surface, const std::vector<EdgeUse>& uses, Su
   });
 }
 
-// Around a manifold vertex all triangles hang together through the edges at that vertex.
+// Around a manifold vertex all triangles are connected through the edges at that vertex.
 void CheckVertices(const SurfaceMesh& surface, const std::vector<EdgeUse>& uses,
                    SurfaceCheck& check) {
   DisjointSets corners(3 * check.triangles);
@@ -84,7 +78,7 @@ void CheckVertices(const SurfaceMesh& surface, const std::vector<EdgeUse>& uses,
     if (fan[vertex] < 0) fan[vertex] = root;
     if (fan[vertex] == root || fan[vertex] == -2) continue;
     check.nonmanifold_vertices.Add(surface.vertices[vertex], fan[vertex] / 3, corner / 3);
-    fan[vertex] = -2;  // counted
+    fan[vertex] = -2;  // already counted
   }
 }
 
@@ -94,22 +88,6 @@ struct Component {
   double volume = 0;
   glm::dvec3 low{0.0}, high{0.0};
 };
-
-// How much of the full solid angle a closed component fills seen from x, over 4π: 1 inside, 0
-// outside (van Oosterom and Strackee 1983).
-double WindingNumber(const std::vector<glm::dvec3>& vertices, const Component& component,
-                     const glm::dvec3& x) {
-  if (glm::any(glm::lessThan(x, component.low)) || glm::any(glm::greaterThan(x, component.high)))
-    return 0.0;
-  double sum = 0;
-  for (const auto& [i, j, k] : component.triangles) {
-    const glm::dvec3 a = vertices[i] - x, b = vertices[j] - x, c = vertices[k] - x;
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    sum += std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
-                                                         glm::dot(b, c) * la + glm::dot(c, a) * lb);
-  }
-  return sum / (2.0 * std::numbers::pi);
-}
 
 void CheckComponents(const SurfaceMesh& surface, const std::vector<int>& component_of,
                      SurfaceCheck& check, const Progress& progress) {
@@ -137,14 +115,16 @@ void CheckComponents(const SurfaceMesh& surface, const std::vector<int>& compone
     if (component.volume < 0) check.inward.Add(x, t);
     if (std::abs(component.volume) < kTinyComponent * largest) check.tiny_components.Add(x, t);
     const auto holds_x = [&](const Component& other) {
-      return &other != &component && std::abs(WindingNumber(surface.vertices, other, x)) > 0.5;
+      return &other != &component && glm::all(glm::greaterThanEqual(x, other.low)) &&
+             glm::all(glm::lessThanEqual(x, other.high)) &&
+             std::abs(WindingNumber(surface.vertices, other.triangles, x)) > 0.5;
     };
     const auto outer = std::find_if(components.begin(), components.end(), holds_x);
     if (outer != components.end()) check.cavities.Add(x, t, outer->first_triangle);
   }
 }
 
-// "12.5, 3, -4 mm", with the triangles of the file.
+// Returns a place such as "12.5, 3, -4 mm", with the triangles of the file.
 std::string Place(const Finding& finding, const SurfaceSource& source) {
   const glm::dvec3 x = finding.where / source.metres_per_unit;
   std::string place = fmt::format("near {:.6g}, {:.6g}, {:.6g} {}", x.x, x.y, x.z, source.unit);

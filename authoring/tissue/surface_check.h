@@ -1,5 +1,5 @@
-// Is a surface fit to be filled with tetrahedra? Closed, manifold, facing outwards, free of
-// self-intersections, and of a size that a tissue can have.
+// Checks whether a surface can be filled with tetrahedra: closed, manifold, facing outwards, free
+// of self-intersections, and of a size that a tissue can have.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace arthro::authoring {
 
-// How often a fault was found, and the first place.
+// Count of a fault, and its first place.
 struct Finding {
   int count = 0;
   glm::dvec3 where{0.0};  // m
@@ -39,10 +39,10 @@ struct SurfaceCheck {
   Finding inward;                  // components that face inwards
   Finding cavities;                // components inside another one
   Finding self_intersections;      // pairs of triangles
-  // Components whose volume is less than 1e-3 of the largest one's: debris of a segmentation.
+  // Components with less than 1e-3 of the largest one's volume: debris of a segmentation.
   Finding tiny_components;
 
-  double Diagonal() const;  // of the bounding box, m
+  double Diagonal() const;  // diagonal of the bounding box, m
   bool IsClosedManifold() const {
     return degenerate.count + duplicate.count + open_edges.count + nonmanifold_edges.count +
                nonmanifold_vertices.count ==
@@ -50,22 +50,22 @@ struct SurfaceCheck {
   }
 };
 
-// Self-intersections and cavities are looked for only in a closed manifold.
+// Searches self-intersections and cavities only in a closed manifold.
 SurfaceCheck CheckSurface(const SurfaceMesh& surface, const Progress& progress = {});
 
-// Where a surface comes from, so that a refusal can say where the fault is in the user's terms.
+// Origin of a surface, so that a message can give places in the user's terms.
 struct SurfaceSource {
   std::filesystem::path file;
   std::string unit = "m";
   double metres_per_unit = 1.0;
-  std::vector<int> triangle_in_file;  // of each triangle; empty: the same
+  std::vector<int> triangle_in_file;  // per triangle, its number in the file; empty: the same
 };
 
-// Throws Error(kBadMesh) in one sentence: the first fault that makes a volume impossible, how often
-// and where it is in the file's unit, and what to do.
+// Throws Error(kBadMesh) in one sentence: the first fault that makes a volume impossible, its
+// count, its place in the file's unit, and what to do.
 void RequireMeshable(const SurfaceCheck& check, const SurfaceSource& source);
 
-// Throws Error(kBadMesh) when no tissue has this size, and names the unit that would make sense.
+// Throws Error(kBadMesh) when no tissue has this size, and names the unit that would fit.
 void RequireTissueSize(const SurfaceCheck& check, const SurfaceSource& source);
 
 }  // namespace arthro::authoring

@@ -18,8 +18,6 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// Twice the area over the longest side squared; a triangle below this is a line.
-constexpr double kNoArea = 1e-12;
 constexpr const char* kRepairStage = "repairing the surface";
 
 bool RepeatsACorner(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
@@ -39,8 +37,8 @@ int KeepTriangles(RepairedSurface& mended, F&& keep) {
   return dropped;
 }
 
-// A vertex goes to the first one before it that is nearer than the tolerance; looked up in cells of
-// that size.
+// Merges a vertex with the first one before it that is nearer than the tolerance, by a lookup in
+// cells of that size.
 int Weld(SurfaceMesh& surface, const Progress& progress) {
   if (surface.vertices.empty()) return 0;
   glm::dvec3 low = surface.vertices[0], high = low;
@@ -87,22 +85,16 @@ int DropDuplicates(RepairedSurface& mended, const Progress& progress) {
   });
 }
 
-bool HasNoArea(const SurfaceMesh& surface, const Triangle& triangle) {
-  const glm::dvec3 &x = surface.vertices[triangle[0]], &y = surface.vertices[triangle[1]],
-                   &z = surface.vertices[triangle[2]];
-  const double longest = std::max({glm::distance(x, y), glm::distance(y, z), glm::distance(z, x)});
-  return glm::length(glm::cross(y - x, z - x)) <= kNoArea * longest * longest;
-}
-
-// A triangle without area has a corner b on its side ac. The neighbour over that side, acd, becomes
-// abd and bcd: the same surface, without the line. One pass; several lines in a row take several.
+// A triangle without area has a corner b on its side ac. The neighbour across that side, acd,
+// becomes abd and bcd: the same surface without the line. One pass; several lines in a row need
+// several.
 int FlattenOnce(SurfaceMesh& surface, const Progress& progress) {
   std::vector<int> lines;
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
     if (HasNoArea(surface, surface.triangles[t])) lines.push_back(t);
   if (lines.empty()) return 0;
 
-  std::map<std::pair<int, int>, int> triangle_left_of;  // of a directed side; -1 when not unique
+  std::map<std::pair<int, int>, int> triangle_left_of;  // per directed side; -1 when not unique
   StageSteps steps(progress, kRepairStage, surface.triangles.size());
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) {
@@ -129,7 +121,7 @@ int FlattenOnce(SurfaceMesh& surface, const Progress& progress) {
     const Triangle other = surface.triangles[neighbour];
     const int d = other[0] + other[1] + other[2] - a - c;
     if (d == b || triangle_left_of.contains({b, d}) || triangle_left_of.contains({d, b})) continue;
-    // t was c a b; the neighbour a c d.
+    // t was c a b; the neighbour was a c d.
     surface.triangles[t] = {a, b, d};
     surface.triangles[neighbour] = {b, c, d};
     touched.insert({t, neighbour});
@@ -138,8 +130,9 @@ int FlattenOnce(SurfaceMesh& surface, const Progress& progress) {
   return flattened;
 }
 
-// Loops of open sides, each followed against its triangles' direction, so that a triangle that
-// fills it faces as they do. A corner with more than one way on belongs to no simple hole.
+// Returns loops of open sides, each followed against the direction of its triangles, so that
+// filling triangles face as they do. A corner with more than one continuation belongs to no simple
+// hole.
 std::vector<std::vector<int>> OpenLoops(const SurfaceMesh& surface) {
   std::map<int, std::vector<int>> next;
   ForEachEdge(SortedEdgeUses(surface), [&](auto first, auto last) {
@@ -165,7 +158,7 @@ std::vector<std::vector<int>> OpenLoops(const SurfaceMesh& surface) {
   return loops;
 }
 
-// Fills a loop by cutting off, again and again, the corner with the shortest cut.
+// Fills a loop by repeatedly cutting off the corner with the shortest cut.
 int FillHoles(RepairedSurface& mended, int most_sides, const Progress& progress) {
   int filled = 0;
   StageSteps steps(progress, kRepairStage, 0);
@@ -191,7 +184,8 @@ int FillHoles(RepairedSurface& mended, int most_sides, const Progress& progress)
   return filled;
 }
 
-// Turns triangles to face as the first of their component does, over edges of exactly two.
+// Turns triangles to face as the first of their component does, across edges of exactly two
+// triangles.
 int OrientConsistently(SurfaceMesh& surface, const std::vector<EdgeUse>& uses) {
   struct Neighbour {
     int triangle;
@@ -219,7 +213,7 @@ int OrientConsistently(SurfaceMesh& surface, const std::vector<EdgeUse>& uses) {
         turned_here += state[neighbour.triangle];
         members.push_back(neighbour.triangle);
       }
-    // The majority is right.
+    // The majority decides.
     const bool invert = 2 * turned_here > static_cast<int>(members.size());
     for (const int t : members)
       if ((state[t] == 1) != invert) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
@@ -228,7 +222,7 @@ int OrientConsistently(SurfaceMesh& surface, const std::vector<EdgeUse>& uses) {
   return turned;
 }
 
-// Turns closed components that face inwards and drops those that are too small.
+// Turns closed components that face inwards, and drops those that are too small.
 void SettleComponents(RepairedSurface& mended, double drop_below_share) {
   SurfaceMesh& surface = mended.surface;
   const auto uses = SortedEdgeUses(surface);
@@ -299,7 +293,7 @@ RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOpt
     repairs.filled_holes = FillHoles(mended, options.fill_holes, progress);
   progress.Step(kRepairStage, 0.9);
   SettleComponents(mended, options.drop_below_share);
-  // Welded vertices are gone from every triangle as well; they are counted once.
+  // Welded vertices are unreferenced as well; they are counted once.
   repairs.unreferenced_vertices = DropUnreferenced(mended.surface) - repairs.welded_vertices;
   return mended;
 }

@@ -1,6 +1,6 @@
-// What can be mended without guessing: vertices that are one, triangles that say nothing, sides
-// that face the wrong way. Holes and debris are only touched when asked for. Each change is
-// counted; what is left wrong is for surface_check.h to name.
+// Repairs that need no guess: welds equal vertices, drops degenerate triangles, turns triangles
+// that face the wrong way. Fills holes and drops debris only on request. Counts each change;
+// remaining faults are reported by surface_check.h.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@
 namespace arthro::authoring {
 
 struct SurfaceRepairOptions {
-  int fill_holes = 0;             // edges; holes of at most so many sides are closed
-  double drop_below_share = 0.0;  // components with a smaller share of the whole volume are dropped
+  int fill_holes = 0;             // sides; larger holes stay open
+  double drop_below_share = 0.0;  // share of the whole volume; smaller components are dropped
 };
 
 struct SurfaceRepairs {
   int welded_vertices = 0;        // nearer to another one than kWeldShare of the diagonal
   int collapsed_triangles = 0;    // two corners on one point after welding
   int duplicate_triangles = 0;    // dropped
-  int flattened_triangles = 0;    // without area: their long side was turned into the neighbour
+  int flattened_triangles = 0;    // without area: their long side was flipped into the neighbour
   int unreferenced_vertices = 0;  // dropped
-  int filled_holes = 0;           // with as many triangles as they have sides, less two
+  int filled_holes = 0;           // each with two triangles fewer than it has sides
   int reoriented_triangles = 0;   // turned to face as their neighbours do
   int flipped_components = 0;     // turned to face outwards
   int dropped_components = 0;     // too small
@@ -35,12 +35,12 @@ struct SurfaceRepairs {
 
 struct RepairedSurface {
   SurfaceMesh surface;
-  // Of each triangle: its number in the surface that came in; -1 for one that fills a hole.
+  // Per triangle, its number in the input surface; -1 for one that fills a hole.
   std::vector<int> source_triangle;
   SurfaceRepairs repairs;
 };
 
-inline constexpr double kWeldShare = 1e-6;  // of the bounding box's diagonal
+inline constexpr double kWeldShare = 1e-6;  // share of the bounding box's diagonal
 
 RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOptions& options,
                               const Progress& progress = {});

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -13,10 +12,10 @@
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <OpenMesh/Tools/Decimater/Observer.hh>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "authoring/tissue/time_limit.h"
+#include "simulation/scene/surface_finder.h"
 
 namespace arthro::authoring {
 namespace {
@@ -27,34 +26,12 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
-// A collapse may turn a triangle by this at most.
+// Largest rotation of a triangle's normal by a collapse.
 constexpr float kMostTurn = 60.0f;  // deg
-
-glm::dvec3 NearestOnSegment(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 along = b - a;
-  const double square = glm::dot(along, along);
-  const double t = square > 0 ? std::clamp(glm::dot(x - a, along) / square, 0.0, 1.0) : 0.0;
-  return a + t * along;
-}
-
-glm::dvec3 NearestOnTriangle(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b,
-                             const glm::dvec3& c) {
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const double square = glm::dot(normal, normal);
-  const auto is_inside_of = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    return glm::dot(glm::cross(to - from, x - from), normal) >= 0;
-  };
-  if (square > 0 && is_inside_of(a, b) && is_inside_of(b, c) && is_inside_of(c, a))
-    return x - glm::dot(normal, x - a) / square * normal;
-  glm::dvec3 nearest = NearestOnSegment(x, a, b);
-  for (const glm::dvec3& place : {NearestOnSegment(x, b, c), NearestOnSegment(x, c, a)})
-    if (glm::distance(x, place) < glm::distance(x, nearest)) nearest = place;
-  return nearest;
-}
 
 constexpr const char* kStage = "simplifying the surface";
 
-// Tells of the collapses of a decimater, and ends it when the job should stop.
+// Reports the collapses of a decimater, and ends it when the job is cancelled.
 class CollapseSteps : public OpenMesh::Decimater::Observer {
  public:
   CollapseSteps(const Progress& progress, std::size_t all)
@@ -79,7 +56,7 @@ class CollapseSteps : public OpenMesh::Decimater::Observer {
   std::exception_ptr stopped_;
 };
 
-// Quadric error with a share of the edge's own length, weighted by place.
+// Quadric error plus a share of the squared edge length, weighted by place.
 class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
  public:
   using Base = OpenMesh::Decimater::ModQuadricT<Mesh>;
@@ -100,15 +77,6 @@ class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
   const std::function<double(const glm::dvec3&)>* weight = nullptr;
 };
 
-}  // namespace
-
-double DistanceToTriangle(const glm::dvec3& x, const glm::dvec3& a, const glm::dvec3& b,
-                          const glm::dvec3& c) {
-  return glm::distance(x, NearestOnTriangle(x, a, b, c));
-}
-
-namespace {
-
 // `prepare` adds the module that orders the edges.
 template <class Prepare>
 Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Progress& progress,
@@ -122,7 +90,7 @@ Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Progress
   OpenMesh::VPropHandleT<int> source;
   mesh.add_property(source);
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
-    // In millimetres: the decimater orders edges by squared errors in 32 bits.
+    // In millimetres, because the decimater orders edges by squared errors in 32 bits.
     const glm::dvec3 x = 1e3 * surface.vertices[i];
     const auto vertex = mesh.add_vertex({x.x, x.y, x.z});
     mesh.property(source, vertex) = static_cast<int>(i);
@@ -159,13 +127,14 @@ Simplification Simplify(SurfaceMesh& surface, int most_triangles, const Progress
     for (const auto vertex : mesh.fv_range(face)) triangle[corner++] = vertex.idx();
     simple.triangles.push_back(triangle);
   }
+  const SurfaceFinder finder(simple);
   StageSteps distances(progress, kStage, surface.vertices.size());
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     distances.Next();
     if (!stays[i])
-      result.largest_distance = std::max(
-          result.largest_distance,
-          glm::distance(surface.vertices[i], NearestOnSurface(surface.vertices[i], simple)));
+      result.largest_distance =
+          std::max(result.largest_distance,
+                   glm::distance(surface.vertices[i], finder.Nearest(surface.vertices[i])));
   }
   result.triangles_after = static_cast<int>(simple.triangles.size());
   surface = std::move(simple);
@@ -191,22 +160,6 @@ Simplification SimplifyEvenly(SurfaceMesh& surface, int most_triangles,
     decimater.module(quadric).unset_max_err();
     decimater.module(quadric).weight = &weight;
   });
-}
-
-glm::dvec3 NearestOnSurface(const glm::dvec3& x, const SurfaceMesh& surface) {
-  glm::dvec3 nearest = x;
-  double best = std::numeric_limits<double>::infinity();
-  for (const auto& [i, j, k] : surface.triangles) {
-    const glm::dvec3 &a = surface.vertices[i], &b = surface.vertices[j], &c = surface.vertices[k];
-    const glm::dvec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-    if (glm::distance(x, glm::clamp(x, low, high)) >= best) continue;
-    const glm::dvec3 place = NearestOnTriangle(x, a, b, c);
-    if (const double distance = glm::distance(x, place); distance < best) {
-      best = distance;
-      nearest = place;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace arthro::authoring

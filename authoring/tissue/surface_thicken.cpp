@@ -13,8 +13,8 @@
 namespace arthro::authoring {
 namespace {
 
-// Along the mean of the normals around the vertex, each weighted by its angle there, so that the
-// way a surface is cut into triangles does not matter.
+// Means of the normals around each vertex, weighted by the angle there, so that they do not depend
+// on the triangulation.
 std::vector<glm::dvec3> VertexNormals(const SurfaceMesh& surface) {
   std::vector<glm::dvec3> normals(surface.vertices.size(), glm::dvec3(0.0));
   for (const auto& triangle : surface.triangles)
@@ -44,8 +44,8 @@ int ThickenOpenParts(RepairedSurface& repaired, double thickness) {
   });
   if (open.empty()) return 0;
 
-  // Vertices of open parts get a partner behind them; of the two, the triangles' own side is the
-  // outer one, so a negative thickness makes the copy the front.
+  // Vertices of open parts get a copy behind them. The triangles' own side is the outer one, so a
+  // negative thickness makes the copy the front.
   const auto normals = VertexNormals(surface);
   const int triangles = static_cast<int>(surface.triangles.size());
   std::vector<int> partner(surface.vertices.size(), -1);

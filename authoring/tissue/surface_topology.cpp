@@ -1,6 +1,8 @@
 #include "authoring/tissue/surface_topology.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include <glm/geometric.hpp>
@@ -31,7 +33,7 @@ std::vector<int> ComponentOfTriangles(const SurfaceMesh& surface, const std::vec
   std::vector<int> number(static_cast<std::size_t>(n), -1);
   *count = 0;
   for (int t = 0; t < n; ++t) {
-    const int root = sets.Find(t);  // never after t
+    const int root = sets.Find(t);  // at most t
     number[t] = root == t ? (*count)++ : number[root];
   }
   return number;
@@ -46,6 +48,26 @@ double SignedVolume(const std::vector<glm::dvec3>& vertices,
     six_volumes +=
         glm::dot(vertices[a] - origin, glm::cross(vertices[b] - origin, vertices[c] - origin));
   return six_volumes / 6.0;
+}
+
+double WindingNumber(const std::vector<glm::dvec3>& vertices,
+                     const std::vector<std::array<int, 3>>& triangles, const glm::dvec3& x) {
+  double half_angle = 0;
+  for (const auto& [i, j, k] : triangles) {
+    const glm::dvec3 a = vertices[i] - x, b = vertices[j] - x, c = vertices[k] - x;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    half_angle +=
+        std::atan2(glm::dot(a, glm::cross(b, c)),
+                   la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+  }
+  return half_angle / (2.0 * std::numbers::pi);
+}
+
+bool HasNoArea(const SurfaceMesh& surface, const std::array<int, 3>& triangle) {
+  const glm::dvec3 &x = surface.vertices[triangle[0]], &y = surface.vertices[triangle[1]],
+                   &z = surface.vertices[triangle[2]];
+  const double longest = std::max({glm::distance(x, y), glm::distance(y, z), glm::distance(z, x)});
+  return glm::length(glm::cross(y - x, z - x)) <= kNoArea * longest * longest;
 }
 
 }  // namespace arthro::authoring

@@ -13,7 +13,7 @@ namespace arthro::authoring {
 namespace {
 
 constexpr std::array<std::array<int, 2>, 6> kEdges = {
-    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};  // in VTK's order of mid nodes
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};  // VTK's order of mid nodes
 constexpr std::array<std::array<int, 3>, 4> kFaces = {{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 
 int EdgeBetween(int a, int b) {
@@ -23,7 +23,8 @@ int EdgeBetween(int a, int b) {
   return -1;
 }
 
-// det(dx/dξ) of a quadratic element at barycentric coordinates, ξ = the last three of them.
+// Returns det(dx/dξ) of a quadratic element at barycentric coordinates; ξ is the last three of
+// them.
 double JacobianAt(const std::array<glm::dvec3, 10>& x, const std::array<double, 4>& l) {
   // Corner k: N = l(2l − 1), middle of ab: N = 4 la lb; derivatives by each l.
   std::array<glm::dvec3, 4> by{};
@@ -85,7 +86,7 @@ TetQuality MeasureTets(const TetMesh& mesh) {
     quality.volume += six_volumes / 6.0;
     if (mesh.order == 2) {
       quality.worst_jacobian = std::min(quality.worst_jacobian, JacobianShare(mesh, i));
-      // The mean over the four quadrature points; exact for a det of second order, else nearly.
+      // The mean over the four quadrature points is exact for a determinant of second order.
       static const auto points = SamplePoints();
       const auto all = NodesOf(mesh, i);
       for (int p = 10; p < 14; ++p) quality.curved_volume += JacobianAt(all, points[p]) / 24.0;

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The two files of a folder; both ends are this very program, so their bytes are as memory has
-// them.
+// The two files of a folder. Reader and writer are this same program, so values are stored in their
+// memory layout.
 constexpr const char* kJobFile = "job.bin";
 constexpr const char* kMeshFile = "mesh.bin";
 
@@ -108,7 +108,7 @@ TetgenJob ReadJob(const fs::path& folder) {
   return job;
 }
 
-// Bytes of address space that this process has now.
+// Returns the present address space of this process, bytes.
 [[maybe_unused]] double AddressSpace() {
   double pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -126,12 +126,12 @@ void Limit(int resource, double most) {
 void LimitThisProcess(const TetgenJob& job) {
   Limit(RLIMIT_CORE, 0);
   if (job.time_limit > 0) Limit(RLIMIT_CPU, job.time_limit + 2);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve terabytes
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers reserve terabytes
   if (job.memory_limit > 0) Limit(RLIMIT_AS, AddressSpace() + job.memory_limit);
 #endif
 }
 
-// TetGen calls this for each tetrahedron with nothing but its corners, so the limits are here.
+// TetGen calls this for each tetrahedron with its corners only, so the limits are globals.
 double longest_edge = 0;  // 0: none
 std::vector<FinePlace> fine_places;
 
@@ -153,7 +153,7 @@ bool IsTooLong(double* a, double* b, double* c, double* d, double*, double) {
   });
 }
 
-// A facet of one triangle each; tetgenio frees what its lists hold.
+// One facet per triangle; tetgenio frees its lists.
 void Fill(tetgenio& in, const TetgenJob& job) {
   in.firstnumber = 0;
   in.numberofpoints = static_cast<int>(job.points.size());

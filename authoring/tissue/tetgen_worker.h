@@ -1,6 +1,6 @@
-// TetGen in a process of its own: it may crash, abort, run for ever or eat all memory on input that
-// it does not like. The parent writes a job into a folder, runs `PROGRAM tetgen-worker FOLDER`, and
-// reads the mesh that the worker left there.
+// TetGen in a process of its own, because it may crash, abort, loop or exhaust memory on some
+// inputs. The parent writes a job into a folder, runs `PROGRAM tetgen-worker FOLDER`, and reads the
+// mesh that the worker left there.
 #pragma once
 
 #include <array>
@@ -14,25 +14,25 @@
 
 namespace arthro::authoring {
 
-// Tetrahedra that reach into the ball have no longer edge than this.
+// Ball in which no tetrahedron has an edge longer than max_edge.
 struct FinePlace {
   glm::dvec3 centre{0.0};
   double radius = 0, max_edge = 0;
 };
 
 struct TetgenJob {
-  std::string switches;       // TetGen's own
-  double flat_angle = 180;    // deg; facets that meet at more than this are one plane
+  std::string switches;       // TetGen's own switches
+  double flat_angle = 180;    // deg; facets that meet at more than this count as one plane
   double max_dihedral = 165;  // deg; flatter elements are smoothed at the end
   double max_edge = 0;        // tetrahedra with a longer edge are split; 0: none
-  double memory_limit = 0;    // bytes on top of the program itself
-  double time_limit = 0;      // s of processor time: the worker's own stop if its parent forgets it
+  double memory_limit = 0;    // bytes in addition to the program itself
+  double time_limit = 0;      // s of processor time: the worker's own stop if its parent dies
   std::vector<FinePlace> fine;
   std::vector<glm::dvec3> points;
   std::vector<std::array<int, 3>> triangles;
 };
 
-// How the worker ends. kTetgen + n is what TetGen itself threw.
+// Exit codes of the worker. kTetgen + n is an error n that TetGen threw.
 enum WorkerExit {
   kWorkerDone = 0,
   kWorkerOutOfMemory = 11,
@@ -42,10 +42,11 @@ enum WorkerExit {
 
 void WriteTetgenJob(const std::filesystem::path& folder, const TetgenJob& job);
 
-// In the child: reads the job of a folder, fills it, leaves the mesh there. Returns a WorkerExit.
+// Runs in the child: reads the job of a folder, fills it, writes the mesh there. Returns a
+// WorkerExit.
 int RunTetgenWorker(const std::filesystem::path& folder) noexcept;
 
-// Nodes and elements as the worker left them, in VTK's node order. Throws Error(kFile).
+// Reads the worker's nodes and elements, in VTK's node order. Throws Error(kFile).
 TetMesh ReadTetgenMesh(const std::filesystem::path& folder);
 
 }  // namespace arthro::authoring

@@ -17,8 +17,8 @@
 #include "authoring/tissue/tetgen_worker.h"
 #include "authoring/tissue/time_limit.h"
 #include "simulation/core/error.h"
-#include "simulation/core/leftovers.h"
 #include "simulation/core/options_json.h"
+#include "simulation/core/temporary_folder.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
@@ -27,40 +27,24 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// Elements per cube of the longest allowed edge, measured on cubes and spheres; and the most that
-// are begun with: more would not be solved at all.
+// Elements per cube of the longest allowed edge, measured on cubes and spheres, and the largest
+// number that is attempted: a solver could not use more.
 constexpr double kElementsPerCube = 33.0, kMostElements = 2e6;
-// Below this share of a regular element's shape, a solver's answer is not trusted.
+// Least share of a regular element's shape for which a solver's result is trusted.
 constexpr double kSliverVolume = 1e-9;
-// TetGen is given a diagonal of 64 to 128, scaled by a power of two, which changes no bit.
+// TetGen works on a diagonal of 64 to 128; the scale is a power of two, which changes no bit.
 constexpr int kDiagonalExponent = 7;
 constexpr int kMostEdgePasses = 4;
 // Facets this near to one plane, in degrees, may be filled as one; TetGen's own 179.9 costs up to
 // 1e-6 of a real meniscus's volume.
 constexpr double kFlatAngle = 179.9999;
-// Elements flatter than this, in degrees, are smoothed at the end. TetGen's own is 165. Not
-// together with a longest edge, which that smoothing stretches by a fifth.
+// Elements flatter than this, in degrees, are smoothed at the end; TetGen's default is 165. Not
+// used together with a longest edge, which that smoothing stretches by a fifth.
 constexpr double kMaxDihedral = 150.0;
 
 double MsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-// A folder for one run of the mesher.
-class WorkFolder {
- public:
-  WorkFolder() : path_(MakeTemporaryFolder()) {}
-  ~WorkFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string SayTetgenCode(int code) {
   switch (code) {
@@ -98,7 +82,7 @@ struct Run {
   TetrahedralizeReport& report;
 };
 
-// One child. Nothing when TetGen failed in a way that other switches may cure.
+// Runs one child. Returns nothing when TetGen failed in a way that other switches may cure.
 std::optional<TetMesh> RunTetgen(const Run& run, const std::string& switches, double max_edge) {
   int exponent = 0;
   std::frexp(run.report.surface.Diagonal(), &exponent);
@@ -115,7 +99,7 @@ std::optional<TetMesh> RunTetgen(const Run& run, const std::string& switches, do
   job.time_limit = run.limit.Left();
   for (const glm::dvec3& x : run.surface.vertices) job.points.push_back(x * scale);
   job.triangles = run.surface.triangles;
-  WorkFolder folder;
+  TemporaryFolder folder;
   WriteTetgenJob(folder.path(), job);
   const ChildResult result = RunChild(run.program, {"tetgen-worker", folder.path().string()},
                                       run.limit.Left(), run.progress);
@@ -141,8 +125,8 @@ std::optional<TetMesh> RunTetgen(const Run& run, const std::string& switches, do
   return mesh;
 }
 
-// Good elements first; when TetGen fails at that, the same without new nodes on the surface, which
-// it does more surely; last without any wish for quality.
+// Tries good elements first; when TetGen fails, the same without new nodes on the surface, which is
+// more reliable; last without any bound on quality.
 TetMesh Fill(const Run& run, double max_edge) {
   const TetrahedralizeOptions& options = run.options;
   const std::string quality =
@@ -165,7 +149,7 @@ TetMesh Fill(const Run& run, double max_edge) {
       run.source.file);
 }
 
-// `flag`: that which says the longest edge in so much volume.
+// `flag` is the switch that bounds the longest edge within so much volume.
 void RefuseTooMany(double volume, double max_edge, const char* flag, const SurfaceSource& source) {
   if (max_edge <= 0) return;
   const double expected = kElementsPerCube * volume / (max_edge * max_edge * max_edge);
@@ -205,7 +189,7 @@ void Simplify(SurfaceMesh& surface, const SurfaceSource& source,
                 source.file);
 }
 
-// An edge that is longer than it was asked to be.
+// Edge that is longer than the limit.
 struct LongEdge {
   const char* where;
   double length, asked;  // m
@@ -227,8 +211,8 @@ std::vector<LongEdge> TooLongEdges(const Run& run) {
   return edges;
 }
 
-// A mesh that is coarser than asked for is not what a solver's error was chosen by. With
-// keep_surface the surface's own edges were asked for as well, and win.
+// A mesh coarser than its limit does not have the error that the author chose. With keep_surface
+// the surface's own edges were also asked for, and take precedence.
 void RequireEdges(const Run& run) {
   if (run.options.keep_surface) return;
   const std::vector<LongEdge> edges = TooLongEdges(run);
@@ -281,7 +265,7 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   const TimeLimit limit(options.time_limit, options.begun.value_or(Clock::now()));
   const Progress progress = limit.Watch(whole, source.file, surface.triangles.size());
 
-  // Size first: with a wrong unit every other sentence would be misleading.
+  // Size first: with a wrong unit every other message would be misleading.
   progress.Step("checking the surface", 0.0);
   const auto check_start = Clock::now();
   RepairedSurface repaired =
@@ -299,7 +283,7 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   RequireFinePlaces(repaired.surface, result.surface.volume, source, options);
   result.check_ms = MsSince(check_start);
 
-  // TetGen's last smoothing can stretch an edge a little past the limit; then once more, tighter.
+  // TetGen's last smoothing can stretch an edge slightly past the limit; then once more, tighter.
   progress.Step("filling it with tetrahedra", 0.1);
   const auto mesh_start = Clock::now();
   const Run run{repaired.surface, source, options, progress, limit, program, result};
@@ -309,7 +293,7 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
     mesh = Fill(run, max_edge);
     result.quality = MeasureTets(mesh);
     const double excess = options.max_edge > 0 ? result.quality.longest_edge / options.max_edge : 0;
-    // Without nodes on the surface, its own edges stay as long as they are.
+    // Without nodes on the surface, its own edges keep their lengths.
     if (excess <= 1.0 || result.attempts.back().switches.find('Y') != std::string::npos) break;
     max_edge *= 0.98 / excess;
   }

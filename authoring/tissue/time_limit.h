@@ -1,4 +1,4 @@
-// The time that filling a surface may take, from its file to the mesh, checked wherever a stage
+// Time limit of a job that fills a surface, from its file to the mesh, checked whenever a stage
 // reports its progress.
 #pragma once
 
@@ -17,11 +17,11 @@ class TimeLimit {
       : seconds_(seconds), begun_(begun) {}
 
   double seconds() const { return seconds_; }
-  double Left() const;  // s; 0 when it is over
+  double Left() const;  // s; 0 when it has passed
   bool IsOver() const { return Left() <= 0; }
 
-  // `progress`, which from the limit on throws Error(kBadMesh) with the stage that was not
-  // finished. `triangles`: of the surface in `file`.
+  // Returns `progress` with a check that throws Error(kBadMesh) once the limit has passed, with the
+  // unfinished stage. `triangles` is the count of the surface in `file`.
   Progress Watch(const Progress& progress, const std::filesystem::path& file,
                  std::size_t triangles) const;
 
@@ -30,7 +30,7 @@ class TimeLimit {
   Clock::time_point begun_;
 };
 
-// Says "stage, done of all" now and then. Cheap enough for the innermost loop of a stage.
+// Reports "stage, done of all" now and then. Cheap enough for the innermost loop of a stage.
 class StageSteps {
  public:
   StageSteps(const Progress& progress, const char* stage, std::size_t all)

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -20,7 +22,7 @@ HandPlant::HandPlant(const PlantOptions& options, const HandModel& hand, const g
 
 void HandPlant::Tick(const glm::dvec3& command, double dt) noexcept {
   glm::dvec3& slot = commands_[tick_ % kLongestDelay];
-  slot = std::isfinite(command.x + command.y + command.z) ? command : glm::dvec3(0.0);
+  slot = IsFinite(command) ? command : glm::dvec3(0.0);
   const double length = glm::length(slot);
   if (length > options_.peak_force) slot *= options_.peak_force / length;
   const glm::dvec3 force =

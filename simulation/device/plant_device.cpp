@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 
 PlantDevice::PlantDevice(const PlantOptions& options, const HandModel& hand, const glm::dvec3& at,
@@ -51,7 +53,7 @@ DeviceSample PlantDevice::Read(double now) noexcept {
 
 void PlantDevice::Command(const glm::dvec3& force_in_device) noexcept {
   const glm::dvec3& f = force_in_device;
-  const bool is_finite = std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.z);
+  const bool is_finite = IsFinite(f);
   if (!is_finite) events_.trouble = DeviceTrouble::kNotFinite;
   force_ = MayPush(status_, events_) ? f : glm::dvec3(0.0);
 }

@@ -5,14 +5,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
-namespace {
-
-bool IsFinite(const glm::dvec3& x) noexcept {
-  return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 LimitedForce LimitForce(const LimiterOptions& options, const glm::dvec3& force, double hand_speed,
                         Fault fault, double dt, LimiterState& state) noexcept {

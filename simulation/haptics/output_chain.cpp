@@ -4,14 +4,15 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 
 LimitedForce ForceToHand(const OutputOptions& options, const TipForce& tip, double dt,
                          OutputState& state) noexcept {
   Fault fault = tip.fault;
   const glm::dvec3 bare = HandForce(tip.lever, tip.force);
-  if (fault == Fault::kNone && !(std::isfinite(bare.x) && std::isfinite(bare.y) &&
-                                 std::isfinite(bare.z) && std::isfinite(tip.hand_speed)))
+  if (fault == Fault::kNone && !(IsFinite(bare) && std::isfinite(tip.hand_speed)))
     fault = Fault::kNotFinite;
   if (fault == Fault::kNone && tip.push == HandPush::kNo) fault = Fault::kNotArmed;
 

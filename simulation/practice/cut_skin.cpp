@@ -25,7 +25,7 @@ BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface, const SolidFi
     SolidField field = whole;
     MakeCuts(field, places.cuts, places.fixed);
     BodySkin skin{Polygonise(field), {}};
-    ProjectOnto(UncutSurface(places.surface), field, {}, skin.surface);
+    ProjectOnto(SurfaceFinder(places.surface), field, {}, skin.surface);
     skin.is_fresh = FreshVertices(skin.surface, field);
     for (glm::dvec3& x : skin.surface.vertices) x /= tissue.pose.scale;
     return skin;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/core/finite.h"
 #include "simulation/device/device_state.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
@@ -30,10 +31,6 @@ glm::dvec3 LimitSqueeze(const glm::dvec3& push, const glm::dvec3& off) noexcept 
   const glm::dvec3 from_centre = push - 0.5 * off;
   const double most = 0.5 * glm::length(off) + kSqueeze, length = glm::length(from_centre);
   return length > most ? 0.5 * off + most / length * from_centre : push;
-}
-
-bool IsFinite(const glm::dvec3& x) noexcept {
-  return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
 }
 
 glm::dvec2 PixelOrNan(const Projection& projection, const glm::dvec3& direction) noexcept {

@@ -14,7 +14,6 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/core/leftovers.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_files.h"
 #include "simulation/scene/scene_io.h"
@@ -253,13 +252,6 @@ Error NamedByArchive(const Error& fault, const fs::path& folder, const fs::path&
   const fs::path inside = fault.file().lexically_relative(folder);
   if (inside.empty() || *inside.begin() == "..") return fault;
   return Error(fault.code(), inside.string() + ": " + fault.sentence(), archive);
-}
-
-TemporaryFolder::TemporaryFolder() : path_(MakeTemporaryFolder()) {}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 }  // namespace arthro

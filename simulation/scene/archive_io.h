@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "simulation/core/error.h"
+#include "simulation/core/temporary_folder.h"
 
 namespace arthro {
 
@@ -33,18 +34,5 @@ void UnpackScene(const std::filesystem::path& archive, const std::filesystem::pa
 // gone: "s.arthro: scene.json: …".
 Error NamedByArchive(const Error& fault, const std::filesystem::path& folder,
                      const std::filesystem::path& archive);
-
-// A folder of its own under the system's temporary one, removed with the last owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace arthro

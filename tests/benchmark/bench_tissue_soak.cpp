@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/core/finite.h"
 #include "simulation/core/process_cost.h"
 #include "tests/benchmark/bench_report.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
@@ -78,12 +79,6 @@ double ResidentMb() {
   return 1e-6 * resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-bool IsFinite(const std::vector<glm::dvec3>& points) {
-  return std::ranges::all_of(points, [](const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  });
-}
-
 Soak Run(const Plan& plan) {
   const BodySpec spec = test::MeniscusBody();
   TissueWorld world({spec}, {}, nullptr, plan.has_thread);
@@ -137,7 +132,8 @@ Soak Run(const Plan& plan) {
     // A coupling's tip is the hand's own, which may be no number; its contacts may not.
     ToolCoupling of_tissue = coupling;
     of_tissue.tip = glm::dvec3(0.0);
-    soak.not_finite += !IsFinite(body.positions) || !IsFinite(body.normals) || !IsFinite(of_tissue);
+    soak.not_finite +=
+        !AllFinite(body.positions) || !AllFinite(body.normals) || !IsFinite(of_tissue);
 
     for (const glm::dvec3& x : body.positions) hash.Add(x);
     hash.Add(static_cast<double>(coupling.step));

@@ -8,7 +8,7 @@
 
 #include "app/state/edits.h"
 #include "simulation/core/units.h"
-#include "simulation/tissue/contact/closest_points.h"
+#include "simulation/scene/surface_finder.h"
 
 namespace arthro::app {
 namespace {
@@ -24,14 +24,10 @@ const Tissue* TissueAt(const EditorState& state, int tissue) {
 glm::dvec3 InwardAt(const SurfaceMesh& surface, const glm::dvec3& x) {
   glm::dvec3 inward(0, 0, -1);
   double least = std::numeric_limits<double>::max();
-  for (const auto& t : surface.triangles) {
-    const simulation::TriangleCorners corner{surface.vertices[static_cast<std::size_t>(t[0])],
-                                             surface.vertices[static_cast<std::size_t>(t[1])],
-                                             surface.vertices[static_cast<std::size_t>(t[2])]};
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const TriangleCorners corner = CornersOf(surface, t);
     const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const glm::dvec3 at = simulation::ClosestOnTriangle(corner, x);
-    const double distance =
-        glm::distance(at.x * corner[0] + at.y * corner[1] + at.z * corner[2], x);
+    const double distance = Distance2(corner, x);
     if (distance >= least || !(glm::length(normal) > 0.0)) continue;
     least = distance;
     inward = -glm::normalize(normal);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <limits>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
@@ -16,14 +16,6 @@ namespace arthro::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A tissue's name as a file may bear it.
-std::string FileNameOf(const std::string& name) {
-  std::string file;
-  for (const char c : name)
-    file += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
-  return file.empty() ? "tissue" : file;
-}
 
 }  // namespace
 
@@ -67,7 +59,7 @@ void TetrahedraliseTissue(EditorState& state) {
   wish.fixed = tissue.fixed;
   wish.probed = tissue.probed;
   // Kept beside the window until the scene is saved; saving copies it into the scene's folder.
-  const fs::path file = state.scratch.path() / (FileNameOf(tissue.name) + ".vtu");
+  const fs::path file = state.scratch.path() / (FileNameFrom(tissue.name, "tissue") + ".vtu");
   state.jobs.Start("Make tetrahedra of " + tissue.name, [=](const Progress& progress) {
     authoring::SurfaceSource source;
     source.file = tissue.name;

@@ -14,9 +14,7 @@
 #include <vtkViewport.h>
 #include <vtk_glew.h>
 
-#include "app/view/backdrop/backdrop_shader.h"
-#include "app/view/backdrop/relief_shader.h"
-#include "app/view/drawing/lens_shader.h"
+#include "app/view/drawing/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
 
@@ -26,11 +24,11 @@ vtkStandardNewMacro(BackdropProp);
 
 namespace {
 
-// Where the light is neutral, in radii of the backdrop: a usual working distance.
+// Distance of neutral light in radii of the backdrop: a usual working distance.
 constexpr double kLightReach = 0.55;
 
-// A cell's relief counts as smooth where the distances of its corners and those about it bend by
-// less than this share.
+// Largest second difference of the corners' distances, over the distance, at which the relief of a
+// cell counts as smooth.
 constexpr double kSmoothBend = 0.02;
 
 void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec3& value) {
@@ -149,7 +147,8 @@ void BackdropProp::SetPicture(const Picture& picture, int size, const LensShade&
 int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
   if (!window || !panorama_->GetHandle()) return 0;
-  // A processor goes both ways of every if of a shader, so what is not needed is not compiled.
+  // A software rasteriser executes both branches of a shader's `if`, so unused parts are not
+  // compiled.
   const bool is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
   if (picture_.relief.steps > 0) PrepareSearch(window);
   const bool has_relief = highest_ > 0.0 && picture_.relief.steps > 0;
@@ -157,40 +156,29 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   const bool has_lens = !simulation::IsEquisolid(picture_.lens);
   const bool is_relit = backdrop_.relight > 0 && !picture_.plain;
   const bool has_rod = shade_.rod.radius > 0 && !picture_.plain;
-  const std::size_t head_variant =
-      (is_equirectangular ? 1u : 0u) + (has_lens ? 2u : 0u) + (wraps_ ? 4u : 0u);
-  const std::size_t variant = head_variant + (has_relief ? 8u : 0u) + (has_cells ? 16u : 0u) +
-                              (picture_.plain ? 32u : 0u) + (is_relit ? 64u : 0u) +
-                              (has_rod ? 128u : 0u);
-  const auto head = [&] {
-    std::string source = kBackdropHead;
-    if (is_equirectangular) source += "#define EQUIRECTANGULAR\n";
-    if (wraps_) source += "#define WRAPS\n";
-    if (has_lens) source += std::string("#define LENS\n") + kLensUniforms + kLensFactor;
-    return source + kLensRay;
+  std::vector<std::string> defines;
+  std::size_t variant = 0, bit = 1;
+  const auto define = [&](bool is_on, const char* name) {
+    if (is_on) defines.push_back(name), variant |= bit;
+    bit <<= 1;
   };
+  define(is_equirectangular, "EQUIRECTANGULAR");
+  define(has_lens, "LENS");
+  define(wraps_, "WRAPS");
   relief_->Activate();
   if (has_relief) ceiling_->Activate();
   if (has_cells) {
-    if (!cells_.Has(head_variant)) cells_.SetShaders(head_variant, head());
+    if (!cells_.Has(variant)) cells_.SetShaders(variant, defines);
     cells_.Draw(window, size_, picture_.relief.cell,
                 [this](vtkShaderProgram& program) { SetUniforms(program); });
   }
+  define(has_relief, "RELIEF");
+  define(has_cells, "CELLS");
+  define(picture_.plain, "PLAIN");
+  define(is_relit, "RELIT");
+  define(has_rod, "ROD");
   auto& pass = passes_[variant];
-  if (!pass) {
-    std::string source = head();
-    if (picture_.plain) source += "#define PLAIN\n";
-    if (has_relief) source += "#define RELIEF\n";
-    if (has_cells) source += "#define CELLS\n";
-    if (is_relit) source += "#define RELIT\n";
-    if (has_rod) source += std::string("#define ROD\n") + kRodShade;
-    for (const char* part :
-         {kDepthShader, kLightShader, kLampShader, kPanoramaFilter, kPanoramaPlace,
-          has_relief ? kReliefSides : "", has_relief ? kReliefSearch : "",
-          has_cells ? kReliefFromCells : "", kBackdropMain})
-      source += part;
-    pass.emplace(source, ShaderPass::Shape::kRound);
-  }
+  if (!pass) pass.emplace(ShaderText("backdrop.glsl", defines), ShaderPass::Shape::kRound);
   vtkShaderProgram* program = pass->Ready(window);
   if (program == nullptr) return 0;
 
@@ -238,7 +226,7 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
     SetUniform(program, "given_lensEnd", picture_.lens.end);
     SetUniform(program, "given_lensAxis", picture_.lens.axis);
   }
-  // Pixel (0, 0) is the middle of the first texel; the last texel may reach beyond the panorama.
+  // Pixel (0, 0) is the middle of the first texel; the last texel may extend beyond the panorama.
   const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
   const glm::dvec2 covered = texels * double(reduction_);
   const double pixels =

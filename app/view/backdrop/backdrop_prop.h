@@ -1,6 +1,6 @@
-// The panorama behind everything: a full-screen quad whose every pixel follows its own ray to the
-// sphere about the portal and from there into the panorama [method.md, Oblique view], and which
-// writes the relief into the depth buffer for the models to be held against.
+// Panorama behind everything: a full-screen triangle fan. Each pixel follows its own ray to the
+// sphere around the portal, and from there into the panorama [method.md, Oblique view]. Writes the
+// relief into the depth buffer, so that it occludes the models.
 #pragma once
 
 #include <array>
@@ -28,26 +28,26 @@ class BackdropProp : public vtkProp {
   static BackdropProp* New();
   vtkTypeMacro(BackdropProp, vtkProp);
 
-  // Uploads both pictures; the window's context must be current and initialised. What had to be
-  // changed for it (size) is said by the returned sentence.
+  // Uploads both pictures; the window's context must be current and initialised. Returns a sentence
+  // when the panorama had to be reduced.
   std::string Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
                      const DepthMap& depth, const Backdrop& backdrop);
-  // Another relief for the panorama that is there: a fraction of the work.
+  // Replaces the relief of the present panorama: a fraction of the work.
   void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth);
-  // Another place for the panorama that is there; nothing is uploaded. False, and nothing done,
-  // where it would begin or cease to be a whole turn.
+  // Moves the present panorama; uploads nothing. Returns false, and does nothing, when it would
+  // begin or cease to cover a full turn.
   bool SetGeometry(const Backdrop& backdrop);
-  // `shade`: of the instrument, where one is shown. `models`: what the gain sees of them.
+  // `shade` is that of the visible instrument; `models` is what the automatic gain meters.
   void SetPicture(const Picture& picture, int size, const LensShade& shade,
                   const MeteredModels& models);
 
-  // As the models should take it.
+  // Light of the footage, for the models.
   const FootageLight& footage_light() const { return light_; }
   // Distance at which the light is neutral, m.
   double light_reach() const;
-  // What lies about a direction from the portal, for a model there.
+  // Light around a direction from the portal, for a model there.
   FootageLight LightAbout(const glm::dvec3& direction) const;
-  // The camera's gain for the picture that was set; 1 where the footage's light counts.
+  // Camera gain of the present picture; 1 when the footage's light counts.
   double gain() const { return gain_; }
   double relight() const { return backdrop_.relight; }
 
@@ -61,7 +61,7 @@ class BackdropProp : public vtkProp {
 
  private:
   void SetUniforms(vtkShaderProgram& program) const;
-  // What the search for the relief needs, made for the first picture that searches.
+  // Prepares the textures of the relief search, for the first picture that searches.
   void PrepareSearch(vtkOpenGLRenderWindow* window);
   void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
             int channels, int type, const void* data) const;
@@ -71,17 +71,17 @@ class BackdropProp : public vtkProp {
   LensShade shade_;
   int size_ = 0;
   glm::ivec2 panorama_size_{0};
-  int reduction_ = 1;   // panorama pixels a texel and axis
-  bool wraps_ = false;  // a whole turn: left and right edge meet
+  int reduction_ = 1;   // panorama pixels per texel and axis
+  bool wraps_ = false;  // full turn: left and right edge meet
   ReliefTexture unsearched_;
-  double highest_ = 0;  // of the relief, m
-  int block_ = 1;       // texels of the relief's ceiling
+  double highest_ = 0;  // maximum of the relief, m
+  int block_ = 1;       // texels per block of the relief's maxima
   LightGrid grid_;
   FootageLight light_;
   double gain_ = 1;
   vtkNew<vtkTextureObject> panorama_, relief_, ceiling_, slopes_;
   ReliefCells cells_;
-  std::array<std::optional<ShaderPass>, 256> passes_;  // one a variant of the shader
+  std::array<std::optional<ShaderPass>, 256> passes_;  // one per variant of the shader
 };
 
 }  // namespace arthro::app

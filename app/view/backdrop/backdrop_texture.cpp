@@ -10,12 +10,12 @@
 namespace arthro::app {
 namespace {
 
-// The soft end takes this share of the panorama's longer edge.
+// Width of the soft border, as a share of the panorama's longer edge.
 constexpr double kSoftEnd = 1.0 / 40.0;
-// Longer edge of the mask, px: fine enough for the soft end's 13.
+// Longer edge of the mask, px: fine enough for a soft border of 13 px.
 constexpr int kMaskSide = 512;
 
-// Box blur of one line in place, by running sum. Beyond the ends it goes on periodically or as 0.
+// Blurs one line in place by a running sum. Beyond the ends it is periodic or 0.
 void BlurLine(float* line, int count, int stride, int radius, bool periodic,
               std::vector<float>& copy) {
   copy.resize(static_cast<std::size_t>(count));
@@ -33,7 +33,7 @@ void BlurLine(float* line, int count, int stride, int radius, bool periodic,
   }
 }
 
-// Coarser than the panorama: it is smooth.
+// Coarser than the panorama, because it is smooth.
 struct ImagedMask {
   int width = 0, height = 0;
   std::vector<float> share;
@@ -117,7 +117,7 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
       relief.texels.insert(relief.texels.end(), {0, 0, 0, share});
     return relief;
   }
-  // As many texels as pixels where that is not too many, so that a texel is a pixel.
+  // One texel per pixel when that is not too many.
   const double shrink = std::max(1.0, double(std::max(depth.width, depth.height)) / kReliefSide);
   relief.width = std::max(1, static_cast<int>(std::lround(depth.width / shrink)));
   relief.height = std::max(1, static_cast<int>(std::lround(depth.height / shrink)));
@@ -177,7 +177,7 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(ceiling.width) +
            static_cast<std::size_t>(x);
   };
-  // Rows of a block first, all columns at once: a live preview of a depth map waits for this.
+  // Rows of a block first, all columns at once: the live preview of a depth map waits for this.
   std::vector<float> own(index(0, ceiling.height), 0.0f);
   std::vector<float> highest(static_cast<std::size_t>(width));
   for (int top = 0; top < height; top += ceiling.block) {
@@ -208,7 +208,7 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
 
 BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
   constexpr int kBlocks = 512;
-  constexpr float kStep = 3e-4f;  // m a texel; a slope of so much counts half
+  constexpr float kStep = 3e-4f;  // m per texel; a slope of this size has half the weight
   const int block = (std::max(relief.width, relief.height) + kBlocks - 1) / kBlocks;
   BroadSlopes broad;
   broad.width = (relief.width + block - 1) / block;

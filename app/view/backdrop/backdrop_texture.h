@@ -1,5 +1,5 @@
-// The panorama and its relief as they are uploaded: reduced where the graphics card needs it, with
-// a soft end where nothing was imaged. Plain values, no OpenGL.
+// Panorama and relief as they are uploaded: reduced when the graphics card needs it, with a soft
+// border where nothing was imaged. Plain values, no OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -13,45 +13,45 @@
 
 namespace arthro::app {
 
-// Panorama pixels a texel and axis, so that no edge is longer than `max_size`.
+// Panorama pixels per texel and axis, so that no edge is longer than `max_size`.
 int TextureReduction(int width, int height, int max_size);
 
-// Means over reduction x reduction blocks; a last, thinner block takes what is left.
+// Means over reduction x reduction blocks; the last block takes the remainder.
 ColourImage ReducedPanorama(const ColourImage& panorama, int reduction);
 
-// The relief as it is drawn, over the same part of the sphere as the panorama. Its longer side has
-// at most kReliefSide texels: a wide view of 1024 px shows no more. Edges stay edges.
+// Relief over the same part of the sphere as the panorama. Its longer side has at most kReliefSide
+// texels: a wide view of 1024 px shows no more. Edges stay edges.
 inline constexpr int kReliefSide = 2048;
 struct ReliefTexture {
   int width = 0, height = 0;
-  // Four a texel: the relief, m, 0 where it is not known; how it changes along u and along v, m a
-  // texture's width and height; and 1 well inside what was imaged, falling to 0 at its edge, the
-  // fall inside.
+  // Four values per texel: relief, m, 0 where it is unknown; its slopes along u and v, m per
+  // texture width and height; and a weight, 1 well inside the imaged part, which falls to 0 at its
+  // edge, on the inner side.
   std::vector<float> texels;
 };
-// `depth` may be empty: the bare sphere, all of it imaged.
+// An empty `depth` gives the bare sphere, all of it imaged.
 ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
                                 bool whole_turn);
 
-// The highest relief of each block of block x block texels and of the eight about it, m: a ray that
-// is further in there passes the block without a look at it.
+// Maximum of the relief over each block of block x block texels and its eight neighbours, m: a ray
+// above it passes the block without a texture read.
 struct ReliefCeiling {
   int block = 1, width = 0, height = 0;
   std::vector<float> relief;
 };
 ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 
-// The slopes that light is thrown back by, over the same part of the sphere: means of block x block
-// texels and a little of those about them, some 512 along the longer side. A depth map made of
-// brightness has noise of a few tenths of a millimetre from texel to texel, which would glitter.
-// Steps between what is near and what is far count for little.
+// Slopes for diffuse shading, over the same part of the sphere: means of block x block texels and a
+// little of their neighbours, some 512 along the longer side. A depth map from brightness has noise
+// of a few tenths of a millimetre between texels, which would glitter. Steps between near and far
+// parts have a low weight.
 struct BroadSlopes {
   int width = 0, height = 0;
-  std::vector<float> slopes;  // two a block: along u and along v, as a ReliefTexture's
+  std::vector<float> slopes;  // two per block: along u and along v, like those of a ReliefTexture
 };
 BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn);
 
-// Whether the panorama is a whole turn, so that its left edge meets its right.
+// Whether the panorama covers a full turn, so that its left edge meets its right.
 bool IsWholeTurn(const Projection& projection, int width);
 
 }  // namespace arthro::app

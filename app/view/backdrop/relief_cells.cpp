@@ -5,7 +5,7 @@
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
-#include "app/view/backdrop/relief_shader.h"
+#include "app/view/drawing/shader_text.h"
 
 namespace arthro::app {
 namespace {
@@ -35,12 +35,10 @@ void ReliefCells::Pass(vtkOpenGLRenderWindow* window, ShaderPass& pass, vtkTextu
   pass.Draw(side);
 }
 
-void ReliefCells::SetShaders(std::size_t variant, const std::string& head) {
+void ReliefCells::SetShaders(std::size_t variant, const std::vector<std::string>& defines) {
   variant_ = variant;
-  find_corners_.emplace(head + kPanoramaPlace + kReliefSides + kReliefSearch + kCornersMain,
-                        ShaderPass::Shape::kWhole);
-  join_corners_.emplace(head + kPanoramaPlace + kReliefSides + kCellsMain,
-                        ShaderPass::Shape::kWhole);
+  find_corners_.emplace(ShaderText("relief_corners.glsl", defines), ShaderPass::Shape::kWhole);
+  join_corners_.emplace(ShaderText("relief_cells.glsl", defines), ShaderPass::Shape::kWhole);
 }
 
 void ReliefCells::Draw(vtkOpenGLRenderWindow* window, int size, int cell,

@@ -1,11 +1,12 @@
-// Where the relief lies along the rays through the corners of cells of pixels, found once a cell
-// instead of once a pixel, as textures for the backdrop's shader (relief_shader.h). Made anew for
-// each frame, in textures that stay.
+// Distances of the relief along the rays through the corners of cells of pixels, found once per
+// cell instead of once per pixel, as textures for the backdrop's shader (relief_by_cells.glsl).
+// Computed for each frame, in textures that are reused.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
@@ -20,10 +21,10 @@ namespace arthro::app {
 
 class ReliefCells {
  public:
-  // `head`: what both passes' shaders begin with; `variant` tells one from another.
+  // `variant` is a number that stands for `defines`.
   bool Has(std::size_t variant) const { return find_corners_ && variant == variant_; }
-  void SetShaders(std::size_t variant, const std::string& head);
-  // `set` gives a program its uniforms. A picture of size x size pixels, cells of cell x cell.
+  void SetShaders(std::size_t variant, const std::vector<std::string>& defines);
+  // `set` sets the uniforms of a program. The picture has size x size pixels, a cell cell x cell.
   void Draw(vtkOpenGLRenderWindow* window, int size, int cell,
             const std::function<void(vtkShaderProgram&)>& set);
   vtkTextureObject* cells() { return cells_; }

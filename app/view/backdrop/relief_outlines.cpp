@@ -8,10 +8,11 @@
 namespace arthro::app {
 namespace {
 
-constexpr float kLeastStep = 1.5e-4f;  // m, of a texel to the next; less shows no teeth
+constexpr float kLeastStep =
+    1.5e-4f;  // m between neighbouring texels; smaller steps show no staircase
 
-// How much higher `b` is than `a`, where that is an outline, else 0: before and after it the relief
-// changes by less than half as much. What is not known is no outline.
+// Returns how much higher `b` is than `a` when that is an outline, else 0: before and after it the
+// relief changes by less than half as much. Unknown texels are no outline.
 float StepOf(float before, float a, float b, float after) {
   const float step = b - a, most = 0.5f * std::abs(step);
   const bool is = 2 * most >= kLeastStep && std::isfinite(most) && std::abs(a - before) < most &&
@@ -19,14 +20,15 @@ float StepOf(float before, float a, float b, float after) {
   return is ? step : 0.0f;
 }
 
-// The steps of a map across its rows, or across its columns: `along` goes where such an outline
-// goes, and the step of (along, across) is that from there to across + 1.
+// Steps of a map across its rows, or across its columns. `along` runs along such an outline; the
+// step of (along, across) lies between across and across + 1.
 struct Steps {
   int along = 0, across = 0;
   std::size_t to_next_along = 0, to_next_across = 0;  // texels
   bool along_wraps = false, across_wraps = false;
   std::vector<float> values;
-  std::vector<std::vector<int>> found = {};  // of each across: where along there is one, in order
+  std::vector<std::vector<int>> found =
+      {};  // per `across`: the places along it that have a step, ascending
 
   std::size_t Texel(int i, int j) const {
     if (along_wraps) i = (i + along) % along;
@@ -83,8 +85,8 @@ bool AreOfOneOutline(float step, float other) {
          std::abs(step) > 0.5f * std::abs(other);
 }
 
-// What is laid through the stairs: the new relief, and how long the tread was that each texel has
-// it of, since a texel at a corner lies on two.
+// Result: the new relief, and per texel the length of the tread that it comes from, since a texel
+// at a corner lies on two.
 struct Laid {
   const DepthMap& stairs;
   DepthMap& relief;
@@ -102,11 +104,11 @@ void LayTread(const Steps& steps, int first, int length, int across, Laid& laid)
   const int after = goes_on(first + length, steps.at(first + length - 1, across));
   const bool is_straight = before != 0 && after == -before;
   for (int i = 0; i < length; ++i) {
-    // How far the outline lies after the middle of the step, and how it goes on from there.
+    // Offset of the outline from the middle of the step, and its slope.
     const double place = (i + 0.5) / length, from_middle = 2 * place - 1;
     const int by = from_middle < 0 ? before : after;
-    // Straight from half a texel to half a texel; a crest, or where it is not known how the stair
-    // goes on: to none in the middle.
+    // Straight from half a texel to half a texel. For a crest, or an unknown continuation, to 0 in
+    // the middle.
     const double offset =
         is_straight ? after * (place - 0.5) : 0.5 * by * from_middle * from_middle;
     const double slope = (is_straight ? after : 2 * by * from_middle) / static_cast<double>(length);
@@ -128,7 +130,7 @@ void LayTreads(const Steps& steps, Laid& laid) {
     const std::vector<int>& found = steps.found[static_cast<std::size_t>(j)];
     const std::size_t count = found.size();
     const auto joins = [&](int i) { return AreOfOneOutline(steps.at(i - 1, j), steps.at(i, j)); };
-    // Around a whole turn from where a tread begins.
+    // Around a full turn, beginning where a tread begins.
     std::size_t begin = 0;
     while (steps.along_wraps && begin < count && joins(found[begin])) ++begin;
     for (std::size_t done = 0; done < count;) {

@@ -12,13 +12,14 @@
 namespace arthro::app {
 namespace {
 
-constexpr double kBox = 14e-3;          // m, side of the fluid that repeats
-constexpr double kAhead = 6e-3;         // m, its middle before the lens
-constexpr double kTooNear = 1.6e-3;     // m: here nothing drifts, or one bit would fill the window
-constexpr double kDepthOfField = 8e-3;  // m; nearer than that bits are out of focus
-constexpr int kLensEvery = 4;           // every so many bubbles one sticks to the lens
+constexpr double kBox = 14e-3;   // m, side of the periodic box of fluid
+constexpr double kAhead = 6e-3;  // m from the lens to the middle of the box
+constexpr double kTooNear =
+    1.6e-3;  // m; nothing drifts nearer, since one bit would fill the window
+constexpr double kDepthOfField = 8e-3;  // m; nearer bits are out of focus
+constexpr int kLensEvery = 4;           // one bubble of so many sticks to the lens
 
-// A bit's own numbers, the same however many others there are.
+// Random numbers of one bit, which do not depend on the number of the others.
 Random NumbersOf(int seed, int kind, int index) {
   const auto mixed = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(seed)) << 20) ^
                      (static_cast<std::uint64_t>(kind) << 12) ^ static_cast<std::uint64_t>(index);
@@ -35,7 +36,7 @@ glm::dvec3 SharesOfEach(Random& own) {
 
 double Wrapped(double x) { return x - kBox * std::floor(x / kBox + 0.5); }
 
-// Where a point of the repeating fluid is seen, and how much of it: it fades at the box's ends.
+// Returns the image of a point of the periodic fluid; it fades out towards the ends of the box.
 std::optional<DriftingBit> Seen(const glm::dvec3& place, double radius,
                                 const simulation::ScopeView& view, double field_of_view,
                                 const simulation::WindowLens& lens) {
@@ -70,7 +71,8 @@ void SortFarthestFirst(std::vector<DriftingBit>& bits) {
                            [](const auto& a, const auto& b) { return a.distance > b.distance; });
 }
 
-// It slides slowly up the glass, in a picture's own frame, near the rim and rather above.
+// A bubble on the lens, near the rim and mostly above, that slides slowly up in the picture's
+// frame.
 DriftingBit OnTheLens(Random& own, double time) {
   DriftingBit bit;
   const double side = Share(own), out = 0.5 + 0.42 * Share(own);
@@ -104,12 +106,12 @@ std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
       const glm::dvec3 start = kBox * SharesOfEach(own);
       const double size = Share(own);
       const double radius = 0.3e-3 + 0.9e-3 * size * size;
-      // Larger ones rise faster; −y is up.
+      // Larger bubbles rise faster; −y is up.
       const double rise = 2e-3 + 5e-3 * size, phase = 6.28 * Share(own);
       const double sway = 0.4e-3 * std::sin(2.1 * t + phase);
       bit =
           Seen(start + glm::dvec3(sway, -rise * t, 0.6 * sway), radius, view, field_of_view, lens);
-      if (bit) bit->softness *= 0.35;  // its rim stays what it is seen by
+      if (bit) bit->softness *= 0.35;  // the rim, by which a bubble is recognised, stays sharp
     }
     const double shape = Share(own);
     if (!bit) continue;
@@ -129,7 +131,7 @@ std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulati
     const glm::dvec3 start = kBox * SharesOfEach(own);
     const glm::dvec3 way = SharesOfEach(own) - 0.5;
     const double phase = 6.28 * Share(own), size = Share(own), shape = Share(own);
-    // The inflow carries all of them, each a little otherwise, with the eddies' to and fro.
+    // The inflow carries all flakes, each with a small deviation and the oscillation of the eddies.
     const glm::dvec3 drift = (glm::dvec3(0.9e-3, -0.25e-3, 0.5e-3) + 1.6e-3 * way) * t +
                              0.7e-3 * std::sin(0.6 * t + phase) * glm::dvec3(way.y, way.z, way.x);
     const bool is_fibre = shape < kFibreShare;
@@ -138,7 +140,7 @@ std::vector<DriftingBit> Flakes(const Disturbances& disturbances, const simulati
     if (!bit) continue;
     bit->angle = phase + (0.5 * way.x + 0.1) * t;
     bit->shape = shape;
-    // What is out of focus spreads its light.
+    // Defocus spreads the light of a bit.
     bit->opacity *= 1.0 / (1.0 + 2.0 * bit->softness);
     bits.push_back(*bit);
   }

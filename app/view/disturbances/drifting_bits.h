@@ -1,7 +1,7 @@
-// Bubbles and loose tissue as they stand at a moment: closed functions of seed, time and the view,
-// so that any moment can be drawn without those before it. What drifts has its place in the portal
-// frame, in a box of fluid that repeats and goes along with the lens, so that it passes by as the
-// scope moves; what sticks to the lens has its place in the picture.
+// Bubbles and loose tissue at one moment: closed functions of seed, time and view, so that any
+// moment can be drawn without those before it. Drifting bits have their places in the portal frame,
+// in a periodic box of fluid that moves with the lens, so that they pass by as the scope moves;
+// bits on the lens have their places in the picture.
 #pragma once
 
 #include <vector>
@@ -9,29 +9,27 @@
 #include <glm/vec2.hpp>
 
 #include "app/view/drawing/disturbances.h"
+#include "app/view/shaders/constants.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
 struct DriftingBit {
-  glm::dvec2 centre{0.0};  // in the window, in its radii, x right, y up
-  double radius = 0;       // in window radii: of the disc that it lies in
+  glm::dvec2 centre{0.0};  // place in the window, window radii, x right, y up
+  double radius = 0;       // radius of its disc, window radii
   double distance = 0;     // from the lens, m
-  double angle = 0;        // of its longer side in the picture, rad
-  double shape = 0;        // 0 to 1: which of many shapes; flakes below kFibreShare are fibres
+  double angle = 0;        // angle of its longer side in the picture, rad
+  double shape = 0;        // 0 to 1, selects the shape; flakes below kFibreShare are fibres
   double opacity = 1;
-  double softness = 0;  // of its edge, in its radii: out of focus
+  double softness = 0;  // width of its edge by defocus, in its radii
 };
 
-inline constexpr int kMostBubbles = 24, kMostFlakes = 48;
-inline constexpr double kFibreShare = 0.45;
-
-// How many of them a strength gives: at least one where it is not 0. Not all are in sight.
+// Number of bits for a strength, at least one for a strength above 0. Not all are in sight.
 int BubbleCount(double strength);
 int FlakeCount(double strength);
 
-// Those in sight, the farthest first.
+// Bits in sight, the farthest first.
 std::vector<DriftingBit> Bubbles(const Disturbances& disturbances,
                                  const simulation::ScopeView& view, double field_of_view,
                                  const simulation::WindowLens& lens = {});

@@ -9,37 +9,32 @@
 #include <vtk_glew.h>
 
 #include "app/view/disturbances/drifting_bits.h"
-#include "app/view/disturbances/lens_pass_shader.h"
 #include "app/view/disturbances/murk_field.h"
-#include "app/view/drawing/lens_shader.h"
+#include "app/view/drawing/shader_text.h"
 
 namespace arthro::app {
 namespace {
 
-// Of the small copies: a blurred disc is at most some hundred pixels wide.
+// Mipmap levels: a blurred disc is at most some hundred pixels wide.
 constexpr int kLevels = 8;
-// The near blur is worked out at this part of the size.
+// The near blur is computed at this fraction of the resolution.
 constexpr int kCoarser = 4;
-// A near thing that would be a larger disc is drawn as one of this share of the window's radius.
+// Largest disc of the near blur, in window radii.
 constexpr double kMostBlur = 0.25;
-// Dew blurs what is seen through it: the disc's diameter in window radii.
+// Diameter of the disc by which dew blurs the picture, in window radii.
 constexpr double kFogBlur = 0.09;
 
-// What of the picture a variant of a shader disturbs: a processor goes both ways of every if.
+// Bits of a shader's variant. A software rasteriser executes both branches of every `if`.
 constexpr std::size_t kHaze = 1, kFog = 2, kOverexposed = 4, kBlur = 8, kNearBlur = 16;
 
-std::string Defines(std::size_t variant) {
-  std::string defines;
-  if (variant & kHaze) defines += "#define HAZE\n";
-  if (variant & kFog) defines += "#define FOG\n";
-  if (variant & kOverexposed) defines += "#define OVEREXPOSED\n";
-  if (variant & kBlur) defines += "#define BLUR\n";
-  if (variant & kNearBlur) defines += "#define NEAR_BLUR\n";
+std::vector<std::string> DefinesOf(std::size_t variant) {
+  std::vector<std::string> defines;
+  if (variant & kHaze) defines.push_back("HAZE");
+  if (variant & kFog) defines.push_back("FOG");
+  if (variant & kOverexposed) defines.push_back("OVEREXPOSED");
+  if (variant & kBlur) defines.push_back("BLUR");
+  if (variant & kNearBlur) defines.push_back("NEAR_BLUR");
   return defines;
-}
-
-std::string Head() {
-  return std::string("//VTK::System::Dec\n//VTK::Output::Dec\n") + kDepthShader + kLensPassHead;
 }
 
 float Float(double value) { return static_cast<float>(value); }
@@ -50,9 +45,9 @@ struct LensPass::Frame {
   vtkOpenGLRenderWindow* window;
   vtkTextureObject *colours, *depths;
   const Disturbances& disturbances;
-  double light_reach, radius;  // m; of the window, px
-  double pixels_of_angle;      // px that a radian takes in the middle of the window
-  std::size_t variant;         // of what all of it shares: haze, fog and overexposure
+  double light_reach, radius;  // m; radius of the window, px
+  double pixels_of_angle;      // px per radian in the middle of the window
+  std::size_t variant;         // haze, fog and overexposure, which all passes share
   int size;
 };
 
@@ -77,7 +72,7 @@ void LensPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
   murk_->ReleaseGraphicsResources(window);
 }
 
-// `levels` small copies, to be made once it is drawn; black, and of `alpha`, where nothing is.
+// Allocates `levels` mipmap levels, generated after drawing; clears to black with `alpha`.
 void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
                       float alpha) {
   if (target.size == size) return;
@@ -100,7 +95,7 @@ void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, i
   state->PushFramebufferBindings();
   target.framebuffer->Bind();
   // Attaches the new storage: VTK skips a texture object that is attached already, although its
-  // OpenGL texture was made anew.
+  // OpenGL texture is new.
   target.framebuffer->RemoveColorAttachment(0);
   target.framebuffer->AddColorAttachment(0, &texture);
   target.framebuffer->ActivateDrawBuffer(0);
@@ -136,9 +131,8 @@ void LensPass::Gather(const Frame& frame, bool is_far_only) {
   Resize(gathered_, frame.window, frame.size, kLevels, 0);
   Pass& pass = gather_passes_[is_far_only ? 1 : 0];
   vtkShaderProgram* program = Ready(pass, frame, [&] {
-    return ShaderPass(
-        Head() + (is_far_only ? "#define FAR_ONLY\n" : "") + kLightShader + kGatherMain,
-        ShaderPass::Shape::kRound);
+    const std::vector<std::string> defines(is_far_only ? 1 : 0, "FAR_ONLY");
+    return ShaderPass(ShaderText("gather.glsl", defines), ShaderPass::Shape::kRound);
   });
   if (program == nullptr) return;
   program->SetUniformi("picture", frame.colours->GetTextureUnit());
@@ -157,7 +151,7 @@ void LensPass::Spread(const Frame& frame) {
   const int size = std::max(frame.size / kCoarser, 1);
   Resize(spread_, frame.window, size, kLevels, 0);
   vtkShaderProgram* program = Ready(spread_pass_, frame, [] {
-    return ShaderPass(Head() + kSpreadMain, ShaderPass::Shape::kWhole);
+    return ShaderPass(ShaderText("spread.glsl"), ShaderPass::Shape::kWhole);
   });
   if (program == nullptr) return;
   program->SetUniformf("given_pixelsOfAngle",
@@ -172,7 +166,7 @@ void LensPass::Spread(const Frame& frame) {
 
 void LensPass::TakeMurk(const Frame& frame) {
   const Disturbances& d = frame.disturbances;
-  // Dew alone stands still.
+  // Dew alone does not move.
   const double time = d.haze > 0 ? d.time : 0.0;
   if (murk_->GetHandle() == 0 || d.seed != murk_seed_ || time != murk_time_) {
     std::vector<std::uint8_t> texels = MurkField(d.seed, time);
@@ -206,13 +200,10 @@ void LensPass::SetDisturbed(vtkShaderProgram& program, const Frame& frame) const
 }
 
 void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, Pass& pass,
-                        const char* main) {
+                        const char* file, bool shows_scene) {
   if (bits.empty()) return;
   vtkShaderProgram* program = Ready(pass, frame, [&] {
-    return ShaderPass(Head() + Defines(frame.variant) + kLightShader + kDisturbShader +
-                          "const float fibreShare = " + std::to_string(kFibreShare) + ";\n" +
-                          kBitHead + main,
-                      kBitVertex);
+    return ShaderPass(ShaderText(file, DefinesOf(frame.variant)), ShaderText("bit_vertex.glsl"));
   });
   if (program == nullptr) return;
   places_.clear();
@@ -226,7 +217,7 @@ void LensPass::DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits
   const auto count = static_cast<int>(bits.size());
   program->SetUniform4fv("place", count, places_.data());
   program->SetUniform4fv("look", count, looks_.data());
-  if (main == kBubbleMain) program->SetUniformi("gathered", gathered_.texture->GetTextureUnit());
+  if (shows_scene) program->SetUniformi("gathered", gathered_.texture->GetTextureUnit());
   SetDisturbed(*program, frame);
   vtkOpenGLState* state = frame.window->GetState();
   state->vtkglEnable(GL_BLEND);
@@ -273,7 +264,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
       frame.variant + (is_blurred ? kBlur : 0u) + (d.near_blur > 0 ? kNearBlur : 0u);
   Pass& pass = disturb_passes_[variant];
   if (vtkShaderProgram* program = Ready(pass, frame, [&] {
-        return ShaderPass(Head() + Defines(variant) + kLightShader + kDisturbShader + kDisturbMain,
+        return ShaderPass(ShaderText("disturb.glsl", DefinesOf(variant)),
                           ShaderPass::Shape::kRound);
       })) {
     program->SetUniformi("picture", frame.colours->GetTextureUnit());
@@ -291,7 +282,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
                            Float(kBlurAperture * d.near_blur * frame.pixels_of_angle));
       program->SetUniformf("given_nearFocus", Float(kNearBlurFocus));
       program->SetUniformf("given_mostBlur", Float(kMostBlur * frame.radius));
-      // As wide as a disc of half the largest.
+      // Level at which a texel is as wide as a disc of half the largest diameter.
       program->SetUniformf(
           "given_spreadLod",
           Float(std::max(std::log2(0.3 * kMostBlur * frame.radius / kCoarser), 0.0)));
@@ -299,8 +290,8 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
     DrawInto(*target_.framebuffer, state, size);
     pass->Draw(size);
     DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens),
-             flake_passes_[frame.variant], kFlakeMain);
-    DrawBits(frame, bubbles, bubble_passes_[frame.variant], kBubbleMain);
+             flake_passes_[frame.variant], "flake.glsl", false);
+    DrawBits(frame, bubbles, bubble_passes_[frame.variant], "bubble.glsl", true);
   }
 
   if (d.haze > 0 || d.fog > 0) murk_->Deactivate();

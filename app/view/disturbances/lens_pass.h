@@ -1,6 +1,6 @@
-// The second pass over a finished frame that disturbs it for training (disturbances.h): reads its
-// colours and stored depths, draws into a texture of its own. Only what is on is compiled and
-// drawn. Needs the OpenGL context of the window that drew the frame.
+// Second pass over a finished frame that disturbs it for training (disturbances.h). Reads the
+// colours and stored depths of the frame, and draws into a texture of its own. Compiles and draws
+// only what is on. Needs the OpenGL context of the window that drew the frame.
 #pragma once
 
 #include <array>
@@ -25,20 +25,20 @@ struct DriftingBit;
 
 class LensPass {
  public:
-  // `drawn` holds the frame of `picture`, size x size; `light_reach` as the models have it, m.
+  // `drawn` holds the frame of `picture`, size x size; `light_reach` is that of the models, m.
   void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, double light_reach, int size);
   vtkOpenGLFramebufferObject& result() { return *target_.framebuffer; }
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
 
  private:
-  // A texture to draw into.
+  // Texture as a render target.
   struct Target {
     vtkNew<vtkTextureObject> texture;
     vtkNew<vtkOpenGLFramebufferObject> framebuffer;
     int size = 0;
   };
   struct Frame;
-  // One a variant of a shader, made when it is first needed.
+  // One per variant of a shader, made when it is first needed.
   using Pass = std::optional<ShaderPass>;
   static void Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
                      float alpha);
@@ -48,14 +48,14 @@ class LensPass {
   void Spread(const Frame& frame);
   void TakeMurk(const Frame& frame);
   void DrawBits(const Frame& frame, const std::vector<DriftingBit>& bits, Pass& pass,
-                const char* main);
+                const char* file, bool shows_scene);
   void SetDisturbed(vtkShaderProgram& program, const Frame& frame) const;
 
   Target target_, gathered_, spread_;
   vtkNew<vtkTextureObject> murk_;
   int murk_seed_ = -1;
   double murk_time_ = -1;
-  std::vector<float> places_, looks_;  // of the bits, as they are uploaded
+  std::vector<float> places_, looks_;  // bits as they are uploaded
   Pass spread_pass_;
   std::array<Pass, 2> gather_passes_;
   std::array<Pass, 8> flake_passes_, bubble_passes_;

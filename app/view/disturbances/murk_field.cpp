@@ -16,7 +16,7 @@ float Lattice(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return static_cast<float>((h ^ (h >> 15)) >> 8) * (1.0f / 16777215.0f);
 }
 
-// Value noise, 0 to 1, smooth in all three.
+// Value noise, 0 to 1, smooth in all three coordinates.
 float Noise(const glm::vec3& p) {
   const glm::vec3 cell(std::floor(p.x), std::floor(p.y), std::floor(p.z));
   const glm::vec3 f = p - cell, u = f * f * (3.0f - 2.0f * f);
@@ -31,8 +31,8 @@ float Noise(const glm::vec3& p) {
   return mix(plane(z), plane(z + 1), u.z);
 }
 
-// Clouds with wisps: noise at places that noise has shifted, twice as fine each time, as fluid
-// folds what it carries. Mean about 1/2.
+// Clouds with wisps: three octaves of noise at places displaced by noise, as fluid folds what it
+// carries. Mean about 1/2.
 float Density(const glm::vec3& p) {
   const glm::vec3 shifted = p + 1.7f * glm::vec3(Noise(p + glm::vec3(31, 7, 3)) - 0.5f,
                                                  Noise(p + glm::vec3(5, 47, 11)) - 0.5f, 0.0f);
@@ -51,7 +51,7 @@ std::uint8_t Byte(float share) {
 std::vector<std::uint8_t> MurkField(int seed, double time) {
   std::vector<std::uint8_t> texels;
   texels.reserve(std::size_t{4} * kMurkSize * kMurkSize);
-  // Each seed has its own part of an endless noise; the fluid passes and turns over slowly.
+  // Each seed has its own part of an endless noise; the fluid drifts and turns over slowly.
   const glm::vec3 part(static_cast<float>(seed % 1009) * 13.0f,
                        static_cast<float>((seed / 1009) % 1009) * 29.0f, 0.0f);
   const auto t = static_cast<float>(time);

@@ -1,5 +1,5 @@
-// How unevenly blood is spread in the fluid, and dew on a lens, over the window: a small texture
-// made anew for each moment as a closed function of seed and time.
+// Densities of blood in the fluid, and of dew on the lens, over the window: a small texture,
+// computed for each moment as a closed function of seed and time.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace arthro::app {
 
-inline constexpr int kMurkSize = 96;  // texels a side, over the whole window
+inline constexpr int kMurkSize = 96;  // texels per side, over the whole window
 
 // RGBA: density of the near and of the far fluid, as shares of twice the mean; unevenness of the
 // dew; 255. The first row is the lowest.

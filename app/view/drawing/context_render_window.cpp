@@ -21,8 +21,8 @@ ContextRenderWindow::ContextRenderWindow() {
 }
 
 void ContextRenderWindow::OpenGLInitContext() {
-  // glewInit loads OpenGL's functions first and then asks GLX for its display; under EGL only the
-  // second step fails, and it is not needed. VTK would take that for a failure of the whole.
+  // glewInit loads OpenGL's functions first and then asks GLX for its display. Under EGL only the
+  // second step fails, which is harmless; VTK would treat it as a failure of the whole.
   if (!Initialized) {
     const GLenum result = glewInit();
     if ((result == GLEW_OK || result == GLEW_ERROR_NO_GLX_DISPLAY) && GLEW_VERSION_3_2) {

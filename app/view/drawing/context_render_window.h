@@ -1,4 +1,4 @@
-// VTK's window over whatever OpenGL context is current: the application's GLFW window, or an
+// VTK's window over the current OpenGL context: the application's GLFW window, or an
 // OffscreenContext. Draws into its own framebuffer only; the caller shows or reads its texture.
 #pragma once
 
@@ -15,9 +15,9 @@ class ContextRenderWindow : public vtkGenericOpenGLRenderWindow {
 
   // Debian's GLEW asks GLX for a display even when EGL holds the context; see the .cpp.
   void OpenGLInitContext() override;
-  // False where the context's OpenGL is too old or could not be loaded.
+  // Returns false when the context's OpenGL is too old or could not be loaded.
   bool IsReady() const { return Initialized && GlewInitValid; }
-  // The last frame as it was drawn, or what a pass of the same size made of it.
+  // The last frame, or the result of a pass of the same size over it.
   ColourImage ReadPicture() { return ReadPicture(*GetRenderFramebuffer()); }
   ColourImage ReadPicture(vtkOpenGLFramebufferObject& drawn);
   // The caller keeps its context current.

@@ -27,7 +27,7 @@ struct Strength {
   bool is_taken = false;
 };
 
-// "name=number" pieces between commas.
+// Splits "name=number" pieces at commas.
 std::vector<Strength> PiecesOf(std::string_view list) {
   std::vector<Strength> pieces;
   while (true) {

@@ -1,8 +1,7 @@
-// What comes between an arthroscope and a clear picture, for training: bleeding, turbid fluid, air
-// bubbles, loose fibrous tissue and what is too close are what obscures the view in real
-// procedures [Tuijthof, Sierevelt & van Dijk 2007]; a fogged, ill-focused or overexposed camera
-// joins them. Strengths 0 (none) to 1. All that moves is a function of seed and time alone: same
-// values, same bytes.
+// Disturbances of the picture for training: bleeding, turbid fluid, air bubbles, loose fibrous
+// tissue and near objects obscure the view in real procedures [Tuijthof, Sierevelt & van Dijk
+// 2007]; a fogged, ill-focused or overexposed camera joins them. Strengths are 0 (none) to 1.
+// Moving parts are functions of seed and time alone: the same values give the same bytes.
 #pragma once
 
 #include <string>
@@ -13,17 +12,17 @@
 namespace arthro::app {
 
 struct Disturbances {
-  double haze = 0;          // of blood in the fluid
-  double bubbles = 0;       // of air
+  double haze = 0;          // blood in the fluid
+  double bubbles = 0;       // air
   double debris = 0;        // loose fibres and flakes
-  double fog = 0;           // on the lens, from its rim inwards
-  double near_blur = 0;     // focused on the far: what is near is blurred
-  double far_blur = 0;      // focused on the near
-  double overexposure = 0;  // of the camera
+  double fog = 0;           // dew on the lens, from its rim inwards
+  double near_blur = 0;     // focused on far parts: near ones are blurred
+  double far_blur = 0;      // focused on near parts: far ones are blurred
+  double overexposure = 0;  // too much light for the camera
   int seed = 0;
   double time = 0;  // s
 
-  // The strengths alone: seed and time are not a person's choice of what disturbs.
+  // Visits the strengths alone, since seed and time are no choice of a person.
   template <class V>
   void Visit(V&& v) {
     constexpr Range kStrength{0.0, 1.0};
@@ -40,36 +39,35 @@ struct Disturbances {
     return haze > 0 || bubbles > 0 || debris > 0 || fog > 0 || near_blur > 0 || far_blur > 0 ||
            overexposure > 0;
   }
-  // Its picture changes with time.
+  // True when the picture changes with time.
   bool is_moving() const { return haze > 0 || bubbles > 0 || debris > 0; }
   friend bool operator==(const Disturbances&, const Disturbances&) = default;
 };
 
-// Throws Error(kBadArgument) that names the first strength that is none, or a time that is none.
+// Throws Error(kBadArgument) with the first strength out of range, or a time that is not finite.
 void CheckDisturbances(const Disturbances& disturbances);
 
-// "haze=0.5,bubbles=0.3": strengths by name, each at most once. Throws Error(kBadArgument) with the
-// names that there are, or the strength that is none.
+// Reads "haze=0.5,bubbles=0.3": strengths by name, each at most once. Throws Error(kBadArgument)
+// with the names that exist, or with the strength that is wrong.
 Disturbances ParseDisturbances(std::string_view list);
 
-// The optics of a blurred picture. An aperture, opened by the strength, sees a point as a disc of
+// Optics of a blurred picture. An aperture, opened by the strength, images a point as a disc of
 // aperture · |1/distance − 1/focus| rad.
 inline constexpr double kBlurAperture = 0.6e-3;  // m, at strength 1
-inline constexpr double kNearBlurFocus = 30e-3;  // m; what is nearer is blurred
-inline constexpr double kFarBlurFocus = 7e-3;    // m; what is further is blurred
+inline constexpr double kNearBlurFocus = 30e-3;  // m; nearer parts are blurred
+inline constexpr double kFarBlurFocus = 7e-3;    // m; farther parts are blurred
 
-// Diameter of that disc in the middle of the window, px.
+// Returns the diameter of that disc in the middle of the window, px.
 double BlurDiameter(const Disturbances& disturbances, double distance, double field_of_view,
                     double window_radius_px);
 
-// Stops of light too much at strength 1.
+// Stops of overexposure at strength 1.
 inline constexpr double kOverexposureStops = 2.0;
-// The factor on linear light.
+// Returns the factor on linear light.
 double ExposureGain(double overexposure);
 
-// What a fluid with blood lets pass of red, green and blue over 1 m, as an exponent at strength 1
-// and mean density: oxygenated blood of a few per cent takes green and blue some four times as
-// strongly as red.
+// Extinction of red, green and blue light in fluid with blood, at strength 1 and mean density. A
+// few per cent of oxygenated blood absorb green and blue some four times as strongly as red.
 inline constexpr double kHazeExtinction[3] = {27.0, 100.0, 95.0};  // 1/m
 
 }  // namespace arthro::app

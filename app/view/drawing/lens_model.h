@@ -1,6 +1,6 @@
-// A surface as the arthroscope's lens bends it: a VTK actor whose vertex shader lays each vertex
-// where the scope's lens shows it, with the backdrop's own depth, and whose fragment shader
-// lights it from the lens.
+// Surface seen through the arthroscope's lens: a VTK actor whose vertex shader maps each vertex
+// through the lens, with the depth of the backdrop, and whose fragment shader lights it from the
+// lens.
 #pragma once
 
 #include <array>
@@ -18,37 +18,36 @@
 #include <vtkPolyData.h>
 
 #include "app/view/drawing/metered_models.h"
+#include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
-inline constexpr double kLampAside = 1.1e-3;  // m, of a 4 mm arthroscope
-
-// The instrument as it shades what is behind it: its rod, and the part that stands away from it, a
-// hook or an open jaw. m, in the lens' frame (x right, y up, -z along the view).
+// Instrument as it shades what is behind it: its rod, and the part that stands away from it, a hook
+// or an open jaw. m, in the lens frame (x right, y up, -z along the view).
 struct LensRod {
   glm::dvec3 from{0.0}, to{0.0};
-  double radius = 0;  // 0: there is none
+  double radius = 0;  // 0: no such part
 };
 struct LensShade {
   LensRod rod, head;
-  // Where the fibres that give light end: beside the lens, on the side of the scope's own mark,
-  // where they stay when the camera's head is turned.
+  // Place of the light fibres: beside the lens, on the side of the scope's mark, where they stay
+  // when the camera head turns.
   glm::dvec3 lamp{0.0, kLampAside, 0.0};
 };
 
-// What every model of a frame shares.
+// Values that all models of a frame share.
 struct LensFrame {
   double field_of_view = 1.57;  // full, rad
-  simulation::WindowLens lens;  // of that field
+  simulation::WindowLens lens;  // lens for that field of view
   double window_radius = 256;   // px
   double light_reach = 0.03;    // m
-  double gain = 1, relit = 0;   // the camera's; how far its own lamp lights it
+  double gain = 1, relit = 0;   // camera gain; share of the scope's own lamp in the light
   LensShade shade;
-  glm::dvec3 light_colour{1.0};  // linear: what the lamp and the camera make of white
-  glm::dvec3 surround{0.2};      // linear: what a shining surface mirrors
+  glm::dvec3 light_colour{1.0};  // linear; colour of white under lamp and camera
+  glm::dvec3 surround{0.2};      // linear; colour that a shining surface mirrors
 };
 
 class LensModel {
@@ -58,29 +57,29 @@ class LensModel {
 
   vtkActor* actor() { return actor_; }
   void Show(bool visible) { actor_->SetVisibility(visible && !triangles_.empty() ? 1 : 0); }
-  // `fresh`: 1 a vertex of a cut face; empty: none is.
+  // `fresh` is 1 for a vertex of a cut face; empty: no cut face.
   void SetSurface(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh = {});
-  // As many as the surface has; normals are computed where none are given. False, and nothing
-  // uploaded, where all is where it was.
+  // Positions and normals per vertex; computes normals when none are given. Returns false, and
+  // uploads nothing, when nothing moved.
   bool SetShape(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> normals = {});
   void SetPose(const Pose& portal_from_model);
   void SetColour(const glm::dvec3& linear_rgb);
   void SetFrame(const LensFrame& frame);
-  // Steel only: nothing is drawn further than this behind the origin along z, m.
+  // Steel only: nothing is drawn farther than this behind the origin along z, m.
   void SetLength(double length);
   // Steel only: the probe's marks every 5 mm.
   void SetEtched(bool is_etched);
-  // As the camera's gain sees it in a light of this colour; valid until it changes.
+  // The surface as the camera's gain meters it in a light of this colour; valid until it changes.
   MeteredSurface Metered(const glm::dvec3& light_colour) const;
 
  private:
-  // Puts the shaders together.
+  // Composes the shaders.
   void Assemble();
   void Set(const char* given_name, double value);
   void Set(const char* given_name, const glm::dvec3& value);
 
   Look look_;
-  bool has_lens_ = false;  // other than the equisolid one
+  bool has_lens_ = false;  // not the equisolid lens
   bool is_closed_ = false;
   Pose pose_;
   glm::dvec3 colour_{1.0};

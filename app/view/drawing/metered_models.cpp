@@ -7,25 +7,29 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "app/view/shaders/constants.h"
+
 namespace arthro::app {
 namespace {
 
-constexpr float kNearestMetered = 0.2e-3f;  // m, as drawn
-// Further than this to the side of the view's axis, as a cosine, no lens shows anything.
+constexpr float kNearestMetered = kNearest;  // m
+// Cosine to the view's axis; nothing beyond it is in any lens' view.
 constexpr float kBehind = -0.5f;
 
-// Body light of a tissue by how it faces the lens, as its shader has it (app/view/drawing/lens_model.cpp).
+// Returns a tissue's diffuse light by its cosine to the lens, as in model_fragment.glsl.
 float FacingLight(float facing) {
-  const float t = std::min(facing / 0.75f, 1.0f);
-  const float scattered = 0.745f + 0.255f * t * t * (3 - 2 * t);
-  return scattered * (0.12f + 0.88f * (facing + 0.3f) / 1.3f);
+  constexpr float kEdge = kWhiteFacing, kOver = kWrap, kLeast = kAmbient;
+  constexpr float kScattered = 0.745f;  // luma of the shader's kScattered
+  const float t = std::min(facing / kEdge, 1.0f);
+  const float scattered = kScattered + (1 - kScattered) * t * t * (3 - 2 * t);
+  return scattered * (kLeast + (1 - kLeast) * (facing + kOver) / (1 + kOver));
 }
 
 float Cross(const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; }
 
 float Fraction(float x) { return x - std::floor(x); }
 
-// Column of places that a window place lies in, or the nearest one; with y downwards its row.
+// Column of the places that a window place lies in, clamped; with y downwards its row.
 int CellOf(float place) {
   constexpr float kLast = MeteredModels::kAcross - 1;
   return static_cast<int>(std::clamp((place + 1) * 0.5f * MeteredModels::kAcross, 0.0f, kLast));
@@ -34,8 +38,7 @@ int CellOf(float place) {
 }  // namespace
 
 glm::vec2 MeteredModels::WindowPlace(int column, int row) noexcept {
-  // Steps of the plastic number's lattice [Roberts 2018] in each cell: even, and in line with
-  // nothing.
+  // Lattice of the plastic number [Roberts 2018] in each cell: evenly spread, with no alignment.
   constexpr float kFirst = 0.7548777f, kSecond = 0.5698403f;
   const auto i = static_cast<float>(column), j = static_cast<float>(row);
   const float x = i + Fraction(kFirst * i + kSecond * j);
@@ -61,7 +64,7 @@ void MeteredModels::Begin(const simulation::ScopeView& view,
 }
 
 void MeteredModels::Draw(const MeteredSurface& surface) {
-  // Double until the tip is taken away.
+  // Double precision until the tip is subtracted.
   const glm::dmat3 lens_from_portal = glm::transpose(glm::dmat3(view_.right, view_.up, view_.view));
   const Pose& pose = surface.portal_from_surface;
   const glm::mat3 turn(lens_from_portal * glm::mat3_cast(pose.quaternion) * pose.scale);
@@ -79,7 +82,7 @@ void MeteredModels::Draw(const MeteredSurface& surface) {
         distance >= kNearestMetered && distance < 1.0f && corner.point.z > kBehind * distance;
     corner.per_distance = is_ahead ? 1 / distance : 0;
     if (!is_ahead) continue;
-    // As the shader has it: sin(θ/2) = sin θ / (2 cos(θ/2)).
+    // Same formula as the shader: sin(θ/2) = sin θ / (2 cos(θ/2)).
     const float half_cosine = std::sqrt(0.5f + 0.5f * corner.point.z * corner.per_distance);
     corner.place =
         glm::vec2(corner.point) * (corner.per_distance * 0.5f * place_scale_ / half_cosine);
@@ -99,7 +102,7 @@ void MeteredModels::Draw(const MeteredSurface& surface) {
 void MeteredModels::DrawTriangle(const Corner& a, const Corner& b, const Corner& c, bool is_closed,
                                  float luma) {
   if (!(a.per_distance > 0 && b.per_distance > 0 && c.per_distance > 0)) return;
-  // Seen from its outside it turns counter-clockwise in the window, whose up is up.
+  // Counter-clockwise in the window (y up) when seen from outside.
   const glm::vec2 ab = b.place - a.place, ac = c.place - a.place;
   const float twice = Cross(ab, ac);
   if (!(is_closed ? twice > 0 : twice != 0)) return;

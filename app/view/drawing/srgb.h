@@ -1,4 +1,4 @@
-// Between stored bytes (sRGB) and linear light, both 0 to 1; and how bright a colour is.
+// Conversion between stored bytes (sRGB) and linear light, both 0 to 1; luma of a colour.
 #pragma once
 
 #include <cmath>
@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include "app/view/shaders/constants.h"
 
 namespace arthro::app {
 
@@ -18,9 +20,9 @@ inline double SrgbFromLinear(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// Of linear light [ITU-R BT.709].
+// Returns the luma of linear light [ITU-R BT.709].
 inline double Luma(const glm::dvec3& colour) {
-  return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+  return glm::dot(colour, glm::dvec3(kLumaRed, kLumaGreen, kLumaBlue));
 }
 
 }  // namespace arthro::app

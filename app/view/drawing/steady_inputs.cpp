@@ -13,6 +13,9 @@ SteadyInputs TakeSteadyInputs(const std::string& fragment) {
     std::string steady, type, name;
     if (!(words >> steady >> type) || steady != "steady") {
       inputs.fragment += line + "\n";
+      // Directives around the inputs of a variant hold for the vertex shader too.
+      if (line.starts_with('#'))
+        for (std::string* text : {&inputs.uniforms, &inputs.outputs, &body}) *text += line + "\n";
       continue;
     }
     for (bool is_last = false; !is_last && words >> name;) {

@@ -1,8 +1,8 @@
-// What is the same for all of a picture, as a fragment shader declares it:
+// Inputs that are constant over a picture, as a fragment shader declares them:
 //   steady vec3 tip;
-// Set as the uniform `given_tip`, it is handed on by the vertices as a flat input. A processor that
-// stands in for a graphics card looks up each component of a uniform anew for every eight pixels
-// (22 instructions), and a flat input as one (1): a third of the backdrop's shader was looking up.
+// Set as the uniform `given_tip`, the vertices hand it on as a flat input. A software rasteriser
+// reads each component of a uniform anew for every eight pixels (22 instructions), and a flat input
+// as one (1 instruction): a third of the backdrop's shader was such reads.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace arthro::app {
 
 struct SteadyInputs {
-  std::string uniforms;  // their declarations, for the vertices' shader
-  std::string outputs;   // there too: declarations, and handOn(), which its main calls
-  std::string fragment;  // the shader as the compiler takes it
+  std::string uniforms;  // declarations for the vertex shader
+  std::string outputs;   // the same shader's outputs, and handOn(), which its main calls
+  std::string fragment;  // fragment shader as the compiler takes it
 };
-// A declaration is a line of its own; it may name several.
+// A declaration is a line of its own; it may name several inputs.
 SteadyInputs TakeSteadyInputs(const std::string& fragment);
 
 }  // namespace arthro::app

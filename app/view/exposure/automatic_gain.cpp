@@ -9,12 +9,12 @@
 namespace arthro::app {
 namespace {
 
-constexpr int kAcross = 16;  // rays, over the window's width
+constexpr int kAcross = 16;  // rays across the window
 constexpr int kPlaces = MeteredModels::kAcross / kAcross;
-constexpr int kSteps = 16;      // along a ray
-constexpr double kSoft = 0.03;  // radii of the backdrop
+constexpr int kSteps = 16;      // steps along a ray
+constexpr double kSoft = 0.03;  // depth of partial occlusion, radii of the backdrop
 
-// Share of a pixel that is in the picture, falling to nothing over a block.
+// Returns the weight of a pixel inside the picture, which falls to 0 over a block.
 double Inside(const LightGrid& grid, const glm::dvec2& pixel) {
   const glm::dvec2 end = grid.block_px * glm::dvec2(grid.width, grid.height) - pixel;
   return std::clamp(1.0 + std::min({pixel.x, pixel.y, end.x, end.y}) / grid.block_px.x, 0.0, 1.0);
@@ -28,12 +28,12 @@ struct Light {
   }
 };
 
-// What a ray meets of the backdrop, as far as each of its steps.
+// Light of the backdrop along a ray, accumulated up to each step.
 struct RayLight {
-  std::array<double, kSteps + 1> way{}, clear{};  // m; what is left of the ray
-  std::array<Light, kSteps + 1> light{};          // of all before
+  std::array<double, kSteps + 1> way{}, clear{};  // m; share of the ray that is not occluded
+  std::array<Light, kSteps + 1> light{};          // sum over all steps before
 
-  // Up to a distance, and what is left of the ray there.
+  // Returns the light up to a distance, and the share of the ray that is left there.
   Light Before(double distance, double& left) const {
     const auto after = std::upper_bound(way.begin(), way.end(), distance);
     if (after == way.end() || after == way.begin()) {
@@ -67,11 +67,11 @@ class Meter {
     double before = -backdrop_.radius, deepest = before;
     for (std::size_t k = 1; k <= kSteps; ++k) {
       const double share = double(k) / kSteps;
-      of.way[k] = end * share * std::sqrt(share);  // closer together near the lens
+      of.way[k] = end * share * std::sqrt(share);  // denser near the lens
       const bool is_end = k == kSteps;
       const double depth = grid_.has_relief ? Depth(tip + of.way[k] * ray) : is_end ? 0.0 : before;
       deepest = std::max(deepest, depth);
-      // Half way through where the relief is met.
+      // Half of the ray is occluded at the relief itself.
       const double met = std::clamp(0.5 + deepest / soft, 0.0, 1.0);
       of.clear[k] = is_end ? 0.0 : std::min(of.clear[k - 1], 1.0 - met * met * (3 - 2 * met));
       of.light[k] = of.light[k - 1];
@@ -87,7 +87,7 @@ class Meter {
   }
 
  private:
-  // How far a place is behind the relief, m.
+  // Returns how far a place is behind the relief, m.
   double Depth(const glm::dvec3& x) const {
     const double away = glm::length(x);
     double relief = 0;
@@ -129,7 +129,7 @@ double AutomaticGain(const LightGrid& grid, const FootageLight& footage, const B
       const double r = glm::length(place);
       const double inside = std::clamp(0.5 + 0.5 * kAcross * (1.0 - r), 0.0, 1.0);
       if (!(inside > 0)) continue;
-      const double weight = inside * (1.25 - std::min(r * r, 1.0));  // more in the middle
+      const double weight = inside * (1.25 - std::min(r * r, 1.0));  // larger in the middle
       meter.Follow(view.tip, simulation::RayThrough(optics, view, {place.x, -place.y}), met);
       if (!has_models) {
         sum.Add(met.light.back(), weight);

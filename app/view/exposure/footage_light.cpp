@@ -12,8 +12,8 @@
 namespace arthro::app {
 namespace {
 
-constexpr int kBlocks = 96;         // along the longer side
-constexpr double kWidth = 1.0 / 6;  // sigma of what counts as light, of the longer side
+constexpr int kBlocks = 96;         // blocks along the longer side
+constexpr double kWidth = 1.0 / 6;  // sigma of the low-pass filter, over the longer side
 constexpr double kMostGain = 3;
 
 // Gaussian means of one line, each value with its weight.
@@ -75,12 +75,12 @@ std::vector<std::size_t> AllImaged(const LightGrid& grid) {
   return all;
 }
 
-// A place in blocks, of a panorama pixel.
+// Returns the place of a panorama pixel, in blocks.
 glm::dvec2 InBlocks(const LightGrid& grid, const glm::dvec2& pixel) {
   return (pixel + 0.5) / grid.block_px - 0.5;
 }
 
-// Calls take(block, weight) for the four about a panorama pixel.
+// Calls take(block, weight) for the four blocks around a panorama pixel.
 template <class Take>
 void BetweenBlocks(const LightGrid& grid, const glm::dvec2& pixel, Take&& take) {
   const glm::dvec2 place = glm::clamp(InBlocks(grid, pixel), glm::dvec2(0.0),
@@ -198,7 +198,7 @@ void EvenLight(LightGrid& grid, double share) {
 
 ColourImage Evened(const ColourImage& panorama, const LightGrid& grid) {
   ColourImage even = panorama;
-  // Gains of stored bytes, of one row of pixels, bilinear between blocks.
+  // Gains of stored bytes for one row of pixels, bilinear between blocks.
   std::vector<float> gains(static_cast<std::size_t>(grid.width));
   for (int y = 0; y < panorama.height; ++y) {
     const double row = std::clamp(InBlocks(grid, {0, y}).y, 0.0, grid.height - 1.0);

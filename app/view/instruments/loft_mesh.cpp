@@ -23,7 +23,7 @@ void AddCap(SurfaceMesh& mesh, const Section& section, bool is_last) {
   }
 }
 
-// One smooth piece: sections `low` to `high`, points `from` to `to` (which may pass the end).
+// Adds one smooth piece: sections `low` to `high`, points `from` to `to` (which may pass the end).
 void AddPiece(SurfaceMesh& mesh, const std::vector<Section>& sections, int low, int high, int from,
               int to) {
   const int around = static_cast<int>(sections.front().size());

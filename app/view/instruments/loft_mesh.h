@@ -1,5 +1,5 @@
 // Surfaces between cross-sections, for instruments made in code: smooth where they are round, with
-// an edge of its own where the real thing has one. m.
+// separate normals at edges. m.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace arthro::app {
 
-// A closed outline of as many points as its neighbours have, counter-clockwise seen from the last
-// section's side.
+// Closed outline with as many points as its neighbours, counter-clockwise seen from the side of the
+// last section.
 using Section = std::vector<glm::dvec3>;
 
 struct LoftEdges {
@@ -21,16 +21,16 @@ struct LoftEdges {
   std::vector<int> creases;  // sections that are edges, ascending
 };
 
-// Closed and outward: sides between the sections, and a flat cap at both ends, which must be
-// star-shaped about their middle.
+// Returns a closed surface that faces outwards: sides between the sections, and a flat cap at both
+// ends, which must be star-shaped around their centres.
 void AddLoft(SurfaceMesh& mesh, const std::vector<Section>& sections, const LoftEdges& edges = {});
 
-// A rod about z with rings at `stations` of (z, radius), ascending in z.
+// Returns a rod around z with rings at `stations` of (z, radius), ascending in z.
 void AddRod(SurfaceMesh& mesh, const std::vector<glm::dvec2>& stations, int sides,
             const std::vector<int>& creases = {});
 
-// Ring places of a shaft from its far end to `end`, close together near its end, where the lens'
-// bend shows, and far apart where a joint ends.
+// Places of the rings of a shaft from its far end to `end`, dense near its end, where the lens
+// bends it visibly, and sparse where a joint ends.
 std::vector<double> ShaftStations(double end, double length, double spacing);
 
 }  // namespace arthro::app

@@ -10,26 +10,25 @@
 namespace arthro::app {
 namespace {
 
-// A cross-section of the sweep: a circle about `centre`, across the path's direction in the yz
-// plane.
+// Cross-section of the sweep: a circle around `centre`, normal to the path in the yz plane.
 struct Ring {
   double y, z;   // centre
-  double angle;  // of the path, from +z towards +y
+  double angle;  // direction of the path, from +z towards +y
   double radius;
 };
 
 std::vector<Ring> RingsOf(const ProbeShape& s) {
   std::vector<Ring> rings;
-  const double bend = 1.6 * s.neck_radius;  // of the centre line
+  const double bend = 1.6 * s.neck_radius;  // radius of the centre line
   const double elbow = -s.neck_radius - bend;
 
-  // Shaft and taper: smooth at both ends.
+  // Shaft and taper, smooth at both ends.
   for (const double z : ShaftStations(elbow, s.shaft_length + elbow, s.ring_spacing)) {
     const double t = std::clamp((z - (elbow - s.taper_length)) / s.taper_length, 0.0, 1.0);
     const double smooth = t * t * (3.0 - 2.0 * t);
     rings.push_back({0.0, z, 0.0, s.shaft_radius + (s.neck_radius - s.shaft_radius) * smooth});
   }
-  // The bend, and the hook that thins to its end.
+  // Bend, and hook that tapers to its end.
   const double hook_end = s.hook_length - s.point_radius;
   const double path = bend * std::numbers::pi / 2 + std::max(hook_end - bend, 0.0);
   const auto radius_at = [&](double along) {
@@ -63,13 +62,13 @@ SurfaceMesh MakeProbeMesh(const ProbeShape& shape) {
   for (const Ring& ring : rings)
     for (int i = 0; i < shape.sides; ++i) {
       const double a = 2.0 * std::numbers::pi * i / shape.sides;
-      // Across the path: x, and the path's direction turned back by a right angle.
+      // Axes across the path: x, and the path's direction turned back by a right angle.
       const double x = ring.radius * std::cos(a), across = ring.radius * std::sin(a);
       mesh.vertices.push_back(
           {x, ring.y + across * std::cos(ring.angle), ring.z - across * std::sin(ring.angle)});
     }
-  // The taper lifts the hook's side a little off the plane; what is farthest along the rod touches
-  // it.
+  // The taper lifts the hook's side slightly off the plane; the place farthest along the rod
+  // touches it.
   double farthest = mesh.vertices.front().z;
   for (const glm::dvec3& vertex : mesh.vertices) farthest = std::max(farthest, vertex.z);
   for (glm::dvec3& vertex : mesh.vertices) vertex.z -= farthest;

@@ -22,8 +22,8 @@ constexpr int kSides = 20;
 
 // ---- Jaws and what holds them ----
 
-// A jaw's cross-section: flat towards its partner, where its teeth are cut from, and round behind
-// `back`. `facing` +1: the flat looks to +y.
+// Cross-section of a jaw: flat towards its partner, where its teeth are cut, and round behind
+// `back`. For `facing` +1 the flat side faces +y.
 Section JawSection(double z, double half_width, double flat, double back, double far, int facing) {
   constexpr int kFlat = 4, kArc = 12;
   Section section;
@@ -37,14 +37,14 @@ Section JawSection(double z, double half_width, double flat, double back, double
 }
 const std::vector<int> kJawCorners = {0, 4};
 
-// A jaw along z from `base` to its rounded tip; ridges across its flat every `pitch`.
+// Jaw along z from `base` to its rounded tip, with ridges across its flat side every `pitch`.
 struct Jaw {
   double base, tip, half_width, far, pitch, tooth, first_tooth;
   int facing;
-  double flat = 0.0;  // how far before the plane of both jaws, m
+  double flat = 0.0;  // m in front of the plane of both jaws
 };
 void AddJaw(SurfaceMesh& mesh, const Jaw& jaw) {
-  const double round = 0.9 * jaw.far;  // length of the tip's rounding
+  const double round = 0.9 * jaw.far;  // length of the rounded tip
   std::vector<Section> sections;
   LoftEdges edges{kJawCorners, {}};
   const auto add = [&](double z, double flat) {
@@ -72,7 +72,7 @@ void AddJaw(SurfaceMesh& mesh, const Jaw& jaw) {
   AddLoft(mesh, sections, edges);
 }
 
-// Plates on both sides of the jaws that end round, and the pin through them.
+// Plates with round ends on both sides of the jaws, and the pin through them.
 void AddHinge(SurfaceMesh& mesh, double hinge, double inner, double outer, double low,
               double high) {
   for (const double side : {-1.0, 1.0}) {
@@ -104,7 +104,7 @@ void AddHinge(SurfaceMesh& mesh, double hinge, double inner, double outer, doubl
   AddLoft(mesh, pin);
 }
 
-// A shaft that ends at z = end with a bevel.
+// Shaft that ends at z = end with a bevel.
 void AddShaft(SurfaceMesh& mesh, double radius, double end, double length, double spacing) {
   constexpr double kBevel = 0.35e-3;
   std::vector<glm::dvec2> stations;
@@ -119,7 +119,7 @@ void AddGrasper(ToolMesh& tool, const ToolShape& shape, double spacing, double l
   const Capsule& lower = shape.capsules.front();
   const double hinge = shape.hinge.z, far = 2.0 * lower.radius - 0.05e-3;
   AddShaft(tool.body, shape.capsules.back().radius, hinge - 1.3e-3, length, spacing);
-  // Behind the jaws' own axis, so that it stays within what touches.
+  // Behind the axis of the jaws, so that it stays within the contact shape.
   AddHinge(tool.body, hinge - 0.9e-3, 0.75e-3, 1.15e-3, -0.85e-3, 0.85e-3);
   Jaw jaw{hinge - 1.4e-3, 0.0, 0.95e-3, far, 0.75e-3, 0.28e-3, hinge + 2.2e-3, 1};
   AddJaw(tool.body, jaw);
@@ -129,14 +129,14 @@ void AddGrasper(ToolMesh& tool, const ToolShape& shape, double spacing, double l
   AddJaw(tool.moving, jaw);
 }
 
-// The lower jaw is a frame that is open below, bent from one bar: along one rail, across before the
-// tip, and back along the other. Its upper inner edges cut.
+// Lower jaw: a frame, open below, bent from one bar along one rail, across in front of the tip, and
+// back along the other. Its upper inner edges cut.
 void AddFrame(SurfaceMesh& mesh, double base, double half_width, double bar) {
   constexpr double kLow = -1.1e-3, kHigh = -0.1e-3, kCorner = 0.47e-3;
   const double x = half_width - bar, front = -bar;
   std::vector<Section> sections;
   const auto add = [&](double px, double pz, double angle) {
-    // The way from +z towards +x; across it to its right, as seen from above, is the inside.
+    // Angle from +z towards +x; to its right, seen from above, is the inside.
     const glm::dvec3 across(std::cos(angle), 0.0, -std::sin(angle));
     const glm::dvec3 place(px, 0.0, pz), up(0, 1, 0);
     Section section;
@@ -169,7 +169,7 @@ void AddPunch(ToolMesh& tool, const ToolShape& shape, double spacing, double len
   AddShaft(tool.body, width, hinge - 1.4e-3, length, spacing);
   AddFrame(tool.body, hinge - 1.5e-3, width, bar);
   AddHinge(tool.body, hinge, 0.85e-3, 1.45e-3, -0.9e-3, 0.2e-3);
-  // The tooth comes down between the rails, and ends behind the cross bar.
+  // The tooth moves down between the rails, and ends behind the cross bar.
   const Capsule& tooth = shape.capsules[static_cast<std::size_t>(shape.jaw.front())];
   const double tip = tooth.b.z + tooth.radius, top = tooth.b.y + tooth.radius;
   AddJaw(tool.moving,
@@ -178,17 +178,17 @@ void AddPunch(ToolMesh& tool, const ToolShape& shape, double spacing, double len
 
 // ---- The shaver ----
 
-// Where a tube is open, towards +y: from `low` to `high` along z, an oval `half` wide to either
-// side; `teeth`: the share of it that its edges stand in by, ring about ring.
+// Opening of a tube towards +y: from `low` to `high` along z, an oval of half width `half`. `teeth`
+// is the share of it by which its edges recede on every other ring.
 struct Window {
   double low, high, half, teeth;
 };
 
-// A tube with a closed, round end, a wall and a window, whose edges are edges.
+// Tube with a closed, round end, a wall and a window with sharp edges.
 void AddTube(SurfaceMesh& mesh, const Capsule& tube, double wall, const Window& window,
              double spacing) {
   constexpr int kAcross = 6, kRest = 12, kAround = kAcross + kRest;
-  constexpr double kFine = 0.3e-3, kLeast = 0.25;  // m; rad, a window's ends
+  constexpr double kFine = 0.3e-3, kLeast = 0.25;  // m; rad, at a window's ends
   const double end = tube.b.z, radius = tube.radius;
   std::vector<double> along;
   for (const double z : ShaftStations(window.low - kFine, window.low - kFine - tube.a.z, spacing))
@@ -214,7 +214,7 @@ void AddTube(SurfaceMesh& mesh, const Capsule& tube, double wall, const Window& 
     half = std::max(half, kLeast);
     const double a = i < kAcross ? half * (2.0 * i / kAcross - 1.0)
                                  : half + 2.0 * (std::numbers::pi - half) * (i - kAcross) / kRest;
-    // The inner wall's dome has the same middle.
+    // The dome of the inner wall has the same centre.
     const double share = of / radius, dome = std::max(z - end, 0.0);
     const double out = of * std::sqrt(std::max(1.0 - dome * dome / (radius * radius), 0.0));
     return glm::dvec3(-out * std::sin(a), out * std::cos(a), r < straight ? z : end + share * dome);
@@ -228,7 +228,7 @@ void AddTube(SurfaceMesh& mesh, const Capsule& tube, double wall, const Window& 
   };
   const double inside = radius - wall;
   for (const bool is_outer : {true, false}) {
-    // Inside it is hollow as far as one can look.
+    // Hollow as far as one can see.
     const double of = is_outer ? radius : inside;
     const int begin = is_outer ? 0 : hollow;
     const int first = static_cast<int>(mesh.vertices.size()) - begin * kAround;
@@ -250,7 +250,7 @@ void AddTube(SurfaceMesh& mesh, const Capsule& tube, double wall, const Window& 
       add(first + (rings - 1) * kAround + i, first + (rings - 1) * kAround + (i + 1) % kAround,
           pole);
   }
-  // Flat ends, and the wall round the window.
+  // Flat ends, and the wall around the window.
   for (const bool is_outer : {true, false}) {
     const int r = is_outer ? 0 : hollow, first = static_cast<int>(mesh.vertices.size());
     for (int i = 0; i < kAround; ++i)
@@ -276,8 +276,8 @@ void AddTube(SurfaceMesh& mesh, const Capsule& tube, double wall, const Window& 
   }
 }
 
-// The outer tube's window is where the shape takes tissue; the blade inside has one like it, with
-// teeth, with which it cuts as it runs past.
+// The window of the outer tube is where the contact shape removes tissue. The blade inside has a
+// similar window with teeth, which cut as they pass.
 void AddShaver(ToolMesh& tool, const ToolShape& shape, double spacing) {
   constexpr double kWall = 0.25e-3, kGap = 0.05e-3;  // m
   const Capsule& tube = shape.capsules.front();
@@ -285,7 +285,7 @@ void AddShaver(ToolMesh& tool, const ToolShape& shape, double spacing) {
   AddTube(tool.body, tube, kWall, window, spacing);
   Capsule blade = tube;
   blade.radius = tube.radius - kWall - kGap;
-  blade.a.z = window.low - 3e-3;  // more of it is never seen
+  blade.a.z = window.low - 3e-3;  // no more of it is visible
   AddTube(tool.moving, blade, kWall, {window.low, window.high, window.half, 0.14}, spacing);
   tool.axis = {0, 0, 1};
   tool.turns_freely = true;

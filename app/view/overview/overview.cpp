@@ -29,13 +29,13 @@ namespace arthro::app {
 namespace {
 
 const glm::dvec3 kAxisColours[3] = {{0.90, 0.35, 0.32}, {0.45, 0.80, 0.40}, {0.40, 0.58, 0.95}};
-constexpr double kRodBehindPortal = 0.035;  // of each rod, drawn outside the joint, m
-constexpr double kScopeRadius = 2.0e-3;     // of a 4 mm arthroscope
+constexpr double kRodBehindPortal = 0.035;  // m, length of each rod outside the joint
+constexpr double kScopeRadius = 2.0e-3;     // m, 4 mm arthroscope
 constexpr double kLineRadius = 0.22e-3;
 constexpr double kLabelFromPortal = 0.005;  // m, beyond its ring
-constexpr double kAxisLength = 0.01;        // also the scale: its label says so
+constexpr double kAxisLength = 0.01;        // m; also the scale: its label says so
 
-// A flat-lying ring about an incision, across the rod.
+// Returns a flat ring around an incision, across the rod.
 std::vector<std::vector<glm::dvec3>> PortalRing(const glm::dvec3& centre, double radius) {
   std::vector<std::vector<glm::dvec3>> ring(1);
   for (int i = 0; i <= 48; ++i) {
@@ -47,7 +47,7 @@ std::vector<std::vector<glm::dvec3>> PortalRing(const glm::dvec3& centre, double
 
 }  // namespace
 
-// The whole scene is seen whichever side is shorter; a narrow picture keeps room for the labels.
+// The whole scene is in view for either aspect ratio; a narrow picture keeps room for the labels.
 void Overview::Parts::FitShorterSide() {
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetUseHorizontalViewAngle(width < height);
@@ -61,7 +61,7 @@ void Overview::Parts::BuildScene() {
   renderer->SetBackground2(0.20, 0.22, 0.25);
   renderer->GradientBackgroundOn();
   renderer->SetBackgroundAlpha(1.0);
-  // A lamp beside the eye and a weaker one from below, so that shapes read from all sides.
+  // A light beside the eye and a weaker one from below, so that shapes are visible from all sides.
   renderer->AutomaticLightCreationOff();
   vtkNew<vtkLight> key, fill;
   key->SetLightTypeToCameraLight();
@@ -73,7 +73,7 @@ void Overview::Parts::BuildScene() {
   renderer->AddLight(key);
   renderer->AddLight(fill);
 
-  // The bowl is looked into from any side: only its inside is drawn.
+  // The bowl can be viewed from any side: only its inside is drawn.
   relief->GetProperty()->BackfaceCullingOn();
   relief->VisibilityOff();
   for (vtkActor* metal : {scope.Get(), probe.Get(), moving.Get()}) {
@@ -96,7 +96,7 @@ void Overview::Parts::BuildScene() {
   renderer->AddActor(scope_label);
   renderer->AddActor(instrument_label);
 
-  // The portal frame's axes, below everything.
+  // Axes of the portal frame, below everything.
   const glm::dvec3 origin{-0.016, 0.034, 0.0};
   const char* names[3] = {"x right", "y down", "z in"};
   for (int i = 0; i < 3; ++i) {
@@ -122,7 +122,7 @@ Overview::Overview() : parts_(std::make_unique<Parts>()) {
   SetIncisionSpacing(Portals().incision_spacing);
 
   p.interactor->SetRenderWindow(p.window);
-  p.interactor->EnableRenderOff();  // drawn by Render alone
+  p.interactor->EnableRenderOff();  // only Render draws
   p.interactor->SetInteractorStyle(p.style);
   p.style->SetDefaultRenderer(p.renderer);
   p.asked_to_draw->SetClientData(&p);
@@ -132,13 +132,13 @@ Overview::Overview() : parts_(std::make_unique<Parts>()) {
   p.interactor->AddObserver(vtkCommand::RenderEvent, p.asked_to_draw);
 
   p.box_look->SetPlaceFactor(1.0);
-  p.box_look->HandlesOff();  // they are for moving faces, and hide small tissue
+  p.box_look->HandlesOff();  // they move faces, and hide small tissue
   p.box_look->GetOutlineProperty()->SetColor(1.0, 0.85, 0.3);
   p.box_look->GetSelectedOutlineProperty()->SetColor(1.0, 1.0, 0.6);
   p.box->SetRepresentation(p.box_look);
   p.box->SetInteractor(p.interactor);
   p.box->MoveFacesEnabledOff();  // a pose has one scale for all directions
-  // VTK's own left drag turns; moving is what is done most.
+  // VTK's own left drag turns; here it moves, the most frequent operation.
   vtkWidgetEventTranslator* events = p.box->GetEventTranslator();
   events->RemoveTranslation(vtkCommand::LeftButtonPressEvent);
   const auto on_press = [&](unsigned long button, int modifier, unsigned long what) {
@@ -198,7 +198,7 @@ void Overview::SetRelief(const DepthMap& depth, const Backdrop& backdrop) {
 void Overview::SetIncisionSpacing(double spacing) {
   Parts& p = *parts_;
   SetData(*p.instrument_portal, MakeBars(PortalRing({spacing, 0, 0}, 3.2e-3), 0.6e-3));
-  // Each begins over its own ring and runs away from the other: they may be close.
+  // Each label begins over its own ring and extends away from the other, since they may be close.
   const double side = spacing < 0 ? -1.0 : 1.0;
   p.scope_label->SetPosition(2e-3 * side, -kLabelFromPortal, 0.0);
   p.instrument_label->SetPosition(spacing - 2e-3 * side, -kLabelFromPortal, 0.0);
@@ -213,7 +213,7 @@ void Overview::SetIncisionSpacing(double spacing) {
 void Overview::SetTools(const OverviewTools& tools) {
   Parts& p = *parts_;
   const glm::dvec3& tip = tools.scope.tip;
-  // The scope's rod runs through the origin; at the portal itself it shows the way it looks.
+  // The scope's rod passes through the origin; a mark at the portal shows its direction of view.
   const glm::dvec3 along =
       glm::length(tip) > 1e-6 ? glm::normalize(tip) : glm::dvec3(0.0, 0.0, 1.0);
   SetData(*p.scope, MakeBars({{-kRodBehindPortal * along, tip}}, kScopeRadius, 20));
@@ -228,7 +228,7 @@ void Overview::SetTools(const OverviewTools& tools) {
   p.moving->SetVisibility(inside > 1e-6 ? 1 : 0);
   if (inside > 1e-6) {
     const InstrumentView& instrument = *tools.instrument;
-    // No lens bends it here, so rings may lie far apart.
+    // No lens bends it here, so rings may be sparse.
     const ToolMesh tool = MakeToolMesh(instrument.kind, 4e-3, inside + kRodBehindPortal);
     SetData(*p.probe, MakeSurfaceData(tool.body));
     SetData(*p.moving, MakeSurfaceData(tool.moving));
@@ -290,13 +290,13 @@ bool Overview::Render(int width, int height) {
     p.width = width;
     p.height = height;
     p.window->SetSize(width, height);
-    p.interactor->UpdateSize(width, height);  // picking is by its size, not the window's
+    p.interactor->UpdateSize(width, height);  // picking uses this size, not the window's
     p.FitShorterSide();
     p.changed = true;
   }
   if (!p.changed) return false;
   p.changed = false;
-  p.window->GetState()->Reset();  // others have drawn in this context
+  p.window->GetState()->Reset();  // other code has drawn in this context
   p.renderer->ResetCameraClippingRange();
   p.window->Render();
   p.changed = false;

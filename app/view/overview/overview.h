@@ -1,6 +1,6 @@
-// The author's view of the whole scene from outside: the backdrop's relief as a bowl, portals, rods
-// and what the scope sees of it, the tissues, and a box to move, turn and scale the chosen one.
-// Portal frame, m. Draws in the current OpenGL context into its own texture, and only when
+// The author's view of the whole scene from outside: the relief of the backdrop as a bowl, portals,
+// rods and the scope's field of view, the tissues, and a box to move, turn and scale the chosen
+// one. Portal frame, m. Draws in the current OpenGL context into its own texture, and only when
 // something changed.
 #pragma once
 
@@ -32,17 +32,17 @@ struct PointerEvent {
 class Overview {
  public:
   Overview();
-  // The context it draws in must still be current.
+  // The context in which it draws must still be current.
   ~Overview();
   Overview(const Overview&) = delete;
   Overview& operator=(const Overview&) = delete;
 
   void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
-  // Another relief or place for the panorama that is there.
+  // Replaces the relief or the place of the present panorama.
   void SetRelief(const DepthMap& depth, const Backdrop& backdrop);
   void SetTissues(std::span<const Tissue> tissues, std::span<const SharedSurface> surfaces);
   void SetTissuePose(int index, const Pose& portal_from_tissue);
-  // As ArthroscopicView's.
+  // Like those of ArthroscopicView.
   bool SetTissueShape(int index, std::span<const glm::dvec3> positions,
                       std::span<const glm::dvec3> normals = {});
   void SetTissueSurface(int index, const SurfaceMesh& surface,
@@ -50,26 +50,26 @@ class Overview {
   void SetIncisionSpacing(double spacing);
   void SetTools(const OverviewTools& tools);
 
-  // Puts the box round a tissue; -1 takes it away. A left drag on it moves it across the picture,
-  // with Shift or Control it turns, a right drag scales.
+  // Puts the box around a tissue; -1 removes it. A left drag moves it across the picture, with
+  // Shift or Control turns it; a right drag scales it.
   void ChooseTissue(int index);
-  // The balls of one tissue, in its own frame, the chosen one lit; -1: none are shown.
+  // Balls of one tissue, in its own frame, the chosen one highlighted; -1: none are shown.
   void ShowBalls(int tissue, std::span<const Ball> balls, int chosen);
-  // The place of a tissue's surface under a pixel, in its own frame.
+  // Place on a tissue's surface under a pixel, in the tissue's own frame.
   struct TissuePlace {
     int tissue = -1;
     glm::dvec3 x_in_tissue{0.0};
   };
   std::optional<TissuePlace> PickTissue(double x, double y) const;
-  // Called while the box is dragged, with the pose it asks for; `finished` with the last one.
+  // Called while the box is dragged, with the pose that it asks for; `finished` with the last one.
   std::function<void(int tissue, const Pose& pose, bool finished)> on_pose;
 
-  // Pointer events over the picture, and those of a drag that began there. Beside the box: left
-  // drag turns the view, middle drag shifts it, wheel and right drag come nearer.
+  // Pointer events over the picture, and those of a drag that began there. Beside the box: a left
+  // drag turns the view, a middle drag shifts it, wheel and right drag zoom.
   void Handle(const PointerEvent& event);
   void ResetCamera();
 
-  // Draws if something changed or the size did; says whether it drew.
+  // Draws if the scene or the size changed; returns whether it drew.
   bool Render(int width, int height);
   unsigned int TextureId() const;  // RGBA, opaque, first row at the bottom
   ColourImage ReadPixels() const;

@@ -1,5 +1,5 @@
-// The inside of Overview: what its window holds. Portal frame, m. Tissues, their box and their
-// balls are overview_tissues.cpp.
+// Internals of Overview: the contents of its window. Portal frame, m. Tissues, their box and their
+// balls are in overview_tissues.cpp.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ namespace arthro::app {
 
 inline const glm::dvec3 kScopeColour{0.25, 0.75, 0.80}, kInstrumentColour{0.95, 0.68, 0.25};
 
-// A tissue's pose as VTK has it, and back; shears by rounding are left out.
+// Converts a tissue's pose to VTK's and back; drops shears by rounding.
 vtkSmartPointer<vtkMatrix4x4> MatrixOf(const Pose& pose);
 Pose PoseOf(const vtkMatrix4x4& matrix);
 
@@ -57,7 +57,7 @@ struct Overview::Parts {
   vtkSmartPointer<vtkBillboardTextActor3D> instrument_label =
       MakeLabel("instrument", kInstrumentColour);
 
-  // Translucent: what they hold is seen through them.
+  // Translucent, so that their contents are seen.
   vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
   vtkSmartPointer<vtkActor> held_chosen = MakeActor({1.0, 0.85, 0.3});
 

@@ -159,7 +159,7 @@ std::optional<double> FirstHit(const SurfaceMesh& surface, const glm::dvec3& fro
                                const glm::dvec3& way) {
   std::optional<double> first;
   for (const auto& [i, j, k] : surface.triangles) {
-    // Möller and Trumbore's test.
+    // Intersection test of Möller and Trumbore.
     const glm::dvec3& a = surface.vertices[static_cast<std::size_t>(i)];
     const glm::dvec3 u = surface.vertices[static_cast<std::size_t>(j)] - a,
                      v = surface.vertices[static_cast<std::size_t>(k)] - a;
@@ -201,7 +201,7 @@ vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>
 std::vector<std::vector<glm::dvec3>> ViewConeLines(const simulation::ScopeView& view,
                                                    double field_of_view, double radius) {
   constexpr int kRimSteps = 72, kRays = 8;
-  // Just inside the sphere, so that the lines are not buried in a bare one.
+  // Just inside the sphere, so that the lines stay visible on a bare one.
   const double reach = 0.995 * radius;
   std::vector<std::vector<glm::dvec3>> lines(1);
   for (int i = 0; i <= kRimSteps; ++i) {

@@ -1,4 +1,4 @@
-// What the overview is put together from, as VTK data in the portal frame, m.
+// Parts of the overview, as VTK data in the portal frame, m.
 #pragma once
 
 #include <optional>
@@ -20,36 +20,36 @@
 
 namespace arthro::app {
 
-// The relief D − h over the panorama as a grid of at most `cells` cells along its longer side, with
-// texture coordinates; holes where nothing was imaged. Its front looks towards the portal.
+// Returns the relief D − h over the panorama as a grid of at most `cells` cells along its longer
+// side, with texture coordinates and holes where nothing was imaged. Its front faces the portal.
 vtkSmartPointer<vtkPolyData> MakeReliefMesh(int width, int height, const DepthMap& depth,
                                             const Backdrop& backdrop, int cells = 160);
 
-// At most 2048 px a side.
+// Returns at most 2048 px per side.
 vtkSmartPointer<vtkTexture> MakePanoramaTexture(const ColourImage& panorama);
 
-// With smooth normals.
+// Adds smooth normals.
 vtkSmartPointer<vtkPolyData> MakeSurfaceData(const SurfaceMesh& surface);
-// Normals are computed where none are given.
+// Computes normals when none are given.
 void MoveSurfaceData(vtkPolyData& data, const SurfaceMesh& surface,
                      std::span<const glm::dvec3> normals = {});
 
-// Vertices that are flagged in one colour, the others in another (sRGB); no flags: the actor's.
+// Colours flagged vertices in one colour, the others in another (sRGB); without flags the actor's.
 void ColourVertices(vtkPolyData& data, const glm::dvec3& others, const glm::dvec3& flagged,
                     std::span<const std::uint8_t> flags);
 
-// A sphere for each ball.
+// Returns one sphere per ball.
 SurfaceMesh MakeBalls(std::span<const Ball> balls);
 
-// Where from + share · way first meets a surface, 0 ≤ share ≤ 1; either side of a triangle counts.
+// Returns where from + share · way first meets a surface, 0 ≤ share ≤ 1, from either side.
 std::optional<double> FirstHit(const SurfaceMesh& surface, const glm::dvec3& from,
                                const glm::dvec3& way);
 
-// A round bar along each line of points.
+// Returns a round bar along each line of points.
 vtkSmartPointer<vtkPolyData> MakeBars(const std::vector<std::vector<glm::dvec3>>& lines,
                                       double radius, int sides = 12);
 
-// Rim of what the scope sees on the backdrop's sphere, and rays from the tip to it.
+// Returns the rim of the scope's view on the backdrop's sphere, and rays from the tip to it.
 std::vector<std::vector<glm::dvec3>> ViewConeLines(const simulation::ScopeView& view,
                                                    double field_of_view, double radius);
 

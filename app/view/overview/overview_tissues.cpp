@@ -17,7 +17,8 @@
 namespace arthro::app {
 namespace {
 
-const glm::dvec3 kFreshColour{0.97, 0.93, 0.84};  // of a cut face: the inside of a tissue is paler
+const glm::dvec3 kFreshColour{0.97, 0.93,
+                              0.84};  // a cut face is paler, like the inside of a tissue
 
 }  // namespace
 
@@ -39,7 +40,7 @@ Pose PoseOf(const vtkMatrix4x4& matrix) {
     pose.position[r] = matrix.GetElement(r, 3);
   }
   pose.scale = std::cbrt(glm::determinant(linear));
-  // The box keeps its angles but for rounding.
+  // The box keeps its right angles, apart from rounding.
   const glm::dvec3 x = glm::normalize(linear[0]);
   const glm::dvec3 y = glm::normalize(linear[1] - glm::dot(linear[1], x) * x);
   pose.quaternion = glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
@@ -74,7 +75,7 @@ void Overview::SetTissues(std::span<const Tissue> tissues,
     model.pose = tissues[i].pose;
     model.data = MakeSurfaceData(model.surface);
     const glm::dvec3& c = tissues[i].colour;
-    // A little darker than in the joint, where light falls on it from the front only.
+    // Slightly darker than in the joint, where light comes from the front only.
     model.actor =
         MakeActor(0.9 * glm::dvec3(SrgbFromLinear(c.x), SrgbFromLinear(c.y), SrgbFromLinear(c.z)));
     model.actor->GetProperty()->SetSpecular(0.06);
@@ -94,7 +95,7 @@ void Overview::SetTissuePose(int index, const Pose& portal_from_tissue) {
   auto& model = p.tissues.at(static_cast<std::size_t>(index));
   model.pose = portal_from_tissue;
   model.actor->SetUserMatrix(MatrixOf(model.pose));
-  // The box under the pointer keeps to the pointer.
+  // The box under the pointer follows the pointer.
   if (index == p.chosen && !p.dragging) p.PlaceBox();
   p.changed = true;
 }

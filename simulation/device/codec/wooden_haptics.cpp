@@ -7,6 +7,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -19,8 +21,6 @@ std::int32_t Way(std::int16_t from, std::int16_t to) noexcept {
   const int way = static_cast<int>(to) - static_cast<int>(from);
   return way > 32767 ? way - 65536 : way < -32768 ? way + 65536 : way;
 }
-
-bool IsFinite(const glm::dvec3& v) noexcept { return std::isfinite(v.x + v.y + v.z); }
 
 }  // namespace
 

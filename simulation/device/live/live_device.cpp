@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -69,7 +71,7 @@ DeviceSample LiveDevice::Read(double now) noexcept {
 
 void LiveDevice::Command(const glm::dvec3& force_in_device) noexcept {
   const glm::dvec3& f = force_in_device;
-  const bool is_finite = std::isfinite(f.x) && std::isfinite(f.y) && std::isfinite(f.z);
+  const bool is_finite = IsFinite(f);
   is_not_finite_ = !is_finite;
   force_ = is_finite && MayPush(status_, events_) ? f : glm::dvec3(0.0);
   if (caps().feedback != Feedback::kNone) link_->Send(force_, joints_);

@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "simulation/core/finite.h"
 #include "simulation/core/latest_value.h"
 
 namespace arthro::simulation {
@@ -280,8 +281,7 @@ class OpenHapticsDevices::OneHand final : public Device {
   }
   void HoldDeadMan(bool is_held) noexcept override { events_.is_dead_man_held = is_held; }
   void Command(const glm::dvec3& force) noexcept override {
-    const bool is_finite =
-        std::isfinite(force.x) && std::isfinite(force.y) && std::isfinite(force.z);
+    const bool is_finite = IsFinite(force);
     is_not_finite_ = !is_finite;
     const bool may_push = is_finite && HasForce(caps_) && MayPush(status_, events_);
     line_.Send(may_push ? force : glm::dvec3(0.0));

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/core/finite.h"
 #include "simulation/scene/held_nodes.h"
 #include "simulation/tissue/body/deformable_body_impl.h"
 #include "simulation/tissue/body/tool_cut.h"
@@ -37,12 +38,6 @@ double MeanEdge(const TetMesh& mesh) {
                              mesh.rest_positions[static_cast<std::size_t>(node[j])]);
   }
   return mesh.ElementCount() > 0 ? sum / (6.0 * mesh.ElementCount()) : 0.0;
-}
-
-bool IsFinite(std::span<const glm::dvec3> x) noexcept {
-  double sum = 0;
-  for (const glm::dvec3& p : x) sum += std::abs(p.x) + std::abs(p.y) + std::abs(p.z);
-  return std::isfinite(sum);
 }
 
 std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder& finder,
@@ -231,7 +226,7 @@ BodyReport DeformableBody::Step(std::span<const WorldTool> tools, const RigidObs
   // Solves. A state that is not finite is replaced by the last good one and reported.
   const std::span<ContactResult> results(own.results.data(), own.contacts.size());
   report.step = own.solver.Step(own.state, own.load, own.contacts, {}, dt, results);
-  if (!report.step.is_finite || !IsFinite(own.state.x)) {
+  if (!report.step.is_finite || !AllFinite(own.state.x)) {
     own.state = own.good;
     own.MoveSkin();
     report.was_reset = true;

@@ -202,7 +202,7 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
 void DeformableBody::Impl::BeginCutting() {
   cut = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
                                             .skin = FieldSkin(field),
-                                            .uncut = UncutSurface(spec.surface),
+                                            .uncut = SurfaceFinder(spec.surface),
                                             .original = field});
   cut->cutter.Rebuild(field);
   cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());

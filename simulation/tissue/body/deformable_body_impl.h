@@ -36,7 +36,7 @@ struct BodyShape {
 struct CutState {
   MeshCutter cutter;
   FieldSkin skin;
-  UncutSurface uncut;
+  SurfaceFinder uncut;
   SolidField original;                   // with the author's cuts, before the first tool's
   std::vector<int> element_of_vertex{};  // element of the whole mesh per vertex of the field's skin
   std::vector<int>

@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -139,8 +141,7 @@ LayerHold HoldOnLayers(std::span<const LayerUnder> layers, std::span<const Capsu
                        double friction) noexcept {
   LayerHold hold;
   hold.tip = held;
-  const bool is_known =
-      std::isfinite(held.x + held.y + held.z) && std::isfinite(before.x + before.y + before.z);
+  const bool is_known = IsFinite(held) && IsFinite(before);
   if (layers.empty() || tool.empty() || !(stiffness > 0.0) || !is_known) return hold;
   // Newton's method from the previous position, in steps that cannot skip a layer.
   glm::dvec3 x = before;

@@ -18,10 +18,6 @@ constexpr double kParallel = 1e-6;
 // Squared distance divided by area below which a point of a triangle's plane lies on the triangle.
 constexpr double kRounding = 1e-20;
 
-glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) noexcept {
-  return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
-}
-
 // Finds the middle of the part of p + t d, t in [low, high], that projects onto c + s e with 0 ≤ s
 // ≤ 1, for parallel directions. Returns false if there is none.
 bool ParallelMiddle(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec3& c,
@@ -62,37 +58,6 @@ double ClosestSegments(const glm::dvec3& p, const glm::dvec3& d, const glm::dvec
 
 }  // namespace
 
-glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x) noexcept {
-  const glm::dvec3 ab = corner[1] - corner[0], ac = corner[2] - corner[0], ax = x - corner[0];
-  const double d1 = glm::dot(ab, ax), d2 = glm::dot(ac, ax);
-  if (d1 <= 0.0 && d2 <= 0.0) return {1, 0, 0};
-  const glm::dvec3 bx = x - corner[1];
-  const double d3 = glm::dot(ab, bx), d4 = glm::dot(ac, bx);
-  if (d3 >= 0.0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    const double v = d1 - d3 > 0.0 ? d1 / (d1 - d3) : 0.0;
-    return {1.0 - v, v, 0};
-  }
-  const glm::dvec3 cx = x - corner[2];
-  const double d5 = glm::dot(ab, cx), d6 = glm::dot(ac, cx);
-  if (d6 >= 0.0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    const double w = d2 - d6 > 0.0 ? d2 / (d2 - d6) : 0.0;
-    return {1.0 - w, 0, w};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    const double whole = (d4 - d3) + (d5 - d6);
-    const double w = whole > 0.0 ? (d4 - d3) / whole : 0.0;
-    return {0, 1.0 - w, w};
-  }
-  const double sum = va + vb + vc;
-  if (!(sum > 0.0)) return {1, 0, 0};  // no area and on no edge, or not finite
-  return {1.0 - (vb + vc) / sum, vb / sum, vc / sum};
-}
-
 glm::dvec4 ClosestInTetrahedron(const std::array<glm::dvec3, 4>& corner,
                                 const glm::dvec3& x) noexcept {
   const glm::dvec4 l = BarycentricIn(corner, x);
@@ -107,7 +72,7 @@ glm::dvec4 ClosestInTetrahedron(const std::array<glm::dvec3, 4>& corner,
     const auto& face = kFaceWithout[static_cast<std::size_t>(i)];
     TriangleCorners triangle;
     for (std::size_t j = 0; j < 3; ++j) triangle[j] = corner[static_cast<std::size_t>(face[j])];
-    const glm::dvec3 on = ClosestOnTriangle(triangle, x), way = x - At(triangle, on);
+    const glm::dvec3 on = ClosestOnTriangle(triangle, x), way = x - PointOn(triangle, on);
     const double distance2 = glm::dot(way, way);
     if (!(distance2 < best)) continue;
     best = distance2;
@@ -130,7 +95,8 @@ SegmentTriangle ClosestSegmentTriangle(const glm::dvec3& a, const glm::dvec3& b,
   const double area2 = glm::dot(normal, normal), up = glm::dot(way, normal);
   const double length2 = glm::dot(way, way);
   const auto at_point = [&](double along) noexcept {
-    const glm::dvec3 x = a + along * way, l = ClosestOnTriangle(corner, x), gap = x - At(corner, l);
+    const glm::dvec3 x = a + along * way, l = ClosestOnTriangle(corner, x),
+                     gap = x - PointOn(corner, l);
     return SegmentTriangle{along, l, glm::dot(gap, gap)};
   };
   // Segment above the face and parallel to it: the middle of the stretch over the face.

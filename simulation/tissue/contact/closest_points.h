@@ -7,12 +7,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "simulation/core/triangle.h"
+
 namespace arthro::simulation {
-
-using TriangleCorners = std::array<glm::dvec3, 3>;
-
-// Returns the barycentric coordinates of the point of a triangle nearest to x.
-glm::dvec3 ClosestOnTriangle(const TriangleCorners& corner, const glm::dvec3& x) noexcept;
 
 // Returns the barycentric coordinates of the point of a tetrahedron nearest to x (x itself if
 // inside). Either handedness is accepted; a flat tetrahedron counts as its faces.

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -21,8 +23,6 @@ constexpr double kLongestHold = 0.02;  // m
 constexpr double kBendReach = 2.5e-3;  // m
 
 constexpr double kSilence = 0.1, kFade = 0.05;  // s [method.md, Tissue coupling]
-
-bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 
 // Returns |P| at the depth x.
 double PushAt(const TissueContact& c, double x) noexcept {

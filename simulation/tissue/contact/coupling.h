@@ -19,6 +19,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/core/finite.h"
 #include "simulation/tissue/contact/contact_point.h"
 
 namespace arthro::simulation {
@@ -45,6 +46,7 @@ struct ToolCoupling {
   bool is_faulty = false;  // a body was reset: no force from it
 };
 
+using arthro::IsFinite;
 // Returns false if any number is NaN or infinite.
 bool IsFinite(const ToolCoupling& coupling) noexcept;
 

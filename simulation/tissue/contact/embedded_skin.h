@@ -10,9 +10,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "simulation/core/box_tree.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scene/tet_mesh.h"
-#include "simulation/tissue/contact/box_tree.h"
 
 namespace arthro::simulation {
 

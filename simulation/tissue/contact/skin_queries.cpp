@@ -16,10 +16,6 @@ namespace {
 // Distance to the skin below which the direction to it is undefined.
 constexpr double kOnSkin = 1e-9;  // m
 
-glm::dvec3 At(const TriangleCorners& corner, const glm::dvec3& l) noexcept {
-  return l.x * corner[0] + l.y * corner[1] + l.z * corner[2];
-}
-
 // Part of a tool that must stay outside the skin while it follows its hand; the rest is room to
 // slide on a curved skin.
 constexpr double kCore = 0.5;  // fraction of the radius
@@ -48,7 +44,7 @@ SkinContact::OnSkin SkinContact::NearestTo(const glm::dvec3& x, double limit) co
   double limit2 = limit * limit;
   tree_.ForNear(x, limit2, [&](int i) noexcept {
     const TriangleCorners corner = Corners(i);
-    const glm::dvec3 l = ClosestOnTriangle(corner, x), way = x - At(corner, l);
+    const glm::dvec3 l = ClosestOnTriangle(corner, x), way = x - PointOn(corner, l);
     const double distance2 = glm::dot(way, way);
     if (!(distance2 <= limit2)) return;
     // Two adjacent triangles are equally near at their edge; the lower index wins, whatever the

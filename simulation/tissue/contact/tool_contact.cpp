@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -28,8 +30,6 @@ constexpr int kMaxAdvances = 16;       // per sweep; each goes as far as nothing
 constexpr double kArrived = 1e-5;      // m
 constexpr double kLongestGrip = 0.02;  // m, 10 N; a tool further from its hand has slipped off
 constexpr double kSameWay = 0.9;       // cosine; holding normals with a smaller angle count as one
-
-bool IsFinite(const glm::dvec3& x) noexcept { return std::isfinite(x.x + x.y + x.z); }
 
 }  // namespace
 

@@ -16,8 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "simulation/core/box_tree.h"
 #include "simulation/core/options.h"
-#include "simulation/tissue/contact/box_tree.h"
 #include "simulation/tissue/contact/closest_points.h"
 #include "simulation/tissue/contact/contact_point.h"
 #include "simulation/tissue/contact/embedded_skin.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -18,36 +19,7 @@ constexpr int kRelaxations = 4;
 
 }  // namespace
 
-UncutSurface::UncutSurface(const SurfaceMesh& surface) {
-  std::vector<Box3> boxes;
-  for (const auto& t : surface.triangles) {
-    TriangleCorners corner;
-    Box3 box = kEmptyBox;
-    for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = surface.vertices[static_cast<std::size_t>(t[i])];
-      box = Union(box, {corner[i], corner[i]});
-    }
-    triangles_.push_back(corner);
-    boxes.push_back(box);
-  }
-  tree_ = BoxTree(boxes);
-}
-
-glm::dvec3 UncutSurface::Nearest(const glm::dvec3& x, double reach) const noexcept {
-  glm::dvec3 nearest = x;
-  double least2 = reach * reach;
-  tree_.ForNear(x, least2, [&](int triangle) {
-    const TriangleCorners& corner = triangles_[static_cast<std::size_t>(triangle)];
-    const glm::dvec3 at = ClosestOnTriangle(corner, x);
-    const glm::dvec3 place = at.x * corner[0] + at.y * corner[1] + at.z * corner[2];
-    const glm::dvec3 way = place - x;
-    if (const double distance2 = glm::dot(way, way); distance2 < least2)
-      least2 = distance2, nearest = place;
-  });
-  return nearest;
-}
-
-void ProjectOnto(const UncutSurface& uncut, const SolidField& field,
+void ProjectOnto(const SurfaceFinder& uncut, const SolidField& field,
                  std::span<const std::uint8_t> is_new, SurfaceMesh& skin) {
   const double reach = kReach * field.spacing(), near_cut = kNearCut * field.spacing(),
                most = kMostMoved * field.spacing();

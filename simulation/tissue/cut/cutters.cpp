@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/core/finite.h"
 
 namespace arthro::simulation {
 namespace {
@@ -50,8 +51,6 @@ double DistanceToTear(const TearCut& tear, const glm::dvec3& x) noexcept {
                                                         (tear.lead + tear.depth) * into));
   return nearest - 0.5 * tear.width;
 }
-
-bool IsFinite(const glm::dvec3& x) { return std::isfinite(x.x + x.y + x.z); }
 
 template <class... Visitors>
 struct Overloaded : Visitors... {

@@ -21,20 +21,10 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/core/box3.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::simulation {
-
-struct Box3 {
-  glm::dvec3 low{0.0}, high{0.0};
-  bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
-};
-inline constexpr Box3 kEmptyBox{glm::dvec3(1.0), glm::dvec3(-1.0)};
-inline Box3 Union(const Box3& a, const Box3& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
 
 struct FieldEdit {
   double removed = 0;        // m³ that were solid and are no longer (sub-cell); negative: added

@@ -12,60 +12,33 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/core/finite.h"
+#include "simulation/core/triangle.h"
 
 namespace arthro::simulation {
 namespace {
 
 constexpr double kExactBand = 2.0;  // spacings
 
-struct Triangle {
-  std::array<glm::dvec3, 3> corner;
-};
-
-// Returns the squared distance of x to a triangle, by the Voronoi regions of its plane (Ericson,
-// Real-Time Collision Detection, 5.1.5).
-double Distance2(const Triangle& triangle, const glm::dvec3& x) noexcept {
-  const auto& [a, b, c] = triangle.corner;
-  const glm::dvec3 ab = b - a, ac = c - a, ax = x - a;
-  const auto to = [&](const glm::dvec3& q) { return glm::dot(x - q, x - q); };
-  const double d1 = glm::dot(ab, ax), d2 = glm::dot(ac, ax);
-  if (d1 <= 0.0 && d2 <= 0.0) return to(a);
-  const glm::dvec3 bx = x - b;
-  const double d3 = glm::dot(ab, bx), d4 = glm::dot(ac, bx);
-  if (d3 >= 0.0 && d4 <= d3) return to(b);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return to(a + d1 / (d1 - d3) * ab);
-  const glm::dvec3 cx = x - c;
-  const double d5 = glm::dot(ab, cx), d6 = glm::dot(ac, cx);
-  if (d6 >= 0.0 && d5 <= d6) return to(c);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return to(a + d2 / (d2 - d6) * ac);
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return to(b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b));
-  const double whole = 1.0 / (va + vb + vc);
-  return to(a + vb * whole * ab + vc * whole * ac);
-}
-
-std::vector<Triangle> CheckedTriangles(const SurfaceMesh& surface) {
+std::vector<TriangleCorners> CheckedTriangles(const SurfaceMesh& surface) {
   if (surface.triangles.empty())
     throw Error(Code::kBadMesh, "the surface has no triangles; a solid needs a closed one");
   for (const glm::dvec3& x : surface.vertices)
-    if (!std::isfinite(x.x + x.y + x.z))
+    if (!IsFinite(x))
       throw Error(Code::kBadMesh, "the surface has a vertex that is not finite; repair it first");
   // A closed surface uses every edge equally often in both directions.
   std::vector<std::array<int, 3>> edges;
-  std::vector<Triangle> triangles;
+  std::vector<TriangleCorners> triangles;
   edges.reserve(3 * surface.triangles.size());
   triangles.reserve(surface.triangles.size());
   for (const auto& corners : surface.triangles) {
-    Triangle triangle;
+    TriangleCorners triangle;
     for (std::size_t i = 0; i < 3; ++i) {
       const int a = corners[i], b = corners[(i + 1) % 3];
       if (a < 0 || a >= static_cast<int>(surface.vertices.size()))
         throw Error(Code::kBadMesh, "a triangle names vertex " + std::to_string(a) +
                                         ", which the surface does not have");
-      triangle.corner[i] = surface.vertices[static_cast<std::size_t>(a)];
+      triangle[i] = surface.vertices[static_cast<std::size_t>(a)];
       edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
     }
     triangles.push_back(triangle);
@@ -100,7 +73,7 @@ int Side(double px, double py, double qx, double qy, double& twice_area) noexcep
 }
 
 // Adds one vote to every node that the surface winds around, as seen along `axis`.
-void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axis,
+void Vote(const std::vector<TriangleCorners>& triangles, const FieldGrid& grid, int axis,
           std::vector<std::uint8_t>& votes) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto count = [&](int a) { return grid.count[static_cast<std::size_t>(a)]; };
@@ -113,9 +86,9 @@ void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axi
     at[static_cast<std::size_t>(v)] = iv;
     return grid.Index(at[0], at[1], at[2]);
   };
-  for (const Triangle& triangle : triangles) {
+  for (const TriangleCorners& triangle : triangles) {
     std::array<glm::dvec3, 3> x;
-    for (std::size_t i = 0; i < 3; ++i) x[i] = (triangle.corner[i] - grid.origin) / grid.spacing;
+    for (std::size_t i = 0; i < 3; ++i) x[i] = (triangle[i] - grid.origin) / grid.spacing;
     const auto first = [&](int a) {
       return std::max(0, static_cast<int>(std::ceil(std::min({x[0][a], x[1][a], x[2][a]}))));
     };
@@ -158,7 +131,7 @@ void Vote(const std::vector<Triangle>& triangles, const FieldGrid& grid, int axi
 }  // namespace
 
 std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& grid, double band) {
-  const std::vector<Triangle> triangles = CheckedTriangles(surface);
+  const std::vector<TriangleCorners> triangles = CheckedTriangles(surface);
   const auto& n = grid.count;
   // Near the surface, compares each triangle with the nodes around it: exact.
   std::vector<double> distance2(grid.NodeCount(), std::numeric_limits<double>::max());
@@ -169,7 +142,7 @@ std::vector<float> SignedDistances(const SurfaceMesh& surface, const FieldGrid& 
   };
   const double exact = kExactBand * grid.spacing;
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
-    const auto& corner = triangles[static_cast<std::size_t>(t)].corner;
+    const auto& corner = triangles[static_cast<std::size_t>(t)];
     const glm::dvec3 across = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
     const double area = glm::length(across);
     if (!(area > 0.0)) continue;  // its neighbours cover its sides

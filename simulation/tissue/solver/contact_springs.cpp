@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "simulation/core/finite.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double kPastAxis = 0.25;  // fraction of a bar's radius
 constexpr int kMostRounds = 60;     // limit of iterations for a tool's equilibrium
 constexpr double kFarthest = 1e-2;  // m, limit per iteration
 constexpr double kBalanced = 1e-9;  // m, last iteration
-
-bool IsFinite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // Gap between a point and the object that it touches.
 struct Gap {

@@ -121,7 +121,7 @@ TEST(FootageLight, GainGoesByWhatTheScenesOwnLensShows) {
   EXPECT_GT(std::abs(without - expected), 0.1 * expected) << "an equisolid window is caught";
 }
 
-constexpr double kReach = 0.0275;  // of a backdrop of 50 mm
+constexpr double kReach = 0.0275;  // m, for a backdrop of 50 mm
 constexpr double kBallLuma = 0.5;
 
 double LampWithoutGain(double distance) {
@@ -163,7 +163,7 @@ class BallScene {
     return AutomaticGain(grid, light, backdrop, view, optics, kReach, &metered);
   }
 
-  // By every pixel: the relief sharp and searched in small steps, the ball round.
+  // Reference over every pixel: sharp relief, searched in small steps, and a round ball.
   double GainByEveryPixel(const simulation::ScopeView& view, double field_of_view, const Lens* lens,
                           const glm::dvec3& centre) const {
     const int size = has_relief ? 71 : 201;
@@ -393,7 +393,7 @@ TEST(MeteredModels, WhatIsBehindOrNoNumberOrInsideOutIsNotSeen) {
   EXPECT_FALSE(sees(broken, {0, 0, 0.02}, false)) << "all of it in one point";
 }
 
-// What was seen before is gone.
+// Earlier models leave no trace.
 TEST(MeteredModels, BeginsAnew) {
   BallScene scene(0.004);
   const auto view = simulation::ViewFromPose({0, 0, 0, 0.01}, 0.0);

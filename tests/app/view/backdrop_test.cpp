@@ -27,8 +27,8 @@ struct GridCase {
   double angle_deg, latitude_deg, longitude_deg, roll_deg, insertion;
 };
 
-// Every view angle, from shallow to deep, in all directions of roll; the panorama reaches far
-// enough for each to see a good part of it.
+// Every view angle, from shallow to deep, in all directions of roll; the panorama is wide enough
+// for each view to show a good part of it.
 std::vector<GridCase> GridCases() {
   std::vector<GridCase> cases;
   for (const double angle : {0.0, 30.0, 70.0, 90.0})
@@ -70,7 +70,7 @@ void ExpectGridWhereTheFormulaPutsIt(app::ArthroscopicView& view, const GridPano
   EXPECT_GT(seen, 40);
 }
 
-TEST_F(BackdropView, GridOfAGnomonicPanoramaLiesWhereTheReferenceTracerSeesIt) {
+TEST_F(BackdropView, GridOfAGnomonicPanoramaAgreesWithTheReferenceTracer) {
   GridPanorama grid;
   grid.height = 2048;
   Backdrop backdrop;
@@ -79,7 +79,7 @@ TEST_F(BackdropView, GridOfAGnomonicPanoramaLiesWhereTheReferenceTracerSeesIt) {
   ExpectGridWhereTheFormulaPutsIt(*view_, grid, backdrop, "gnomonic");
 }
 
-TEST_F(BackdropView, GridOfAnEquirectangularPanoramaLiesWhereTheReferenceTracerSeesIt) {
+TEST_F(BackdropView, GridOfAnEquirectangularPanoramaAgreesWithTheReferenceTracer) {
   GridPanorama grid;
   grid.width = 2400;
   grid.height = 1600;
@@ -95,7 +95,7 @@ TEST_F(BackdropView, EveryPixelHasTheColourOfItsOwnPanoramaPixel) {
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   Picture picture = PictureFromPose({-0.05, 0.04, 1.1, 0.012}, RadiansFromDegrees(30), 1.5);
   picture.plain = true;
-  const int size = 401;  // odd: a pixel lies in the very middle
+  const int size = 401;  // odd, so that a pixel lies at the centre
   view_->Render(picture, size);
   const ColourImage drawn = view_->ReadPixels();
   const TracedPicture traced = TraceWindow(loaded.scene.backdrop, *loaded.panorama, picture.view,
@@ -111,7 +111,7 @@ TEST_F(BackdropView, EveryPixelHasTheColourOfItsOwnPanoramaPixel) {
       }
     }
   std::printf("colours: off by at most %d of 255, %d at the centre\n", worst, worst_at_centre);
-  // A picture drawn smaller than the panorama is averaged over its pixels: a level or two.
+  // A picture smaller than the panorama averages its pixels: one or two levels of difference.
   EXPECT_LE(worst, 3);
   EXPECT_LE(worst_at_centre, 1);
 }
@@ -174,13 +174,13 @@ TEST_F(BackdropView, DepthIsTheReliefsDistanceAlongTheView) {
     std::printf("depth, relief %.0f mm: off by at most %.2g mm over %d pixels\n", h * 1e3,
                 worst * 1e3, compared);
     EXPECT_GT(compared, 20000);
-    // 32-bit depth stored as 1/distance: 3 µm at 0.1 m, less nearer.
+    // 32-bit depth stored as 1/distance: 3 µm at 0.1 m, less when nearer.
     EXPECT_LT(worst, 5e-6);
   }
 }
 
-// A calibrated lens, its axis beside the middle of its round window.
-TEST_F(BackdropView, GridThroughACalibratedLensLiesWhereTheLensPutsIt) {
+// A calibrated lens with its axis beside the middle of its round window.
+TEST_F(BackdropView, GridThroughACalibratedLensAgreesWithTheLensModel) {
   GridPanorama grid;
   grid.height = 2048;
   Backdrop backdrop;
@@ -218,7 +218,7 @@ TEST_F(BackdropView, GridThroughACalibratedLensLiesWhereTheLensPutsIt) {
   }
 }
 
-// A bulge of 8 mm and a step of 6 mm, at which what is near hides what is far.
+// A bulge of 8 mm and a step of 6 mm, where near parts hide far ones.
 LoadedScene CliffScene(bool is_equirectangular) {
   LoadedScene loaded = MakeViewScene(512, 384);
   Projection& projection = loaded.scene.backdrop.projection;
@@ -233,7 +233,7 @@ LoadedScene CliffScene(bool is_equirectangular) {
   return loaded;
 }
 
-// As it is drawn.
+// Depth map with the outlines that the view draws.
 DepthMap WithSmoothOutlines(DepthMap depth) {
   app::SmoothOutlines(depth, false);
   return depth;
@@ -241,10 +241,10 @@ DepthMap WithSmoothOutlines(DepthMap depth) {
 
 struct ReliefAgreement {
   int compared = 0, elsewhere = 0;  // pixels; off by more than 0.1 mm
-  int worst_colour = 0;             // of 255, of the others
+  int worst_colour = 0;             // levels of 255, for the other pixels
   double worst = 0;                 // m
 };
-// Within the window and the panorama, but for their edges.
+// Within the window and the panorama, without their edges.
 ReliefAgreement CompareWithTraced(const ColourImage& drawn, const std::vector<float>& distances,
                                   const TracedPicture& traced, const Picture& picture,
                                   const Projection& projection) {
@@ -274,9 +274,9 @@ ReliefAgreement CompareWithTraced(const ColourImage& drawn, const std::vector<fl
   return result;
 }
 
-// Asked of the depth: 0.1 mm at 20 mm. Where a crest runs through a pixel one of the two may see
-// its near side and the other what is behind it: of 96 x 96 pixels a crest across crosses some 1 %.
-TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
+// Bound on the depth: 0.1 mm at 20 mm. Where a crest runs through a pixel, one of the two may see
+// its near side and the other what is behind it; a crest crosses some 1 % of 96 x 96 pixels.
+TEST_F(BackdropView, ReliefDistanceAgreesWithTheReferenceTracer) {
   for (const bool is_equirectangular : {false, true}) {
     const LoadedScene loaded = CliffScene(is_equirectangular);
     const Backdrop& backdrop = loaded.scene.backdrop;
@@ -304,7 +304,7 @@ TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
             is_equirectangular ? "equirectangular" : "gnomonic", angle, relief.steps, relief.cell,
             100 * share, off.compared, 1e3 * off.worst, off.worst_colour);
         if (relief.cell > 1) {
-          // Of this small picture a cell is as wide as five of a usual one.
+          // A cell of this small picture is as wide as five of a usual one.
           EXPECT_LT(share, 0.02);
           continue;
         }
@@ -318,8 +318,8 @@ TEST_F(BackdropView, ReliefIsMetWhereTheReferenceTracerMeetsIt) {
   }
 }
 
-// What hides what: a ball that a lens on the high side of the step sees half of.
-TEST_F(BackdropView, WhatIsBeforeTheReliefEndsWhereTheReferenceTracerEndsIt) {
+// Occlusion: a lens on the high side of the step sees half of a ball.
+TEST_F(BackdropView, OcclusionByTheReliefAgreesWithTheReferenceTracer) {
   for (const bool is_equirectangular : {false, true}) {
     const LoadedScene loaded = CliffScene(is_equirectangular);
     const Backdrop& backdrop = loaded.scene.backdrop;
@@ -361,7 +361,7 @@ TEST_F(BackdropView, WhatIsBeforeTheReliefEndsWhereTheReferenceTracerEndsIt) {
           const bool is_ball = drawn[at(x, y)] < bare[at(x, y)];
           on_ball += is_ball ? 1 : 0;
           hidden += !is_ball && traced.what[at(x, y)] == TracedPicture::kBackdrop ? 1 : 0;
-          // Every pixel within 1.5 px that the tracer sees otherwise is at most that far off.
+          // Every pixel within 1.5 px that differs from the tracer is at most that far off.
           bool agrees = false;
           for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i)
@@ -381,7 +381,7 @@ TEST_F(BackdropView, WhatIsBeforeTheReliefEndsWhereTheReferenceTracerEndsIt) {
   }
 }
 
-TEST(ReliefCeiling, NothingInABlockOrTheEightAboutItIsHigher) {
+TEST(ReliefCeiling, BoundsTheReliefOfABlockAndItsEightNeighbours) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> any(0.0f, 0.01f);
   for (const bool is_whole_turn : {false, true})
@@ -409,7 +409,7 @@ TEST(ReliefCeiling, NothingInABlockOrTheEightAboutItIsHigher) {
     }
 }
 
-TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture) {
+TEST_F(BackdropView, UnknownReliefIsDrawnAsTheBareSphereInTheBorderColour) {
   LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, DepthMap(1024, 768, NAN), loaded.scene.backdrop);
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
@@ -423,8 +423,8 @@ TEST_F(BackdropView, UnknownReliefIsTheBareSphereAndLooksLikeTheEndOfThePicture)
   }
 }
 
-TEST_F(BackdropView, AnotherDepthIsDrawnAsIfItHadBeenThereFromTheStart) {
-  LoadedScene loaded = MakeViewScene(511, 383);  // rows of no round number of bytes
+TEST_F(BackdropView, AReplacedDepthMapIsDrawnLikeAnInitialOne) {
+  LoadedScene loaded = MakeViewScene(511, 383);  // row length that is no multiple of 4 bytes
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.2);
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->Render(picture, 200);
@@ -441,7 +441,7 @@ TEST_F(BackdropView, AnotherDepthIsDrawnAsIfItHadBeenThereFromTheStart) {
   EXPECT_EQ(view_->ReadPixels().rgb, first.rgb);
 }
 
-TEST_F(BackdropView, DeepestAndShallowestTipsDrawWithoutNonsense) {
+TEST_F(BackdropView, DeepestAndShallowestTipsDrawFinitePictures) {
   const LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   for (const double insertion : {-0.02, 0.0, 0.049999, 0.05})
@@ -456,7 +456,7 @@ TEST_F(BackdropView, DeepestAndShallowestTipsDrawWithoutNonsense) {
     }
 }
 
-TEST_F(BackdropView, APanoramaLargerThanATextureIsReducedAndSaidSo) {
+TEST_F(BackdropView, APanoramaLargerThanATextureIsReducedWithANotice) {
   // Software renderers take 16384 px a side, most cards 32768.
   ColourImage wide(40000, 8);
   for (int x = 0; x < wide.width; ++x)

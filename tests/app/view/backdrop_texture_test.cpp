@@ -1,4 +1,4 @@
-// The relief as it is uploaded.
+// Relief textures as they are uploaded.
 #include "app/view/backdrop/backdrop_texture.h"
 
 #include <cmath>
@@ -9,13 +9,13 @@
 namespace arthro::app {
 namespace {
 
-constexpr int kWidth = 1536, kHeight = 768;  // three texels a block of slopes
+constexpr int kWidth = 1536, kHeight = 768;  // three texels per block of slopes
 
 ReliefTexture ReliefOf(const DepthMap& depth, bool whole_turn = false) {
   return MakeReliefTexture({depth.width, depth.height}, depth, whole_turn);
 }
 
-// m a texel along u and along v, at a texel.
+// Slopes at a texel along u and along v, m per texel.
 glm::dvec2 SlopeAt(const BroadSlopes& broad, int x, int y) {
   const int block = kWidth / broad.width;
   const float* at = &broad.slopes[2 * (static_cast<std::size_t>(y / block) *
@@ -24,7 +24,7 @@ glm::dvec2 SlopeAt(const BroadSlopes& broad, int x, int y) {
   return {at[0] / kWidth, at[1] / kHeight};
 }
 
-TEST(BroadSlopes, OfAPlaneAreItsOwnToTheEdge) {
+TEST(BroadSlopes, EqualTheSlopesOfAPlaneUpToTheEdge) {
   DepthMap plane(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) plane.at(x, y) = static_cast<float>(8e-6 * x + 5e-6 * y);
@@ -38,8 +38,8 @@ TEST(BroadSlopes, OfAPlaneAreItsOwnToTheEdge) {
     }
 }
 
-// Noise of one texel: some 60 count in a mean, and neighbours' differences cancel.
-TEST(BroadSlopes, TakeTheNoiseOfTexelsAway) {
+// Noise of one texel: a mean has some 60 texels, and differences of neighbours cancel.
+TEST(BroadSlopes, SuppressTheNoiseOfTexels) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 1e-4);
   DepthMap rough(kWidth, kHeight);
@@ -63,8 +63,8 @@ TEST(BroadSlopes, TakeTheNoiseOfTexelsAway) {
   EXPECT_LT(after, before / 8);
 }
 
-// A step of 5 mm in a plane: beside it the plane's own slope, on it nothing like the step's.
-TEST(BroadSlopes, AStepCountsForLittle) {
+// A step of 5 mm in a plane: beside it the slope is the plane's own, on it far below the step's.
+TEST(BroadSlopes, GiveAStepALowWeight) {
   DepthMap cliff(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
@@ -74,7 +74,7 @@ TEST(BroadSlopes, AStepCountsForLittle) {
   EXPECT_LT(std::abs(SlopeAt(broad, 700, 300).x), 1e-4);
 }
 
-TEST(BroadSlopes, AWholeTurnHasNoSeam) {
+TEST(BroadSlopes, AFullTurnHasNoSeam) {
   DepthMap wave(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
@@ -84,7 +84,7 @@ TEST(BroadSlopes, AWholeTurnHasNoSeam) {
   EXPECT_NEAR(SlopeAt(broad, 0, 300).x, 2e-3 * M_PI / kWidth, 1e-8);
 }
 
-TEST(BroadSlopes, OfOneTexelAndOfNoDepthAreNone) {
+TEST(BroadSlopes, AreZeroForOneTexelAndWithoutADepthMap) {
   EXPECT_EQ(MakeBroadSlopes(ReliefOf(DepthMap(1, 1, 0.01f)), true).slopes,
             (std::vector<float>{0, 0}));
   for (const float slope : MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false).slopes)

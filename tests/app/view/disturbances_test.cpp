@@ -1,4 +1,4 @@
-// What disturbs a picture: each as its numbers say, and nothing where nothing is on.
+// Disturbances of a picture: each has the size of its formula, and none acts when all are off.
 #include "app/view/drawing/disturbances.h"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ constexpr int kSize = 256;
 
 class DisturbedView : public ViewTest {
  protected:
-  // A panorama seen along its middle from 10 mm behind the portal, every place at one distance.
+  // A panorama seen along its middle from 10 mm behind the portal, with every place at one
+  // distance.
   void ShowWall(const ColourImage& panorama, double distance) {
     Backdrop backdrop = MakeViewScene(16, 16).scene.backdrop;
     backdrop.projection.centre_px = {(panorama.width - 1) / 2.0, (panorama.height - 1) / 2.0};
@@ -68,7 +69,7 @@ std::vector<Disturbances> EachAt(double strength) {
   return all;
 }
 
-TEST_F(DisturbedView, WithNothingOnIsTheSameBytesAndTexture) {
+TEST_F(DisturbedView, WithoutStrengthsTheBytesAndTheTextureStay) {
   ShowJoint();
   picture_.instrument = ProbeInFront();
   const ColourImage clear = Draw({});
@@ -99,7 +100,7 @@ ColourImage ReadTexture(unsigned id, int size) {
   return picture;
 }
 
-TEST_F(DisturbedView, TheShownTextureHoldsThePictureAtEverySizeOneAfterTheOther) {
+TEST_F(DisturbedView, TheShownTextureHoldsThePictureAfterEachChangeOfSize) {
   ShowJoint();
   std::vector<Disturbances> cases = EachAt(1.0);
   cases.emplace_back();
@@ -133,7 +134,7 @@ TEST_F(DisturbedView, IsAFunctionOfSeedAndTime) {
   }
 }
 
-TEST_F(DisturbedView, DistancesStayAsTheyAre) {
+TEST_F(DisturbedView, DistancesDoNotChange) {
   ShowJoint();
   Draw({});
   const std::vector<float> clear = view_->ReadDistances();
@@ -143,9 +144,9 @@ TEST_F(DisturbedView, DistancesStayAsTheyAre) {
   EXPECT_EQ(view_->ReadDistances(), clear);
 }
 
-// Beer-Lambert: over 20 mm at half strength red gains exp(0.5 * (100 - 27) * 0.02) = 2.1 times on
+// Beer-Lambert: over 20 mm at half strength red gains exp(0.5 * (100 - 27) * 0.02) = 2.1 times over
 // green at mean density; clouds that differ by half and the veil's own red leave at least 1.5.
-TEST_F(DisturbedView, BloodReddensTheMoreTheFartherOneLooks) {
+TEST_F(DisturbedView, BloodReddensFarPartsMore) {
   Disturbances haze;
   haze.haze = 0.5;
   double last = 0;
@@ -178,9 +179,9 @@ double EdgeVariance(const ColourImage& picture) {
   return square / sum - mean * mean;
 }
 
-// A disc of diameter c has a standard deviation of c/4 along a line. A mipmap's boxes lie where
-// they lie, so that an edge is a little wider or narrower by its place: over eight places the mean
-// is within 15 %.
+// A disc of diameter c has a standard deviation of c/4 along a line. The boxes of a mipmap have
+// fixed places, so the width of an edge depends on its place: the mean over eight places is within
+// 15 %.
 TEST_F(DisturbedView, ABlurredEdgeIsAsWideAsTheDiscOfConfusion) {
   constexpr int kPixels = 512, kPlaces = 8;
   ColourImage step(1024, 1024);
@@ -212,9 +213,9 @@ TEST_F(DisturbedView, ABlurredEdgeIsAsWideAsTheDiscOfConfusion) {
   EXPECT_GT(check(&Disturbances::near_blur, 6e-3), 10.0);
 }
 
-// What is sharp before a blurred background gives nothing of itself to it, and what is blurred
-// before a sharp one spreads over it.
-TEST_F(DisturbedView, OnlyWhatIsOutOfFocusSpreads) {
+// A sharp part does not spread into a blurred background, and a blurred part spreads over a sharp
+// background.
+TEST_F(DisturbedView, OnlyDefocusedPartsSpread) {
   ShowWall(Grey(200), 40e-3);
   picture_.instrument = app::InstrumentView{{0.03, 0, 0.009}, {-0.02, 0, 0.009}, 0.0};
   const auto beside = [&](const Disturbances& blur) {
@@ -254,14 +255,14 @@ TEST_F(DisturbedView, OverexposureIsAGainOfLight) {
   }
 }
 
-TEST_F(DisturbedView, FogComesFromTheRimAndTakesContrast) {
+TEST_F(DisturbedView, FogGrowsFromTheRimAndReducesContrast) {
   ColourImage checks(512, 512);
   for (int y = 0; y < checks.height; ++y)
     for (int x = 0; x < checks.width; ++x)
       std::fill_n(checks.at(x, y), 3, std::uint8_t((x / 16 + y / 16) % 2 == 0 ? 60 : 180));
   ShowWall(checks, 20e-3);
   const ColourImage clear = Draw({});
-  // Mean step from a pixel to its third neighbour.
+  // Mean difference between a pixel and its third neighbour.
   const auto detail = [&](const ColourImage& picture, double inner, double outer) {
     double sum = 0, count = 0;
     for (int y = 0; y < kSize; ++y)
@@ -301,7 +302,7 @@ double DiscArea(const std::vector<app::DriftingBit>& bits, double margin) {
   return area;
 }
 
-TEST_F(DisturbedView, BubblesChangeThePictureWhereTheyAreAndNowhereElse) {
+TEST_F(DisturbedView, BubblesChangeThePictureOnlyWhereTheyAre) {
   ShowWall(Grey(120), 40e-3);
   const ColourImage clear = Draw({});
   int last = 0;
@@ -334,9 +335,9 @@ TEST_F(DisturbedView, BubblesChangeThePictureWhereTheyAreAndNowhereElse) {
   EXPECT_EQ(app::BubbleCount(1), app::kMostBubbles);
 }
 
-TEST_F(DisturbedView, DebrisBehindTheProbeIsNotSeen) {
+TEST_F(DisturbedView, DebrisBehindTheProbeIsHidden) {
   ShowWall(Grey(60), 40e-3);
-  // A shaft across the window, 4 mm before the lens.
+  // A shaft across the window, 4 mm in front of the lens.
   const app::InstrumentView shaft{{0.03, 0, 0.006}, {-0.03, 0, 0.006}, 0.0};
   Disturbances debris;
   debris.debris = 1;
@@ -371,7 +372,7 @@ TEST_F(DisturbedView, DebrisBehindTheProbeIsNotSeen) {
   EXPECT_GT(seen_without, 50);
 }
 
-TEST_F(DisturbedView, WhatIsNoStrengthIsRefusedInOneSentence) {
+TEST_F(DisturbedView, AnInvalidStrengthIsRefusedInOneSentence) {
   ShowJoint();
   const auto refuse = [&](const std::function<void()>& act, const std::string& word) {
     try {
@@ -400,8 +401,8 @@ TEST_F(DisturbedView, WhatIsNoStrengthIsRefusedInOneSentence) {
   EXPECT_EQ(read.haze + read.bubbles + read.debris, 0.0);
 }
 
-// Flakes stay where they are in the joint while the scope moves past them: parallax.
-TEST(DriftingBits, PassByAsTheScopeMoves) {
+// Flakes keep their places in the joint while the scope moves past them: parallax.
+TEST(DriftingBits, ShowParallaxWhenTheScopeMoves) {
   Disturbances debris;
   debris.debris = 1;
   const auto here = PictureFromPose({0, 0, 0, 0.010}, 0.0, 1.4).view;
@@ -413,12 +414,12 @@ TEST(DriftingBits, PassByAsTheScopeMoves) {
     for (const auto& b : after)
       if (a.shape == b.shape && glm::length(a.centre) < 0.5) {
         ++moved;
-        // To first order the same way on the window as on the flake's own sphere.
+        // To first order the displacement in the window equals that on the flake's own sphere.
         const double expected = -0.3e-3 / a.distance / (2.0 * std::sin(1.4 / 4.0));
         EXPECT_NEAR(b.centre.x - a.centre.x, expected, 0.2 * std::abs(expected));
       }
   EXPECT_GT(moved, 3);
-  // In the picture's own frame, those on the lens do not move with it.
+  // Bubbles on the lens keep their places in the picture's own frame.
   Disturbances air;
   air.bubbles = 1;
   int stuck = 0;
@@ -438,9 +439,9 @@ double CpuMilliseconds(const std::function<void()>& frame) {
   return least;
 }
 
-// Of the process, with llvmpipe's threads. No disturbance takes more than the picture itself does
-// twice over; all together no more than four times.
-TEST_F(DisturbedView, CostsLessThanThePictureTwiceOver) {
+// Processor time of the process, with llvmpipe's threads. No disturbance takes more than twice the
+// time of the picture; all together take at most four times.
+TEST_F(DisturbedView, TakesLessThanTwiceTheTimeOfThePicture) {
   ShowJoint();
   picture_.instrument = ProbeInFront();
   Disturbances all = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};

@@ -1,4 +1,4 @@
-// The relief as it is drawn from beside: the sides of steps, and what is level.
+// The relief drawn from the side: sides of steps, and level parts.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,7 +21,7 @@ constexpr int kTexels = 512;
 
 class DrawnRelief : public ViewTest {
  protected:
-  // From 18 mm in, downwards.
+  // From 18 mm inside, downwards.
   DrawnRelief() {
     const glm::dvec3 ahead = glm::normalize(glm::dvec3(0, 0.8, 0.6)), right(1, 0, 0);
     picture_.field_of_view = 1.4;
@@ -31,7 +31,7 @@ class DrawnRelief : public ViewTest {
   Picture picture_;
 };
 
-// How far values are from the parabola that is nearest to them, rms.
+// Returns the rms distance of values from the parabola that fits them best.
 double OffParabola(const std::vector<glm::dvec2>& points) {
   glm::dmat3 normal(0.0);
   glm::dvec3 right(0.0);
@@ -49,7 +49,7 @@ double OffParabola(const std::vector<glm::dvec2>& points) {
 
 // A step of 8 mm along a line that falls by a texel in `run`, some 6 px of the picture each. On a
 // grey panorama its side is drawn darker; both of its edges are smooth lines in the picture.
-TEST_F(DrawnRelief, TheSideOfAStepBeginsAndEndsInALineAndNotInAStair) {
+TEST_F(DrawnRelief, TheSideOfAStepHasSmoothEdges) {
   constexpr int kSize = 480;
   const ColourImage grey = Grey(kTexels, kTexels, 150);
   for (const double run : {2.0, 5.0, 9.0}) {
@@ -64,7 +64,8 @@ TEST_F(DrawnRelief, TheSideOfAStepBeginsAndEndsInALineAndNotInAStair) {
       const ColourImage drawn = view_->ReadPixels();
       std::vector<glm::dvec2> edges[2];
       for (int x = 140; x < 340; ++x) {
-        // From above and from below towards where the side is darkest, to half of the difference.
+        // From above and from below towards the darkest place of the side, to half of the
+        // difference.
         int darkest = 100;
         for (int y = 100; y < 330; ++y)
           if (drawn.at(x, y)[1] < drawn.at(x, darkest)[1]) darkest = y;
@@ -88,8 +89,8 @@ TEST_F(DrawnRelief, TheSideOfAStepBeginsAndEndsInALineAndNotInAStair) {
   }
 }
 
-// No ray slips through what is level at its highest.
-TEST_F(DrawnRelief, LevelIsDrawnWholeAndAtItsDistance) {
+// No ray passes through a part that is level at the relief's maximum.
+TEST_F(DrawnRelief, LevelPartsAreCompleteAndAtTheirDistance) {
   constexpr int kSize = 256;
   const DepthMap depth(kTexels, kTexels, 0.028f);
   view_->SetBackdrop(Grey(kTexels, kTexels, 150), depth, backdrop_);

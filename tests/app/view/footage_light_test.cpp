@@ -1,4 +1,4 @@
-// The light of the footage and the scope's own, against closed forms.
+// Light of the footage and of the scope's lamp, against closed forms.
 #include "app/view/exposure/footage_light.h"
 
 #include <cmath>
@@ -21,8 +21,8 @@ namespace {
 
 using namespace app;
 
-// Checks under a lamp that falls to a quarter from left to right.
-TEST(FootageLight, EveningTakesAWideFallAwayAndKeepsThePattern) {
+// Chequers under a lamp that falls to a quarter from left to right.
+TEST(FootageLight, EveningRemovesAWideGradientAndKeepsThePattern) {
   ColourImage lit(960, 480);
   const auto linear = [](int x, int y) {
     const double fall = std::pow(0.25, x / 959.0);
@@ -36,7 +36,7 @@ TEST(FootageLight, EveningTakesAWideFallAwayAndKeepsThePattern) {
   LightGrid grid = MakeLightGrid(lit, {});
   EvenLight(grid, 1.0);
   const ColourImage even = Evened(lit, grid);
-  // Of one kind of check, left and right: linear.
+  // One kind of chequer, left and right: linear values.
   const auto at = [&](const ColourImage& image, int x) {
     return std::pow(image.at(x, 12)[0] / 255.0, 2.2);
   };
@@ -51,7 +51,7 @@ TEST(FootageLight, EveningTakesAWideFallAwayAndKeepsThePattern) {
   EXPECT_EQ(Evened(lit, grid).rgb, lit.rgb);
 }
 
-TEST(FootageLight, OfASideIsThatSides) {
+TEST(FootageLight, OfADirectionIsMeasuredThere) {
   ColourImage halves = Grey(400, 300, 40);
   for (int y = 0; y < 300; ++y)
     for (int x = 200; x < 400; ++x) halves.at(x, y)[0] = 200;
@@ -63,7 +63,7 @@ TEST(FootageLight, OfASideIsThatSides) {
       MeasureLight(grid, backdrop.projection, glm::normalize(glm::dvec3(-1, 0, 1)), 0.3);
   EXPECT_GT(right.mean.r, 10 * right.mean.g);
   EXPECT_NEAR(left.mean.r, left.mean.g, 1e-6);
-  // Behind the scope nothing was imaged: then it is that of all.
+  // Nothing was imaged behind the scope: the light is then that of all.
   EXPECT_EQ(MeasureLight(grid, backdrop.projection, {0, 0, -1}, 0.3).mean, MeasureLight(grid).mean);
 }
 
@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Lenses, LitView, testing::Bool(), [](const auto& has) {
   return std::string(has.param ? "kannala_brandt" : "equisolid");
 });
 
-// A grey sphere from beside its middle, all in the lamp's light: each pixel by hand.
-TEST_P(LitView, PixelsOfAGreySphereAreTheClosedForm) {
+// A grey sphere from beside its centre, all in the lamp's light: each pixel by its closed form.
+TEST_P(LitView, PixelsOfAGreySphereEqualTheClosedForm) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   backdrop.relight = 1;
   const ColourImage grey = Grey(512, 512, 100);
@@ -96,7 +96,7 @@ TEST_P(LitView, PixelsOfAGreySphereAreTheClosedForm) {
     for (int x = 0; x < size; x += 3) {
       const auto ray = ReferenceRay(picture.view, optics.field_of_view, size, {x, y},
                                     GetParam() ? &lens : nullptr);
-      // The rim is softened further out.
+      // The rim is vignetted farther out.
       if (!ray || std::hypot(x - 99.5, y - 99.5) > 54) continue;
       const glm::dvec3 hit = simulation::SphereHit(picture.view.tip, *ray, 0.05);
       const double distance = glm::length(hit - picture.view.tip);
@@ -118,8 +118,8 @@ TEST_P(LitView, PixelsOfAGreySphereAreTheClosedForm) {
 
 class LitModels : public ViewTest {};
 
-// The gain goes by the relief that is shown.
-TEST_F(LitModels, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
+// The gain is computed from the relief that is drawn.
+TEST_F(LitModels, AReplacedDepthMapIsLitLikeAnInitialOne) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   backdrop.relight = 1;
   const ColourImage grey = Grey(512, 512, 100);
@@ -134,9 +134,9 @@ TEST_F(LitModels, AnotherDepthIsLitAsIfItHadBeenThereFromTheStart) {
   EXPECT_EQ(view_->ReadPixels().rgb, expected.rgb);
 }
 
-// The camera's head turns the picture and nothing in it: lamp, shadow and mark stay with the scope.
-// By half a turn and by a quarter pixels fall on pixels; a footprint's axes are rounded.
-TEST_F(LitModels, TurningTheCameraHeadTurnsThePictureAndNothingInIt) {
+// Turning the camera head turns the whole picture: lamp, shadow and mark stay with the scope. For
+// half and quarter turns pixels fall on pixels; a footprint's axes are rounded.
+TEST_F(LitModels, TurningTheCameraHeadRotatesThePictureAsAWhole) {
   LoadedScene loaded = MakeViewScene(512, 512);
   loaded.scene.backdrop.relight = 1;
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
@@ -166,14 +166,14 @@ TEST_F(LitModels, TurningTheCameraHeadTurnsThePictureAndNothingInIt) {
   }
 }
 
-// The lamp stands above the lens, so the shadow falls under the rod, and only there.
-TEST_F(LitModels, TheInstrumentShadesWhatIsCloseBehindIt) {
+// The lamp stands above the lens, so the shadow falls under the rod only.
+TEST_F(LitModels, TheInstrumentShadesSurfacesCloseBehindIt) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   view_->SetBackdrop(Grey(512, 512, 150), {}, backdrop);
   Picture picture = PictureFromPose({0, 0, 0, 0.02}, 0.0, 1.4);
   view_->Render(picture, 256);
   const ColourImage without = view_->ReadPixels();
-  // Level across the picture, 3 mm before the sphere at its end.
+  // Level across the picture, 3 mm in front of the sphere at its end.
   picture.instrument =
       InstrumentView{{0.03, 0.0, 0.0}, {0.0, 0.0, 0.0465}, 0, simulation::ToolKind::kPunch};
   view_->Render(picture, 256);
@@ -181,7 +181,7 @@ TEST_F(LitModels, TheInstrumentShadesWhatIsCloseBehindIt) {
   const auto change = [&](int x, int y) {
     return int{with.at(x, y)[0]} - int{without.at(x, y)[0]};
   };
-  // Under the shaft's end (screen y grows downwards), and far from it.
+  // Below the end of the shaft (screen y grows downwards), and far from it.
   int darkest = 0;
   for (int y = 128; y < 170; ++y) darkest = std::min(darkest, change(136, y));
   EXPECT_LT(darkest, -25);
@@ -194,9 +194,9 @@ TEST_F(LitModels, TheInstrumentShadesWhatIsCloseBehindIt) {
   EXPECT_EQ(view_->ReadPixels().rgb, plain.rgb);
 }
 
-// A hook that lies across the picture, 8 mm from the lens and far before the sphere, throws its
-// shadow where the way from the lamp over its lower edge ends; turned the other way it does not.
-TEST_F(LitView, TheProbesHookShadesToo) {
+// A hook across the picture, 8 mm from the lens and far in front of the sphere, casts its shadow
+// where rays from the lamp past its lower edge end; turned the other way it casts none there.
+TEST_F(LitView, TheHookOfTheProbeCastsAShadow) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   view_->SetBackdrop(Grey(512, 512, 150), {}, backdrop);
   Picture picture = PictureFromPose({0, 0, 0, 0.02}, 0.0, 1.4);

@@ -1,4 +1,4 @@
-// Backdrops of one grey and a lens that stands aside, for tests of the light.
+// Uniformly grey backdrops, and a lens with its axis off the centre, for tests of the light.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline ColourImage Grey(int width, int height, std::uint8_t level) {
   return image;
 }
 
-// The axis stands aside by a quarter of the window's radius.
+// The axis is a quarter of the window's radius off the centre.
 inline Lens AsideLens() {
   Lens lens;
   lens.model = LensModel::kKannalaBrandt;

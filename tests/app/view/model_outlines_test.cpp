@@ -1,5 +1,5 @@
-// Models against the reference tracer: outlines, distances, and what is behind the backdrop,
-// through every kind of lens that a scene may have.
+// Models against the reference tracer: outlines, distances and occlusion by the backdrop, through
+// every kind of lens that a scene may have.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,7 +21,8 @@ using namespace app;
 constexpr int kSize = 256;  // px
 
 struct Agreement {
-  int wrong = 0, far_wrong = 0;  // pixels that show the other of model and backdrop; not at an edge
+  int wrong = 0,
+      far_wrong = 0;  // pixels with the other of model and backdrop; those not at an edge
   int outline = 0, covered = 0;
   double worst_model = 0, worst_backdrop = 0;                 // distance, m
   double edge_px() const { return wrong / (0.5 * outline); }  // an edge has a pixel on either side
@@ -33,7 +34,7 @@ struct Agreement {
   }
 };
 
-// A model (in the portal frame) over the bare sphere of `loaded`, within the window's inner part.
+// Compares a model (in the portal frame) over the bare sphere of `loaded`, inside the window's rim.
 Agreement Compare(app::ArthroscopicView& view, const LoadedScene& loaded, const SurfaceMesh& model,
                   const Picture& picture, const Lens* lens) {
   Tissue tissue;
@@ -66,7 +67,7 @@ Agreement Compare(app::ArthroscopicView& view, const LoadedScene& loaded, const 
         result.far_wrong += !edge;
         continue;
       }
-      // At the outline the surface turns edge-on and a hair's breadth changes the distance.
+      // At the outline the surface is edge-on, where a tiny displacement changes the distance much.
       const double off = std::abs(static_cast<double>(drawn[i]) - traced.distance[i]);
       if (drawn_model && !edge) result.worst_model = std::max(result.worst_model, off);
       if (!drawn_model) result.worst_backdrop = std::max(result.worst_backdrop, off);
@@ -77,11 +78,11 @@ Agreement Compare(app::ArthroscopicView& view, const LoadedScene& loaded, const 
 
 struct Glass {
   const char* name;
-  std::optional<Lens> lens;  // none: equisolid, of 1.8 rad
+  std::optional<Lens> lens;  // none: equisolid, with 1.8 rad
   friend void PrintTo(const Glass& glass, std::ostream* out) { *out << glass.name; }
 };
 
-// Their axes stand beside the middle of the round window by a tenth of its radius and more.
+// Their axes are at least a tenth of the round window's radius off its centre.
 Lens AsideLens(LensModel model, double focal_px, std::array<double, 4> k) {
   Lens lens;
   lens.model = model;
@@ -115,13 +116,13 @@ class ModelOutlines : public ViewTest, public testing::WithParamInterface<Glass>
   simulation::ScopeOptics optics;
 };
 
-// The bounds are those of the ellipsoids below, whose chords are as long.
+// The bounds are those of the ellipsoids below, which have chords of the same length.
 void ExpectWithinAPixel(const Agreement& result) {
   EXPECT_GT(result.covered, 5000);
   EXPECT_EQ(result.far_wrong, 0);
   EXPECT_LT(result.edge_px(), 0.1);
   EXPECT_LT(result.worst_model, 0.3e-3);
-  EXPECT_LT(result.worst_backdrop, 5e-6);  // as of the backdrop alone (backdrop_test.cpp)
+  EXPECT_LT(result.worst_backdrop, 5e-6);  // the bound of the backdrop alone (backdrop_test.cpp)
 }
 
 void Print(const char* name, const std::string& what, const Agreement& result) {
@@ -132,7 +133,7 @@ void Print(const char* name, const std::string& what, const Agreement& result) {
       1e3 * result.worst_model, result.covered, 1e3 * result.worst_backdrop);
 }
 
-TEST_P(ModelOutlines, OfEllipsoidsAreTheReferenceTracersWithinAPixel) {
+TEST_P(ModelOutlines, OfEllipsoidsAgreeWithTheReferenceTracerWithinAPixel) {
   const glm::dquat turn(std::cos(0.3), 0, std::sin(0.3), 0);
   Agreement all;
   for (const glm::dvec3 place : {glm::dvec3(0.001, 0.001, 0.032), glm::dvec3(0.012, -0.008, 0.028),
@@ -145,7 +146,7 @@ TEST_P(ModelOutlines, OfEllipsoidsAreTheReferenceTracersWithinAPixel) {
   ExpectWithinAPixel(all);
 }
 
-// A ball of 4 mm whose middle is seen at an angle from the view's axis, turned from right to up.
+// A ball of 4 mm at an angle from the view's axis, turned from right to up.
 SurfaceMesh BallAt(const Picture& picture, double theta, double turn, double distance) {
   const simulation::ScopeView& v = picture.view;
   const glm::dvec3 ray = std::cos(theta) * v.view +
@@ -155,7 +156,7 @@ SurfaceMesh BallAt(const Picture& picture, double theta, double turn, double dis
   return ball;
 }
 
-TEST_P(ModelOutlines, OfBallsAtEveryViewAngleAndAllOverTheWindowAreTheTracersWithinAPixel) {
+TEST_P(ModelOutlines, OfBallsAtAllViewAnglesAndPlacesAgreeWithTheReferenceTracerWithinAPixel) {
   const double half = 0.5 * optics.field_of_view;
   for (const double angle : {0.0, 30.0, 70.0}) {
     const Picture picture = Look({0.1, -0.15, 0.4, 0.012}, RadiansFromDegrees(angle));
@@ -168,9 +169,9 @@ TEST_P(ModelOutlines, OfBallsAtEveryViewAngleAndAllOverTheWindowAreTheTracersWit
   }
 }
 
-// A ball whose middle is 1.5 mm behind the backdrop: a cap of it stands out, and ends where the two
-// meet.
-TEST_P(ModelOutlines, OfABallThatSinksIntoTheBackdropEndsWhereTheTracersDoes) {
+// A ball with its centre 1.5 mm behind the backdrop: a cap stands out, and ends where the two
+// surfaces intersect.
+TEST_P(ModelOutlines, OfABallThatIntersectsTheBackdropAgreeWithTheReferenceTracer) {
   const double half = 0.5 * optics.field_of_view;
   for (const double angle : {0.0, 30.0, 70.0}) {
     const Picture picture = Look({0.1, -0.15, 0.4, 0.03}, RadiansFromDegrees(angle));
@@ -192,9 +193,9 @@ TEST_P(ModelOutlines, OfABallThatSinksIntoTheBackdropEndsWhereTheTracersDoes) {
   }
 }
 
-// The tracer tells lenses apart, or the numbers above would prove little.
+// The comparison must tell lenses apart, or the results above would prove little.
 class OffAxisOutlines : public ModelOutlines {};
-TEST_P(OffAxisOutlines, OfALensWhoseAxisIsTakenForTheMiddleAreCaught) {
+TEST_P(OffAxisOutlines, DetectALensWhoseAxisIsTakenForTheCentre) {
   Picture picture = Look({0.1, -0.15, 0.4, 0.012}, 0.5);
   picture.lens.axis = {0, 0};
   const Agreement result =

@@ -1,4 +1,4 @@
-// Tissues and the instrument in the picture: where the lens puts them, what hides what.
+// Tissues and the instrument in the picture: places through the lens, and occlusion.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -74,7 +74,7 @@ struct Occlusion {
   bool seen;
 };
 
-TEST_F(ModelsView, ReliefHidesTissueBehindItAndNoneInFront) {
+TEST_F(ModelsView, ReliefHidesOnlyTissueBehindIt) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
   const Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, 1.4);
@@ -127,7 +127,7 @@ TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
   EXPECT_NE(ball_only.rgb, probe_behind.rgb) << "beside the ball the probe is seen";
 }
 
-TEST_F(ModelsView, ProbeIsDrawnFromItsPortalToTheProxyAndNoFurther) {
+TEST_F(ModelsView, ProbeIsDrawnOnlyFromItsPortalToTheProxy) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
   view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
@@ -151,7 +151,7 @@ TEST_F(ModelsView, ProbeIsDrawnFromItsPortalToTheProxyAndNoFurther) {
   EXPECT_GT(drawn, 1000);
 }
 
-TEST_F(ModelsView, NothingBehindTheLensSmearsOverThePicture) {
+TEST_F(ModelsView, GeometryBehindTheLensIsNotDrawn) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
   view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
@@ -167,7 +167,7 @@ TEST_F(ModelsView, NothingBehindTheLensSmearsOverThePicture) {
   EXPECT_EQ(view_->ReadPixels().rgb, without.rgb);
 }
 
-TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
+TEST_F(ModelsView, MovedVerticesAreDrawnLikeANewSurface) {
   LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
@@ -182,7 +182,7 @@ TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
   view_->Render(picture, 200);
   const ColourImage after = view_->ReadPixels();
   EXPECT_NE(before.rgb, after.rgb);
-  // The light about a tissue stays that of the place where it was laid.
+  // The light around a tissue stays that of its original place.
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
   view_->SetTissueSurface(0, pressed);
   view_->Render(picture, 200);
@@ -191,7 +191,7 @@ TEST_F(ModelsView, MovedVerticesAreDrawnAsANewSurfaceWouldBe) {
   EXPECT_THROW(view_->SetTissueShape(1, pressed.vertices), Error);
 }
 
-TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
+TEST_F(ModelsView, GivenNormalsAreUsedAndCutFacesAreDrawnPaler) {
   LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
@@ -206,7 +206,7 @@ TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
   EXPECT_TRUE(view_->SetTissueShape(0, places, turned));
   EXPECT_NE(drawn(), before);
   EXPECT_THROW(view_->SetTissueShape(0, places, std::span(turned).first(2)), Error);
-  // The half of the ring that is left, with another number of vertices.
+  // The remaining half of the ring, with another number of vertices.
   const SurfaceMesh half = Ring(0.007, 0.0024, 40, 20);
   view_->SetTissueSurface(0, half);
   const auto plain = drawn();
@@ -221,7 +221,7 @@ TEST_F(ModelsView, GivenNormalsAreUsedAndACutSurfaceIsDrawnWithItsFreshFaces) {
   EXPECT_THROW(view_->SetTissueShape(0, places), Error);
 }
 
-TEST_F(ModelsView, EachInstrumentLooksItsOwnWayAndItsJawMoves) {
+TEST_F(ModelsView, EachInstrumentHasItsOwnShapeAndItsJawMoves) {
   LoadedScene loaded = MakeViewScene(256, 256);
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.3, 1.5);
@@ -262,10 +262,10 @@ constexpr simulation::ToolKind kEveryTool[] = {
     simulation::ToolKind::kProbe, simulation::ToolKind::kPunch, simulation::ToolKind::kShaver,
     simulation::ToolKind::kGrasper};
 
-// Drawn is what touches. Capsules are round where the real jaws are flat, with edges; nothing is
-// drawn more than 0.45 mm off them, and the tips, which a trainee works with, are within 0.2 mm:
-// along the rod, and each jaw's from its hinge.
-TEST(ToolMesh, IsDrawnWhereItTouches) {
+// The drawn shape agrees with the contact shape. Capsules are round where real jaws are flat, with
+// edges; nothing is drawn more than 0.45 mm off them. The tips, which a trainee works with, are
+// within 0.2 mm: along the rod, and each jaw's from its hinge.
+TEST(ToolMesh, AgreesWithTheContactShape) {
   using namespace simulation;
   for (const ToolKind kind : kEveryTool) {
     const ToolShape shape = ShapeOf(kind);
@@ -276,7 +276,7 @@ TEST(ToolMesh, IsDrawnWhereItTouches) {
       const Pose part = app::MovingPart(mesh, mesh.turns_freely ? 0.0 : opening, 0.0);
       double far_off = 0, drawn_tip = -1, touching_tip = -1, drawn_jaw = 0, touching_jaw = 0;
       const auto see = [&](const glm::dvec3& x) {
-        // The working end; shafts are drawn a little longer than they touch.
+        // The working end; shafts are drawn slightly longer than their contact shapes.
         if (x.z > -30e-3) far_off = std::max(far_off, OffCapsules(x, capsules));
         drawn_tip = std::max(drawn_tip, x.z);
       };
@@ -303,7 +303,7 @@ TEST(ToolMesh, IsDrawnWhereItTouches) {
   }
 }
 
-// Every edge has its other side once the copies of a place (an edge of the metal) are one.
+// Every edge has its opposite once the copies of a place (at a sharp edge of the metal) are merged.
 bool IsClosed(const SurfaceMesh& mesh) {
   std::map<std::array<long, 3>, int> places;
   std::vector<int> place;
@@ -342,8 +342,8 @@ TEST(ToolMesh, IsClosedOutwardAndLight) {
   }
 }
 
-// Widest across the rod, further than 20 mm behind the tip: the real shafts' diameters.
-TEST(ToolMesh, HasTheRealShaft) {
+// Largest width across the rod, farther than 20 mm behind the tip: the diameters of real shafts.
+TEST(ToolMesh, HasTheDiameterOfTheRealShaft) {
   const double diameters[] = {3.0e-3, 3.4e-3, 4.5e-3, 3.4e-3};
   for (int i = 0; i < 4; ++i) {
     double widest = 0;
@@ -353,7 +353,7 @@ TEST(ToolMesh, HasTheRealShaft) {
   }
 }
 
-TEST(ToolMesh, TheShaversBladeTurnsInsideItsTubeBehindAWindow) {
+TEST(ToolMesh, TheBladeOfTheShaverTurnsInsideItsTubeBehindAWindow) {
   using namespace simulation;
   const app::ToolMesh mesh = app::MakeToolMesh(ToolKind::kShaver);
   const double tube = ShapeOf(ToolKind::kShaver).capsules[0].radius;
@@ -363,7 +363,7 @@ TEST(ToolMesh, TheShaversBladeTurnsInsideItsTubeBehindAWindow) {
     for (const glm::dvec3& x : mesh.moving.vertices)
       EXPECT_LT(std::hypot((part * x).x, (part * x).y), tube - 0.2e-3);
   }
-  // The window is open where tissue is taken: no triangle of the tube lies over its middle.
+  // The window is open where tissue is removed: no triangle of the tube lies over its middle.
   const Capsule bite = ShapeOf(ToolKind::kShaver).bite;
   const glm::dvec3 middle{0, tube, 0.5 * (bite.a.z + bite.b.z)};
   for (const auto& [a, b, c] : mesh.body.triangles) {
@@ -372,7 +372,7 @@ TEST(ToolMesh, TheShaversBladeTurnsInsideItsTubeBehindAWindow) {
   }
 }
 
-TEST(ProbeMesh, IsClosedRoundTheHookAndTouchesItsOriginWithTheHooksSide) {
+TEST(ProbeMesh, IsClosedAndTouchesItsOriginWithTheSideOfTheHook) {
   const app::ProbeShape shape;
   const SurfaceMesh mesh = app::MakeProbeMesh(shape);
   double top = -1, reach = 0, back = 0, widest = 0;
@@ -386,7 +386,7 @@ TEST(ProbeMesh, IsClosedRoundTheHookAndTouchesItsOriginWithTheHooksSide) {
   EXPECT_NEAR(back, -shape.shaft_length, 0.3e-3);
   EXPECT_NEAR(reach, shape.hook_length, 20e-6);
   EXPECT_NEAR(widest, 1.5e-3, 1e-9);
-  // Normals look outward: away from the shaft's axis.
+  // Normals face outwards, away from the shaft's axis.
   std::vector<glm::dvec3> normals(mesh.vertices.size());
   ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)

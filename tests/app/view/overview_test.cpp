@@ -1,4 +1,4 @@
-// The author's view: drawn when something changed, and a box that poses the chosen tissue.
+// The author's view: drawn only after a change, and a box that poses the chosen tissue.
 #include "app/view/overview/overview.h"
 
 #include <glm/geometric.hpp>
@@ -25,7 +25,7 @@ class OverviewTest : public ViewTest {
     view_.reset();
     overview_ = std::make_unique<Overview>();
     scene_ = MakeViewScene(512, 384);
-    // In the middle of the picture: the default camera looks at this point.
+    // Centre of the picture: the default camera looks at this point.
     scene_.scene.tissues[0].pose = {{0.0, 0.003, 0.0225}, {1, 0, 0, 0}, 1.0};
     overview_->SetBackdrop(*scene_.panorama, *scene_.depth, scene_.scene.backdrop);
     overview_->SetTissues(scene_.scene.tissues, scene_.surfaces);
@@ -78,25 +78,25 @@ TEST_F(OverviewTest, DrawsOnlyWhenSomethingChanged) {
   EXPECT_TRUE(overview_->Render(kSize, kSize - 1)) << "no such tissue: none is chosen";
 }
 
-TEST_F(OverviewTest, DraggingTheBoxsMiddleMovesTheTissueAlone) {
+TEST_F(OverviewTest, DraggingTheCentreOfTheBoxMovesOnlyTheTissue) {
   overview_->ChooseTissue(0);
   overview_->Render(kSize, kSize);
   Drag(Button::kLeft, middle_, middle_ + glm::dvec2(40, 0));
   ASSERT_GE(calls_, 2);
   EXPECT_EQ(finished_, 1);
   const glm::dvec3 moved = pose_.position - scene_.scene.tissues[0].pose.position;
-  // The camera stands right, above and behind the portal: the picture's right is mostly +x.
+  // The camera stands to the right, above and behind the portal: the picture's right is mostly +x.
   EXPECT_GT(moved.x, 0.003);
   EXPECT_NEAR(pose_.scale, 1.0, 1e-9);
   EXPECT_NEAR(std::abs(pose_.quaternion.w), 1.0, 1e-9);
-  // What was drawn follows: the same drag again goes on from there.
+  // The drawn box follows: the same drag again continues from there.
   const glm::dvec3 first = pose_.position;
   Drag(Button::kLeft, middle_ + glm::dvec2(40, 0), middle_);
   EXPECT_LT(glm::distance(pose_.position, scene_.scene.tissues[0].pose.position), 0.5e-3);
   EXPECT_GT(glm::distance(pose_.position, first), 0.003);
 }
 
-TEST_F(OverviewTest, RightDragScalesAllDirectionsAlike) {
+TEST_F(OverviewTest, RightDragScalesUniformly) {
   overview_->ChooseTissue(0);
   overview_->Render(kSize, kSize);
   Drag(Button::kRight, middle_, middle_ - glm::dvec2(0, 50));
@@ -106,10 +106,10 @@ TEST_F(OverviewTest, RightDragScalesAllDirectionsAlike) {
   EXPECT_NEAR(std::abs(pose_.quaternion.w), 1.0, 1e-6);
 }
 
-TEST_F(OverviewTest, APixelOverATissueIsAPlaceOfItsSurface) {
+TEST_F(OverviewTest, PickingAPixelReturnsAPlaceOnTheTissueSurface) {
   const auto place = overview_->PickTissue(middle_.x, middle_.y);
   EXPECT_FALSE(overview_->PickTissue(2, 2));
-  // The ring has a hole; somewhere near the middle it is met.
+  // The ring has a hole; somewhere near the centre it is hit.
   std::optional<Overview::TissuePlace> met = place;
   for (double dx = -60; !met && dx <= 60; dx += 4)
     met = overview_->PickTissue(middle_.x + dx, middle_.y);
@@ -121,7 +121,7 @@ TEST_F(OverviewTest, APixelOverATissueIsAPlaceOfItsSurface) {
   EXPECT_LT(nearest, 0.5e-3);  // its triangles are smaller than a millimetre
 }
 
-TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldAndTheChosenOneIsLit) {
+TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldWithTheChosenOneHighlighted) {
   const auto drawn = [&] {
     overview_->Render(kSize, kSize);
     return overview_->ReadPixels().rgb;
@@ -139,7 +139,7 @@ TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldAndTheChosenOneIsLit) {
   EXPECT_EQ(drawn(), before);
 }
 
-TEST_F(OverviewTest, WithoutAChosenTissueADragTurnsTheViewOnly) {
+TEST_F(OverviewTest, WithoutAChosenTissueADragOnlyTurnsTheView) {
   const ColourImage before = overview_->ReadPixels();
   Drag(Button::kLeft, middle_, middle_ + glm::dvec2(60, 20));
   EXPECT_EQ(calls_, 0);
@@ -149,7 +149,7 @@ TEST_F(OverviewTest, WithoutAChosenTissueADragTurnsTheViewOnly) {
   EXPECT_EQ(overview_->ReadPixels().rgb, before.rgb);
 }
 
-TEST_F(OverviewTest, APoseSetByOthersMovesTheBoxToo) {
+TEST_F(OverviewTest, APoseSetElsewhereMovesTheBox) {
   overview_->ChooseTissue(0);
   Pose pose = scene_.scene.tissues[0].pose;
   pose.scale = 1.5;
@@ -162,7 +162,7 @@ TEST_F(OverviewTest, APoseSetByOthersMovesTheBoxToo) {
   EXPECT_NEAR(std::abs(glm::dot(pose_.quaternion, pose.quaternion)), 1.0, 1e-6);
 }
 
-TEST_F(OverviewTest, BesideTheArthroscopesViewInOneContextNeitherDisturbsTheOther) {
+TEST_F(OverviewTest, SharesAContextWithTheArthroscopicViewWithoutInterference) {
   app::ArthroscopicView view;
   view.SetBackdrop(*scene_.panorama, *scene_.depth, scene_.scene.backdrop);
   view.SetTissues(scene_.scene.tissues, scene_.surfaces);

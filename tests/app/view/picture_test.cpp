@@ -1,4 +1,4 @@
-// Whole pictures: the same every time, and as they were when somebody looked at them.
+// Whole pictures: equal bytes in every run, and equal to reviewed baselines.
 #include <glm/geometric.hpp>
 
 #include "simulation/core/units.h"
@@ -46,7 +46,7 @@ TEST(StillPicture, SteepScopeWithItsHeadTurned) {
   EXPECT_TRUE(MatchesBaseline(pictures->Draw(picture, 256), "view_steep_scope"));
 }
 
-// The comparer sees a disturbance, and a quarter more or less of it.
+// The comparison detects a disturbance, and a quarter more or less of it.
 struct Disturbed {
   const char* name;
   double Disturbances::*strength;
@@ -55,10 +55,10 @@ struct Disturbed {
 void PrintTo(const Disturbed& disturbed, std::ostream* out) { *out << disturbed.name; }
 class DisturbedPicture : public testing::TestWithParam<Disturbed> {};
 
-TEST_P(DisturbedPicture, AnotherStrengthIsCaught) {
+TEST_P(DisturbedPicture, AnotherStrengthIsDetected) {
   START_OR_SKIP(pictures, MakeViewScene());
   Picture picture = ScenePicture();
-  // Near enough for all of them.
+  // Small enough for all of them.
   picture.instrument->proxy = picture.view.tip + 0.005 * picture.view.view;
   const auto drawn = [&](double value) {
     picture.disturbances = {};
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Each, DisturbedPicture,
                                                    0.5}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST(StillPicture, AMissingProbeIsCaught) {
+TEST(StillPicture, AMissingProbeIsDetected) {
   START_OR_SKIP(pictures, MakeViewScene());
   Picture picture = ScenePicture();
   const ColourImage with = pictures->Draw(picture, 320);
@@ -92,7 +92,7 @@ TEST(StillPicture, AMissingProbeIsCaught) {
   EXPECT_FALSE(difference.passes()) << difference.Sentence();
 }
 
-TEST(StillPicture, TissueAMillimetreOffIsCaught) {
+TEST(StillPicture, TissueAMillimetreOffIsDetected) {
   START_OR_SKIP(pictures, MakeViewScene());
   const ColourImage before = pictures->Draw(ScenePicture(), 320);
   Pose pose = MakeViewScene().scene.tissues[0].pose;
@@ -102,7 +102,7 @@ TEST(StillPicture, TissueAMillimetreOffIsCaught) {
   EXPECT_FALSE(difference.passes()) << difference.Sentence();
 }
 
-TEST(StillPicture, IsTheSameBytesInAnotherContext) {
+TEST(StillPicture, HasTheSameBytesInAnotherContext) {
   START_OR_SKIP(first, MakeViewScene());
   const ColourImage picture = first->Draw(ScenePicture(), 200);
   first->Draw(PictureFromPose({0, 0, 0, 0.02}, 0.0, 1.0), 128);
@@ -146,7 +146,7 @@ TEST(ComparePictures, EqualPicturesPassAndOneFlatTileOffFails) {
   EXPECT_FALSE(ComparePictures({}, {}).passes()) << "nothing is not a picture";
 }
 
-TEST(ComparePictures, RoundingIsNoDifference) {
+TEST(ComparePictures, RoundingDifferencesPass) {
   ColourImage picture(64, 64), rounded;
   for (std::size_t i = 0; i < picture.rgb.size(); ++i)
     picture.rgb[i] = static_cast<std::uint8_t>(40 + i * 7 % 90);

@@ -20,7 +20,7 @@ using namespace test;
 constexpr int kSide = 160;
 constexpr float kNear = 0.02f, kFar = 0.005f;
 
-// How far a place lies inside what is near, texels.
+// Returns how far a place lies inside the near part, texels.
 using Inside = std::function<double(double, double)>;
 
 DepthMap Sampled(const Inside& inside) {
@@ -37,8 +37,8 @@ double Bilinear(const DepthMap& map, double x, double y) {
          g * ((1 - f) * map.at(i, j + 1) + f * map.at(i + 1, j + 1));
 }
 
-// Where the map goes through half of the step, from the true outline along its normal: the spread
-// of that is the stair, texels.
+// Distances of the half-height line of the step from the true outline along its normal, texels;
+// their spread is the staircase.
 double StairOf(const DepthMap& map, const Inside& inside) {
   double sum = 0, squares = 0;
   int count = 0;
@@ -66,8 +66,8 @@ Inside Disc(double radius) {
   return [=](double x, double y) { return radius - std::hypot(x - 80.3, y - 79.6); };
 }
 
-// A uniform error of half a texel to either side has a spread of 0.29.
-TEST(ReliefOutlines, OfLinesAreStraightAndOfDiscsNotWorse) {
+// A uniform error of half a texel to either side has a standard deviation of 0.29.
+TEST(ReliefOutlines, OfLinesBecomeStraightAndOfDiscsNoWorse) {
   const auto stairs = [&](const char* name, const Inside& inside) {
     const DepthMap map = Sampled(inside);
     DepthMap smooth = map;
@@ -88,7 +88,7 @@ TEST(ReliefOutlines, OfLinesAreStraightAndOfDiscsNotWorse) {
   }
 }
 
-TEST(ReliefOutlines, OnlyTexelsBesideOneChangeAndStayBetweenNearAndFar) {
+TEST(ReliefOutlines, ChangeOnlyAdjacentTexelsAndStayBetweenNearAndFar) {
   const DepthMap map = Sampled(Disc(40));
   DepthMap smooth = map;
   SmoothOutlines(smooth, false);
@@ -104,7 +104,7 @@ TEST(ReliefOutlines, OnlyTexelsBesideOneChangeAndStayBetweenNearAndFar) {
   EXPECT_GT(changed, 150);
 }
 
-TEST(ReliefOutlines, WhatIsSteepOrUnevenIsNoOutline) {
+TEST(ReliefOutlines, IgnoreSteepAndUnevenRelief) {
   DepthMap map(kSide, kSide);
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x)
@@ -114,7 +114,7 @@ TEST(ReliefOutlines, WhatIsSteepOrUnevenIsNoOutline) {
   EXPECT_EQ(smooth.relief, map.relief);
 }
 
-TEST(ReliefOutlines, OneTexelAndTheUnknownAreLeftAlone) {
+TEST(ReliefOutlines, LeaveOneTexelAndUnknownReliefUnchanged) {
   for (const float value : {0.01f, std::numeric_limits<float>::quiet_NaN()}) {
     DepthMap one(1, 1, value);
     SmoothOutlines(one, false);
@@ -142,8 +142,8 @@ TEST(ReliefOutlines, OneTexelAndTheUnknownAreLeftAlone) {
     }
 }
 
-// A whole turn has no seam: turned and smoothed is smoothed and turned.
-TEST(ReliefOutlines, AWholeTurnHasNoSeam) {
+// A full turn has no seam: rotating and smoothing commute.
+TEST(ReliefOutlines, AFullTurnHasNoSeam) {
   const auto turned = [](const DepthMap& map, int by) {
     DepthMap out = map;
     for (int y = 0; y < kSide; ++y)
@@ -165,10 +165,10 @@ TEST(ReliefOutlines, AWholeTurnHasNoSeam) {
   EXPECT_EQ(round.relief, level.relief) << "a tread without an end has no stair";
 }
 
-// What straightness costs: a ramp along a line is up to two texels wide, and one along a stair is
-// one. A cliff of 6 mm along a wave, seen from above it: how many rays end more than 0.1 mm from
-// where they meet the cliff itself, sampled sixteen times as finely.
-TEST(ReliefOutlines, CostHalfAsManyRaysAgainOnTheSlopeAtMost) {
+// Cost of straight outlines: a ramp along a line is up to two texels wide, one along a staircase
+// only one. For a cliff of 6 mm along a wave, seen from above, counts rays that end more than 0.1
+// mm from the cliff itself, sampled sixteen times as finely.
+TEST(ReliefOutlines, AddAtMostHalfAsManyRaysOnTheSlope) {
   constexpr int kWidth = 256, kHeight = 192, kFiner = 16, kRays = 96;
   const auto cliff = [](double u, double v) {  // panorama pixels of the coarse map
     return v + 0.2 * u > 118 + 14 * std::sin(u / 25) ? 0.012f : 0.006f;

@@ -1,6 +1,5 @@
-// Sheets of pictures that somebody looked at: what the view shows at every view angle, of relief,
-// of instruments and under each disturbance. Beside each sheet one that is wrong in a single tile,
-// which must not pass for it.
+// Sheets of reviewed pictures: every view angle, relief, instruments and each disturbance. Beside
+// each sheet stands one that is wrong in a single tile, which the comparison must reject.
 #include <algorithm>
 #include <memory>
 #include <numbers>
@@ -21,7 +20,7 @@ using namespace app;
 
 constexpr int kTileSize = 200;  // px
 
-// Square pictures side by side, `columns` in a row.
+// Places square pictures side by side, `columns` in a row.
 ColourImage Sheet(const std::vector<ColourImage>& pictures, int columns) {
   const int rows = static_cast<int>(pictures.size()) / columns;
   ColourImage sheet(columns * kTileSize, rows * kTileSize);
@@ -54,9 +53,9 @@ class Sheets : public testing::Test {
 
 LoadedScene DemoScene() { return LoadScene(std::string(ARTHRO_SOURCE_DIR) + "/resources/demo"); }
 
-// The demo's knee, the scope rolled by 120 degrees and its head held upright: condyle, meniscus,
-// the plateau's rim, capsule.
-TEST_F(Sheets, EveryViewAngleLooksAtItsOwnPartOfTheKnee) {
+// The demo's knee, with the scope rolled by 120 degrees and its head upright: condyle, meniscus,
+// rim of the plateau, capsule.
+TEST_F(Sheets, EveryViewAngleShowsItsOwnPartOfTheKnee) {
   Load(DemoScene());
   if (IsSkipped()) return;
   const auto sheet = [&](double second_angle) {
@@ -74,15 +73,15 @@ TEST_F(Sheets, EveryViewAngleLooksAtItsOwnPartOfTheKnee) {
   ExpectCaught(sheet(31.0), "sheet_view_angles", "a degree off");
 }
 
-// What stands out moves before what is behind it: between the two the tip goes 4 mm to the right,
-// and both look at the same place of the sphere.
-TEST_F(Sheets, ReliefMovesAsTheScopeDoes) {
+// Parallax: between the two pictures the tip moves 4 mm to the right, and both look at the same
+// place of the sphere.
+TEST_F(Sheets, ReliefShowsParallax) {
   Load(DemoScene());
   if (IsSkipped()) return;
   const auto sheet = [&](const ReliefSearch& relief) {
     std::vector<ColourImage> tiles;
     for (const double across : {-1.0, 1.0}) {
-      // Swung one way, and rolled to look back the other.
+      // Swung one way, and rolled to look back the other way.
       Picture picture =
           PictureFromPose({-0.05, 0.12 * across - 0.2, -0.5 * std::numbers::pi * across, 0.017},
                           RadiansFromDegrees(10), RadiansFromDegrees(90), 0.0);
@@ -95,8 +94,9 @@ TEST_F(Sheets, ReliefMovesAsTheScopeDoes) {
   ExpectCaught(sheet({}), "sheet_relief", "colours on the bare sphere");
 }
 
-// Before the ring; and through it, so that one side of it hides the rod and the other does not.
-TEST_F(Sheets, AnInstrumentBeforeTissueAndBehindIt) {
+// In front of the ring, and through it, so that one side of the ring hides the rod and the other
+// does not.
+TEST_F(Sheets, AnInstrumentInFrontOfTissueAndBehindIt) {
   LoadedScene loaded = MakeViewScene();
   loaded.scene.tissues[0].pose.position = {0.0, 0.003, 0.024};
   Load(loaded);
@@ -119,7 +119,7 @@ TEST_F(Sheets, AnInstrumentBeforeTissueAndBehindIt) {
   ExpectCaught(sheet({}, false), "sheet_instrument", "none behind");
 }
 
-TEST_F(Sheets, NothingButTheBackdrop) {
+TEST_F(Sheets, BackdropAlone) {
   LoadedScene loaded = MakeViewScene();
   loaded.scene.tissues.clear();
   loaded.surfaces.clear();
@@ -133,7 +133,7 @@ TEST_F(Sheets, NothingButTheBackdrop) {
   ExpectCaught(Draw(picture), "view_empty", "the rim's mark by 6 degrees");
 }
 
-// The demo's knee again, with a probe near the lens.
+// The demo's knee with a probe near the lens.
 TEST_F(Sheets, EachDisturbance) {
   Load(DemoScene());
   if (IsSkipped()) return;

@@ -5,7 +5,7 @@
 namespace arthro::app {
 namespace {
 
-TEST(SteadyInputs, AreUniformsOfTheVerticesAndFlatInputsOfTheFragments) {
+TEST(SteadyInputs, BecomeVertexUniformsAndFlatFragmentInputs) {
   const SteadyInputs inputs = TakeSteadyInputs(
       "uniform sampler2D panorama;\n"
       "steady vec3 tip, viewAxis;  // in radii\n"
@@ -24,7 +24,16 @@ TEST(SteadyInputs, AreUniformsOfTheVerticesAndFlatInputsOfTheFragments) {
             "  terms = given_terms;\n}\n");
 }
 
-TEST(SteadyInputs, WithoutAnyTheShaderStaysAsItIs) {
+TEST(SteadyInputs, KeepTheDirectivesOfAVariant) {
+  const SteadyInputs inputs = TakeSteadyInputs("#ifdef LENS\nsteady float lensEnd;\n#endif\n");
+  EXPECT_EQ(inputs.fragment, "#ifdef LENS\nflat in float lensEnd;\n#endif\n");
+  EXPECT_EQ(inputs.uniforms, "#ifdef LENS\nuniform float given_lensEnd;\n#endif\n");
+  EXPECT_EQ(inputs.outputs,
+            "#ifdef LENS\nflat out float lensEnd;\n#endif\n"
+            "void handOn() {\n#ifdef LENS\n  lensEnd = given_lensEnd;\n#endif\n}\n");
+}
+
+TEST(SteadyInputs, LeaveAShaderWithoutThemUnchanged) {
   const SteadyInputs inputs = TakeSteadyInputs("// steady hands\nvoid main() {}\n");
   EXPECT_EQ(inputs.fragment, "// steady hands\nvoid main() {}\n");
   EXPECT_EQ(inputs.uniforms, "");

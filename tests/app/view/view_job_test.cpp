@@ -1,4 +1,4 @@
-// The job `view`, as a user runs it: with no display.
+// The job `view`, run as a user runs it, without a display.
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -51,7 +51,7 @@ TEST_F(ViewJob, DrawsWithoutADisplayAndTheSameBytesEachTime) {
   EXPECT_EQ(first.rgb, ReadColourImage(folder_ / "b.png").rgb);
 }
 
-TEST_F(ViewJob, DrawsWhatTheViewDraws) {
+TEST_F(ViewJob, DrawsTheSamePictureAsTheView) {
   const ProgramResult run =
       RunProgram("view " + scene_ + kPose +
                      " --plain --field-of-view-deg 100 --head-roll-deg 40 --size 128 -o " +
@@ -66,7 +66,7 @@ TEST_F(ViewJob, DrawsWhatTheViewDraws) {
   EXPECT_EQ(ReadColourImage(folder_ / "p.png").rgb, pictures.Draw(picture, 128).rgb);
 }
 
-TEST_F(ViewJob, DisturbsAsAsked) {
+TEST_F(ViewJob, AppliesTheGivenDisturbances) {
   const auto drawn = [&](const std::string& options) {
     const std::string file = (folder_ / "d.png").string();
     const ProgramResult run =
@@ -82,7 +82,7 @@ TEST_F(ViewJob, DisturbsAsAsked) {
   EXPECT_EQ(drawn("--disturb haze=0 --disturb-time 2"), clear);
 }
 
-// Without a depth map nothing says how far the lamp's light goes.
+// Without a depth map the range of the lamp's light is unknown.
 TEST_F(ViewJob, WithoutADepthMapTheFootageKeepsItsOwnLight) {
   const auto drawn = [&](const std::string& options) {
     const std::string file = (folder_ / "l.png").string();
@@ -98,8 +98,8 @@ TEST_F(ViewJob, WithoutADepthMapTheFootageKeepsItsOwnLight) {
   EXPECT_EQ(drawn("--relight 1"), drawn("--relight 0"));
 }
 
-// What other programs save as a picture: grey, 16 bits, with alpha, and one pixel of it.
-TEST_F(ViewJob, TakesEveryKindOfPanorama) {
+// Kinds of pictures that other programs write: grey, 16 bits, with alpha, and a single pixel.
+TEST_F(ViewJob, ReadsEveryKindOfPanorama) {
   const auto drawn = [&] {
     const std::string file = (folder_ / "k.png").string();
     const ProgramResult run =
@@ -140,7 +140,7 @@ TEST_F(ViewJob, TakesEveryKindOfPanorama) {
   drawn();
 }
 
-TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
+TEST_F(ViewJob, RefusesInvalidInputAndWritesNothing) {
   const std::string output = (folder_ / "none.png").string();
   const auto refuse = [&](const std::string& arguments, int code, const std::string& word) {
     const ProgramResult run = RunProgram("view " + arguments + " -o " + output, kNoDisplay);
@@ -163,7 +163,7 @@ TEST_F(ViewJob, RefusesWhatItCannotDrawAndWritesNothing) {
   refuse((folder_ / "absent").string(), 1, "absent");
 }
 
-TEST_F(ViewJob, WithoutAnyOpenGLItSaysSoInOneSentence) {
+TEST_F(ViewJob, ReportsMissingOpenGLInOneSentence) {
   const ProgramResult run =
       RunProgram("view " + scene_ + " -o " + (folder_ / "x.png").string(),
                  std::string(kNoDisplay) + " __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
@@ -172,7 +172,7 @@ TEST_F(ViewJob, WithoutAnyOpenGLItSaysSoInOneSentence) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
-TEST_F(ViewJob, WithAnOpenGLThatIsTooOldItSaysSoInOneSentence) {
+TEST_F(ViewJob, ReportsAnOldOpenGLInOneSentence) {
   const std::string view = "view " + scene_ + " -o " + (folder_ / "x.png").string();
   const ProgramResult run = RunProgram(
       view, std::string(kNoDisplay) + " LIBGL_ALWAYS_SOFTWARE=1 MESA_GL_VERSION_OVERRIDE=2.1");

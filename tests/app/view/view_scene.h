@@ -1,5 +1,5 @@
 // A small joint made in code for tests of the view: a panorama like tissue, a relief with a bulge,
-// a ring in front of it; and a fixture that skips, loudly, where nothing can draw.
+// a ring in front of it; and a fixture that skips with a message when nothing can draw.
 #pragma once
 
 #include <cmath>

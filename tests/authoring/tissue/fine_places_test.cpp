@@ -14,7 +14,7 @@
 namespace arthro::authoring {
 namespace {
 
-TEST(FinePlaces, TouchWhatTheyReachFromOutsideOrLieIn) {
+TEST(FinePlaces, TouchASurfaceFromOutsideAndFromInside) {
   const SurfaceMesh box = test::Box({0, 0, 0}, {0.01, 0.01, 0.01});
   EXPECT_TRUE(Touches({{-0.001, 0.005, 0.005}, 0.0011}, box));
   EXPECT_FALSE(Touches({{-0.001, 0.005, 0.005}, 0.0009}, box));
@@ -22,7 +22,7 @@ TEST(FinePlaces, TouchWhatTheyReachFromOutsideOrLieIn) {
   EXPECT_FALSE(Touches({{0.012, 0.012, 0.012}, 0.003}, box)) << "past the corner";
 }
 
-TEST(FinePlaces, ThatAreNoBallsOrTouchNothingAreRefusedWithTheirNumber) {
+TEST(FinePlaces, AreRefusedWithTheirNumberWhenInvalidOrTouchingNothing) {
   const SurfaceMesh box = test::Box({0, 0, 0}, {0.01, 0.01, 0.01});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto says = [&](const Ball& ball) {
@@ -43,8 +43,8 @@ TEST(FinePlaces, ThatAreNoBallsOrTouchNothingAreRefusedWithTheirNumber) {
   EXPECT_EQ(says({{0.01, 0, 0}, 0.001}), "nothing");
 }
 
-// The same number of elements, but more of their nodes where it is probed.
-TEST(FinePlaces, ABudgetIsSpentWhereItIsProbed) {
+// The number of elements is the same, but more of their nodes lie where the tissue is probed.
+TEST(FinePlaces, GetMoreNodesOfABudget) {
   const SurfaceMesh torus = test::Torus(0.015, 0.004, 60, 24);
   const Ball place{{-0.011, 0, 0}, 0.0015};
   const auto nodes_near = [&](const std::vector<Ball>& probed) {

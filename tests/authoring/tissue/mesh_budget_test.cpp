@@ -24,7 +24,7 @@ TetMesh Fill(const SurfaceMesh& surface, MeshSize size, const std::vector<Ball>&
   return TetrahedralizeToBudget(surface, {}, wish, report, {}, ARTHRO_PROGRAM);
 }
 
-TEST(MeshBudget, MakesAboutAsManyQuadraticElementsAsItSays) {
+TEST(MeshBudget, MakesAboutTheGivenNumberOfQuadraticElements) {
   const SurfaceMesh torus = Torus(0.015, 0.004, 60, 24);
   for (const MeshBudget& budget : MeshBudgets()) {
     TetrahedralizeReport report;
@@ -42,7 +42,7 @@ TEST(MeshBudget, MakesAboutAsManyQuadraticElementsAsItSays) {
   EXPECT_LT(BudgetOf(MeshSize::kCoarse).step_ms, BudgetOf(MeshSize::kFine).step_ms);
 }
 
-// Nodes a volume on the free half against the held half.
+// Nodes per volume on the free half against the held half.
 TEST(MeshBudget, IsFinerWhereTheTissueIsFree) {
   const SurfaceMesh torus = Torus(0.015, 0.004, 60, 24);
   const auto free_share = [&](const std::vector<Ball>& fixed) {
@@ -85,7 +85,7 @@ TEST(MeshBudget, SameInputGivesTheSameMesh) {
   EXPECT_EQ(a.rest_positions, b.rest_positions);
 }
 
-TEST(MeshBudget, AFewTrianglesAreFilledAsTheyAre) {
+TEST(MeshBudget, ASurfaceOfFewTrianglesIsFilledUnchanged) {
   const TetMesh mesh = Fill(test::Box({0, 0, 0}, {0.01, 0.02, 0.01}), MeshSize::kDefault, {});
   EXPECT_GT(mesh.ElementCount(), 0);
   EXPECT_EQ(mesh.order, 2);

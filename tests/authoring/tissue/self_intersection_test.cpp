@@ -22,7 +22,7 @@ TEST(SelfIntersection, SoundSurfacesHaveNone) {
   EXPECT_TRUE(FindSelfIntersections(test::Torus(2, 0.5, 40, 20)).empty());
 }
 
-TEST(SelfIntersection, PiercingTouchingAndClearTrianglesAreToldApart) {
+TEST(SelfIntersection, DistinguishesPiercingTouchingAndSeparateTriangles) {
   const std::vector<glm::dvec3> x = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   const auto with = [&](glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
     auto all = x;
@@ -68,8 +68,9 @@ TEST(SelfIntersection, OverlappingBoxesMeetWhereTheirFacesCross) {
   }
 }
 
-TEST(SelfIntersection, AnswerDoesNotDependOnWhereTheSurfaceLies) {
-  // Sums of powers of two, so that moving is exact; touching stays touching, to the last bit.
+TEST(SelfIntersection, IsInvariantUnderTranslation) {
+  // Sums of powers of two, so that the translation is exact; touching triangles touch to the last
+  // bit.
   const SurfaceMesh boxes =
       Together(Box({0, 0, 0}, {1, 1, 1}), Box({1, 0.25, 0.25}, {2, 0.5, 0.5}));
   const auto at_origin = FindSelfIntersections(boxes);
@@ -79,7 +80,7 @@ TEST(SelfIntersection, AnswerDoesNotDependOnWhereTheSurfaceLies) {
   EXPECT_EQ(FindSelfIntersections(moved).size(), at_origin.size());
 }
 
-TEST(SelfIntersection, FindsExactlyWhatEveryPairByEveryPairFinds) {
+TEST(SelfIntersection, AgreesWithATestOfAllPairs) {
   const SurfaceMesh spheres = Together(Sphere({0, 0, 0}, 1, 2), Sphere({0.7, 0.3, 0.2}, 1, 2));
   const auto found = FindSelfIntersections(spheres);
   std::size_t count = 0;

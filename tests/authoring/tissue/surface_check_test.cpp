@@ -39,7 +39,7 @@ std::string Refusal(const SurfaceMesh& surface) {
 
 const SurfaceMesh kBox = Box({0, 0, 0}, {0.01, 0.02, 0.03});
 
-TEST(SurfaceCheck, SoundSurfacesPassWithTheirSizes) {
+TEST(SurfaceCheck, SoundSurfacesPassWithTheirMeasures) {
   const SurfaceCheck check = CheckSurface(kBox);
   EXPECT_EQ(Refusal(kBox), "");
   EXPECT_EQ(check.components, 1);
@@ -52,7 +52,7 @@ TEST(SurfaceCheck, SoundSurfacesPassWithTheirSizes) {
 
 TEST(SurfaceCheck, OpenSurfaceIsRefusedWithPlaceAndRemedy) {
   SurfaceMesh open = kBox;
-  open.triangles.erase(open.triangles.begin() + 2);  // of the face z = 30 mm
+  open.triangles.erase(open.triangles.begin() + 2);  // in the face z = 30 mm
   const std::string refusal = Refusal(open);
   EXPECT_SAYS(refusal, "open: 3 triangle sides");
   EXPECT_SAYS(refusal, " 30 mm");
@@ -66,7 +66,7 @@ TEST(SurfaceCheck, EdgeOfThreeTrianglesIsRefused) {
   EXPECT_SAYS(Refusal(fin), "more than two triangles meet at one edge, near 0, 0, 15 mm");
 }
 
-TEST(SurfaceCheck, PartsThatTouchAtOnePointAreRefused) {
+TEST(SurfaceCheck, PartsThatShareASinglePointAreRefused) {
   SurfaceMesh two = Together(kBox, Box({0.01, 0.02, 0.03}, {0.02, 0.03, 0.04}));
   for (auto& triangle : two.triangles)
     for (int& corner : triangle)
@@ -82,7 +82,7 @@ TEST(SurfaceCheck, SelfIntersectionIsRefusedWithCountAndTriangles) {
   EXPECT_SAYS(refusal, "(triangles ");
 }
 
-TEST(SurfaceCheck, TriangleNumbersAreThoseOfTheFile) {
+TEST(SurfaceCheck, ReportsTheTriangleNumbersOfTheFile) {
   SurfaceSource source = kMillimetres;
   for (int i = 0; i < 13; ++i) source.triangle_in_file.push_back(1000 + i);
   SurfaceMesh fin = kBox;
@@ -101,7 +101,7 @@ TEST(SurfaceCheck, CavityAndDebrisAreFound) {
 }
 
 TEST(SurfaceCheck, OneSidedSurfaceIsRefused) {
-  // Klein's bottle in the figure-of-eight form; its self-intersection cannot hide that it has no
+  // Klein's bottle in the figure-of-eight form; its self-intersection must not hide that it has no
   // inside.
   constexpr int n = 24, m = 12;
   SurfaceMesh bottle;
@@ -126,7 +126,7 @@ TEST(SurfaceCheck, OneSidedSurfaceIsRefused) {
   EXPECT_SAYS(Refusal(RepairSurface(bottle, {}).surface), "has no inside");
 }
 
-TEST(SurfaceCheck, WrongUnitIsRefusedWithTheOneThatMakesSense) {
+TEST(SurfaceCheck, WrongUnitIsRefusedWithAPlausibleOne) {
   const auto refusal = [&](double size, const SurfaceSource& source) {
     return SentenceOf([&] {
       RequireTissueSize(CheckSurface(Box({0, 0, 0}, glm::dvec3(size) * source.metres_per_unit)),

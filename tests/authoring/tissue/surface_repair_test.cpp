@@ -20,7 +20,7 @@ double VolumeOf(const SurfaceMesh& surface) {
   return SignedVolume(surface.vertices, surface.triangles);
 }
 
-TEST(SurfaceRepair, SoundSurfaceIsLeftAlone) {
+TEST(SurfaceRepair, SoundSurfaceIsUnchanged) {
   const RepairedSurface mended = RepairSurface(kSphere, {});
   EXPECT_EQ(mended.repairs.Total(), 0);
   EXPECT_EQ(mended.surface.vertices, kSphere.vertices);
@@ -51,7 +51,7 @@ TEST(SurfaceRepair, SingleTrianglesThatFaceTheOtherWayAreTurned) {
   EXPECT_DOUBLE_EQ(VolumeOf(mended.surface), VolumeOf(kSphere));
 }
 
-TEST(SurfaceRepair, VerticesWithinAMillionthOfTheDiagonalAreWeldedAndNoOthers) {
+TEST(SurfaceRepair, OnlyVerticesWithinAMillionthOfTheDiagonalAreWelded) {
   SurfaceMesh soup;  // every triangle has corners of its own, moved by 1e-8 of the diagonal
   for (const auto& triangle : kSphere.triangles) {
     const int first = static_cast<int>(soup.vertices.size());
@@ -66,7 +66,7 @@ TEST(SurfaceRepair, VerticesWithinAMillionthOfTheDiagonalAreWeldedAndNoOthers) {
   EXPECT_EQ(RepairSurface(soup, {}).repairs.welded_vertices, 0) << "a real gap stays one";
 }
 
-TEST(SurfaceRepair, DuplicateCollapsedAndLooseThingsGo) {
+TEST(SurfaceRepair, DropsDuplicateAndCollapsedTrianglesAndUnreferencedVertices) {
   SurfaceMesh surface = kSphere;
   surface.triangles.push_back(surface.triangles[3]);
   surface.triangles.push_back({surface.triangles[4][1], surface.triangles[4][0],
@@ -83,11 +83,11 @@ TEST(SurfaceRepair, DuplicateCollapsedAndLooseThingsGo) {
   EXPECT_EQ(mended.source_triangle.back(), static_cast<int>(kSphere.triangles.size()) - 1);
 }
 
-TEST(SurfaceRepair, TriangleWithoutAreaIsTurnedIntoItsNeighbour) {
+TEST(SurfaceRepair, TriangleWithoutAreaIsFlippedIntoItsNeighbour) {
   // The box's face x = 0 with a corner halfway on the diagonal of one side only.
   SurfaceMesh box = Box({0, 0, 0}, {0.01, 0.01, 0.01});
   box.vertices.push_back({0, 0.005, 0.005});
-  // {0, 4, 6} stays; {0, 6, 2} becomes two, and a line fills the gap between them.
+  // {0, 4, 6} stays; {0, 6, 2} becomes two, and a line closes the gap between them.
   box.triangles[9] = {0, 8, 2};
   box.triangles.push_back({8, 6, 2});
   box.triangles.push_back({0, 6, 8});
@@ -100,9 +100,9 @@ TEST(SurfaceRepair, TriangleWithoutAreaIsTurnedIntoItsNeighbour) {
   EXPECT_DOUBLE_EQ(check.volume, 1e-6);
 }
 
-TEST(SurfaceRepair, HolesAreClosedOnlyUpToTheSizeAskedFor) {
+TEST(SurfaceRepair, HolesAreClosedUpToTheGivenSize) {
   SurfaceMesh open = kSphere;
-  // The last two of four parts of one triangle lie side by side: a hole of four sides.
+  // The last two of four parts of one triangle are neighbours: a hole of four sides.
   open.triangles.erase(open.triangles.begin() + 102, open.triangles.begin() + 104);
   ASSERT_EQ(CheckSurface(open).open_edges.count, 4);
   EXPECT_EQ(RepairSurface(open, {}).repairs.filled_holes, 0);
@@ -114,7 +114,7 @@ TEST(SurfaceRepair, HolesAreClosedOnlyUpToTheSizeAskedFor) {
       << "a hole of two triangles is a thousandth of the sphere at most";
 }
 
-TEST(SurfaceRepair, DebrisIsDroppedOnlyWhenAskedFor) {
+TEST(SurfaceRepair, DebrisIsDroppedOnRequestOnly) {
   const SurfaceMesh debris = Together(kSphere, Sphere({0.03, 0, 0}, 0.001, 1));
   EXPECT_EQ(RepairSurface(debris, {}).repairs.Total(), 0);
   const RepairedSurface mended = RepairSurface(debris, {0, 1e-3});

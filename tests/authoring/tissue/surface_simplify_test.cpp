@@ -14,15 +14,7 @@
 namespace arthro::authoring {
 namespace {
 
-TEST(SurfaceSimplify, DistanceToTriangleIsThatOfFaceSideAndCorner) {
-  const glm::dvec3 a{0, 0, 0}, b{4, 0, 0}, c{0, 4, 0};
-  EXPECT_DOUBLE_EQ(DistanceToTriangle({1, 1, 3}, a, b, c), 3);
-  EXPECT_DOUBLE_EQ(DistanceToTriangle({2, -3, 4}, a, b, c), 5);
-  EXPECT_DOUBLE_EQ(DistanceToTriangle({-2, -2, 1}, a, b, c), 3);
-  EXPECT_DOUBLE_EQ(DistanceToTriangle({3, 3, 0}, a, b, c), std::sqrt(2.0));
-}
-
-TEST(SurfaceSimplify, SphereStaysASoundSphereNearTheOldOne) {
+TEST(SurfaceSimplify, SphereStaysSoundAndNearTheOriginal) {
   const SurfaceMesh sphere = test::Sphere({0, 0, 0}, 0.015, 5);  // 8192 triangles
   for (const int most : {2000, 500}) {
     SurfaceMesh simple = sphere;
@@ -44,7 +36,7 @@ TEST(SurfaceSimplify, SphereStaysASoundSphereNearTheOldOne) {
 }
 
 TEST(SurfaceSimplify, SharpEdgesAndCornersStay) {
-  // A box of fine squares needs no more than its corners.
+  // A box of fine squares needs only its corners.
   SurfaceMesh box;
   constexpr int n = 8;
   const auto add = [&](glm::dvec3 origin, glm::dvec3 u, glm::dvec3 v) {
@@ -69,7 +61,7 @@ TEST(SurfaceSimplify, SharpEdgesAndCornersStay) {
   EXPECT_NEAR(CheckSurface(welded).volume, 1e-6, 1e-20);
 }
 
-TEST(SurfaceSimplify, FewEnoughTrianglesAreLeftAlone) {
+TEST(SurfaceSimplify, SurfaceWithFewTrianglesIsUnchanged) {
   SurfaceMesh sphere = test::Sphere({0, 0, 0}, 0.015, 2);
   const SurfaceMesh before = sphere;
   EXPECT_EQ(SimplifySurface(sphere, 1000).largest_distance, 0);

@@ -1,4 +1,5 @@
-// What becomes of a mesher that crashes, hangs or starves. The mesher is played by small scripts.
+// Handling of a mesher that crashes, hangs or exhausts memory. Small scripts stand in for the
+// mesher.
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -47,7 +48,7 @@ fs::path Script(const test::TempFolder& folder, const std::string& lines) {
   return file;
 }
 
-TEST(TetgenProcess, CrashIsSaidAfterEveryOtherWayWasTried) {
+TEST(TetgenProcess, CrashIsReportedAfterAllFallbacks) {
   test::TempFolder folder;
   const Outcome outcome = FillWith(Script(folder, "kill -SEGV $$"));
   EXPECT_SAYS(outcome.sentence, "crashed (Segmentation fault)");
@@ -55,7 +56,7 @@ TEST(TetgenProcess, CrashIsSaidAfterEveryOtherWayWasTried) {
   EXPECT_EQ(outcome.report.attempts.size(), 3u);
 }
 
-TEST(TetgenProcess, AbortAndTetgensOwnCodesAreSaid) {
+TEST(TetgenProcess, AbortAndTetgensErrorCodesAreReported) {
   test::TempFolder folder;
   EXPECT_SAYS(FillWith(Script(folder, "kill -ABRT $$")).sentence, "crashed (Aborted)");
   EXPECT_SAYS(FillWith(Script(folder, "exit 23")).sentence, "found a self-intersection");
@@ -64,7 +65,7 @@ TEST(TetgenProcess, AbortAndTetgensOwnCodesAreSaid) {
   EXPECT_SAYS(FillWith(Script(folder, "exit 11")).sentence, "out of memory (2048 MB)");
 }
 
-TEST(TetgenProcess, EndlessWorkIsEndedAtItsLimit) {
+TEST(TetgenProcess, EndlessLoopIsEndedAtTheTimeLimit) {
   test::TempFolder folder;
   TetrahedralizeOptions options;
   options.time_limit = 0.2;
@@ -76,8 +77,8 @@ TEST(TetgenProcess, EndlessWorkIsEndedAtItsLimit) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(10));
 }
 
-// The script ends the first way, in which edges can be kept short, and passes on the others.
-TEST(TetgenProcess, KilledFromOutsideNeverGivesACoarserMeshThanAskedFor) {
+// The script fails in the first attempt, in which edges can be kept short, and passes the others.
+TEST(TetgenProcess, KilledFromOutsideNeverGivesACoarserMesh) {
   test::TempFolder folder;
   const fs::path mesher =
       Script(folder, "grep -qa pq \"$2/job.bin\" && kill -KILL $$\nexec " ARTHRO_PROGRAM " \"$@\"");
@@ -86,7 +87,7 @@ TEST(TetgenProcess, KilledFromOutsideNeverGivesACoarserMeshThanAskedFor) {
   const std::string sentence = FillWith(mesher, options).sentence;
   EXPECT_SAYS(sentence, "more than the 4 mm asked for");
   EXPECT_SAYS(sentence, "TetGen crashed (Killed)");
-  // Without an asked edge, or with the surface's own edges, the fallback is as good.
+  // Without a longest edge, or with the surface's own edges, the fallback is as good.
   EXPECT_EQ(FillWith(mesher).sentence, "");
   options.keep_surface = true;
   EXPECT_EQ(FillWith(mesher, options).sentence, "");
@@ -105,7 +106,7 @@ TEST(TetgenProcess, StopEndsItAtOnce) {
   user.join();
 }
 
-TEST(TetgenProcess, ProgramThatIsNotThereIsSaid) {
+TEST(TetgenProcess, MissingProgramIsReported) {
   EXPECT_SAYS(FillWith("/nowhere/arthroscene").sentence, "could not be started");
 }
 
@@ -134,7 +135,7 @@ TEST(TetgenProcess, LeavesNothingInTheTemporaryFolder) {
       << "only the scripts' own folder";
 }
 
-TEST(ChildProcess, KeepsTheEndOfWhatItPrints) {
+TEST(ChildProcess, KeepsTheEndOfTheOutput) {
   test::TempFolder folder;
   const ChildResult result = RunChild(
       Script(folder, "i=0; while [ $i -lt 2000 ]; do echo line $i; i=$((i+1)); done; exit 7"), {},

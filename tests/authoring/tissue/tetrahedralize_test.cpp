@@ -39,8 +39,8 @@ TetrahedralizeOptions WithOrder(int order, double max_edge = 0) {
   return options;
 }
 
-TEST(Tetrahedralize, VolumeIsTheSurfacesOwn) {
-  // The elements fill the very triangles, so only rounding is left; 1e-6 is what was asked for.
+TEST(Tetrahedralize, VolumeEqualsThatOfTheSurface) {
+  // The elements fill the very triangles, so only rounding is left; 1e-6 is the requirement.
   for (const SurfaceMesh& surface :
        {kBox, Sphere({0.1, 0, -0.1}, 0.015, 3), test::Torus(0.02, 0.006, 40, 16),
         Together(kBox, Sphere({0.04, 0, 0}, 0.01, 2))})
@@ -67,7 +67,7 @@ TEST(Tetrahedralize, SurfaceVerticesComeFirstAndUnmoved) {
   }
 }
 
-TEST(Tetrahedralize, QuadraticElementsHaveTheirMiddlesInVtksOrder) {
+TEST(Tetrahedralize, MidNodesOfQuadraticElementsAreInVtksOrder) {
   const TetMesh mesh = Fill(Sphere({0, 0, 0}, 0.015, 2), WithOrder(2, 0.006));
   ASSERT_EQ(mesh.order, 2);
   ASSERT_GT(mesh.ElementCount(), 50);
@@ -95,7 +95,7 @@ TEST(Tetrahedralize, QuadraticElementsHaveTheirMiddlesInVtksOrder) {
   EXPECT_EQ(mesh.rest_positions.size(), corners.size() + edge_set.size());
 }
 
-TEST(Tetrahedralize, NoEdgeIsLongerThanAskedFor) {
+TEST(Tetrahedralize, NoEdgeIsLongerThanTheLimit) {
   for (const double max_edge : {0.005, 0.002, 0.0012}) {
     TetrahedralizeReport report;
     Fill(kBox, WithOrder(1, max_edge), &report);
@@ -103,12 +103,12 @@ TEST(Tetrahedralize, NoEdgeIsLongerThanAskedFor) {
                 report.quality.longest_edge * 1e3, report.quality.median_edge * 1e3,
                 report.elements);
     EXPECT_LE(report.quality.longest_edge, max_edge);
-    // Not much finer than needed either: the middle edge of a good mesh is over a third of it.
+    // Not much finer than needed: the median edge of a good mesh is over a third of the limit.
     EXPECT_GT(report.quality.median_edge, max_edge / 3);
   }
 }
 
-TEST(Tetrahedralize, SurfaceSetHoldsTheOutsideOnly) {
+TEST(Tetrahedralize, SurfaceSetHoldsOnlyOuterNodes) {
   for (const int order : {1, 2}) {
     const TetMesh mesh = Fill(kBox, WithOrder(order, 0.004));
     const auto& surface = mesh.sets.at("surface");
@@ -133,7 +133,7 @@ TEST(Tetrahedralize, SameInputGivesTheSameMesh) {
   EXPECT_EQ(first.sets, second.sets);
 }
 
-TEST(Tetrahedralize, ElementsAreAsGoodAsAskedFor) {
+TEST(Tetrahedralize, ElementsHaveTheRequiredQuality) {
   TetrahedralizeReport report;
   Fill(Sphere({0, 0, 0}, 0.015, 3), {}, &report);
   std::printf("dihedral %.2f to %.2f degrees, radius over edge %.2f, relative volume %.1e\n",
@@ -143,7 +143,7 @@ TEST(Tetrahedralize, ElementsAreAsGoodAsAskedFor) {
   EXPECT_GT(report.quality.worst_relative_volume, 1e-3);
 }
 
-TEST(Tetrahedralize, QualityOfKnownTetrahedraIsRight) {
+TEST(Tetrahedralize, QualityOfKnownTetrahedraIsCorrect) {
   TetMesh regular;
   regular.rest_positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   regular.elements = {0, 1, 2, 3};
@@ -173,7 +173,7 @@ TEST(Tetrahedralize, RepairsAreReported) {
   EXPECT_EQ(json["elements"], report.elements);
 }
 
-TEST(Tetrahedralize, TooManyElementsAreRefusedBeforeTheyAreMade) {
+TEST(Tetrahedralize, TooManyElementsAreRefusedBeforeMeshing) {
   try {
     Fill(kBox, WithOrder(1, 1e-5));
     FAIL() << "6000 mm3 in edges of 0.01 mm were begun with";
@@ -182,7 +182,7 @@ TEST(Tetrahedralize, TooManyElementsAreRefusedBeforeTheyAreMade) {
   }
 }
 
-// The outside of a Gmsh 4.1 text file's tetrahedra.
+// Outer triangles of the tetrahedra of a Gmsh 4.1 text file.
 SurfaceMesh OutsideOfGmsh(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string word;
@@ -239,7 +239,8 @@ TEST(Tetrahedralize, RealMeniscusIsFilled) {
   ARTHRO_REQUIRE_SHARED(file, "data/meniscus_lateral_tet/lateralMeniscusComputationModelSTP.msh");
   SurfaceMesh meniscus = OutsideOfGmsh(file);
   ASSERT_GT(meniscus.triangles.size(), 300u);
-  for (glm::dvec3& x : meniscus.vertices) x *= 0.02;  // about 1.9 of a unit that it does not say
+  for (glm::dvec3& x : meniscus.vertices)
+    x *= 0.02;  // about 1.9 of a unit that the file does not name
   for (const double max_edge : {0.0, 0.004}) {
     TetrahedralizeReport report;
     Fill(meniscus, WithOrder(2, max_edge), &report);

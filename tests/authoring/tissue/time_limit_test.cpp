@@ -54,7 +54,7 @@ Outcome FillToBudget(double time_limit, std::optional<Clock::time_point> begun =
   });
 }
 
-TEST(TimeLimit, EndsABudgetInTheStagesOfTheSurface) {
+TEST(TimeLimit, EndsABudgetedMeshDuringTheSurfaceStages) {
   LargeSurface();
   const Outcome outcome = FillToBudget(0.2);
   EXPECT_NE(outcome.sentence.find("did not finish in time (0.2 s)"), std::string::npos)
@@ -63,7 +63,7 @@ TEST(TimeLimit, EndsABudgetInTheStagesOfTheSurface) {
   EXPECT_FALSE(outcome.stages.contains("filling it with tetrahedra")) << "the mesher was reached";
 }
 
-TEST(TimeLimit, RunsFromWhenTheJobBegan) {
+TEST(TimeLimit, CountsFromTheStartOfTheJob) {
   const Outcome outcome = FillToBudget(5.0, Clock::now() - std::chrono::seconds(6));
   EXPECT_NE(outcome.sentence.find("did not finish in time (5 s)"), std::string::npos)
       << outcome.sentence;
@@ -80,7 +80,7 @@ TEST(TimeLimit, EndsTheStagesBeforeTheMesher) {
       << outcome.sentence;
 }
 
-TEST(TimeLimit, LongStagesTellOfThemselvesAndStopWhenAsked) {
+TEST(TimeLimit, LongStagesReportProgressAndCanBeCancelled) {
   const SurfaceMesh sphere = test::Sphere({0, 0, 0}, 0.01, 6);
   const Outcome outcome = Watch([&](const Progress& progress) {
     SurfaceMesh simple = RepairSurface(sphere, {}, progress).surface;

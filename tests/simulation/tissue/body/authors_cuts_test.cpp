@@ -70,7 +70,7 @@ TEST(AuthorsCuts, BodyStartsTornAndNothingCountsAsRemoved) {
   const double slot = 12e-3 * (4e-3 * 0.8e-3 + 0.5 * round) + 4e-3 * round;
   const SolidField field = SolidField::FromSurface(torn.surface, BodyOptions{}.cut_spacing);
   SurfaceMesh whole = Polygonise(field);
-  ProjectOnto(UncutSurface(torn.surface), field, {}, whole);
+  ProjectOnto(SurfaceFinder(torn.surface), field, {}, whole);
   EXPECT_NEAR(VolumeOf(whole) - VolumeOf(body.skin()->surface), slot, 0.06 * slot);
   // At rest it stays at rest.
   const WorldTool none;

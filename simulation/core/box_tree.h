@@ -12,18 +12,9 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/tissue/field/solid_field.h"
+#include "simulation/core/box3.h"
 
-namespace arthro::simulation {
-
-inline double Distance2(const Box3& box, const glm::dvec3& x) noexcept {
-  const glm::dvec3 d = glm::max(glm::max(box.low - x, x - box.high), glm::dvec3(0.0));
-  return d.x * d.x + d.y * d.y + d.z * d.z;
-}
-inline double Distance2(const Box3& a, const Box3& b) noexcept {
-  const glm::dvec3 d = glm::max(glm::max(a.low - b.high, b.low - a.high), glm::dvec3(0.0));
-  return d.x * d.x + d.y * d.y + d.z * d.z;
-}
+namespace arthro {
 
 class BoxTree {
  public:
@@ -118,4 +109,4 @@ class BoxTree {
   std::vector<int> items_, leaf_;  // leaf_: indices of the leaf nodes, rising
 };
 
-}  // namespace arthro::simulation
+}  // namespace arthro

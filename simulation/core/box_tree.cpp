@@ -1,11 +1,11 @@
-#include "simulation/tissue/contact/box_tree.h"
+#include "simulation/core/box_tree.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
-namespace arthro::simulation {
+namespace arthro {
 namespace {
 
 constexpr int kLeafSize = 12;  // with fewer items another box costs more than it saves
@@ -33,7 +33,7 @@ std::vector<Placed> SortAlongCurve(std::span<const Box3> boxes) {
   const glm::dvec3 size = high - low;
   const double longest = std::max({size.x, size.y, size.z});
   const double scale = longest > 0.0 && std::isfinite(longest) ? kCells / longest : 0.0;
-  const auto spread = [](std::uint32_t v) {  // two zeros after each bit
+  const auto spread = [](std::uint32_t v) {  // inserts two zeros after each bit
     v = (v | v << 16) & 0x030000ffu;
     v = (v | v << 8) & 0x0300f00fu;
     v = (v | v << 4) & 0x030c30c3u;
@@ -98,4 +98,4 @@ void BoxTree::Build(std::span<const std::uint32_t> code, int first, int count) {
   Build(code, first + below, count - below);
 }
 
-}  // namespace arthro::simulation
+}  // namespace arthro

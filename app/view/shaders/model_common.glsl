@@ -1,0 +1,29 @@
+// Declarations of a model's shaders, after its inputs. VARYING is `out` for the vertices and `in`
+// for the fragments, which also define FRAGMENT.
+#include "distance.glsl"
+VARYING vec3 lensPoint, modelPoint;  // m, in the lens frame and in the model's
+#ifdef TISSUE
+VARYING float fresh;  // 1: a vertex of a cut face
+VARYING vec4 coarseNoise;
+#include "noise.glsl"
+#endif
+#ifdef FRAGMENT
+#include "light.glsl"
+#include "lamp.glsl"
+#include "model_looks.glsl"
+#elif defined(TISSUE)
+in float freshMC;
+const float kCoarseRate = 300.0;  // 1/m, of the coarse noise
+#endif
+
+const float kLeastHalfCosine2 = 0.0025;  // squared cosine of theta/2, keeps places behind finite
+// Returns the window place of a point in the lens frame. sin(theta/2) = sin(theta) /
+// (2 cos(theta/2)), so no angle is needed.
+vec2 placeInWindow(vec3 point, float distance) {
+  float halfCosine = sqrt(max(0.5 - 0.5 * point.z / distance, kLeastHalfCosine2));
+  vec2 place = point.xy / distance / (2.0 * lensScale * halfCosine);
+#ifdef LENS
+  place = lensAxis + place * lensFactor(lensOutward, lensEnd, dot(place, place));
+#endif
+  return place;
+}

@@ -1,0 +1,64 @@
+// Directions and places in the panorama, and its filtered colour. The gradients say how u and v
+// (texture units) change with a point x at any distance.
+const float kLeastLevel = 1e-8;  // squared distance from the poles' axis, radii^2
+const float kLeastAhead = 1e-4;  // z of a direction in front of a gnomonic panorama
+#ifdef EQUIRECTANGULAR
+vec2 panoramaPlace(vec3 d) {
+  return centre + scale * vec2(atan(d.x, d.z), atan(d.y, length(d.xz)));
+}
+void placeGradients(vec3 x, out vec3 u, out vec3 v) {
+  float level = max(dot(x.xz, x.xz), kLeastLevel), across = sqrt(level);
+  u = scale.x / level * vec3(x.z, 0.0, -x.x);
+  v = scale.y / dot(x, x) * vec3(-x.x * x.y / across, across, -x.z * x.y / across);
+}
+// Returns an upper bound of the panorama's resolution at x over that at its centre.
+float fineness(vec3 x, float far) { return inversesqrt(max(1.0 - x.y * x.y / far, kLeastAhead)); }
+bool isBefore(vec3 d) { return true; }
+#else
+vec2 panoramaPlace(vec3 d) { return centre + scale * d.xy / max(d.z, kLeastAhead); }
+void placeGradients(vec3 x, out vec3 u, out vec3 v) {
+  float inverse = 1.0 / max(x.z, kLeastAhead);
+  u = scale.x * inverse * vec3(1.0, 0.0, -x.x * inverse);
+  v = scale.y * inverse * vec3(0.0, 1.0, -x.y * inverse);
+}
+float fineness(vec3 x, float far) { return far / max(x.z * x.z, kLeastAhead * far); }
+bool isBefore(vec3 d) { return d.z > 0.0; }
+#endif
+bool isImaged(vec3 d, vec2 uv) {
+#ifdef WRAPS
+  return isBefore(d) && abs(uv.y - 0.5) <= 0.5;
+#else
+  return isBefore(d) && abs(uv.x - 0.5) <= 0.5 && abs(uv.y - 0.5) <= 0.5;
+#endif
+}
+
+// Returns the mean colour over a pixel's footprint, an ellipse (dx, dy in texels per pixel) that is
+// long and thin near the edge of a gnomonic panorama and near the poles of an equirectangular one.
+// Samples lie along the longer axis, each averaged over the shorter one: a single round average
+// would blur fine lines together (grid lines up to 1.8 px off instead of 0.3 px).
+const float kSharpness = 0.7;       // size of a sample over its distance from the next
+const float kSampleRounding = 0.4;  // a further sample is taken above this fraction
+const float kFewSamples = 2.0;      // up to here one mipmap level is read, half the work of two
+const float kRound = 1e-6;          // below this share of the mean the ellipse counts as a circle
+vec3 panoramaColour(vec2 uv, vec2 dx, vec2 dy) {
+  float a = dx.x * dx.x + dy.x * dy.x, b = dx.x * dx.y + dy.x * dy.y, c = dx.y * dx.y + dy.y * dy.y;
+  float mean = 0.5 * (a + c), spread = sqrt(max(0.25 * (a - c) * (a - c) + b * b, 0.0));
+  float longer = sqrt(mean + spread);
+  float shorter = abs(dx.x * dy.y - dx.y * dy.x) / max(longer, 1e-6);
+  vec2 axis = abs(b) > kRound * mean ? normalize(vec2(mean + spread - c, b))
+                                     : (a >= c ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
+  float count = clamp(ceil(longer / max(shorter, 1.0) - kSampleRounding), 1.0, samples);
+  float lod = log2(max(max(longer / count, shorter) * kSharpness, 1.0));
+  if (samples <= kFewSamples) lod = floor(lod + 0.5);
+
+  vec2 step = axis * longer / count / texels;
+  vec2 start = uv - 0.5 * (count - 1.0) * step;
+  vec3 sum = vec3(0.0);
+  float i = 0.0;
+  while (true) {
+    sum += textureLod(panorama, start + i * step, lod).rgb;
+    i += 1.0;
+    if (i >= count) break;
+  }
+  return sum / count;
+}
