@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "simulation/core/finite.h"
 #include "simulation/tissue/factor/rotated_factor.h"
 #include "simulation/tissue/fem/block_matrix.h"
 #include "simulation/tissue/solver/contact_springs.h"
@@ -30,13 +31,6 @@ inline double Dot(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) 
 }
 
 inline double Norm(std::span<const glm::dvec3> a) noexcept { return std::sqrt(Dot(a, a)); }
-
-// Returns true if no number is NaN or infinite: 0 times each number is then 0.
-inline bool AllFinite(std::span<const glm::dvec3> a) noexcept {
-  double sum = 0;
-  for (const glm::dvec3& v : a) sum += 0.0 * v.x + 0.0 * v.y + 0.0 * v.z;
-  return sum == 0.0;
-}
 
 struct LinearSystem {
   const BlockMatrix* stiffness = nullptr;
