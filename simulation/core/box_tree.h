@@ -22,9 +22,8 @@ class BoxTree {
   explicit BoxTree(std::span<const Box3> boxes);
 
   bool empty() const noexcept { return nodes_.empty(); }
-  const Box3& box() const noexcept {
-    return nodes_.front().box;
-  }  // of all items; undefined when empty
+  // Box of all items; undefined for an empty tree.
+  const Box3& box() const noexcept { return nodes_.front().box; }
 
   // Leaves in item order, for callers that compute shared data once per leaf.
   int leaf_count() const noexcept { return static_cast<int>(leaf_.size()); }

@@ -9,7 +9,7 @@
 
 namespace arthro {
 
-// One a vertex.
+// Unit normals, one per vertex.
 void ComputeVertexNormals(std::span<const glm::dvec3> vertices,
                           std::span<const std::array<int, 3>> triangles,
                           std::span<glm::dvec3> normals) noexcept;

@@ -43,7 +43,7 @@ struct PivotOptions {
       "Noise of the rig's hand and tip positions, rms along one axis.");
     v("angle_noise", angle_noise, Range{0.0, 5.0 * kRadianPerDegree}, "rad",
       "Noise of the rod's direction where the tip is computed from the handle's angles, rms about "
-      "one axis: about 0.1 for encoders, 0.5 to 2 for potentiometers, 0 for a tip that is "
+      "one axis. About 0.1 for encoders, 0.5 to 2 for potentiometers, 0 for a tip that is "
       "measured.");
     v("min_spread", min_spread, Range{1.0 * kRadianPerDegree, 90.0 * kRadianPerDegree}, "rad",
       "Least angle between the two rods that are furthest apart in direction.");

@@ -111,7 +111,7 @@ struct Body {
     std::vector<double> seconds;
     int since_refresh = 0;
     for (int frame = 0; frame < kWarmUp + (quick ? 3 : 240); ++frame) {
-      // Always on the move, 1.5 times a second: a body at rest would cost nothing.
+      // Always on the move, 1.5 times per second: a body at rest would cost nothing.
       const double share = 0.75 + 0.25 * std::cos(2 * std::numbers::pi * 1.5 * frame / 60);
       for (std::size_t i = 0; i < load.size(); ++i) load[i] = share * full[i];
       const double start = ThreadCpuMs();

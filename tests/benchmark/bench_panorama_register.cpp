@@ -1,5 +1,5 @@
 // Registration against exact truth: frames placed and right, their error, what was promised, and
-// the CPU time a frame, for each folder given (frames/ and gt.json of the reference generator).
+// the CPU time per frame, for each folder given (frames/ and gt.json of the reference generator).
 //   bench_panorama_register [--quick] [--method direct|features|both] [--stages pairs|loops|all]
 //                           [--focal=FACTOR] [--NAME=VALUE] [--verbose] [FOLDER...]
 #include <cmath>

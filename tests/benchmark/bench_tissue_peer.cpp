@@ -1,6 +1,6 @@
 // Our implicit solver beside Bullet's implicit deformables on the same linear tetrahedra, masses,
 // held nodes, law (corotated) and load: a meniscus at rest on whose patch 0.05 N come at once, at
-// 60 steps a second. How many steps, and how much processor time of one thread, until the inner
+// 60 steps per second. How many steps, and how much processor time of one thread, until the inner
 // edge stays within 5 % and 1 % of where this mesh's exact static answer has it. Bullet as it
 // comes, and with as many iterations of its solver as its answer needs, which is faster for it on
 // large meshes.

@@ -25,7 +25,7 @@ constexpr RunLimits kLimits{2, 1000};
 
 struct Refusal {
   bool has_temporary_folder = true;
-  bool writes_result = false;  // that says why
+  bool writes_result = false;  // result file gives the reason
 };
 
 // Runs the program and expects a refusal; returns its sentence.

@@ -82,7 +82,7 @@ class TimedPlant final : public Device {
   DeviceStatus status() const noexcept override { return plant_.status(); }
 
   void Lead(const RodPose& pose) { plant_.plant().SetIntent(HipFromRodPose(pose, rig_)); }
-  double seconds() const noexcept { return seconds_; }  // of the last Read
+  double seconds() const noexcept { return seconds_; }  // duration of the last Read
   const glm::dvec3& force() const noexcept { return plant_.force(); }
 
  private:

@@ -191,7 +191,7 @@ void AddTetrahedralizeJob(CLI::App& program) {
   CLI::App* worker = program.add_subcommand("tetgen-worker", "Started by tetrahedralize.");
   worker->group("");  // not in the help
   const auto folder = std::make_shared<std::string>();
-  worker->add_option("FOLDER", *folder, "Folder with the job")->required();
+  worker->add_option("FOLDER", *folder, "Folder with the job.")->required();
   worker->callback([folder] { std::_Exit(authoring::RunTetgenWorker(*folder)); });
 }
 

@@ -52,8 +52,8 @@ void RunSolveJob(const SolveArguments& arguments, const JobFiles& files) {
   // The record is kept in either case, so that what was reached can be looked at.
   if (result.inverted_elements > 0)
     throw Error(Code::kBadData,
-                fmt::format("{} of {} elements are turned inside out, so that the result is not a "
-                            "shape that the body can take; reduce the loads and displacements, or "
+                fmt::format("{} of {} elements are turned inside out, so the result is not a "
+                            "possible shape; reduce the loads and displacements, or "
                             "refine the mesh where it is pressed",
                             result.inverted_elements, tissue_case.mesh.ElementCount()),
                 arguments.tissue_case);

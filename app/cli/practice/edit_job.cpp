@@ -21,13 +21,13 @@ namespace {
 // For tests and fault reports; not in the help.
 void AddWindowFlags(CLI::App& job, EditorOptions& options) {
   constexpr const char* kHidden = "";  // an empty group is not listed
-  job.add_option("--script", options.script, "Text script that drives the window")->group(kHidden);
+  job.add_option("--script", options.script, "Text script that drives the window.")->group(kHidden);
   job.add_option_function<std::string>(
          "--size",
          [&options](const std::string& size) {
            std::tie(options.width, options.height) = SizeFromWord("--size", size, {1, 16384});
          },
-         "Size of the window, such as 1280x800")
+         "Size of the window, such as 1280x800.")
       ->group(kHidden);
   AddNumber(job, "--scale", options.scale, {1.0, 4.0}, "", "Content scale instead of the screen's")
       ->group(kHidden);
@@ -35,10 +35,10 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
                   "Quit after so many frames",
                   [&options](double frames) { options.frames = static_cast<int>(frames); })
       ->group(kHidden);
-  job.add_option("--recovery", options.recovery, "Folder of the copies of unsaved work")
+  job.add_option("--recovery", options.recovery, "Folder of the copies of unsaved work.")
       ->group(kHidden);
-  job.add_flag("--hidden", options.hidden, "Never show the window")->group(kHidden);
-  job.add_flag("--timing", options.timing, "Say when the first picture stood")->group(kHidden);
+  job.add_flag("--hidden", options.hidden, "Never show the window.")->group(kHidden);
+  job.add_flag("--timing", options.timing, "Print the time of the first picture.")->group(kHidden);
 }
 
 // Devices of both hands.

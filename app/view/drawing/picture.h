@@ -18,8 +18,8 @@ struct InstrumentView {
   glm::dvec3 portal{0.0}, proxy{0.0};  // m
   double roll = 0;                     // γ about its own rod: where the hook points
   simulation::ToolKind kind = simulation::ToolKind::kProbe;
-  double opening = 0;  // of its jaw, 0 to 1
-  double turn = 0;     // of the shaver's blade, rad
+  double opening = 0;  // opening of the jaw, 0 to 1
+  double turn = 0;     // angle of the shaver's blade, rad
   friend bool operator==(const InstrumentView&, const InstrumentView&) = default;
 };
 
@@ -36,15 +36,15 @@ inline constexpr ReliefSearch kUsualRelief{64, 8};
 // One frame.
 struct Picture {
   simulation::ScopeView view;
-  double field_of_view = std::numbers::pi / 2;  // full
-  simulation::WindowLens lens;                  // of that field
-  double notch = 0;  // where the rim's mark stands, from image up towards right; γ − κ of the head
+  double field_of_view = std::numbers::pi / 2;  // full angle
+  simulation::WindowLens lens;                  // lens for that field of view
+  double notch = 0;  // place of the rim's mark, from image up towards right; γ − κ of the head
   std::optional<InstrumentView> instrument;
   bool plain = false;         // backdrop colours only: no light, softness, mark or models
   Disturbances disturbances;  // over all but a plain picture
   ReliefSearch relief;
-  // Looks at the panorama a pixel, at most: eight serve footprints eight times as long as wide. Two
-  // are for what moves: quicker, and a fine pattern may blur or shimmer.
+  // Texture samples per pixel, at most: 8 serve footprints eight times as long as wide. 2 are
+  // faster, for moving pictures; a fine pattern may then blur or shimmer.
   int samples = 8;
 };
 

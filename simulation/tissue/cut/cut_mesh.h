@@ -71,7 +71,7 @@ class MeshCutter {
   // Tests all elements: for another field or an undo.
   const CutMesh& Rebuild(const SolidField& field);
   const CutMesh& result() const { return result_; }
-  int elements_tested() const { return elements_tested_; }  // by the last call
+  int elements_tested() const { return elements_tested_; }  // in the last call
 
   // Finds the copy that carries a point at `rest` in, or nearest to, `element` of the whole mesh:
   // the copy whose solid is nearest. If that element is gone, searches the elements around it.

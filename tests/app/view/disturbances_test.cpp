@@ -454,7 +454,7 @@ TEST_F(DisturbedView, TakesLessThanTwiceTheTimeOfThePicture) {
       });
     };
     const double clear = cost({});
-    std::printf("%4d px: %.1f ms of processor time a frame;", size, clear);
+    std::printf("%4d px: %.1f ms of processor time per frame;", size, clear);
     const char* names[] = {"haze", "bubbles", "debris", "fog", "near blur", "far blur", "over"};
     const char* const* name = names;
     for (const Disturbances& one : EachAt(0.5)) {

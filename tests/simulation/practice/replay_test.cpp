@@ -125,7 +125,7 @@ TEST(Replay, ASlowRecordingGivesTheForcesOfAFastOne) {
     worst = std::max(worst, glm::length(same.state.tip_force - slow[i].state.tip_force));
     EXPECT_EQ(slow[i].state.fault, Fault::kNone);
   }
-  std::printf("100 rows a second against 1000: force differs by %.1e N at worst\n", worst);
+  std::printf("100 rows per second against 1000: force differs by %.1e N at worst\n", worst);
   EXPECT_LT(worst, 0.01);
 }
 

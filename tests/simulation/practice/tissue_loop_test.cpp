@@ -133,7 +133,7 @@ TEST(TissueLoop, InlineStepsRunOncePerPeriodAndAreReproducible) {
     ASSERT_EQ(of_one.count, of_other.count);
     ASSERT_EQ(ForceOf(of_one, of_one.tip).force, ForceOf(of_other, of_other.tip).force);
   }
-  EXPECT_EQ(taken, 30) << "half a second at 60 steps a second";
+  EXPECT_EQ(taken, 30) << "half a second at 60 steps per second";
 }
 
 TEST(TissueLoop, ASceneWithoutTissueRunsNoStep) {

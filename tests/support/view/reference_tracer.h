@@ -86,7 +86,7 @@ struct TracedPicture {
   // Outside the round window, or the ray meets nothing.
   static constexpr int kOutside = TracedRay::kNothing;
   static constexpr int kBackdrop = TracedRay::kBackdrop;  // 1 + i is mesh i
-  ColourImage colours;           // one ray a pixel, through its centre; black where kOutside
+  ColourImage colours;           // one ray per pixel, through its centre; black where kOutside
   std::vector<int> what;         // row-major
   std::vector<double> distance;  // from the tip, m; 0 where kOutside
 };

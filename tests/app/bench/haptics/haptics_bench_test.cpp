@@ -67,7 +67,7 @@ TEST(HapticsBench, OurForceIsNearTheClosedFormAndNearerThanThePapers) {
   for (const auto& [what, step] : paper) EXPECT_LT(ours.at(what), step) << what;
 }
 
-// Notes on haptics, section 9: at 60 steps a second and 2 Hz an error below 1 % and a step below
+// Notes on haptics, section 9: at 60 steps per second and 2 Hz an error below 1 % and a step below
 // 0.02 N; 7 % is what a hand can tell. At a third of the steps only the others are a measure.
 TEST(HapticsBench, BetweenATissuesStepsOurForceIsNearItsOwn) {
   std::map<std::pair<double, double>, std::map<Bridge, BridgeRow>> cases;
