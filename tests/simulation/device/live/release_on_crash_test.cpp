@@ -40,7 +40,7 @@ int Overflow(volatile int* depth) {
   return *depth == -1 ? 0 : Overflow(depth) + frame[0];
 }
 
-void OverflowNow() {
+[[maybe_unused]] void OverflowNow() {
   volatile int depth = 0;
   Overflow(&depth);
 }
