@@ -84,7 +84,7 @@ class Pictures {
   std::vector<Tissue> tissues_;
   CutSkins cut_skins_;
   std::vector<std::shared_ptr<const simulation::BodySkin>>
-      shown_cuts_;  // one a tissue; null: whole
+      shown_cuts_;  // one per tissue; null: whole
   std::string cut_fault_;
   const simulation::Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;

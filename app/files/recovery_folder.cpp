@@ -73,7 +73,7 @@ RecoverySession RecoverySession::Create(const fs::path& parent) {
   fs::create_directories(parent, error);
   if (!error) fs::permissions(parent, fs::perms::owner_all, error);
   std::string name = (parent / "session-XXXXXX").string();
-  if (error || ::mkdtemp(name.data()) == nullptr)  // of mode 0700
+  if (error || ::mkdtemp(name.data()) == nullptr)  // makes it with mode 0700
     throw Error(Code::kFile, "no recovery copy can be kept in this folder; save often", parent);
   RecoverySession session = Lock(name);
   if (!session.is_open())

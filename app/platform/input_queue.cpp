@@ -20,7 +20,7 @@ struct Fits {
     return Note(!seen.button && !seen.wheeled && !seen.key && !seen.character, seen.moved);
   }
   bool operator()(const ButtonChanged& event) {
-    // One change a frame even of different buttons: a press of the second may depend on what the
+    // One change per frame even of different buttons: a press of the second may depend on what the
     // first opened.
     if (!event.down && seen.moved) return false;
     return Note(!seen.button && !seen.wheeled && !seen.key && !seen.character, seen.button);

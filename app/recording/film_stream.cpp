@@ -70,7 +70,7 @@ class FilmFile {
 
   AVIOContext* context() { return context_; }
   int error() const { return error_; }
-  off_t end() const { return end_; }  // of all that was written
+  off_t end() const { return end_; }  // end of all written bytes
 
  private:
   static int Read(void* opaque, std::uint8_t* bytes, int size) {

@@ -52,7 +52,7 @@ struct FootageBoard {
   std::string name;
   int width = 0, height = 0;  // size of a frame, px
   double frames_per_second = 0;
-  std::vector<SharedPicture> thumbs;  // one a frame; null until it was read
+  std::vector<SharedPicture> thumbs;  // one per frame; null until it was read
 
   // Settings of the next run.
   std::vector<LensChoice> lenses;  // the first one is "none"
@@ -62,7 +62,7 @@ struct FootageBoard {
   std::string next_stage;  // first stage of the next run; empty when it would change nothing
 
   // Report of the last run, or of the one under way.
-  std::vector<FrameNote> notes;          // one a frame
+  std::vector<FrameNote> notes;          // one per frame
   SharedPicture mosaic;                  // grows during a run
   std::shared_ptr<LentSession> session;  // null before the first run; shared with the jobs
   std::shared_ptr<const MadePanorama> made;

@@ -24,7 +24,7 @@ const char* SignOf(FrameStatus status);  // so that colour is not all there is
 const char* WordOf(FrameStatus status);
 
 void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
-void FrameLine(Ui& ui, EditorState& state, const Area& area);  // one mark a frame, the whole clip
+void FrameLine(Ui& ui, EditorState& state, const Area& area);  // one mark per frame, the whole clip
 void FrameStrip(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
 float FrameStripHeight(const Ui& ui);
 

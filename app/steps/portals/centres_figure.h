@@ -17,7 +17,7 @@ namespace arthro::app {
 
 struct CentresLine {
   std::string words;                             // "5 mm"
-  std::vector<std::optional<glm::dvec2>> pixel;  // one a roll, in order; none: it has no pixel
+  std::vector<std::optional<glm::dvec2>> pixel;  // one per roll, in order; none: it has no pixel
 };
 
 // White, with a grey line each `spacing` pixels from the first on.
@@ -36,7 +36,7 @@ struct CentresChoice {
 
 struct CentresFigure {
   std::string table;               // CSV: insertion, roll_deg, u_px, v_px
-  std::vector<CentresLine> lines;  // one a depth
+  std::vector<CentresLine> lines;  // one per depth
   std::optional<glm::dvec2> rod;   // pixel in the direction of the rod
   int without_pixel = 0;           // centres that a gnomonic panorama has no pixel for
 };

@@ -32,7 +32,7 @@ class CutSkins {
     std::shared_ptr<const simulation::BodySkin> skin;
     std::string fault;
   };
-  std::vector<Made> made_;  // one a tissue
+  std::vector<Made> made_;  // one per tissue
   std::string fault_;
 };
 

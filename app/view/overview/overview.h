@@ -10,6 +10,9 @@
 #include <span>
 
 #include "app/view/drawing/picture.h"
+#include "simulation/scene/image.h"
+#include "simulation/scene/scene.h"
+#include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
 
