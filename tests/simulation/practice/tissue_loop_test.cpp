@@ -107,7 +107,7 @@ TEST(TissueLoop, EndsWhileItSteps) {
   for (int ticks : {0, 17, 18, 40}) {
     {
       TissueLoop loop(World(spec), TissuePace::kThread);
-      EXPECT_EQ(ThreadsOfThisProcess(), threads + 1) << ticks;
+      EXPECT_GT(ThreadsOfThisProcess(), threads) << ticks;
       for (int i = 0; i < ticks; ++i) loop.Tick(Probe(spec), kTick);
     }
     // A thread that was joined can stand in the table of processes for a moment.
