@@ -26,7 +26,7 @@ double Aspect(FrameShape shape) {
 
 }  // namespace
 
-std::string_view WordOf(FrameShape shape) {
+std::string_view ToString(FrameShape shape) {
   switch (shape) {
     case FrameShape::kSquare:
       return "square";
@@ -40,7 +40,7 @@ std::string_view WordOf(FrameShape shape) {
 
 FrameShape FrameShapeOf(std::string_view word) {
   for (const FrameShape shape : kAll)
-    if (word == WordOf(shape)) return shape;
+    if (word == ToString(shape)) return shape;
   throw Error(Code::kBadArgument,
               fmt::format("there is no layout \"{}\"; write square, 4:3 or 16:9", word));
 }

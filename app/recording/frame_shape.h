@@ -12,7 +12,7 @@ enum class FrameShape { kSquare, k4x3, k16x9 };
 
 // Reads "square", "4:3" or "16:9", as on the command line. Throws Error(kBadArgument) otherwise.
 FrameShape FrameShapeOf(std::string_view word);
-std::string_view WordOf(FrameShape shape);
+std::string_view ToString(FrameShape shape);
 
 // To the next even number, which films need.
 int FrameWidth(FrameShape shape, int height);

@@ -76,7 +76,7 @@ void ReadParameters(Reader& reader, Lens& lens) {
   const auto rest = values.begin() + std::min<std::ptrdiff_t>(wanted, std::ssize(values));
   if (std::any_of(rest, values.end(), [](double value) { return value != 0; }))
     return reader.Fault(
-        "k", fmt::format("has {} numbers; {} has {}", values.size(), WordOf(lens.model), wanted));
+        "k", fmt::format("has {} numbers; {} has {}", values.size(), ToString(lens.model), wanted));
   values.erase(rest, values.end());
   if (lens.model == LensModel::kDoubleSphere) {
     if (values.size() != 2)
@@ -99,7 +99,7 @@ void ReadCircle(Reader& owner, LensCircle& circle) {
 
 }  // namespace
 
-std::string_view WordOf(LensModel model) {
+std::string_view ToString(LensModel model) {
   for (const auto& [value, word] : kWords)
     if (value == model) return word;
   return "";
@@ -157,7 +157,7 @@ Lens ReadLens(const std::filesystem::path& file) {
 std::string JsonFromLens(const Lens& lens) {
   nlohmann::ordered_json json;
   json["schema"] = kSchema;
-  json["model"] = WordOf(lens.model);
+  json["model"] = ToString(lens.model);
   json["width"] = lens.width;
   json["height"] = lens.height;
   json["focal_px"] = lens.focal_px;

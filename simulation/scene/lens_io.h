@@ -14,7 +14,7 @@
 
 namespace arthro {
 
-std::string_view WordOf(LensModel model);  // word of the file: "equisolid", "kannala_brandt", …
+std::string_view ToString(LensModel model);  // word of the file: "equisolid", "kannala_brandt", …
 
 // Throws Error(kBadData) that names every key at fault and what it may be, Error(kFile) where there
 // is no such file. A field of view that the file leaves out is worked out from the circle.

@@ -61,7 +61,7 @@ MicroGroup LensMicro(bool) {
       return authoring::FitLens(views(), model, *start, {});
     };
     group.functions.push_back(
-        {fmt::format("fit to 6 boards, {}", WordOf(model)), [=] { KeepAlive(fit()); },
+        {fmt::format("fit to 6 boards, {}", ToString(model)), [=] { KeepAlive(fit()); },
          [=] {
            const Lens truth = Truth(), lens = fit().lens.AsLens({800, 640});
            double worst = 0;

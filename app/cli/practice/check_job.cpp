@@ -29,7 +29,7 @@ void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
     const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
     findings.found.push_back(
         fmt::format("lens: {}, {:.1f} degrees, which count before the scope's own field of view",
-                    WordOf(loaded.lens->model), DegreesFromRadians(optics.field_of_view)));
+                    ToString(loaded.lens->model), DegreesFromRadians(optics.field_of_view)));
   } catch (const Error& error) {
     findings.errors.push_back(error.sentence());
   }

@@ -64,7 +64,7 @@ void AddHandFlags(CLI::App& job, HandFlags& flags, JobFiles& files) {
 }
 
 struct ScreenFlags {
-  std::string layout{WordOf(FrameShape::kSquare)}, film, head{"scope"};
+  std::string layout{ToString(FrameShape::kSquare)}, film, head{"scope"};
 };
 
 void AddScreenFlags(CLI::App& job, ScreenFlags& flags, EditorOptions& options, JobFiles& files) {

@@ -35,7 +35,7 @@ struct ReplayJob {
   simulation::SessionOptions options;
   fs::path pictures, video;
   ReplayPictures::Form of_pictures, of_video{.size = 720};
-  std::string layout{WordOf(FrameShape::kSquare)}, head{"upright"};
+  std::string layout{ToString(FrameShape::kSquare)}, head{"upright"};
 };
 
 void Run(const ReplayJob& job) {

@@ -125,7 +125,7 @@ const char* SignOf(FrameStatus status) {
   return "○";
 }
 
-const char* WordOf(FrameStatus status) {
+const char* ToString(FrameStatus status) {
   switch (status) {
     case FrameStatus::kPlaced:
       return "placed";

@@ -21,7 +21,7 @@ void FootageBoardPage(Ui& ui, EditorState& state, const Area& area, const Textur
 // ---- Parts of the board. ----
 unsigned ColourOf(FrameStatus status);   // 0xAABBGGRR
 const char* SignOf(FrameStatus status);  // so that colour is not all there is
-const char* WordOf(FrameStatus status);
+const char* ToString(FrameStatus status);
 
 void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
 void FrameLine(Ui& ui, EditorState& state, const Area& area);  // one mark per frame, the whole clip

@@ -59,7 +59,7 @@ void DrawCell(Ui& ui, EditorState& state, int frame, const ImVec2& low, const Ce
   Thumb(board.thumbs[static_cast<std::size_t>(frame)], low, cell, texture, is_out);
   ImGui::SetCursorScreenPos(low);
   if (HitArea("thumb", {cell.width, cell.thumb_height})) SelectFrame(state, frame);
-  RecordItem(ui, fmt::format("Frame {}", frame), true, WordOf(status));
+  RecordItem(ui, fmt::format("Frame {}", frame), true, ToString(status));
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
     SetFrameIncluded(state, frame, is_out);
   Tooltip(ui, WordsOfFrame(board, frame).c_str());

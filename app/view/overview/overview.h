@@ -11,8 +11,8 @@
 
 #include "app/view/drawing/picture.h"
 #include "simulation/scene/image.h"
+#include "simulation/scene/loaded_scene.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
 

@@ -19,7 +19,7 @@ TEST(FrameShape, AFrameIsAsWideAsItsNameSaysAndEven) {
 
 TEST(FrameShape, WordsAreReadBackAndOthersRefused) {
   for (const auto shape : {FrameShape::kSquare, FrameShape::k4x3, FrameShape::k16x9})
-    EXPECT_EQ(FrameShapeOf(WordOf(shape)), shape);
+    EXPECT_EQ(FrameShapeOf(ToString(shape)), shape);
   for (const char* word : {"", "16:10", "Square", "4x3"}) EXPECT_THROW(FrameShapeOf(word), Error);
 }
 
