@@ -169,7 +169,7 @@ void OpenDropped(EditorState& state, const fs::path& file) {
   } else {
     throw Error(
         Code::kBadArgument,
-        "this is no scene, picture, video or surface; drop a scene, a PNG, JPEG or TIFF picture, a "
+        "this is no scene, picture, video or surface. Drop a scene, a PNG, JPEG or TIFF picture, a "
         "video or a folder of frames, or an STL, OBJ, PLY, OFF or VTP surface",
         file);
   }
