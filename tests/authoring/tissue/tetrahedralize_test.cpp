@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "authoring/tissue/surface_topology.h"
 #include "simulation/core/error.h"
