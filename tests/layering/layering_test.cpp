@@ -264,7 +264,7 @@ TEST(Layering, ScanCatchesForbiddenIncludes) {
       {"authoring/depth/a.cpp", "hidapi/hidapi.h"},
       {"app/view/a.cpp", "hidapi.h"},
       {"app/view/a.cpp", "tests/support/shapes.h"},
-      {"app/cli/a.cpp", "app/bench/bench_jobs.h"},
+      {"app/cli/a.cpp", "app/bench/jobs/bench_jobs.h"},
       {"app/bench/a.cpp", "tests/app/view/lit_scene.h"},
       {"simulation/haptics/a.cpp", "tests/support/haptics/paper_kernel.h"},
       {"tests/support/view/reference_tracer.cpp", "app/view/arthroscopic_view.h"},

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
-#include "app/bench/bench_jobs.h"
+#include "app/bench/jobs/bench_jobs.h"
 #include "app/cli/jobs.h"
 
 namespace arthro::app {

@@ -1,7 +1,7 @@
 // Command line of arthroscene-bench. Names the jobs as `arthroscene bench`, which starts it.
 #include <CLI/CLI.hpp>
 
-#include "app/bench/bench_jobs.h"
+#include "app/bench/jobs/bench_jobs.h"
 #include "app/cli/command_line.h"
 #include "app/cli/run_jobs.h"
 
