@@ -198,7 +198,7 @@ RegistrationBench RunRegistrationBench(const RegistrationBenchOptions& options,
 
 std::string TableOf(const RegistrationBench& bench) {
   std::string table = fmt::format(
-      "# registration: speed against error | {} | {} x {} px, seed {}\n"
+      "# panorama: speed against error | {} | {} x {} px, seed {}\n"
       "{:<8}{:<24}{:>7}{:>8}{:>7}{:>7}{:>9}{:>9}{:>9}{:>10}  {}\n",
       MachineWords(), bench.options.width, bench.options.height, bench.options.seed, "clip",
       "chain", "frames", "placed", "right", "wrong", "mean px", "max px", "covered", "CPU ms/fr",

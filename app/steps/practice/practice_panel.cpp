@@ -240,7 +240,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
             : force < kForceOfHarm ? kWarning
                                    : kBad);
   ForceBar(ui, force, practice.peak_force());
-  QuietText(ui, fmt::format("largest so far {:.2f} N (white line); harm above {:.1f} N (red line)",
+  QuietText(ui, fmt::format("largest so far {:.2f} N; harm above {:.1f} N (red mark)",
                             practice.peak_force(), kForceOfHarm));
   Gap(ui);
   QuietText(ui, "The instrument touches");
