@@ -34,6 +34,7 @@ void AddEveryJob(CLI::App& program) {
   AddPivotJob(program);
   AddPractiseJob(program);
   AddRectifyJob(program);
+  AddReliefJob(program);
   AddReplayJob(program);
   AddSolveJob(program);
   AddTetrahedralizeJob(program);
