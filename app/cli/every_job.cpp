@@ -22,6 +22,7 @@ void AddEveryJob(CLI::App& program) {
   AddPractiseJob(program);
 #endif
   AddRectifyJob(program);
+  AddReliefJob(program);
   AddReplayJob(program);
   AddSolveJob(program);
   AddTetrahedralizeJob(program);

@@ -29,6 +29,7 @@ void AddPhantomJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
 void AddPractiseJob(CLI::App& program);
 void AddRectifyJob(CLI::App& program);
+void AddReliefJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
 void AddSolveJob(CLI::App& program);
 void AddTetrahedralizeJob(CLI::App& program);

@@ -13,9 +13,9 @@ namespace {
 using test::ProgramResult;
 using test::RunProgram;
 
-constexpr std::array kJobs = {"demo",     "phantom", "depth",  "tetrahedralize", "pivot",
-                              "centres",  "view",    "replay", "check",          "edit",
-                              "practise", "lens",    "rectify"};
+constexpr std::array kJobs = {"demo",     "phantom", "depth",   "tetrahedralize", "pivot",
+                              "centres",  "view",    "replay",  "check",          "edit",
+                              "practise", "lens",    "rectify", "relief"};
 
 TEST(CommandLine, HelpListsEveryJob) {
   const ProgramResult help = RunProgram("--help");

@@ -1,0 +1,134 @@
+// arthroscene relief FOOTAGE --lens lens.json -o relief.tiff: measures the surface from a clip.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/input_files.h"
+#include "app/cli/job_files.h"
+#include "app/cli/job_progress.h"
+#include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
+#include "app/cli/options_cli.h"
+#include "authoring/relief/make_relief.h"
+#include "authoring/relief/relief_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/lens_io.h"
+
+namespace arthro::app {
+namespace {
+
+struct ReliefJob {
+  std::string lens, output, confidence, poses, report, between;
+  std::optional<double> length_mm;
+  bool is_partial = false;
+  authoring::ReliefRequest request;
+};
+
+// "x,y:x,y": two pixels of the relief.
+authoring::KnownLength LengthOf(double millimetres, std::string_view between) {
+  const auto colon = between.find(':');
+  const auto pixel = [](std::string_view word) {
+    const std::vector<double> numbers =
+        NumbersFromWord("--between", word, {{0.0, 65535.0}, "px", false});
+    if (numbers.size() != 2)
+      throw CLI::ValidationError("--between", "takes two pixels of the relief, as x,y:x,y");
+    return glm::dvec2(numbers[0], numbers[1]);
+  };
+  if (colon == std::string_view::npos)
+    throw CLI::ValidationError("--between", "takes two pixels of the relief, as x,y:x,y");
+  return {MetresFromMm(millimetres), pixel(between.substr(0, colon)),
+          pixel(between.substr(colon + 1))};
+}
+
+void Run(ReliefJob job) {
+  job.request.lens = ReadLens(job.lens);
+  const Progress progress = TerminalProgress();
+  const authoring::ReliefResult result = authoring::MakeRelief(job.request, progress);
+  const authoring::ReliefReport& report = result.report;
+
+  // The relief last: where it is, everything else is.
+  progress.Step("writing", 0.99);
+  const bool is_written = report.verdict.is_measured() || job.is_partial;
+  if (!job.report.empty()) WriteAtomically(job.report, authoring::JsonFromReliefReport(report));
+  if (is_written && !job.poses.empty())
+    WriteAtomically(job.poses, authoring::JsonFromPoses(report));
+  if (is_written && !result.relief.empty()) {
+    if (!job.confidence.empty()) WriteDepthMap(job.confidence, result.confidence);
+    WriteDepthMap(job.output, result.relief);
+  }
+  progress.Step("done", 1.0);
+  for (const std::string& warning : report.warnings)
+    fmt::print(stderr, "warning: {}\n", PrintableLine(warning));
+  if (!report.verdict.is_measured())
+    throw Error(Code::kBadImage,
+                fmt::format("no relief was measured ({}: {} {:.2f}, limit {:.2f}): {}",
+                            report.verdict.kind, report.verdict.test, report.verdict.value,
+                            report.verdict.limit, report.verdict.sentence),
+                job.request.footage);
+  if (job.output == "-" || job.report == "-" || job.poses == "-" || job.confidence == "-") return;
+  int posed = 0;
+  for (const authoring::PosedFrame& frame : report.frames) posed += frame.is_posed;
+  fmt::print(
+      "{}: {} x {} cells, {} of {} frames posed, {:.0f} % of the tissue in view measured; "
+      "the sphere's radius is {:.2f} mm, scale {}\n",
+      job.output, result.relief.width, result.relief.height, posed, report.frames.size(),
+      100 * report.coverage, MmFromMetres(report.radius), report.scale_source);
+}
+
+}  // namespace
+
+void AddReliefJob(CLI::App& program) {
+  CLI::App* job = program.add_subcommand(
+      "relief", "Measure the relief of the tissue from the motion of the scope in a clip.");
+  const auto own = std::make_shared<ReliefJob>();
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("FOOTAGE", own->request.footage,
+                              "A video, a folder of pictures, or a pattern such as "
+                              "frames/%04d.png."),
+              kFootageInput)
+      ->required();
+  files->Input(job->add_option("--lens", own->lens, "Lens file of `arthroscene lens`."))
+      ->required();
+  files
+      ->Output(job->add_option("-o,--output", own->output,
+                               "32-bit float TIFF in metres over directions from the portal, NaN "
+                               "where nothing was measured; - for standard output."),
+               kDepthMapFile)
+      ->required();
+  files->Output(job->add_option("--confidence", own->confidence,
+                                "32-bit float TIFF: probability that a cell is within 1 mm."),
+                kDepthMapFile);
+  files->Output(job->add_option("--poses", own->poses, "JSON: camera poses in the portal frame."),
+                {"camera poses", FileForm::kJson, "arthroscene.poses/"});
+  files->Output(
+      job->add_option("--report", own->report,
+                      "JSON: pose of each frame or why it has none, portal, scale, coverage."),
+      {"a report", FileForm::kJson, "arthroscene.relief/"});
+  AddNumber(*job, "--length-mm", own->length_mm, {0.01, 1000.0}, "mm",
+            "Known distance between the two pixels of --between.");
+  job->add_option("--between", own->between,
+                  "Two pixels of the relief whose distance is --length-mm.")
+      ->type_name("X,Y:X,Y");
+  job->add_flag("--partial", own->is_partial,
+                "Write what was measured even where the clip does not determine the relief.");
+  AddOptions(*job, own->request.options);
+  files->Run([own] {
+    if (own->length_mm.has_value() == own->between.empty())
+      throw CLI::ValidationError("--length-mm", "and --between are given together or not at all");
+    if (own->length_mm) own->request.length = LengthOf(*own->length_mm, own->between);
+    Run(*own);
+  });
+}
+
+}  // namespace arthro::app

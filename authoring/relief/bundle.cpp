@@ -1,0 +1,238 @@
+#include "authoring/relief/bundle.h"
+
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Dense>
+#include <ceres/ceres.h>
+
+namespace arthro::authoring {
+namespace {
+
+constexpr double kLossAt = 1.0;  // px, where the Cauchy loss begins to flatten
+
+struct PixelError {
+  const LensProfile& lens;
+  const Eigen::Vector2d pixel;
+
+  // Rotation as a quaternion (x, y, z, w).
+  template <class T>
+  bool operator()(const T* rotation, const T* centre, const T* point, T* error) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> turn(rotation);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> c(centre), x(point);
+    const Eigen::Matrix<T, 3, 1> local = turn.conjugate() * (x - c);
+    T at[2];
+    if constexpr (std::is_same_v<T, double>)
+      lens.Project(local.data(), at);
+    else
+      lens.ProjectJet(local.data(), at);
+    error[0] = at[0] - pixel.x();
+    error[1] = at[1] - pixel.y();
+    return true;
+  }
+};
+
+// The part of the way from tip to pivot that does not lie along the shaft.
+struct PivotError {
+  const double view_angle, sigma;
+
+  template <class T>
+  bool operator()(const T* rotation, const T* centre, const T* pivot, const T* head_turn,
+                  T* error) const {
+    using std::cos;
+    using std::sin;
+    const Eigen::Map<const Eigen::Quaternion<T>> turn(rotation);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> c(centre), p(pivot);
+    const Eigen::Matrix<T, 3, 1> shaft(sin(view_angle) * sin(head_turn[0]),
+                                       sin(view_angle) * cos(head_turn[0]), T(cos(view_angle)));
+    const Eigen::Matrix<T, 3, 1> u = turn * shaft, way = p - c;
+    const Eigen::Matrix<T, 3, 1> across = way - u * u.dot(way);
+    for (int i = 0; i < 3; ++i) error[i] = across[i] / sigma;
+    return true;
+  }
+};
+
+ceres::Solver::Options SolverOptions(int iterations) {
+  ceres::Solver::Options options;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = 1e-6;
+  options.max_trust_region_radius = 1e8;  // keeps points near infinity from a singular matrix
+  options.num_threads = 1;                // sums in one order: the same bytes each time
+  options.logging_type = ceres::SILENT;
+  return options;
+}
+
+// Holds the largest coordinate of the camera furthest from `fixed`: tracks know no scale.
+void FixScale(std::size_t fixed, Reconstruction& scene, std::optional<ceres::SubsetManifold>& kept,
+              ceres::Problem& problem) {
+  Eigen::Vector3d* furthest = nullptr;
+  double most = 0;
+  const Eigen::Vector3d origin = scene.poses[fixed]->centre;
+  for (auto& pose : scene.poses) {
+    if (!pose || !problem.HasParameterBlock(pose->centre.data())) continue;
+    const double distance = (pose->centre - origin).norm();
+    if (distance > most) most = distance, furthest = &pose->centre;
+  }
+  if (!furthest) return;
+  int axis = 0;
+  (*furthest - origin).cwiseAbs().maxCoeff(&axis);
+  kept.emplace(3, std::vector<int>{axis});
+  problem.SetManifold(furthest->data(), &*kept);
+}
+
+}  // namespace
+
+Eigen::Vector3d ShaftInCamera(double view_angle, double head_turn) {
+  return {std::sin(view_angle) * std::sin(head_turn), std::sin(view_angle) * std::cos(head_turn),
+          std::cos(view_angle)};
+}
+
+double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
+                    const BundleOptions& options, Reconstruction& scene, PivotPrior* pivot) {
+  std::vector<Eigen::Quaterniond> turns(scene.poses.size());
+  for (std::size_t i = 0; i < scene.poses.size(); ++i)
+    if (scene.poses[i]) turns[i] = Eigen::Quaterniond(scene.poses[i]->world_from_camera);
+
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::EigenQuaternionManifold manifold;
+  std::optional<ceres::SubsetManifold> scale_manifold;
+  ceres::CauchyLoss loss(kLossAt), pivot_loss(3);
+  ceres::Problem problem(ownership);
+  for (TrackPoint& point : scene.points) {
+    const Track& track = tracks[static_cast<std::size_t>(point.track)];
+    for (std::size_t k = 0; k < track.seen.size(); ++k) {
+      const auto frame = static_cast<std::size_t>(track.seen[k].frame);
+      if (!point.uses[k] || !scene.poses[frame]) continue;
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PixelError, 2, 4, 3, 3>(
+                                   new PixelError{lens, track.seen[k].pixel}),
+                               &loss, turns[frame].coeffs().data(),
+                               scene.poses[frame]->centre.data(), point.position.data());
+    }
+  }
+  const int pixel_residuals = problem.NumResiduals();
+  if (pixel_residuals == 0) return 0;
+
+  bool is_fixed = false;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (!scene.poses[i] || !problem.HasParameterBlock(turns[i].coeffs().data())) continue;
+    problem.SetManifold(turns[i].coeffs().data(), &manifold);
+    if (is_fixed || (options.fixed_frame >= 0 && options.fixed_frame != static_cast<int>(i)))
+      continue;
+    is_fixed = true;
+    problem.SetParameterBlockConstant(turns[i].coeffs().data());
+    problem.SetParameterBlockConstant(scene.poses[i]->centre.data());
+    FixScale(i, scene, scale_manifold, problem);
+  }
+  if (pivot) {
+    for (std::size_t i = 0; i < turns.size(); ++i)
+      if (scene.poses[i] && problem.HasParameterBlock(turns[i].coeffs().data()))
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PivotError, 3, 4, 3, 3, 1>(
+                                     new PivotError{pivot->view_angle, pivot->sigma}),
+                                 &pivot_loss, turns[i].coeffs().data(),
+                                 scene.poses[i]->centre.data(), pivot->point.data(),
+                                 &pivot->head_turn);
+    problem.SetParameterBlockConstant(&pivot->head_turn);
+  }
+
+  ceres::Solver::Options solver = SolverOptions(options.iterations);
+  solver.linear_solver_type = ceres::SPARSE_SCHUR;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    if (scene.poses[i])
+      scene.poses[i]->world_from_camera = turns[i].normalized().toRotationMatrix();
+
+  // Residuals without the loss, of those that are not outliers.
+  double squares = 0;
+  int count = 0;
+  constexpr double kOutlier = 4;  // px
+  for (const TrackPoint& point : scene.points) {
+    const Track& track = tracks[static_cast<std::size_t>(point.track)];
+    for (std::size_t k = 0; k < track.seen.size(); ++k) {
+      const auto& pose = scene.poses[static_cast<std::size_t>(track.seen[k].frame)];
+      if (!point.uses[k] || !pose) continue;
+      Eigen::Vector2d at;
+      lens.Project(pose->InCamera(point.position).data(), at.data());
+      const double error = (at - track.seen[k].pixel).norm();
+      if (!(error < kOutlier)) continue;
+      squares += error * error;
+      ++count;
+    }
+  }
+  return std::sqrt(squares / std::max(1, count));
+}
+
+PoseSigma SigmaOf(const std::vector<Track>& tracks, const LensProfile& lens,
+                  const Reconstruction& scene, int frame, double rms_px) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const CameraPose& pose = *scene.poses[static_cast<std::size_t>(frame)];
+  Matrix6 normal = Matrix6::Zero();
+  double range = 0;
+  int count = 0;
+  for (const TrackPoint& point : scene.points) {
+    const Track& track = tracks[static_cast<std::size_t>(point.track)];
+    for (std::size_t k = 0; k < track.seen.size(); ++k) {
+      if (track.seen[k].frame != frame || !point.uses[k]) continue;
+      const Eigen::Vector3d local = pose.InCamera(point.position);
+      range += local.norm();
+      ++count;
+      // Central differences: three turns, then three shifts as shares of the distance.
+      constexpr double kSmall = 1e-5;
+      Eigen::Matrix<double, 2, 6> by_pose;
+      for (int i = 0; i < 6; ++i) {
+        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i % 3);
+        const Eigen::Vector3d move =
+            kSmall * (i < 3 ? axis.cross(local).eval() : (axis * local.norm()).eval());
+        Eigen::Vector2d up, down;
+        const Eigen::Vector3d a = local + move, b = local - move;
+        lens.Project(a.data(), up.data());
+        lens.Project(b.data(), down.data());
+        by_pose.col(i) = (up - down) / (2 * kSmall);
+        if (i >= 3) by_pose.col(i) /= local.norm();
+      }
+      normal += by_pose.transpose() * by_pose;
+    }
+  }
+  if (count < 6) return {};
+  // Shifts in units of the mean range, so that the matrix is well scaled.
+  range /= count;
+  Eigen::Matrix<double, 6, 1> scale;
+  scale << 1, 1, 1, range, range, range;
+  const Matrix6 scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  const Matrix6 covariance = scaled.ldlt().solve(Matrix6::Identity()) * rms_px * rms_px / 2;
+  const double turn = covariance.topLeftCorner<3, 3>().trace(),
+               shift = covariance.bottomRightCorner<3, 3>().trace();
+  if (!(turn >= 0 && shift >= 0)) return {};
+  return {range * std::sqrt(shift), std::sqrt(turn)};
+}
+
+bool AdjustPose(const std::vector<Eigen::Vector3d>& points,
+                const std::vector<Eigen::Vector2d>& pixels, const LensProfile& lens,
+                CameraPose& pose) {
+  Eigen::Quaterniond turn(pose.world_from_camera);
+  std::vector<Eigen::Vector3d> copies = points;
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::EigenQuaternionManifold manifold;
+  ceres::CauchyLoss loss(kLossAt);
+  ceres::Problem problem(ownership);
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<PixelError, 2, 4, 3, 3>(new PixelError{lens, pixels[i]}),
+        &loss, turn.coeffs().data(), pose.centre.data(), copies[i].data());
+    problem.SetParameterBlockConstant(copies[i].data());
+  }
+  if (problem.NumResidualBlocks() < 6) return false;
+  problem.SetManifold(turn.coeffs().data(), &manifold);
+  ceres::Solver::Options solver = SolverOptions(30);
+  solver.linear_solver_type = ceres::DENSE_QR;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  pose.world_from_camera = turn.normalized().toRotationMatrix();
+  return summary.IsSolutionUsable();
+}
+
+}  // namespace arthro::authoring

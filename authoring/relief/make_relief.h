@@ -1,0 +1,41 @@
+// Footage to measured relief: camera poses from tracks, the portal from the shafts, and the radius
+// of the surface over directions from the portal. Plain types only.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "authoring/relief/relief_options.h"
+#include "authoring/relief/relief_report.h"
+#include "simulation/core/progress.h"
+#include "simulation/scene/image.h"
+#include "simulation/scene/lens.h"
+
+namespace arthro::authoring {
+
+// A distance that is known, between the tissue at two pixels of the relief.
+struct KnownLength {
+  double metres = 0;
+  glm::dvec2 from{0.0}, to{0.0};
+};
+
+struct ReliefRequest {
+  std::filesystem::path footage;
+  Lens lens;
+  ReliefOptions options;
+  std::optional<KnownLength> length;
+};
+
+struct ReliefResult {
+  DepthMap relief;      // m, NaN where nothing was measured; empty where no surface was found
+  DepthMap confidence;  // 0 to 1, probability of an error below 1 mm
+  ReliefReport report;
+};
+
+// A clip that does not determine depth gives a verdict and what there is. Throws Error for footage
+// or a lens that cannot be used, a known length that was not measured, and Error(kCancelled).
+ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,129 @@
+#include "authoring/relief/measure_relief.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "authoring/relief/median.h"
+#include "simulation/core/units.h"
+
+namespace arthro::authoring {
+namespace {
+
+constexpr double kMostMiss = 0.1;        // share of the insertion, for the shafts to pass one point
+constexpr double kLeastSpread = 0.0349;  // rad (2°) of the shafts' directions
+constexpr double kPivotSigma = 0.03;     // share of the insertion, by which the skin gives
+constexpr double kMostRise = 1.05;       // factor by which the pivot may raise the pixel residual
+// Insertion over the range to the tissue, where no portal was found.
+constexpr double kUsualInsertion = 0.7;
+
+// Adjusts everything with the portal as a soft constraint and keeps that if the pixels agree.
+bool AdoptPivot(const std::vector<Track>& tracks, const LensProfile& lens, double view_angle,
+                Motion& motion, PivotFit& pivot) {
+  pivot = FindPivot(motion.scene.poses, view_angle);
+  const auto is_good = [&] {
+    return pivot.median_insertion > 0 && pivot.shaft_spread > kLeastSpread &&
+           pivot.median_miss < kMostMiss * pivot.median_insertion;
+  };
+  if (!is_good()) return false;
+  Reconstruction scene = motion.scene;
+  double rms = 0;
+  for (int round = 0; round < 2; ++round) {
+    PivotPrior prior{pivot.point, view_angle, pivot.head_turn,
+                     std::max(kPivotSigma * pivot.median_insertion, pivot.median_miss)};
+    rms = AdjustBundle(tracks, lens, {.iterations = 25}, scene, &prior);
+    RefreshPoints(tracks, lens, scene);
+    pivot = FitPivot(scene.poses, view_angle, pivot.head_turn);
+    pivot.point = prior.point;
+  }
+  if (rms > kMostRise * motion.rms_px || !is_good()) return false;
+  motion.scene = std::move(scene);
+  motion.rms_px = rms;
+  return true;
+}
+
+// To the portal frame, with the median insertion as assumed.
+void GoToPortal(const ReliefOptions& options, MeasuredRelief& made) {
+  Reconstruction& scene = made.motion.scene;
+  const Eigen::Matrix3d axes =
+      PortalAxes(scene.poses, options.view_angle, made.has_pivot ? made.pivot.head_turn : 0);
+  Eigen::Vector3d origin = made.pivot.point;
+  double insertion = made.pivot.median_insertion;
+  if (!made.has_pivot) {
+    // Behind the middle of the tips, as far as is usual for the range that they see.
+    std::vector<double> ranges;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (std::size_t f = 0; f < scene.poses.size(); ++f)
+      if (scene.poses[f]) middle += scene.poses[f]->centre, ++count;
+    for (const TrackPoint& point : scene.points) {
+      const Track& track = made.tracks[static_cast<std::size_t>(point.track)];
+      for (std::size_t k = 0; k < track.seen.size(); ++k)
+        if (const auto& pose = scene.poses[static_cast<std::size_t>(track.seen[k].frame)];
+            pose && point.uses[k])
+          ranges.push_back((point.position - pose->centre).norm());
+    }
+    insertion = kUsualInsertion * Median(ranges);
+    origin = middle / std::max(1, count) - axes.row(2).transpose() * insertion;
+  }
+  const double scale = insertion > 0 ? options.insertion / insertion : 1;
+  ChangeFrame(axes, origin, scale, scene);
+  made.pivot.median_insertion = scale * insertion;
+  made.pivot.median_miss *= scale;
+  made.pivot.point.setZero();
+}
+
+}  // namespace
+
+MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& lens,
+                             const ReliefOptions& options, const AfterMotion& after_motion,
+                             StageClock& clock) {
+  MeasuredRelief made;
+  made.clip = ReadReliefClip(footage, lens, options, clock);
+  made.lens = LensProfile(made.clip.lens);
+  const int frames = static_cast<int>(made.clip.frames.size());
+  made.tracks = FollowPoints(made.clip.frames, made.clip.lens, options, clock.Begin("tracks"));
+  made.motion = SolveMotion(made.tracks, frames, made.lens, clock.Begin("poses"));
+  const Progress adjusting = clock.Begin("portal");
+  if (made.motion.scene.points.size() >= 3) {
+    if (options.use_pivot)
+      made.has_pivot =
+          AdoptPivot(made.tracks, made.lens, options.view_angle, made.motion, made.pivot);
+    made.shaft_miss = made.pivot.median_insertion > 0
+                          ? std::min(1.0, made.pivot.median_miss / made.pivot.median_insertion)
+                          : 1;
+    CountInliers(made.tracks, made.lens, made.motion);
+    adjusting.Step("placing the portal", 0.9);
+    GoToPortal(options, made);
+  }
+  if (after_motion && !after_motion(made)) {
+    clock.End();
+    return made;
+  }
+  made.surface =
+      SweepSurface(made.clip.frames, made.lens, made.motion.scene, options, clock.Begin("sweep"));
+  clock.End();
+  return made;
+}
+
+cv::Mat ConfidenceOf(const SweptSurface& surface, double least_parallax) {
+  // Logistic regression of "within 1 mm" on cells of three cavity clips with known truth (easy,
+  // medium and hard, one seed), checked on clips of another seed.
+  constexpr double kConstant = -6.47, kAgreement = 3.63, kPeak = 5.96, kMargin = -12.82,
+                   kParallax = 1.34, kSteadiness = 1.38, kSeenBy = 0.10;
+  cv::Mat confidence = cv::Mat::zeros(surface.radius.size(), CV_32F);
+  for (int y = 0; y < confidence.rows; ++y)
+    for (int x = 0; x < confidence.cols; ++x) {
+      const double parallax = surface.parallax.at<float>(y, x);
+      if (!(surface.radius.at<float>(y, x) > 0) || parallax < least_parallax) continue;
+      const double sum = kConstant + kAgreement * surface.agreement.at<float>(y, x) +
+                         kPeak * surface.peak.at<float>(y, x) +
+                         kMargin * std::clamp<double>(surface.margin.at<float>(y, x), -0.1, 0.2) +
+                         kParallax * std::log(std::max(parallax, 1e-3)) +
+                         kSteadiness * surface.steadiness.at<float>(y, x) +
+                         kSeenBy * std::log(std::max<double>(1, surface.seen_by.at<float>(y, x)));
+      confidence.at<float>(y, x) = static_cast<float>(1 / (1 + std::exp(-sum)));
+    }
+  return confidence;
+}
+
+}  // namespace arthro::authoring

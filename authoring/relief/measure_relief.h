@@ -1,0 +1,40 @@
+// The measurement itself, stage by stage, in OpenCV's and Eigen's types; make_relief.h wraps it for
+// callers that know neither.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "authoring/panorama/stage_clock.h"
+#include "authoring/relief/motion.h"
+#include "authoring/relief/portal.h"
+#include "authoring/relief/relief_clip.h"
+#include "authoring/relief/relief_options.h"
+#include "authoring/relief/sweep.h"
+
+namespace arthro::authoring {
+
+struct MeasuredRelief {
+  ReliefClip clip;
+  LensProfile lens;
+  std::vector<Track> tracks;
+  Motion motion;           // in the portal frame, m, once the portal is known
+  PivotFit pivot;          // in m
+  bool has_pivot = false;  // the shafts pass one point, and the adjustment used it
+  double shaft_miss = 0;   // distance between shafts and portal over the insertion; 1 at most
+  SweptSurface surface;
+};
+
+// Called after the poses, before the sweep; ends the job by returning false.
+using AfterMotion = std::function<bool(const MeasuredRelief&)>;
+
+MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& lens,
+                             const ReliefOptions& options, const AfterMotion& after_motion,
+                             StageClock& clock);
+
+// Probability that a cell is within 1 mm of the surface, CV_32FC1; 0 where nothing was measured.
+cv::Mat ConfidenceOf(const SweptSurface& surface, double least_parallax);
+
+}  // namespace arthro::authoring

@@ -1,0 +1,63 @@
+// Result for a clip: the pose of every frame or why it has none, the portal, the scale, how
+// much was measured, and whether the clip determines depth at all. Plain types, so that a window
+// can show it. File: relief_io.h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "authoring/panorama/stage_clock.h"
+#include "simulation/scene/projection.h"
+
+namespace arthro::authoring {
+
+struct PosedFrame {
+  int index = 0;  // in the footage
+  std::string source;
+  bool is_posed = false;
+  std::string reason;                 // why it has no pose; "" when it has
+  std::array<double, 9> rotation{};   // portal_from_camera, row-major: right, down, view
+  std::array<double, 3> centre{};     // the tip, m, portal frame
+  double sigma_m = 0, sigma_rad = 0;  // standard deviations of the pose while the points stay
+  int tracks = 0, inliers = 0;
+  double rms_px = 0;
+};
+
+// Whether the clip determines depth, and the test that decided it.
+struct ReliefVerdict {
+  std::string kind = "measured";  // "still", "rotation_only", "texture", "pieces", …
+  bool is_measured() const { return kind == "measured"; }
+  std::string sentence;  // finding and advice
+  std::string test;      // the quantity, with its unit
+  double value = 0, limit = 0;
+};
+
+struct ReliefReport {
+  std::string footage;
+  ReliefVerdict verdict;
+  std::vector<PosedFrame> frames;
+  int points = 0;  // 3-D points behind the poses
+  double rms_px = 0;
+  // The portal: the origin of all coordinates.
+  bool has_pivot = false;
+  double shaft_spread = 0;               // rad
+  double pivot_miss = 0;                 // m, median distance between a shaft and the portal
+  double median_insertion = 0;           // m
+  double head_turn = 0;                  // rad
+  std::string scale_source = "assumed";  // or "length"
+  double scale = 1;                      // factor that the given length applied
+  // Relief h over directions: surface radius = radius - h.
+  double radius = 0;  // m
+  Projection projection;
+  int width = 0, height = 0;
+  double coverage = 0;  // share of the cells that three frames see, at or above least_confidence
+  std::array<int, 10> confidence_histogram{};  // cells by tenths of confidence
+  std::vector<std::string> warnings;
+  std::vector<StageCost> stages;
+  double peak_memory_mb = 0;
+  std::string options;  // JSON
+};
+
+}  // namespace arthro::authoring
