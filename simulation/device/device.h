@@ -1,7 +1,7 @@
 // Device of one hand: reports the position of the hand and gives it a force. Device frame, m, N, s.
 // Except for the constants, only the servo thread calls it, each tick in this order:
 //   Read → HoldDeadMan → Command.
-// None of these waits, locks or allocates.
+// Implementations never wait, lock or allocate.
 #pragma once
 
 #include <string>

@@ -154,7 +154,7 @@ Lines LinesWithin(const Lines& lines, const Vector3d& pivot, const Noise& noise,
 // than stated, the scale is taken from them, so that noise does not count as outliers.
 Lines AgreeingLines(const Lines& lines, const Noise& noise, const PivotOptions& options) {
   const int n = static_cast<int>(lines.size());
-  // Some thousand lines are enough to judge a pair.
+  // A few thousand lines are enough to judge a pair.
   Lines judges;
   const std::size_t stride = 1 + lines.size() / kManyLines;
   for (std::size_t k = 0; k < lines.size(); k += stride) judges.push_back(lines[k]);

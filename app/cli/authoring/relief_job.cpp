@@ -125,7 +125,8 @@ void AddReliefJob(CLI::App& program) {
   AddOptions(*job, own->request.options);
   files->Run([own] {
     if (own->length_mm.has_value() == own->between.empty())
-      throw CLI::ValidationError("--length-mm", "and --between are given together or not at all");
+      throw CLI::ValidationError("--length-mm",
+                                 "needs --between, and --between needs it; give both");
     if (own->length_mm) own->request.length = LengthOf(*own->length_mm, own->between);
     Run(*own);
   });

@@ -75,7 +75,7 @@ TEST(SurfaceBvh, ALongWayMeetsWhatItsShortPiecesMeet) {
   for (int trial = 0; trial < 6000; ++trial) {
     glm::dvec3 from(any(random), any(random), 0.03 + any(random));
     glm::dvec3 to(any(random), any(random), 0.03 + any(random));
-    // Some ways along an axis or in a plane of two, where projections have no width.
+    // Includes ways along an axis or in a plane of two, where projections have no width.
     if (trial % 4 == 1) to[trial % 3] = from[trial % 3];
     if (trial % 4 == 2) to = from, to[trial % 3] += 3.0 * any(random);
     const double radius = trial % 5 * 0.5e-3;
