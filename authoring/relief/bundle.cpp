@@ -62,6 +62,18 @@ ceres::Solver::Options SolverOptions(int iterations) {
   return options;
 }
 
+class StopCallback : public ceres::IterationCallback {
+ public:
+  explicit StopCallback(const std::atomic<bool>* stop) : stop_(stop) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return stop_ && stop_->load(std::memory_order_relaxed) ? ceres::SOLVER_ABORT
+                                                           : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const std::atomic<bool>* stop_;
+};
+
 // Holds the largest coordinate of the camera furthest from `fixed`: tracks know no scale.
 void FixScale(std::size_t fixed, Reconstruction& scene, std::optional<ceres::SubsetManifold>& kept,
               ceres::Problem& problem) {
@@ -138,6 +150,8 @@ double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
 
   ceres::Solver::Options solver = SolverOptions(options.iterations);
   solver.linear_solver_type = ceres::SPARSE_SCHUR;
+  StopCallback stopping(options.stop);
+  solver.callbacks.push_back(&stopping);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   for (std::size_t i = 0; i < turns.size(); ++i)

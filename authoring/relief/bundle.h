@@ -2,6 +2,7 @@
 // as an optional soft constraint. The frame is the caller's; its unit is free.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct Reconstruction {
 struct BundleOptions {
   int iterations = 30;
   int fixed_frame = -1;  // the gauge; -1: the first posed frame
+  // Ends the adjustment after the iteration at hand once it is set; the caller then stops. May be
+  // null.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 // Moves poses and points, and the pivot where there is one. Returns the rms of the residuals, px.

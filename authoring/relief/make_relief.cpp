@@ -93,9 +93,23 @@ void Describe(const cv::Mat& confidence, const SweptSurface& surface, double lea
   report.coverage = static_cast<double>(confident) / std::max(1, seen);
 }
 
+ReliefSoFar SoFar(const Reconstruction& scene, bool is_in_portal_frame) {
+  constexpr std::size_t kMostPoints = 1500;
+  ReliefSoFar shown;
+  shown.is_in_portal_frame = is_in_portal_frame;
+  const auto plain = [](const Eigen::Vector3d& v) { return glm::dvec3(v.x(), v.y(), v.z()); };
+  for (const auto& pose : scene.poses)
+    if (pose) shown.cameras.push_back({plain(pose->centre), plain(pose->world_from_camera.col(2))});
+  const std::size_t stride = scene.points.size() / kMostPoints + 1;
+  for (std::size_t i = 0; i < scene.points.size(); i += stride)
+    shown.points.push_back(plain(scene.points[i].position));
+  return shown;
+}
+
 }  // namespace
 
-ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress) {
+ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
+                        const ReliefObserver& observer) {
   CheckOptions(request.options);
   const ReliefOptions& options = request.options;
   StageClock clock(progress, {{"read", 20},
@@ -107,8 +121,9 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress) 
   ReliefResult result;
   ReliefReport& report = result.report;
   MeasuredRelief made = MeasureRelief(
-      request.footage, request.lens, options,
+      request.footage, request.lens, options, request.excluded,
       [&](const MeasuredRelief& so_far) {
+        if (observer) observer(SoFar(so_far.motion.scene, true));
         report.verdict = JudgeMotion(so_far.motion);
         if (report.verdict.is_measured() && options.use_pivot && !so_far.has_pivot)
           report.verdict = JudgePivot(so_far.shaft_miss, so_far.pivot.shaft_spread);
@@ -118,7 +133,10 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress) 
                ((report.verdict.kind == "pieces" || report.verdict.kind == "texture") &&
                 so_far.motion.scene.points.size() >= kLeastPoints);
       },
-      clock);
+      clock,
+      [&](const Reconstruction& scene) {
+        if (observer) observer(SoFar(scene, false));
+      });
 
   SweptSurface& surface = made.surface;
   if (request.length && !surface.radius.empty()) {

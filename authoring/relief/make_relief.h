@@ -3,9 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "authoring/relief/relief_options.h"
 #include "authoring/relief/relief_report.h"
@@ -26,6 +30,7 @@ struct ReliefRequest {
   Lens lens;
   ReliefOptions options;
   std::optional<KnownLength> length;
+  std::set<int> excluded;  // frames that a person excludes, by index in the footage
 };
 
 struct ReliefResult {
@@ -34,8 +39,23 @@ struct ReliefResult {
   ReliefReport report;
 };
 
+// Poses and points while they are found, to be shown. Frame and unit are those of the first camera
+// until the portal is known; then metres in the portal frame.
+struct ReliefSoFar {
+  struct Camera {
+    glm::dvec3 centre{0.0}, view{0.0};
+  };
+  std::vector<Camera> cameras;
+  std::vector<glm::dvec3> points;  // a sample
+  bool is_in_portal_frame = false;
+};
+// Called from the job's thread. May be empty.
+using ReliefObserver = std::function<void(const ReliefSoFar&)>;
+
 // A clip that does not determine depth gives a verdict and what there is. Throws Error for footage
-// or a lens that cannot be used, a known length that was not measured, and Error(kCancelled).
-ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress);
+// or a lens that cannot be used, a known length that was not measured, and Error(kCancelled) within
+// half a second of a stop.
+ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
+                        const ReliefObserver& observer = {});
 
 }  // namespace arthro::authoring

@@ -18,7 +18,7 @@ constexpr double kUsualInsertion = 0.7;
 
 // Adjusts everything with the portal as a soft constraint and keeps that if the pixels agree.
 bool AdoptPivot(const std::vector<Track>& tracks, const LensProfile& lens, double view_angle,
-                Motion& motion, PivotFit& pivot) {
+                const Progress& progress, Motion& motion, PivotFit& pivot) {
   pivot = FindPivot(motion.scene.poses, view_angle);
   const auto is_good = [&] {
     return pivot.median_insertion > 0 && pivot.shaft_spread > kLeastSpread &&
@@ -30,7 +30,9 @@ bool AdoptPivot(const std::vector<Track>& tracks, const LensProfile& lens, doubl
   for (int round = 0; round < 2; ++round) {
     PivotPrior prior{pivot.point, view_angle, pivot.head_turn,
                      std::max(kPivotSigma * pivot.median_insertion, pivot.median_miss)};
-    rms = AdjustBundle(tracks, lens, {.iterations = 25}, scene, &prior);
+    progress.Step("finding the portal", 0.4 * round);
+    rms = AdjustBundle(tracks, lens, {.iterations = 25, .stop = progress.stop}, scene, &prior);
+    progress.Step("finding the portal", 0.4 * (round + 1));
     RefreshPoints(tracks, lens, scene);
     pivot = FitPivot(scene.poses, view_angle, pivot.head_turn);
     pivot.point = prior.point;
@@ -75,19 +77,20 @@ void GoToPortal(const ReliefOptions& options, MeasuredRelief& made) {
 }  // namespace
 
 MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& lens,
-                             const ReliefOptions& options, const AfterMotion& after_motion,
-                             StageClock& clock) {
+                             const ReliefOptions& options, const std::set<int>& excluded,
+                             const AfterMotion& after_motion, StageClock& clock,
+                             const MotionObserver& observer) {
   MeasuredRelief made;
-  made.clip = ReadReliefClip(footage, lens, options, clock);
+  made.clip = ReadReliefClip(footage, lens, options, excluded, clock);
   made.lens = LensProfile(made.clip.lens);
   const int frames = static_cast<int>(made.clip.frames.size());
   made.tracks = FollowPoints(made.clip.frames, made.clip.lens, options, clock.Begin("tracks"));
-  made.motion = SolveMotion(made.tracks, frames, made.lens, clock.Begin("poses"));
+  made.motion = SolveMotion(made.tracks, frames, made.lens, clock.Begin("poses"), observer);
   const Progress adjusting = clock.Begin("portal");
   if (made.motion.scene.points.size() >= 3) {
     if (options.use_pivot)
-      made.has_pivot =
-          AdoptPivot(made.tracks, made.lens, options.view_angle, made.motion, made.pivot);
+      made.has_pivot = AdoptPivot(made.tracks, made.lens, options.view_angle, adjusting,
+                                  made.motion, made.pivot);
     made.shaft_miss = made.pivot.median_insertion > 0
                           ? std::min(1.0, made.pivot.median_miss / made.pivot.median_insertion)
                           : 1;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "authoring/panorama/stage_clock.h"
@@ -31,8 +32,9 @@ struct MeasuredRelief {
 using AfterMotion = std::function<bool(const MeasuredRelief&)>;
 
 MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& lens,
-                             const ReliefOptions& options, const AfterMotion& after_motion,
-                             StageClock& clock);
+                             const ReliefOptions& options, const std::set<int>& excluded,
+                             const AfterMotion& after_motion, StageClock& clock,
+                             const MotionObserver& observer = {});
 
 // Probability that a cell is within 1 mm of the surface, CV_32FC1; 0 where nothing was measured.
 cv::Mat ConfidenceOf(const SweptSurface& surface, double least_parallax);

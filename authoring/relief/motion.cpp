@@ -84,7 +84,8 @@ bool Triangulate(const Reconstruction& scene, const Track& track, const LensProf
 
 // A start: two frames with points between them.
 Reconstruction StartFrom(const std::vector<Track>& tracks, const TracksByFrame& by_frame,
-                         const LensProfile& lens, int frames, int a, int b) {
+                         const LensProfile& lens, int frames, int a, int b,
+                         const Progress& progress, double done) {
   Reconstruction scene;
   scene.poses.resize(At(frames));
   const auto shared = SharedTracks(by_frame, a, b);
@@ -94,7 +95,10 @@ Reconstruction StartFrom(const std::vector<Track>& tracks, const TracksByFrame& 
   scene.poses[At(b)] = motion->b_in_a;
   for (int round = 0; round < 2; ++round) {
     RefreshPoints(tracks, lens, scene);
-    AdjustBundle(tracks, lens, {.iterations = 20, .fixed_frame = a}, scene, nullptr);
+    progress.Step("choosing a start", done);
+    AdjustBundle(tracks, lens, {.iterations = 20, .fixed_frame = a, .stop = progress.stop}, scene,
+                 nullptr);
+    progress.Step("choosing a start", done);
   }
   RefreshPoints(tracks, lens, scene);
   return scene;
@@ -173,7 +177,7 @@ std::optional<CameraPose> PoseOf(const FramePoints& all, const LensProfile& lens
 
 // Adds frame after frame, the one that sees most points first.
 void Grow(const std::vector<Track>& tracks, const TracksByFrame& by_frame, const LensProfile& lens,
-          const Progress& progress, Reconstruction& scene) {
+          const Progress& progress, const MotionObserver& observer, Reconstruction& scene) {
   const int frames = static_cast<int>(scene.poses.size());
   const auto posed = [&] {
     return static_cast<int>(
@@ -199,7 +203,7 @@ void Grow(const std::vector<Track>& tracks, const TracksByFrame& by_frame, const
       // Those that failed once may find better points now.
       is_second = true;
       failed.clear();
-      AdjustBundle(tracks, lens, {}, scene, nullptr);
+      AdjustBundle(tracks, lens, {.stop = progress.stop}, scene, nullptr);
       RefreshPoints(tracks, lens, scene);
       continue;
     }
@@ -219,14 +223,18 @@ void Grow(const std::vector<Track>& tracks, const TracksByFrame& by_frame, const
     const int now = posed();
     if (now <= 6 || now >= kGrowthPerAdjustment * adjusted_at) {
       adjusted_at = now;
-      AdjustBundle(tracks, lens, {.iterations = 12}, scene, nullptr);
+      AdjustBundle(tracks, lens, {.iterations = 12, .stop = progress.stop}, scene, nullptr);
       RefreshPoints(tracks, lens, scene);
+      if (observer) observer(scene);
     }
   }
   for (int round = 0; round < 3; ++round) {
     progress.Step("adjusting all poses", 0.9);
-    AdjustBundle(tracks, lens, {.iterations = round < 2 ? 15 : 40}, scene, nullptr);
+    AdjustBundle(tracks, lens, {.iterations = round < 2 ? 15 : 40, .stop = progress.stop}, scene,
+                 nullptr);
+    progress.Step("adjusting all poses", 0.9);
     RefreshPoints(tracks, lens, scene);
+    if (observer) observer(scene);
   }
 }
 
@@ -295,7 +303,7 @@ void CountInliers(const std::vector<Track>& tracks, const LensProfile& lens, Mot
 }
 
 Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfile& lens,
-                   const Progress& progress) {
+                   const Progress& progress, const MotionObserver& observer) {
   Motion motion;
   motion.frames.resize(At(frames));
   motion.scene.poses.resize(At(frames));
@@ -345,8 +353,10 @@ Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfi
              std::abs(other.first.b - start.b) < kApart;
     });
     if (!is_new) continue;
-    progress.Step("choosing a start", 0.1 + 0.01 * static_cast<double>(tried.size()));
-    tried.emplace_back(start, StartFrom(tracks, by_frame, lens, frames, start.a, start.b));
+    const double done = 0.1 + 0.01 * static_cast<double>(tried.size());
+    progress.Step("choosing a start", done);
+    tried.emplace_back(start,
+                       StartFrom(tracks, by_frame, lens, frames, start.a, start.b, progress, done));
   }
   std::stable_sort(tried.begin(), tried.end(), [](const auto& x, const auto& y) {
     return x.second.points.size() > y.second.points.size();
@@ -355,7 +365,7 @@ Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfi
   for (std::size_t i = 0; i < tried.size() && i < static_cast<std::size_t>(kGrowths); ++i) {
     Reconstruction scene = tried[i].second;
     if (scene.points.size() < static_cast<std::size_t>(kLeastPoints)) break;
-    Grow(tracks, by_frame, lens, progress, scene);
+    Grow(tracks, by_frame, lens, progress, observer, scene);
     const int posed = static_cast<int>(
         std::count_if(scene.poses.begin(), scene.poses.end(), [](auto& p) { return !!p; }));
     if (posed > most) {
@@ -364,7 +374,9 @@ Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfi
     }
     if (most >= 0.9 * frames) break;
   }
-  motion.rms_px = AdjustBundle(tracks, lens, {.iterations = 5}, motion.scene, nullptr);
+  motion.rms_px =
+      AdjustBundle(tracks, lens, {.iterations = 5, .stop = progress.stop}, motion.scene, nullptr);
+  progress.Step("adjusting all poses", 1);
   CountInliers(tracks, lens, motion);
   return motion;
 }

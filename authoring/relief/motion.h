@@ -2,6 +2,7 @@
 // pair of frames that shows most depth. Frame and unit are free until the portal is known.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,11 @@ struct Motion {
   double rotation_residual_px = 0;  // 90th percentile over pairs, of the median after a rotation
 };
 
+// Called whenever poses were added and adjusted, in a frame of its own. May be empty.
+using MotionObserver = std::function<void(const Reconstruction&)>;
+
 Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfile& lens,
-                   const Progress& progress);
+                   const Progress& progress, const MotionObserver& observer = {});
 
 // Keeps the observations within 3 px of their point, drops points that nothing determines, and adds
 // points of tracks that have none. To be called between two adjustments.

@@ -48,7 +48,8 @@ cv::Mat WindowOf(const Lens& lens) {
 }  // namespace
 
 ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
-                          const ReliefOptions& options, StageClock& clock) {
+                          const ReliefOptions& options, const std::set<int>& excluded,
+                          StageClock& clock) {
   ReliefClip clip;
   const Progress reading = clock.Begin("read");
   Footage footage = Footage::Open(path);
@@ -70,7 +71,9 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
     if (!footage.Next(raw)) break;
     ClipRow row{i, footage.NameOf(i), ""};
     FrameLook look;
-    if (raw.empty())
+    if (excluded.contains(i))
+      row.reason = "left out by hand";
+    else if (raw.empty())
       row.reason = "unreadable: " + footage.fault();
     else if (raw.cols != info.width || raw.rows != info.height)
       row.reason = fmt::format("it is {} x {} px, the first frame {} x {}", raw.cols, raw.rows,

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
-#include "authoring/panorama/stage_clock.h"
 #include "authoring/panorama/frames/working_frame.h"
+#include "authoring/panorama/stage_clock.h"
 #include "authoring/relief/relief_options.h"
 #include "simulation/scene/lens.h"
 
@@ -33,6 +34,7 @@ struct ReliefClip {
 // Stages "read" and "prepare" of the clock. Throws Error where the footage cannot be read, the lens
 // is not for its pictures, or fewer than two frames are usable.
 ReliefClip ReadReliefClip(const std::filesystem::path& footage, const Lens& lens,
-                          const ReliefOptions& options, StageClock& clock);
+                          const ReliefOptions& options, const std::set<int>& excluded,
+                          StageClock& clock);
 
 }  // namespace arthro::authoring

@@ -151,19 +151,23 @@ cv::Mat CorrelationOf(const Normalised& view, const cv::Mat& sum, int window) {
 }
 
 // Agreement of the frames for one radius of every cell: mean of the better half; -1 where fewer
-// than three see it.
+// than three see it. Gives up early once the job is to stop.
 cv::Mat Agreement(const std::vector<View>& views, const LensProfile& lens, const Cells& cells,
-                  const cv::Mat& radius, int window) {
+                  const cv::Mat& radius, int window, const Progress& progress) {
   std::vector<Normalised> all;
   all.reserve(views.size());
   cv::Mat sum = cv::Mat::zeros(cells.size, CV_32F);
   for (const View& view : views) {
+    if (progress.ShouldStop()) return {};
     all.push_back(NormalisedView(view, lens, cells, radius, window));
     sum += all.back().value;
   }
   std::vector<cv::Mat> correlations;
   correlations.reserve(views.size());
-  for (const Normalised& view : all) correlations.push_back(CorrelationOf(view, sum, window));
+  for (const Normalised& view : all) {
+    if (progress.ShouldStop()) return {};
+    correlations.push_back(CorrelationOf(view, sum, window));
+  }
   cv::Mat score(cells.size, CV_32F, cv::Scalar(-1));
   std::vector<float> values(views.size());
   for (int y = 0; y < cells.size.height; ++y)
@@ -194,8 +198,9 @@ Round RunRound(const std::vector<View>& views, const LensProfile& lens, const Ce
   Round round;
   round.scores.resize(radii.size());
   ForEachIndex(static_cast<int>(radii.size()), options.threads, progress, stage, [&](int k) {
-    round.scores[At(k)] = Agreement(views, lens, cells, radii[At(k)], window);
+    round.scores[At(k)] = Agreement(views, lens, cells, radii[At(k)], window, progress);
   });
+  progress.Step(stage, 1);
   round.choice = ChooseLayers(round.scores);
   return round;
 }
@@ -297,6 +302,7 @@ cv::Mat ViewAgreement(const std::vector<View>& views, const LensProfile& lens, c
                  cv::Mat best(cells.size, CV_32F, cv::Scalar(-2)),
                      offset(cells.size, CV_32F, cv::Scalar(kReach + 1));
                  for (int k = -kReach; k <= kReach; ++k) {
+                   if (progress.ShouldStop()) return;
                    cv::Mat moved = radius + step * static_cast<double>(k);
                    Normalised shifted =
                        k == 0 ? all[At(i)] : NormalisedView(view, lens, cells, moved, window);
@@ -313,6 +319,7 @@ cv::Mat ViewAgreement(const std::vector<View>& views, const LensProfile& lens, c
                  good.convertTo(agrees[At(i)], CV_32F, 1.0 / 255);
                  counted.convertTo(counts[At(i)], CV_32F, 1.0 / 255);
                });
+  progress.Step("checking the surface", 1);
   cv::Mat good = cv::Mat::zeros(cells.size, CV_32F), total = cv::Mat::zeros(cells.size, CV_32F);
   for (std::size_t i = 0; i < views.size(); ++i) {
     good += agrees[i];
