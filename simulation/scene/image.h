@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "simulation/scene/relief_origin.h"
+
 namespace arthro {
 
 // 8-bit sRGB, three bytes a pixel in the order R, G, B.
@@ -37,6 +39,21 @@ struct DepthMap {
   bool empty() const { return width <= 0 || height <= 0; }
   float& at(int x, int y) { return relief[static_cast<std::size_t>(y) * width + x]; }
   float at(int x, int y) const { return relief[static_cast<std::size_t>(y) * width + x]; }
+};
+
+// Origin of each value of a depth map.
+struct OriginMap {
+  int width = 0, height = 0;
+  std::vector<ReliefOrigin> origin;
+
+  OriginMap() = default;
+  OriginMap(int w, int h, ReliefOrigin fill = ReliefOrigin::kNone)
+      : width(w),
+        height(h),
+        origin(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+  bool empty() const { return width <= 0 || height <= 0; }
+  ReliefOrigin& at(int x, int y) { return origin[static_cast<std::size_t>(y) * width + x]; }
+  ReliefOrigin at(int x, int y) const { return origin[static_cast<std::size_t>(y) * width + x]; }
 };
 
 }  // namespace arthro
