@@ -95,6 +95,14 @@ void Describe(const cv::Mat& confidence, const SweptSurface& surface, double lea
 
 }  // namespace
 
+Projection EnlargedProjection(const Projection& projection, int factor) {
+  Projection large = projection;
+  large.px_per_deg *= factor;
+  large.focal_px *= factor;
+  large.centre_px = (projection.centre_px + 0.5) * static_cast<double>(factor) - 0.5;
+  return large;
+}
+
 ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress) {
   CheckOptions(request.options);
   const ReliefOptions& options = request.options;
@@ -159,10 +167,16 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress) 
         if (!unknown.at<std::uint8_t>(y, x))
           largest = std::max<double>(largest, surface.radius.at<float>(y, x));
     report.radius = largest;
-    cv::Mat relief = largest - surface.radius;
+    cv::Mat relief = largest - surface.radius,
+            sigma = SigmaOfMeasured(surface, made.lens.focal_px());
     relief.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
+    sigma.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
     result.relief = PlainMap(relief);
+    result.sigma = PlainMap(sigma);
     result.confidence = PlainMap(confidence);
+    result.origin = OriginMap(relief.cols, relief.rows);
+    for (std::size_t i = 0; i < result.origin.origin.size(); ++i)
+      if (!std::isnan(result.relief.relief[i])) result.origin.origin[i] = ReliefOrigin::kMeasured;
     report.projection = surface.projection;
     report.width = relief.cols;
     report.height = relief.rows;

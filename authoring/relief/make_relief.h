@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "authoring/panorama/panorama_report.h"
 #include "authoring/relief/relief_options.h"
 #include "authoring/relief/relief_report.h"
 #include "simulation/core/progress.h"
@@ -28,11 +29,22 @@ struct ReliefRequest {
   std::optional<KnownLength> length;
 };
 
+// Maps over the directions of report.projection, of one size. All are empty where no surface was
+// found.
 struct ReliefResult {
-  DepthMap relief;      // m, NaN where nothing was measured; empty where no surface was found
-  DepthMap confidence;  // 0 to 1, probability of an error below 1 mm
+  DepthMap relief;      // m, NaN where no frame sees the tissue
+  DepthMap sigma;       // m, standard error of the relief; NaN where the relief is
+  DepthMap confidence;  // 0 to 1, probability of an error below 1 mm; 0 where it was not measured
+  OriginMap origin;
+  // Panorama over the relief, of `picture_scale` times the maps' size: texture of the tissue as
+  // seen from the portal. Alpha is 0 where no frame sees it.
+  RgbaPicture picture;
+  int picture_scale = 1;
   ReliefReport report;
 };
+
+// Directions of the pixels of a map that is enlarged by a whole factor.
+Projection EnlargedProjection(const Projection& projection, int factor);
 
 // A clip that does not determine depth gives a verdict and what there is. Throws Error for footage
 // or a lens that cannot be used, a known length that was not measured, and Error(kCancelled).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "authoring/relief/median.h"
 #include "simulation/core/units.h"
@@ -124,6 +125,24 @@ cv::Mat ConfidenceOf(const SweptSurface& surface, double least_parallax) {
       confidence.at<float>(y, x) = static_cast<float>(1 / (1 + std::exp(-sum)));
     }
   return confidence;
+}
+
+cv::Mat SigmaOfMeasured(const SweptSurface& surface, double focal_px) {
+  constexpr double kMatch = 0.3;        // px, error of a match with a correlation of 1
+  constexpr double kLeastPeak = 0.05;   // a worse correlation says no less
+  constexpr double kLeastAngle = 1e-3;  // rad
+  cv::Mat sigma(surface.radius.size(), CV_32F, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
+  for (int y = 0; y < sigma.rows; ++y)
+    for (int x = 0; x < sigma.cols; ++x) {
+      if (!(surface.radius.at<float>(y, x) > 0)) continue;
+      // Two rays meet with an error across them of the match's angle times the range, which their
+      // angle stretches along the ray.
+      const double peak = std::max<double>(surface.peak.at<float>(y, x), kLeastPeak);
+      const double angle = std::max<double>(surface.parallax.at<float>(y, x), kLeastAngle);
+      sigma.at<float>(y, x) =
+          static_cast<float>(surface.range.at<float>(y, x) * kMatch / (peak * focal_px * angle));
+    }
+  return sigma;
 }
 
 }  // namespace arthro::authoring

@@ -321,28 +321,37 @@ cv::Mat ViewAgreement(const std::vector<View>& views, const LensProfile& lens, c
   return good / cv::max(total, 1);
 }
 
-// How many views see each cell at a radius, and the largest angle between their rays.
+// How many views see each cell at its radius, from how far, and the largest angle between their
+// rays.
 void MeasureParallax(const std::vector<View>& views, const LensProfile& lens, const Cells& cells,
-                     const cv::Mat& radius, cv::Mat& parallax, cv::Mat& seen_by) {
-  parallax = cv::Mat::zeros(cells.size, CV_32F);
-  seen_by = cv::Mat::zeros(cells.size, CV_32F);
+                     SweptSurface& surface) {
+  surface.parallax = cv::Mat::zeros(cells.size, CV_32F);
+  surface.range = cv::Mat::zeros(cells.size, CV_32F);
+  surface.seen_by = cv::Mat::zeros(cells.size, CV_32F);
   std::vector<cv::Vec3f> rays;
   for (int y = 0; y < cells.size.height; ++y)
     for (int x = 0; x < cells.size.width; ++x) {
-      const float r = radius.at<float>(y, x);
+      const float r = surface.radius.at<float>(y, x);
       if (!(r > 0)) continue;
       const cv::Vec3f point = cells.directions[At(y) * At(cells.size.width) + At(x)] * r;
       rays.clear();
+      float ranges = 0;
       for (const View& view : views) {
         double pixel[2];
-        if (PixelOf(view, lens, point, pixel)) rays.push_back(cv::normalize(point - view.centre));
+        if (!PixelOf(view, lens, point, pixel)) continue;
+        const cv::Vec3f ray = point - view.centre;
+        const float range = static_cast<float>(cv::norm(ray));
+        ranges += range;
+        rays.push_back(ray / range);
       }
+      if (rays.empty()) continue;
       float least = 1;
       for (std::size_t i = 0; i < rays.size(); ++i)
         for (std::size_t j = i + 1; j < rays.size(); ++j)
           least = std::min(least, rays[i].dot(rays[j]));
-      parallax.at<float>(y, x) = std::acos(std::clamp(least, -1.0f, 1.0f));
-      seen_by.at<float>(y, x) = static_cast<float>(rays.size());
+      surface.parallax.at<float>(y, x) = std::acos(std::clamp(least, -1.0f, 1.0f));
+      surface.range.at<float>(y, x) = ranges / static_cast<float>(rays.size());
+      surface.seen_by.at<float>(y, x) = static_cast<float>(rays.size());
     }
 }
 
@@ -457,7 +466,7 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
   surface.peak = last.choice.score;
   cv::resize(first.choice.margin, surface.margin, cells.size, 0, 0, cv::INTER_LINEAR);
   cv::resize(first.choice.steadiness, surface.steadiness, cells.size, 0, 0, cv::INTER_LINEAR);
-  MeasureParallax(views, lens, cells, radius, surface.parallax, surface.seen_by);
+  MeasureParallax(views, lens, cells, surface);
   surface.agreement =
       ViewAgreement(ViewsOf(frames, scene, 1.0), lens, cells, radius, 9, options, progress);
   surface.radius.setTo(kUnknown, surface.seen_by < kLeastFrames);

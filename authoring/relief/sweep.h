@@ -25,6 +25,7 @@ struct SweptSurface {
   cv::Mat peak;        // correlation at the radius
   cv::Mat margin;      // how far the best other radius lies below it
   cv::Mat parallax;    // rad, largest angle between two rays
+  cv::Mat range;       // mean distance to the tips that see it
   cv::Mat steadiness;  // 0 to 1, share of the surround whose own best radius is the smooth one
   cv::Mat seen_by;     // frames
 };

@@ -28,7 +28,7 @@ namespace arthro::app {
 namespace {
 
 struct ReliefJob {
-  std::string lens, output, confidence, poses, report, between;
+  std::string lens, output, sigma, confidence, poses, report, between;
   std::optional<double> length_mm;
   bool is_partial = false;
   authoring::ReliefRequest request;
@@ -63,6 +63,7 @@ void Run(ReliefJob job) {
   if (is_written && !job.poses.empty())
     WriteAtomically(job.poses, authoring::JsonFromPoses(report));
   if (is_written && !result.relief.empty()) {
+    if (!job.sigma.empty()) WriteDepthMap(job.sigma, result.sigma);
     if (!job.confidence.empty()) WriteDepthMap(job.confidence, result.confidence);
     WriteDepthMap(job.output, result.relief);
   }
@@ -75,7 +76,8 @@ void Run(ReliefJob job) {
                             report.verdict.kind, report.verdict.test, report.verdict.value,
                             report.verdict.limit, report.verdict.sentence),
                 job.request.footage);
-  if (job.output == "-" || job.report == "-" || job.poses == "-" || job.confidence == "-") return;
+  for (const std::string& file : {job.output, job.sigma, job.confidence, job.poses, job.report})
+    if (file == "-") return;  // standard output holds one of them
   int posed = 0;
   for (const authoring::PosedFrame& frame : report.frames) posed += frame.is_posed;
   fmt::print(
@@ -106,6 +108,9 @@ void AddReliefJob(CLI::App& program) {
                                "where nothing was measured; - for standard output."),
                kDepthMapFile)
       ->required();
+  files->Output(job->add_option("--sigma", own->sigma,
+                                "32-bit float TIFF in metres: standard error of each cell."),
+                kDepthMapFile);
   files->Output(job->add_option("--confidence", own->confidence,
                                 "32-bit float TIFF: probability that a cell is within 1 mm."),
                 kDepthMapFile);
