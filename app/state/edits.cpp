@@ -69,7 +69,7 @@ void PutPanorama(authoring::Document& document, const std::shared_ptr<const Colo
   document.scene.backdrop.panorama = "panorama.png";
   if (keeps_depth) return;
   document.scene.backdrop.depth = "depth.tiff";
-  document.depth = nullptr;
+  SetDepth(document, nullptr);
   document.is_depth_imported = false;
 }
 

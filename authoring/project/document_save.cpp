@@ -58,10 +58,22 @@ bool HoldsPanorama(const fs::path& file, const ColourImage& panorama) {
   });
 }
 
+bool IsSameDepth(const DepthMap& a, const DepthMap& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::memcmp(a.relief.data(), b.relief.data(), a.relief.size() * sizeof(float)) == 0;
+}
+
 bool HoldsDepth(const fs::path& file, const DepthMap& depth) {
-  return Holds(file, depth, ReadDepthMap, [](const auto& a, const auto& b) {
-    return a.width == b.width && a.height == b.height &&
-           std::memcmp(a.relief.data(), b.relief.data(), a.relief.size() * sizeof(float)) == 0;
+  return Holds(file, depth, ReadDepthMap, IsSameDepth);
+}
+
+bool HoldsSigma(const fs::path& file, const DepthMap& sigma) {
+  return Holds(file, sigma, ReadDepthSigma, IsSameDepth);
+}
+
+bool HoldsOrigins(const fs::path& file, const OriginMap& origins) {
+  return Holds(file, origins, ReadOriginMap, [](const auto& a, const auto& b) {
+    return a.width == b.width && a.height == b.height && a.origin == b.origin;
   });
 }
 
@@ -191,17 +203,39 @@ class Saving {
   }
 
   void SaveDepth() {
-    fs::path& name = after_.scene.backdrop.depth;
+    Backdrop& backdrop = after_.scene.backdrop;
     if (!after_.depth || after_.depth->empty()) {
+      SetDepth(after_, nullptr);  // nothing is left that its error or origins describe
+      backdrop.depth.clear();
+      return;
+    }
+    RequireSameSize(*after_.panorama, *after_.depth, folder_ / backdrop.depth);
+    SaveMap(backdrop.depth, "depth.tiff", after_.depth, HoldsDepth, WriteDepthMap);
+    if (after_.depth_sigma)
+      RequireSameSize(*after_.depth, *after_.depth_sigma, folder_ / backdrop.depth_sigma);
+    SaveMap(backdrop.depth_sigma, "depth-sigma.tiff", after_.depth_sigma, HoldsSigma,
+            WriteDepthMap);
+    if (after_.depth_origin)
+      RequireSameSize(*after_.depth, *after_.depth_origin, folder_ / backdrop.depth_origin);
+    SaveMap(backdrop.depth_origin, "depth-origin.png", after_.depth_origin, HoldsOrigins,
+            WriteOriginMap);
+  }
+
+  // Writes a map of the backdrop as a file of the kind of `usual`; without a map there is no name.
+  template <class Map>
+  void SaveMap(fs::path& name, const fs::path& usual, const std::shared_ptr<const Map>& map,
+               bool (*holds)(const fs::path&, const Map&),
+               void (*write)(const fs::path&, const Map&)) {
+    if (!map) {
       name.clear();
       return;
     }
-    RequireSameSize(*after_.panorama, *after_.depth, folder_ / name);
-    SavePart(name, after_.depth, HoldsDepth, [&] {
-      fs::path fresh = FreshName(name, "depth.tiff", after_.depth);
-      if (!IsOneOf(fresh.extension().string(), {".tif", ".tiff"})) fresh.replace_extension(".tiff");
-      SourceOf(name, after_.depth);  // refuses a link that leaves the folder
-      return writer_.Write(fresh, [&](const fs::path& to) { WriteDepthMap(to, *after_.depth); });
+    SavePart(name, map, holds, [&] {
+      fs::path fresh = FreshName(name, usual, map);
+      const bool is_tiff = fresh.extension() == ".tif" && usual.extension() == ".tiff";
+      if (!is_tiff) fresh.replace_extension(usual.extension());
+      SourceOf(name, map);  // refuses a link that leaves the folder
+      return writer_.Write(fresh, [&](const fs::path& to) { write(to, *map); });
     });
   }
 

@@ -12,6 +12,9 @@ std::size_t BytesOfNewParts(const Document& document, std::set<const void*>& see
   const auto is_new = [&](const void* part) { return part && seen.insert(part).second; };
   if (is_new(document.panorama.get())) bytes += document.panorama->rgb.capacity();
   if (is_new(document.depth.get())) bytes += document.depth->relief.capacity() * sizeof(float);
+  if (is_new(document.depth_sigma.get()))
+    bytes += document.depth_sigma->relief.capacity() * sizeof(float);
+  if (is_new(document.depth_origin.get())) bytes += document.depth_origin->origin.capacity();
   for (const auto& surface : document.surfaces)
     if (is_new(surface.get()))
       bytes += surface->vertices.capacity() * sizeof(surface->vertices[0]) +

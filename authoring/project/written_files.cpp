@@ -8,6 +8,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
 #include "simulation/core/json_text.h"
+#include "simulation/scene/scene_files.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro::authoring {
@@ -36,9 +37,8 @@ WrittenFiles UnfinishedSaveOf(const fs::path& folder) {
 }
 
 std::set<fs::path> NamesOf(const Scene& scene) {
-  std::set<fs::path> names = {scene.backdrop.panorama, scene.backdrop.depth, scene.scope.lens};
-  for (const Tissue& tissue : scene.tissues) names.insert({tissue.surface, tissue.mesh});
-  return names;
+  const std::vector<fs::path> names = FilesNamedBy(scene);
+  return {names.begin(), names.end()};
 }
 
 }  // namespace

@@ -25,8 +25,20 @@ std::string PngFromColourImage(const ColourImage& image);
 DepthMap ReadDepthMap(const std::filesystem::path& file);
 void WriteDepthMap(const std::filesystem::path& file, const DepthMap& depth);
 
+// Standard error of a depth map in the same form. Throws Error(kBadImage) for anything else, and
+// for values that are negative, infinite or beyond 10 m. Written by WriteDepthMap.
+DepthMap ReadDepthSigma(const std::filesystem::path& file);
+
+// One-channel 8-bit PNG of the numbers of ReliefOrigin. Throws Error(kBadImage) for anything else.
+OriginMap ReadOriginMap(const std::filesystem::path& file);
+void WriteOriginMap(const std::filesystem::path& file, const OriginMap& origins);
+
 // Throws Error(kBadScene) when the two do not have the same size.
 void RequireSameSize(const ColourImage& panorama, const DepthMap& depth,
                      const std::filesystem::path& depth_file);
+void RequireSameSize(const DepthMap& depth, const DepthMap& sigma,
+                     const std::filesystem::path& sigma_file);
+void RequireSameSize(const DepthMap& depth, const OriginMap& origins,
+                     const std::filesystem::path& origin_file);
 
 }  // namespace arthro

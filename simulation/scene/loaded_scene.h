@@ -50,8 +50,11 @@ struct LoadedScene {
   Scene scene;
   std::shared_ptr<const ColourImage> panorama;  // null: none yet
   std::shared_ptr<const DepthMap> depth;        // same size as the panorama; null: a bare sphere
-  std::vector<SharedSurface> surfaces;          // one per tissue, in its own frame; null: none
-  std::optional<Lens> lens;                     // lens of the scope; none: equisolid
+  // Standard error of the depth map, m, and origin of each depth; same size; null: not known.
+  std::shared_ptr<const DepthMap> depth_sigma;
+  std::shared_ptr<const OriginMap> depth_origin;
+  std::vector<SharedSurface> surfaces;  // one per tissue, in its own frame; null: none
+  std::optional<Lens> lens;             // lens of the scope; none: equisolid
   // Folder or .arthro archive in which the scene is saved; empty until it is.
   std::filesystem::path folder;
   // Files of the assets by the name that the scene uses. Code that adds tetrahedra or a lens enters
@@ -59,6 +62,10 @@ struct LoadedScene {
   std::map<std::string, AssetFile> files;
   std::shared_ptr<const TemporaryFolder> unpacked;  // keeps the files of an opened archive
 };
+
+// Replaces the depth map, also by none (null). The standard error and the origins of another depth
+// map are removed with it.
+void SetDepth(LoadedScene& loaded, std::shared_ptr<const DepthMap> depth);
 
 // File of an asset by the name that the scene uses.
 std::filesystem::path FileOf(const LoadedScene& loaded, const std::filesystem::path& name);

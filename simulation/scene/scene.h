@@ -37,7 +37,8 @@ struct AssetRights {
 
 struct Backdrop {
   std::filesystem::path panorama, depth;  // no depth: a bare sphere
-  double radius = 0.05;                   // D, of the sphere about the scope portal
+  std::filesystem::path depth_sigma, depth_origin;
+  double radius = 0.05;  // D, of the sphere about the scope portal
   Projection projection;
   AssetRights rights;
   double relight = 0;
@@ -48,6 +49,12 @@ struct Backdrop {
     v("depth", depth, Any{}, "",
       "One-channel 32-bit float TIFF of the panorama's size: relief over the sphere towards the "
       "portal, in metres; NaN where nothing was imaged.");
+    v("depth_sigma", depth_sigma, Any{}, "",
+      "One-channel 32-bit float TIFF of the depth map's size: standard error of the relief, in "
+      "metres; NaN where it is not known.");
+    v("depth_origin", depth_origin, Any{}, "",
+      "One-channel 8-bit PNG of the depth map's size: 0 no depth, 1 measured, 2 estimated from "
+      "brightness, 3 interpolated.");
     v("radius", radius, kLength, "m", "Radius of the sphere about the scope portal.");
     v("relight", relight, LeftOutAt{0.0, kShare}, "",
       "0: as it was filmed, with its light. 1: that light is evened out, and the scope's own lamp "

@@ -3,7 +3,9 @@
 namespace arthro {
 
 std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
-  std::vector<std::filesystem::path> files = {scene.backdrop.panorama, scene.backdrop.depth,
+  const Backdrop& backdrop = scene.backdrop;
+  std::vector<std::filesystem::path> files = {backdrop.panorama, backdrop.depth,
+                                              backdrop.depth_sigma, backdrop.depth_origin,
                                               scene.scope.lens};
   for (const Tissue& tissue : scene.tissues) {
     files.push_back(tissue.surface);

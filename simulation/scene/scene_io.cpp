@@ -145,6 +145,16 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
     if (loaded.panorama) RequireSameSize(*loaded.panorama, *loaded.depth, path);
     return loaded.depth;
   });
+  named("backdrop.depth_sigma", backdrop.depth_sigma, [&](const fs::path& path) -> Part {
+    loaded.depth_sigma = Share(ReadDepthSigma(path));
+    if (loaded.depth) RequireSameSize(*loaded.depth, *loaded.depth_sigma, path);
+    return loaded.depth_sigma;
+  });
+  named("backdrop.depth_origin", backdrop.depth_origin, [&](const fs::path& path) -> Part {
+    loaded.depth_origin = Share(ReadOriginMap(path));
+    if (loaded.depth) RequireSameSize(*loaded.depth, *loaded.depth_origin, path);
+    return loaded.depth_origin;
+  });
   named("scope.lens", loaded.scene.scope.lens, [&](const fs::path& path) -> Part {
     loaded.lens = ReadLens(path);
     return nullptr;

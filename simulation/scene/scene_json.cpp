@@ -1,6 +1,7 @@
 #include "simulation/scene/scene_json.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,6 +66,14 @@ Scene SceneFromJson(nlohmann::json json, std::vector<JsonFault>& faults) {
   scene.Visit(FieldReader(reader));
   reader.RefuseOtherKeys(true);
   rod.Check(scene.rig.scope.rod_length, faults);
+  const Backdrop& backdrop = scene.backdrop;
+  for (const auto& [name, file] : {std::pair{"depth_sigma", &backdrop.depth_sigma},
+                                   std::pair{"depth_origin", &backdrop.depth_origin}})
+    if (!file->empty() && !json["backdrop"].contains("depth")) {
+      const std::string key = fmt::format("backdrop.{}", name);
+      faults.push_back({key, key + " is given without backdrop.depth, which it describes; name the "
+                                   "depth map too or leave it out"});
+    }
   for (std::size_t i = 0; i < scene.tissues.size(); ++i)
     if (scene.tissues[i].is_implicit && !scene.tissues[i].mesh.empty()) {
       const std::string key = fmt::format("tissues[{}].implicit", i);

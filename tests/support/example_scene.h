@@ -15,6 +15,8 @@ inline nlohmann::json FullSceneJson() {
     "backdrop": {
       "panorama": "pictures/panorama.png",
       "depth": "depth.tiff",
+      "depth_sigma": "sigma.tiff",
+      "depth_origin": "origin.png",
       "radius": 0.045,
       "projection": {"type": "gnomonic", "centre_px": [31.5, 15.5], "focal_px": 40},
       "rights": {"source": "phantom", "licence": "CC0-1.0", "consent": "none needed: synthetic"}
@@ -74,6 +76,8 @@ inline std::vector<SceneFault> SceneFaults() {
       {"/backdrop/panorama", "a/.", "backdrop.panorama", "must name a file"},
       {"/backdrop/panorama", "a\nb.png", "backdrop.panorama", "inside the scene's folder"},
       {"/backdrop/depth", 7, "backdrop.depth", "name of a file"},
+      {"/backdrop/depth_sigma", 0.001, "backdrop.depth_sigma", "name of a file"},
+      {"/backdrop/depth_origin", "../o.png", "backdrop.depth_origin", "inside the scene's folder"},
       {"/backdrop/projection/type", "cylindrical", "backdrop.projection.type", "equirectangular"},
       {"/backdrop/projection/focal_px", 0, "backdrop.projection.focal_px", "more than 0"},
       {"/backdrop/projection/focal_px", false, "backdrop.projection.focal_px", "false"},

@@ -63,7 +63,7 @@ Jobs::Work FullWork(const Document& document) {
       const Document& now = state.document();
       if (now.panorama != panorama || !SameOptions(now.depth_options, options)) return;
       Document next = now;
-      next.depth = depth;
+      SetDepth(next, depth);
       if (next.scene.backdrop.depth.empty()) next.scene.backdrop.depth = "depth.tiff";
       state.history.Amend(std::move(next));
       state.steps.depth->cache.Note(state.document());
@@ -102,7 +102,7 @@ void KeepDepthFresh(EditorState& state) {
   }
   if (auto made = cache.Find(document)) {  // after undo: computed before
     Document next = document;
-    next.depth = made;
+    SetDepth(next, made);
     state.history.Amend(std::move(next));
     return;
   }
@@ -148,7 +148,7 @@ void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
   Edit(state, "Depth: " + what, "depth." + what, [&](auto& next) {
     next.depth_options = options;
     // A map that was made before for these options is used again at once.
-    if (auto made = state.steps.depth->cache.Find(next)) next.depth = made;
+    if (auto made = state.steps.depth->cache.Find(next)) SetDepth(next, made);
   });
 }
 
@@ -157,7 +157,7 @@ void MakeDepth(EditorState& state) {
   if (!document.panorama || !document.is_depth_imported) return;
   Edit(state, "Replace the imported depth map", "", [&](auto& next) {
     next.is_depth_imported = false;
-    if (auto made = state.steps.depth->cache.Find(next)) next.depth = made;
+    if (auto made = state.steps.depth->cache.Find(next)) SetDepth(next, made);
   });
 }
 

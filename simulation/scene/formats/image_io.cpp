@@ -115,6 +115,16 @@ void Encode(const fs::path& file, const cv::Mat& mat, const std::vector<int>& pa
                   std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
+void RequireSizeOfDepth(const DepthMap& depth, const char* what, int width, int height,
+                        const fs::path& file) {
+  if (depth.width == width && depth.height == height) return;
+  throw Error(Code::kBadScene,
+              fmt::format("{} is {} x {} but the depth map is {} x {}; make both with "
+                          "`arthroscene relief`",
+                          what, width, height, depth.width, depth.height),
+              file);
+}
+
 }  // namespace
 
 ColourImage ReadColourImage(const fs::path& file) {
@@ -159,18 +169,17 @@ std::string PngFromColourImage(const ColourImage& image) {
 
 DepthMap ReadDepthMap(const fs::path& file) {
   const std::string bytes = BytesOf(file);
+  constexpr const char* kExpected =
+      "a depth map must be a one-channel 32-bit float TIFF in metres; make one with "
+      "`arthroscene depth`";
   const PictureFormat format = FormatOf(bytes);
   if (format == PictureFormat::kUnknown)
     throw Error(Code::kBadImage,
                 "this file is not a picture that can be read; a depth map is a one-channel 32-bit "
                 "float TIFF",
                 file);
-  if (format != PictureFormat::kTiff)
-    throw Error(Code::kBadImage,
-                "a depth map must be a one-channel 32-bit float TIFF in metres; make one with "
-                "`arthroscene depth`",
-                file);
-  DepthMap depth = DecodeDepthTiff(bytes, file);
+  if (format != PictureFormat::kTiff) throw Error(Code::kBadImage, kExpected, file);
+  DepthMap depth = DecodeDepthTiff(bytes, kExpected, file);
   for (std::size_t i = 0; i < depth.relief.size(); ++i) {
     if (std::isnan(depth.relief[i]) || std::abs(depth.relief[i]) <= kMostRelief) continue;
     const auto width = static_cast<std::size_t>(depth.width);
@@ -216,6 +225,62 @@ void WriteDepthMap(const fs::path& file, const DepthMap& depth) {
   WriteAtomically(file, bytes.str());
 }
 
+DepthMap ReadDepthSigma(const fs::path& file) {
+  const std::string bytes = BytesOf(file);
+  constexpr const char* kExpected =
+      "the standard error of a depth map must be a one-channel 32-bit float TIFF in metres; make "
+      "both with `arthroscene relief`";
+  if (FormatOf(bytes) != PictureFormat::kTiff) throw Error(Code::kBadImage, kExpected, file);
+  DepthMap sigma = DecodeDepthTiff(bytes, kExpected, file);
+  for (std::size_t i = 0; i < sigma.relief.size(); ++i) {
+    const float value = sigma.relief[i];
+    if (std::isnan(value) || (value >= 0.0f && value <= kMostRelief)) continue;
+    const auto width = static_cast<std::size_t>(sigma.width);
+    throw Error(Code::kBadImage,
+                fmt::format("the standard error at column {}, row {} is {:g} m; it must be between "
+                            "0 and {:g} m, or NaN where it is not known",
+                            i % width, i / width, value, kMostRelief),
+                file);
+  }
+  return sigma;
+}
+
+OriginMap ReadOriginMap(const fs::path& file) {
+  const std::string bytes = BytesOf(file);
+  if (FormatOf(bytes) != PictureFormat::kPng || !IsGreyPng(bytes))
+    throw Error(Code::kBadImage,
+                "the origins of a depth map must be a one-channel 8-bit PNG with the numbers 0 to "
+                "3; make both with `arthroscene relief`",
+                file);
+  const ColourImage grey = DecodePng(bytes, file);
+  OriginMap origins(grey.width, grey.height);
+  for (std::size_t i = 0; i < origins.origin.size(); ++i) {
+    const std::uint8_t value = grey.rgb[3 * i];
+    if (value > static_cast<std::uint8_t>(kLastReliefOrigin)) {
+      const auto width = static_cast<std::size_t>(grey.width);
+      throw Error(Code::kBadImage,
+                  fmt::format("the origin at column {}, row {} is {}; it must be 0 (none), 1 "
+                              "(measured), 2 (brightness) or 3 (interpolated)",
+                              i % width, i / width, value),
+                  file);
+    }
+    origins.origin[i] = static_cast<ReliefOrigin>(value);
+  }
+  return origins;
+}
+
+void WriteOriginMap(const fs::path& file, const OriginMap& origins) {
+  if (file != "-" && file.extension() != ".png")
+    throw Error(Code::kBadArgument,
+                "the origins of a depth map are written as a PNG; name the file .png", file);
+  if (origins.empty())
+    throw Error(Code::kBadArgument, "an empty map of origins cannot be written", file);
+  Encode(file,
+         cv::Mat(origins.height, origins.width, CV_8UC1,
+                 const_cast<ReliefOrigin*>(origins.origin.data())),
+         {});
+}
+
 void RequireSameSize(const ColourImage& panorama, const DepthMap& depth,
                      const fs::path& depth_file) {
   if (depth.width == panorama.width && depth.height == panorama.height) return;
@@ -225,6 +290,14 @@ void RequireSameSize(const ColourImage& panorama, const DepthMap& depth,
                   "`arthroscene depth`",
                   depth.width, depth.height, panorama.width, panorama.height),
       depth_file);
+}
+
+void RequireSameSize(const DepthMap& depth, const DepthMap& sigma, const fs::path& sigma_file) {
+  RequireSizeOfDepth(depth, "the standard error", sigma.width, sigma.height, sigma_file);
+}
+
+void RequireSameSize(const DepthMap& depth, const OriginMap& origins, const fs::path& origin_file) {
+  RequireSizeOfDepth(depth, "the map of origins", origins.width, origins.height, origin_file);
 }
 
 }  // namespace arthro

@@ -29,8 +29,11 @@ void RequireSize(std::uint64_t width, std::uint64_t height, const std::filesyste
 ColourImage DecodePng(std::string_view bytes, const std::filesystem::path& file);
 ColourImage DecodeJpeg(std::string_view bytes, const std::filesystem::path& file);
 ColourImage DecodeTiff(std::string_view bytes, const std::filesystem::path& file);
-// One channel of 32-bit floats.
-DepthMap DecodeDepthTiff(std::string_view bytes, const std::filesystem::path& file);
+// One channel of 32-bit floats; `expected` is the sentence that refuses another TIFF.
+DepthMap DecodeDepthTiff(std::string_view bytes, const char* expected,
+                         const std::filesystem::path& file);
+// Does the head of a PNG say one channel of 8 bits, without a palette?
+bool IsGreyPng(std::string_view bytes);
 
 // Only the head of the formats that OpenCV decodes: size, and bytes enough for it.
 void CheckBmp(std::string_view bytes, const std::filesystem::path& file);

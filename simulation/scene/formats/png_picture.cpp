@@ -87,6 +87,12 @@ bool ReadPixels(PngReading& reading) {
 
 }  // namespace
 
+bool IsGreyPng(std::string_view bytes) {
+  constexpr std::size_t kBitDepth = 24, kColourType = 25;  // places in the IHDR chunk
+  return bytes.size() > kColourType && bytes[kBitDepth] == 8 &&
+         bytes[kColourType] == PNG_COLOR_TYPE_GRAY;
+}
+
 ColourImage DecodePng(std::string_view bytes, const std::filesystem::path& file) {
   using namespace std::string_view_literals;
   if (bytes.find("IEND\xae\x42\x60\x82"sv) == bytes.npos) RefuseCutOff(file);

@@ -110,13 +110,9 @@ ColourImage DecodeTiff(std::string_view bytes, const fs::path& file) {
   return image;
 }
 
-DepthMap DecodeDepthTiff(std::string_view bytes, const fs::path& file) {
+DepthMap DecodeDepthTiff(std::string_view bytes, const char* expected, const fs::path& file) {
   const auto tiff = Open(bytes, file);
-  if (!tiff->is_float() || tiff->samples != 1)
-    throw Error(Code::kBadImage,
-                "a depth map must be a one-channel 32-bit float TIFF in metres; make one with "
-                "`arthroscene depth`",
-                file);
+  if (!tiff->is_float() || tiff->samples != 1) throw Error(Code::kBadImage, expected, file);
   DepthMap depth;
   depth.width = static_cast<int>(tiff->width);
   depth.height = static_cast<int>(tiff->height);

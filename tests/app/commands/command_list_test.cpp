@@ -267,6 +267,28 @@ TEST_F(Commands, AnImportedDepthMapIsReplacedOnlyWhenThatIsAskedForAndIsUndone) 
   EXPECT_EQ(state.document().depth, imported);
 }
 
+TEST_F(Commands, AnotherDepthMapDropsTheErrorAndTheOriginsOfTheImportedOne) {
+  Open();
+  const auto sigma = Share(DepthMap(400, 300, 0.0005f));
+  Edit(state, "Measure", "", [&](authoring::Document& next) {
+    next.depth_sigma = sigma;
+    next.depth_origin = Share(OriginMap(400, 300, ReliefOrigin::kMeasured));
+  });
+  SetTitle(state, "Other");
+  EXPECT_EQ(state.document().depth_sigma, sigma);
+  app::Run(state, "make-depth");
+  Settle(state);
+  EXPECT_FALSE(state.document().depth_sigma);
+  EXPECT_FALSE(state.document().depth_origin);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth_sigma, sigma);
+  EXPECT_TRUE(state.document().depth_origin);
+  WriteColourImage(temp / "other.png", test::KneePicture(200, 100));
+  ImportPanorama(state, temp / "other.png");
+  Settle(state);
+  EXPECT_FALSE(state.document().depth_sigma);
+}
+
 TEST_F(Commands, AnImportedDepthMapStaysImportedInASavedScene) {
   Open();
   SetTitle(state, "Other");

@@ -180,6 +180,56 @@ TEST(DocumentIo, AForeignFileOfTheSameNameIsLeftAlone) {
   ExpectSame(OpenDocument(folder / "scene"), saved);
 }
 
+// The same document with a measured relief: a depth map, its standard error and its origins.
+Document Measured(Document document) {
+  const int width = document.panorama->width, height = document.panorama->height;
+  SetDepth(document, Share(DepthMap(width, height, 0.012f)));
+  document.is_depth_imported = true;
+  document.depth_sigma = Share(DepthMap(width, height, 0.0003f));
+  OriginMap origins(width, height, ReliefOrigin::kMeasured);
+  origins.at(7, 3) = ReliefOrigin::kInterpolated;
+  document.depth_origin = Share(std::move(origins));
+  return document;
+}
+
+TEST(DocumentIo, KeepsTheErrorAndTheOriginsOfTheDepthMap) {
+  test::TempFolder folder;
+  const Sources sources(folder.path());
+  const Document saved = SaveDocument(Measured(sources.Author()), folder / "scene");
+  EXPECT_EQ(saved.scene.backdrop.depth_sigma, "depth-sigma.tiff");
+  EXPECT_EQ(saved.scene.backdrop.depth_origin, "depth-origin.png");
+  const auto files = FilesOf(folder / "scene");
+  Document opened = OpenDocument(folder / "scene");
+  ExpectSame(opened, saved);
+  EXPECT_TRUE(opened.is_depth_imported);
+  EXPECT_EQ(opened.depth_sigma->relief, saved.depth_sigma->relief);
+  EXPECT_EQ(opened.depth_origin->origin, saved.depth_origin->origin);
+  SaveDocument(opened, folder / "scene");
+  EXPECT_EQ(FilesOf(folder / "scene"), files) << "saved again, nothing changes";
+  SaveDocument(opened, folder / "copy.arthro");
+  EXPECT_EQ(OpenDocument(folder / "copy.arthro").depth_origin->at(7, 3),
+            ReliefOrigin::kInterpolated);
+}
+
+TEST(DocumentIo, AnotherDepthMapHasNeitherErrorNorOriginsOfTheFirst) {
+  test::TempFolder folder;
+  const Sources sources(folder.path());
+  const Document saved = SaveDocument(Measured(sources.Author()), folder / "scene");
+  for (const auto& depth : {Share(DepthMap(96, 64, 0.004f)), std::shared_ptr<const DepthMap>()}) {
+    Document changed = saved;
+    SetDepth(changed, saved.depth);
+    EXPECT_TRUE(changed.depth_sigma) << "the same map keeps them";
+    SetDepth(changed, depth);
+    EXPECT_FALSE(changed.depth_sigma);
+    EXPECT_FALSE(changed.depth_origin);
+    SaveDocument(changed, folder / "scene");
+    const Document opened = OpenDocument(folder / "scene");
+    EXPECT_FALSE(opened.depth_sigma);
+    EXPECT_FALSE(opened.depth_origin);
+    EXPECT_FALSE(fs::exists(folder / "scene/depth-sigma.tiff")) << "nothing names it any more";
+  }
+}
+
 TEST(DocumentIo, WithoutDepthTheSceneIsABareSphere) {
   test::TempFolder folder;
   const Sources sources(folder.path());
@@ -252,6 +302,11 @@ TEST(DocumentIo, SaysInOneSentenceWhyItCannotSave) {
   EXPECT_NE(fault(no_surface, folder / "s").find("has no surface"), std::string::npos);
   EXPECT_NE(fault(no_mesh, folder / "s").find("can no longer be found"), std::string::npos);
   EXPECT_NE(fault(bad_size, folder / "s").find("3 x 3"), std::string::npos);
+  Document bad_sigma = Measured(good), bad_origins = Measured(good);
+  bad_sigma.depth_sigma = Share(DepthMap(3, 3));
+  bad_origins.depth_origin = Share(OriginMap(4, 3));
+  EXPECT_NE(fault(bad_sigma, folder / "s").find("error is 3 x 3"), std::string::npos);
+  EXPECT_NE(fault(bad_origins, folder / "s").find("origins is 4 x 3"), std::string::npos);
   EXPECT_NE(fault(nan, folder / "s").find("backdrop.radius"), std::string::npos);
   EXPECT_NE(fault(good, folder / "no/such/place").find("could not be made"), std::string::npos);
   EXPECT_NE(fault(good, folder / "lens.json").find("could not be made"), std::string::npos);

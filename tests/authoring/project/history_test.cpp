@@ -29,6 +29,8 @@ std::string Print(const Document& document) {
   const auto put = [&](const void* part) { text += std::to_string(std::size_t(part)) + "\n"; };
   put(document.panorama.get());
   put(document.depth.get());
+  put(document.depth_sigma.get());
+  put(document.depth_origin.get());
   for (const auto& surface : document.surfaces) put(surface.get());
   for (const auto& [name, file] : document.files) text += name + " " + file.file.string() + "\n";
   return text + document.folder.string();
@@ -47,6 +49,8 @@ std::vector<Edit> EveryKindOfEdit() {
           {"rig", [](Document& d) { d.scene.rig.instrument.pivot.x = 0.01; }},
           {"depth option", [](Document& d) { d.depth_options.gamma = 1.5; }},
           {"depth", [](Document& d) { d.depth = std::make_shared<DepthMap>(100, 50, 0.01f); }},
+          {"error of the depth", [](Document& d) { d.depth_sigma = Share(DepthMap(100, 50)); }},
+          {"origins of the depth", [](Document& d) { d.depth_origin = Share(OriginMap(100, 50)); }},
           {"panorama", [](Document& d) { d.panorama = std::make_shared<ColourImage>(10, 5); }},
           {"add tissue",
            [](Document& d) {

@@ -87,6 +87,24 @@ TEST(ArchiveIo, PackingAndUnpackingGivesTheSameFilesAndOnlyThose) {
   EXPECT_EQ(FilesOf(folder / "back"), files) << "what the scene does not name stays at home";
 }
 
+TEST(ArchiveIo, CarriesTheErrorAndTheOriginsOfTheDepthMap) {
+  test::TempFolder folder;
+  fs::create_directory(folder / "scene");
+  WriteSmallScene(folder / "scene");
+  Scene scene = ReadScene(folder / "scene");
+  const DepthMap depth = ReadDepthMap(folder / "scene/d.tiff");
+  scene.backdrop.depth_sigma = "s.tiff";
+  scene.backdrop.depth_origin = "o.png";
+  WriteDepthMap(folder / "scene/s.tiff", DepthMap(depth.width, depth.height, 0.0004f));
+  WriteOriginMap(folder / "scene/o.png",
+                 OriginMap(depth.width, depth.height, ReliefOrigin::kBrightness));
+  WriteScene(folder / "scene/scene.json", scene);
+  PackScene(folder / "scene", folder / "s.arthro");
+  const LoadedScene loaded = LoadScene(folder / "s.arthro");
+  EXPECT_EQ(loaded.depth_sigma->at(3, 3), 0.0004f);
+  EXPECT_EQ(loaded.depth_origin->at(3, 3), ReliefOrigin::kBrightness);
+}
+
 TEST(ArchiveIo, TheSameSceneGivesTheSameBytes) {
   test::TempFolder folder;
   fs::create_directory(folder / "scene");

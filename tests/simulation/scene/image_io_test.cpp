@@ -54,6 +54,21 @@ TEST(ImageIo, DepthKeepsFloatsAndNaN) {
   EXPECT_TRUE(std::isnan(back.at(3, 2)));
 }
 
+TEST(ImageIo, OriginsKeepTheirNumbers) {
+  test::TempFolder folder;
+  OriginMap origins(7, 5, ReliefOrigin::kMeasured);
+  origins.at(3, 2) = ReliefOrigin::kInterpolated;
+  origins.at(4, 2) = ReliefOrigin::kBrightness;
+  origins.at(6, 4) = ReliefOrigin::kNone;
+  WriteOriginMap(folder / "o.png", origins);
+  const OriginMap back = ReadOriginMap(folder / "o.png");
+  EXPECT_EQ(back.width, 7);
+  EXPECT_EQ(back.height, 5);
+  EXPECT_EQ(back.origin, origins.origin);
+  EXPECT_THROW(WriteOriginMap(folder / "o.jpg", origins), Error);
+  EXPECT_THROW(WriteOriginMap(folder / "o.png", {}), Error);
+}
+
 TEST(ImageIo, RefusesMissingEmptyTruncatedAndForeignFiles) {
   test::TempFolder folder;
   EXPECT_NE(FaultOfReading(folder / "none.png").find("could not be opened"), std::string::npos);

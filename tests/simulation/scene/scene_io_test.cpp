@@ -97,6 +97,87 @@ TEST(SceneIo, ASceneWithoutDepthIsABareSphere) {
   EXPECT_EQ(LoadScene(folder.path()).depth, nullptr);
 }
 
+// The small scene with the standard error and the origins of its depth map.
+Scene MeasuredScene() {
+  Scene scene = SmallScene();
+  scene.backdrop.depth_sigma = "s.tiff";
+  scene.backdrop.depth_origin = "o.png";
+  return scene;
+}
+
+void WriteMeasuredFiles(const fs::path& folder) {
+  WriteScene(folder / "scene.json", MeasuredScene());
+  WriteSmallFiles(folder);
+  DepthMap sigma(16, 8, 0.0004f);
+  sigma.at(2, 1) = std::numeric_limits<float>::quiet_NaN();
+  WriteDepthMap(folder / "s.tiff", sigma);
+  OriginMap origins(16, 8, ReliefOrigin::kMeasured);
+  origins.at(2, 1) = ReliefOrigin::kInterpolated;
+  WriteOriginMap(folder / "o.png", origins);
+}
+
+TEST(SceneIo, LoadsTheErrorAndTheOriginsOfADepthMap) {
+  test::TempFolder folder;
+  WriteMeasuredFiles(folder.path());
+  const LoadedScene loaded = LoadScene(folder.path());
+  ASSERT_TRUE(loaded.depth_sigma && loaded.depth_origin);
+  EXPECT_EQ(loaded.depth_sigma->at(3, 3), 0.0004f);
+  EXPECT_TRUE(std::isnan(loaded.depth_sigma->at(2, 1)));
+  EXPECT_EQ(loaded.depth_origin->at(3, 3), ReliefOrigin::kMeasured);
+  EXPECT_EQ(loaded.depth_origin->at(2, 1), ReliefOrigin::kInterpolated);
+  EXPECT_EQ(loaded.files.at("s.tiff").part.lock(), loaded.depth_sigma);
+  EXPECT_EQ(loaded.files.at("o.png").part.lock(), loaded.depth_origin);
+}
+
+TEST(SceneIo, AScenesDepthMapHasNeitherErrorNorOriginsUnlessTheyAreNamed) {
+  test::TempFolder folder;
+  WriteMeasuredFiles(folder.path());
+  WriteScene(folder / "scene.json", SmallScene());
+  const LoadedScene loaded = LoadScene(folder.path());
+  EXPECT_FALSE(loaded.depth_sigma);
+  EXPECT_FALSE(loaded.depth_origin);
+  EXPECT_EQ(ReadWholeFile(folder / "scene.json").find("depth_"), std::string::npos);
+}
+
+TEST(SceneIo, RefusesAnErrorAndOriginsThatDoNotFitTheDepthMap) {
+  test::TempFolder folder;
+  const auto only_fault = [&]() -> std::string {
+    std::vector<std::string> faults;
+    LoadScene(folder.path(), faults);
+    return faults.size() == 1 ? faults[0] : std::to_string(faults.size()) + " faults";
+  };
+  const auto expect = [&](const char* part) {
+    const std::string fault = only_fault();
+    EXPECT_NE(fault.find(part), std::string::npos) << fault;
+    WriteMeasuredFiles(folder.path());
+    EXPECT_EQ(only_fault(), "0 faults");
+  };
+  WriteMeasuredFiles(folder.path());
+  WriteDepthMap(folder / "s.tiff", DepthMap(16, 9, 0.001f));
+  expect("the standard error is 16 x 9 but the depth map is 16 x 8");
+  WriteOriginMap(folder / "o.png", OriginMap(8, 8));
+  expect("the map of origins is 8 x 8 but the depth map is 16 x 8");
+  fs::rename(folder / "o.png", folder / "s.tiff");
+  WriteOriginMap(folder / "o.png", OriginMap(16, 8));
+  expect("the standard error of a depth map must be a one-channel 32-bit float TIFF");
+  WriteColourImage(folder / "s.tiff", ColourImage(16, 8));
+  expect("the standard error of a depth map must be a one-channel 32-bit float TIFF");
+  WriteColourImage(folder / "o.png", ColourImage(16, 8));
+  expect("the origins of a depth map must be a one-channel 8-bit PNG");
+  fs::copy_file(folder / "d.tiff", folder / "o.png", fs::copy_options::overwrite_existing);
+  expect("the origins of a depth map must be a one-channel 8-bit PNG");
+  OriginMap unknown(16, 8);
+  unknown.at(5, 2) = static_cast<ReliefOrigin>(4);
+  WriteOriginMap(folder / "o.png", unknown);
+  expect("the origin at column 5, row 2 is 4");
+  for (const float bad : {-0.001f, 11.0f, std::numeric_limits<float>::infinity()}) {
+    DepthMap sigma(16, 8, 0.001f);
+    sigma.at(3, 4) = bad;
+    WriteDepthMap(folder / "s.tiff", sigma);
+    expect("the standard error at column 3, row 4");
+  }
+}
+
 TEST(SceneIo, ListsEveryMissingOrUnfitFile) {
   test::TempFolder folder;
   Scene scene = SmallScene();

@@ -20,6 +20,16 @@ std::vector<JsonFault> FaultsOf(const json& scene) {
   return faults;
 }
 
+TEST(SceneJson, ErrorAndOriginsOfADepthMapNeedTheDepthMap) {
+  json scene = test::FullSceneJson();
+  scene["backdrop"].erase("depth");
+  const std::vector<JsonFault> faults = FaultsOf(scene);
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].key, "backdrop.depth_sigma");
+  EXPECT_EQ(faults[1].key, "backdrop.depth_origin");
+  EXPECT_NE(faults[0].sentence.find("without backdrop.depth"), std::string::npos);
+}
+
 TEST(SceneJson, ReadsEveryField) {
   std::vector<JsonFault> faults;
   const Scene scene = SceneFromJson(test::FullSceneJson(), faults);
@@ -28,6 +38,8 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_EQ(scene.author, "Dr. Ó Súilleabháin");
   EXPECT_EQ(scene.backdrop.panorama, "pictures/panorama.png");
   EXPECT_EQ(scene.backdrop.depth, "depth.tiff");
+  EXPECT_EQ(scene.backdrop.depth_sigma, "sigma.tiff");
+  EXPECT_EQ(scene.backdrop.depth_origin, "origin.png");
   EXPECT_EQ(scene.backdrop.radius, 0.045);
   EXPECT_EQ(scene.backdrop.projection.type, ProjectionType::kGnomonic);
   EXPECT_EQ(scene.backdrop.projection.centre_px, glm::dvec2(31.5, 15.5));
