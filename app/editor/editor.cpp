@@ -29,6 +29,7 @@
 #include "app/recording/unfinished_film.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/depth/depth_panels.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
@@ -280,7 +281,7 @@ class Editor {
     TakeNews(state_, news);
     if (FinishWork(state_)) last_event_ = now;
     RunShortcuts(state_);
-    if (state_.dialogs.empty() && !ShowsFootage(state_))
+    if (state_.dialogs.empty() && !ShowsFootage(state_) && !ShowsDepthBoard(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.steps.practice->hands->Look()) last_event_ = now;
     if (state_.practice && state_.dialogs.empty())
@@ -376,7 +377,9 @@ class Editor {
       TopBar(ui, state_, layout.top);
       StepsPanel(ui, state_, layout.side);
       if (ShowsFootage(state_)) {
-        Footage(ui, layout);
+        Board(ui, layout, FootageBoardPage);
+      } else if (ShowsDepthBoard(state_)) {
+        Board(ui, layout, DepthBoardPage);
       } else {
         Scene(ui, layout);
       }
@@ -385,14 +388,18 @@ class Editor {
     Dialogs(ui, state_);
   }
 
-  void Footage(Ui& ui, const Layout& layout) {
-    const Area board = {layout.picture.x, layout.picture.y,
-                        layout.overview.x + layout.overview.width - layout.picture.x,
-                        layout.picture.height};
+  // Picture and overview together.
+  static Area BoardArea(const Layout& layout) {
+    return {layout.picture.x, layout.picture.y,
+            layout.overview.x + layout.overview.width - layout.picture.x, layout.picture.height};
+  }
+
+  template <class Page>
+  void Board(Ui& ui, const Layout& layout, const Page& page) {
     picture_focused_ = false;
     footage_textures_.BeginFrame();
-    FootageBoardPage(ui, state_, board,
-                     [&](const SharedPicture& picture) { return footage_textures_.IdOf(picture); });
+    page(ui, state_, BoardArea(layout),
+         [&](const SharedPicture& picture) { return footage_textures_.IdOf(picture); });
     footage_textures_.EndFrame();
   }
 

@@ -123,6 +123,7 @@ bool FinishWork(EditorState& state) {
   changed = FinishDepth(state) || changed;
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
+  KeepDepthBoardFresh(state);
   return changed;
 }
 

@@ -64,6 +64,14 @@ void HelpWindow(Ui& ui, EditorState& state) {
     ImGui::EndTable();
   }
   Gap(ui);
+  Heading(ui, "On the map of the depth");
+  if (BeginRows(ui, "depth map")) {
+    Row(ui, "Click", "Read a depth, set a point or paint, by the tool");
+    Row(ui, "Drag", "Draw the line of a profile or a length, or paint");
+    Row(ui, "Wheel, right drag", "Look closer, shift");
+    ImGui::EndTable();
+  }
+  Gap(ui);
   Heading(ui, "Hands, while a key is held");
   if (BeginRows(ui, "hands")) {
     for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);

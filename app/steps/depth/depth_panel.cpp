@@ -8,9 +8,27 @@
 #include "app/panels/options_panel.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/depth/depth_panels.h"
 #include "app/steps/depth/depth_step.h"
 
 namespace arthro::app {
+
+namespace {
+
+// Switch between the scene through the scope and the map.
+void ScopeOrMap(Ui& ui, EditorState& state) {
+  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  const bool is_map = ShowsDepthBoard(state);
+  const Command& scope = CommandOf(state, "depth-scope");
+  if (ToggleButton(ui, scope.words, !is_map, scope.enabled(state), {half, 0}, scope.help))
+    Run(state, scope);
+  ImGui::SameLine();
+  const Command& map = CommandOf(state, "depth-map");
+  if (ToggleButton(ui, map.words, is_map, map.enabled(state), {half, 0}, map.help)) Run(state, map);
+  Gap(ui, 2);
+}
+
+}  // namespace
 
 void DepthPanel(Ui& ui, EditorState& state) {
   const authoring::Document document = state.document();  // a copy: edits below move it
@@ -18,9 +36,19 @@ void DepthPanel(Ui& ui, EditorState& state) {
     QuietText(ui, "Depth is made from a panorama; import one first.");
     return;
   }
+  ScopeOrMap(ui, state);
   const bool is_imported = document.is_depth_imported;
+  if (HasMeasuredDepth(document))
+    Text(ui, "Measured from the motion of the scope.");
+  else if (!is_imported)
+    Text(ui, "Estimated from brightness, not measured.");
+  if (ShowsDepthBoard(state)) {
+    Gap(ui, 2);
+    return DepthMapPanel(ui, state);
+  }
   if (is_imported) {
-    Text(ui, "This scene has a depth map that was imported, not made from its picture.");
+    if (!HasMeasuredDepth(document))
+      Text(ui, "This scene has a depth map that was imported, not made from its picture.");
     QuietText(ui,
               "It is kept as it is, so the settings below do nothing. Replace it by a map that is "
               "made from the picture to use them; Undo brings the imported one back.");

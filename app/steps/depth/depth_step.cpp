@@ -165,7 +165,124 @@ namespace {
 
 using State = EditorState;
 
+DepthBoard& BoardOf(State& state) { return state.steps.depth->board; }
+
+bool HasBoard(const State& state) { return Idle(state) && HasPicture(state); }
+
+template <MapTool tool>
+void TakeTool(State& state) {
+  state.step = Step::kDepth;
+  BoardOf(state).is_shown = true;
+  BoardOf(state).tool = tool;
+}
+
+template <MapLayer layer>
+void ShowLayer(State& state) {
+  state.step = Step::kDepth;
+  BoardOf(state).is_shown = true;
+  BoardOf(state).layer = layer;
+}
+
 constexpr Command kCommands[] = {
+    {"depth-map",
+     "Map of the depth",
+     "Show the depth over the panorama: its origin, its uncertainty, distances and profiles.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     [](State& state) {
+       state.step = Step::kDepth;
+       BoardOf(state).is_shown = true;
+     }},
+    {"depth-scope",
+     "Scope view",
+     "Show the scene through the scope and from outside.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     [](State& state) { BoardOf(state).is_shown = false; }},
+    {"map-origin",
+     "Origin",
+     "Colour each depth by its origin: measured, estimated from brightness or interpolated.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ShowLayer<MapLayer::kOrigin>},
+    {"map-sigma",
+     "Uncertainty",
+     "Colour each depth by its standard error.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ShowLayer<MapLayer::kSigma>},
+    {"map-range",
+     "Distance",
+     "Colour each depth by the distance of the tissue from the portal.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ShowLayer<MapLayer::kRange>},
+    {"map-picture",
+     "Picture only",
+     "Show the panorama without colours.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ShowLayer<MapLayer::kPicture>},
+    {"map-read",
+     "Read a depth",
+     "Click on the map: the distance there with its standard error.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     TakeTool<MapTool::kRead>},
+    {"map-length",
+     "Give a length",
+     "Click on two points whose distance is known; it sets the scale of the scene.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     TakeTool<MapTool::kLength>},
+    {"map-profile",
+     "Profile",
+     "Draw a line on the map: the distance of the tissue along it.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     TakeTool<MapTool::kProfile>},
+    {"map-brush",
+     "Mark as wrong",
+     "Paint over depth that is wrong. It is interpolated from its surround instead.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     TakeTool<MapTool::kBrush>},
+    {"set-scale",
+     "Set the scale",
+     "Scale the scene so that the distance between the two points is the length that was given.",
+     "Depth",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && CanSetScale(state); },
+     SetScale},
+    {"forget-lengths",
+     "Forget the lengths",
+     "Remove the points and the lengths. The scale stays as it is.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ForgetLengths},
     {"make-depth",
      "Make depth from the picture",
      "Replace the imported depth map by one that is made from the picture. Undo brings it back.",

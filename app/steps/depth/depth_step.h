@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/state/command.h"
+#include "app/steps/depth/depth_board.h"
 #include "app/steps/depth/depth_cache.h"
 
 namespace arthro::app {
@@ -20,6 +21,7 @@ struct DepthStep {
   Jobs preview_jobs;
   authoring::DepthOptions in_work;  // options of the map that preview_jobs computes
   std::function<void(EditorState&)> when_ready;
+  DepthBoard board;
 };
 std::span<const Command> DepthCommands();
 void DepthPanel(Ui& ui, EditorState& state);

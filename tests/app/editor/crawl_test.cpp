@@ -13,6 +13,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "authoring/project/document_io.h"
+#include "tests/support/measured_scene.h"
 #include "tests/support/run_window.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/small_scene.h"
@@ -66,6 +68,12 @@ TEST_F(Crawl, AnEmptyDocumentStandsAnything) {
 TEST_F(Crawl, ASceneWithTissueStandsAnything) {
   const fs::path scene = test::WriteSmallScene(temp / "knee");
   Drive("edit " + scene.string(), "", {{1024, 700}, {320, 240}, {800, 600}}, 120);
+}
+
+TEST_F(Crawl, TheMapOfAMeasuredDepthStandsAnything) {
+  authoring::SaveDocument(test::MeasuredDocument(), temp / "scene");
+  Drive("edit " + (temp / "scene").string(), "key f7\nclick \"Map of the depth\"\n",
+        {{1024, 700}, {320, 240}, {640, 480}}, 90);
 }
 
 TEST_F(Crawl, TheDemoSceneStandsAnything) {
