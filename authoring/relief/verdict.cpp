@@ -60,7 +60,7 @@ ReliefVerdict JudgePivot(double miss, double spread) {
   if (spread < kWide || miss <= kMostMiss) return {};
   return {"pivot",
           "the shafts do not meet in one point, so that the poses are doubtful; check the view "
-          "angle and the lens, hold the camera head still, or give --use-pivot=false",
+          "angle and the lens, or hold the camera head still",
           "distance between shafts and portal over the insertion", miss, kMostMiss};
 }
 

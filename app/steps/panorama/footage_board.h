@@ -17,7 +17,8 @@
 
 namespace arthro::authoring {
 struct PanoramaOptions;
-}
+struct ReliefSoFar;
+}  // namespace arthro::authoring
 
 namespace arthro::app {
 
@@ -35,6 +36,8 @@ struct FrameNote {
   FrameStatus status = FrameStatus::kNotYet;
   std::string reason;                        // why the frame is not placed
   double rms_px = 0, expected_error_px = 0;  // errors of a placed frame
+  // Standard deviation of the camera's position, m; 0 where the frame was placed without a pose.
+  double pose_sigma = 0;
 };
 
 enum class FrameView { kRaw, kRectified, kEvenLight };
@@ -59,11 +62,14 @@ struct FootageBoard {
   int lens = 0;
   Owned<authoring::PanoramaOptions> options;  // never empty
   std::set<int> excluded;
-  std::string next_stage;  // first stage of the next run; empty when it would change nothing
+  bool measures_relief = true;  // before the panorama, where the lens is known
+  double view_angle = 0;        // rad, of the scene's scope
+  std::string next_stage;       // first stage of the next run; empty when it would change nothing
 
   // Report of the last run, or of the one under way.
-  std::vector<FrameNote> notes;          // one per frame
-  SharedPicture mosaic;                  // grows during a run
+  std::vector<FrameNote> notes;                          // one per frame
+  SharedPicture mosaic;                                  // grows during a run
+  std::shared_ptr<const authoring::ReliefSoFar> motion;  // poses and points; the same
   std::shared_ptr<LentSession> session;  // null before the first run; shared with the jobs
   std::shared_ptr<const MadePanorama> made;
 

@@ -131,7 +131,9 @@ void BeginBoard(EditorState& state, const FootageClip& clip) {
     for (LensChoice& lens : board.lenses)
       if (lens.preset) lens.lens.reset();  // its round window is to be found
     *board.options = *state.steps.panorama->footage->options;
+    board.measures_relief = state.steps.panorama->footage->measures_relief;
   }
+  board.view_angle = state.document().scene.scope.view_angle;
   NoteNextRun(board);
   state.steps.panorama->footage = std::move(board);
   state.steps.panorama->shows_footage = true;

@@ -45,6 +45,7 @@ void TakeFootageMail(EditorState& state) {
     board.large = {};
     NoteNextRun(board);
   }
+  if (news.motion) board.motion = std::move(news.motion);
   if (news.mosaic) board.mosaic = std::move(news.mosaic);
 }
 
@@ -148,6 +149,11 @@ bool FinishFootage(EditorState& state) {
     if (has_ended && state.steps.panorama->footage && !FootageIsUnderWay(state))
       NoteNextRun(*state.steps.panorama->footage);
     changed = changed || has_ended;
+  }
+  if (auto& footage = state.steps.panorama->footage;
+      footage && footage->view_angle != state.document().scene.scope.view_angle) {
+    footage->view_angle = state.document().scene.scope.view_angle;
+    if (!FootageIsUnderWay(state)) NoteNextRun(*footage);
   }
   if (ShowsFootage(state)) ReadLarge(state);
   return changed;

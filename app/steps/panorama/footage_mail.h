@@ -23,7 +23,8 @@ struct FootageNews {
   std::optional<LensCircle> circle;  // the round window, once enough frames were seen
   std::vector<std::pair<int, SharedPicture>> thumbs;
   std::vector<std::pair<int, FrameNote>> notes;
-  SharedPicture mosaic;  // the newest one
+  SharedPicture mosaic;                                  // the newest one
+  std::shared_ptr<const authoring::ReliefSoFar> motion;  // the newest one
 };
 
 class FootageMail {
@@ -47,6 +48,10 @@ class FootageMail {
   void PutMosaic(SharedPicture mosaic) {
     const std::lock_guard lock(mutex_);
     news_.mosaic = std::move(mosaic);
+  }
+  void PutReliefSoFar(std::shared_ptr<const authoring::ReliefSoFar> motion) {
+    const std::lock_guard lock(mutex_);
+    news_.motion = std::move(motion);
   }
   FootageNews Take() {
     const std::lock_guard lock(mutex_);

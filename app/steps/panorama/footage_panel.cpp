@@ -9,6 +9,7 @@
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
+#include "app/steps/panorama/panorama_run.h"
 #include "authoring/panorama/panorama_options.h"
 
 namespace arthro::app {
@@ -91,6 +92,33 @@ void LensChooser(Ui& ui, EditorState& state) {
     BrowseForLens(state);
 }
 
+// Whether the next run measures; grey where no lens is chosen.
+void ReliefChooser(Ui& ui, EditorState& state) {
+  const FootageBoard& board = *state.steps.panorama->footage;
+  const auto lens = static_cast<std::size_t>(board.lens);
+  const bool has_lens = lens < board.lenses.size() && board.lenses[lens].lens;
+  int chosen = board.measures_relief ? 0 : 1;
+  ImGui::BeginDisabled(!has_lens);
+  if (Combo(ui, "Measure relief from motion", chosen, {"automatic", "no"},
+            "Automatic: while the scope moves, near tissue shifts against far tissue, and that "
+            "measures "
+            "the depth. "
+            "Where the clip does not show that, the panorama is made as usual and its depth is "
+            "estimated from brightness."))
+    SetMeasuresRelief(state, chosen == 0);
+  ImGui::EndDisabled();
+  if (!has_lens) QuietText(ui, "Only with the lens of the scope can relief be measured.");
+}
+
+// Finding of a measurement that did not succeed, and what follows from it.
+void NotMeasured(Ui& ui, EditorState& state, const MadeRelief& relief) {
+  for (const std::string& line : WordsOfRelief(relief)) ColouredText(ui, line, kWarning);
+  if (const std::string test = WordsOfTest(relief.report.verdict); !test.empty())
+    QuietText(ui, test + ".");
+  Text(ui, "The panorama was made as usual. Its depth is estimated, not measured.");
+  if (relief.is_partial()) CommandButton(ui, state, "use-measured-part", {-FLT_MIN, 0});
+}
+
 // The one that goes on from here.
 bool MainButton(Ui& ui, const std::string& name, bool enabled, const char* help) {
   ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
@@ -127,6 +155,10 @@ void Result(Ui& ui, EditorState& state) {
   const Command& use = CommandOf(state, "use-panorama");
   if (MainButton(ui, use.words, use.enabled(state), use.help)) Run(state, use);
   Gap(ui, 1);
+  if (board.made->relief && !board.made->is_measured()) {
+    NotMeasured(ui, state, *board.made->relief);
+    Gap(ui, 1);
+  }
   for (std::size_t i = 1; i < lines.size(); ++i) Text(ui, lines[i]);
   for (const std::string& warning : WarningsOfResult(board)) ColouredText(ui, warning, kWarning);
 }
@@ -138,6 +170,7 @@ void FootagePanel(Ui& ui, EditorState& state) {
   if (!state.steps.panorama->footage) return;
   Gap(ui, 2);
   LensChooser(ui, state);
+  ReliefChooser(ui, state);
   authoring::PanoramaOptions options = *state.steps.panorama->footage->options;
   OptionsPanelVisitor panel{ui};
   InFront in_front{panel};

@@ -24,6 +24,8 @@ const char* SignOf(FrameStatus status);  // so that colour is not all there is
 const char* ToString(FrameStatus status);
 
 void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
+// Camera poses and tissue points, from above and from the side.
+void MotionPicture(Ui& ui, const authoring::ReliefSoFar& so_far, const Area& area);
 void FrameLine(Ui& ui, EditorState& state, const Area& area);  // one mark per frame, the whole clip
 void FrameStrip(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
 float FrameStripHeight(const Ui& ui);

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_words.h"
@@ -28,8 +29,8 @@ authoring::PanoramaObserver ObserverOf(const std::shared_ptr<FootageMail>& mail,
   return observer;
 }
 
-std::shared_ptr<const MadePanorama> MadeOf(authoring::PanoramaResult result,
-                                           const std::set<int>& excluded) {
+std::shared_ptr<MadePanorama> MadeOf(authoring::PanoramaResult result,
+                                     const std::set<int>& excluded) {
   auto made = std::make_shared<MadePanorama>();
   made->picture = PictureFromRgba(result.picture);
   made->shown = PictureFromRgba(result.picture, kBoardEdge);
@@ -39,6 +40,19 @@ std::shared_ptr<const MadePanorama> MadeOf(authoring::PanoramaResult result,
   made->projection.centre_px = {view.cx, view.cy};
   made->report = std::move(result.report);
   made->excluded = excluded;
+  return made;
+}
+
+std::shared_ptr<const MadePanorama> MadeFrom(const std::shared_ptr<const MadeRelief>& relief,
+                                             const ReliefSettings& settings) {
+  auto made = std::make_shared<MadePanorama>();
+  made->picture = relief->backdrop.panorama;
+  made->shown = relief->shown;
+  made->projection = relief->backdrop.projection;
+  made->report.lens = settings.lens;
+  made->report.warnings = relief->report.warnings;
+  made->excluded = settings.excluded;
+  made->relief = relief;
   return made;
 }
 
@@ -69,7 +83,23 @@ void NoteNextRun(FootageBoard& board) {
   if (!board.session) return;
   // Not while a run or a reader has it: their end asks again.
   const std::unique_lock lock(board.session->mutex, std::try_to_lock);
-  if (lock) board.next_stage = board.session->session.NextStage(RequestOf(board));
+  if (!lock) return;
+  const bool shows_measured = board.made && board.made->is_measured();
+  if (const auto settings = ReliefSettingsOf(board)) {
+    const bool is_known = board.session->relief && board.session->relief_settings == settings;
+    if (!is_known || board.session->relief->is_measured()) {
+      board.next_stage = !is_known ? "measure" : shows_measured ? "" : "compose";
+      return;
+    }
+  }
+  board.next_stage = board.session->session.NextStage(RequestOf(board));
+  if (board.next_stage.empty() && shows_measured) board.next_stage = "compose";
+}
+
+void SetMeasuresRelief(EditorState& state, bool measures) {
+  if (!state.steps.panorama->footage) return;
+  state.steps.panorama->footage->measures_relief = measures;
+  NoteNextRun(*state.steps.panorama->footage);
 }
 
 bool CanRun(const EditorState& state) {
@@ -86,36 +116,51 @@ void RunFootage(EditorState& state) {
   if (!CanRun(state)) return;
   FootageBoard& board = *state.steps.panorama->footage;
   if (!board.session) board.session = std::make_shared<LentSession>();
+  board.motion.reset();
+  board.mosaic.reset();
   auto mail = std::make_shared<FootageMail>();
-  state.jobs.Start("Panorama of " + board.name, [mail, run = state.steps.panorama->makers->run,
-                                                 session = board.session,
-                                                 request =
-                                                     RequestOf(board)](const Progress& progress) {
-    std::shared_ptr<const MadePanorama> made;
-    std::exception_ptr fault;
-    try {
-      const auto lock = Borrow(*session, progress);
-      made = MadeOf(run(session->session, request, ObserverOf(mail, request.excluded), progress),
-                    request.excluded);
-    } catch (const cv::Exception& error) {
-      // Not said by us, so hardly fit to be shown; but it must not take the window with it.
-      fault = std::make_exception_ptr(
-          Error(Code::kBadData, "this clip could not be worked on (" + error.err + ")"));
-    } catch (...) {
-      fault = std::current_exception();
-    }
-    return [made, fault, session](EditorState& now) {
-      TakeFootageMail(now);
-      if (!now.steps.panorama->footage || now.steps.panorama->footage->session != session) return;
-      FootageBoard& of_run = *now.steps.panorama->footage;
-      if (made) of_run.made = made;
-      of_run.large = {};  // even light may be another one
-      NoteNextRun(of_run);
-      ShowMade(of_run);
-      if (fault) std::rethrow_exception(fault);
-      now.message = WordsOfResult(of_run).front();
-    };
-  });
+  state.jobs.Start(
+      "Panorama of " + board.name,
+      [mail, makers = *state.steps.panorama->makers, session = board.session,
+       settings = ReliefSettingsOf(board), request = RequestOf(board)](const Progress& progress) {
+        std::shared_ptr<const MadePanorama> made;
+        std::exception_ptr fault;
+        try {
+          const auto lock = Borrow(*session, progress);
+          std::shared_ptr<const MadeRelief> relief;
+          if (settings)
+            relief =
+                MeasureOnce(*session, makers.relief, request.footage, *settings, mail, progress);
+          if (relief && relief->is_measured()) {
+            made = MadeFrom(relief, *settings);
+          } else {
+            // The clip does not determine depth: frames are placed on a plane, as without a lens.
+            const auto placed = MadeOf(
+                makers.run(session->session, request, ObserverOf(mail, request.excluded), progress),
+                request.excluded);
+            placed->relief = relief;
+            made = placed;
+          }
+        } catch (const cv::Exception& error) {
+          // Not said by us, so hardly fit to be shown; but it must not take the window with it.
+          fault = std::make_exception_ptr(
+              Error(Code::kBadData, "this clip could not be worked on (" + error.err + ")"));
+        } catch (...) {
+          fault = std::current_exception();
+        }
+        return [made, fault, session](EditorState& now) {
+          TakeFootageMail(now);
+          if (!now.steps.panorama->footage || now.steps.panorama->footage->session != session)
+            return;
+          FootageBoard& of_run = *now.steps.panorama->footage;
+          if (made) of_run.made = made;
+          of_run.large = {};  // even light may be another one
+          NoteNextRun(of_run);
+          ShowMade(of_run);
+          if (fault) std::rethrow_exception(fault);
+          now.message = WordsOfResult(of_run).front();
+        };
+      });
   board.selected = -1;
   board.wants_focus = true;
   state.steps.panorama->footage_job = {std::move(mail), true};
@@ -125,16 +170,46 @@ void ShowMade(FootageBoard& board) {
   board.notes.assign(board.thumbs.size(), {});
   board.mosaic = board.made ? board.made->shown : nullptr;
   if (!board.made) return;
+  if (board.made->is_measured())
+    for (const auto& frame : board.made->relief->report.frames)
+      if (frame.index >= 0 && frame.index < board.frames())
+        board.notes[static_cast<std::size_t>(frame.index)] =
+            NoteOf(frame, board.made->excluded.contains(frame.index));
   for (const FrameReport& row : board.made->report.frames)
     if (row.index >= 0 && row.index < board.frames())
       board.notes[static_cast<std::size_t>(row.index)] =
           NoteOf(row, board.made->excluded.contains(row.index));
 }
 
+namespace {
+
+// The picture, its relief, and what is known of it, as the backdrop.
+void UseRelief(EditorState& state, const MadeRelief& relief) {
+  const FootageBoard& board = *state.steps.panorama->footage;
+  state.step = Step::kDepth;
+  state.steps.depth->board.is_shown = true;
+  if (state.document().panorama == relief.backdrop.panorama) return;  // it is the backdrop already
+  SetMeasuredPanorama(state, "Use the measured relief of " + board.name, relief.backdrop,
+                      board.lenses.at(static_cast<std::size_t>(board.lens)).lens);
+}
+
+}  // namespace
+
+bool HasMeasuredPart(const EditorState& state) {
+  const auto& footage = state.steps.panorama->footage;
+  return footage && footage->made && footage->made->relief && footage->made->relief->is_partial();
+}
+
+void UseMeasuredPart(EditorState& state) {
+  if (HasMeasuredPart(state) && !state.jobs.busy())
+    UseRelief(state, *state.steps.panorama->footage->made->relief);
+}
+
 void UseMadePanorama(EditorState& state) {
   if (!state.steps.panorama->footage || !state.steps.panorama->footage->made || state.jobs.busy())
     return;
   const MadePanorama& made = *state.steps.panorama->footage->made;
+  if (made.is_measured()) return UseRelief(state, *made.relief);
   state.step = Step::kDepth;
   if (state.document().panorama == made.picture) return;  // it is the backdrop already
   SetPanorama(state, "Use the panorama of " + state.steps.panorama->footage->name, made.picture,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/steps/panorama/panorama_run.h"
+#include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
@@ -56,6 +57,9 @@ std::string WordsOfFrame(const FootageBoard& board, int frame) {
   const std::string why = note.reason.empty() ? "" : ": " + note.reason;
   switch (StatusOf(board, frame)) {
     case FrameStatus::kPlaced:
+      if (note.pose_sigma > 0)
+        return fmt::format("Its camera pose was found to ±{:.2f} mm; its points fit to {:.1f} px",
+                           MmFromMetres(note.pose_sigma), note.rms_px);
       return fmt::format("Placed; fits to {:.1f} px, expected error {:.1f} px", note.rms_px,
                          note.expected_error_px);
     case FrameStatus::kRejected:
@@ -74,6 +78,7 @@ std::string WordsOfFrame(const FootageBoard& board, int frame) {
 
 std::vector<std::string> WordsOfResult(const FootageBoard& board) {
   if (!board.made) return {};
+  if (board.made->is_measured()) return WordsOfRelief(*board.made->relief);
   const authoring::PanoramaReport& report = board.made->report;
   int placed = 0;
   double residual = 0;
@@ -100,6 +105,8 @@ std::vector<std::string> WarningsOfResult(const FootageBoard& board) {
 std::string WordsOfNextRun(const FootageBoard& board) {
   if (!board.session) return "";
   if (board.next_stage.empty()) return board.made ? "Nothing changed since the last run." : "";
+  if (board.next_stage == "measure")
+    return "The next run measures the relief from the motion of the scope.";
   if (board.next_stage == "register")
     return "The next run begins with placing the frames; earlier stages are kept.";
   if (board.next_stage == "compose")

@@ -29,6 +29,8 @@ bool LooksLikeFootage(const std::filesystem::path& file);
 void SetFootageLens(EditorState& state, int choice);
 void BrowseForLens(EditorState& state);
 void SetPanoramaOptions(EditorState& state, const authoring::PanoramaOptions& options);
+// Whether the next run tries to measure the relief from the motion of the scope.
+void SetMeasuresRelief(EditorState& state, bool measures);
 void SetFrameIncluded(EditorState& state, int frame, bool included);
 
 // ---- The run. ----
@@ -38,6 +40,9 @@ void RunFootage(EditorState& state);
 // Makes what the last run made the document's backdrop, in one step that can be undone, and opens
 // the Depth step.
 void UseMadePanorama(EditorState& state);
+// The same with the part that was measured, where the clip does not determine depth everywhere.
+bool HasMeasuredPart(const EditorState& state);
+void UseMeasuredPart(EditorState& state);
 
 // ---- What is looked at. ----
 void SelectFrame(EditorState& state, int frame);  // -1: the mosaic; clamped

@@ -10,6 +10,7 @@
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
+#include "authoring/relief/make_relief.h"
 
 namespace arthro::app {
 namespace {
@@ -100,6 +101,8 @@ void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf&
       ui, "Large picture", true,
       showing.picture ? fmt::format("{}x{}", showing.picture->width, showing.picture->height) : "",
       WidgetKind::kPicture);
+  if (!showing.picture && board.selected < 0 && board.motion && !board.motion->cameras.empty())
+    return MotionPicture(ui, *board.motion, area);
   if (!showing.picture) return InTheMiddle(ui, area, WordsOfNothing(state));
 
   // Two side by side, or one.

@@ -5,7 +5,7 @@
 
 namespace arthro::authoring {
 
-DepthMap EnlargedMap(const DepthMap& map, int factor) {
+DepthMap MapAtPictureSize(const DepthMap& map, int factor) {
   DepthMap large(map.width * factor, map.height * factor);
   for (int y = 0; y < large.height; ++y) {
     const double v = std::clamp((y + 0.5) / factor - 0.5, 0.0, map.height - 1.0);
@@ -26,7 +26,7 @@ DepthMap EnlargedMap(const DepthMap& map, int factor) {
   return large;
 }
 
-OriginMap EnlargedMap(const OriginMap& map, int factor) {
+OriginMap MapAtPictureSize(const OriginMap& map, int factor) {
   OriginMap large(map.width * factor, map.height * factor);
   for (int y = 0; y < large.height; ++y)
     for (int x = 0; x < large.width; ++x) large.at(x, y) = map.at(x / factor, y / factor);

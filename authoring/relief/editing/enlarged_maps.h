@@ -7,7 +7,7 @@
 namespace arthro::authoring {
 
 // Bilinear between the cells' middles; the nearest cell's value where one of the four is unknown.
-DepthMap EnlargedMap(const DepthMap& map, int factor);
-OriginMap EnlargedMap(const OriginMap& map, int factor);  // the nearest cell's value
+DepthMap MapAtPictureSize(const DepthMap& map, int factor);
+OriginMap MapAtPictureSize(const OriginMap& map, int factor);  // the nearest cell's value
 
 }  // namespace arthro::authoring

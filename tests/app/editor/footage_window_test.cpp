@@ -62,6 +62,9 @@ TEST_F(FootageWindow, AClipBecomesTheBackdropOfASavedScene) {
         // Its lens, from a file.
         "click \"Lens of the scope\"\nclick \"from a file…\"\nset \"File name\" " +
         Lens() + "\nwait job\n" + R"(expect value "Lens of the scope" "scope"
+click "Measure relief from motion"
+click no
+expect value "Measure relief from motion" no
 click Rectified
 wait job
 expect not "nothing is straightened"
