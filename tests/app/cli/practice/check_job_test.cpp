@@ -26,7 +26,9 @@ Scene WriteGoodScene(const fs::path& folder) {
   Scene scene;
   scene.title = "Good";
   scene.author = "A";
-  scene.backdrop = {"p.png", "d.tiff", 0.05, {}, rights};
+  scene.backdrop.panorama = "p.png";
+  scene.backdrop.depth = "d.tiff";
+  scene.backdrop.rights = rights;
   scene.backdrop.projection = {ProjectionType::kGnomonic, {31.5, 15.5}, 30, 10};
   Tissue tissue;
   tissue.name = "meniscus";
