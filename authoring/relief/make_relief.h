@@ -4,9 +4,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
-#include <glm/vec2.hpp>
-
+#include "authoring/relief/known_length.h"
 #include "authoring/relief/relief_options.h"
 #include "authoring/relief/relief_report.h"
 #include "simulation/core/progress.h"
@@ -15,17 +15,12 @@
 
 namespace arthro::authoring {
 
-// A distance that is known, between the tissue at two pixels of the relief.
-struct KnownLength {
-  double metres = 0;
-  glm::dvec2 from{0.0}, to{0.0};
-};
-
 struct ReliefRequest {
   std::filesystem::path footage;
-  Lens lens;
+  std::optional<Lens> lens;  // nothing: the focal length is found from the clip
   ReliefOptions options;
-  std::optional<KnownLength> length;
+  std::vector<KnownLength> lengths;
+  std::vector<KnownInstrument> instruments;
 };
 
 struct ReliefResult {
@@ -35,7 +30,8 @@ struct ReliefResult {
 };
 
 // A clip that does not determine depth gives a verdict and what there is. Throws Error for footage
-// or a lens that cannot be used, a known length that was not measured, and Error(kCancelled).
+// or a lens that cannot be used, a known length that was not measured or that contradicts another,
+// and Error(kCancelled).
 ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress);
 
 }  // namespace arthro::authoring

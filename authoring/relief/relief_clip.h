@@ -8,8 +8,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "authoring/panorama/stage_clock.h"
 #include "authoring/panorama/frames/working_frame.h"
+#include "authoring/panorama/stage_clock.h"
 #include "authoring/relief/relief_options.h"
 #include "simulation/scene/lens.h"
 
@@ -23,6 +23,7 @@ struct ClipRow {
 };
 
 struct ReliefClip {
+  Lens raw_lens;                     // describes the frames as they were filmed
   Lens lens;                         // describes the working pictures
   double scale = 1;                  // working px per raw px
   std::vector<WorkingFrame> frames;  // usable rows, in order; with the fisheye
@@ -32,7 +33,7 @@ struct ReliefClip {
 
 // Stages "read" and "prepare" of the clock. Throws Error where the footage cannot be read, the lens
 // is not for its pictures, or fewer than two frames are usable.
-ReliefClip ReadReliefClip(const std::filesystem::path& footage, const Lens& lens,
+ReliefClip ReadReliefClip(const std::filesystem::path& footage, const std::optional<Lens>& lens,
                           const ReliefOptions& options, StageClock& clock);
 
 }  // namespace arthro::authoring
