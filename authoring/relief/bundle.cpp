@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLossAt = 1.0;  // px, where the Cauchy loss begins to flatten
 
+// With a factor of the focal length as the last unknown, or without.
 struct PixelError {
   const LensProfile& lens;
   const Eigen::Vector2d pixel;
@@ -28,6 +29,26 @@ struct PixelError {
       lens.ProjectJet(local.data(), at);
     error[0] = at[0] - pixel.x();
     error[1] = at[1] - pixel.y();
+    return true;
+  }
+
+  template <class T>
+  bool operator()(const T* rotation, const T* centre, const T* point, const T* focal,
+                  T* error) const {
+    if (!(*this)(rotation, centre, point, error)) return false;
+    error[0] = (error[0] + pixel.x() - lens.cx()) * focal[0] + lens.cx() - pixel.x();
+    error[1] = (error[1] + pixel.y() - lens.cy()) * focal[0] + lens.cy() - pixel.y();
+    return true;
+  }
+};
+
+// A wandering head turns little from one frame to the next.
+struct HeadStep {
+  const double sigma;  // rad
+
+  template <class T>
+  bool operator()(const T* before, const T* after, T* error) const {
+    error[0] = (after[0] - before[0]) / sigma;
     return true;
   }
 };
@@ -92,6 +113,29 @@ void FixScale(std::size_t fixed, Reconstruction& scene, std::optional<ceres::Sub
   problem.SetManifold(furthest->data(), &*kept);
 }
 
+// Ties each posed camera of the problem to the portal that its shaft passes.
+void AddPivot(Reconstruction& scene, std::vector<Eigen::Quaterniond>& turns,
+              ceres::LossFunction& loss, PivotPrior& pivot, ceres::Problem& problem) {
+  constexpr double kHeadStep = 0.14;  // rad (8°) per frame
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (!scene.poses[i] || !problem.HasParameterBlock(turns[i].coeffs().data())) continue;
+    double* const head_turn = &pivot.head_turns[i];
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PivotError, 3, 4, 3, 3, 1>(
+                                 new PivotError{pivot.view_angle, pivot.sigma}),
+                             &loss, turns[i].coeffs().data(), scene.poses[i]->centre.data(),
+                             pivot.points[static_cast<std::size_t>(pivot.point_of[i])].data(),
+                             head_turn);
+    if (!pivot.head_wanders)
+      problem.SetParameterBlockConstant(head_turn);
+    else if (last)
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<HeadStep, 1, 1, 1>(new HeadStep{
+                                   kHeadStep * std::sqrt(static_cast<double>(i - *last))}),
+                               nullptr, &pivot.head_turns[*last], head_turn);
+    last = i;
+  }
+}
+
 }  // namespace
 
 Eigen::Vector3d ShaftInCamera(double view_angle, double head_turn) {
@@ -117,10 +161,15 @@ double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
     for (std::size_t k = 0; k < track.seen.size(); ++k) {
       const auto frame = static_cast<std::size_t>(track.seen[k].frame);
       if (!point.uses[k] || !scene.poses[frame]) continue;
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PixelError, 2, 4, 3, 3>(
-                                   new PixelError{lens, track.seen[k].pixel}),
-                               &loss, turns[frame].coeffs().data(),
-                               scene.poses[frame]->centre.data(), point.position.data());
+      auto* const error = new PixelError{lens, track.seen[k].pixel};
+      double *const turn = turns[frame].coeffs().data(), *const centre =
+                                                             scene.poses[frame]->centre.data();
+      if (options.focal)
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PixelError, 2, 4, 3, 3, 1>(error),
+                                 &loss, turn, centre, point.position.data(), options.focal);
+      else
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PixelError, 2, 4, 3, 3>(error),
+                                 &loss, turn, centre, point.position.data());
     }
   }
   const int pixel_residuals = problem.NumResiduals();
@@ -137,16 +186,7 @@ double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
     problem.SetParameterBlockConstant(scene.poses[i]->centre.data());
     FixScale(i, scene, scale_manifold, problem);
   }
-  if (pivot) {
-    for (std::size_t i = 0; i < turns.size(); ++i)
-      if (scene.poses[i] && problem.HasParameterBlock(turns[i].coeffs().data()))
-        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PivotError, 3, 4, 3, 3, 1>(
-                                     new PivotError{pivot->view_angle, pivot->sigma}),
-                                 &pivot_loss, turns[i].coeffs().data(),
-                                 scene.poses[i]->centre.data(), pivot->point.data(),
-                                 &pivot->head_turn);
-    problem.SetParameterBlockConstant(&pivot->head_turn);
-  }
+  if (pivot) AddPivot(scene, turns, pivot_loss, *pivot, problem);
 
   ceres::Solver::Options solver = SolverOptions(options.iterations);
   solver.linear_solver_type = ceres::SPARSE_SCHUR;
@@ -169,6 +209,8 @@ double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
       if (!point.uses[k] || !pose) continue;
       Eigen::Vector2d at;
       lens.Project(pose->InCamera(point.position).data(), at.data());
+      const Eigen::Vector2d middle(lens.cx(), lens.cy());
+      if (options.focal) at = middle + *options.focal * (at - middle);
       const double error = (at - track.seen[k].pixel).norm();
       if (!(error < kOutlier)) continue;
       squares += error * error;

@@ -26,10 +26,12 @@ struct CameraPose {
 // s(δ) = (sin α sin δ, sin α cos δ, cos α), with α the view angle and δ the turn of the camera
 // head.
 struct PivotPrior {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double view_angle = 0;  // rad
-  double head_turn = 0;   // rad, δ
-  double sigma = 1;       // standard deviation of a shaft's miss
+  std::vector<Eigen::Vector3d> points;  // more than one where the portal slid
+  std::vector<int> point_of;            // one per frame, which of the points its shaft passes
+  std::vector<double> head_turns;       // rad, δ, one per frame
+  bool head_wanders = false;  // the turns are unknowns, near each other from frame to frame
+  double view_angle = 0;      // rad
+  double sigma = 1;           // standard deviation of a shaft's miss
 };
 
 Eigen::Vector3d ShaftInCamera(double view_angle, double head_turn);
@@ -52,9 +54,11 @@ struct BundleOptions {
   // Ends the adjustment after the iteration at hand once it is set; the caller then stops. May be
   // null.
   const std::atomic<bool>* stop = nullptr;
+  double* focal = nullptr;  // where given, a factor of the focal length is an unknown too
 };
 
-// Moves poses and points, and the pivot where there is one. Returns the rms of the residuals, px.
+// Moves poses and points, and the pivot where there is one, with its turns of the head where they
+// wander. Returns the rms of the residuals, px.
 double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
                     const BundleOptions& options, Reconstruction& scene, PivotPrior* pivot);
 

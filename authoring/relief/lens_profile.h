@@ -17,6 +17,8 @@ class LensProfile {
   explicit LensProfile(const Lens& lens);
 
   double focal_px() const { return focal_px_; }
+  double cx() const { return cx_; }
+  double cy() const { return cy_; }
   double least_cosine() const { return least_cosine_; }  // smallest cos θ inside the model
 
   // k and dk/dcos θ. Beyond the model k goes on linearly, so that an optimiser finds its way back.

@@ -1,17 +1,21 @@
 #include "authoring/relief/make_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "authoring/relief/known_scale.h"
 #include "authoring/relief/measure_relief.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/process_cost.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
@@ -39,6 +43,7 @@ std::vector<PosedFrame> FramesOf(const MeasuredRelief& made) {
         }
         const PoseSigma sigma = SigmaOf(made.tracks, made.lens, made.motion.scene,
                                         static_cast<int>(used), frame.rms_px);
+        if (made.has_pivot) frame.head_turn = made.pivot.head_turns[used];
         frame.sigma_m = sigma.centre;
         frame.sigma_rad = sigma.rotation;
       }
@@ -57,26 +62,29 @@ DepthMap PlainMap(const cv::Mat& values) {
   return map;
 }
 
-// Point of the surface at a pixel of the relief.
-Eigen::Vector3d PointAt(const SweptSurface& surface, const glm::dvec2& pixel) {
-  const int x = static_cast<int>(std::lround(pixel.x)), y = static_cast<int>(std::lround(pixel.y));
-  const bool is_inside = x >= 0 && y >= 0 && x < surface.radius.cols && y < surface.radius.rows;
-  const float radius = is_inside ? surface.radius.at<float>(y, x) : 0;
-  if (!(radius > 0))
-    throw Error(Code::kBadArgument,
-                fmt::format("nothing was measured at pixel {:g},{:g} of the relief of {} x {} px; "
-                            "name two pixels that have a value",
-                            pixel.x, pixel.y, surface.radius.cols, surface.radius.rows));
-  const glm::dvec3 d = DirectionFromPixel(surface.projection, pixel);
-  return Eigen::Vector3d(d.x, d.y, d.z) * static_cast<double>(radius);
-}
-
-// The scale that makes the given distance true; applied to everything measured.
-double ScaleFromLength(const KnownLength& length, const SweptSurface& surface) {
-  const double distance = (PointAt(surface, length.from) - PointAt(surface, length.to)).norm();
-  if (!(distance > 0))
-    throw Error(Code::kBadArgument, "the two pixels of a known length must differ");
-  return length.metres / distance;
+// The scale that makes the given lengths true; nothing where none is given.
+std::optional<JoinedScale> ScaleFromLengths(const ReliefRequest& request,
+                                            const MeasuredRelief& made,
+                                            std::vector<ScalePart>& parts) {
+  for (const KnownLength& length : request.lengths) parts.push_back(ScaleOf(length, made.surface));
+  for (const KnownInstrument& instrument : request.instruments) {
+    std::size_t used = 0;
+    const CameraPose* pose = nullptr;
+    for (const ClipRow& row : made.clip.rows) {
+      if (!row.reason.empty()) continue;
+      if (row.index == instrument.frame && made.motion.scene.poses[used])
+        pose = &*made.motion.scene.poses[used];
+      ++used;
+    }
+    if (!pose)
+      throw Error(Code::kBadArgument,
+                  fmt::format("frame {} has no pose, so that its instrument gives no scale; name a "
+                              "frame that the report calls posed",
+                              instrument.frame));
+    parts.push_back(ScaleOf(instrument, made.clip.raw_lens, *pose, made.surface));
+  }
+  if (parts.empty()) return std::nullopt;
+  return JoinScales(parts);
 }
 
 void Describe(const cv::Mat& confidence, const SweptSurface& surface, double least,
@@ -104,6 +112,61 @@ ReliefSoFar SoFar(const Reconstruction& scene, bool is_in_portal_frame) {
   for (std::size_t i = 0; i < scene.points.size(); i += stride)
     shown.points.push_back(plain(scene.points[i].position));
   return shown;
+}
+
+std::vector<PortalSlide> SlidesOf(const MeasuredRelief& made) {
+  std::vector<PortalSlide> slides;
+  if (!made.has_pivot) return slides;
+  for (std::size_t i = 1; i < made.pivot.stretches.size(); ++i) {
+    const PortalStretch& stretch = made.pivot.stretches[i];
+    const Eigen::Vector3d shift = stretch.point - made.pivot.stretches[i - 1].point;
+    slides.push_back({made.clip.frames[static_cast<std::size_t>(stretch.first)].index,
+                      {shift.x(), shift.y(), shift.z()}});
+  }
+  return slides;
+}
+
+// Rings of one degree about the mean shaft, until half of the cells of a ring are confident.
+double HoleAboutTheShaft(const SweptSurface& surface, const cv::Mat& confidence, double least) {
+  constexpr int kMostRings = 60;
+  std::array<int, kMostRings> seen{}, confident{};
+  for (int y = 0; y < confidence.rows; ++y)
+    for (int x = 0; x < confidence.cols; ++x) {
+      if (!(surface.radius.at<float>(y, x) > 0)) continue;
+      const double cosine = DirectionFromPixel(surface.projection, {x, y}).z;
+      const double off = DegreesFromRadians(std::acos(std::clamp(cosine, -1.0, 1.0)));
+      const auto ring = static_cast<std::size_t>(off);
+      if (ring >= seen.size()) continue;
+      ++seen[ring];
+      confident[ring] += confidence.at<float>(y, x) >= least;
+    }
+  for (std::size_t ring = 0; ring < seen.size(); ++ring)
+    if (seen[ring] > 0 && 2 * confident[ring] >= seen[ring])
+      return RadiansFromDegrees(static_cast<double>(ring));
+  return RadiansFromDegrees(kMostRings);
+}
+
+void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& report) {
+  report.focal_factor = made.focal_factor;
+  report.focal_sigma = made.focal_sigma;
+  report.is_focal_changed = made.is_focal_changed;
+  constexpr double kDoubtful = 0.015, kSure = 4;  // share of the focal length, standard errors
+  const double focal = made.clip.raw_lens.focal_px, off = std::abs(made.focal_factor - 1);
+  if (!is_given)
+    report.warnings.push_back(fmt::format(
+        "no lens was given: the focal length of {:.0f} px ± {:.1f} % was found from the clip; "
+        "calibrate the scope with `arthroscene lens` and give --lens for exact shapes",
+        focal, 100 * made.focal_sigma));
+  else if (made.is_focal_changed)
+    report.warnings.push_back(fmt::format(
+        "the lens file does not suit the clip: its focal length was changed by {:+.1f} % to {:.1f} "
+        "px ± {:.1f} %, which fits the motion; calibrate this scope again",
+        100 * (made.focal_factor - 1), focal, 100 * made.focal_sigma));
+  else if (off > kDoubtful && off > kSure * made.focal_sigma)
+    report.warnings.push_back(fmt::format(
+        "the motion fits a focal length better that differs by {:+.1f} ± {:.1f} % from the lens "
+        "file, so that ranges may be off by as much; check that it is the lens of this scope",
+        100 * (made.focal_factor - 1), 100 * made.focal_sigma));
 }
 
 }  // namespace
@@ -136,10 +199,10 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
         if (report.verdict.is_measured() && options.use_pivot && !so_far.has_pivot)
           report.verdict = JudgePivot(so_far.shaft_miss, so_far.pivot.shaft_spread);
         // A part of the clip may still be measured; a camera that only turned measures nothing.
-        constexpr std::size_t kLeastPoints = 100;
+        constexpr std::size_t kLeastToShow = 100;
         return report.verdict.is_measured() ||
                ((report.verdict.kind == "pieces" || report.verdict.kind == "texture") &&
-                so_far.motion.scene.points.size() >= kLeastPoints);
+                so_far.motion.scene.points.size() >= kLeastToShow);
       },
       clock,
       [&](const Reconstruction& scene) {
@@ -147,14 +210,18 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
       });
 
   SweptSurface& surface = made.surface;
-  if (request.length && !surface.radius.empty()) {
-    const double scale = ScaleFromLength(*request.length, surface);
-    report.scale = scale;
-    report.scale_source = "length";
-    ChangeFrame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), scale, made.motion.scene);
-    surface.radius *= scale;
-    made.pivot.median_insertion *= scale;
-    made.pivot.median_miss *= scale;
+  if (!surface.radius.empty()) {
+    if (const auto scale = ScaleFromLengths(request, made, report.scale_parts)) {
+      report.scale = scale->factor;
+      report.scale_sigma = scale->sigma;
+      report.scale_source =
+          report.scale_parts.size() == 1 ? report.scale_parts.front().source : "joined";
+      ChangeFrame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), scale->factor,
+                  made.motion.scene);
+      surface.radius *= scale->factor;
+      made.pivot.median_insertion *= scale->factor;
+      made.pivot.median_miss *= scale->factor;
+    }
   }
   report.footage = request.footage.string();
   report.frames = FramesOf(made);
@@ -164,8 +231,17 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
   report.shaft_spread = made.pivot.shaft_spread;
   report.pivot_miss = made.pivot.median_miss;
   report.median_insertion = made.pivot.median_insertion;
-  report.head_turn = made.pivot.head_turn;
+  if (made.has_pivot) {
+    report.head_turn = made.pivot.MedianHeadTurn(made.motion.scene.poses);
+    report.head_wanders = made.pivot.head == HeadMotion::kWandering;
+  }
+  report.slides = SlidesOf(made);
   report.warnings = made.clip.warnings;
+  DescribeLens(request.lens.has_value(), made, report);
+  for (const PortalSlide& slide : report.slides)
+    report.warnings.push_back(fmt::format(
+        "the portal slid before frame {}; the poses before and after have a portal each",
+        slide.frame));
   if (!made.has_pivot)
     report.warnings.push_back(
         "the shafts do not meet in one point, so that the place of the portal is assumed");
@@ -176,6 +252,7 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
   if (!surface.radius.empty()) {
     const cv::Mat confidence = ConfidenceOf(surface, options.least_parallax);
     Describe(confidence, surface, options.least_confidence, report);
+    report.hole = HoleAboutTheShaft(surface, confidence, options.least_confidence);
     if (report.verdict.is_measured()) report.verdict = JudgeCoverage(report.coverage);
     const cv::Mat unknown = ~(confidence >= options.least_confidence);
     // The sphere just holds what is known.

@@ -8,10 +8,10 @@
 #include <set>
 #include <vector>
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "authoring/panorama/panorama_report.h"
+#include "authoring/relief/known_length.h"
 #include "authoring/relief/relief_options.h"
 #include "authoring/relief/relief_report.h"
 #include "simulation/core/progress.h"
@@ -20,17 +20,12 @@
 
 namespace arthro::authoring {
 
-// A distance that is known, between the tissue at two pixels of the relief.
-struct KnownLength {
-  double metres = 0;
-  glm::dvec2 from{0.0}, to{0.0};
-};
-
 struct ReliefRequest {
   std::filesystem::path footage;
-  Lens lens;
+  std::optional<Lens> lens;  // nothing: the focal length is found from the clip
   ReliefOptions options;
-  std::optional<KnownLength> length;
+  std::vector<KnownLength> lengths;
+  std::vector<KnownInstrument> instruments;
   std::set<int> excluded;  // frames that a person excludes, by index in the footage
 };
 
@@ -65,8 +60,8 @@ using ReliefObserver = std::function<void(const ReliefSoFar&)>;
 Projection EnlargedProjection(const Projection& projection, int factor);
 
 // A clip that does not determine depth gives a verdict and what there is. Throws Error for footage
-// or a lens that cannot be used, a known length that was not measured, and Error(kCancelled) within
-// half a second of a stop.
+// or a lens that cannot be used, a known length that was not measured or that contradicts another,
+// and Error(kCancelled) within half a second of a stop.
 ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
                         const ReliefObserver& observer = {});
 

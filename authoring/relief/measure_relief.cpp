@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "authoring/relief/growth.h"
 #include "authoring/relief/median.h"
+#include "authoring/relief/self_calibration.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {
@@ -14,13 +16,15 @@ constexpr double kMostMiss = 0.1;        // share of the insertion, for the shaf
 constexpr double kLeastSpread = 0.0349;  // rad (2°) of the shafts' directions
 constexpr double kPivotSigma = 0.03;     // share of the insertion, by which the skin gives
 constexpr double kMostRise = 1.05;       // factor by which the pivot may raise the pixel residual
+constexpr std::size_t kLeastCalibrating = 100;  // points that a focal length rests on
 // Insertion over the range to the tissue, where no portal was found.
 constexpr double kUsualInsertion = 0.7;
 
 // Adjusts everything with the portal as a soft constraint and keeps that if the pixels agree.
-bool AdoptPivot(const std::vector<Track>& tracks, const LensProfile& lens, double view_angle,
-                const Progress& progress, Motion& motion, PivotFit& pivot) {
-  pivot = FindPivot(motion.scene.poses, view_angle);
+bool AdoptPivot(const std::vector<Track>& tracks, const LensProfile& lens,
+                const ReliefOptions& options, const Progress& progress, Motion& motion,
+                PivotFit& pivot) {
+  pivot = FindPivot(motion.scene.poses, options.view_angle, !options.find_head_turn);
   const auto is_good = [&] {
     return pivot.median_insertion > 0 && pivot.shaft_spread > kLeastSpread &&
            pivot.median_miss < kMostMiss * pivot.median_insertion;
@@ -28,28 +32,92 @@ bool AdoptPivot(const std::vector<Track>& tracks, const LensProfile& lens, doubl
   if (!is_good()) return false;
   Reconstruction scene = motion.scene;
   double rms = 0;
+  PivotFit fit = pivot;
   for (int round = 0; round < 2; ++round) {
-    PivotPrior prior{pivot.point, view_angle, pivot.head_turn,
-                     std::max(kPivotSigma * pivot.median_insertion, pivot.median_miss)};
+    PivotPrior prior;
+    for (const PortalStretch& stretch : fit.stretches) prior.points.push_back(stretch.point);
+    for (std::size_t f = 0; f < scene.poses.size(); ++f) {
+      const auto later =
+          std::count_if(fit.stretches.begin(), fit.stretches.end(),
+                        [&](const PortalStretch& s) { return s.first <= static_cast<int>(f); });
+      prior.point_of.push_back(std::max(0, static_cast<int>(later) - 1));
+    }
+    prior.head_turns = fit.head_turns;
+    prior.head_wanders = fit.head == HeadMotion::kWandering;
+    prior.view_angle = options.view_angle;
+    prior.sigma = std::max(kPivotSigma * fit.median_insertion, fit.median_miss);
     progress.Step("finding the portal", 0.4 * round);
     rms = AdjustBundle(tracks, lens, {.iterations = 25, .stop = progress.stop}, scene, &prior);
     progress.Step("finding the portal", 0.4 * (round + 1));
     RefreshPoints(tracks, lens, scene);
-    pivot = FitPivot(scene.poses, view_angle, pivot.head_turn);
-    pivot.point = prior.point;
+    fit.head_turns = prior.head_turns;
+    for (std::size_t i = 0; i < fit.stretches.size(); ++i) fit.stretches[i].point = prior.points[i];
+    MeasurePivot(scene.poses, options.view_angle, fit);
   }
-  if (rms > kMostRise * motion.rms_px || !is_good()) return false;
+  if (rms > kMostRise * motion.rms_px) return false;
+  pivot = fit;
+  if (!is_good()) return false;
   motion.scene = std::move(scene);
   motion.rms_px = rms;
   return true;
+}
+
+// Checks the lens against the clip, and puts the clip's focal length in its place where the two
+// disagree clearly. Without a given lens the poses are found anew with each focal length.
+void CalibrateFocal(bool is_guessed, const Progress& progress, MeasuredRelief& made) {
+  constexpr double kMoves = 0.02, kFalls = 0.10;  // focal length, residual
+  constexpr int kRounds = 3;
+  const int frames = static_cast<int>(made.clip.frames.size());
+  for (int round = 0; round < (is_guessed ? kRounds : 1); ++round) {
+    if (made.motion.scene.points.size() < kLeastCalibrating) return;
+    progress.Step("checking the lens", 0.1 + 0.2 * round);
+    FocalFit fit = FitFocal(made.tracks, made.clip.lens, made.motion, progress.stop);
+    const bool is_far = std::abs(fit.factor - 1) > kMoves;
+    made.focal_factor *= fit.factor;
+    made.focal_sigma = fit.sigma;
+    if (!is_guessed && !(is_far && fit.rms_px < (1 - kFalls) * fit.rms_before_px)) return;
+    made.is_focal_changed = true;
+    made.clip.raw_lens = WithFocal(made.clip.raw_lens, fit.factor);
+    made.clip.lens = WithFocal(made.clip.lens, fit.factor);
+    made.lens = LensProfile(made.clip.lens);
+    ChangeLens(made.clip.lens, made.tracks);
+    if (is_guessed && is_far) {
+      made.motion = SolveMotion(made.tracks, frames, made.lens, progress);
+      continue;
+    }
+    made.motion.scene = std::move(fit.scene);
+    RefreshPoints(made.tracks, made.lens, made.motion.scene);
+    made.motion.rms_px =
+        AdjustBundle(made.tracks, made.lens, {.iterations = 15, .stop = progress.stop},
+                     made.motion.scene, nullptr);
+    CountInliers(made.tracks, made.lens, made.motion);
+    return;
+  }
+}
+
+// The portal of most posed frames.
+Eigen::Vector3d LongestStretch(const std::vector<std::optional<CameraPose>>& poses,
+                               const PivotFit& pivot) {
+  std::size_t best = 0;
+  int most = -1;
+  for (std::size_t s = 0; s < pivot.stretches.size(); ++s) {
+    const int last = s + 1 < pivot.stretches.size() ? pivot.stretches[s + 1].first
+                                                    : static_cast<int>(poses.size());
+    int count = 0;
+    for (int f = pivot.stretches[s].first; f < last; ++f)
+      count += poses[static_cast<std::size_t>(f)].has_value();
+    if (count > most) most = count, best = s;
+  }
+  return pivot.stretches[best].point;
 }
 
 // To the portal frame, with the median insertion as assumed.
 void GoToPortal(const ReliefOptions& options, MeasuredRelief& made) {
   Reconstruction& scene = made.motion.scene;
   const Eigen::Matrix3d axes =
-      PortalAxes(scene.poses, options.view_angle, made.has_pivot ? made.pivot.head_turn : 0);
-  Eigen::Vector3d origin = made.pivot.point;
+      PortalAxes(scene.poses, options.view_angle,
+                 made.has_pivot ? made.pivot.head_turns : std::vector<double>());
+  Eigen::Vector3d origin = LongestStretch(scene.poses, made.pivot);
   double insertion = made.pivot.median_insertion;
   if (!made.has_pivot) {
     // Behind the middle of the tips, as far as is usual for the range that they see.
@@ -72,12 +140,13 @@ void GoToPortal(const ReliefOptions& options, MeasuredRelief& made) {
   ChangeFrame(axes, origin, scale, scene);
   made.pivot.median_insertion = scale * insertion;
   made.pivot.median_miss *= scale;
-  made.pivot.point.setZero();
+  for (PortalStretch& stretch : made.pivot.stretches)
+    stretch.point = scale * (axes * (stretch.point - origin));
 }
 
 }  // namespace
 
-MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& lens,
+MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const std::optional<Lens>& lens,
                              const ReliefOptions& options, const std::set<int>& excluded,
                              const AfterMotion& after_motion, StageClock& clock,
                              const MotionObserver& observer) {
@@ -88,10 +157,11 @@ MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& l
   made.tracks = FollowPoints(made.clip.frames, made.clip.lens, options, clock.Begin("tracks"));
   made.motion = SolveMotion(made.tracks, frames, made.lens, clock.Begin("poses"), observer);
   const Progress adjusting = clock.Begin("portal");
+  CalibrateFocal(!lens, adjusting, made);
   if (made.motion.scene.points.size() >= 3) {
     if (options.use_pivot)
-      made.has_pivot = AdoptPivot(made.tracks, made.lens, options.view_angle, adjusting,
-                                  made.motion, made.pivot);
+      made.has_pivot =
+          AdoptPivot(made.tracks, made.lens, options, adjusting, made.motion, made.pivot);
     made.shaft_miss = made.pivot.median_insertion > 0
                           ? std::min(1.0, made.pivot.median_miss / made.pivot.median_insertion)
                           : 1;

@@ -21,8 +21,11 @@ struct MeasuredRelief {
   ReliefClip clip;
   LensProfile lens;
   std::vector<Track> tracks;
-  Motion motion;           // in the portal frame, m, once the portal is known
-  PivotFit pivot;          // in m
+  Motion motion;            // in the portal frame, m, once the portal is known
+  PivotFit pivot;           // in m, portal frame
+  double focal_factor = 1;  // of the focal length that fits the motion best
+  double focal_sigma = 0;   // standard error of the factor; 0: not determined
+  bool is_focal_changed = false;
   bool has_pivot = false;  // the shafts pass one point, and the adjustment used it
   double shaft_miss = 0;   // distance between shafts and portal over the insertion; 1 at most
   SweptSurface surface;
@@ -31,7 +34,8 @@ struct MeasuredRelief {
 // Called after the poses, before the sweep; ends the job by returning false.
 using AfterMotion = std::function<bool(const MeasuredRelief&)>;
 
-MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& lens,
+// Without a lens the focal length is found from the clip.
+MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const std::optional<Lens>& lens,
                              const ReliefOptions& options, const std::set<int>& excluded,
                              const AfterMotion& after_motion, StageClock& clock,
                              const MotionObserver& observer = {});

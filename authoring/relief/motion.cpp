@@ -1,315 +1,41 @@
 #include "authoring/relief/motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
 
+#include "authoring/relief/growth.h"
+#include "authoring/relief/join_pieces.h"
 #include "authoring/relief/median.h"
 #include "authoring/relief/pair_model.h"
 
 namespace arthro::authoring {
 namespace {
 
-constexpr double kInlier = 3.0;          // px
-constexpr double kLeastAngle = 0.02618;  // rad (1.5°) between the rays of a point
-constexpr int kLeastShared = 40;         // tracks of a pair that a reconstruction starts from
-constexpr int kLeastPoints = 12;         // points that a pose rests on
-constexpr double kLeastShare = 0.4;      // share of a frame's points that agree with its pose
-constexpr int kStarts = 8;               // pairs that are tried as a start
-constexpr int kGrowths = 3;              // starts from which a reconstruction is grown
-constexpr double kGrowthPerAdjustment = 1.2;
+constexpr int kLeastShared = 40;       // tracks of a pair that a reconstruction starts from
+constexpr int kStarts = 8;             // pairs that are tried as a start of a piece
+constexpr std::size_t kLongTrack = 5;  // observations
+constexpr double kLongReach = 10;      // px of residual, beyond which an observation is wrong
+constexpr int kGrowths = 3;            // starts from which the largest piece is grown
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
-double PixelErrorOf(const CameraPose& pose, const LensProfile& lens, const Eigen::Vector3d& point,
-                    const Observation& seen) {
-  const Eigen::Vector3d local = pose.InCamera(point);
-  if (local.dot(seen.ray) <= 0) return 1e9;
-  Eigen::Vector2d at;
-  lens.Project(local.data(), at.data());
-  return (at - seen.pixel).norm();
-}
-
-// Largest angle between two used rays of a point.
-double AngleOf(const Reconstruction& scene, const Track& track, const TrackPoint& point) {
-  std::vector<Eigen::Vector3d> rays;
-  for (std::size_t k = 0; k < track.seen.size(); ++k)
-    if (const auto& pose = scene.poses[At(track.seen[k].frame)]; pose && point.uses[k])
-      rays.push_back((point.position - pose->centre).normalized());
-  double least = 1;
-  for (std::size_t i = 0; i < rays.size(); ++i)
-    for (std::size_t j = i + 1; j < rays.size(); ++j) least = std::min(least, rays[i].dot(rays[j]));
-  return std::acos(std::clamp(least, -1.0, 1.0));
-}
-
-// The point nearest to the used rays; then drops the worst observation until all agree.
-bool Triangulate(const Reconstruction& scene, const Track& track, const LensProfile& lens,
-                 TrackPoint& point) {
-  point.uses.assign(track.seen.size(), false);
-  int posed = 0;
-  for (std::size_t k = 0; k < track.seen.size(); ++k)
-    if (scene.poses[At(track.seen[k].frame)]) point.uses[k] = true, ++posed;
-  for (int used = posed; used >= 2 && 3 * used >= 2 * posed; --used) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < track.seen.size(); ++k) {
-      if (!point.uses[k]) continue;
-      const CameraPose& pose = *scene.poses[At(track.seen[k].frame)];
-      const Eigen::Vector3d ray = pose.world_from_camera * track.seen[k].ray;
-      const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
-      normal += across;
-      right += across * pose.centre;
-    }
-    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-    point.position = solver.solve(right);
-    if (!point.position.allFinite()) return false;
-    double worst = 0;
-    std::size_t worst_at = 0;
-    for (std::size_t k = 0; k < track.seen.size(); ++k) {
-      if (!point.uses[k]) continue;
-      const double error =
-          PixelErrorOf(*scene.poses[At(track.seen[k].frame)], lens, point.position, track.seen[k]);
-      if (error > worst) worst = error, worst_at = k;
-    }
-    if (worst < kInlier) return AngleOf(scene, track, point) >= kLeastAngle;
-    point.uses[worst_at] = false;
-  }
-  return false;
-}
-
-// A start: two frames with points between them.
-Reconstruction StartFrom(const std::vector<Track>& tracks, const TracksByFrame& by_frame,
-                         const LensProfile& lens, int frames, int a, int b,
-                         const Progress& progress, double done) {
-  Reconstruction scene;
-  scene.poses.resize(At(frames));
-  const auto shared = SharedTracks(by_frame, a, b);
-  const auto motion = FitMotion(tracks, shared, 1.5 / lens.focal_px());
-  if (!motion) return scene;
-  scene.poses[At(a)] = CameraPose{};
-  scene.poses[At(b)] = motion->b_in_a;
-  for (int round = 0; round < 2; ++round) {
-    RefreshPoints(tracks, lens, scene);
-    progress.Step("choosing a start", done);
-    AdjustBundle(tracks, lens, {.iterations = 20, .fixed_frame = a, .stop = progress.stop}, scene,
-                 nullptr);
-    progress.Step("choosing a start", done);
-  }
-  RefreshPoints(tracks, lens, scene);
-  return scene;
-}
-
-// Points of one frame's tracks.
-struct FramePoints {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector2d> pixels;
-  std::vector<Observation> seen;
+struct Start {
+  int a, b;
+  double score;
 };
 
-FramePoints PointsOf(const std::vector<Track>& tracks,
-                     const std::vector<std::pair<int, int>>& in_frame,
-                     const std::vector<int>& point_of, const Reconstruction& scene) {
-  FramePoints found;
-  for (const auto& [track, k] : in_frame) {
-    if (point_of[At(track)] < 0) continue;
-    const Observation& seen = tracks[At(track)].seen[At(k)];
-    found.points.push_back(scene.points[At(point_of[At(track)])].position);
-    found.pixels.push_back(seen.pixel);
-    found.seen.push_back(seen);
-  }
-  return found;
+int Count(const std::vector<bool>& flags) {
+  return static_cast<int>(std::count(flags.begin(), flags.end(), true));
 }
 
-int Refined(const FramePoints& all, const LensProfile& lens, CameraPose& pose) {
-  int inliers = 0;
-  for (const double reach : {4 * kInlier, kInlier, kInlier}) {
-    FramePoints near;
-    for (std::size_t i = 0; i < all.points.size(); ++i)
-      if (PixelErrorOf(pose, lens, all.points[i], all.seen[i]) < reach) {
-        near.points.push_back(all.points[i]);
-        near.pixels.push_back(all.pixels[i]);
-      }
-    inliers = static_cast<int>(near.points.size());
-    if (inliers < kLeastPoints || !AdjustPose(near.points, near.pixels, lens, pose)) return 0;
-  }
-  return inliers;
-}
-
-// Finds a pose from three points at a time, or from the nearest posed frame.
-std::optional<CameraPose> PoseOf(const FramePoints& all, const LensProfile& lens,
-                                 const std::optional<CameraPose>& neighbour) {
-  std::vector<cv::Point3d> points;
-  std::vector<cv::Point2d> flat;
-  for (std::size_t i = 0; i < all.points.size(); ++i) {
-    const Eigen::Vector3d& ray = all.seen[i].ray;
-    if (ray.z() < 0.2) continue;
-    points.emplace_back(all.points[i].x(), all.points[i].y(), all.points[i].z());
-    flat.emplace_back(ray.x() / ray.z(), ray.y() / ray.z());
-  }
-  std::optional<CameraPose> best;
-  int most = 0;
-  const auto offer = [&](CameraPose pose) {
-    const int inliers = Refined(all, lens, pose);
-    if (inliers > most) most = inliers, best = pose;
-  };
-  cv::Mat turn, shift, rotation, inliers;
-  if (points.size() >= static_cast<std::size_t>(kLeastPoints) &&
-      cv::solvePnPRansac(points, flat, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), turn, shift,
-                         false, 500, static_cast<float>(2.5 / lens.focal_px()), 0.999, inliers,
-                         cv::SOLVEPNP_AP3P)) {
-    cv::Rodrigues(turn, rotation);
-    Eigen::Matrix3d camera_from_world;
-    Eigen::Vector3d t;
-    cv::cv2eigen(rotation, camera_from_world);
-    cv::cv2eigen(shift, t);
-    offer({camera_from_world.transpose(), -camera_from_world.transpose() * t});
-  }
-  if (neighbour && 2 * most < static_cast<int>(all.points.size())) offer(*neighbour);
-  if (most < kLeastPoints || most < kLeastShare * static_cast<double>(all.points.size()))
-    return std::nullopt;
-  return best;
-}
-
-// Adds frame after frame, the one that sees most points first.
-void Grow(const std::vector<Track>& tracks, const TracksByFrame& by_frame, const LensProfile& lens,
-          const Progress& progress, const MotionObserver& observer, Reconstruction& scene) {
-  const int frames = static_cast<int>(scene.poses.size());
-  const auto posed = [&] {
-    return static_cast<int>(
-        std::count_if(scene.poses.begin(), scene.poses.end(), [](auto& p) { return !!p; }));
-  };
-  int adjusted_at = posed();
-  std::set<int> failed;
-  for (bool is_second = false;;) {
-    progress.Step("finding poses", static_cast<double>(posed()) / frames);
-    std::vector<int> point_of(tracks.size(), -1);
-    for (std::size_t i = 0; i < scene.points.size(); ++i)
-      point_of[At(scene.points[i].track)] = static_cast<int>(i);
-    int next = -1, most = kLeastPoints - 1;
-    for (int f = 0; f < frames; ++f) {
-      if (scene.poses[At(f)] || failed.contains(f)) continue;
-      const int seen = static_cast<int>(
-          std::count_if(by_frame[At(f)].begin(), by_frame[At(f)].end(),
-                        [&](const auto& entry) { return point_of[At(entry.first)] >= 0; }));
-      if (seen > most) most = seen, next = f;
-    }
-    if (next < 0) {
-      if (is_second || failed.empty()) break;
-      // Those that failed once may find better points now.
-      is_second = true;
-      failed.clear();
-      AdjustBundle(tracks, lens, {.stop = progress.stop}, scene, nullptr);
-      RefreshPoints(tracks, lens, scene);
-      continue;
-    }
-    std::optional<CameraPose> neighbour;
-    for (int step = 1; step < frames && !neighbour; ++step)
-      for (const int f : {next - step, next + step})
-        if (f >= 0 && f < frames && scene.poses[At(f)] && !neighbour)
-          neighbour = scene.poses[At(f)];
-    const auto pose =
-        PoseOf(PointsOf(tracks, by_frame[At(next)], point_of, scene), lens, neighbour);
-    if (!pose) {
-      failed.insert(next);
-      continue;
-    }
-    scene.poses[At(next)] = pose;
-    RefreshPoints(tracks, lens, scene);
-    const int now = posed();
-    if (now <= 6 || now >= kGrowthPerAdjustment * adjusted_at) {
-      adjusted_at = now;
-      AdjustBundle(tracks, lens, {.iterations = 12, .stop = progress.stop}, scene, nullptr);
-      RefreshPoints(tracks, lens, scene);
-      if (observer) observer(scene);
-    }
-  }
-  for (int round = 0; round < 3; ++round) {
-    progress.Step("adjusting all poses", 0.9);
-    AdjustBundle(tracks, lens, {.iterations = round < 2 ? 15 : 40, .stop = progress.stop}, scene,
-                 nullptr);
-    progress.Step("adjusting all poses", 0.9);
-    RefreshPoints(tracks, lens, scene);
-    if (observer) observer(scene);
-  }
-}
-
-}  // namespace
-
-void RefreshPoints(const std::vector<Track>& tracks, const LensProfile& lens,
-                   Reconstruction& scene) {
-  std::vector<TrackPoint> kept;
-  std::vector<bool> has_point(tracks.size(), false);
-  for (TrackPoint& point : scene.points) {
-    const Track& track = tracks[At(point.track)];
-    int used = 0;
-    for (std::size_t k = 0; k < track.seen.size(); ++k) {
-      const auto& pose = scene.poses[At(track.seen[k].frame)];
-      point.uses[k] = pose && PixelErrorOf(*pose, lens, point.position, track.seen[k]) < kInlier;
-      used += point.uses[k];
-    }
-    if (used < 2 || AngleOf(scene, track, point) < kLeastAngle) continue;
-    has_point[At(point.track)] = true;
-    kept.push_back(std::move(point));
-  }
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    if (has_point[t]) continue;
-    TrackPoint point;
-    point.track = static_cast<int>(t);
-    if (Triangulate(scene, tracks[t], lens, point)) kept.push_back(std::move(point));
-  }
-  scene.points = std::move(kept);
-}
-
-void CountInliers(const std::vector<Track>& tracks, const LensProfile& lens, Motion& motion) {
-  std::vector<double> squares(motion.frames.size(), 0);
-  std::vector<int> points(motion.frames.size(), 0);
-  for (MotionFrame& frame : motion.frames) frame.inliers = frame.tracks = 0;
-  for (const Track& track : tracks)
-    for (const Observation& seen : track.seen) ++motion.frames[At(seen.frame)].tracks;
-  double long_squares = 0;
-  int long_count = 0;
-  constexpr double kLongReach = 10;  // px
-  for (const TrackPoint& point : motion.scene.points) {
-    const Track& track = tracks[At(point.track)];
-    for (const Observation& seen : track.seen) {
-      const auto& pose = motion.scene.poses[At(seen.frame)];
-      if (!pose) continue;
-      const double error = PixelErrorOf(*pose, lens, point.position, seen);
-      ++points[At(seen.frame)];
-      if (track.seen.size() >= 5 && error < kLongReach) long_squares += error * error, ++long_count;
-      if (error >= kInlier) continue;
-      ++motion.frames[At(seen.frame)].inliers;
-      squares[At(seen.frame)] += error * error;
-    }
-  }
-  motion.long_track_rms_px = std::sqrt(long_squares / std::max(1, long_count));
-  for (std::size_t f = 0; f < motion.frames.size(); ++f) {
-    MotionFrame& frame = motion.frames[f];
-    frame.rms_px = std::sqrt(squares[f] / std::max(1, frame.inliers));
-    if (motion.scene.poses[f] &&
-        (frame.inliers < kLeastPoints || frame.inliers < kLeastShare * points[f]))
-      motion.scene.poses[f].reset();
-    frame.reason =
-        motion.scene.poses[f] ? ""
-        : frame.tracks < kLeastShared
-            ? fmt::format("only {} points could be followed into it", frame.tracks)
-            : fmt::format("its {} points do not agree with the other frames", frame.tracks);
-  }
-}
-
-Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfile& lens,
-                   const Progress& progress, const MotionObserver& observer) {
-  Motion motion;
-  motion.frames.resize(At(frames));
-  motion.scene.poses.resize(At(frames));
-  const TracksByFrame by_frame = IndexByFrame(tracks, frames);
-
-  // How far tracks move, and what a rotation leaves of that.
+// Pairs of frames by how much depth they show, best first; fills the quantities of the verdicts.
+std::vector<Start> StartsOf(const std::vector<Track>& tracks, const TracksByFrame& by_frame,
+                            const LensProfile& lens, const Progress& progress, Motion& motion) {
   std::vector<double> reaches;
   for (const Track& track : tracks) {
     double reach = 0;
@@ -318,10 +44,7 @@ Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfi
     if (track.seen.size() >= 3) reaches.push_back(reach);
   }
   motion.median_reach_px = Median(reaches);
-  struct Start {
-    int a, b;
-    double score;
-  };
+  const int frames = static_cast<int>(by_frame.size());
   std::vector<Start> starts;
   std::vector<double> residuals;
   for (int a = 0; a < frames; ++a) {
@@ -342,12 +65,22 @@ Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfi
   }
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& x, const Start& y) { return x.score > y.score; });
+  return starts;
+}
 
+// The largest piece that grows from a pair of free frames; it may reach a few frames further, so
+// that it overlaps the pieces before.
+Reconstruction GrowPiece(const std::vector<Track>& tracks, const TracksByFrame& by_frame,
+                         const LensProfile& lens, const std::vector<Start>& starts,
+                         const std::vector<bool>& is_free, int growths, const Progress& progress,
+                         const MotionObserver& observer) {
+  constexpr int kApart = 2, kOverlap = 3;  // frames
+  const int frames = static_cast<int>(is_free.size());
   // Starts that differ by more than a frame, and of them those with most points.
   std::vector<std::pair<Start, Reconstruction>> tried;
   for (const Start& start : starts) {
     if (static_cast<int>(tried.size()) >= kStarts) break;
-    constexpr int kApart = 2;  // frames
+    if (!is_free[At(start.a)] || !is_free[At(start.b)]) continue;
     const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const auto& other) {
       return std::abs(other.first.a - start.a) < kApart &&
              std::abs(other.first.b - start.b) < kApart;
@@ -361,19 +94,171 @@ Motion SolveMotion(const std::vector<Track>& tracks, int frames, const LensProfi
   std::stable_sort(tried.begin(), tried.end(), [](const auto& x, const auto& y) {
     return x.second.points.size() > y.second.points.size();
   });
+  std::vector<bool> may_add = is_free;
+  for (int f = 0; f < frames; ++f)
+    for (int step = -kOverlap; step <= kOverlap; ++step)
+      if (f + step >= 0 && f + step < frames && is_free[At(f + step)]) may_add[At(f)] = true;
+  Reconstruction best;
+  best.poses.resize(At(frames));
   int most = 0;
-  for (std::size_t i = 0; i < tried.size() && i < static_cast<std::size_t>(kGrowths); ++i) {
+  for (std::size_t i = 0; i < tried.size() && i < At(growths); ++i) {
     Reconstruction scene = tried[i].second;
-    if (scene.points.size() < static_cast<std::size_t>(kLeastPoints)) break;
-    Grow(tracks, by_frame, lens, progress, observer, scene);
-    const int posed = static_cast<int>(
-        std::count_if(scene.poses.begin(), scene.poses.end(), [](auto& p) { return !!p; }));
+    if (scene.points.size() < At(kLeastPoints)) break;
+    Grow(tracks, by_frame, lens, may_add, progress, observer, scene);
+    const int posed = PosedFrames(scene);
     if (posed > most) {
       most = posed;
-      motion.scene = std::move(scene);
+      best = std::move(scene);
     }
-    if (most >= 0.9 * frames) break;
+    if (most >= 0.9 * Count(is_free)) break;
   }
+  return best;
+}
+
+// Grows pieces until few frames are left, and joins those that share tissue. The first piece of the
+// result is the largest.
+std::vector<Reconstruction> GrowPieces(std::vector<Track>& tracks, int frames,
+                                       const LensProfile& lens, const std::vector<Start>& starts,
+                                       const Progress& progress, const MotionObserver& observer) {
+  constexpr int kLeastPiece = 5, kMostPieces = 6;  // frames, pieces
+  std::vector<Reconstruction> pieces;
+  std::vector<bool> is_free(At(frames), true);
+  TracksByFrame by_frame = IndexByFrame(tracks, frames);
+  while (static_cast<int>(pieces.size()) < kMostPieces &&
+         (pieces.empty() || Count(is_free) >= kLeastPiece)) {
+    Reconstruction piece = GrowPiece(tracks, by_frame, lens, starts, is_free,
+                                     pieces.empty() ? kGrowths : 1, progress, observer);
+    int added = 0;
+    for (std::size_t f = 0; f < is_free.size(); ++f)
+      if (is_free[f] && piece.poses[f]) is_free[f] = false, ++added;
+    if (added < kLeastPiece && !pieces.empty()) break;
+    pieces.push_back(std::move(piece));
+    if (added < kLeastPiece) break;
+    // Each join moves points, so that another may become possible.
+    for (bool is_joined = true; is_joined;) {
+      is_joined = false;
+      for (std::size_t a = 0; a < pieces.size() && !is_joined; ++a)
+        for (std::size_t b = a + 1; b < pieces.size() && !is_joined; ++b) {
+          progress.Step("joining pieces", 0.8);
+          if (!JoinPieces(pieces[b], lens, tracks, progress.stop, pieces[a])) continue;
+          is_joined = true;
+          pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(b));
+          by_frame = IndexByFrame(tracks, frames);
+          std::vector<bool> may_add = is_free;
+          Grow(tracks, by_frame, lens, may_add, progress, observer, pieces[a]);
+          for (std::size_t f = 0; f < is_free.size(); ++f)
+            if (pieces[a].poses[f]) is_free[f] = false;
+        }
+    }
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const auto& x, const auto& y) { return PosedFrames(x) > PosedFrames(y); });
+  return pieces;
+}
+
+// Residuals of one area of one frame that point the same way: tissue that moved, not noise.
+class Coherence {
+ public:
+  void Add(const Observation& seen, const Eigen::Vector2d& residual) {
+    constexpr double kArea = 60;  // px
+    areas_[{seen.frame, static_cast<int>(seen.pixel.x() / kArea),
+            static_cast<int>(seen.pixel.y() / kArea)}]
+        .push_back(residual);
+  }
+
+  // Root mean square over the areas of the median residual.
+  double Rms() const {
+    constexpr std::size_t kLeast = 5;  // residuals of an area
+    double squares = 0;
+    int count = 0;
+    for (const auto& [area, residuals] : areas_) {
+      if (residuals.size() < kLeast) continue;
+      std::vector<double> x, y;
+      for (const Eigen::Vector2d& r : residuals) x.push_back(r.x()), y.push_back(r.y());
+      squares += Median(x) * Median(x) + Median(y) * Median(y);
+      ++count;
+    }
+    return std::sqrt(squares / std::max(1, count));
+  }
+
+ private:
+  std::map<std::array<int, 3>, std::vector<Eigen::Vector2d>> areas_;
+};
+
+Eigen::Vector2d ResidualOf(const CameraPose& pose, const LensProfile& lens,
+                           const Eigen::Vector3d& point, const Observation& seen) {
+  Eigen::Vector2d at;
+  lens.Project(pose.InCamera(point).data(), at.data());
+  return at - seen.pixel;
+}
+
+}  // namespace
+
+void CountInliers(const std::vector<Track>& tracks, const LensProfile& lens, Motion& motion) {
+  std::vector<double> squares(motion.frames.size(), 0);
+  std::vector<int> points(motion.frames.size(), 0);
+  for (MotionFrame& frame : motion.frames) frame.inliers = frame.tracks = 0;
+  for (const Track& track : tracks)
+    for (const Observation& seen : track.seen) ++motion.frames[At(seen.frame)].tracks;
+  Coherence coherence;
+  for (const TrackPoint& point : motion.scene.points) {
+    const Track& track = tracks[At(point.track)];
+    for (const Observation& seen : track.seen) {
+      const auto& pose = motion.scene.poses[At(seen.frame)];
+      if (!pose) continue;
+      const double error = PixelErrorOf(*pose, lens, point.position, seen);
+      ++points[At(seen.frame)];
+      if (track.seen.size() >= kLongTrack && error < kLongReach)
+        coherence.Add(seen, ResidualOf(*pose, lens, point.position, seen));
+      if (error >= kInlier) continue;
+      ++motion.frames[At(seen.frame)].inliers;
+      squares[At(seen.frame)] += error * error;
+    }
+  }
+  // Long tracks that no point explains count too: that is how tissue looks that moved.
+  std::vector<bool> has_point(tracks.size(), false);
+  for (const TrackPoint& point : motion.scene.points) has_point[At(point.track)] = true;
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (has_point[t] || tracks[t].seen.size() < kLongTrack) continue;
+    const auto point = NearestPoint(motion.scene, tracks[t]);
+    if (!point) continue;
+    for (const Observation& seen : tracks[t].seen)
+      if (const auto& pose = motion.scene.poses[At(seen.frame)];
+          pose && PixelErrorOf(*pose, lens, *point, seen) < kLongReach)
+        coherence.Add(seen, ResidualOf(*pose, lens, *point, seen));
+  }
+  motion.coherent_residual_px = coherence.Rms();
+  for (std::size_t f = 0; f < motion.frames.size(); ++f) {
+    MotionFrame& frame = motion.frames[f];
+    frame.rms_px = std::sqrt(squares[f] / std::max(1, frame.inliers));
+    if (motion.scene.poses[f] &&
+        (frame.inliers < kLeastPoints || frame.inliers < kLeastShare * points[f]))
+      motion.scene.poses[f].reset();
+    frame.reason =
+        motion.scene.poses[f] ? ""
+        : frame.tracks < kLeastShared
+            ? fmt::format("only {} points could be followed into it", frame.tracks)
+        : frame.other_piece > 0
+            ? fmt::format(
+                  "it belongs to part {} of the clip, which shows no tissue that was "
+                  "recognised in the largest part",
+                  frame.other_piece + 1)
+            : fmt::format("its {} points do not agree with the other frames", frame.tracks);
+  }
+}
+
+Motion SolveMotion(std::vector<Track>& tracks, int frames, const LensProfile& lens,
+                   const Progress& progress, const MotionObserver& observer) {
+  Motion motion;
+  motion.frames.resize(At(frames));
+  motion.scene.poses.resize(At(frames));
+  const std::vector<Start> starts =
+      StartsOf(tracks, IndexByFrame(tracks, frames), lens, progress, motion);
+  std::vector<Reconstruction> pieces = GrowPieces(tracks, frames, lens, starts, progress, observer);
+  for (std::size_t piece = 1; piece < pieces.size(); ++piece)
+    for (std::size_t f = 0; f < pieces[piece].poses.size(); ++f)
+      if (pieces[piece].poses[f]) motion.frames[f].other_piece = static_cast<int>(piece);
+  motion.scene = std::move(pieces.front());
   motion.rms_px =
       AdjustBundle(tracks, lens, {.iterations = 5, .stop = progress.stop}, motion.scene, nullptr);
   progress.Step("adjusting all poses", 1);

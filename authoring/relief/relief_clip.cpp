@@ -13,6 +13,7 @@
 #include "authoring/panorama/graph/parallel.h"
 #include "authoring/panorama/preparation/clip_look.h"
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
@@ -34,6 +35,24 @@ Lens Scaled(const Lens& lens, double scale, const cv::Size& size) {
   return small;
 }
 
+// A lens without calibration, over the whole picture: a fisheye where the footage has a round
+// window, else a pinhole.
+Lens GuessedLens(const FootageLens& found, const FootageInfo& info) {
+  constexpr double kFieldOfView = 80;  // degrees; arthroscopes see 70 to 90 across
+  Lens lens = found.lens;
+  lens.width = info.width;
+  lens.height = info.height;
+  lens.cx += found.part.x;
+  lens.cy += found.part.y;
+  if (lens.circle.r <= 0) return lens;
+  lens.circle.cx += found.part.x;
+  lens.circle.cy += found.part.y;
+  lens.model = LensModel::kEquisolid;
+  lens.field_of_view = RadiansFromDegrees(kFieldOfView);
+  lens.focal_px = lens.circle.r / (2 * std::sin(lens.field_of_view / 4));
+  return lens;
+}
+
 // 255 where the lens shows something.
 cv::Mat WindowOf(const Lens& lens) {
   if (lens.circle.r <= 0) return {lens.height, lens.width, CV_8UC1, cv::Scalar(255)};
@@ -47,7 +66,7 @@ cv::Mat WindowOf(const Lens& lens) {
 
 }  // namespace
 
-ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
+ReliefClip ReadReliefClip(const std::filesystem::path& path, const std::optional<Lens>& lens,
                           const ReliefOptions& options, const std::set<int>& excluded,
                           StageClock& clock) {
   ReliefClip clip;
@@ -55,15 +74,22 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
   Footage footage = Footage::Open(path);
   const FootageInfo info = footage.info();
   FootageLens found = LensOf(footage, lens, reading);
-  clip.warnings = found.warnings;
+  if (lens) {
+    clip.warnings = found.warnings;
+  } else {
+    found.lens = GuessedLens(found, info);
+  }
   clip.scale = std::min(1.0, kLargestSide / std::max(info.width, info.height));
   const cv::Size size(static_cast<int>(std::lround(info.width * clip.scale)),
                       static_cast<int>(std::lround(info.height * clip.scale)));
+  clip.raw_lens = found.lens;
   clip.lens = Scaled(found.lens, clip.scale, size);
 
   // First reading: which frames are worth using.
   FrameLooker looker(found.lens.circle);
   std::vector<FrameLook> looks;
+  std::vector<int> odd_sizes;
+  cv::Size odd_size;
   cv::Mat raw;
   for (int i = 0;; ++i) {
     reading.Step(fmt::format("reading frame {}", i + 1),
@@ -71,19 +97,27 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
     if (!footage.Next(raw)) break;
     ClipRow row{i, footage.NameOf(i), ""};
     FrameLook look;
-    if (excluded.contains(i))
+    if (excluded.contains(i)) {
       row.reason = "left out by hand";
-    else if (raw.empty())
+    } else if (raw.empty()) {
       row.reason = "unreadable: " + footage.fault();
-    else if (raw.cols != info.width || raw.rows != info.height)
+    } else if (raw.cols != info.width || raw.rows != info.height) {
       row.reason = fmt::format("it is {} x {} px, the first frame {} x {}", raw.cols, raw.rows,
                                info.width, info.height);
-    else
+      odd_sizes.push_back(i);
+      odd_size = raw.size();
+    } else {
       look = looker.Look(raw);
+    }
     if (!row.reason.empty()) look.sharpness = -1;
     looks.push_back(look);
     clip.rows.push_back(std::move(row));
   }
+  if (!odd_sizes.empty())
+    clip.warnings.push_back(fmt::format(
+        "frame {} is {} x {} px and the first frame {} x {}; {} left out, give frames of one size",
+        odd_sizes.back(), odd_size.width, odd_size.height, info.width, info.height,
+        odd_sizes.size() == 1 ? "it was" : fmt::format("{} such frames were", odd_sizes.size())));
   if (options.choose.skip_blank) MarkBlanks(looks);
   const auto reasons = ReasonsAgainst(looks, options.choose);
   std::vector<int> chosen;
@@ -93,13 +127,22 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
   }
   if (chosen.size() < 2)
     throw Error(Code::kBadImage,
-                fmt::format("{} of its {} frames can be used, and a relief needs two views at "
-                            "least; choose other footage",
-                            chosen.size(), clip.rows.size()),
+                odd_sizes.empty()
+                    ? fmt::format("{} of its {} frames can be used, and a relief needs two views "
+                                  "at least; choose other footage",
+                                  chosen.size(), clip.rows.size())
+                    : clip.warnings.back(),
                 path);
 
   // Second reading: only the chosen ones are kept, and `most_frames` bounds them.
-  const cv::Mat window = WindowOf(clip.lens);
+  cv::Mat window = WindowOf(clip.lens);
+  if (!lens) {
+    // Black bars are no tissue.
+    cv::Mat part = cv::Mat::zeros(info.height, info.width, CV_8U);
+    part(found.part).setTo(255);
+    cv::resize(part, part, size, 0, 0, cv::INTER_NEAREST);
+    window &= part;
+  }
   ClipLookBuilder builder;
   std::vector<cv::Mat> pictures;
   footage.Rewind();

@@ -24,6 +24,7 @@ struct ClipRow {
 };
 
 struct ReliefClip {
+  Lens raw_lens;                     // describes the frames as they were filmed
   Lens lens;                         // describes the working pictures
   double scale = 1;                  // working px per raw px
   std::vector<WorkingFrame> frames;  // usable rows, in order; with the fisheye
@@ -33,7 +34,7 @@ struct ReliefClip {
 
 // Stages "read" and "prepare" of the clock. Throws Error where the footage cannot be read, the lens
 // is not for its pictures, or fewer than two frames are usable.
-ReliefClip ReadReliefClip(const std::filesystem::path& footage, const Lens& lens,
+ReliefClip ReadReliefClip(const std::filesystem::path& footage, const std::optional<Lens>& lens,
                           const ReliefOptions& options, const std::set<int>& excluded,
                           StageClock& clock);
 

@@ -26,6 +26,7 @@ Json JsonFromFrame(const PosedFrame& frame) {
   if (!frame.is_posed) return json;
   json["R"] = frame.rotation;
   json["C"] = frame.centre;
+  json["head_turn_deg"] = DegreesFromRadians(frame.head_turn);
   json["sigma"] = frame.sigma_m;
   json["sigma_deg"] = DegreesFromRadians(frame.sigma_rad);
   return json;
@@ -51,8 +52,23 @@ std::string JsonFromReliefReport(const ReliefReport& report) {
                    {"miss", report.pivot_miss},
                    {"median_insertion", report.median_insertion},
                    {"shaft_spread_deg", DegreesFromRadians(report.shaft_spread)},
-                   {"head_turn_deg", DegreesFromRadians(report.head_turn)}};
-  json["scale"] = {{"source", report.scale_source}, {"factor", report.scale}};
+                   {"head_turn_deg", DegreesFromRadians(report.head_turn)},
+                   {"head", report.head_wanders ? "wandering" : "locked"},
+                   {"slides", Json::array()}};
+  for (const PortalSlide& slide : report.slides)
+    json["pivot"]["slides"].push_back({{"frame", slide.frame}, {"shift", slide.shift}});
+  json["focal"] = {{"factor", report.focal_factor},
+                   {"sigma", report.focal_sigma},
+                   {"status", report.is_focal_changed ? "changed" : "kept"}};
+  json["scale"] = {{"source", report.scale_source},
+                   {"factor", report.scale},
+                   {"sigma", Rounded(report.scale_sigma)},
+                   {"lengths", Json::array()}};
+  for (const ScalePart& part : report.scale_parts)
+    json["scale"]["lengths"].push_back({{"source", part.source},
+                                        {"length", part.metres},
+                                        {"factor", part.factor},
+                                        {"sigma", Rounded(part.sigma)}});
   if (report.width > 0)
     json["backdrop"] = {
         {"width", report.width},
@@ -63,6 +79,7 @@ std::string JsonFromReliefReport(const ReliefReport& report) {
           {"centre_px", {report.projection.centre_px.x, report.projection.centre_px.y}},
           {"px_per_deg", report.projection.px_per_deg}}}};
   json["coverage"] = Rounded(report.coverage);
+  json["hole_deg"] = Rounded(DegreesFromRadians(report.hole));
   json["confidence_histogram"] = report.confidence_histogram;
   json["warnings"] = report.warnings;
   json["frames"] = Json::array();

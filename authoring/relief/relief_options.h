@@ -15,6 +15,7 @@ struct ReliefOptions {
   double insertion = 0.018;                // m
   int points = 700;
   bool use_pivot = true;
+  bool find_head_turn = true;
   double cell = 0.008726646259971648;  // rad
   int layers = 64;
   double least_parallax = 0.02617993877991494;  // rad
@@ -32,6 +33,8 @@ struct ReliefOptions {
     v("points", points, Range{100, 5000}, "", "Points that are tracked per frame, at most.");
     v("use_pivot", use_pivot, Any{}, "",
       "Use the portal as a soft constraint on the camera positions.");
+    v("find_head_turn", find_head_turn, Any{}, "",
+      "Find how the camera head is turned on the shaft; without it the head is taken as straight.");
     v("cell", cell, Range{0.002, 0.1}, "rad", "Spacing of the directions that are measured.");
     v("layers", layers, Range{16, 256}, "", "Radii that are tried per direction.");
     v("least_parallax", least_parallax, Range{0.0, 0.5}, "rad",

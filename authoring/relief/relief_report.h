@@ -21,8 +21,23 @@ struct PosedFrame {
   std::array<double, 9> rotation{};   // portal_from_camera, row-major: right, down, view
   std::array<double, 3> centre{};     // the tip, m, portal frame
   double sigma_m = 0, sigma_rad = 0;  // standard deviations of the pose while the points stay
+  double head_turn = 0;               // rad, of the camera head on the shaft
   int tracks = 0, inliers = 0;
   double rms_px = 0;
+};
+
+// The portal before and from a frame on is not the same.
+struct PortalSlide {
+  int frame = 0;                  // in the footage
+  std::array<double, 3> shift{};  // m
+};
+
+// The scale by one length that the author knows.
+struct ScalePart {
+  std::string source;  // "length" or "instrument"
+  double metres = 0;
+  double factor = 1;  // metres per metre of the reconstruction
+  double sigma = 0;   // standard error of the factor's logarithm, from the pixels that were named
 };
 
 // Whether the clip determines depth, and the test that decided it.
@@ -42,17 +57,27 @@ struct ReliefReport {
   double rms_px = 0;
   // The portal: the origin of all coordinates.
   bool has_pivot = false;
-  double shaft_spread = 0;               // rad
-  double pivot_miss = 0;                 // m, median distance between a shaft and the portal
-  double median_insertion = 0;           // m
-  double head_turn = 0;                  // rad
-  std::string scale_source = "assumed";  // or "length"
-  double scale = 1;                      // factor that the given length applied
+  double shaft_spread = 0;      // rad
+  double pivot_miss = 0;        // m, median distance between a shaft and the portal
+  double median_insertion = 0;  // m
+  double head_turn = 0;         // rad, median
+  bool head_wanders = false;    // each frame has its own
+  std::vector<PortalSlide> slides;
+  double focal_factor = 1;               // of the focal length that fits the motion best
+  double focal_sigma = 0;                // standard error of the factor; 0: not determined
+  bool is_focal_changed = false;         // the lens of the result has that focal length
+  std::string scale_source = "assumed";  // or "length", "instrument", "joined"
+  double scale = 1;                      // factor that the given lengths applied
+  double scale_sigma = 0;                // standard error of the factor's logarithm
+  std::vector<ScalePart> scale_parts;    // one per given length
   // Relief h over directions: surface radius = radius - h.
   double radius = 0;  // m
   Projection projection;
   int width = 0, height = 0;
   double coverage = 0;  // share of the cells that three frames see, at or above least_confidence
+  // Angle about the mean shaft within which less than half of the cells in view were measured with
+  // confidence, rad; an insertion leaves such a hole around its epipole.
+  double hole = 0;
   std::array<int, 10> confidence_histogram{};  // cells by tenths of confidence
   std::vector<std::string> warnings;
   std::vector<StageCost> stages;

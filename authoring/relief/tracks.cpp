@@ -31,13 +31,14 @@ constexpr double kRatio = 0.82;              // best over second-best descriptor
 struct Sighting {
   int frame;
   cv::Point2f pixel;
+  int feature = -1;  // number of the frame's feature; -1: followed by flow
 };
 
 // Joins sightings into points; a point that would be twice in one frame is given up.
 class PointGroups {
  public:
-  int Add(int frame, const cv::Point2f& pixel) {
-    sightings_.push_back({frame, pixel});
+  int Add(int frame, const cv::Point2f& pixel, int feature = -1) {
+    sightings_.push_back({frame, pixel, feature});
     parent_.push_back(static_cast<int>(parent_.size()));
     return parent_.back();
   }
@@ -217,8 +218,9 @@ void AddFlow(const std::vector<WorkingFrame>& frames, const std::vector<FlowFram
   }
 }
 
-void AddFeatures(const std::vector<WorkingFrame>& frames, const std::vector<FlowFrame>& flows,
-                 const ReliefOptions& options, const Progress& progress, PointGroups& groups) {
+std::vector<Features> AddFeatures(const std::vector<WorkingFrame>& frames,
+                                  const std::vector<FlowFrame>& flows, const ReliefOptions& options,
+                                  const Progress& progress, PointGroups& groups) {
   const int count = static_cast<int>(frames.size());
   std::vector<Features> features(frames.size());
   ForEachIndex(count, options.threads, progress, "finding features", [&](int i) {
@@ -244,11 +246,30 @@ void AddFeatures(const std::vector<WorkingFrame>& frames, const std::vector<Flow
     if (entry != known.end()) return entry->second;
     const auto& keypoint =
         features[static_cast<std::size_t>(frame)].points[static_cast<std::size_t>(feature)];
-    return known[feature] = groups.Add(frame, keypoint.pt);
+    return known[feature] = groups.Add(frame, keypoint.pt, feature);
   };
   for (std::size_t p = 0; p < pairs.size(); ++p)
     for (const auto& [a, b] : matches[p])
       groups.Join(id_of(pairs[p].first, a), id_of(pairs[p].second, b));
+  return features;
+}
+
+// The descriptors of a point where it was first, half-way and last seen as a feature.
+cv::Mat DescriptorsOf(const std::vector<Sighting>& group, const std::vector<Features>& features) {
+  std::vector<const Sighting*> found;
+  for (const Sighting& s : group)
+    if (s.feature >= 0) found.push_back(&s);
+  cv::Mat descriptors;
+  const std::size_t last = found.size() - 1;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (i == 0 || i == last || i == last / 2) {
+      cv::Mat row;  // SIFT has whole numbers up to 255
+      features[static_cast<std::size_t>(found[i]->frame)]
+          .descriptors.row(found[i]->feature)
+          .convertTo(row, CV_8U);
+      descriptors.push_back(row);
+    }
+  return descriptors;
 }
 
 double Reach(const std::vector<Sighting>& group) {
@@ -275,7 +296,7 @@ std::vector<Track> FollowPoints(const std::vector<WorkingFrame>& frames, const L
                });
   PointGroups groups;
   AddFlow(frames, flows, options, progress, groups);
-  AddFeatures(frames, flows, options, progress, groups);
+  const std::vector<Features> features = AddFeatures(frames, flows, options, progress, groups);
 
   std::vector<std::vector<Sighting>> all = groups.Groups();
   // The clip's own motion, from tracks of three frames and more.
@@ -294,6 +315,7 @@ std::vector<Track> FollowPoints(const std::vector<WorkingFrame>& frames, const L
       const auto ray = RayFromPixel(lens, {s.pixel.x, s.pixel.y});
       if (ray) track.seen.push_back({s.frame, {s.pixel.x, s.pixel.y}, {ray->x, ray->y, ray->z}});
     }
+    track.descriptors = DescriptorsOf(group, features);
     if (track.seen.size() >= 2) tracks.push_back(std::move(track));
   }
   return tracks;

@@ -22,6 +22,7 @@ struct Observation {
 
 struct Track {
   std::vector<Observation> seen;  // sorted by frame, at most one per frame, at least two
+  cv::Mat descriptors;            // CV_8UC1, a SIFT descriptor per row; may be empty
 };
 
 // Tracks that stay put in the picture while others move are fixed to the lens and are left out.

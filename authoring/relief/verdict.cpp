@@ -11,7 +11,7 @@ ReliefVerdict JudgeMotion(const Motion& motion) {
   constexpr double kRotation = 1.0;      // px that the best rotation leaves
   constexpr int kVerified = 40;          // tracks that a frame should keep
   constexpr double kTexture = 0.3;       // share of the frames that keep as many
-  constexpr double kMoves = 3.0;         // px of long tracks, outliers up to 10 px included
+  constexpr double kMoves = 1.5;         // px of residual that neighbours share
   constexpr double kLargestPiece = 0.5;  // share of the usable frames
   const double frames = std::max<double>(1, motion.frames.size());
   const auto share = [&](auto&& is_true) {
@@ -47,11 +47,11 @@ ReliefVerdict JudgeMotion(const Motion& motion) {
                         "take footage that moves slowly over tissue with some texture",
                         100 * verified, kVerified),
             "share of frames with enough verified tracks", verified, kTexture};
-  if (motion.long_track_rms_px > kMoves)
+  if (motion.coherent_residual_px > kMoves)
     return {"tissue_moves",
             "points that are seen for long do not stay in place; take footage in which the tissue "
             "is at rest and no instrument touches it",
-            "rms of long tracks, px", motion.long_track_rms_px, kMoves};
+            "residual that neighbouring tracks share, px", motion.coherent_residual_px, kMoves};
   return {};
 }
 

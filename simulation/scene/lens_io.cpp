@@ -145,8 +145,21 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
                         "give fov_deg or the circle that the lens shows"});
   }
   if (faults.empty()) return lens;
+  // A file of another kind breaks nearly every rule; its kind alone says what to do.
+  constexpr std::size_t kMostNamed = 3;
+  const std::string schema = json.value("schema", nlohmann::json()).dump();
+  const bool is_lens = !json.contains("schema") || schema.starts_with("\"arthroscene.lens/");
+  if (!is_lens || !json.contains("model"))
+    throw Error(Code::kBadData,
+                fmt::format("this is no lens file, since its {}; give a file of `arthroscene lens`",
+                            is_lens ? "model is missing"
+                                    : fmt::format("schema is {}, not \"{}\"", schema, kSchema)),
+                file);
   std::string sentence;
-  for (const JsonFault& fault : faults) sentence += (sentence.empty() ? "" : "; ") + fault.sentence;
+  for (std::size_t i = 0; i < std::min(kMostNamed, faults.size()); ++i)
+    sentence += (i == 0 ? "" : "; ") + faults[i].sentence;
+  if (faults.size() > kMostNamed)
+    sentence += fmt::format(" (and {} more)", faults.size() - kMostNamed);
   throw Error(Code::kBadData, sentence, file);
 }
 

@@ -78,7 +78,7 @@ bool Exists(const std::string& citation, const Targets& targets) {
 }
 
 std::vector<std::string> FaultsOf(const std::string& source, const Targets& targets) {
-  static const std::regex label(R"(\b(PAN|LENS|FEM|HAP|VIEW|FILE)-\d+\b)");
+  static const std::regex label(R"(\b(PAN|LENS|RELIEF|FEM|HAP|VIEW|FILE)-\d+\b)");
   static const std::regex retired(R"((design §|[Hh]ard case \d|notes on (haptics|deform)))");
   std::vector<std::string> faults;
   for (const Comment& lines : PartsOfSource(source).comments) {

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -28,30 +28,58 @@ namespace arthro::app {
 namespace {
 
 struct ReliefJob {
-  std::string lens, output, sigma, confidence, poses, report, between;
-  std::optional<double> length_mm;
+  std::string lens, output, sigma, confidence, poses, report;
+  std::vector<double> lengths_mm, instruments_mm;
+  std::vector<std::string> between, across;
   bool is_partial = false;
   authoring::ReliefRequest request;
 };
 
-// "x,y:x,y": two pixels of the relief.
-authoring::KnownLength LengthOf(double millimetres, std::string_view between) {
-  const auto colon = between.find(':');
-  const auto pixel = [](std::string_view word) {
-    const std::vector<double> numbers =
-        NumbersFromWord("--between", word, {{0.0, 65535.0}, "px", false});
-    if (numbers.size() != 2)
-      throw CLI::ValidationError("--between", "takes two pixels of the relief, as x,y:x,y");
+// "x,y:x,y": two pixels.
+std::pair<glm::dvec2, glm::dvec2> PixelsFromWord(const char* flag, std::string_view word,
+                                                 const char* sentence) {
+  const auto colon = word.find(':');
+  const auto pixel = [&](std::string_view part) {
+    const std::vector<double> numbers = NumbersFromWord(flag, part, {{0.0, 65535.0}, "px", false});
+    if (numbers.size() != 2) throw CLI::ValidationError(flag, sentence);
     return glm::dvec2(numbers[0], numbers[1]);
   };
-  if (colon == std::string_view::npos)
-    throw CLI::ValidationError("--between", "takes two pixels of the relief, as x,y:x,y");
-  return {MetresFromMm(millimetres), pixel(between.substr(0, colon)),
-          pixel(between.substr(colon + 1))};
+  if (colon == std::string_view::npos) throw CLI::ValidationError(flag, sentence);
+  return {pixel(word.substr(0, colon)), pixel(word.substr(colon + 1))};
+}
+
+authoring::KnownLength LengthOf(double millimetres, const std::string& between) {
+  const auto [from, to] =
+      PixelsFromWord("--between", between, "takes two pixels of the relief, as x,y:x,y");
+  return {MetresFromMm(millimetres), from, to};
+}
+
+authoring::KnownInstrument InstrumentOf(double millimetres, const std::string& across) {
+  constexpr const char* kForm = "takes a frame and two of its pixels, as frame:x,y:x,y";
+  const auto colon = across.find(':');
+  if (colon == std::string::npos) throw CLI::ValidationError("--across", kForm);
+  const double frame =
+      NumberFromWord("--across", std::string_view(across).substr(0, colon), {{0.0, 1e6}, "", true});
+  const auto [from, to] = PixelsFromWord("--across", across.substr(colon + 1), kForm);
+  return {MetresFromMm(millimetres), static_cast<int>(frame), from, to};
+}
+
+// Lengths and the words that place them come in pairs.
+void ReadLengths(ReliefJob& job) {
+  if (job.lengths_mm.size() != job.between.size())
+    throw CLI::ValidationError("--length-mm",
+                               "needs one --between each, and --between one --length-mm");
+  if (job.instruments_mm.size() != job.across.size())
+    throw CLI::ValidationError("--instrument-mm",
+                               "needs one --across each, and --across one --instrument-mm");
+  for (std::size_t i = 0; i < job.between.size(); ++i)
+    job.request.lengths.push_back(LengthOf(job.lengths_mm[i], job.between[i]));
+  for (std::size_t i = 0; i < job.across.size(); ++i)
+    job.request.instruments.push_back(InstrumentOf(job.instruments_mm[i], job.across[i]));
 }
 
 void Run(ReliefJob job) {
-  job.request.lens = ReadLens(job.lens);
+  if (!job.lens.empty()) job.request.lens = ReadLens(job.lens);
   const Progress progress = TerminalProgress();
   const authoring::ReliefResult result = authoring::MakeRelief(job.request, progress);
   const authoring::ReliefReport& report = result.report;
@@ -100,8 +128,9 @@ void AddReliefJob(CLI::App& program) {
                               "frames/%04d.png."),
               kFootageInput)
       ->required();
-  files->Input(job->add_option("--lens", own->lens, "Lens file of `arthroscene lens`."))
-      ->required();
+  files->Input(job->add_option("--lens", own->lens,
+                               "Lens file of `arthroscene lens`; without it the focal length is "
+                               "found from the clip, less exactly."));
   files
       ->Output(job->add_option("-o,--output", own->output,
                                "32-bit float TIFF in metres over directions from the portal, NaN "
@@ -120,19 +149,25 @@ void AddReliefJob(CLI::App& program) {
       job->add_option("--report", own->report,
                       "JSON: pose of each frame or why it has none, portal, scale, coverage."),
       {"a report", FileForm::kJson, "arthroscene.relief/"});
-  AddNumber(*job, "--length-mm", own->length_mm, {0.01, 1000.0}, "mm",
-            "Known distance between the two pixels of --between.");
+  AddNumbers(*job, "--length-mm", own->lengths_mm, {0.01, 1000.0}, "mm",
+             "Known distance between the two pixels of --between; may be given more than once.")
+      ->allow_extra_args(false);
   job->add_option("--between", own->between,
                   "Two pixels of the relief whose distance is --length-mm.")
-      ->type_name("X,Y:X,Y");
+      ->type_name("X,Y:X,Y")
+      ->allow_extra_args(false);
+  AddNumbers(*job, "--instrument-mm", own->instruments_mm, {0.1, 50.0}, "mm",
+             "Diameter of an instrument that touches the tissue; may be given more than once.")
+      ->allow_extra_args(false);
+  job->add_option("--across", own->across,
+                  "A frame, counted from 0, and a pixel on each edge of the instrument.")
+      ->type_name("FRAME:X,Y:X,Y")
+      ->allow_extra_args(false);
   job->add_flag("--partial", own->is_partial,
                 "Write what was measured even where the clip does not determine the relief.");
   AddOptions(*job, own->request.options);
   files->Run([own] {
-    if (own->length_mm.has_value() == own->between.empty())
-      throw CLI::ValidationError("--length-mm",
-                                 "needs --between, and --between needs it; give both");
-    if (own->length_mm) own->request.length = LengthOf(*own->length_mm, own->between);
+    ReadLengths(*own);
     Run(*own);
   });
 }

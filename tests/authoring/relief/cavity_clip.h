@@ -15,7 +15,7 @@
 
 namespace arthro::test {
 
-enum class ScopeMotion { kSweep, kRoll, kStill };
+enum class ScopeMotion { kSweep, kRoll, kStill, kPlunge };
 
 struct CavityOptions {
   int frames = 14;
@@ -25,15 +25,33 @@ struct CavityOptions {
   int points = 900;
   double head_turn = 0;  // rad
   unsigned seed = 1;
+  // Disturbances.
+  double roll = 0.35;         // rad, largest turn of the shaft about itself
+  bool head_upright = false;  // the camera head does not follow the shaft's roll
+  double slide = 0;           // m, by which the portal jumps half-way
+  double breath = 0;          // m, by which the tissue of one side swells and shrinks
+  double focal_factor = 1;    // error of the lens file's focal length
+  bool two_clips = false;     // the second half is another clip of the same tissue, or
+  bool elsewhere = false;     // of other tissue
+  double fold = 0;            // m, height of a fold with a sharp edge
+  double contrast = 1;        // of the tissue's texture
+  double glint = 0;           // strength of highlights that move with the light
+  double blur = 0;            // share of the way to the next frame during which the shutter is open
+  int debris = 0;             // specks that float before the tissue
+  bool tool = false;          // an instrument from the rim
 };
 
 inline constexpr double kViewAngle = 0.5236;  // rad
 
-// Distance from the portal to the surface along a unit direction, m.
-double CavityRadius(const Eigen::Vector3d& direction);
+// Distance from the portal to the surface along a unit direction, m. `fold`: height of the fold,
+// whose edge lies along x = kFoldEdge z.
+double CavityRadius(const Eigen::Vector3d& direction, double fold = 0);
+inline constexpr double kFoldEdge = 0.05;
 
 // Equisolid, 240 x 200 px, 90° across the round window.
 Lens CavityLens();
+// What the lens file says.
+Lens CavityLensFile(const CavityOptions& options);
 
 // True poses in the portal frame, m.
 std::vector<authoring::CameraPose> CavityPoses(const CavityOptions& options);
@@ -41,6 +59,10 @@ std::vector<authoring::CameraPose> CavityPoses(const CavityOptions& options);
 // Median distance from the portal to the tip.
 double MedianInsertion(const std::vector<authoring::CameraPose>& poses);
 
+// Turn of the camera head per frame, rad.
+std::vector<double> CavityHeadTurns(const CavityOptions& options);
+
+// With rays through the lens file. Points have a descriptor each, so that two clips can be joined.
 std::vector<authoring::Track> CavityTracks(const CavityOptions& options);
 
 // Writes the pictures as 000.png and so on.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 
-#include <Eigen/Dense>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
 #include "tests/authoring/relief/cavity_clip.h"
+#include "tests/authoring/relief/relief_truth.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {
@@ -25,57 +25,6 @@ ReliefRequest RequestOf(const std::filesystem::path& folder, const test::CavityO
   request.options.insertion = test::MedianInsertion(test::CavityPoses(clip));
   request.options.points = 400;
   return request;
-}
-
-// Similarity that fits the cameras best, by their centres and by points 4 mm along their axes: the
-// centres alone say little about the rotation.
-Eigen::Matrix4d TrueFromFound(const ReliefReport& report, const std::vector<CameraPose>& truth) {
-  constexpr double kAxis = 4e-3;  // m
-  double scale = 1;
-  Eigen::Matrix4d fit = Eigen::Matrix4d::Identity();
-  for (int round = 0; round < 5; ++round) {
-    std::vector<Eigen::Vector3d> from, to;
-    for (const PosedFrame& frame : report.frames) {
-      if (!frame.is_posed) continue;
-      const CameraPose& pose = truth[static_cast<std::size_t>(frame.index)];
-      const Eigen::Map<const Eigen::Vector3d> centre(frame.centre.data());
-      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(
-          frame.rotation.data());
-      from.push_back(centre);
-      to.push_back(pose.centre);
-      for (int axis = 0; axis < 3; ++axis) {
-        from.push_back(centre + kAxis / scale * axes.col(axis));
-        to.push_back(pose.centre + kAxis * pose.world_from_camera.col(axis));
-      }
-    }
-    const auto columns = [](const std::vector<Eigen::Vector3d>& points) {
-      return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3,
-                                                static_cast<Eigen::Index>(points.size()));
-    };
-    fit = Eigen::umeyama(columns(from), columns(to), true);
-    scale = fit.col(0).head<3>().norm();
-  }
-  return fit;
-}
-
-// Median of |radius - truth| after that similarity: motion knows no scale, and the portal frame is
-// found from the poses.
-double MedianRadialError(const ReliefResult& result, const test::CavityOptions& clip) {
-  const Eigen::Matrix4d true_from_found = TrueFromFound(result.report, test::CavityPoses(clip));
-  std::vector<double> errors;
-  for (int y = 0; y < result.relief.height; ++y)
-    for (int x = 0; x < result.relief.width; ++x) {
-      const float h = result.relief.at(x, y);
-      if (std::isnan(h)) continue;
-      const glm::dvec3 d = DirectionFromPixel(result.report.projection, {x, y});
-      const Eigen::Vector3d found = Eigen::Vector3d(d.x, d.y, d.z) * (result.report.radius - h);
-      const Eigen::Vector3d point =
-          true_from_found.topLeftCorner<3, 3>() * found + true_from_found.topRightCorner<3, 1>();
-      errors.push_back(std::abs(point.norm() - test::CavityRadius(point.normalized())));
-    }
-  if (errors.empty()) return 1;
-  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
-  return errors[errors.size() / 2];
 }
 
 bool IsSame(const DepthMap& a, const DepthMap& b) {
@@ -96,7 +45,7 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
   EXPECT_GT(result.report.coverage, 0.3);
   // 5 % of the radius. Measured: 1.3 mm, all cells too near; at 240 px and with this smooth texture
   // the light that moves with the tip pulls the tracks. Large clips come to less than 1 %.
-  EXPECT_LT(MedianRadialError(result, clip), 2e-3) << "m";
+  EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
 
   request.options.threads = 1;
   const ReliefResult again = MakeRelief(request, {});
@@ -112,12 +61,12 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
     return d * (result.report.radius - result.relief.at(column, y));
   };
   const double length = glm::length(point(x) - point(x + 8));
-  request.length = KnownLength{2 * length, {x, y}, {x + 8, y}};
+  request.lengths = {{2 * length, {x, y}, {x + 8, y}}};
   const ReliefResult scaled = MakeRelief(request, {});
   EXPECT_EQ(scaled.report.scale_source, "length");
   EXPECT_NEAR(scaled.report.radius, 2 * result.report.radius, 1e-4 * result.report.radius);
   EXPECT_NEAR(scaled.report.frames[3].centre[2], 2 * result.report.frames[3].centre[2], 1e-6);
-  request.length = KnownLength{length, {-5, 0}, {x, y}};
+  request.lengths = {{length, {-5, 0}, {x, y}}};
   EXPECT_THROW(MakeRelief(request, {}), Error);
 }
 

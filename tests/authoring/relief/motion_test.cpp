@@ -18,8 +18,8 @@ using test::CavityOptions;
 using test::ScopeMotion;
 
 Motion MotionOf(const CavityOptions& options) {
-  return SolveMotion(test::CavityTracks(options), options.frames, LensProfile(test::CavityLens()),
-                     {});
+  std::vector<Track> tracks = test::CavityTracks(options);
+  return SolveMotion(tracks, options.frames, LensProfile(test::CavityLens()), {});
 }
 
 int Posed(const Motion& motion) {
@@ -70,9 +70,10 @@ TEST(FindPivot, PutsThePortalWhereTheShaftsMeet) {
       poses.emplace_back(pose);
     }
     const PivotFit fit = FindPivot(poses, test::kViewAngle);
-    EXPECT_NEAR(fit.head_turn, head_turn, 0.005) << "the search ends in steps of a quarter degree";
+    EXPECT_NEAR(fit.head_turns.front(), head_turn, 0.005)
+        << "the search ends in steps of a quarter degree";
     if (head_turn == 0) {
-      EXPECT_LT((fit.point - portal).norm(), 1e-9);
+      EXPECT_LT((fit.stretches.front().point - portal).norm(), 1e-9);
       EXPECT_LT(fit.median_miss, 1e-9);
     }
     EXPECT_GT(fit.median_insertion, 0.01);
@@ -92,12 +93,14 @@ TEST(SolveMotion, IsTheSameEachTime) {
   }
 }
 
+// RELIEF-01.
 TEST(JudgeMotion, CallsRollingAboutTheTipARotationOnly) {
   CavityOptions options;
   options.motion = ScopeMotion::kRoll;
   EXPECT_EQ(JudgeMotion(MotionOf(options)).kind, "rotation_only");
 }
 
+// RELIEF-13.
 TEST(JudgeMotion, CallsEqualFramesStill) {
   CavityOptions options;
   options.motion = ScopeMotion::kStill;

@@ -1,0 +1,129 @@
+// Hard cases of the relief that need pictures, on small clips with known truth.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "authoring/relief/make_relief.h"
+#include "simulation/core/units.h"
+#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/authoring/relief/relief_truth.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::authoring {
+namespace {
+
+ReliefResult ReliefOf(const test::CavityOptions& clip) {
+  const test::TempFolder folder;
+  test::WriteCavityClip(folder.path(), clip);
+  ReliefRequest request;
+  request.footage = folder.path();
+  request.lens = test::CavityLensFile(clip);
+  request.options.insertion = test::MedianInsertion(test::CavityPoses(clip));
+  request.options.points = 400;
+  request.options.cell = RadiansFromDegrees(1);
+  return MakeRelief(request, {});
+}
+
+int Posed(const ReliefReport& report) {
+  return static_cast<int>(std::count_if(report.frames.begin(), report.frames.end(),
+                                        [](const PosedFrame& frame) { return frame.is_posed; }));
+}
+
+bool HasReasons(const ReliefReport& report) {
+  return std::all_of(report.frames.begin(), report.frames.end(), [](const PosedFrame& frame) {
+    return frame.is_posed == frame.reason.empty();
+  });
+}
+
+test::CavityOptions SmallClip() {
+  test::CavityOptions clip;
+  clip.frames = 12;
+  return clip;
+}
+
+// RELIEF-02. The epipole of an insertion lies about the shaft.
+TEST(MakeRelief, StatesTheHoleThatAnInsertionLeavesAroundTheShaft) {
+  test::CavityOptions clip = SmallClip();
+  clip.motion = test::ScopeMotion::kPlunge;
+  const ReliefResult result = ReliefOf(clip);
+  ASSERT_FALSE(result.relief.empty()) << result.report.verdict.sentence;
+  EXPECT_FALSE(result.report.has_pivot);
+  EXPECT_GE(result.report.hole, RadiansFromDegrees(2));
+  EXPECT_LE(result.report.hole, RadiansFromDegrees(25));
+}
+
+// RELIEF-03.
+TEST(MakeRelief, FollowsNoHighlight) {
+  test::CavityOptions clip = SmallClip();
+  clip.glint = 0.8;
+  const ReliefResult result = ReliefOf(clip);
+  ASSERT_TRUE(result.report.verdict.is_measured()) << result.report.verdict.sentence;
+  EXPECT_GE(Posed(result.report), 0.95 * clip.frames) << "the goal of the medium clips";
+  // The limit of the undisturbed clip of this size: 5 % of the radius.
+  EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+}
+
+// RELIEF-05.
+TEST(MakeRelief, MeasuresTheTissueAroundAnInstrument) {
+  test::CavityOptions clip = SmallClip();
+  clip.tool = true;
+  const ReliefResult result = ReliefOf(clip);
+  ASSERT_TRUE(result.report.verdict.is_measured()) << result.report.verdict.sentence;
+  EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+}
+
+// RELIEF-06.
+TEST(MakeRelief, PosesBlurredFramesOrNamesThem) {
+  test::CavityOptions clip = SmallClip();
+  clip.blur = 1;
+  const ReliefResult result = ReliefOf(clip);
+  EXPECT_TRUE(HasReasons(result.report));
+  if (result.report.verdict.is_measured()) {
+    EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+  } else {
+    EXPECT_LT(Posed(result.report), 0.8 * clip.frames);
+  }
+}
+
+// RELIEF-07. Specks make no peak.
+TEST(MakeRelief, TakesNoFloatingSpeckForTissue) {
+  test::CavityOptions clip = SmallClip();
+  clip.debris = 20;
+  const ReliefResult result = ReliefOf(clip);
+  ASSERT_TRUE(result.report.verdict.is_measured()) << result.report.verdict.sentence;
+  EXPECT_TRUE(HasReasons(result.report));
+  EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+}
+
+// RELIEF-08.
+TEST(MakeRelief, RefusesTissueWithoutTexture) {
+  test::CavityOptions clip = SmallClip();
+  clip.contrast = 0.01;
+  const ReliefResult result = ReliefOf(clip);
+  EXPECT_FALSE(result.report.verdict.is_measured());
+  EXPECT_FALSE(result.report.verdict.sentence.empty());
+}
+
+// RELIEF-16.
+TEST(MakeRelief, FindsTheFocalLengthWhereNoLensIsGiven) {
+  const test::CavityOptions clip;
+  const test::TempFolder folder;
+  test::WriteCavityClip(folder.path(), clip);
+  ReliefRequest request;
+  request.footage = folder.path();
+  request.options.points = 400;
+  request.options.cell = RadiansFromDegrees(2);
+  const ReliefReport report = MakeRelief(request, {}).report;
+  const auto& warnings = report.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("no lens was given: the focal length of ") == 0;
+  }));
+  // The guess is 12 % too long.
+  EXPECT_LT(report.focal_factor, 0.97);
+  EXPECT_GT(report.focal_sigma, 0);
+}
+
+}  // namespace
+}  // namespace arthro::authoring
