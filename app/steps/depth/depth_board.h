@@ -91,7 +91,7 @@ double ShareWithinOneMm(double sigma);
 std::string WordsOfDistance(const authoring::Document& document, const PointPair& points);
 
 // ---- What the author does. ----
-void ClickDepth(EditorState& state, const glm::dvec2& pixel);  // by the tool
+void ClickDepth(EditorState& state, const glm::dvec2& pixel);  // uses the tool
 void BrushDepth(EditorState& state, const glm::dvec2& pixel);
 // The brush is let go: what it marked is closed from its surround, in one step that is undone.
 void EndBrush(EditorState& state);

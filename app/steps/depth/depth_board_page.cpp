@@ -20,7 +20,7 @@ constexpr unsigned kShadow = 0xC0000000, kPlate = 0xD0231E1B;
 struct Screen {
   Area area;
   PicturePlace place;
-  glm::dvec2 size;  // of the panorama
+  glm::dvec2 size;  // size of the panorama
 
   ImVec2 At(const glm::dvec2& pixel) const {
     const glm::dvec2 at = place.corner + (pixel + 0.5) / size * place.size;

@@ -25,7 +25,7 @@ struct ReliefSettings {
 // Nothing where the next run does not measure: the author chose so, or there is no lens.
 std::optional<ReliefSettings> ReliefSettingsOf(const FootageBoard& board);
 
-// What a measurement gave. Without a picture there is nothing that a scene can use.
+// Result of a measurement. Without a picture there is nothing that a scene can use.
 struct MadeRelief {
   MeasuredBackdrop backdrop;
   SharedPicture shown;  // the picture, small enough for the board

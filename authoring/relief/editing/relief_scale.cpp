@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kShortest = 0.5e-3, kLongest = 0.2;  // m, of a length inside a joint
 constexpr double kMostFactor = 10;          // a joint is neither a tenth nor ten times as large
-constexpr double kMostRelativeSigma = 0.2;  // of the distance between the two points
+constexpr double kMostRelativeSigma = 0.2;  // share of the distance between the two points
 constexpr double kMostDisagreement = 0.1;   // between two known lengths
 // Relative error of a click and of the length itself, which no reading knows.
 constexpr double kClickSigma = 0.02;

@@ -15,7 +15,7 @@ struct ReliefView {
   const DepthMap& sigma;    // standard error; empty: unknown
   const OriginMap& origin;  // empty: unknown
   const Projection& projection;
-  double radius = 0;  // of the sphere about the portal
+  double radius = 0;  // radius of the sphere about the portal
 };
 
 // Value of the relief at one pixel.
