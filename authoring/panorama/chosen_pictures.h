@@ -15,7 +15,7 @@ class ChosenPictures {
   ChosenPictures(const std::filesystem::path& path, std::set<int> wanted)
       : footage_(Footage::Open(path)), wanted_(std::move(wanted)) {}
 
-  // As FrameSource of compose.h.
+  // Reads the next one, like FrameSource of compose.h.
   bool operator()(int& index, cv::Mat& rgb);
 
  private:

@@ -27,6 +27,7 @@ struct ReliefRequest {
   Lens lens;
   ReliefOptions options;
   std::optional<KnownLength> length;
+  bool draws_panorama = true;  // false: no picture, and no expected errors
 };
 
 // Maps over the directions of report.projection, of one size. All are empty where no surface was

@@ -48,7 +48,7 @@ struct Layout {
 struct FramePicture {
   std::function<void(const cv::Mat& raw, cv::Mat& picture)> draw;
   cv::Mat mask;        // CV_8UC1, 255 where the lens shows something
-  RectifiedView view;  // of a plane's rays
+  RectifiedView view;  // rays of a plane's pictures
 };
 
 // Composes frames that lie in the panorama already, as Compose does.
