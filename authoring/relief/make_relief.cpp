@@ -9,8 +9,11 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "authoring/panorama/plain_picture.h"
+#include "authoring/relief/finish_surface.h"
 #include "authoring/relief/known_scale.h"
 #include "authoring/relief/measure_relief.h"
+#include "authoring/relief/relief_picture.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
@@ -62,11 +65,22 @@ DepthMap PlainMap(const cv::Mat& values) {
   return map;
 }
 
+// The closed surface where a frame sees it.
+SweptSurface SeenSurface(const FinishedSurface& finished) {
+  SweptSurface seen;
+  seen.projection = finished.cells.projection;
+  seen.radius = finished.closed.radius.clone();
+  seen.radius.setTo(std::numeric_limits<float>::quiet_NaN(), ~finished.is_seen);
+  return seen;
+}
+
 // The scale that makes the given lengths true; nothing where none is given.
 std::optional<JoinedScale> ScaleFromLengths(const ReliefRequest& request,
                                             const MeasuredRelief& made,
+                                            const FinishedSurface& finished,
                                             std::vector<ScalePart>& parts) {
-  for (const KnownLength& length : request.lengths) parts.push_back(ScaleOf(length, made.surface));
+  const SweptSurface seen = SeenSurface(finished);
+  for (const KnownLength& length : request.lengths) parts.push_back(ScaleOf(length, seen));
   for (const KnownInstrument& instrument : request.instruments) {
     std::size_t used = 0;
     const CameraPose* pose = nullptr;
@@ -81,10 +95,23 @@ std::optional<JoinedScale> ScaleFromLengths(const ReliefRequest& request,
                   fmt::format("frame {} has no pose, so that its instrument gives no scale; name a "
                               "frame that the report calls posed",
                               instrument.frame));
-    parts.push_back(ScaleOf(instrument, made.clip.raw_lens, *pose, made.surface));
+    parts.push_back(ScaleOf(instrument, made.clip.raw_lens, *pose, seen));
   }
   if (parts.empty()) return std::nullopt;
   return JoinScales(parts);
+}
+
+// Applies a scale to everything measured.
+void ScaleBy(double scale, double least_parallax, MeasuredRelief& made, FinishedSurface& finished) {
+  ChangeFrame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), scale, made.motion.scene);
+  made.pivot.median_insertion *= scale;
+  made.pivot.median_miss *= scale;
+  made.surface.radius *= scale;
+  made.surface.range *= scale;
+  finished.confidence = ConfidenceOf(made.surface, made.lens.focal_px(), least_parallax);
+  finished.closed.radius *= scale;
+  finished.closed.sigma *= scale;
+  for (SurfaceView& view : finished.views) view.centre *= static_cast<float>(scale);
 }
 
 void Describe(const cv::Mat& confidence, const SweptSurface& surface, double least,
@@ -169,6 +196,40 @@ void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& repor
         100 * (made.focal_factor - 1), 100 * made.focal_sigma));
 }
 
+// The closed surface as maps of relief over the sphere that just holds it.
+void TakeMaps(const FinishedSurface& finished, bool keeps_closed, ReliefResult& result) {
+  ReliefReport& report = result.report;
+  const cv::Mat is_measured = finished.closed.origin == static_cast<int>(ReliefOrigin::kMeasured);
+  const cv::Mat unknown = ~(keeps_closed ? finished.is_seen : finished.is_seen & is_measured);
+  double largest = 0;
+  cv::minMaxLoc(finished.closed.radius, nullptr, &largest, nullptr, nullptr, ~unknown);
+  cv::Mat relief = largest - finished.closed.radius, sigma = finished.closed.sigma.clone(),
+          origin = finished.closed.origin.clone();
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  relief.setTo(kUnknown, unknown);
+  sigma.setTo(kUnknown, unknown);
+  origin.setTo(0, unknown);
+  result.relief = PlainMap(relief);
+  result.sigma = PlainMap(sigma);
+  result.confidence = PlainMap(finished.confidence);
+  result.origin = OriginMap(origin.cols, origin.rows);
+  std::array<int, 4> counts{};
+  for (int y = 0; y < origin.rows; ++y)
+    for (int x = 0; x < origin.cols; ++x) {
+      const std::uint8_t number = origin.at<std::uint8_t>(y, x);
+      result.origin.at(x, y) = static_cast<ReliefOrigin>(number);
+      ++counts[number];
+    }
+  const double seen = std::max(1, counts[1] + counts[2] + counts[3]);
+  report.measured_share = counts[1] / seen;
+  report.brightness_share = counts[2] / seen;
+  report.interpolated_share = counts[3] / seen;
+  report.radius = largest;
+  report.projection = finished.cells.projection;
+  report.width = relief.cols;
+  report.height = relief.rows;
+}
+
 }  // namespace
 
 Projection EnlargedProjection(const Projection& projection, int factor) {
@@ -188,7 +249,9 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
                               {"tracks", 190},
                               {"poses", 110},
                               {"portal", 30},
-                              {"sweep", 170}});
+                              {"sweep", 170},
+                              {"close", 30},
+                              {"panorama", request.draws_panorama ? 60 : 0}});
   ReliefResult result;
   ReliefReport& report = result.report;
   MeasuredRelief made = MeasureRelief(
@@ -209,18 +272,15 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
         if (observer) observer(SoFar(scene, false));
       });
 
-  SweptSurface& surface = made.surface;
-  if (!surface.radius.empty()) {
-    if (const auto scale = ScaleFromLengths(request, made, report.scale_parts)) {
+  FinishedSurface finished;
+  if (!made.surface.radius.empty()) finished = FinishSurface(made, options, clock.Begin("close"));
+  if (!finished.closed.radius.empty()) {
+    if (const auto scale = ScaleFromLengths(request, made, finished, report.scale_parts)) {
       report.scale = scale->factor;
       report.scale_sigma = scale->sigma;
       report.scale_source =
           report.scale_parts.size() == 1 ? report.scale_parts.front().source : "joined";
-      ChangeFrame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), scale->factor,
-                  made.motion.scene);
-      surface.radius *= scale->factor;
-      made.pivot.median_insertion *= scale->factor;
-      made.pivot.median_miss *= scale->factor;
+      ScaleBy(scale->factor, options.least_parallax, made, finished);
     }
   }
   report.footage = request.footage.string();
@@ -249,32 +309,23 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
     report.warnings.push_back(
         "no length was given: shapes and ratios are measured, millimetres are assumed");
 
-  if (!surface.radius.empty()) {
-    const cv::Mat confidence = ConfidenceOf(surface, options.least_parallax);
-    Describe(confidence, surface, options.least_confidence, report);
-    report.hole = HoleAboutTheShaft(surface, confidence, options.least_confidence);
+  if (!made.surface.radius.empty()) {
+    Describe(finished.confidence, made.surface, options.least_confidence, report);
+    report.hole = HoleAboutTheShaft(made.surface, finished.confidence, options.least_confidence);
     if (report.verdict.is_measured()) report.verdict = JudgeCoverage(report.coverage);
-    const cv::Mat unknown = ~(confidence >= options.least_confidence);
-    // The sphere just holds what is known.
-    double largest = 0;
-    for (int y = 0; y < unknown.rows; ++y)
-      for (int x = 0; x < unknown.cols; ++x)
-        if (!unknown.at<std::uint8_t>(y, x))
-          largest = std::max<double>(largest, surface.radius.at<float>(y, x));
-    report.radius = largest;
-    cv::Mat relief = largest - surface.radius,
-            sigma = SigmaOfMeasured(surface, made.lens.focal_px());
-    relief.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
-    sigma.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
-    result.relief = PlainMap(relief);
-    result.sigma = PlainMap(sigma);
-    result.confidence = PlainMap(confidence);
-    result.origin = OriginMap(relief.cols, relief.rows);
-    for (std::size_t i = 0; i < result.origin.origin.size(); ++i)
-      if (!std::isnan(result.relief.relief[i])) result.origin.origin[i] = ReliefOrigin::kMeasured;
-    report.projection = surface.projection;
-    report.width = relief.cols;
-    report.height = relief.rows;
+    if (!finished.closed.radius.empty()) {
+      TakeMaps(finished, options.close, result);
+      if (request.draws_panorama) {
+        const ReliefPicture drawn =
+            DrawOverRelief(request.footage, made, finished, options, clock.Begin("panorama"));
+        result.picture = PlainPicture(drawn.rgba);
+        result.picture_scale = drawn.scale;
+        for (PosedFrame& frame : report.frames)
+          if (const auto found = drawn.error_px.find(frame.index); found != drawn.error_px.end())
+            frame.expected_error_px = found->second;
+      }
+    }
+    clock.End();
   } else if (report.verdict.is_measured()) {
     report.verdict = JudgeCoverage(0);
   }

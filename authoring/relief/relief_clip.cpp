@@ -135,13 +135,13 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const std::optional
                 path);
 
   // Second reading: only the chosen ones are kept, and `most_frames` bounds them.
-  cv::Mat window = WindowOf(clip.lens);
+  clip.window = WindowOf(clip.lens);
   if (!lens) {
     // Black bars are no tissue.
     cv::Mat part = cv::Mat::zeros(info.height, info.width, CV_8U);
     part(found.part).setTo(255);
     cv::resize(part, part, size, 0, 0, cv::INTER_NEAREST);
-    window &= part;
+    clip.window &= part;
   }
   ClipLookBuilder builder;
   std::vector<cv::Mat> pictures;
@@ -155,7 +155,7 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const std::optional
       throw Error(Code::kBadImage, "the footage changed while it was read; start again", path);
     cv::Mat picture;
     cv::resize(raw, picture, size, 0, 0, cv::INTER_AREA);
-    builder.Add(picture, window);
+    builder.Add(picture, clip.window);
     pictures.push_back(picture);
   }
 
@@ -166,10 +166,10 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const std::optional
   ForEachIndex(static_cast<int>(pictures.size()), options.threads, preparing,
                "evening out the light", [&](int i) {
                  const auto at = static_cast<std::size_t>(i);
-                 clip.frames[at] =
-                     Prepare(chosen[at], pictures[at], filter_scale, window, look, options.prepare);
-                 pictures[at].release();
+                 clip.frames[at] = Prepare(chosen[at], pictures[at], filter_scale, clip.window,
+                                           look, options.prepare);
                });
+  clip.pictures = std::move(pictures);
   clock.End();
   return clip;
 }

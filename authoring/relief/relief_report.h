@@ -24,6 +24,9 @@ struct PosedFrame {
   double head_turn = 0;               // rad, of the camera head on the shaft
   int tracks = 0, inliers = 0;
   double rms_px = 0;
+  // Mean distance in the panorama over the relief, between where this frame lays a point of the
+  // tissue and where the frames lay it on average; 0 where no panorama was drawn.
+  double expected_error_px = 0;
 };
 
 // The portal before and from a frame on is not the same.
@@ -74,6 +77,8 @@ struct ReliefReport {
   double radius = 0;  // m
   Projection projection;
   int width = 0, height = 0;
+  // Shares of the cells that a frame sees, by origin.
+  double measured_share = 0, brightness_share = 0, interpolated_share = 0;
   double coverage = 0;  // share of the cells that three frames see, at or above least_confidence
   // Angle about the mean shaft within which less than half of the cells in view were measured with
   // confidence, rad; an insertion leaves such a hole around its epipole.

@@ -85,7 +85,7 @@ TEST(ReadReliefClip, KeepsAtMostSixtyFramesOfALongClip) {
   lens.circle = {24, 20, 19};
   const ReliefOptions options;
   StageClock clock({}, {{"read", 1}, {"prepare", 1}});
-  const ReliefClip clip = ReadReliefClip(folder.path(), lens, options, clock);
+  const ReliefClip clip = ReadReliefClip(folder.path(), lens, options, {}, clock);
   EXPECT_LE(clip.frames.size(), 60u);
   EXPECT_GE(clip.frames.size(), 30u);
   ASSERT_EQ(clip.rows.size(), 5000u);

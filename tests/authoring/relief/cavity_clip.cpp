@@ -46,8 +46,9 @@ double Albedo(const Vector3d& point) {
   return 0.45 * Noise(point * 250, 1) + 0.35 * Noise(point * 500, 2) + 0.2 * Noise(point * 900, 3);
 }
 
-// Distance along a ray from inside to the surface.
-double Range(const Vector3d& from, const Vector3d& ray, double fold) {
+}  // namespace
+
+double CavityRange(const Vector3d& from, const Vector3d& ray, double fold) {
   double near = 0, far = 2 * kSphere;
   constexpr int kSteps = 60;
   for (int i = 1; i <= kSteps; ++i) {
@@ -64,8 +65,6 @@ double Range(const Vector3d& from, const Vector3d& ray, double fold) {
   }
   return 0.5 * (near + far);
 }
-
-}  // namespace
 
 double CavityRadius(const Vector3d& direction, double fold) {
   struct Bump {
@@ -222,7 +221,7 @@ namespace {
 cv::Vec3d LightFrom(const CavityOptions& options, const authoring::CameraPose& pose,
                     const Vector3d& ray_in_camera) {
   const Vector3d d = pose.world_from_camera * ray_in_camera;
-  const double range = Range(pose.centre, d, options.fold);
+  const double range = CavityRange(pose.centre, d, options.fold);
   const double light = std::min(1.6, std::pow(0.022 / range, 1.2));
   const Vector3d point = pose.centre + range * d;
   const double albedo = 0.5 + options.contrast * (Albedo(point) - 0.5);

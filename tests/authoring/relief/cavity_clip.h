@@ -48,6 +48,9 @@ inline constexpr double kViewAngle = 0.5236;  // rad
 double CavityRadius(const Eigen::Vector3d& direction, double fold = 0);
 inline constexpr double kFoldEdge = 0.05;
 
+// Distance along a ray from inside to the surface, m.
+double CavityRange(const Eigen::Vector3d& from, const Eigen::Vector3d& ray, double fold = 0);
+
 // Equisolid, 240 x 200 px, 90° across the round window.
 Lens CavityLens();
 // What the lens file says.
