@@ -4,39 +4,17 @@
 #include <string_view>
 #include <utility>
 
-#include "authoring/footage/footage.h"
+#include "authoring/panorama/chosen_pictures.h"
 
 namespace arthro::authoring {
 namespace {
 
-// Raw pictures of the placed frames in order; begins again after the last.
-class PlacedPictures {
- public:
-  PlacedPictures(const std::filesystem::path& path, const std::vector<FrameResult>& frames)
-      : footage_(Footage::Open(path)) {
-    for (const FrameResult& frame : frames)
-      if (frame.is_placed && frame.component == 0) wanted_.insert(frame.index);
-  }
-
-  bool operator()(int& index, cv::Mat& rgb) {
-    while (!wanted_.empty() && footage_.index() < *wanted_.rbegin()) {
-      if (!wanted_.contains(footage_.index() + 1)) {
-        if (!footage_.Skip()) break;
-        continue;
-      }
-      if (!footage_.Next(rgb)) break;
-      if (rgb.empty()) continue;  // the file has changed since the first reading
-      index = footage_.index();
-      return true;
-    }
-    footage_.Rewind();
-    return false;
-  }
-
- private:
-  Footage footage_;
-  std::set<int> wanted_;
-};
+std::set<int> PlacedIndices(const std::vector<FrameResult>& frames) {
+  std::set<int> placed;
+  for (const FrameResult& frame : frames)
+    if (frame.is_placed && frame.component == 0) placed.insert(frame.index);
+  return placed;
+}
 
 // Renumbers a component's frames as component 0.
 std::vector<FrameResult> AsPanorama(std::vector<FrameResult> frames, int component) {
@@ -82,7 +60,7 @@ std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, c
     };
     ComposedPiece piece;
     piece.component = component;
-    PlacedPictures pictures(footage, placed);
+    ChosenPictures pictures(footage, PlacedIndices(placed));
     const auto source = [&](int& index, cv::Mat& rgb) {
       if (!pictures(index, rgb)) return false;
       rgb = rgb(part);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 
 #include "authoring/panorama/assemble_report.h"
 #include "authoring/panorama/compose_pieces.h"
+#include "authoring/panorama/plain_picture.h"
 #include "authoring/panorama/prepared_clip.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
@@ -23,16 +23,6 @@ namespace fs = std::filesystem;
 // Limit on corrections: a focal length far from the right one is estimated less well than a nearby
 // one.
 constexpr int kMostCorrections = 3;
-
-RgbaPicture PlainPicture(const cv::Mat& rgba) {
-  RgbaPicture picture{rgba.cols, rgba.rows, {}};
-  if (rgba.empty()) return picture;
-  picture.rgba.resize(rgba.total() * 4);
-  const std::size_t row = static_cast<std::size_t>(rgba.cols) * 4;
-  for (int y = 0; y < rgba.rows; ++y)
-    std::memcpy(&picture.rgba[static_cast<std::size_t>(y) * row], rgba.ptr(y), row);
-  return picture;
-}
 
 ColourImage PlainColour(const cv::Mat& picture) {
   ColourImage image(picture.cols, picture.rows);

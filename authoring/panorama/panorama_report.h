@@ -5,11 +5,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "authoring/panorama/stage_clock.h"
 #include "simulation/scene/lens.h"
+#include "simulation/scene/projection.h"
 
 namespace arthro::authoring {
 
@@ -46,6 +48,10 @@ struct PanoramaReport {
   Lens lens;
   bool is_lens_guessed = false;
   PinholeView rectified, panorama;
+  // Set for a panorama over a measured relief, which has no homographies: directions of its
+  // pixels from the portal. `panorama` then has a size only.
+  std::optional<Projection> over_relief;
+  double relief_radius = 0;  // m, of the sphere that the relief is given over
   std::vector<FrameReport> frames;
   double mean_error_px = 0, max_error_px = 0;  // expected errors of the placed frames
   double drift_px = 0;

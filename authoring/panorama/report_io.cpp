@@ -30,7 +30,7 @@ Json JsonFromView(const PinholeView& view) {
           {"cy", view.cy}};
 }
 
-Json JsonFromFrame(const FrameReport& frame) {
+Json JsonFromFrame(const FrameReport& frame, bool is_over_relief) {
   Json json = {
       {"index", frame.index},
       {"source", frame.source},
@@ -42,7 +42,7 @@ Json JsonFromFrame(const FrameReport& frame) {
       {"rms_px", nullptr},
       {"expected_error_px", nullptr}};
   if (frame.component < 0) return json;
-  json["panorama_from_rectified"] = frame.panorama_from_rectified;
+  if (!is_over_relief) json["panorama_from_rectified"] = frame.panorama_from_rectified;
   json["rms_px"] = Rounded(frame.rms_px);
   json["expected_error_px"] = Rounded(frame.expected_error_px);
   return json;
@@ -60,8 +60,20 @@ std::string JsonFromReport(const PanoramaReport& report) {
   json["footage"] = report.footage;
   json["lens"] = Parsed(JsonFromLens(report.lens));
   json["lens_is_guessed"] = report.is_lens_guessed;
-  json["rectified"] = JsonFromView(report.rectified);
-  json["panorama"] = JsonFromView(report.panorama);
+  json["way"] = report.over_relief ? "relief" : "plane";
+  if (report.over_relief) {
+    const Projection& projection = *report.over_relief;
+    json["panorama"] = {{"width", report.panorama.width},
+                        {"height", report.panorama.height},
+                        {"radius", report.relief_radius},
+                        {"projection",
+                         {{"type", "equirectangular"},
+                          {"centre_px", {projection.centre_px.x, projection.centre_px.y}},
+                          {"px_per_deg", projection.px_per_deg}}}};
+  } else {
+    json["rectified"] = JsonFromView(report.rectified);
+    json["panorama"] = JsonFromView(report.panorama);
+  }
   json["mean_error_px"] = Rounded(report.mean_error_px);
   json["max_error_px"] = Rounded(report.max_error_px);
   json["drift_px"] = Rounded(report.drift_px);
@@ -75,7 +87,8 @@ std::string JsonFromReport(const PanoramaReport& report) {
     json["components"].push_back(std::move(row));
   }
   json["frames"] = Json::array();
-  for (const FrameReport& frame : report.frames) json["frames"].push_back(JsonFromFrame(frame));
+  for (const FrameReport& frame : report.frames)
+    json["frames"].push_back(JsonFromFrame(frame, report.over_relief.has_value()));
   json["stages_ms"] = Json::object();
   for (const StageCost& stage : report.stages)
     json["stages_ms"][stage.name] = Rounded(stage.cpu_ms);

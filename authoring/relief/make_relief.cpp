@@ -1,13 +1,17 @@
 #include "authoring/relief/make_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "authoring/panorama/plain_picture.h"
+#include "authoring/relief/finish_surface.h"
 #include "authoring/relief/measure_relief.h"
+#include "authoring/relief/relief_picture.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
@@ -58,25 +62,38 @@ DepthMap PlainMap(const cv::Mat& values) {
 }
 
 // Point of the surface at a pixel of the relief.
-Eigen::Vector3d PointAt(const SweptSurface& surface, const glm::dvec2& pixel) {
+Eigen::Vector3d PointAt(const FinishedSurface& finished, const glm::dvec2& pixel) {
+  const cv::Mat& radius = finished.closed.radius;
   const int x = static_cast<int>(std::lround(pixel.x)), y = static_cast<int>(std::lround(pixel.y));
-  const bool is_inside = x >= 0 && y >= 0 && x < surface.radius.cols && y < surface.radius.rows;
-  const float radius = is_inside ? surface.radius.at<float>(y, x) : 0;
-  if (!(radius > 0))
+  const bool is_inside = x >= 0 && y >= 0 && x < radius.cols && y < radius.rows;
+  if (!is_inside || finished.is_seen.at<std::uint8_t>(y, x) == 0)
     throw Error(Code::kBadArgument,
                 fmt::format("nothing was measured at pixel {:g},{:g} of the relief of {} x {} px; "
                             "name two pixels that have a value",
-                            pixel.x, pixel.y, surface.radius.cols, surface.radius.rows));
-  const glm::dvec3 d = DirectionFromPixel(surface.projection, pixel);
-  return Eigen::Vector3d(d.x, d.y, d.z) * static_cast<double>(radius);
+                            pixel.x, pixel.y, radius.cols, radius.rows));
+  const glm::dvec3 d = DirectionFromPixel(finished.cells.projection, {x, y});
+  return Eigen::Vector3d(d.x, d.y, d.z) * static_cast<double>(radius.at<float>(y, x));
 }
 
-// The scale that makes the given distance true; applied to everything measured.
-double ScaleFromLength(const KnownLength& length, const SweptSurface& surface) {
-  const double distance = (PointAt(surface, length.from) - PointAt(surface, length.to)).norm();
+// The scale that makes the given distance true.
+double ScaleFromLength(const KnownLength& length, const FinishedSurface& finished) {
+  const double distance = (PointAt(finished, length.from) - PointAt(finished, length.to)).norm();
   if (!(distance > 0))
     throw Error(Code::kBadArgument, "the two pixels of a known length must differ");
   return length.metres / distance;
+}
+
+// Applies a scale to everything measured.
+void ScaleBy(double scale, double least_parallax, MeasuredRelief& made, FinishedSurface& finished) {
+  ChangeFrame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), scale, made.motion.scene);
+  made.pivot.median_insertion *= scale;
+  made.pivot.median_miss *= scale;
+  made.surface.radius *= scale;
+  made.surface.range *= scale;
+  finished.confidence = ConfidenceOf(made.surface, made.lens.focal_px(), least_parallax);
+  finished.closed.radius *= scale;
+  finished.closed.sigma *= scale;
+  for (SurfaceView& view : finished.views) view.centre *= static_cast<float>(scale);
 }
 
 void Describe(const cv::Mat& confidence, const SweptSurface& surface, double least,
@@ -106,6 +123,40 @@ ReliefSoFar SoFar(const Reconstruction& scene, bool is_in_portal_frame) {
   return shown;
 }
 
+// The closed surface as maps of relief over the sphere that just holds it.
+void TakeMaps(const FinishedSurface& finished, bool keeps_closed, ReliefResult& result) {
+  ReliefReport& report = result.report;
+  const cv::Mat is_measured = finished.closed.origin == static_cast<int>(ReliefOrigin::kMeasured);
+  const cv::Mat unknown = ~(keeps_closed ? finished.is_seen : finished.is_seen & is_measured);
+  double largest = 0;
+  cv::minMaxLoc(finished.closed.radius, nullptr, &largest, nullptr, nullptr, ~unknown);
+  cv::Mat relief = largest - finished.closed.radius, sigma = finished.closed.sigma.clone(),
+          origin = finished.closed.origin.clone();
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  relief.setTo(kUnknown, unknown);
+  sigma.setTo(kUnknown, unknown);
+  origin.setTo(0, unknown);
+  result.relief = PlainMap(relief);
+  result.sigma = PlainMap(sigma);
+  result.confidence = PlainMap(finished.confidence);
+  result.origin = OriginMap(origin.cols, origin.rows);
+  std::array<int, 4> counts{};
+  for (int y = 0; y < origin.rows; ++y)
+    for (int x = 0; x < origin.cols; ++x) {
+      const std::uint8_t number = origin.at<std::uint8_t>(y, x);
+      result.origin.at(x, y) = static_cast<ReliefOrigin>(number);
+      ++counts[number];
+    }
+  const double seen = std::max(1, counts[1] + counts[2] + counts[3]);
+  report.measured_share = counts[1] / seen;
+  report.brightness_share = counts[2] / seen;
+  report.interpolated_share = counts[3] / seen;
+  report.radius = largest;
+  report.projection = finished.cells.projection;
+  report.width = relief.cols;
+  report.height = relief.rows;
+}
+
 }  // namespace
 
 Projection EnlargedProjection(const Projection& projection, int factor) {
@@ -125,7 +176,9 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
                               {"tracks", 190},
                               {"poses", 110},
                               {"portal", 30},
-                              {"sweep", 170}});
+                              {"sweep", 170},
+                              {"close", 30},
+                              {"panorama", request.draws_panorama ? 60 : 0}});
   ReliefResult result;
   ReliefReport& report = result.report;
   MeasuredRelief made = MeasureRelief(
@@ -146,15 +199,12 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
         if (observer) observer(SoFar(scene, false));
       });
 
-  SweptSurface& surface = made.surface;
-  if (request.length && !surface.radius.empty()) {
-    const double scale = ScaleFromLength(*request.length, surface);
-    report.scale = scale;
+  FinishedSurface finished;
+  if (!made.surface.radius.empty()) finished = FinishSurface(made, options, clock.Begin("close"));
+  if (request.length && !finished.closed.radius.empty()) {
+    report.scale = ScaleFromLength(*request.length, finished);
     report.scale_source = "length";
-    ChangeFrame(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), scale, made.motion.scene);
-    surface.radius *= scale;
-    made.pivot.median_insertion *= scale;
-    made.pivot.median_miss *= scale;
+    ScaleBy(report.scale, options.least_parallax, made, finished);
   }
   report.footage = request.footage.string();
   report.frames = FramesOf(made);
@@ -173,31 +223,22 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
     report.warnings.push_back(
         "no length was given: shapes and ratios are measured, millimetres are assumed");
 
-  if (!surface.radius.empty()) {
-    const cv::Mat confidence = ConfidenceOf(surface, options.least_parallax);
-    Describe(confidence, surface, options.least_confidence, report);
+  if (!made.surface.radius.empty()) {
+    Describe(finished.confidence, made.surface, options.least_confidence, report);
     if (report.verdict.is_measured()) report.verdict = JudgeCoverage(report.coverage);
-    const cv::Mat unknown = ~(confidence >= options.least_confidence);
-    // The sphere just holds what is known.
-    double largest = 0;
-    for (int y = 0; y < unknown.rows; ++y)
-      for (int x = 0; x < unknown.cols; ++x)
-        if (!unknown.at<std::uint8_t>(y, x))
-          largest = std::max<double>(largest, surface.radius.at<float>(y, x));
-    report.radius = largest;
-    cv::Mat relief = largest - surface.radius,
-            sigma = SigmaOfMeasured(surface, made.lens.focal_px());
-    relief.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
-    sigma.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
-    result.relief = PlainMap(relief);
-    result.sigma = PlainMap(sigma);
-    result.confidence = PlainMap(confidence);
-    result.origin = OriginMap(relief.cols, relief.rows);
-    for (std::size_t i = 0; i < result.origin.origin.size(); ++i)
-      if (!std::isnan(result.relief.relief[i])) result.origin.origin[i] = ReliefOrigin::kMeasured;
-    report.projection = surface.projection;
-    report.width = relief.cols;
-    report.height = relief.rows;
+    if (!finished.closed.radius.empty()) {
+      TakeMaps(finished, options.close, result);
+      if (request.draws_panorama) {
+        const ReliefPicture drawn =
+            DrawOverRelief(request.footage, made, finished, options, clock.Begin("panorama"));
+        result.picture = PlainPicture(drawn.rgba);
+        result.picture_scale = drawn.scale;
+        for (PosedFrame& frame : report.frames)
+          if (const auto found = drawn.error_px.find(frame.index); found != drawn.error_px.end())
+            frame.expected_error_px = found->second;
+      }
+    }
+    clock.End();
   } else if (report.verdict.is_measured()) {
     report.verdict = JudgeCoverage(0);
   }

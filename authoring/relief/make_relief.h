@@ -32,6 +32,7 @@ struct ReliefRequest {
   ReliefOptions options;
   std::optional<KnownLength> length;
   std::set<int> excluded;  // frames that a person excludes, by index in the footage
+  bool draws_panorama = true;  // false: no picture, and no expected errors
 };
 
 // Maps over the directions of report.projection, of one size. All are empty where no surface was

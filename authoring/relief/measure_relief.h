@@ -37,10 +37,10 @@ MeasuredRelief MeasureRelief(const std::filesystem::path& footage, const Lens& l
                              const MotionObserver& observer = {});
 
 // Probability that a cell is within 1 mm of the surface, CV_32FC1; 0 where nothing was measured.
-cv::Mat ConfidenceOf(const SweptSurface& surface, double least_parallax);
+// The poses are in m.
+cv::Mat ConfidenceOf(const SweptSurface& surface, double focal_px, double least_parallax);
 
-// Standard error of the radius where it was measured, CV_32FC1, in the unit of the poses; NaN
-// elsewhere.
+// Standard error of the radius where it was measured, CV_32FC1, m; NaN elsewhere.
 cv::Mat SigmaOfMeasured(const SweptSurface& surface, double focal_px);
 
 }  // namespace arthro::authoring

@@ -99,7 +99,7 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
                 path);
 
   // Second reading: only the chosen ones are kept, and `most_frames` bounds them.
-  const cv::Mat window = WindowOf(clip.lens);
+  clip.window = WindowOf(clip.lens);
   ClipLookBuilder builder;
   std::vector<cv::Mat> pictures;
   footage.Rewind();
@@ -112,7 +112,7 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
       throw Error(Code::kBadImage, "the footage changed while it was read; start again", path);
     cv::Mat picture;
     cv::resize(raw, picture, size, 0, 0, cv::INTER_AREA);
-    builder.Add(picture, window);
+    builder.Add(picture, clip.window);
     pictures.push_back(picture);
   }
 
@@ -123,10 +123,10 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const Lens& lens,
   ForEachIndex(static_cast<int>(pictures.size()), options.threads, preparing,
                "evening out the light", [&](int i) {
                  const auto at = static_cast<std::size_t>(i);
-                 clip.frames[at] =
-                     Prepare(chosen[at], pictures[at], filter_scale, window, look, options.prepare);
-                 pictures[at].release();
+                 clip.frames[at] = Prepare(chosen[at], pictures[at], filter_scale, clip.window,
+                                           look, options.prepare);
                });
+  clip.pictures = std::move(pictures);
   clock.End();
   return clip;
 }

@@ -27,6 +27,8 @@ struct ReliefClip {
   Lens lens;                         // describes the working pictures
   double scale = 1;                  // working px per raw px
   std::vector<WorkingFrame> frames;  // usable rows, in order; with the fisheye
+  std::vector<cv::Mat> pictures;     // CV_8UC3, RGB, of the frames, without even light
+  cv::Mat window;                    // CV_8UC1, 255 where the lens shows something
   std::vector<ClipRow> rows;         // all frames of the footage, in order
   std::vector<std::string> warnings;
 };

@@ -24,6 +24,7 @@ Json JsonFromFrame(const PosedFrame& frame) {
                {"inliers", frame.inliers},
                {"rms_px", Rounded(frame.rms_px)}};
   if (!frame.is_posed) return json;
+  if (frame.expected_error_px > 0) json["expected_error_px"] = Rounded(frame.expected_error_px);
   json["R"] = frame.rotation;
   json["C"] = frame.centre;
   json["sigma"] = frame.sigma_m;
@@ -63,6 +64,9 @@ std::string JsonFromReliefReport(const ReliefReport& report) {
           {"centre_px", {report.projection.centre_px.x, report.projection.centre_px.y}},
           {"px_per_deg", report.projection.px_per_deg}}}};
   json["coverage"] = Rounded(report.coverage);
+  json["origin"] = {{"measured", Rounded(report.measured_share)},
+                    {"brightness", Rounded(report.brightness_share)},
+                    {"interpolated", Rounded(report.interpolated_share)}};
   json["confidence_histogram"] = report.confidence_histogram;
   json["warnings"] = report.warnings;
   json["frames"] = Json::array();

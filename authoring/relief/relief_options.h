@@ -19,6 +19,8 @@ struct ReliefOptions {
   int layers = 64;
   double least_parallax = 0.02617993877991494;  // rad
   double least_confidence = 0.5;
+  bool close = true;
+  bool use_brightness = true;
   int threads = 2;
 
   template <class V>
@@ -37,7 +39,11 @@ struct ReliefOptions {
     v("least_parallax", least_parallax, Range{0.0, 0.5}, "rad",
       "A direction whose rays span less is not measured.");
     v("least_confidence", least_confidence, Range{0.0, 1.0}, "",
-      "Cells below this confidence are unknown in the relief.");
+      "Cells below this confidence do not count as measured.");
+    v("close", close, Any{}, "",
+      "Give the cells that were not measured a value, by brightness or between their neighbours.");
+    v("use_brightness", use_brightness, Any{}, "",
+      "Use brightness as a weak measurement where motion measured nothing.");
     v("threads", threads, Range{1, 64}, "",
       "Threads of the parallel stages; the result does not depend on it.");
     prepare.Visit(PartVisitor<V>{v, "prepare_"});

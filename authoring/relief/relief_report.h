@@ -23,6 +23,9 @@ struct PosedFrame {
   double sigma_m = 0, sigma_rad = 0;  // standard deviations of the pose while the points stay
   int tracks = 0, inliers = 0;
   double rms_px = 0;
+  // Mean distance in the panorama over the relief, between where this frame lays a point of the
+  // tissue and where the frames lay it on average; 0 where no panorama was drawn.
+  double expected_error_px = 0;
 };
 
 // Whether the clip determines depth, and the test that decided it.
@@ -52,6 +55,8 @@ struct ReliefReport {
   double radius = 0;  // m
   Projection projection;
   int width = 0, height = 0;
+  // Shares of the cells that a frame sees, by origin.
+  double measured_share = 0, brightness_share = 0, interpolated_share = 0;
   double coverage = 0;  // share of the cells that three frames see, at or above least_confidence
   std::array<int, 10> confidence_histogram{};  // cells by tenths of confidence
   std::vector<std::string> warnings;

@@ -11,6 +11,7 @@
 
 #include "authoring/panorama/graph/parallel.h"
 #include "authoring/relief/semi_global.h"
+#include "authoring/relief/surface_view.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 
@@ -25,64 +26,6 @@ constexpr float kNoise = 4.0f;       // grey levels; windows with less contrast 
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
-// Directions of the cells, row by row.
-struct Cells {
-  Projection projection;
-  cv::Size size;
-  std::vector<cv::Vec3f> directions;
-};
-
-Cells CellsOf(const Projection& projection, const cv::Size& size) {
-  Cells cells{projection, size, {}};
-  cells.directions.reserve(static_cast<std::size_t>(size.area()));
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) {
-      const glm::dvec3 d = DirectionFromPixel(projection, {x, y});
-      cells.directions.emplace_back(static_cast<float>(d.x), static_cast<float>(d.y),
-                                    static_cast<float>(d.z));
-    }
-  return cells;
-}
-
-// A posed frame, smoothed for the level at hand.
-struct View {
-  cv::Matx33f camera_from_portal;
-  cv::Vec3f centre;
-  cv::Mat grey;  // CV_32FC1
-  cv::Mat mask;
-};
-
-std::vector<View> ViewsOf(const std::vector<WorkingFrame>& frames, const Reconstruction& scene,
-                          double smoothing) {
-  std::vector<View> views;
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    if (!scene.poses[f]) continue;
-    View view;
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c)
-        view.camera_from_portal(r, c) = static_cast<float>(scene.poses[f]->world_from_camera(c, r));
-      view.centre[r] = static_cast<float>(scene.poses[f]->centre[r]);
-    }
-    frames[f].grey.convertTo(view.grey, CV_32F);
-    if (smoothing > 0) cv::GaussianBlur(view.grey, view.grey, {0, 0}, smoothing);
-    view.mask = frames[f].mask;
-    views.push_back(std::move(view));
-  }
-  return views;
-}
-
-// Finds the pixel at which a view sees a point; false outside its mask.
-bool PixelOf(const View& view, const LensProfile& lens, const cv::Vec3f& point, double* pixel) {
-  const cv::Vec3f local = view.camera_from_portal * (point - view.centre);
-  const double at[3] = {local[0], local[1], local[2]};
-  const double length = std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-  if (!(at[2] > lens.least_cosine() * length)) return false;
-  lens.Project(at, pixel);
-  const int x = static_cast<int>(pixel[0] + 0.5), y = static_cast<int>(pixel[1] + 0.5);
-  return pixel[0] >= 1 && pixel[1] >= 1 && x < view.mask.cols - 2 && y < view.mask.rows - 2 &&
-         view.mask.at<std::uint8_t>(y, x) != 0;
-}
-
 float Sample(const cv::Mat& picture, const double* pixel) {
   const int x = static_cast<int>(pixel[0]), y = static_cast<int>(pixel[1]);
   const float fx = static_cast<float>(pixel[0] - x), fy = static_cast<float>(pixel[1] - y);
@@ -95,8 +38,8 @@ struct Normalised {
   cv::Mat value, weight;  // weight: 1 where enough of the window is seen
 };
 
-Normalised NormalisedView(const View& view, const LensProfile& lens, const Cells& cells,
-                          const cv::Mat& radius, int window) {
+Normalised NormalisedView(const SurfaceView& view, const LensProfile& lens,
+                          const SurfaceCells& cells, const cv::Mat& radius, int window) {
   cv::Mat value(cells.size, CV_32F), seen(cells.size, CV_32F);
   for (int y = 0; y < cells.size.height; ++y) {
     const float* r = radius.ptr<float>(y);
@@ -152,12 +95,13 @@ cv::Mat CorrelationOf(const Normalised& view, const cv::Mat& sum, int window) {
 
 // Agreement of the frames for one radius of every cell: mean of the better half; -1 where fewer
 // than three see it. Gives up early once the job is to stop.
-cv::Mat Agreement(const std::vector<View>& views, const LensProfile& lens, const Cells& cells,
-                  const cv::Mat& radius, int window, const Progress& progress) {
+cv::Mat Agreement(const std::vector<SurfaceView>& views, const LensProfile& lens,
+                  const SurfaceCells& cells, const cv::Mat& radius, int window,
+                  const Progress& progress) {
   std::vector<Normalised> all;
   all.reserve(views.size());
   cv::Mat sum = cv::Mat::zeros(cells.size, CV_32F);
-  for (const View& view : views) {
+  for (const SurfaceView& view : views) {
     if (progress.ShouldStop()) return {};
     all.push_back(NormalisedView(view, lens, cells, radius, window));
     sum += all.back().value;
@@ -192,9 +136,9 @@ struct Round {
   LayerChoice choice;
 };
 
-Round RunRound(const std::vector<View>& views, const LensProfile& lens, const Cells& cells,
-               const std::vector<cv::Mat>& radii, int window, const ReliefOptions& options,
-               const Progress& progress, const char* stage) {
+Round RunRound(const std::vector<SurfaceView>& views, const LensProfile& lens,
+               const SurfaceCells& cells, const std::vector<cv::Mat>& radii, int window,
+               const ReliefOptions& options, const Progress& progress, const char* stage) {
   Round round;
   round.scores.resize(radii.size());
   ForEachIndex(static_cast<int>(radii.size()), options.threads, progress, stage, [&](int k) {
@@ -268,9 +212,9 @@ cv::Mat Cleaned(const cv::Mat& radius) {
 
 // Share of the views that agree with the surface: a view agrees where it correlates best within
 // 1 px of the place that the surface gives, along its own direction of parallax.
-cv::Mat ViewAgreement(const std::vector<View>& views, const LensProfile& lens, const Cells& cells,
-                      const cv::Mat& radius, int window, const ReliefOptions& options,
-                      const Progress& progress) {
+cv::Mat ViewAgreement(const std::vector<SurfaceView>& views, const LensProfile& lens,
+                      const SurfaceCells& cells, const cv::Mat& radius, int window,
+                      const ReliefOptions& options, const Progress& progress) {
   constexpr int kReach = 3;  // px to either side
   std::vector<Normalised> all(views.size());
   ForEachIndex(
@@ -281,7 +225,7 @@ cv::Mat ViewAgreement(const std::vector<View>& views, const LensProfile& lens, c
   std::vector<cv::Mat> agrees(views.size()), counts(views.size());
   ForEachIndex(static_cast<int>(views.size()), options.threads, progress, "checking the surface",
                [&](int i) {
-                 const View& view = views[At(i)];
+                 const SurfaceView& view = views[At(i)];
                  // Change of radius that moves the point by one pixel in this view; 0 where it
                  // hardly moves.
                  cv::Mat step = cv::Mat::zeros(cells.size, CV_32F);
@@ -330,8 +274,8 @@ cv::Mat ViewAgreement(const std::vector<View>& views, const LensProfile& lens, c
 
 // How many views see each cell at its radius, from how far, and the largest angle between their
 // rays.
-void MeasureParallax(const std::vector<View>& views, const LensProfile& lens, const Cells& cells,
-                     SweptSurface& surface) {
+void MeasureParallax(const std::vector<SurfaceView>& views, const LensProfile& lens,
+                     const SurfaceCells& cells, SweptSurface& surface) {
   surface.parallax = cv::Mat::zeros(cells.size, CV_32F);
   surface.range = cv::Mat::zeros(cells.size, CV_32F);
   surface.seen_by = cv::Mat::zeros(cells.size, CV_32F);
@@ -343,7 +287,7 @@ void MeasureParallax(const std::vector<View>& views, const LensProfile& lens, co
       const cv::Vec3f point = cells.directions[At(y) * At(cells.size.width) + At(x)] * r;
       rays.clear();
       float ranges = 0;
-      for (const View& view : views) {
+      for (const SurfaceView& view : views) {
         double pixel[2];
         if (!PixelOf(view, lens, point, pixel)) continue;
         const cv::Vec3f ray = point - view.centre;
@@ -377,8 +321,8 @@ std::pair<double, double> RadiusRange(const Reconstruction& scene) {
 }
 
 // The part of the sphere that three frames see at some radius of the range, as a grid.
-Cells CellsInView(const std::vector<View>& views, const LensProfile& lens, double nearest,
-                  double furthest, double px_per_deg) {
+SurfaceCells CellsInView(const std::vector<SurfaceView>& views, const LensProfile& lens,
+                         double nearest, double furthest, double px_per_deg) {
   const int side = 2 * static_cast<int>(std::ceil(kFurthest * px_per_deg)) + 1;
   Projection projection{
       ProjectionType::kEquirectangular, {0.5 * (side - 1), 0.5 * (side - 1)}, 1000, px_per_deg};
@@ -393,7 +337,7 @@ Cells CellsInView(const std::vector<View>& views, const LensProfile& lens, doubl
         const cv::Vec3f point(static_cast<float>(d.x * r), static_cast<float>(d.y * r),
                               static_cast<float>(d.z * r));
         double pixel[2];
-        const auto seen = std::count_if(views.begin(), views.end(), [&](const View& view) {
+        const auto seen = std::count_if(views.begin(), views.end(), [&](const SurfaceView& view) {
           return PixelOf(view, lens, point, pixel);
         });
         if (seen < kLeastFrames) continue;
@@ -407,7 +351,7 @@ Cells CellsInView(const std::vector<View>& views, const LensProfile& lens, doubl
   const int width = (right - left + 4) & ~1, height = (bottom - top + 4) & ~1;
   projection.centre_px.x -= left - 1;
   projection.centre_px.y -= top - 1;
-  return CellsOf(projection, {width, height});
+  return CellDirections(projection, {width, height});
 }
 
 }  // namespace
@@ -418,9 +362,9 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
   SweptSurface surface;
   const auto [nearest, furthest] = RadiusRange(scene);
   if (!(nearest > 0)) return surface;
-  const std::vector<View> views = ViewsOf(frames, scene, 0);
+  const std::vector<SurfaceView> views = ViewsOf(frames, scene, 0);
   const double px_per_deg = 1 / DegreesFromRadians(options.cell);
-  const Cells cells = CellsInView(views, lens, nearest, furthest, px_per_deg);
+  const SurfaceCells cells = CellsInView(views, lens, nearest, furthest, px_per_deg);
   if (cells.size.empty()) return surface;
 
   // Layers even in the inverse distance from a point between the portal and the tips.
@@ -438,7 +382,7 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
   half.px_per_deg /= 2;
   half.centre_px.x = 0.5 * (half.centre_px.x - 0.5);
   half.centre_px.y = 0.5 * (half.centre_px.y - 0.5);
-  const Cells coarse = CellsOf(half, {cells.size.width / 2, cells.size.height / 2});
+  const SurfaceCells coarse = CellDirections(half, {cells.size.width / 2, cells.size.height / 2});
   std::vector<cv::Mat> radii;
   for (int k = 0; k < options.layers; ++k)
     radii.emplace_back(coarse.size, CV_32F, cv::Scalar(radius_at(k / (options.layers - 1.0))));
@@ -468,6 +412,9 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
     radius = RadiusOf(last.choice, radii);
   }
 
+  // The best radius of a cell is none where it is the first or the last that was tried.
+  cv::Mat is_inside = (first.choice.layer > 0.6) & (first.choice.layer < options.layers - 1.6);
+  cv::resize(is_inside, is_inside, cells.size, 0, 0, cv::INTER_NEAREST);
   surface.projection = cells.projection;
   surface.radius = radius;
   surface.peak = last.choice.score;
@@ -476,6 +423,8 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
   MeasureParallax(views, lens, cells, surface);
   surface.agreement =
       ViewAgreement(ViewsOf(frames, scene, 1.0), lens, cells, radius, 9, options, progress);
+  surface.agreement.setTo(0, ~is_inside);
+  surface.peak.setTo(0, ~is_inside);
   surface.radius.setTo(kUnknown, surface.seen_by < kLeastFrames);
   return surface;
 }

@@ -43,15 +43,26 @@ int PositionOf(const Layout& layout, int index) {
 double WriteAlpha(const Layout& layout, const std::vector<char>& is_seen, double feather,
                   cv::Mat& rgba) {
   cv::Mat imaged(layout.size, CV_8U, cv::Scalar(0));
-  constexpr int kShift = 4;  // fractional bits of fillPoly
+  cv::Mat cells(layout.cells, CV_8U, cv::Scalar(0));  // shown of a surface
+  constexpr int kShift = 4;                           // fractional bits of fillPoly
   std::vector<std::vector<cv::Point>> polygon(1);
   for (std::size_t f = 0; f < layout.frames.size(); ++f) {
     if (!is_seen[f]) continue;
+    if (!layout.frames[f].surface.empty()) {
+      cv::Mat part = cells(layout.frames[f].cells);
+      cv::max(part, layout.frames[f].surface.is_shown, part);
+      continue;
+    }
     polygon[0].clear();
     for (const cv::Point2d& p : layout.frames[f].outline)
       polygon[0].emplace_back(static_cast<int>(std::lround(p.x * (1 << kShift))),
                               static_cast<int>(std::lround(p.y * (1 << kShift))));
     cv::fillPoly(imaged, polygon, cv::Scalar(255), cv::LINE_8, kShift);
+  }
+  if (cv::countNonZero(cells) > 0) {
+    cv::Mat large;
+    cv::resize(cells, large, layout.cells * layout.cell, 0, 0, cv::INTER_LINEAR);
+    cv::max(imaged, large(cv::Rect({0, 0}, layout.size)) >= 128, imaged);
   }
   const double share = cv::countNonZero(imaged) / static_cast<double>(imaged.total());
   const int reach = static_cast<int>(std::lround(feather));
@@ -115,10 +126,10 @@ class Preview {
 
 class Composer {
  public:
-  Composer(const FrameSource& source, const Rectifier& rectifier, const Layout& layout,
+  Composer(const FrameSource& source, const FramePicture& picture, const Layout& layout,
            const ComposeOptions& options, ComposeReport& report, const Progress& progress)
       : source_(source),
-        rectifier_(rectifier),
+        picture_(picture),
         layout_(layout),
         options_(options),
         report_(report),
@@ -126,7 +137,7 @@ class Composer {
         cells_(layout.frames.size()),
         is_seen_(layout.frames.size(), 0) {
     for (const LaidFrame& frame : layout.frames)
-      rays_.emplace_back(frame, layout.cell, rectifier.view());
+      rays_.emplace_back(frame, layout.cell, picture.view);
   }
 
   // First pass: each frame's colours on the cells.
@@ -138,12 +149,12 @@ class Composer {
       progress_.Step("look at frames", f < 0 ? 0.0 : Share(f));
       if (f < 0 || is_seen_[f]) continue;
       try {
-        rectifier_.Rectify(raw, rectified);
+        picture_.draw(raw, rectified);
       } catch (const Error& error) {  // one faulty frame does not stop a clip
         report_.left_out.push_back({index, error.sentence()});
         continue;
       }
-      cells_[f] = CellsOf(rectified, TissueMask(rectified, rectifier_.mask()), rectifier_.mask(),
+      cells_[f] = CellsOf(rectified, TissueMask(rectified, picture_.mask), picture_.mask,
                           layout_.frames[f], layout_.cell);
       is_seen_[f] = 1;
       ++report_.frames_seen;
@@ -193,9 +204,9 @@ class Composer {
       const int f = PositionOf(layout_, index);
       progress_.Step("blend", f < 0 ? 0.0 : Share(f));
       if (f < 0 || shares_[f].empty() || cv::countNonZero(shares_[f]) == 0) continue;
-      rectifier_.Rectify(raw, rectified);
+      picture_.draw(raw, rectified);
       const LaidFrame& frame = layout_.frames[f];
-      DetailSource drawn{rectified, TissueMask(rectified, rectifier_.mask()),
+      DetailSource drawn{rectified, TissueMask(rectified, picture_.mask),
                          FilledCells(cells_[f], consensus_, frame.cells), shares_[f],
                          cv::Mat(frame.cells.size(), CV_32F)};
       for (int y = 0; y < frame.cells.height; ++y)
@@ -219,7 +230,7 @@ class Composer {
   }
 
   const FrameSource& source_;
-  const Rectifier& rectifier_;
+  const FramePicture& picture_;
   const Layout& layout_;
   const ComposeOptions& options_;
   ComposeReport& report_;
@@ -240,17 +251,28 @@ ComposedPanorama Compose(const FrameSource& source, const Rectifier& rectifier,
                          ComposeReport* report, const Progress& progress,
                          const ComposeObserver& observer) {
   CheckOptions(options);
+  const FramePicture picture{
+      [&](const cv::Mat& raw, cv::Mat& drawn) { rectifier.Rectify(raw, drawn); }, rectifier.mask(),
+      rectifier.view()};
+  const Layout layout = LayOut(rectifier.mask(), rectifier.view(), frames, options);
+  return ComposeLayout(source, picture, layout, options, report, progress, observer);
+}
+
+ComposedPanorama ComposeLayout(const FrameSource& source, const FramePicture& picture,
+                               const Layout& layout, const ComposeOptions& options,
+                               ComposeReport* report, const Progress& progress,
+                               const ComposeObserver& observer) {
+  CheckOptions(options);
   ComposeReport own;
   ComposeReport& told = report ? *report : own;
   told = {};
   ComposedPanorama panorama;
-  const Layout layout = LayOut(rectifier.mask(), rectifier.view(), frames, options);
   told.left_out = layout.left_out;
   if (layout.frames.empty()) return panorama;
   told.scale = layout.scale;
   told.cell = layout.cell;
   Preview preview(layout, options, observer);
-  Composer composer(source, rectifier, layout, options, told, progress);
+  Composer composer(source, picture, layout, options, told, progress);
   composer.Look(preview);
   if (told.frames_seen == 0) return panorama;
   composer.TakeLightOut();

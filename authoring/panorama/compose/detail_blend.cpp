@@ -75,12 +75,19 @@ void DetailBlend::Add(const DetailSource& source, const LaidFrame& frame, const 
       const cv::Rect box =
           cv::Rect(tile.tl() - cv::Point(halo, halo), tile.size() + cv::Size(2 * halo, 2 * halo)) &
           whole;
-      const cv::Matx33d box_from_rectified =
-          cv::Matx33d(1, 0, -box.x, 0, 1, -box.y, 0, 0, 1) * frame.composed_from_rectified;
       cv::Mat drawn, tissue;
-      cv::warpPerspective(source.rectified_rgb, drawn, box_from_rectified, box.size(),
-                          cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-      cv::warpPerspective(source.tissue, tissue, box_from_rectified, box.size());
+      if (frame.surface.empty()) {
+        const cv::Matx33d box_from_rectified =
+            cv::Matx33d(1, 0, -box.x, 0, 1, -box.y, 0, 0, 1) * frame.composed_from_rectified;
+        cv::warpPerspective(source.rectified_rgb, drawn, box_from_rectified, box.size(),
+                            cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+        cv::warpPerspective(source.tissue, tissue, box_from_rectified, box.size());
+      } else {
+        const cv::Mat pixel = Enlarge(frame.surface.pixel, cell_, cells.tl(), box, 0);
+        cv::remap(source.rectified_rgb, drawn, pixel, cv::noArray(), cv::INTER_LINEAR,
+                  cv::BORDER_REPLICATE);
+        cv::remap(source.tissue, tissue, pixel, cv::noArray(), cv::INTER_LINEAR);
+      }
       const cv::Mat gain = Enlarge(source.gain, cell_, cells.tl(), box, 0);
       cv::Mat detail = Enlarge(source.slow, cell_, cells.tl(), box, 0);
       for (int y = 0; y < box.height; ++y) {

@@ -17,15 +17,34 @@ cv::Matx33d Shrink(double factor) {
   return {1 / factor, 0, 0.5 / factor - 0.5, 0, 1 / factor, 0.5 / factor - 0.5, 0, 0, 1};
 }
 
+// Panorama px per px of the frame's picture, approximate.
+double Magnification(const cv::Size& picture, const LaidFrame& frame) {
+  if (!frame.surface.empty()) {
+    const cv::Scalar mean = cv::mean(frame.surface.sharpness, frame.surface.is_shown);
+    return 1 / std::max(mean[0], 1e-3);
+  }
+  const cv::Matx33d& h = frame.composed_from_rectified;
+  const double at_middle = h(2, 0) * picture.width / 2 + h(2, 1) * picture.height / 2 + h(2, 2);
+  return std::sqrt(std::abs(cv::determinant(h)) / std::pow(std::max(at_middle, 1e-9), 3));
+}
+
 }  // namespace
 
 CellRays::CellRays(const LaidFrame& frame, int cell, const RectifiedView& view)
     : rectified_from_cell_(frame.composed_from_rectified.inv() * Shrink(1.0 / cell)),
       composed_from_rectified_(frame.composed_from_rectified),
       view_(view),
-      det_(std::abs(cv::determinant(frame.composed_from_rectified))) {}
+      det_(std::abs(cv::determinant(frame.composed_from_rectified))),
+      surface_(frame.surface),
+      first_(frame.cells.tl()) {}
 
 CellRays::Ray CellRays::At(int column, int row) const {
+  if (!surface_.empty()) {
+    const int x = column - first_.x, y = row - first_.y;
+    const auto& tangent = surface_.tangent.at<cv::Vec2f>(y, x);
+    return {tangent[0], tangent[1], surface_.light.at<float>(y, x),
+            surface_.sharpness.at<float>(y, x)};
+  }
   const cv::Vec3d h = rectified_from_cell_ * cv::Vec3d(column, row, 1);
   const double px = h[0] / h[2], py = h[1] / h[2];
   Ray ray;
@@ -55,10 +74,7 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
                    const cv::Mat& lens_mask, const LaidFrame& frame, int cell) {
   // Reduces to about the cells' size by averaging whole pixels, so that none is skipped.
   const cv::Matx33d& h = frame.composed_from_rectified;
-  const double at_middle =
-      h(2, 0) * rectified_rgb.cols / 2 + h(2, 1) * rectified_rgb.rows / 2 + h(2, 2);
-  const double magnification =
-      std::sqrt(std::abs(cv::determinant(h)) / std::pow(std::max(at_middle, 1e-9), 3));
+  const double magnification = Magnification(rectified_rgb.size(), frame);
   const int shrink = std::clamp(static_cast<int>(std::lround(cell / magnification)), 1,
                                 std::min({16, rectified_rgb.cols, rectified_rgb.rows}));
   const cv::Size small(rectified_rgb.cols / shrink, rectified_rgb.rows / shrink);
@@ -70,17 +86,27 @@ FrameCells CellsOf(const cv::Mat& rectified_rgb, const cv::Mat& tissue_mask,
   cv::resize(lens_mask(whole), lens, small, 0, 0, cv::INTER_AREA);
   colour.convertTo(colour, CV_32F);
 
+  const cv::Size box = frame.cells.size();
   const cv::Matx33d cell_from_small =
       cv::Matx33d(1, 0, -frame.cells.x, 0, 1, -frame.cells.y, 0, 0, 1) * Shrink(cell) * h *
       Shrink(1.0 / shrink);
-  const cv::Size box = frame.cells.size();
+  cv::Mat small_pixel;  // over a surface
+  if (!frame.surface.empty())
+    frame.surface.pixel.convertTo(small_pixel, CV_32F, 1.0 / shrink, 0.5 / shrink - 0.5);
+  const auto draw = [&](const cv::Mat& from, cv::Mat& to) {
+    if (small_pixel.empty())
+      cv::warpPerspective(from, to, cell_from_small, box);
+    else
+      cv::remap(from, to, small_pixel, cv::noArray(), cv::INTER_LINEAR);
+  };
   cv::Mat cell_colour, cell_good, cell_lens, glaring, cell_glaring;
-  cv::warpPerspective(colour, cell_colour, cell_from_small, box);
-  cv::warpPerspective(good, cell_good, cell_from_small, box);
-  cv::warpPerspective(lens, cell_lens, cell_from_small, box);
+  draw(colour, cell_colour);
+  draw(good, cell_good);
+  draw(lens, cell_lens);
+  if (!frame.surface.empty()) cell_lens.setTo(0, frame.surface.is_shown == 0);
   // Overexposed cells keep their colour, since there is no better one.
   cv::resize(rectified_rgb(whole), glaring, small, 0, 0, cv::INTER_AREA);
-  cv::warpPerspective(glaring, cell_glaring, cell_from_small, box);
+  draw(glaring, cell_glaring);
 
   FrameCells cells{cv::Mat(box, CV_16UC3), cv::Mat(box, CV_8U)};
   for (int y = 0; y < box.height; ++y)

@@ -19,13 +19,14 @@ struct FrameCells {
   bool is_seen() const { return !blend_weight.empty(); }
 };
 
-// Ray of a cell in the frame, by the inverse homography.
+// Ray of a cell in the frame: by the inverse homography, or over a surface within the frame's box.
 class CellRays {
  public:
   CellRays(const LaidFrame& frame, int cell, const RectifiedView& view);
   struct Ray {
     double x, y;       // tan of the angle off the optical axis, right and down
-    double w;          // the homography's denominator, proportional to the distance along the axis
+    double w;          // the homography's denominator, proportional to the distance along the axis;
+                       // over a surface its incident light
     double sharpness;  // raw px per panorama px, approximate; 1 on the axis of a frame drawn at
                        // scale 1
   };
@@ -35,6 +36,8 @@ class CellRays {
   cv::Matx33d rectified_from_cell_, composed_from_rectified_;
   RectifiedView view_;
   double det_;
+  SurfacePlace surface_;
+  cv::Point first_;  // the box's first cell
 };
 
 // Masks overexposure and highlights: CV_8UC1, 255 at tissue.

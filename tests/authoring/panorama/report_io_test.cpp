@@ -89,6 +89,21 @@ TEST(PanoramaReport, FollowsItsSchema) {
   EXPECT_NE(FaultOf(json.dump()), "");
 }
 
+TEST(PanoramaReport, FollowsItsSchemaOverARelief) {
+  PanoramaReport report = SampleReport();
+  report.rectified = {};
+  report.panorama = {};
+  report.panorama.width = 800;
+  report.panorama.height = 600;
+  report.over_relief = Projection{ProjectionType::kEquirectangular, {399.5, 299.5}, 1000, 8};
+  report.relief_radius = 0.05;
+  EXPECT_EQ(FaultOf(JsonFromReport(report)), "");
+  const auto json = nlohmann::json::parse(JsonFromReport(report));
+  EXPECT_EQ(json.at("way"), "relief");
+  EXPECT_FALSE(json.contains("rectified"));
+  EXPECT_TRUE(json.at("frames").at(0).at("panorama_from_rectified").is_null());
+}
+
 // Keys that other tools and the editor read [method.md, Command line].
 TEST(PanoramaReport, HasTheKeysOfTheContract) {
   const auto json = nlohmann::json::parse(JsonFromReport(SampleReport()));

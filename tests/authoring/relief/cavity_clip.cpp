@@ -45,8 +45,9 @@ double Albedo(const Vector3d& point) {
   return 0.45 * Noise(point * 250, 1) + 0.35 * Noise(point * 500, 2) + 0.2 * Noise(point * 900, 3);
 }
 
-// Distance along a ray from inside to the surface.
-double Range(const Vector3d& from, const Vector3d& ray) {
+}  // namespace
+
+double CavityRange(const Vector3d& from, const Vector3d& ray) {
   double near = 0, far = 2 * kSphere;
   constexpr int kSteps = 60;
   for (int i = 1; i <= kSteps; ++i) {
@@ -63,8 +64,6 @@ double Range(const Vector3d& from, const Vector3d& ray) {
   }
   return 0.5 * (near + far);
 }
-
-}  // namespace
 
 double CavityRadius(const Vector3d& direction) {
   struct Bump {
@@ -170,7 +169,7 @@ void WriteCavityClip(const std::filesystem::path& folder, const CavityOptions& o
         const auto ray = RayFromPixel(lens, {x, y});
         if (!ray) continue;
         const Vector3d d = poses[f].world_from_camera * Vector3d(ray->x, ray->y, ray->z);
-        const double range = Range(poses[f].centre, d);
+        const double range = CavityRange(poses[f].centre, d);
         const double light = std::min(1.6, std::pow(0.022 / range, 1.2));
         const double albedo = Albedo(poses[f].centre + range * d);
         const auto level = [&](double colour) {

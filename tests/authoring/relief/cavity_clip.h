@@ -32,6 +32,9 @@ inline constexpr double kViewAngle = 0.5236;  // rad
 // Distance from the portal to the surface along a unit direction, m.
 double CavityRadius(const Eigen::Vector3d& direction);
 
+// Distance along a ray from inside to the surface, m.
+double CavityRange(const Eigen::Vector3d& from, const Eigen::Vector3d& ray);
+
 // Equisolid, 240 x 200 px, 90° across the round window.
 Lens CavityLens();
 

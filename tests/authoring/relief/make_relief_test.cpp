@@ -98,10 +98,31 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
   // the light that moves with the tip pulls the tracks. Large clips come to less than 1 %.
   EXPECT_LT(MedianRadialError(result, clip), 2e-3) << "m";
 
-  request.options.threads = 1;
+  // Every cell that a frame sees has a value, an error and an origin; all others have none.
+  int unseen = 0, measured = 0;
+  for (int y = 0; y < result.relief.height; ++y)
+    for (int x = 0; x < result.relief.width; ++x) {
+      const bool is_known = !std::isnan(result.relief.at(x, y));
+      EXPECT_EQ(is_known, result.sigma.at(x, y) > 0);
+      EXPECT_EQ(is_known, result.origin.at(x, y) != ReliefOrigin::kNone);
+      if (result.origin.at(x, y) == ReliefOrigin::kMeasured) {
+        ++measured;
+        EXPECT_GE(result.confidence.at(x, y), request.options.least_confidence);
+      }
+      unseen += !is_known;
+    }
+  EXPECT_GT(measured, 0);
+  EXPECT_GT(unseen, 0) << "the corners of the grid";
+  EXPECT_EQ(result.picture.width, result.relief.width * result.picture_scale);
+  EXPECT_EQ(result.picture.height, result.relief.height * result.picture_scale);
+
+  request.options.threads = 4;
   const ReliefResult again = MakeRelief(request, {});
   EXPECT_TRUE(IsSame(result.relief, again.relief));
+  EXPECT_TRUE(IsSame(result.sigma, again.sigma));
   EXPECT_TRUE(IsSame(result.confidence, again.confidence));
+  EXPECT_EQ(result.origin.origin, again.origin.origin);
+  EXPECT_EQ(result.picture.rgba, again.picture.rgba);
   EXPECT_EQ(JsonFromPoses(result.report), JsonFromPoses(again.report));
 
   // A known length sets the scale of everything.
