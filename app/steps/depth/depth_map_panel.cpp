@@ -109,8 +109,8 @@ void Profile(Ui& ui, const EditorState& state) {
 
 void Brush(Ui& ui, EditorState& state) {
   DepthBoard& board = state.steps.depth->board;
-  Slider(ui, "Width of the brush", board.brush_radius, 2, 100, "%.0f px",
-         "Radius of the brush in pixels of the panorama.");
+  Slider(ui, "Radius of the brush", board.brush_radius, 2, 100, "%.0f px",
+         "In pixels of the panorama.");
   QuietText(ui,
             "Paint over depth that is wrong. When the mouse button is released, the marked part is "
             "interpolated from its surround. Undo brings it back.");

@@ -51,7 +51,7 @@ void DepthPanel(Ui& ui, EditorState& state) {
       Text(ui, "This scene has a depth map that was imported, not made from its picture.");
     QuietText(ui,
               "It is kept as it is, so the settings below do nothing. Replace it by a map that is "
-              "made from the picture to use them; Undo brings the imported one back.");
+              "made from the picture to use them; Undo brings it back.");
     CommandButton(ui, state, "make-depth", {-FLT_MIN, 0});
     Gap(ui);
   }

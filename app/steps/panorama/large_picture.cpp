@@ -71,6 +71,8 @@ std::string WordsOfNothing(const EditorState& state) {
   const bool works = FootageIsUnderWay(state);
   if (board.selected >= 0)
     return works ? "This frame is being read." : "This frame could not be read.";
+  if (works && state.jobs.stage().starts_with("measuring"))
+    return "Camera poses and points of the tissue appear here as soon as they are found.";
   if (works && state.steps.panorama->footage_job.makes_panorama)
     return "The panorama will grow here as soon as the first frames are placed.";
   return "There is no panorama yet. Choose the lens of the scope, then press Run.";

@@ -9,7 +9,7 @@
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/panorama_run.h"
-#include "authoring/relief/editing/enlarged_maps.h"
+#include "authoring/relief/enlarge_relief.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -49,9 +49,12 @@ MadeRelief MadeReliefOf(authoring::ReliefResult result) {
       result.picture.height == factor * result.relief.height) {
     backdrop.panorama = PictureFromRgba(result.picture);
     made.shown = PictureFromRgba(result.picture, kBoardEdge);
-    backdrop.depth = Share(authoring::MapAtPictureSize(result.relief, factor));
-    backdrop.sigma = Share(authoring::MapAtPictureSize(result.sigma, factor));
-    backdrop.origin = Share(authoring::MapAtPictureSize(result.origin, factor));
+    // A larger difference between neighbouring cells of half a degree is steeper than 75°.
+    constexpr double kStep = 0.035;  // share of the radius
+    const auto step = static_cast<float>(kStep * result.report.radius);
+    backdrop.depth = Share(authoring::EnlargedMap(result.relief, factor, step));
+    backdrop.sigma = Share(authoring::EnlargedMap(result.sigma, factor, step));
+    backdrop.origin = Share(authoring::EnlargedMap(result.origin, factor));
     backdrop.projection = authoring::EnlargedProjection(result.report.projection, factor);
     backdrop.radius = result.report.radius;
   }
