@@ -10,7 +10,7 @@
 #include "authoring/relief/measure_relief.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/process_cost.h"
 
 namespace arthro::authoring {
@@ -171,7 +171,7 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress) 
   }
   report.stages = clock.costs();
   report.peak_memory_mb = PeakMemoryMb();
-  report.options = JsonFromOptions(options).dump();
+  report.options = OptionsText(options);
   return result;
 }
 
