@@ -15,9 +15,8 @@
 #include "app/cli/number_flags.h"
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
-#include "simulation/core/json_text.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/options.h"
-#include "simulation/core/options_json.h"
 
 namespace arthro::app {
 
@@ -103,8 +102,7 @@ void AddOptions(CLI::App& job, Options&... options) {
   job.add_option_function<std::string>(
          "--options",
          [joined](const std::string& file) mutable {
-           ReadOptions(ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file), file,
-                       joined);
+           ReadOptionsText(ReadWholeFile(file, kMostJsonBytes), file, joined);
          },
          "JSON file with parameters; flags win over it.")
       ->type_name("FILE")
@@ -115,7 +113,7 @@ void AddOptions(CLI::App& job, Options&... options) {
   job.add_flag_callback(
          "--dump-options",
          [joined] {
-           std::printf("%s\n", JsonFromOptions(joined).dump(2).c_str());
+           std::printf("%s\n", OptionsText(joined, 2).c_str());
            throw CLI::Success();
          },
          "Print the parameters as JSON for --options, and do nothing else.")

@@ -15,7 +15,7 @@
 #include "authoring/depth/light_falloff.h"
 #include "authoring/depth/masked_median.h"
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 
 namespace arthro::authoring {
 namespace {

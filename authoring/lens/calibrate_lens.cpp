@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/core/units.h"
 

@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 
 namespace arthro::authoring {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "simulation/core/options.h"
+#include "authoring/lens/rectify_options.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::authoring {
@@ -16,19 +16,6 @@ namespace arthro::authoring {
 struct RectifiedView {
   int width = 0, height = 0;
   double focal_px = 0, cx = 0, cy = 0;  // at scale 1
-};
-
-struct RectifyOptions {
-  double rim_margin = 0.03;            // share of the circle's radius, excluded at the rim
-  double largest_half_angle = 1.2217;  // rad (70°); rays further off the axis are excluded
-
-  template <class V>
-  void Visit(V&& v) {
-    v("rim_margin", rim_margin, Range{0.0, 0.5}, "",
-      "Share of the round window's radius that is left out at its rim.");
-    v("largest_half_angle", largest_half_angle, Range{0.05, 1.4}, "rad",
-      "Rays further off the axis are left out, since a flat picture would stretch them too far.");
-  }
 };
 
 // Smallest view that contains all that the lens sees: inside its circle minus the margin, inside

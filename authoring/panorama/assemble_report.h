@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "authoring/panorama/compose_pieces.h"
+#include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/panorama_report.h"
 #include "authoring/panorama/prepared_clip.h"
 

@@ -9,6 +9,7 @@
 
 #include "authoring/panorama/assemble_report.h"
 #include "authoring/panorama/compose_pieces.h"
+#include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/plain_picture.h"
 #include "authoring/panorama/prepared_clip.h"
 #include "simulation/core/error.h"
@@ -38,7 +39,7 @@ ColourImage PlainColour(const cv::Mat& picture) {
 // Text of everything that a stage's product depends on.
 template <class Options>
 std::string KeyOf(const Options& options) {
-  return JsonFromOptions(options).dump();
+  return OptionsText(options);
 }
 
 std::string KeyOf(const fs::path& footage) {

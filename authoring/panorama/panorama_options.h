@@ -3,11 +3,12 @@
 #pragma once
 
 #include "authoring/footage/choose_frames.h"
-#include "authoring/lens/rectifier.h"
+#include "authoring/lens/rectify_options.h"
 #include "authoring/panorama/compose/compose_options.h"
-#include "authoring/panorama/graph/register.h"
-#include "authoring/panorama/preparation/prepare.h"
+#include "authoring/panorama/graph/register_options.h"
+#include "authoring/panorama/preparation/prepare_options.h"
 #include "simulation/core/options.h"
+#include "simulation/core/part_visitor.h"
 
 namespace arthro::authoring {
 

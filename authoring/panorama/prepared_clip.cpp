@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "authoring/footage/frame_look.h"
+#include "authoring/panorama/preparation/prepare.h"
 #include "simulation/core/error.h"
 
 namespace arthro::authoring {

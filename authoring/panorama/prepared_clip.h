@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "authoring/footage/footage.h"
+#include "authoring/lens/rectifier.h"
 #include "authoring/panorama/footage_lens.h"
 #include "authoring/panorama/frames/working_frame.h"
 #include "authoring/panorama/panorama_options.h"

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/units.h"
 
 namespace arthro::authoring {

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/file_ending.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/core/json_text.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/image_io.h"
@@ -58,8 +55,7 @@ Document OpenDocument(const fs::path& file) {
   // Options of another version are no reason not to open a scene; they are a convenience.
   const auto options = document.scene.extensions.find(kDepthOptionsKey);
   if (options != document.scene.extensions.end()) try {
-      document.depth_options =
-          OptionsFromJson<DepthOptions>(ParseJson(options->second, Code::kBadData));
+      ReadOptionsText(options->second, {}, document.depth_options);
     } catch (const Error&) {
       document.depth_options = {};
     }

@@ -13,7 +13,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/scene/archive_io.h"
 #include "simulation/scene/clean_picture.h"
 #include "simulation/scene/image_io.h"
@@ -313,7 +313,7 @@ class Saving {
     auto& extensions = after_.scene.extensions;
     // Keys of other tools stay in this scene; a copy that is handed on does not carry them.
     if (is_copy_) extensions.clear();
-    extensions[kDepthOptionsKey] = JsonFromOptions(after_.depth_options).dump();
+    extensions[kDepthOptionsKey] = OptionsText(after_.depth_options);
     extensions.erase(kDepthMadeKey);
     if (after_.depth && !after_.depth->empty() && !after_.is_depth_imported)
       extensions[kDepthMadeKey] = DepthFingerprint(*after_.depth);

@@ -16,7 +16,7 @@
 #include "authoring/relief/relief_picture.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/core/units.h"
 
@@ -331,7 +331,7 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
   }
   report.stages = clock.costs();
   report.peak_memory_mb = PeakMemoryMb();
-  report.options = JsonFromOptions(options).dump();
+  report.options = OptionsText(options);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "authoring/panorama/footage_lens.h"
 #include "authoring/panorama/graph/parallel.h"
 #include "authoring/panorama/preparation/clip_look.h"
+#include "authoring/panorama/preparation/prepare.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "authoring/footage/choose_frames.h"
-#include "authoring/panorama/preparation/prepare.h"
+#include "authoring/panorama/preparation/prepare_options.h"
 #include "simulation/core/options.h"
 #include "simulation/core/part_visitor.h"
 

@@ -39,7 +39,8 @@ class CollapseSteps : public OpenMesh::Decimater::Observer {
 
   void notify(std::size_t collapses) override {
     try {
-      progress_.Step(kStage, std::min(1.0, static_cast<double>(collapses) / all_));
+      progress_.Step(kStage,
+                     std::min(1.0, static_cast<double>(collapses) / static_cast<double>(all_)));
     } catch (...) {
       stopped_ = std::current_exception();
     }

@@ -323,8 +323,8 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
   return mesh;
 }
 
-nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSource& source,
-                          const TetrahedralizeOptions& options) {
+std::string ReportText(const TetrahedralizeReport& report, const SurfaceSource& source,
+                       const TetrahedralizeOptions& options) {
   const SurfaceRepairs& repairs = report.repairs;
   const SurfaceCheck& surface = report.surface;
   const TetQuality& quality = report.quality;
@@ -336,7 +336,7 @@ nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSourc
     fine_at.push_back(
         {{"centre", {place.centre.x, place.centre.y, place.centre.z}}, {"radius", place.radius}});
   const glm::dvec3 size = surface.high - surface.low;
-  return {
+  const nlohmann::json json = {
       {"schema", "arthroscene.tetrahedralize/1"},
       {"input", {{"file", source.file.string()}, {"unit", source.unit}}},
       {"order", options.order},
@@ -385,6 +385,7 @@ nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSourc
        {{"check", report.check_ms}, {"mesh", report.mesh_ms}, {"measure", report.measure_ms}}},
       {"options", JsonFromOptions(options)},
   };
+  return json.dump(2) + "\n";
 }
 
 }  // namespace arthro::authoring

@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "authoring/tissue/surface_check.h"
 #include "authoring/tissue/surface_repair.h"
 #include "authoring/tissue/surface_simplify.h"
@@ -102,8 +100,8 @@ TetMesh Tetrahedralize(const SurfaceMesh& surface, const SurfaceSource& source,
                        const Progress& progress = {},
                        const std::filesystem::path& program = kThisProgram);
 
-// Returns arthroscene.tetrahedralize/1.
-nlohmann::json ReportJson(const TetrahedralizeReport& report, const SurfaceSource& source,
-                          const TetrahedralizeOptions& options);
+// Returns JSON text: arthroscene.tetrahedralize/1.
+std::string ReportText(const TetrahedralizeReport& report, const SurfaceSource& source,
+                       const TetrahedralizeOptions& options);
 
 }  // namespace arthro::authoring

@@ -104,8 +104,4 @@ inline Border PersonBorder(std::string_view unit) {
   return {};
 }
 
-// Throws Error(kBadArgument) that names the first field outside its range.
-template <class Options>
-void CheckOptions(const Options& options);
-
 }  // namespace arthro

@@ -25,8 +25,8 @@ namespace arthro::simulation {
 
 class Session {
  public:
-  // Without a depth map the bare sphere is touched where the panorama lies. A tissue without a surface
-  // has no contact. An implicit tissue is sampled as a field and must be closed; throws
+  // Without a depth map the bare sphere is touched where the panorama lies. A tissue without a
+  // surface has no contact. An implicit tissue is sampled as a field and must be closed; throws
   // Error(kBadMesh). Copies what it needs from `loaded`.
   explicit Session(const LoadedScene& loaded, const SessionOptions& options = {});
 

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kLongestLine = 1200;  // bytes; a sentence and the paths in it
 
 // Words of libraries, of the C++ runtime and of its exceptions.
-constexpr std::array<const char*, 34> kForeign = {"libpng",
+constexpr std::array<const char*, 35> kForeign = {"libpng",
+                                                  "imdecode",
                                                   "OpenCV",
                                                   "cv::",
                                                   "FFmpeg",

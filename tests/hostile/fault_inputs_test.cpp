@@ -1,5 +1,5 @@
-// Inputs that once crashed the program, hung it or took all memory: each is refused in one
-// sentence, within 2 s of processor time and 1 GB. All of them are made in code.
+// Volumes, cases and archives that once crashed the program, hung it or took all memory: each is
+// refused (refusal.h). All of them are made in code.
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -11,7 +11,7 @@
 
 #include "simulation/scene/archive_io.h"
 #include "tests/hostile/child_run.h"
-#include "tests/hostile/complaints.h"
+#include "tests/hostile/refusal.h"
 #include "tests/hostile/tet_block.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
@@ -20,40 +20,6 @@ namespace arthro::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr RunLimits kLimits{2, 1000};
-
-struct Refusal {
-  bool has_temporary_folder = true;
-  bool writes_result = false;  // result file gives the reason
-};
-
-// Runs the program and expects a refusal; returns its sentence.
-std::string RefusalOf(const std::vector<std::string>& arguments, const Refusal& refusal = {}) {
-  const bool has_temporary_folder = refusal.has_temporary_folder;
-  const TempFolder folder;
-  if (has_temporary_folder) fs::create_directories(folder / "tmp");
-  ChildCommand command;
-  command.arguments = {ARTHRO_PROGRAM};
-  command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-  for (std::string& argument : command.arguments)
-    if (argument.starts_with("OUT/")) argument = folder / argument.substr(4);
-  command.folder = command.scratch = folder.path();
-  command.environment = {"TMPDIR=" + (folder / "tmp").string(), "LANG=C.UTF-8"};
-  const ChildRun run = RunChild(command);
-  const std::string line = fmt::format("{}", fmt::join(arguments, " "));
-  EXPECT_EQ(run.exit_code, 1) << line << "\n" << Printable(run.err);
-  for (const std::string& complaint : RunComplaints(run, kLimits))
-    ADD_FAILURE() << line << ": " << complaint << "\n" << Printable(run.err);
-  EXPECT_TRUE(!has_temporary_folder || fs::is_empty(folder / "tmp"))
-      << line << " leaves a temporary file";
-  EXPECT_EQ(run.err.find((folder / "tmp").string()), std::string::npos)
-      << "names a file that nobody knows: " << Printable(run.err);
-  for (const char* output : {"r.json", "t.vtu", "c.csv"}) {
-    EXPECT_TRUE(refusal.writes_result || !fs::exists(folder / output)) << line;
-  }
-  return run.err;
-}
 
 template <class Values, class Text>
 std::string Joined(const Values& values, Text&& text) {

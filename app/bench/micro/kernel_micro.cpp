@@ -9,8 +9,8 @@
 
 #include "app/bench/micro/micro_bench.h"
 #include "simulation/core/random.h"
-#include "simulation/tissue/fem/fem_model.h"
 #include "simulation/tissue/fem/element_kernel.h"
+#include "simulation/tissue/fem/fem_model.h"
 #include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::app {

@@ -11,6 +11,7 @@
 #include "app/bench/panorama/stitcher_peer.h"
 #include "app/bench/speed_error_plot.h"
 #include "authoring/lens/rectifier.h"
+#include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/preparation/prepare.h"
 #include "authoring/phantom/clip/clip.h"
 #include "simulation/core/options_json.h"

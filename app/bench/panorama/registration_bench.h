@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "authoring/panorama/graph/register.h"
+#include "authoring/panorama/graph/register_options.h"
 #include "authoring/phantom/clip/clip_options.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"

@@ -34,9 +34,7 @@ void AddPhantomJob(CLI::App& program) {
     authoring::RequirePhantomFolder(request->folder);
     const Progress progress = TerminalProgress();
     const authoring::Phantom phantom = authoring::MakePhantom(request->options, progress);
-    authoring::WritePhantom(request->folder, phantom, [&](const std::filesystem::path& folder) {
-      return authoring::WritePhantomFootage(folder, phantom, request->footage, progress);
-    });
+    authoring::WritePhantomWithFootage(request->folder, phantom, request->footage, progress);
   });
 }
 

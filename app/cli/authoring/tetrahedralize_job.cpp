@@ -100,8 +100,7 @@ void RunJob(Arguments arguments) {
   const TetMesh mesh = Fill(arguments, surface, source, report, progress);
   WriteTetMesh(arguments.output, mesh);
   if (!arguments.report.empty())
-    WriteAtomically(arguments.report,
-                    authoring::ReportJson(report, source, arguments.options).dump(2) + "\n");
+    WriteAtomically(arguments.report, authoring::ReportText(report, source, arguments.options));
 
   // Messages go to standard error when the data goes to standard output.
   const bool is_piped = arguments.output == "-" || arguments.report == "-";

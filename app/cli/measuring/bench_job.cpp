@@ -16,8 +16,8 @@
 namespace arthro::app {
 
 void AddBenchJob(CLI::App& program) {
-  program.add_subcommand(
-      "bench", "Measure speed and error side by side, on inputs whose truth is known.");
+  program.add_subcommand("bench",
+                         "Measure speed and error side by side, on inputs whose truth is known.");
 }
 
 int RunBenchProgram(char** arguments) {
@@ -28,8 +28,8 @@ int RunBenchProgram(char** arguments) {
   while (*arguments != nullptr) words.push_back(*arguments++);
   words.push_back(nullptr);
   ::execv(bench.c_str(), words.data());
-  const std::string why = errno == ENOENT ? "it is not installed"
-                                          : std::generic_category().message(errno);
+  const std::string why =
+      errno == ENOENT ? "it is not installed" : std::generic_category().message(errno);
   std::fprintf(stderr, "arthroscene: %s\n",
                PrintableLine("the benchmarks are a program of their own, " + bench +
                              ", which could not be started: " + why +

@@ -25,8 +25,8 @@ std::string WordsOfFile(const fs::path& file) {
 LensChoice LensFromFile(const fs::path& file) {
   const Lens lens = ReadLens(file);
   return {WordsOfFile(file),
-          fmt::format("{}, {} × {} px, {:.0f}° across", ToString(lens.model), lens.width, lens.height,
-                      DegreesFromRadians(lens.field_of_view)),
+          fmt::format("{}, {} × {} px, {:.0f}° across", ToString(lens.model), lens.width,
+                      lens.height, DegreesFromRadians(lens.field_of_view)),
           lens};
 }
 

@@ -61,8 +61,9 @@ void PortalsPanel(Ui& ui, EditorState& state) {
   Gap(ui);
   Heading(ui, "Light");
   double relight = 100 * scene.backdrop.relight;
+  const Range share = FindField<Backdrop>("relight").range;
   change =
-      Slider(ui, "Lamp of the scope", relight, 0, 100, "%.0f %%",
+      Slider(ui, "Lamp of the scope", relight, 100 * share.min, 100 * share.max, "%.0f %%",
              "0: the light of the footage. 100: that light is evened out, and the scope's own lamp "
              "lights near tissue, with wet highlights.");
   if (change) SetRelight(state, relight / 100);

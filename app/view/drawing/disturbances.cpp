@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 
 namespace arthro::app {
 

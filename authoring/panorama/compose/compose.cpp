@@ -11,7 +11,7 @@
 #include "authoring/panorama/compose/layout.h"
 #include "authoring/panorama/compose/light_model.h"
 #include "authoring/panorama/compose/shares.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/core/process_cost.h"
 
 namespace arthro::authoring {

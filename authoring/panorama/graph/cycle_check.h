@@ -5,22 +5,10 @@
 
 #include <vector>
 
+#include "authoring/panorama/graph/register_options.h"
 #include "authoring/panorama/pairs/pair_estimate.h"
-#include "simulation/core/options.h"
 
 namespace arthro::authoring {
-
-struct CycleOptions {
-  double most_closure = 4.0;
-  double closure_deviations = 5.0;
-  template <class V>
-  void Visit(V&& v) {
-    v("most_closure", most_closure, Range{0.1, 100.0}, "px",
-      "A loop of pairs that misses its beginning by more is inconsistent.");
-    v("closure_deviations", closure_deviations, Range{1.0, 100.0}, "",
-      "The same, times the error that the pairs' covariances expect; the larger one counts.");
-  }
-};
 
 struct TriangleVote {
   int closes = 0, spoils = 0;

@@ -13,38 +13,10 @@
 #include "authoring/panorama/frames/working_frame.h"
 #include "authoring/panorama/graph/focal_fit.h"
 #include "authoring/panorama/graph/place_frames.h"
-#include "authoring/panorama/pairs/direct_options.h"
-#include "authoring/panorama/pairs/feature_options.h"
-#include "simulation/core/part_visitor.h"
+#include "authoring/panorama/graph/register_options.h"
 #include "simulation/core/progress.h"
 
 namespace arthro::authoring {
-
-enum class PairMethod { kFeaturesThenDirect, kDirect, kFeatures };
-
-struct RegisterOptions {
-  PairMethod method = PairMethod::kDirect;
-  int threads = 2;
-  FeatureOptions features;
-  DirectOptions direct;
-  GraphOptions graph;
-  CycleOptions cycles;
-  RefineOptions refine;
-  template <class V>
-  void Visit(V&& v) {
-    v("method", method,
-      Choices<PairMethod>{{{PairMethod::kFeaturesThenDirect, "features_then_direct"},
-                           {PairMethod::kDirect, "direct"},
-                           {PairMethod::kFeatures, "features"}}},
-      "", "Method of aligning pairs of frames.");
-    v("threads", threads, Range{1, 64}, "", "Frames and pairs worked on at once.");
-    features.Visit(v);
-    direct.Visit(PartVisitor<V>{v, "direct_"});
-    graph.Visit(PartVisitor<V>{v, "graph_"});
-    cycles.Visit(PartVisitor<V>{v, "cycles_"});
-    refine.Visit(PartVisitor<V>{v, "refine_"});
-  }
-};
 
 // Least relative error of a lens file's focal length that counts as wrong; with a right lens the
 // frames' own focal length agrees within a fifth of this.

@@ -9,7 +9,7 @@
 #include "authoring/phantom/clip/plane_light.h"
 #include "authoring/phantom/clip/plane_noise.h"
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 
 namespace arthro::authoring {
 namespace {

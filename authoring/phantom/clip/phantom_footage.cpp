@@ -7,7 +7,8 @@
 
 #include "authoring/lens/rectifier.h"
 #include "authoring/phantom/clip/board.h"
-#include "simulation/core/options_json.h"
+#include "authoring/phantom/phantom_io.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/lens_io.h"
 
@@ -29,27 +30,9 @@ ColourImage ImageOf(const cv::Mat& picture) {
 
 std::vector<double> Nine(const cv::Matx33d& m) { return {m.val, m.val + 9}; }
 
-}  // namespace
-
-Clip FootageClip(const Phantom& phantom, const PhantomFootageOptions& options) {
-  CheckOptions(options);
-  const ClipPreset preset = phantom.options.difficulty == Difficulty::kEasy ? ClipPreset::kEasy
-                            : phantom.options.difficulty == Difficulty::kMedium
-                                ? ClipPreset::kMedium
-                                : ClipPreset::kHard;
-  const bool is_small = phantom.options.size == PhantomSize::kSmall;
-  ClipOptions clip = ClipOptionsOf(preset, is_small ? 400 : 800, is_small ? 320 : 640);
-  clip.seed = phantom.options.seed;
-  clip.frames = options.footage_frames;
-  clip.path = ClipPath::kLoop;
-  clip.field_of_view = RadiansFromDegrees(75);
-  const ColourImage& picture = phantom.without_tissues.colour;
-  return Clip(clip, cv::Mat(picture.height, picture.width, CV_8UC3,
-                            const_cast<std::uint8_t*>(picture.rgb.data())));
-}
-
-Json WritePhantomFootage(const std::filesystem::path& folder, const Phantom& phantom,
-                         const PhantomFootageOptions& options, const Progress& progress) {
+// Writes the files into `folder` and returns their description; null without frames.
+Json WriteFootage(const std::filesystem::path& folder, const Phantom& phantom,
+                  const PhantomFootageOptions& options, const Progress& progress) {
   if (options.footage_frames == 0) return nullptr;
   const Clip clip = FootageClip(phantom, options);
   const RectifiedView view = ViewOf(clip.lens(), RectifyOptions{});
@@ -84,6 +67,32 @@ Json WritePhantomFootage(const std::filesystem::path& folder, const Phantom& pha
                  {{"at", {pose.at.x, pose.at.y}},
                   {"distance", pose.distance},
                   {"board_from_camera", Nine(pose.plane_from_camera)}}}}}};
+}
+
+}  // namespace
+
+Clip FootageClip(const Phantom& phantom, const PhantomFootageOptions& options) {
+  CheckOptions(options);
+  const ClipPreset preset = phantom.options.difficulty == Difficulty::kEasy ? ClipPreset::kEasy
+                            : phantom.options.difficulty == Difficulty::kMedium
+                                ? ClipPreset::kMedium
+                                : ClipPreset::kHard;
+  const bool is_small = phantom.options.size == PhantomSize::kSmall;
+  ClipOptions clip = ClipOptionsOf(preset, is_small ? 400 : 800, is_small ? 320 : 640);
+  clip.seed = phantom.options.seed;
+  clip.frames = options.footage_frames;
+  clip.path = ClipPath::kLoop;
+  clip.field_of_view = RadiansFromDegrees(75);
+  const ColourImage& picture = phantom.without_tissues.colour;
+  return Clip(clip, cv::Mat(picture.height, picture.width, CV_8UC3,
+                            const_cast<std::uint8_t*>(picture.rgb.data())));
+}
+
+void WritePhantomWithFootage(const std::filesystem::path& folder, const Phantom& phantom,
+                             const PhantomFootageOptions& options, const Progress& progress) {
+  WritePhantom(folder, phantom, [&](const std::filesystem::path& partial) {
+    return WriteFootage(partial, phantom, options, progress);
+  });
 }
 
 }  // namespace arthro::authoring

@@ -5,8 +5,6 @@
 
 #include <filesystem>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "authoring/phantom/clip/clip.h"
 #include "authoring/phantom/phantom.h"
 
@@ -24,13 +22,12 @@ struct PhantomFootageOptions {
 
 Clip FootageClip(const Phantom& phantom, const PhantomFootageOptions& options);
 
-// Writes footage/0000.png (or .jpg) …, grid.png and lens.json into `folder`, and returns their
-// description for truth.json:
-//   {lens, rectified:{width,height,focal_px,cx,cy}, frames:[{file, panorama_from_rectified:[9]}],
-//    grid:{file, spacing, pose:{at:[2], distance, board_from_camera:[9]}}}
-// Null without frames.
-nlohmann::json WritePhantomFootage(const std::filesystem::path& folder, const Phantom& phantom,
-                                   const PhantomFootageOptions& options,
-                                   const Progress& progress = {});
+// Writes the phantom (phantom_io.h) with footage/0000.png (or .jpg) …, grid.png and lens.json,
+// which truth.json describes as
+//   footage:{lens, rectified:{width,height,focal_px,cx,cy},
+//            frames:[{file, panorama_from_rectified:[9]}],
+//            grid:{file, spacing, pose:{at:[2], distance, board_from_camera:[9]}}}
+void WritePhantomWithFootage(const std::filesystem::path& folder, const Phantom& phantom,
+                             const PhantomFootageOptions& options, const Progress& progress = {});
 
 }  // namespace arthro::authoring

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <tuple>
 
 namespace arthro::simulation {
@@ -10,7 +11,29 @@ namespace {
 
 using enum DeviceFamily;
 
-constexpr std::array kFamilies{kWoodenHaptics, kSpaceMouse, kHydra, kDualSense, kDualShock4};
+struct FamilyWords {
+  DeviceFamily family;
+  const char *word, *name;  // in rig files, and for the user
+};
+
+constexpr FamilyWords kFamilyWords[] = {
+    {kWoodenHaptics, "wooden_haptics", "WoodenHaptics or Polhem"},
+    {kSpaceMouse, "space_mouse", "SpaceMouse"},
+    {kHydra, "razer_hydra", "Razer Hydra"},
+    {kDualSense, "dual_sense", "DualSense"},
+    {kDualShock4, "dual_shock_4", "DualShock 4"}};
+
+constexpr auto kFamilies = [] {
+  std::array<DeviceFamily, std::size(kFamilyWords)> families{};
+  std::transform(std::begin(kFamilyWords), std::end(kFamilyWords), families.begin(),
+                 [](const FamilyWords& words) { return words.family; });
+  return families;
+}();
+
+const FamilyWords& WordsOf(DeviceFamily family) {
+  return *std::find_if(std::begin(kFamilyWords), std::end(kFamilyWords),
+                       [=](const FamilyWords& words) { return words.family == family; });
+}
 
 constexpr std::uint16_t kLogitech = 0x046d, k3Dconnexion = 0x256f, kSony = 0x054c, kTeensy = 0x16c0;
 
@@ -62,41 +85,12 @@ bool IsHandOf(DeviceFamily family, const HidNode& node) {
 
 }  // namespace
 
-const char* ToString(DeviceFamily family) noexcept {
-  switch (family) {
-    case kWoodenHaptics:
-      return "wooden_haptics";
-    case kSpaceMouse:
-      return "space_mouse";
-    case kHydra:
-      return "razer_hydra";
-    case kDualSense:
-      return "dual_sense";
-    case kDualShock4:
-      return "dual_shock_4";
-  }
-  return "";
-}
-
-const char* Name(DeviceFamily family) noexcept {
-  switch (family) {
-    case kWoodenHaptics:
-      return "WoodenHaptics or Polhem";
-    case kSpaceMouse:
-      return "SpaceMouse";
-    case kHydra:
-      return "Razer Hydra";
-    case kDualSense:
-      return "DualSense";
-    case kDualShock4:
-      return "DualShock 4";
-  }
-  return "";
-}
+const char* ToString(DeviceFamily family) noexcept { return WordsOf(family).word; }
+const char* Name(DeviceFamily family) noexcept { return WordsOf(family).name; }
 
 std::optional<DeviceFamily> DeviceFamilyFromString(std::string_view word) noexcept {
-  for (const DeviceFamily family : kFamilies)
-    if (word == ToString(family)) return family;
+  for (const FamilyWords& words : kFamilyWords)
+    if (word == words.word) return words.family;
   return std::nullopt;
 }
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/core/options_json.h"
+#include "simulation/core/option_fields.h"
 #include "simulation/tissue/solver/conjugate_gradients.h"
 #include "simulation/tissue/solver/implicit_solver_impl.h"
 

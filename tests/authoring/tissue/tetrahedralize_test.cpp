@@ -167,7 +167,7 @@ TEST(Tetrahedralize, RepairsAreReported) {
   surface.triangles.push_back(surface.triangles[0]);
   TetrahedralizeReport report;
   Fill(surface, {}, &report);
-  const auto json = ReportJson(report, {}, {});
+  const auto json = nlohmann::json::parse(ReportText(report, {}, {}));
   EXPECT_EQ(json["schema"], "arthroscene.tetrahedralize/1");
   EXPECT_EQ(json["repairs"]["flipped_components"], 1);
   EXPECT_EQ(json["repairs"]["duplicate_triangles"], 1);

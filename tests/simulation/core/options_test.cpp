@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/part_visitor.h"
 #include "simulation/core/same_options.h"
@@ -103,6 +104,23 @@ TEST(Options, RefuseWithKeyAndRemedy) {
   EXPECT_NE(FaultOf(R"({"passes": 2.5})").find("a whole number"), std::string::npos);
   EXPECT_NE(FaultOf(R"({"mask": 1})").find("true or false"), std::string::npos);
   EXPECT_NE(FaultOf(R"({"depth": null})").find("o.json"), std::string::npos);
+}
+
+struct SeededOptions {
+  int seed = 0;
+  template <class V>
+  void Visit(V&& v) {
+    v("seed", seed, Any{}, "", "Start of the random sequence.");
+  }
+};
+
+TEST(Options, RefuseAWholeNumberThatNoIntHolds) {
+  SeededOptions options;
+  ReadOptionsText(R"({"seed": -2147483648})", {}, options);
+  EXPECT_EQ(options.seed, std::numeric_limits<int>::min());
+  for (const char* text : {R"({"seed": 2147483648})", R"({"seed": 18446744073709551615})"})
+    EXPECT_THROW(ReadOptionsText(text, {}, options), Error) << text;
+  EXPECT_EQ(OptionsText(options), R"({"seed":-2147483648})");
 }
 
 TEST(Options, CheckNamesTheFieldAsAPersonSeesIt) {

@@ -63,6 +63,38 @@ TEST(TissuePreset, EveryValueHasASource) {
   }
 }
 
+// Compares each field of Material with its property in the schema.
+struct SchemaComparison {
+  const json& properties;
+  int fields = 0;
+
+  template <class T, class R>
+  void operator()(const char* name, T&, const R& rule, const char*, const char*) {
+    ++fields;
+    const json property = properties.value(name, json::object());
+    if constexpr (std::is_enum_v<T>) {
+      json words = json::array();
+      for (const auto& [value, word] : rule.words) words.push_back(word);
+      EXPECT_EQ(property["enum"], words) << name;
+    } else if constexpr (std::is_same_v<R, Range>) {
+      EXPECT_EQ(property["minimum"], rule.min) << name;
+      EXPECT_EQ(property["maximum"], rule.max) << name;
+    } else {
+      EXPECT_EQ(property["type"], "boolean") << name;
+    }
+  }
+};
+
+TEST(TissuePresetSchema, HasTheFieldsAndRangesOfMaterial) {
+  const json schema = json::parse(
+      ReadWholeFile(fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/tissue_preset-1.schema.json"));
+  const json& properties = schema["properties"]["material"]["properties"];
+  SchemaComparison comparison{properties};
+  Material material;
+  material.Visit(comparison);
+  EXPECT_EQ(properties.size(), static_cast<std::size_t>(comparison.fields));
+}
+
 TEST(TissuePreset, OnlyCartilageIsAThinLayer) {
   for (const TissuePreset& preset : ReadTissuePresets(kPresets)) {
     EXPECT_EQ(preset.is_thin, preset.name.starts_with("cartilage")) << preset.name;

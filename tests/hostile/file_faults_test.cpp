@@ -1,6 +1,5 @@
-// Files that once crashed the program, made it hang or took all memory: each gets one sentence on
-// stderr and exit 1, in under 2 s of processor time and 1 GB of memory. Volumes, cases and
-// archives: tests/hostile/fault_inputs_test.cpp.
+// Pictures, videos, JSON and names of files that once crashed the program, made it hang or took all
+// memory: each is refused (refusal.h). Volumes, cases and archives: fault_inputs_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,44 +12,16 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
-#include "tests/support/run_measured.h"
+#include "tests/hostile/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro {
 namespace {
 
 namespace fs = std::filesystem;
-using test::MeasuredRun;
-using test::RunMeasured;
+using test::RefusalOf;
 using test::TempFolder;
 using Words = std::vector<std::string>;
-
-constexpr double kMostSeconds = 2;  // processor time, so that other processes do not count
-constexpr double kMostMegabytes = 1024;
-
-// Words of libraries, which say nothing to a surgeon.
-const char* const kForeign[] = {"libpng",           "imdecode",   "OpenCV",    "json.exception",
-                                "filesystem error", "vector::",   "basic_",    "std::",
-                                "Corrupt JPEG",     "Unexpected", "terminate", "what()",
-                                "Generic Warning",  "ERROR: In",  "TIFFRead",  "Assertion"};
-
-// One sentence and exit 1, whatever the job.
-std::string RefusalOf(const Words& arguments, const Words& environment = {}) {
-  const MeasuredRun run = RunMeasured(arguments, environment);
-  const std::string line = fmt::format("{}", fmt::join(arguments, " "));
-  EXPECT_EQ(run.exit_code, 1) << line << "\n" << run.err;
-  EXPECT_TRUE(run.err.starts_with("arthroscene: ")) << line << "\n" << run.err;
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << line << "\n" << run.err;
-  for (const char* const word : kForeign)
-    EXPECT_EQ(run.err.find(word), run.err.npos) << line << "\n" << run.err;
-  const bool has_control = std::any_of(run.err.begin(), run.err.end(),
-                                       [](unsigned char c) { return c < 0x20 && c != '\n'; });
-  EXPECT_FALSE(has_control) << line << "\n" << run.err;
-  EXPECT_LT(run.err.size(), 1500u) << line << "\n" << run.err;
-  EXPECT_LT(run.cpu_seconds, kMostSeconds) << line << "\n" << run.err;
-  EXPECT_LT(run.megabytes, kMostMegabytes) << line << "\n" << run.err;
-  return run.err;
-}
 
 ColourImage Picture(int width, int height) {
   ColourImage image(width, height);
@@ -86,7 +57,7 @@ TEST(FileFaults, DeeplyNestedJsonIsRefusedByEveryReader) {
         Words{"depth", at("p.png"), "--options", deep, "-o", at("d.tiff")},
         Words{"panorama", at("p.png"), "--lens", at("keys.json"), "-o", at("o.png")},
         Words{"practise", folder.path().string(), "--rig", deep}}) {
-    const std::string said = RefusalOf(job, {"DISPLAY="});
+    const std::string said = RefusalOf(job);
     EXPECT_NE(said.find("nested"), said.npos) << said;
   }
 }
@@ -137,8 +108,7 @@ TEST(FileFaults, NamesAndTextOfFilesNeverReachTheTerminalRaw) {
       {"depth", (folder / ("a" + esc + ".png")).string(), "-o", (folder / "d.tiff").string()});
   WriteAtomically(folder / "rig.json",
                   R"({"schema": ")" + std::string(4 << 20, 'x') + R"(", "title": "\u001b[2J"})");
-  RefusalOf({"practise", folder.path().string(), "--rig", (folder / "rig.json").string()},
-            {"DISPLAY="});
+  RefusalOf({"practise", folder.path().string(), "--rig", (folder / "rig.json").string()});
   WriteAtomically(folder / "case.json", R"({"mode": "\u001b[2J\n\n", "mesh": "\u009b2J"})");
   RefusalOf({"solve", (folder / "case.json").string(), "-o", (folder / "r.json").string()});
 }
