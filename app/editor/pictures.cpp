@@ -57,8 +57,9 @@ Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& op
   Picture picture;
   if (const auto& practice = state.practice) {
     const simulation::Snapshot& snapshot = practice->snapshot();
-    picture = PictureOf(snapshot, practice->instrument_kind(), state.document().scene,
-                        practice->view_angle(), optics, state.steps.practice->head);
+    picture = PictureOf(snapshot, practice->seen_from(), practice->instrument_kind(),
+                        state.document().scene, practice->view_angle(), optics,
+                        state.steps.practice->head);
     picture.instrument->turn = practice->blade_turn();
     picture.disturbances = state.steps.practice->disturbing.now;
     // The time advances only for disturbances that move, so that a still picture is not redrawn.

@@ -1,6 +1,7 @@
 #include "app/view/still_picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -25,6 +26,14 @@ ColourImage Halved(const ColourImage& image) {
   return half;
 }
 
+void CheckInside(double depth, double radius) {
+  if (!(depth <= radius * (1.0 + 1e-12)))
+    throw Error(Code::kBadArgument,
+                fmt::format("the scope's tip is {:.1f} mm from the portal, outside the backdrop's "
+                            "sphere of {:.1f} mm; insert it less",
+                            MmFromMetres(depth), MmFromMetres(radius)));
+}
+
 }  // namespace
 
 Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, double field_of_view,
@@ -36,13 +45,12 @@ Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, doub
   return picture;
 }
 
-Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                  const Scene& scene, double view_angle, const simulation::ScopeOptics& optics,
-                  const simulation::CameraHead& head) {
-  const simulation::RodPose& scope = snapshot.scope.pose;
+Picture PictureOf(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
+                  simulation::ToolKind kind, const Scene& scene, double view_angle,
+                  const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
   const simulation::ToolState& tool = snapshot.instrument;
-  Picture picture = PictureFromPose(scope, view_angle, optics.field_of_view,
-                                    simulation::HeadRoll(head, scope.roll));
+  Picture picture = PictureFromPose(seen_from, view_angle, optics.field_of_view,
+                                    simulation::HeadRoll(head, seen_from.roll));
   picture.lens = optics.lens;
   picture.relief = kUsualRelief;
   picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
@@ -53,7 +61,7 @@ Picture PictureOf(const simulation::Snapshot& snapshot, simulation::ToolKind kin
   return picture;
 }
 
-StillPictures::StillPictures(const LoadedScene& loaded) : radius_(loaded.scene.backdrop.radius) {
+StillPictures::StillPictures(const LoadedScene& loaded) : loaded_(loaded) {
   const DepthMap& depth = OrEmpty(loaded.depth);
   view_.SetBackdrop(OrEmpty(loaded.panorama), depth, WithKnownLight(loaded.scene.backdrop, depth));
   const auto& tissues = loaded.scene.tissues;
@@ -66,17 +74,23 @@ StillPictures::StillPictures(const LoadedScene& loaded) : radius_(loaded.scene.b
   }
 }
 
+simulation::ScopeEye& StillPictures::eye() {
+  if (!eye_) eye_.emplace(loaded_);
+  return *eye_;
+}
+
+simulation::RodPose StillPictures::Hold(const simulation::RodPose& pose) {
+  CheckInside(std::abs(pose.depth), loaded_.scene.backdrop.radius);
+  eye().Leave();
+  return eye().MoveTo(pose, simulation::TipInOwnPortal(pose));
+}
+
 ColourImage StillPictures::Draw(const Picture& picture, int size) {
   if (size < kMinSize || size > kMaxSize)
     throw Error(Code::kBadArgument,
                 fmt::format("a picture of {} pixels a side cannot be drawn; ask for {} to {}", size,
                             kMinSize, kMaxSize));
-  const double depth = glm::length(picture.view.tip);
-  if (!(depth <= radius_ * (1.0 + 1e-12)))
-    throw Error(Code::kBadArgument,
-                fmt::format("the scope's tip is {:.1f} mm from the portal, outside the backdrop's "
-                            "sphere of {:.1f} mm; insert it less",
-                            MmFromMetres(depth), MmFromMetres(radius_)));
+  CheckInside(glm::length(picture.view.tip), loaded_.scene.backdrop.radius);
   view_.Render(picture, 2 * size);
   return Halved(view_.ReadPixels());
 }

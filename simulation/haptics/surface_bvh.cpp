@@ -36,7 +36,7 @@ double TimeOfTouch(const glm::dvec3& offset, const glm::dvec3& motion, double ra
   return d < 0.0 ? kNever : std::max(0.0, c / (-b + std::sqrt(d)));
 }
 
-bool Contains(const std::array<glm::dvec3, 3>& corner, const glm::dvec3& normal,
+bool Contains(const TriangleCorners& corner, const glm::dvec3& normal,
               const glm::dvec3& x) noexcept {
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3 edge = corner[(i + 1) % 3] - corner[i];
@@ -131,20 +131,19 @@ void SurfaceBvh::Build(int first, int count) {
   Build(first + half, count - half);
 }
 
-bool SurfaceBvh::SweepTriangle(const Triangle& triangle, const glm::dvec3& from,
-                               const glm::dvec3& motion, double radius, SweepHit& hit) noexcept {
-  const auto& corner = triangle.corner;
-  const double towards = -glm::dot(triangle.normal, motion);
-  const double height = glm::dot(triangle.normal, from - corner[0]);
+bool SweepTriangle(const TriangleCorners& corner, const glm::dvec3& normal, const glm::dvec3& from,
+                   const glm::dvec3& motion, double radius, SweepHit& hit) noexcept {
+  const double towards = -glm::dot(normal, motion);
+  const double height = glm::dot(normal, from - corner[0]);
   if (height < 0.0 || towards <= 0.0) return false;  // behind the triangle, or leaving
   if (towards * towards <= kParallel * kParallel * glm::dot(motion, motion)) return false;
   // The ball meets the plane before the triangle.
   const double plane = std::max(0.0, (height - radius) / towards);
   if (plane >= hit.fraction) return false;
   const glm::dvec3 centre = from + plane * motion;
-  if (Contains(corner, triangle.normal, centre)) {
+  if (Contains(corner, normal, centre)) {
     hit.fraction = plane;
-    hit.normal = triangle.normal;
+    hit.normal = normal;
     hit.gap = std::min(0.0, height - radius);
     return true;
   }
@@ -180,7 +179,8 @@ bool SurfaceBvh::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
   const glm::dvec3 motion = to - from;
   bool found = false;
   const auto test = [&](int i) {
-    if (!SweepTriangle(triangles_[static_cast<std::size_t>(i)], from, motion, radius, hit)) return;
+    const Triangle& triangle = triangles_[static_cast<std::size_t>(i)];
+    if (!SweepTriangle(triangle.corner, triangle.normal, from, motion, radius, hit)) return;
     hit.triangle = i;
     found = true;
   };

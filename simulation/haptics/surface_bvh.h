@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
+#include "simulation/core/triangle.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::simulation {
@@ -22,6 +23,11 @@ struct SweepHit {
   double gap = 0;              // m, negative where the ball started inside the surface
   int triangle = -1;           // index in the hierarchy; pass it as `first` next time
 };
+
+// Sweeps a ball onto one triangle of unit normal `normal`: the step that all surfaces of triangles
+// share. Returns true and changes `hit`, except for hit.triangle, only for an earlier contact.
+bool SweepTriangle(const TriangleCorners& corner, const glm::dvec3& normal, const glm::dvec3& from,
+                   const glm::dvec3& motion, double radius, SweepHit& hit) noexcept;
 
 class SurfaceBvh {
  public:
@@ -40,7 +46,7 @@ class SurfaceBvh {
 
  private:
   struct Triangle {
-    std::array<glm::dvec3, 3> corner;
+    TriangleCorners corner;
     glm::dvec3 normal;
   };
   // Children of an inner node are node + 1 and `next`; a leaf has count > 0 triangles, beginning at
@@ -50,8 +56,6 @@ class SurfaceBvh {
     std::int32_t next = 0, count = 0;
   };
   void Build(int first, int count);
-  static bool SweepTriangle(const Triangle& triangle, const glm::dvec3& from,
-                            const glm::dvec3& motion, double radius, SweepHit& hit) noexcept;
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;

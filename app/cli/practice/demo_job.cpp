@@ -115,11 +115,16 @@ void Run(const DemoJob& job) {
   for (std::size_t i = 0; i < count; ++i) {
     progress.Step("pictures", static_cast<double>(i) / static_cast<double>(count));
     const Moment& moment = moments.all()[i];
-    if (moment.world) tissues.Show(*moment.world, loaded.scene.tissues, pictures.view(), nullptr);
+    if (moment.world) {
+      tissues.Show(*moment.world, loaded.scene.tissues, pictures.view(), nullptr);
+      pictures.eye().Follow(*moment.world);
+    }
+    pictures.eye().Leave();  // moments are seconds apart
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     // Upright, as surgeons hold it.
     const Picture picture =
-        RecordedPicture(moment.snapshot, moment.kind, loaded.scene, optics, {.is_upright = true});
+        RecordedPicture(moment.snapshot, pictures.eye().MoveTo(moment.snapshot.scope), moment.kind,
+                        loaded.scene, optics, {.is_upright = true});
     WriteColourImage(folder.beside() / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},

@@ -19,8 +19,12 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
                            simulation::ToolKind kind, const simulation::WorldPicture* world) {
   for (Row& row : rows_)
     while (row.count < row.all && t >= begin_ + row.count / row.form.rate - 1e-9) {
-      if (world != nullptr) tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
-      const Picture picture = RecordedPicture(snapshot, kind, scene_, optics_, head_);
+      if (world != nullptr) {
+        tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
+        pictures_.eye().Follow(*world);
+      }
+      const Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope),
+                                              kind, scene_, optics_, head_);
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }
@@ -32,10 +36,11 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder) {
   };
 }
 
-Picture RecordedPicture(const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-                        const Scene& scene, const simulation::ScopeOptics& optics,
-                        const simulation::CameraHead& head) {
-  Picture picture = PictureOf(snapshot, kind, scene, scene.scope.view_angle, optics, head);
+Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
+                        simulation::ToolKind kind, const Scene& scene,
+                        const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
+  Picture picture =
+      PictureOf(snapshot, seen_from, kind, scene, scene.scope.view_angle, optics, head);
   if (snapshot.instrument.fault != simulation::Fault::kNone) picture.instrument.reset();
   return picture;
 }

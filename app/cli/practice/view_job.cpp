@@ -67,7 +67,8 @@ void RunViewJob(const ViewArguments& arguments) {
   const simulation::ScopeOptics optics = simulation::OpticsOf(scope, loaded.lens, field_of_view);
 
   StillPictures pictures(loaded);
-  Picture picture = PictureFromPose(pose, view_angle, optics.field_of_view, head_roll);
+  Picture picture = PictureFromPose(arguments.plain ? pose : pictures.Hold(pose), view_angle,
+                                    optics.field_of_view, head_roll);
   picture.lens = optics.lens;
   picture.plain = arguments.plain;
   picture.disturbances = disturbances;
@@ -109,7 +110,8 @@ void AddViewJob(CLI::App& program) {
   AddNumber(*job, "--size", arguments->size, {StillPictures::kMinSize, StillPictures::kMaxSize},
             "px", "Width and height of the picture.");
   job->add_flag("--plain", arguments->plain,
-                "Draw backdrop colours only: no light, soft rim, mark, tissues or instrument.");
+                "Draw backdrop colours only: no light, soft rim, mark, tissues or instrument. The "
+                "scope is drawn where it is put, also inside a surface.");
   AddNumber(*job, "--relief-steps", arguments->relief_steps, {0, 4096}, "",
             "Largest number of samples per ray of the relief. 0: all colours lie on the bare "
             "sphere. Default: 64, or 0 with --plain.");

@@ -18,42 +18,26 @@
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "simulation/scene/relief_surface.h"
 #include "simulation/scene/vertex_normals.h"
 
 namespace arthro::app {
 
 vtkSmartPointer<vtkPolyData> MakeReliefMesh(int width, int height, const DepthMap& depth,
                                             const Backdrop& backdrop, int cells) {
-  const int step = std::max(1, std::max(width, height) / cells);
-  const int columns = (width - 1) / step + 1, rows = (height - 1) / step + 1;
+  const ReliefSurface surface =
+      MakeReliefSurface(width, height, depth, backdrop, cells, ReliefSample::kAtCorner);
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> places;
   places->SetNumberOfComponents(2);
-  std::vector<char> imaged;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      // The last row and column lie on the picture's edge.
-      const int u = i + 1 < columns ? i * step : width - 1;
-      const int v = j + 1 < rows ? j * step : height - 1;
-      const float h = depth.empty() ? 0.0f : depth.at(u, v);
-      imaged.push_back(std::isfinite(h) ? 1 : 0);
-      const glm::dvec3 point = (backdrop.radius - (imaged.back() ? double(h) : 0.0)) *
-                               DirectionFromPixel(backdrop.projection, {u, v});
-      points->InsertNextPoint(point.x, point.y, point.z);
-      places->InsertNextTuple2((u + 0.5) / width, 1.0 - (v + 0.5) / height);
-    }
+  for (std::size_t i = 0; i < surface.pixel.size(); ++i) {
+    const glm::dvec3& x = surface.mesh.vertices[i];
+    points->InsertNextPoint(x.x, x.y, x.z);
+    places->InsertNextTuple2((surface.pixel[i].x + 0.5) / width,
+                             1.0 - (surface.pixel[i].y + 0.5) / height);
+  }
   vtkNew<vtkCellArray> polys;
-  for (int j = 0; j + 1 < rows; ++j)
-    for (int i = 0; i + 1 < columns; ++i) {
-      const vtkIdType a = j * columns + i, b = a + 1, c = b + columns, d = a + columns;
-      if (imaged[std::size_t(a)] + imaged[std::size_t(b)] + imaged[std::size_t(c)] +
-              imaged[std::size_t(d)] <
-          4)
-        continue;
-      // x right, y down: a-b-c-d runs clockwise seen from the portal.
-      polys->InsertNextCell({a, d, c});
-      polys->InsertNextCell({a, c, b});
-    }
+  for (const auto& t : surface.mesh.triangles) polys->InsertNextCell({t[0], t[1], t[2]});
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetPolys(polys);

@@ -73,14 +73,16 @@ Practice MakePractice(const LoadedScene& loaded, const std::vector<TissuePreset>
                 "a scene without a panorama cannot be practised; import one first");
   auto session = std::make_unique<Session>(loaded, options);
   EnlivenTissues(*session, loaded, presets, pace);
-  return {std::move(session), loaded.scene};
+  ScopeEye eye(loaded);
+  return {std::move(session), std::move(eye), loaded.scene};
 }
 
-Practice::Practice(std::unique_ptr<Session> session, const Scene& scene)
+Practice::Practice(std::unique_ptr<Session> session, ScopeEye eye, const Scene& scene)
     : session_(std::move(session)),
       by_mouse_{ScriptedDevice(session_->scope_rig(), StartOfScope(scene), ScopeLimits(scene)),
                 ScriptedDevice(session_->instrument_rig(), StartOfInstrument(scene),
-                               InstrumentLimits(scene))} {
+                               InstrumentLimits(scene))},
+      eye_(std::move(eye)) {
   request_.options = session_->options();
   request_.incision_spacing = session_->incision_spacing();
   request_.view_angle = session_->view_angle();
@@ -89,6 +91,12 @@ Practice::Practice(std::unique_ptr<Session> session, const Scene& scene)
   session_->Tick(scope().Sample(t_), instrument().Sample(t_), kServoPeriod);
   snapshot_ = session_->snapshot();
   tissues_ = session_->tissues();
+  MoveEye();
+}
+
+void Practice::MoveEye() {
+  if (tissues_ != nullptr) eye_.Follow(*tissues_);
+  seen_from_ = eye_.MoveTo(snapshot_.scope);
 }
 
 void Practice::Begin(Hands* hands) {
@@ -134,6 +142,7 @@ void Practice::SendRequests(Hands* hands, double until) noexcept {
 void Practice::TakeReports() {
   snapshot_ = servo_->ReadSnapshot();
   tissues_ = session_->tissues();
+  MoveEye();
   const HandsReport& report = held_->ReadReport();
   peak_force_ = report.peak_force;
   running_ = report.running;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "simulation/practice/hands/hands.h"
+#include "simulation/practice/scope_eye.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
 #include "simulation/scene/loaded_scene.h"
@@ -20,8 +21,8 @@ namespace arthro::simulation {
 
 class Practice {
  public:
-  // Takes a session of `scene`, deformable tissues included.
-  Practice(std::unique_ptr<Session> session, const Scene& scene);
+  // Takes a session of `scene`, deformable tissues included, and the eye of its scope.
+  Practice(std::unique_ptr<Session> session, ScopeEye eye, const Scene& scene);
 
   // Advances the session by `seconds`, or reads what its thread did meanwhile. The hands move at
   // constant speed to their present pose. Of a pause longer than kLongestPause the rest is skipped.
@@ -32,6 +33,8 @@ class Practice {
 
   // State after the last Advance.
   const Snapshot& snapshot() const { return snapshot_; }
+  // Pose of the rod to the eye from which the picture is drawn.
+  const RodPose& seen_from() const { return seen_from_; }
   double incision_spacing() const { return request_.incision_spacing; }
   double view_angle() const { return request_.view_angle; }
   void SetViewAngle(double view_angle) { request_.view_angle = view_angle; }
@@ -59,12 +62,15 @@ class Practice {
   void Begin(Hands* hands);
   void SendRequests(Hands* hands, double until) noexcept;
   void TakeReports();
+  void MoveEye();
 
   // Pointers, since the servo refers to them and this is moved.
   std::unique_ptr<Session> session_;
   std::array<ScriptedDevice, 2> by_mouse_;  // indexed by DeviceRole
   ServoRequest request_;
   Snapshot snapshot_;
+  ScopeEye eye_;
+  RodPose seen_from_;
   std::uint32_t buttons_ = 0;
   std::array<int, 2> episodes_{};  // HandsReport::Hand::episode
   double t_ = 0, pending_ = 0, peak_force_ = 0, running_ = 0;

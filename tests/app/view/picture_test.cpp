@@ -122,6 +122,21 @@ TEST(StillPicture, PlainShowsNeitherModelsNorLightNorMark) {
   EXPECT_EQ(pictures->Draw(picture, 200).rgb, with_models.rgb);
 }
 
+// The relief is 46 mm from the portal at most, so a tip at 49 mm is inside the wall.
+TEST(StillPicture, AScopeInsideTheWallIsDrawnFromBeforeIt) {
+  const LoadedScene loaded = MakeViewScene();
+  START_OR_SKIP(pictures, loaded);
+  for (const double latitude : {-0.1, 0.0, 0.2}) {
+    const simulation::RodPose seen = pictures->Hold({latitude, -0.25, 0, 0.049});
+    EXPECT_LT(seen.depth, 0.046 - 0.9 * simulation::ScopeEye::kLensRadius);
+    EXPECT_NO_THROW(pictures->Draw(PictureFromPose(seen, 0.0, 1.0), 64));
+  }
+  const simulation::RodPose free = pictures->Hold({0, 0, 0.4, 0.01});
+  EXPECT_EQ(free.depth, 0.01);
+  EXPECT_EQ(free.roll, 0.4);
+  EXPECT_THROW(pictures->Hold({0, 0, 0, 0.051}), Error);
+}
+
 TEST(StillPicture, ATipOutsideTheSphereAndAWrongSizeAreRefused) {
   START_OR_SKIP(pictures, MakeViewScene());
   EXPECT_THROW(pictures->Draw(PictureFromPose({0, 0, 0, 0.051}, 0.0, 1.0), 64), Error);
