@@ -50,7 +50,7 @@ struct Reconstruction {
 struct BundleOptions {
   int iterations = 30;
   int fixed_frame = -1;     // the gauge; -1: the first posed frame
-  double* focal = nullptr;  // where given, a factor of the focal length is an unknown too
+  double* focal = nullptr;  // factor of the focal length, an unknown if given
 };
 
 // Moves poses and points, and the pivot where there is one, with its turns of the head where they
