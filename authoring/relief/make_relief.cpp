@@ -157,8 +157,7 @@ void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& repor
            off > kSure * made.focal_sigma)
     report.warnings.push_back(
         fmt::format("the motion suggests a focal length that differs by {:+.1f} ± {:.1f} % from "
-                    "the lens file, and "
-                    "ranges may be off by as much; check the lens",
+                    "the lens file, and ranges may be off by as much; check the lens",
                     100 * (made.focal_factor - 1), 100 * made.focal_sigma));
 }
 
