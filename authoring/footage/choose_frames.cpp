@@ -39,10 +39,14 @@ std::vector<std::string> ReasonsAgainst(const std::vector<FrameLook>& looks,
     way[k] = way[k - 1] + (moved < 0 ? kUnknownStep : std::max(moved, kLeastStep));
   }
   const double stretch = way.back() / static_cast<double>(most);
+  // The last frame ends the last stretch and begins none.
+  const auto number_of = [&](std::size_t k) {
+    return std::min(std::floor(way[k] / stretch), static_cast<double>(most - 1));
+  };
   for (std::size_t first = 0; first < left.size();) {
-    const double number = std::floor(way[first] / stretch);
+    const double number = number_of(first);
     std::size_t last = first, best = first;
-    while (last < left.size() && std::floor(way[last] / stretch) == number) {
+    while (last < left.size() && number_of(last) == number) {
       if (looks[left[last]].sharpness > looks[left[best]].sharpness) best = last;
       ++last;
     }

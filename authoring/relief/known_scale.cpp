@@ -13,8 +13,8 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kLeastSigma = 0.005;  // of a logarithm: a length is read to half a percent at best
-constexpr double kMostApart = 0.10;    // by which two factors may differ
+constexpr double kLeastSigma = 0.005;  // sigma of the logarithm; half a percent
+constexpr double kMostApart = 0.10;    // largest difference of two factors
 
 float RadiusAt(const SweptSurface& surface, const glm::dvec2& pixel) {
   const int x = static_cast<int>(std::lround(pixel.x)), y = static_cast<int>(std::lround(pixel.y));

@@ -177,8 +177,12 @@ void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& repor
   report.focal_factor = made.focal_factor;
   report.focal_sigma = made.focal_sigma;
   report.is_focal_changed = made.is_focal_changed;
-  constexpr double kDoubtful = 0.015, kSure = 4;  // share of the focal length, standard errors
+  // A clip that is explained in part only is no judge of the lens.
+  constexpr double kMostPosed = 0.9, kDoubtful = 0.02, kSure = 4;  // shares, standard errors
   const double focal = made.clip.raw_lens.focal_px, off = std::abs(made.focal_factor - 1);
+  const auto posed =
+      static_cast<double>(std::count_if(report.frames.begin(), report.frames.end(),
+                                        [](const PosedFrame& frame) { return frame.is_posed; }));
   if (!is_given)
     report.warnings.push_back(fmt::format(
         "no lens was given: the focal length of {:.0f} px ± {:.1f} % was found from the clip; "
@@ -189,11 +193,12 @@ void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& repor
         "the lens file does not suit the clip: its focal length was changed by {:+.1f} % to {:.1f} "
         "px ± {:.1f} %, which fits the motion; calibrate this scope again",
         100 * (made.focal_factor - 1), focal, 100 * made.focal_sigma));
-  else if (off > kDoubtful && off > kSure * made.focal_sigma)
-    report.warnings.push_back(fmt::format(
-        "the motion fits a focal length better that differs by {:+.1f} ± {:.1f} % from the lens "
-        "file, so that ranges may be off by as much; check that it is the lens of this scope",
-        100 * (made.focal_factor - 1), 100 * made.focal_sigma));
+  else if (posed >= kMostPosed * static_cast<double>(report.frames.size()) && off > kDoubtful &&
+           off > kSure * made.focal_sigma)
+    report.warnings.push_back(
+        fmt::format("the motion suggests a focal length that differs by {:+.1f} ± {:.1f} % from "
+                    "the lens file, and ranges may be off by as much; check the lens",
+                    100 * (made.focal_factor - 1), 100 * made.focal_sigma));
 }
 
 // The closed surface as maps of relief over the sphere that just holds it.

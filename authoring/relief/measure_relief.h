@@ -23,7 +23,7 @@ struct MeasuredRelief {
   std::vector<Track> tracks;
   Motion motion;            // in the portal frame, m, once the portal is known
   PivotFit pivot;           // in m, portal frame
-  double focal_factor = 1;  // of the focal length that fits the motion best
+  double focal_factor = 1;  // best focal length over the given one
   double focal_sigma = 0;   // standard error of the factor; 0: not determined
   bool is_focal_changed = false;
   bool has_pivot = false;  // the shafts pass one point, and the adjustment used it

@@ -16,7 +16,9 @@ using Poses = std::vector<std::optional<CameraPose>>;
 constexpr double kClearly = 0.4;  // share of the simpler explanation's miss
 // Share of the insertion by which skin gives; up to it no second explanation is looked for.
 constexpr double kSkinGives = 0.03;
-constexpr int kLeastFrames = 6;  // of a stretch, and of a head that wanders
+// Share of the insertion by which shafts may miss under an explanation with more unknowns.
+constexpr double kExplains = 0.05;
+constexpr int kLeastFrames = 6;  // least frames of a stretch, and of a wandering head
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
@@ -242,7 +244,8 @@ PivotFit FindPivot(const Poses& poses, double view_angle, bool is_straight) {
   const PivotFit wandering = is_straight ? best : FindWandering(poses, view_angle, best);
   constexpr double kSimpler = 1.5;  // factor by which the simpler of the two may be worse
   const PivotFit& later = CostOf(slid) < kSimpler * CostOf(wandering) ? slid : wandering;
-  return CostOf(later) < kClearly * CostOf(best) ? later : best;
+  const double most = std::min(kExplains, kClearly * CostOf(best));
+  return CostOf(later) < most ? later : best;
 }
 
 Eigen::Matrix3d PortalAxes(const Poses& poses, double view_angle,

@@ -66,7 +66,7 @@ struct ReliefReport {
   double head_turn = 0;         // rad, median
   bool head_wanders = false;    // each frame has its own
   std::vector<PortalSlide> slides;
-  double focal_factor = 1;               // of the focal length that fits the motion best
+  double focal_factor = 1;               // best focal length over the given one
   double focal_sigma = 0;                // standard error of the factor; 0: not determined
   bool is_focal_changed = false;         // the lens of the result has that focal length
   std::string scale_source = "assumed";  // or "length", "instrument", "joined"

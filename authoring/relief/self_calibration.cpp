@@ -26,7 +26,7 @@ FocalFit FitFocal(const std::vector<Track>& tracks, const Lens& lens, const Moti
   const LensProfile moved(WithFocal(lens, fit.factor * (1 + kAside)));
   const double rms = AdjustBundle(tracks, moved, {.iterations = 12, .stop = stop}, aside, nullptr);
   const double rise = std::max(1e-12, rms * rms - fit.rms_px * fit.rms_px);
-  fit.sigma = kAside * fit.rms_px / std::sqrt(2 * std::max(1, observations) * rise);
+  fit.sigma = std::min(1.0, kAside * fit.rms_px / std::sqrt(2 * std::max(1, observations) * rise));
   return fit;
 }
 

@@ -12,7 +12,7 @@
 namespace arthro::authoring {
 
 struct FocalFit {
-  double factor = 1;  // by which the focal length changes
+  double factor = 1;  // new focal length over the old one
   double sigma = 0;   // standard error of the factor
   double rms_before_px = 0, rms_px = 0;
   Reconstruction scene;  // adjusted with it

@@ -32,9 +32,9 @@ struct CavityOptions {
   double breath = 0;          // m, by which the tissue of one side swells and shrinks
   double focal_factor = 1;    // error of the lens file's focal length
   bool two_clips = false;     // the second half is another clip of the same tissue, or
-  bool elsewhere = false;     // of other tissue
+  bool elsewhere = false;     // shows other tissue
   double fold = 0;            // m, height of a fold with a sharp edge
-  double contrast = 1;        // of the tissue's texture
+  double contrast = 1;        // contrast of the tissue's texture
   double glint = 0;           // strength of highlights that move with the light
   double blur = 0;            // share of the way to the next frame during which the shutter is open
   int debris = 0;             // specks that float before the tissue
@@ -53,7 +53,7 @@ double CavityRange(const Eigen::Vector3d& from, const Eigen::Vector3d& ray, doub
 
 // Equisolid, 240 x 200 px, 90° across the round window.
 Lens CavityLens();
-// What the lens file says.
+// The lens that the lens file describes.
 Lens CavityLensFile(const CavityOptions& options);
 
 // True poses in the portal frame, m.

@@ -112,7 +112,8 @@ TEST(LensIo, RefusesAFileOfAnotherKindInOneSentence) {
   EXPECT_NE(scene.find("this is no lens file, since its schema is \"arthroscene.scene/1\""),
             std::string::npos)
       << scene;
-  EXPECT_EQ(scene.find("tissues"), std::string::npos) << "faults of another kind of file: " << scene;
+  EXPECT_EQ(scene.find("tissues"), std::string::npos)
+      << "faults of another kind of file: " << scene;
   EXPECT_NE(SentenceOf({{"frames", 3}}).find("model is missing"), std::string::npos);
   const std::string many = SentenceOf({{"model", "pinhole"}});
   EXPECT_NE(many.find("(and 2 more)"), std::string::npos) << many;
