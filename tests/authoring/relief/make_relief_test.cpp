@@ -58,15 +58,15 @@ Eigen::Matrix4d TrueFromFound(const ReliefReport& report, const std::vector<Came
   return fit;
 }
 
-// Median of |radius - truth| after that similarity: motion knows no scale, and the portal frame is
-// found from the poses.
+// Median of |radius - truth| of the measured cells after that similarity: motion knows no scale,
+// and the portal frame is found from the poses.
 double MedianRadialError(const ReliefResult& result, const test::CavityOptions& clip) {
   const Eigen::Matrix4d true_from_found = TrueFromFound(result.report, test::CavityPoses(clip));
   std::vector<double> errors;
   for (int y = 0; y < result.relief.height; ++y)
     for (int x = 0; x < result.relief.width; ++x) {
       const float h = result.relief.at(x, y);
-      if (std::isnan(h)) continue;
+      if (result.origin.at(x, y) != ReliefOrigin::kMeasured) continue;
       const glm::dvec3 d = DirectionFromPixel(result.report.projection, {x, y});
       const Eigen::Vector3d found = Eigen::Vector3d(d.x, d.y, d.z) * (result.report.radius - h);
       const Eigen::Vector3d point =
@@ -94,9 +94,11 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
   EXPECT_EQ(result.report.scale_source, "assumed");
   for (const PosedFrame& frame : result.report.frames) EXPECT_TRUE(frame.is_posed) << frame.reason;
   EXPECT_GT(result.report.coverage, 0.3);
-  // 5 % of the radius. Measured: 1.3 mm, all cells too near; at 240 px and with this smooth texture
-  // the light that moves with the tip pulls the tracks. Large clips come to less than 1 %.
-  EXPECT_LT(MedianRadialError(result, clip), 2e-3) << "m";
+  // The goal of the hardest clips: 6 % of the range. At 240 px and with this smooth texture the
+  // light that moves with the tip pulls the tracks.
+  constexpr double kGoal = 0.06, kMiddleRadius = 0.040;  // m, of the cavity
+  EXPECT_LT(MedianRadialError(result, clip), kGoal * (kMiddleRadius - request.options.insertion))
+      << "m";
 
   // Every cell that a frame sees has a value, an error and an origin; all others have none.
   int unseen = 0, measured = 0;
