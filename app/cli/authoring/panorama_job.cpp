@@ -1,7 +1,6 @@
 // arthroscene panorama FOOTAGE -o pano.png: a clip becomes one picture [paper, 3.1].
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,13 +32,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether a panorama lies over a measured relief: kAuto takes it where frames do not fit a plane,
-// the clip determines depth, and the expected error is smaller.
-enum class OverRelief { kAuto, kYes, kNo };
-
 struct PanoramaJob {
   std::string lens, output, report, scene;
-  OverRelief over_relief = OverRelief::kAuto;
+  // Whether the panorama lies over a measured relief; auto: where frames fit no plane, the clip
+  // determines depth, and the expected error is smaller.
+  std::string relief = "auto";
   std::vector<int> excluded;
   authoring::PanoramaRequest request;
 };
@@ -98,11 +95,10 @@ MadePanorama OverMeasuredRelief(const PanoramaJob& job, const Progress& progress
 
 // The plane first; a relief only where the frames fit no plane.
 MadePanorama BestPanorama(const PanoramaJob& job, const Progress& progress) {
-  if (job.over_relief == OverRelief::kYes) return OverMeasuredRelief(job, progress);
+  if (job.relief == "yes") return OverMeasuredRelief(job, progress);
   MadePanorama made{authoring::MakePanorama(job.request, progress), {}};
   constexpr double kFitsPlane = 2.0;  // px of the rectified picture
-  if (job.over_relief == OverRelief::kNo || !job.request.lens ||
-      made.panorama.report.mean_error_px < kFitsPlane)
+  if (job.relief == "no" || !job.request.lens || made.panorama.report.mean_error_px < kFitsPlane)
     return made;
   auto& warnings = made.panorama.report.warnings;
   try {
@@ -202,14 +198,11 @@ void AddPanoramaJob(CLI::App& program) {
   files->OutputScene(job->add_option("--scene", own->scene,
                                      "Also write a scene with the panorama into this folder."),
                      SceneFile);
-  job->add_option("--relief", own->over_relief,
-                  "Lay the frames over a relief measured from their motion: auto, where they fit "
-                  "no plane and --lens is given; yes; or no.")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, OverRelief>{
-              {"auto", OverRelief::kAuto}, {"yes", OverRelief::kYes}, {"no", OverRelief::kNo}},
-          CLI::ignore_case))
-      ->type_name("auto|yes|no");
+  job->add_option("--relief", own->relief,
+                  "Lay the frames over a relief measured from their motion; auto: where they fit "
+                  "no plane and --lens is given.")
+      ->check(CLI::IsMember({"auto", "yes", "no"}))
+      ->capture_default_str();
   AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
              "Numbers of frames to leave out, separated by commas.");
   AddOptions(*job, own->request.options);
@@ -217,7 +210,7 @@ void AddPanoramaJob(CLI::App& program) {
     // Whoever names a detector wants it used; on its own, pairs are aligned without one.
     if (job->count("--detector") > 0 && job->count("--method") == 0)
       own->request.options.registration.method = authoring::PairMethod::kFeaturesThenDirect;
-    if (own->over_relief == OverRelief::kYes && own->lens.empty())
+    if (own->relief == "yes" && own->lens.empty())
       throw CLI::ValidationError("--relief", "yes needs --lens; calibrate one with `lens`");
     Run(*own);
   });
