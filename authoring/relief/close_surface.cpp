@@ -140,7 +140,7 @@ class Membrane {
 
   // Tension from the mean squared difference of measured cells that lie kLag cells apart: of two
   // neighbours the errors would dominate. For a membrane of tension 1/t² that difference is
-  // t²/π (ln kLag + 1.62) [Spitzer, Principles of Random Walk, 1976, section 15].
+  // t²/π (ln kLag + 1.62) [Spitzer 1976].
   void FindTension() {
     double sum = 0;
     int count = 0;

@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,10 +17,12 @@
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "app/state/footage_optics.h"
+#include "app/state/relief_scene.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
+#include "authoring/relief/relief_panorama.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/scene_io.h"
@@ -30,6 +34,9 @@ namespace fs = std::filesystem;
 
 struct PanoramaJob {
   std::string lens, output, report, scene;
+  // Whether the panorama lies over a measured relief; auto: where frames fit no plane, the clip
+  // determines depth, and the expected error is smaller.
+  std::string relief = "auto";
   std::vector<int> excluded;
   authoring::PanoramaRequest request;
 };
@@ -61,6 +68,61 @@ void WriteScene(const fs::path& folder, const fs::path& panorama,
   authoring::SaveDocument(document, folder);
 }
 
+authoring::ReliefResult MeasureRelief(const PanoramaJob& job, const Progress& progress) {
+  authoring::ReliefRequest request;
+  request.footage = job.request.footage;
+  request.lens = *job.request.lens;
+  return authoring::MakeRelief(request, progress);
+}
+
+// Sentence about a clip that does not determine depth.
+std::string WordsOf(const authoring::ReliefVerdict& verdict) {
+  return fmt::format("no relief was measured ({}: {} {:.2f}, limit {:.2f}): {}", verdict.kind,
+                     verdict.test, verdict.value, verdict.limit, verdict.sentence);
+}
+
+struct MadePanorama {
+  authoring::PanoramaResult panorama;
+  std::optional<authoring::ReliefResult> relief;  // set for a panorama over it
+};
+
+MadePanorama OverMeasuredRelief(const PanoramaJob& job, const Progress& progress) {
+  authoring::ReliefResult relief = MeasureRelief(job, progress);
+  if (!relief.report.verdict.is_measured())
+    throw Error(Code::kBadImage, WordsOf(relief.report.verdict), job.request.footage);
+  return {authoring::PanoramaFromRelief(relief, *job.request.lens), std::move(relief)};
+}
+
+// The plane first; a relief only where the frames fit no plane.
+MadePanorama BestPanorama(const PanoramaJob& job, const Progress& progress) {
+  if (job.relief == "yes") return OverMeasuredRelief(job, progress);
+  MadePanorama made{authoring::MakePanorama(job.request, progress), {}};
+  constexpr double kFitsPlane = 2.0;  // px of the rectified picture
+  if (job.relief == "no" || !job.request.lens || made.panorama.report.mean_error_px < kFitsPlane)
+    return made;
+  auto& warnings = made.panorama.report.warnings;
+  try {
+    authoring::ReliefResult relief = MeasureRelief(job, progress);
+    if (!relief.report.verdict.is_measured()) {
+      warnings.push_back(WordsOf(relief.report.verdict));
+      return made;
+    }
+    if (!relief.report.has_pivot) {
+      warnings.push_back(
+          "a relief was measured, but its shafts do not meet in one portal; the "
+          "frames were joined on a plane");
+      return made;
+    }
+    authoring::PanoramaResult over = authoring::PanoramaFromRelief(relief, *job.request.lens);
+    if (ExpectedErrorAngle(over.report) >= ExpectedErrorAngle(made.panorama.report)) return made;
+    return {std::move(over), std::move(relief)};
+  } catch (const Error& error) {
+    if (error.code() == Code::kCancelled) throw;
+    warnings.push_back(fmt::format("no relief was measured: {}", error.sentence()));
+    return made;
+  }
+}
+
 void Run(PanoramaJob job) {
   authoring::CheckPanoramaName(job.output);
   if (!job.scene.empty() && job.output == "-")
@@ -72,7 +134,8 @@ void Run(PanoramaJob job) {
   if (!job.lens.empty()) job.request.lens = ReadLens(job.lens);
   job.request.excluded = {job.excluded.begin(), job.excluded.end()};
   const Progress progress = TerminalProgress();
-  auto result = authoring::MakePanorama(job.request, progress);
+  MadePanorama made = BestPanorama(job, progress);
+  authoring::PanoramaResult& result = made.panorama;
 
   // The panorama last: where it is, all of it is.
   progress.Step("writing", 0.99);
@@ -86,7 +149,14 @@ void Run(PanoramaJob job) {
   }
   if (!job.report.empty()) authoring::WriteReport(job.report, report);
   authoring::WritePanorama(job.output, result.picture);
-  if (!job.scene.empty()) WriteScene(job.scene, job.output, report, progress);
+  if (!job.scene.empty() && made.relief) {
+    authoring::Document document =
+        DocumentFromRelief(*made.relief, report.lens, authoring::ReliefOptions().view_angle);
+    document.scene.title = fs::path(job.output).stem().string();
+    authoring::SaveDocument(document, job.scene);
+  } else if (!job.scene.empty()) {
+    WriteScene(job.scene, job.output, report, progress);
+  }
   progress.Step("done", 1.0);
 
   for (const std::string& warning : report.warnings)
@@ -128,6 +198,11 @@ void AddPanoramaJob(CLI::App& program) {
   files->OutputScene(job->add_option("--scene", own->scene,
                                      "Also write a scene with the panorama into this folder."),
                      SceneFile);
+  job->add_option("--relief", own->relief,
+                  "Lay the frames over a relief measured from their motion; auto: where they fit "
+                  "no plane and --lens is given.")
+      ->check(CLI::IsMember({"auto", "yes", "no"}))
+      ->capture_default_str();
   AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
              "Numbers of frames to leave out, separated by commas.");
   AddOptions(*job, own->request.options);
@@ -135,6 +210,8 @@ void AddPanoramaJob(CLI::App& program) {
     // Whoever names a detector wants it used; on its own, pairs are aligned without one.
     if (job->count("--detector") > 0 && job->count("--method") == 0)
       own->request.options.registration.method = authoring::PairMethod::kFeaturesThenDirect;
+    if (own->relief == "yes" && own->lens.empty())
+      throw CLI::ValidationError("--relief", "yes needs --lens; calibrate one with `lens`");
     Run(*own);
   });
 }

@@ -16,6 +16,9 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
+#include "app/state/relief_scene.h"
+#include "authoring/panorama/report_io.h"
+#include "authoring/project/document_io.h"
 #include "authoring/relief/make_relief.h"
 #include "authoring/relief/relief_io.h"
 #include "simulation/core/atomic_file.h"
@@ -23,12 +26,13 @@
 #include "simulation/core/units.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/lens_io.h"
+#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {
 
 struct ReliefJob {
-  std::string lens, output, sigma, confidence, poses, report;
+  std::string lens, output, sigma, confidence, origin, panorama, scene, poses, report;
   std::vector<double> lengths_mm, instruments_mm;
   std::vector<std::string> between, across;
   bool is_partial = false;
@@ -79,7 +83,9 @@ void ReadLengths(ReliefJob& job) {
 }
 
 void Run(ReliefJob job) {
+  if (!job.panorama.empty()) authoring::CheckPanoramaName(job.panorama);
   if (!job.lens.empty()) job.request.lens = ReadLens(job.lens);
+  job.request.draws_panorama = !job.panorama.empty() || !job.scene.empty();
   const Progress progress = TerminalProgress();
   const authoring::ReliefResult result = authoring::MakeRelief(job.request, progress);
   const authoring::ReliefReport& report = result.report;
@@ -93,6 +99,14 @@ void Run(ReliefJob job) {
   if (is_written && !result.relief.empty()) {
     if (!job.sigma.empty()) WriteDepthMap(job.sigma, result.sigma);
     if (!job.confidence.empty()) WriteDepthMap(job.confidence, result.confidence);
+    if (!job.origin.empty()) WriteOriginMap(job.origin, result.origin);
+    if (!job.panorama.empty()) authoring::WritePanorama(job.panorama, result.picture);
+    if (!job.scene.empty()) {
+      authoring::Document document =
+          DocumentFromRelief(result, job.request.lens, job.request.options.view_angle);
+      document.scene.title = std::filesystem::path(job.output).stem().string();
+      authoring::SaveDocument(document, job.scene);
+    }
     WriteDepthMap(job.output, result.relief);
   }
   progress.Step("done", 1.0);
@@ -104,15 +118,17 @@ void Run(ReliefJob job) {
                             report.verdict.kind, report.verdict.test, report.verdict.value,
                             report.verdict.limit, report.verdict.sentence),
                 job.request.footage);
-  for (const std::string& file : {job.output, job.sigma, job.confidence, job.poses, job.report})
+  for (const std::string& file :
+       {job.output, job.sigma, job.confidence, job.origin, job.panorama, job.poses, job.report})
     if (file == "-") return;  // standard output holds one of them
   int posed = 0;
   for (const authoring::PosedFrame& frame : report.frames) posed += frame.is_posed;
   fmt::print(
-      "{}: {} x {} cells, {} of {} frames posed, {:.0f} % of the tissue in view measured; "
-      "the sphere's radius is {:.2f} mm, scale {}\n",
+      "{}: {} x {} cells, {} of {} frames posed; {:.0f} % measured, {:.0f} % from brightness, "
+      "{:.0f} % interpolated; the sphere's radius is {:.2f} mm, scale {}\n",
       job.output, result.relief.width, result.relief.height, posed, report.frames.size(),
-      100 * report.coverage, MmFromMetres(report.radius), report.scale_source);
+      100 * report.measured_share, 100 * report.brightness_share, 100 * report.interpolated_share,
+      MmFromMetres(report.radius), report.scale_source);
 }
 
 }  // namespace
@@ -134,7 +150,7 @@ void AddReliefJob(CLI::App& program) {
   files
       ->Output(job->add_option("-o,--output", own->output,
                                "32-bit float TIFF in metres over directions from the portal, NaN "
-                               "where nothing was measured; - for standard output."),
+                               "at unobserved directions; - for standard output."),
                kDepthMapFile)
       ->required();
   files->Output(job->add_option("--sigma", own->sigma,
@@ -143,6 +159,18 @@ void AddReliefJob(CLI::App& program) {
   files->Output(job->add_option("--confidence", own->confidence,
                                 "32-bit float TIFF: probability that a cell is within 1 mm."),
                 kDepthMapFile);
+  files->Output(job->add_option("--origin", own->origin,
+                                "8-bit PNG: 0 not seen, 1 measured, 2 from brightness, 3 "
+                                "interpolated."),
+                kPictureFile);
+  files->Output(job->add_option("--panorama", own->panorama,
+                                "Panorama over the relief: PNG with what was seen as alpha, or "
+                                "JPEG."),
+                kPictureFile);
+  files->OutputScene(job->add_option("--scene", own->scene,
+                                     "Also write a scene with panorama and relief into this "
+                                     "folder."),
+                     SceneFile);
   files->Output(job->add_option("--poses", own->poses, "JSON: camera poses in the portal frame."),
                 {"camera poses", FileForm::kJson, "arthroscene.poses/"});
   files->Output(

@@ -1,6 +1,7 @@
 // Import of an existing panorama: a picture, and the report with its projection.
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -48,9 +49,19 @@ void ReadPanoramaReport(EditorState& state, const fs::path& report) {
     throw Error(Code::kBadData, "there is no \"panorama\" in it; choose the report of a panorama",
                 report);
   Backdrop backdrop = state.document().scene.backdrop;
-  backdrop.projection.type = ProjectionType::kGnomonic;
-  backdrop.projection.focal_px = NumberOf(part, "focal_px", report);
-  backdrop.projection.centre_px = {NumberOf(part, "cx", report), NumberOf(part, "cy", report)};
+  if (const auto over = part.find("projection"); over != part.end() && over->is_object()) {
+    // A panorama over a measured relief.
+    const auto centre = over->value("centre_px", std::vector<double>());
+    if (centre.size() != 2)
+      throw Error(Code::kBadData, "the report's \"projection\" has no \"centre_px\"", report);
+    backdrop.projection.type = ProjectionType::kEquirectangular;
+    backdrop.projection.px_per_deg = NumberOf(*over, "px_per_deg", report);
+    backdrop.projection.centre_px = {centre[0], centre[1]};
+  } else {
+    backdrop.projection.type = ProjectionType::kGnomonic;
+    backdrop.projection.focal_px = NumberOf(part, "focal_px", report);
+    backdrop.projection.centre_px = {NumberOf(part, "cx", report), NumberOf(part, "cy", report)};
+  }
   const auto& panorama = state.document().panorama;
   if (panorama && (NumberOf(part, "width", report) != panorama->width ||
                    NumberOf(part, "height", report) != panorama->height))

@@ -50,8 +50,8 @@ TEST(CloseSurface, SpansAHoleInAPlaneWithinTheMembranesOwnError) {
   Hide(open, hole);
   const ClosedSurface closed = CloseSurface(open);
   // ln r of a plane has a Laplacian of 1/cos² of either angle, together below 2.02 here. A membrane
-  // over a square of side L then lies 0.0737 L² times that too low at most [Timoshenko and
-  // Woinowsky-Krieger, Theory of Plates and Shells, 1959, article 30]. A cell is added to the side,
+  // over a square of side L then lies 0.0737 L² times that too low at most [Timoshenko &
+  // Woinowsky-Krieger 1959]. A cell is added to the side,
   // since the rim of the hole lies on the centres of measured cells.
   const double side = RadiansFromDegrees(kCell * (kSide + 1));
   const double limit = 0.0737 * 2.02 * side * side * 0.040;
@@ -75,7 +75,7 @@ TEST(CloseSurface, KeepsASphereAboutThePortalExactly) {
 }
 
 TEST(CloseSurface, LeavesNoRampAcrossAStep) {
-  constexpr double kNear = 0.028, kFar = 0.040;  // m: the fold of hard case 15 is 12 mm high
+  constexpr double kNear = 0.028, kFar = 0.040;  // m: a fold of 12 mm
   constexpr int kStepAt = 40;
   OpenSurface open = SurfaceOf(80, 50, [&](int x, int) { return x < kStepAt ? kNear : kFar; });
   // Nothing counts as measured to 4° on either side, where frames disagree about what is hidden.

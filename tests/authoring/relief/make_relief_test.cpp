@@ -43,9 +43,11 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
   EXPECT_EQ(result.report.scale_source, "assumed");
   for (const PosedFrame& frame : result.report.frames) EXPECT_TRUE(frame.is_posed) << frame.reason;
   EXPECT_GT(result.report.coverage, 0.3);
-  // 5 % of the radius. Measured: 1.3 mm, all cells too near; at 240 px and with this smooth texture
-  // the light that moves with the tip pulls the tracks. Large clips come to less than 1 %.
-  EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+  // The goal of the hardest clips: 6 % of the range. At 240 px and with this smooth texture the
+  // light that moves with the tip pulls the tracks.
+  constexpr double kGoal = 0.06, kMiddleRadius = 0.040;  // m, of the cavity
+  EXPECT_LT(test::MedianRadialError(result, clip), kGoal * (kMiddleRadius - request.options.insertion))
+      << "m";
 
   // Every cell that a frame sees has a value, an error and an origin; all others have none.
   int unseen = 0, measured = 0;

@@ -48,8 +48,8 @@ double MedianRadialError(const authoring::ReliefResult& result, const CavityOpti
   std::vector<double> errors;
   for (int y = 0; y < result.relief.height; ++y)
     for (int x = 0; x < result.relief.width; ++x) {
+      if (result.origin.at(x, y) != ReliefOrigin::kMeasured) continue;
       const float h = result.relief.at(x, y);
-      if (std::isnan(h)) continue;
       const glm::dvec3 d = DirectionFromPixel(result.report.projection, {x, y});
       const Eigen::Vector3d found = Eigen::Vector3d(d.x, d.y, d.z) * (result.report.radius - h);
       const Eigen::Vector3d point =

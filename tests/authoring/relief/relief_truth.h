@@ -6,8 +6,8 @@
 
 namespace arthro::test {
 
-// Median of |radius - truth| after the similarity that fits the cameras best, m: motion knows no
-// scale, and the portal frame is found from the poses.
+// Median of |radius - truth| of the measured cells after the similarity that fits the cameras best,
+// m: motion knows no scale, and the portal frame is found from the poses.
 double MedianRadialError(const authoring::ReliefResult& result, const CavityOptions& clip);
 
 }  // namespace arthro::test

@@ -43,7 +43,9 @@ TEST(ChooseLayers, PrefersTheSmoothSurfaceInNoise) {
       wrong_alone += std::abs(static_cast<double>(best) - (6 + 0.25 * x)) > 1.5;
       wrong += std::abs(choice.layer.at<float>(y, x) - (6 + 0.25 * x)) > 1.5;
     }
-  EXPECT_LT(5 * wrong, wrong_alone) << "of 1600 cells";
+  EXPECT_LT(wrong, wrong_alone);
+  // The goal for the hardest clips is that at most 4 % of the cells are far off.
+  EXPECT_LE(wrong, 0.04 * 1600) << "of 1600 cells";
 }
 
 TEST(ChooseLayers, LeavesCellsWithoutAnyScoreUnknown) {
