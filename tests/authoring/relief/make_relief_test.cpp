@@ -12,7 +12,7 @@
 #include "authoring/relief/relief_io.h"
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {

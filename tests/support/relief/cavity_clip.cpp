@@ -1,4 +1,4 @@
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 #include <algorithm>
 #include <array>
@@ -174,7 +174,9 @@ void WriteCavityClip(const std::filesystem::path& folder, const CavityOptions& o
         const double light = std::min(1.6, std::pow(0.022 / range, 1.2));
         const double albedo = Albedo(poses[f].centre + range * d);
         const auto level = [&](double colour) {
-          const double grey = 255 * colour * light * (0.25 + 0.75 * albedo) + 1.5 * normal(random);
+          const double grey =
+              255 * colour * light * (1 - options.contrast + options.contrast * albedo) +
+              options.picture_noise * normal(random);
           return cv::saturate_cast<std::uint8_t>(grey);
         };
         picture.at<cv::Vec3b>(y, x) = {level(0.45), level(0.5), level(0.75)};

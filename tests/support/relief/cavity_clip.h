@@ -23,7 +23,9 @@ struct CavityOptions {
   double noise_px = 0.3;   // standard deviation of an observation
   double outliers = 0.04;  // share of the observations of tracks
   int points = 900;
-  double head_turn = 0;  // rad
+  double head_turn = 0;        // rad
+  double contrast = 0.75;      // share of the light that the texture modulates
+  double picture_noise = 1.5;  // grey levels of 255, standard deviation
   unsigned seed = 1;
 };
 
