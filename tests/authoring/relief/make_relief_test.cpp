@@ -13,6 +13,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
 #include "tests/support/relief/cavity_clip.h"
+#include "tests/support/schema_fault.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {
@@ -93,6 +94,8 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
   EXPECT_TRUE(result.report.has_pivot);
   EXPECT_EQ(result.report.scale_source, "assumed");
   for (const PosedFrame& frame : result.report.frames) EXPECT_TRUE(frame.is_posed) << frame.reason;
+  EXPECT_EQ(test::SchemaFault("relief-1", JsonFromReliefReport(result.report)), "");
+  EXPECT_EQ(test::SchemaFault("poses-1", JsonFromPoses(result.report)), "");
   EXPECT_GT(result.report.coverage, 0.3);
   // 5 % of the radius. Measured: 1.3 mm, all cells too near; at 240 px and with this smooth texture
   // the light that moves with the tip pulls the tracks. Large clips come to less than 1 %.
