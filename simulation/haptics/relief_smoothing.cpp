@@ -206,9 +206,11 @@ Plane WantedVariance(const DepthMap& depth, const Plane& height, const Plane& si
 }
 
 // Share of a growth of the smoothing that is applied: 1 while the change of the relief may be
-// noise, falling to 0. One growth changes noise of any correlation length by 0.24 σ rms at most.
-float Admitted(float change, float sigma) {
-  const float s = std::clamp((1.5f * sigma - std::abs(change)) / (0.75f * sigma), 0.0f, 1.0f);
+// noise, falling to 0. From a variance of 1 px² on, one growth changes noise of any correlation
+// length by 0.24 σ rms at most; before, white noise by 0.87 σ.
+float Admitted(float change, float sigma, float variance) {
+  const float begin = (variance < 1.0f ? 3.0f : 0.75f) * sigma;
+  const float s = std::clamp((2.0f * begin - std::abs(change)) / begin, 0.0f, 1.0f);
   return s * s * (3.0f - 2.0f * s);
 }
 
@@ -229,7 +231,8 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
 
   Moments moments(std::move(sums), w, h);
   Plane before = touched.height, scratch, share(before.size(), 1.0f);
-  float variance = 0.0f;
+  const float usual = 0.5f * static_cast<float>(passes);  // px²
+  float variance = 0.0f;                                  // beyond the usual one, px²
   for (int growth = 0; variance < most; ++growth) {
     const int gap = 1 << (growth / 2);
     if (gap >= std::max(w, h)) break;
@@ -245,8 +248,8 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
           continue;
         }
         const float after = moments.PlaneAt(x, y), change = after - before[i];
-        share[i] *=
-            std::min(1.0f, (wanted[i] - variance) / added) * Admitted(change, touched.sigma[i]);
+        share[i] *= std::min(1.0f, (wanted[i] - variance) / added) *
+                    Admitted(change, touched.sigma[i], usual + variance);
         touched.height[i] += share[i] * change;
         before[i] = after;
       }
@@ -256,8 +259,23 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
 }
 
 DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
+  // Medians of 3 x 3 pixels first: they remove the outliers of white noise, and keep steps sharp.
   DepthMap quiet = depth;
-  const TouchedRelief touched = SmoothRelief(depth, 0, sigma, backdrop, {});
+  if (sigma.relief.size() == depth.relief.size())
+    for (int y = 0; y < depth.height; ++y)
+      for (int x = 0; x < depth.width; ++x) {
+        if (!std::isfinite(depth.at(x, y)) || !(sigma.at(x, y) > 0.0f)) continue;
+        std::array<float, 9> around{};
+        std::size_t known = 0;
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, depth.height - 1); ++v)
+          for (int u = std::max(x - 1, 0); u <= std::min(x + 1, depth.width - 1); ++u)
+            if (std::isfinite(depth.at(u, v))) around[known++] = depth.at(u, v);
+        const auto middle = around.begin() + static_cast<std::ptrdiff_t>(known / 2);
+        std::nth_element(around.begin(), middle,
+                         around.begin() + static_cast<std::ptrdiff_t>(known));
+        quiet.at(x, y) = *middle;
+      }
+  const TouchedRelief touched = SmoothRelief(quiet, 0, sigma, backdrop, {});
   for (std::size_t i = 0; i < quiet.relief.size(); ++i)
     if (std::isfinite(depth.relief[i])) quiet.relief[i] = touched.height[i];
   return quiet;

@@ -31,8 +31,9 @@ struct NoiseLimits {
 TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& sigma,
                            const Backdrop& backdrop, const NoiseLimits& limits);
 
-// The depth map with the noise that `sigma` explains removed in this way, for the picture; the
-// smoothing of single pixels is left out, and unknown depths stay unknown.
+// The depth map with the noise that `sigma` explains removed in this way, for the picture; medians
+// of 3 x 3 pixels take the place of the smoothing of single pixels, and unknown depths stay
+// unknown.
 DepthMap WithoutNoise(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop);
 
 }  // namespace arthro::simulation
