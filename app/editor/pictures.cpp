@@ -79,15 +79,17 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const bool preview = cache.preview && cache.preview_panorama;
   const auto& panorama = preview ? cache.preview_panorama : document.panorama;
   const auto& depth = preview ? cache.preview : document.depth;
+  const std::shared_ptr<const DepthMap> sigma = preview ? nullptr : document.depth_sigma;
   const DepthMap& relief = OrEmpty(depth);
   const Backdrop& wanted = document.scene.backdrop;
   const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
   const bool same_place = backdrop_ == wanted && as_filmed == as_filmed_;
   const bool same_panorama = panorama == panorama_ && panorama;
-  if (panorama == panorama_ && depth == depth_ && same_place) return;
-  const bool same_depth = depth == depth_;
+  const bool same_depth = depth == depth_ && sigma == sigma_;
+  if (panorama == panorama_ && same_depth && same_place) return;
   panorama_ = panorama;
   depth_ = depth;
+  sigma_ = sigma;
   backdrop_ = wanted;
   as_filmed_ = as_filmed;
   changed_ = true;
@@ -99,11 +101,11 @@ void Pictures::TakeBackdrop(const EditorState& state) {
         Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
   if (same_panorama && scope_.SetGeometry(shown)) {
-    if (!same_depth) scope_.SetDepth(relief);
+    if (!same_depth) scope_.SetDepth(relief, OrEmpty(sigma));
     overview_.SetRelief(relief, shown);
     return;
   }
-  scope_.SetBackdrop(*panorama, relief, shown);
+  scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma));
   overview_.SetBackdrop(*panorama, relief, shown);
 }
 

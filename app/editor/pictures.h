@@ -77,7 +77,7 @@ class Pictures {
   std::chrono::steady_clock::time_point overview_drawn_{};
   // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
-  std::shared_ptr<const DepthMap> depth_;
+  std::shared_ptr<const DepthMap> depth_, sigma_;
   Backdrop backdrop_;
   bool as_filmed_ = false;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;

@@ -200,15 +200,15 @@ ArthroscopicView::~ArthroscopicView() {
 }
 
 void ArthroscopicView::SetBackdrop(const ColourImage& panorama, const DepthMap& depth,
-                                   const Backdrop& backdrop) {
+                                   const Backdrop& backdrop, const DepthMap& sigma) {
   parts_->window->GetState()->Reset();
-  parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop);
+  parts_->notice = parts_->backdrop->Upload(parts_->window, panorama, depth, backdrop, sigma);
   parts_->ForgetLight();
 }
 
-void ArthroscopicView::SetDepth(const DepthMap& depth) {
+void ArthroscopicView::SetDepth(const DepthMap& depth, const DepthMap& sigma) {
   parts_->window->GetState()->Reset();
-  parts_->backdrop->UploadDepth(parts_->window, depth);
+  parts_->backdrop->UploadDepth(parts_->window, depth, sigma);
 }
 
 bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {

@@ -29,9 +29,12 @@ class ArthroscopicView {
   ArthroscopicView& operator=(const ArthroscopicView&) = delete;
 
   // An empty `depth` gives the bare sphere. notice() says what could not be shown as given.
-  void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop);
+  // `sigma`: standard error of the depth map, of its size; the relief is drawn without the noise
+  // that it explains. Empty: not known.
+  void SetBackdrop(const ColourImage& panorama, const DepthMap& depth, const Backdrop& backdrop,
+                   const DepthMap& sigma = {});
   // Replaces the relief of the same panorama, for a live preview: only the relief is uploaded.
-  void SetDepth(const DepthMap& depth);
+  void SetDepth(const DepthMap& depth, const DepthMap& sigma = {});
   // Moves the same panorama and relief. Returns false, and does nothing, when the panorama would
   // begin or cease to cover a full turn: call SetBackdrop then.
   bool SetGeometry(const Backdrop& backdrop);

@@ -63,7 +63,8 @@ Picture PictureOf(const simulation::Snapshot& snapshot, const simulation::RodPos
 
 StillPictures::StillPictures(const LoadedScene& loaded) : loaded_(loaded) {
   const DepthMap& depth = OrEmpty(loaded.depth);
-  view_.SetBackdrop(OrEmpty(loaded.panorama), depth, WithKnownLight(loaded.scene.backdrop, depth));
+  view_.SetBackdrop(OrEmpty(loaded.panorama), depth, WithKnownLight(loaded.scene.backdrop, depth),
+                    OrEmpty(loaded.depth_sigma));
   const auto& tissues = loaded.scene.tissues;
   view_.SetTissues(tissues, loaded.surfaces);
   for (std::size_t i = 0; i < std::min(tissues.size(), loaded.surfaces.size()); ++i) {

@@ -1,4 +1,5 @@
-// Report and poses of a measured relief as JSON files [method.md, File formats].
+// Report and poses of a measured relief as JSON files [method.md, File formats], by
+// resources/schemas/relief-1.schema.json and poses-1.schema.json.
 #pragma once
 
 #include <filesystem>

@@ -8,6 +8,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/haptics/relief_smoothing.h"
 
 namespace arthro::simulation {
 namespace {
@@ -15,70 +16,6 @@ namespace {
 // A step of this height changes the force by 1 mN at 500 N/m and turns the normal by 2° on a 0.05
 // mm pixel.
 constexpr double kFeltStep = 2e-6;  // m
-
-// Smoothed relief, and the share of imaged pixels in each value.
-struct Smoothed {
-  std::vector<float> value, mass;
-};
-
-// Returns the weights of `passes` passes of (1 2 1)/4, which is the binomial row 2·passes.
-std::vector<float> BinomialKernel(int passes) {
-  std::vector<double> kernel{1.0};
-  for (int pass = 0; pass < passes; ++pass) {
-    std::vector<double> next(kernel.size() + 2, 0.0);
-    for (std::size_t i = 0; i < kernel.size(); ++i) {
-      next[i] += 0.25 * kernel[i];
-      next[i + 1] += 0.5 * kernel[i];
-      next[i + 2] += 0.25 * kernel[i];
-    }
-    kernel = std::move(next);
-  }
-  return {kernel.begin(), kernel.end()};
-}
-
-// Applies the separable filter, row by row. Pixels beyond the border have no mass.
-void Filter(std::vector<float>& data, int width, int height, const std::vector<float>& kernel) {
-  const int half = static_cast<int>(kernel.size()) / 2;
-  const auto w = static_cast<std::size_t>(width);
-  std::vector<float> padded(w + 2 * static_cast<std::size_t>(half), 0.0f);
-  for (int y = 0; y < height; ++y) {
-    float* row = data.data() + static_cast<std::size_t>(y) * w;
-    std::copy(row, row + w, padded.begin() + half);
-    std::fill(row, row + w, 0.0f);
-    for (std::size_t k = 0; k < kernel.size(); ++k)
-      for (std::size_t x = 0; x < w; ++x) row[x] += kernel[k] * padded[x + k];
-  }
-  const std::vector<float> across = data;
-  std::fill(data.begin(), data.end(), 0.0f);
-  for (int y = 0; y < height; ++y) {
-    float* row = data.data() + static_cast<std::size_t>(y) * w;
-    for (int k = 0; k < static_cast<int>(kernel.size()); ++k) {
-      const int from = y + k - half;
-      if (from < 0 || from >= height) continue;
-      const float* source = across.data() + static_cast<std::size_t>(from) * w;
-      const float weight = kernel[static_cast<std::size_t>(k)];
-      for (std::size_t x = 0; x < w; ++x) row[x] += weight * source[x];
-    }
-  }
-}
-
-// Smooths by normalised convolution, so that holes neither pull the relief nor spread.
-Smoothed SmoothRelief(const DepthMap& depth, int passes) {
-  Smoothed smoothed{depth.relief, std::vector<float>(depth.relief.size())};
-  for (std::size_t i = 0; i < depth.relief.size(); ++i) {
-    const bool imaged = std::isfinite(depth.relief[i]);
-    smoothed.mass[i] = imaged ? 1.0f : 0.0f;
-    if (!imaged) smoothed.value[i] = 0.0f;
-  }
-  if (passes > 0) {
-    const std::vector<float> kernel = BinomialKernel(passes);
-    for (std::vector<float>* plane : {&smoothed.value, &smoothed.mass})
-      Filter(*plane, depth.width, depth.height, kernel);
-  }
-  for (std::size_t i = 0; i < depth.relief.size(); ++i)
-    smoothed.value[i] = smoothed.mass[i] > 0.0f ? smoothed.value[i] / smoothed.mass[i] : 0.0f;
-  return smoothed;
-}
 
 // Chamfer distance in pixels to the nearest pixel that is not imaged; the border counts as such.
 std::vector<float> DistanceToUnknown(const DepthMap& depth) {
@@ -155,13 +92,17 @@ DepthField::DepthField(const Backdrop& backdrop, int width, int height,
 }
 
 DepthField::DepthField(const Backdrop& backdrop, const DepthMap& depth,
-                       const DepthFieldOptions& options)
+                       const DepthFieldOptions& options, const DepthMap& sigma)
     : DepthField(backdrop, depth.width, depth.height, options) {
   if (empty()) return;
   const bool is_quantised = QuantumOf(depth) > kFeltStep;
-  const Smoothed smoothed = SmoothRelief(
-      depth, is_quantised ? std::max(options.quantised_passes, options.smoothing_passes)
-                          : options.smoothing_passes);
+  const int passes = is_quantised ? std::max(options.quantised_passes, options.smoothing_passes)
+                                  : options.smoothing_passes;
+  const TouchedRelief touched = sigma.empty()
+                                    ? SmoothRelief(depth, passes)
+                                    : SmoothRelief(depth, passes, sigma, backdrop,
+                                                   {options.noise_slope, options.widest_smoothing});
+  const std::vector<float>& height = touched.height;
   const std::vector<float> distance = DistanceToUnknown(depth);
   texels_.resize(depth.relief.size());
   float highest = 0.0f;
@@ -172,10 +113,12 @@ DepthField::DepthField(const Backdrop& backdrop, const DepthMap& depth,
       const std::size_t left = x > 0 ? i - 1 : i, right = x + 1 < width_ ? i + 1 : i;
       const std::size_t above = y > 0 ? i - static_cast<std::size_t>(width_) : i;
       const std::size_t below = y + 1 < height_ ? i + static_cast<std::size_t>(width_) : i;
-      texels_[i] = {smoothed.value[i], 0.5f * (smoothed.value[right] - smoothed.value[left]),
-                    0.5f * (smoothed.value[below] - smoothed.value[above]),
+      texels_[i] = {height[i], 0.5f * (height[right] - height[left]),
+                    0.5f * (height[below] - height[above]),
                     static_cast<float>(FadeWeight(distance[i], options.fade_px))};
-      if (texels_[i].weight > 0.0f) highest = std::max(highest, smoothed.value[i]);
+      if (!touched.sigma.empty())
+        texels_[i].weight /= 1.0f + touched.sigma[i] / static_cast<float>(options.soft_error);
+      if (texels_[i].weight > 0.0f) highest = std::max(highest, height[i]);
     }
   free_radius_ = std::max(0.0, radius_ - static_cast<double>(highest));
 }

@@ -2,10 +2,11 @@
 // scope portal with the depth map h as relief. Free space is inside:
 //   c(x) = (D − h(π(x))) − |x| > 0,   ∇c = −(h_u ∇u + h_v ∇v) − x/|x|,
 //   clearance = c/|∇c| (distance to first order),   normal = ∇c/|∇c| (into free space)
-// Built once: the relief is smoothed by a binomial filter over imaged pixels only, and its central
-// differences h_u, h_v are stored. All are interpolated bilinearly, so the normal is continuous. A
-// weight fades to 0 towards holes (NaN) and borders, where the surface is unknown.
-// Portal frame, m. Query is noexcept, allocates nothing.
+// Built once: the relief is smoothed over imaged pixels only, the wider the larger its standard
+// error is (relief_smoothing.h), and its central differences h_u, h_v are stored. All are
+// interpolated bilinearly, so the normal is continuous. A weight fades to 0 towards holes (NaN) and
+// borders, where the surface is unknown, and is lower where its standard error is large. Portal
+// frame, m. Query is noexcept, allocates nothing.
 #pragma once
 
 #include <vector>
@@ -26,6 +27,11 @@ struct DepthFieldOptions {
   // [method.md, Backdrop force].
   int quantised_passes = 24;
   double fade_px = 8.0;  // wide enough that K·1 mm fades by less than 0.1 N per pixel
+  // A force turns by less than the 0.3 rad at which a hand feels another direction, for three
+  // standard deviations of the noise.
+  double noise_slope = 0.1;
+  double widest_smoothing = 5e-3;  // m; wider than a standard error of 1.4 mm asks for
+  double soft_error = 1e-3;        // m; an error σ changes the force by less than K·1 mm, 0.5 N
   template <class V>
   void Visit(V&& v) {
     v("smoothing_passes", smoothing_passes, Range{0, 30}, "",
@@ -34,6 +40,12 @@ struct DepthFieldOptions {
       "Binomial 3x3 passes over a quantised depth map, as one from 8-bit grey.");
     v("fade_px", fade_px, Range{1, 64}, "px",
       "The force fades over this many pixels towards holes and borders of the depth map.");
+    v("noise_slope", noise_slope, Range{0.01, 1}, "",
+      "Slope, rms, that noise of the standard error of the depth map may have.");
+    v("widest_smoothing", widest_smoothing, Range{0, 0.02}, "m",
+      "Widest smoothing of a depth map with a standard error, as a standard deviation.");
+    v("soft_error", soft_error, Range{1e-5, 1}, "m",
+      "Standard error of the depth map that halves the stiffness.");
   }
 };
 
@@ -54,8 +66,9 @@ class DepthField {
   // Bare sphere, over the area of a picture of width x height.
   DepthField(const Backdrop& backdrop, int width, int height,
              const DepthFieldOptions& options = {});
-  DepthField(const Backdrop& backdrop, const DepthMap& depth,
-             const DepthFieldOptions& options = {});
+  // `sigma`: standard error of `depth`, m, of its size; empty: not known.
+  DepthField(const Backdrop& backdrop, const DepthMap& depth, const DepthFieldOptions& options = {},
+             const DepthMap& sigma = {});
 
   FieldQuery Query(const glm::dvec3& x_in_portal) const noexcept;
 

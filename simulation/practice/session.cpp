@@ -42,7 +42,8 @@ std::shared_ptr<const DepthField> MakeField(const LoadedScene& loaded,
                                             const DepthFieldOptions& options) {
   const Backdrop& backdrop = loaded.scene.backdrop;
   if (const DepthMap& depth = OrEmpty(loaded.depth); !depth.empty())
-    return std::make_shared<const DepthField>(backdrop, depth, options);
+    return std::make_shared<const DepthField>(backdrop, depth, options,
+                                              OrEmpty(loaded.depth_sigma));
   const ColourImage& panorama = OrEmpty(loaded.panorama);
   return std::make_shared<const DepthField>(backdrop, panorama.width, panorama.height, options);
 }

@@ -66,6 +66,33 @@ void LookAtPanorama(const LoadedScene& loaded, SceneFindings& findings) {
                     c.x, c.y));
 }
 
+// Lists the origins of the depths and their median error.
+void LookAtOrigins(const LoadedScene& loaded, SceneFindings& findings) {
+  const OriginMap& origins = OrEmpty(loaded.depth_origin);
+  const DepthMap& sigma = OrEmpty(loaded.depth_sigma);
+  if (origins.empty() && sigma.empty()) return;
+  findings.relief = SharesOf(*loaded.depth, sigma, origins);
+  const ReliefShares& relief = *findings.relief;
+  std::string line = "relief:";
+  if (!origins.empty())
+    line += fmt::format(" {:.1f} % measured, {:.1f} % from brightness, {:.1f} % interpolated",
+                        100 * relief.measured, 100 * relief.brightness, 100 * relief.interpolated);
+  if (relief.median_sigma)
+    line += fmt::format("{} median standard error {:.3g} mm", origins.empty() ? "" : ",",
+                        Mm(*relief.median_sigma));
+  if (line != "relief:") findings.found.push_back(line);
+  if (relief.without_origin > 0)
+    findings.warnings.push_back(
+        fmt::format("{:.1f} % of the depths have no origin in backdrop.depth_origin; is it that of "
+                    "this depth map?",
+                    100 * relief.without_origin));
+  if (relief.without_sigma > 0)
+    findings.warnings.push_back(
+        fmt::format("{:.1f} % of the depths have no standard error in backdrop.depth_sigma; they "
+                    "count as the least certain ones",
+                    100 * relief.without_sigma));
+}
+
 void LookAtDepth(const LoadedScene& loaded, SceneFindings& findings) {
   const DepthMap& depth = OrEmpty(loaded.depth);
   const double radius = loaded.scene.backdrop.radius;
@@ -100,6 +127,7 @@ void LookAtDepth(const LoadedScene& loaded, SceneFindings& findings) {
     findings.warnings.push_back(fmt::format(
         "{} of {} depths lie outside 0 to {:g} mm, the radius of the sphere; are they in metres?",
         outside, imaged, Mm(radius)));
+  LookAtOrigins(loaded, findings);
 }
 
 // Edges that do not join exactly two triangles, once each way.

@@ -4,18 +4,21 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "simulation/scene/relief_shares.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro {
 
 struct SceneFindings {
-  std::vector<std::string> found;     // title, sizes, projection, tissues…
-  std::vector<std::string> errors;    // it cannot be practised on; all of them
-  std::vector<std::string> warnings;  // it can, but probably not as meant
-  std::vector<std::string> hints;     // parts that it lacks and could have
+  std::vector<std::string> found;      // title, sizes, projection, tissues…
+  std::vector<std::string> errors;     // it cannot be practised on; all of them
+  std::vector<std::string> warnings;   // it can, but probably not as meant
+  std::vector<std::string> hints;      // parts that it lacks and could have
+  std::optional<ReliefShares> relief;  // none where the scene names neither
 };
 
 // Does a tissue without tetrahedra give way as a thin layer? That is for its preset to say.

@@ -12,6 +12,7 @@
 #include "app/bench/micro/micro_bench.h"
 #include "app/bench/panorama/registration_bench.h"
 #include "app/bench/panorama/stitcher_peer.h"
+#include "app/bench/relief/relief_bench.h"
 #include "app/bench/report/bench_report.h"
 #include "app/bench/tissue/tissue_bench.h"
 #include "app/bench/view/view_bench.h"
@@ -91,7 +92,7 @@ void AddAll(CLI::App& program) {
       ->OutputFolder(job->add_option("-o,--output", own->folder, "Folder for the report."),
                      {{"report[.]html", {"a report", FileForm::kTable, kReportHead}},
                       {"report[.]json", {"a report", FileForm::kJson, "arthroscene.bench.all/"}},
-                      {"(panorama|tissue|haptics|view|micro-[a-z]+)[.]svg", kPlotFile}})
+                      {"(panorama|relief|tissue|haptics|view|micro-[a-z]+)[.]svg", kPlotFile}})
       ->required();
   AddOptions(*job, own->options);
   files->Run([own] {
@@ -107,6 +108,11 @@ void AddBenches(CLI::App& program) {
       program, "panorama",
       "Registration: detector, scale and stages against truth, beside OpenCV's stitcher.",
       RunRegistrationBench);
+  AddBench<ReliefBenchOptions>(
+      program, "relief",
+      "Relief: measured from the motion of the scope and estimated from brightness, against the "
+      "true surface, with the force over each.",
+      RunReliefBench);
   AddBench<TissueBenchOptions>(
       program, "tissue",
       "Deformable tissue: element, mesh, tolerance and law against continuum values.",

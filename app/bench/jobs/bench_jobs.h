@@ -8,7 +8,8 @@ class App;
 
 namespace arthro::app {
 
-// Adds panorama, tissue, haptics, view, micro and all, and the worker that `panorama` starts.
+// Adds panorama, relief, tissue, haptics, view, micro and all, and the worker that `panorama`
+// starts.
 void AddBenches(CLI::App& program);
 
 }  // namespace arthro::app

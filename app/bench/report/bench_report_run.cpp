@@ -10,6 +10,7 @@
 #include "app/bench/machine_words.h"
 #include "app/bench/micro/micro_bench.h"
 #include "app/bench/panorama/registration_bench.h"
+#include "app/bench/relief/relief_bench.h"
 #include "app/bench/report/bench_report.h"
 #include "app/bench/tissue/tissue_bench.h"
 #include "app/bench/view/view_bench.h"
@@ -61,6 +62,7 @@ void AddSection(BenchReport& report, const char* name, const char* title, const 
 
 BenchReport RunEveryBench(const BenchAllOptions& options, const Progress& progress) {
   RegistrationBenchOptions panorama;
+  ReliefBenchOptions relief;
   TissueBenchOptions tissue;
   HapticsBenchOptions haptics;
   ViewBenchOptions view;
@@ -70,6 +72,8 @@ BenchReport RunEveryBench(const BenchAllOptions& options, const Progress& progre
     panorama.width = 200;
     panorama.height = 160;
     panorama.peer_limit = 5;
+    relief.quick = true;
+    relief.touches = 50;
     tissue.only = "meniscus";
     tissue.max_elements = 600;
     tissue.frames = 30;
@@ -85,6 +89,7 @@ BenchReport RunEveryBench(const BenchAllOptions& options, const Progress& progre
   const auto start = std::chrono::steady_clock::now();
   AddSection(report, "panorama", "Registration of video frames", panorama, RunRegistrationBench,
              progress);
+  AddSection(report, "relief", "Relief of the tissue", relief, RunReliefBench, progress);
   AddSection(report, "tissue", "Deformable tissue", tissue, RunTissueBench, progress);
   AddSection(report, "haptics", "Touch", haptics, RunHapticsBench, progress);
   AddSection(report, "view", "Arthroscopic view", view, RunViewBench, progress);

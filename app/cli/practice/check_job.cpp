@@ -6,11 +6,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/input_files.h"
+#include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/practice/shipped_presets.h"
+#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/cut_check.h"
+#include "simulation/scene/check_report.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/scene_check.h"
 #include "simulation/scene/scene_schema.h"
@@ -35,7 +39,7 @@ void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
   }
 }
 
-void Check(const std::string& scene) {
+void Check(const std::string& scene, const std::string& report) {
   const auto presets = ShippedTissuePresets();
   LoadedScene loaded;
   SceneFindings findings = CheckScene(scene, &loaded, [&](const Tissue& tissue) {
@@ -43,12 +47,14 @@ void Check(const std::string& scene) {
   });
   if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
   if (findings.errors.empty()) LookAtLens(loaded, findings);
+  if (!report.empty()) WriteAtomically(report, JsonFromFindings(findings));
   if (const std::size_t count = findings.errors.size()) {
     // Findings of a scene that was read in part would mislead.
     Print(stderr, "error: ", findings.errors);
     throw Error(Code::kBadScene,
                 fmt::format("this scene has {} error{}", count, count == 1 ? "" : "s"), scene);
   }
+  if (report == "-") return;  // standard output holds the report
   Print(stdout, "", findings.found);
   Print(stdout, "warning: ", findings.warnings);
   Print(stdout, "hint: ", findings.hints);
@@ -62,9 +68,20 @@ void Check(const std::string& scene) {
 void AddCheckJob(CLI::App& program) {
   CLI::App* job =
       program.add_subcommand("check", "Load a scene with all its files and say what is wrong.");
-  const auto scene = std::make_shared<std::string>();
-  job->add_option("SCENE", *scene, "Folder of the scene, its scene.json, or an .arthro archive.")
+  struct Arguments {
+    std::string scene, report;
+  };
+  const auto own = std::make_shared<Arguments>();
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SCENE", own->scene,
+                              "Folder of the scene, its scene.json, or an .arthro archive."),
+              kSceneInput)
       ->required();
+  files->Output(job->add_option("--report", own->report,
+                                "JSON: errors, warnings and hints, and what share of the relief "
+                                "is measured; - for standard output."),
+                {"a report", FileForm::kJson, "arthroscene.check/"});
   job->add_flag_callback(
       "--schema",
       [] {
@@ -72,7 +89,7 @@ void AddCheckJob(CLI::App& program) {
         throw CLI::Success();
       },
       "Print the JSON Schema of scene.json, and do nothing else.");
-  job->callback([scene] { Check(*scene); });
+  files->Run([own] { Check(own->scene, own->report); });
 }
 
 }  // namespace arthro::app

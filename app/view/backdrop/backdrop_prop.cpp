@@ -17,6 +17,7 @@
 #include "app/view/drawing/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
+#include "simulation/haptics/relief_smoothing.h"
 
 namespace arthro::app {
 
@@ -54,7 +55,8 @@ BackdropProp::~BackdropProp() = default;
 double BackdropProp::light_reach() const { return kLightReach * backdrop_.radius; }
 
 std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
-                                 const DepthMap& depth, const Backdrop& backdrop) {
+                                 const DepthMap& depth, const Backdrop& backdrop,
+                                 const DepthMap& sigma) {
   backdrop_ = backdrop;
   panorama_size_ = {panorama.width, panorama.height};
   wraps_ = IsWholeTurn(backdrop.projection, panorama.width);
@@ -77,7 +79,7 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
   panorama_->SetMinificationFilter(vtkTextureObject::LinearMipmapLinear);
   panorama_->Bind();
   glGenerateMipmap(GL_TEXTURE_2D);
-  UploadDepth(window, depth);
+  UploadDepth(window, depth, sigma);
   if (reduction_ == 1) return {};
   return fmt::format(
       "the panorama of {}x{} pixels is drawn {} times smaller: this graphics card takes at most "
@@ -85,8 +87,11 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
       panorama.width, panorama.height, reduction_, max_size);
 }
 
-void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth) {
-  ReliefTexture relief = MakeReliefTexture(panorama_size_, depth, wraps_);
+void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth,
+                               const DepthMap& sigma) {
+  const bool is_known = !sigma.empty() && !depth.empty();
+  const DepthMap quiet = is_known ? simulation::WithoutNoise(depth, sigma, backdrop_) : DepthMap();
+  ReliefTexture relief = MakeReliefTexture(panorama_size_, is_known ? quiet : depth, wraps_, sigma);
   Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
   if (backdrop_.relight > 0) {
     const BroadSlopes broad = MakeBroadSlopes(relief, wraps_);

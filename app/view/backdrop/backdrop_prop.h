@@ -29,11 +29,12 @@ class BackdropProp : public vtkProp {
   vtkTypeMacro(BackdropProp, vtkProp);
 
   // Uploads both pictures; the window's context must be current and initialised. Returns a sentence
-  // when the panorama had to be reduced.
+  // when the panorama had to be reduced. `sigma`: standard error of the depth map, of its size; the
+  // relief is drawn without the noise that it explains. Empty: not known.
   std::string Upload(vtkOpenGLRenderWindow* window, const ColourImage& panorama,
-                     const DepthMap& depth, const Backdrop& backdrop);
+                     const DepthMap& depth, const Backdrop& backdrop, const DepthMap& sigma);
   // Replaces the relief of the present panorama: a fraction of the work.
-  void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth);
+  void UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& depth, const DepthMap& sigma);
   // Moves the present panorama; uploads nothing. Returns false, and does nothing, when it would
   // begin or cease to cover a full turn.
   bool SetGeometry(const Backdrop& backdrop);

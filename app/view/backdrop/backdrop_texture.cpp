@@ -107,7 +107,7 @@ ColourImage ReducedPanorama(const ColourImage& image, int reduction) {
 }
 
 ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
-                                bool whole_turn) {
+                                bool whole_turn, const DepthMap& sigma) {
   const ImagedMask mask = MakeImagedMask(panorama_size.x, panorama_size.y, depth, whole_turn);
   ReliefTexture relief;
   if (depth.empty()) {
@@ -128,15 +128,20 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
                 .texels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) +
                              static_cast<std::size_t>(x))];
   };
-  DepthMap drawn(relief.width, relief.height);
-  for (int y = 0; y < relief.height; ++y) {
-    const int v =
-        std::min(static_cast<int>((y + 0.5) * depth.height / relief.height), depth.height - 1);
-    for (int x = 0; x < relief.width; ++x)
-      drawn.at(x, y) = depth.at(
-          std::min(static_cast<int>((x + 0.5) * depth.width / relief.width), depth.width - 1), v);
-  }
-  SmoothOutlines(drawn, whole_turn);
+  const auto shrunk = [&](const DepthMap& map) {
+    if (map.empty()) return DepthMap();
+    DepthMap small(relief.width, relief.height);
+    for (int y = 0; y < relief.height; ++y) {
+      const int v =
+          std::min(static_cast<int>((y + 0.5) * map.height / relief.height), map.height - 1);
+      for (int x = 0; x < relief.width; ++x)
+        small.at(x, y) = map.at(
+            std::min(static_cast<int>((x + 0.5) * map.width / relief.width), map.width - 1), v);
+    }
+    return small;
+  };
+  DepthMap drawn = shrunk(depth);
+  SmoothOutlines(drawn, whole_turn, shrunk(sigma));
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {
       const float h = drawn.at(x, y);

@@ -29,9 +29,10 @@ struct ReliefTexture {
   // edge, on the inner side.
   std::vector<float> texels;
 };
-// An empty `depth` gives the bare sphere, all of it imaged.
+// An empty `depth` gives the bare sphere, all of it imaged. `sigma`: its standard error, of its
+// size, for the outlines; empty: not known.
 ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap& depth,
-                                bool whole_turn);
+                                bool whole_turn, const DepthMap& sigma = {});
 
 // Maximum of the relief over each block of block x block texels and its eight neighbours, m: a ray
 // above it passes the block without a texture read.

@@ -11,11 +11,22 @@ namespace {
 constexpr float kLeastStep =
     1.5e-4f;  // m between neighbouring texels; smaller steps show no staircase
 
+// Standard deviations of the difference of two texels that a step has to exceed. Noise exceeds five
+// in one of two million pairs.
+constexpr float kStepsOfError = 5.0f;
+
+// Least height of a step between two texels, by their standard errors.
+float LeastStep(const DepthMap& sigma, std::size_t a, std::size_t b) {
+  if (sigma.empty()) return kLeastStep;
+  const float error = kStepsOfError * std::hypot(sigma.relief[a], sigma.relief[b]);
+  return error > kLeastStep ? error : kLeastStep;  // also where the error is not known (NaN)
+}
+
 // Returns how much higher `b` is than `a` when that is an outline, else 0: before and after it the
 // relief changes by less than half as much. Unknown texels are no outline.
-float StepOf(float before, float a, float b, float after) {
+float StepOf(float before, float a, float b, float after, float least) {
   const float step = b - a, most = 0.5f * std::abs(step);
-  const bool is = 2 * most >= kLeastStep && std::isfinite(most) && std::abs(a - before) < most &&
+  const bool is = 2 * most >= least && std::isfinite(most) && std::abs(a - before) < most &&
                   std::abs(after - b) < most;
   return is ? step : 0.0f;
 }
@@ -43,7 +54,7 @@ struct Steps {
   }
 };
 
-Steps StepsAcrossRows(const DepthMap& map, bool whole_turn) {
+Steps StepsAcrossRows(const DepthMap& map, bool whole_turn, const DepthMap& sigma) {
   Steps steps{map.width, map.height, 1, static_cast<std::size_t>(map.width), whole_turn, false, {}};
   steps.values.resize(map.relief.size(), 0.0f);
   steps.found.resize(static_cast<std::size_t>(map.height));
@@ -52,14 +63,15 @@ Steps StepsAcrossRows(const DepthMap& map, bool whole_turn) {
     const float *above = row - map.width, *below = row + map.width, *next = below + map.width;
     float* to = &steps.values[steps.Texel(0, y)];
     for (int x = 0; x < map.width; ++x) {
-      to[x] = StepOf(above[x], row[x], below[x], next[x]);
+      to[x] = StepOf(above[x], row[x], below[x], next[x],
+                     LeastStep(sigma, steps.Texel(x, y), steps.Texel(x, y + 1)));
       if (to[x] != 0) steps.found[static_cast<std::size_t>(y)].push_back(x);
     }
   }
   return steps;
 }
 
-Steps StepsAcrossColumns(const DepthMap& map, bool whole_turn) {
+Steps StepsAcrossColumns(const DepthMap& map, bool whole_turn, const DepthMap& sigma) {
   const int width = map.width;
   Steps steps{map.height, width, static_cast<std::size_t>(width), 1, false, whole_turn, {}};
   steps.values.resize(map.relief.size(), 0.0f);
@@ -71,11 +83,15 @@ Steps StepsAcrossColumns(const DepthMap& map, bool whole_turn) {
       to[x] = step;
       if (step != 0) steps.found[static_cast<std::size_t>(x)].push_back(y);
     };
-    for (int x = 1; x + 2 < width; ++x) take(x, StepOf(row[x - 1], row[x], row[x + 1], row[x + 2]));
+    const auto least = [&](int x) {
+      return LeastStep(sigma, steps.Texel(y, x), steps.Texel(y, (x + 1) % width));
+    };
+    for (int x = 1; x + 2 < width; ++x)
+      take(x, StepOf(row[x - 1], row[x], row[x + 1], row[x + 2], least(x)));
     if (!whole_turn || width < 4) continue;
     for (const int x : {0, width - 2, width - 1})
       take(x, StepOf(row[(x + width - 1) % width], row[x], row[(x + 1) % width],
-                     row[(x + 2) % width]));
+                     row[(x + 2) % width], least(x)));
   }
   return steps;
 }
@@ -145,11 +161,11 @@ void LayTreads(const Steps& steps, Laid& laid) {
 
 }  // namespace
 
-void SmoothOutlines(DepthMap& relief, bool whole_turn) {
+void SmoothOutlines(DepthMap& relief, bool whole_turn, const DepthMap& sigma) {
   const DepthMap stairs = relief;
   Laid laid{stairs, relief, std::vector<int>(stairs.relief.size(), 0)};
-  LayTreads(StepsAcrossRows(stairs, whole_turn), laid);
-  LayTreads(StepsAcrossColumns(stairs, whole_turn), laid);
+  LayTreads(StepsAcrossRows(stairs, whole_turn, sigma), laid);
+  LayTreads(StepsAcrossColumns(stairs, whole_turn, sigma), laid);
 }
 
 }  // namespace arthro::app

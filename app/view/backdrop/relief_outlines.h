@@ -12,7 +12,8 @@ namespace arthro::app {
 // their distance from it, so that bilinear interpolation draws a ramp along the line. An outline is
 // a step of 0.15 mm or more between neighbouring texels, with less than half of it before and
 // after: slopes that are merely steep stay, and so do all texels that are not next to an outline.
-// Unknown texels (NaN) stay unknown.
-void SmoothOutlines(DepthMap& relief, bool whole_turn);
+// Unknown texels (NaN) stay unknown. `sigma`: standard error of the relief, m, of its size; a step
+// that it explains is no outline. Empty: not known.
+void SmoothOutlines(DepthMap& relief, bool whole_turn, const DepthMap& sigma = {});
 
 }  // namespace arthro::app

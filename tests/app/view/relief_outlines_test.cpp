@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/haptics/relief_smoothing.h"
 #include "simulation/scene/image.h"
 #include "tests/support/view/reference_tracer.h"
 
@@ -210,6 +212,92 @@ TEST(ReliefOutlines, AddAtMostHalfAsManyRaysOnTheSlope) {
               100.0 * by_map / rays, rays, 100.0 * by_smooth / rays);
   EXPECT_GT(by_map, rays / 100);
   EXPECT_LT(by_smooth, 1.5 * by_map);
+}
+
+// A step of 12 mm in a plane, with white noise of the standard deviation `error`.
+DepthMap NoisyStep(float error) {
+  std::mt19937 random(4);
+  std::normal_distribution<float> noise(0.0f, error);
+  const Inside inside = Line(0.3);
+  DepthMap map(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      map.at(x, y) = (inside(x, y) > 0 ? 0.0185f : 0.0065f) + noise(random);
+  return map;
+}
+
+int ChangedBeyond(const DepthMap& a, const DepthMap& b, const Inside& inside, double texels) {
+  int changed = 0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      changed += std::abs(inside(x, y)) > texels && a.at(x, y) != b.at(x, y) ? 1 : 0;
+  return changed;
+}
+
+TEST(ReliefOutlines, OfNoiseAreNoneAndATrueStepKeepsItsOwn) {
+  constexpr float kError = 5e-4f;
+  const Inside inside = Line(0.3);
+  const DepthMap map = NoisyStep(kError), sigma(kSide, kSide, kError);
+  DepthMap unaware = map, aware = map;
+  SmoothOutlines(unaware, false);
+  SmoothOutlines(aware, false, sigma);
+  const int of_noise = ChangedBeyond(unaware, map, inside, 2);
+  std::printf("texels that noise of 0.5 mm makes outlines of: %d, with its error known %d\n",
+              of_noise, ChangedBeyond(aware, map, inside, 2));
+  EXPECT_GT(of_noise, 0) << "without the error noise is taken for steps";
+  EXPECT_EQ(ChangedBeyond(aware, map, inside, 2), 0);
+  EXPECT_LT(StairOf(aware, inside), 0.5 * StairOf(map, inside));
+}
+
+TEST(ReliefOutlines, AnErrorThatIsNotKnownChangesNothing) {
+  const DepthMap map = NoisyStep(1e-4f);
+  DepthMap one = map, other = map;
+  SmoothOutlines(one, false);
+  SmoothOutlines(other, false, DepthMap(kSide, kSide, std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_EQ(one.relief, other.relief);
+}
+
+// Sides of a relief: steps between neighbouring texels that are higher than the standard error.
+int SidesOf(const DepthMap& map, const Inside& inside, double texels, double error) {
+  int sides = 0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x + 1 < kSide; ++x)
+      sides += std::abs(inside(x, y)) > texels && std::abs(map.at(x + 1, y) - map.at(x, y)) > error
+                   ? 1
+                   : 0;
+  return sides;
+}
+
+TEST(QuietRelief, HasNoSidesInNoiseAndKeepsThoseOfAStep) {
+  constexpr float kError = 5e-4f;
+  constexpr double kTexel = 1e-4;  // m, on the sphere
+  Backdrop backdrop;
+  backdrop.radius = 0.05;
+  backdrop.projection.type = ProjectionType::kGnomonic;
+  backdrop.projection.focal_px = backdrop.radius / kTexel;
+  backdrop.projection.centre_px = {(kSide - 1) / 2.0, (kSide - 1) / 2.0};
+  const Inside inside = Line(0.3);
+  const DepthMap map = NoisyStep(kError), sigma(kSide, kSide, kError);
+  const DepthMap drawn = simulation::WithoutNoise(map, sigma, backdrop);
+  // Beside the step the smoothing is as narrow as its distance allows.
+  constexpr double kBeside = 8;  // texels
+  const int before = SidesOf(map, inside, kBeside, kError),
+            after = SidesOf(drawn, inside, kBeside, kError);
+  std::printf("sides in noise: %d of %d pairs, drawn %d\n", before, kSide * kSide, after);
+  EXPECT_GT(before, kSide * kSide / 3);
+  EXPECT_EQ(after, 0);
+  int kept = 0, crossed = 0;
+  for (int x = 10; x + 10 < kSide; ++x)
+    for (int y = 10; y + 10 < kSide; ++y)
+      if (inside(x, y) <= 0 && inside(x, y + 1) > 0) {
+        ++crossed;
+        // The median may move the stair of a step by one texel, so it rises within three.
+        const float side = drawn.at(x, y + 2) - drawn.at(x, y - 1);
+        // Five standard deviations of the noise of two texels.
+        kept += side > 0.012f - 5 * 1.4143f * kError ? 1 : 0;
+      }
+  std::printf("side of the step of 12 mm: kept at %d of %d places\n", kept, crossed);
+  EXPECT_EQ(kept, crossed);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "simulation/core/units.h"
 #include "simulation/scene/relief_origin.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::authoring {
 namespace {

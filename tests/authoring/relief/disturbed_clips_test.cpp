@@ -7,8 +7,8 @@
 
 #include "authoring/relief/make_relief.h"
 #include "simulation/core/units.h"
-#include "tests/authoring/relief/cavity_clip.h"
 #include "tests/authoring/relief/relief_truth.h"
+#include "tests/support/relief/cavity_clip.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {
@@ -92,7 +92,7 @@ TEST(MakeRelief, TakesNoFloatingSpeckForTissue) {
 // RELIEF-08.
 TEST(MakeRelief, RefusesTissueWithoutTexture) {
   test::CavityOptions clip = SmallClip();
-  clip.contrast = 0.01;
+  clip.contrast = 0.0075;
   const ReliefResult result = ReliefOf(clip);
   EXPECT_FALSE(result.report.verdict.is_measured());
   EXPECT_FALSE(result.report.verdict.sentence.empty());

@@ -11,7 +11,7 @@
 #include "authoring/relief/self_calibration.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/units.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::authoring {
 namespace {

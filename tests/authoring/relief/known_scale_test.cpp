@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "simulation/core/error.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::authoring {
 namespace {

@@ -11,8 +11,9 @@
 #include "authoring/relief/relief_io.h"
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
-#include "tests/authoring/relief/cavity_clip.h"
 #include "tests/authoring/relief/relief_truth.h"
+#include "tests/support/relief/cavity_clip.h"
+#include "tests/support/schema_fault.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {
@@ -42,11 +43,14 @@ TEST(MakeRelief, MeasuresASmallCavityAndRepeatsItToTheBit) {
   EXPECT_TRUE(result.report.has_pivot);
   EXPECT_EQ(result.report.scale_source, "assumed");
   for (const PosedFrame& frame : result.report.frames) EXPECT_TRUE(frame.is_posed) << frame.reason;
+  EXPECT_EQ(test::SchemaFault("relief-1", JsonFromReliefReport(result.report)), "");
+  EXPECT_EQ(test::SchemaFault("poses-1", JsonFromPoses(result.report)), "");
   EXPECT_GT(result.report.coverage, 0.3);
   // The goal of the hardest clips: 6 % of the range. At 240 px and with this smooth texture the
   // light that moves with the tip pulls the tracks.
   constexpr double kGoal = 0.06, kMiddleRadius = 0.040;  // m, of the cavity
-  EXPECT_LT(test::MedianRadialError(result, clip), kGoal * (kMiddleRadius - request.options.insertion))
+  EXPECT_LT(test::MedianRadialError(result, clip),
+            kGoal * (kMiddleRadius - request.options.insertion))
       << "m";
 
   // Every cell that a frame sees has a value, an error and an origin; all others have none.

@@ -9,7 +9,7 @@
 #include "authoring/relief/lens_profile.h"
 #include "authoring/relief/portal.h"
 #include "authoring/relief/verdict.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::authoring {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "authoring/relief/make_relief.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::test {
 

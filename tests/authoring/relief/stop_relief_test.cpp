@@ -9,7 +9,7 @@
 
 #include "authoring/relief/make_relief.h"
 #include "simulation/core/error.h"
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::authoring {

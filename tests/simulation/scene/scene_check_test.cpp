@@ -1,10 +1,14 @@
 #include "simulation/scene/scene_check.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
+#include "simulation/scene/check_report.h"
 #include "simulation/scene/held_nodes.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/mesh_io.h"
+#include "tests/support/schema_fault.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
 
@@ -111,6 +115,64 @@ TEST(SceneCheck, ASolidThatDoesNotGiveWayNeedsAClosedSurfaceAndNoTetrahedra) {
   EXPECT_TRUE(Says(CheckScene(loaded).errors, "is not closed: 3 edges"));
   loaded.scene.tissues[0].mesh = "flap.vtu";
   EXPECT_TRUE(Says(CheckScene(loaded).errors, "has tetrahedra; leave out one of the two"));
+}
+
+TEST(SceneCheck, SaysWhatShareOfTheReliefIsMeasuredAndItsError) {
+  LoadedScene loaded;
+  DepthMap depth(10, 10, 0.01f), sigma(10, 10, 4e-4f);
+  OriginMap origins(10, 10, ReliefOrigin::kMeasured);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (int x = 0; x < 10; ++x) {
+    depth.at(x, 0) = sigma.at(x, 0) = kNan;
+    origins.at(x, 0) = ReliefOrigin::kNone;
+    origins.at(x, 1) = ReliefOrigin::kBrightness;
+    origins.at(x, 2) = ReliefOrigin::kInterpolated;
+    sigma.at(x, 2) = 3e-3f;
+  }
+  loaded.depth = Share(depth);
+  EXPECT_FALSE(Says(CheckScene(loaded).found, "relief:")) << "nothing is known";
+  EXPECT_FALSE(CheckScene(loaded).relief);
+  loaded.depth_sigma = Share(sigma);
+  EXPECT_TRUE(Says(CheckScene(loaded).found, "relief: median standard error 0.4 mm"));
+  loaded.depth_origin = Share(origins);
+  const SceneFindings findings = CheckScene(loaded);
+  EXPECT_TRUE(Says(findings.found,
+                   "relief: 77.8 % measured, 11.1 % from brightness, 11.1 % interpolated, median "
+                   "standard error 0.4 mm"));
+  ASSERT_TRUE(findings.relief);
+  EXPECT_DOUBLE_EQ(findings.relief->measured, 70.0 / 90);
+  EXPECT_FALSE(Says(findings.warnings, "of the depths"));
+}
+
+TEST(SceneCheck, ItsReportKeepsItsSchema) {
+  LoadedScene loaded;
+  EXPECT_EQ(test::SchemaFault("check-1", JsonFromFindings(CheckScene(loaded))), "");
+  loaded.depth = Share(DepthMap(10, 10, 0.01f));
+  loaded.depth_sigma = Share(DepthMap(10, 10, 4e-4f));
+  loaded.depth_origin = Share(OriginMap(10, 10, ReliefOrigin::kMeasured));
+  SceneFindings findings = CheckScene(loaded);
+  findings.errors = {"a file is missing"};
+  const std::string report = JsonFromFindings(findings);
+  EXPECT_EQ(test::SchemaFault("check-1", report), "");
+  EXPECT_NE(report.find("\"measured\": 1.0"), std::string::npos) << report;
+  EXPECT_NE(report.find("\"median_sigma\""), std::string::npos);
+  EXPECT_EQ(test::SchemaFault("check-1", "{\"schema\": \"arthroscene.check/1\"}"), "# required");
+}
+
+TEST(SceneCheck, WarnsOfDepthsWithoutOriginOrError) {
+  LoadedScene loaded;
+  DepthMap sigma(10, 10, 4e-4f);
+  OriginMap origins(10, 10, ReliefOrigin::kMeasured);
+  for (int x = 0; x < 10; ++x) {
+    origins.at(x, 3) = ReliefOrigin::kNone;
+    sigma.at(x, 4) = sigma.at(x, 5) = std::numeric_limits<float>::quiet_NaN();
+  }
+  loaded.depth = Share(DepthMap(10, 10, 0.01f));
+  loaded.depth_sigma = Share(sigma);
+  loaded.depth_origin = Share(origins);
+  const SceneFindings findings = CheckScene(loaded);
+  EXPECT_TRUE(Says(findings.warnings, "10.0 % of the depths have no origin"));
+  EXPECT_TRUE(Says(findings.warnings, "20.0 % of the depths have no standard error"));
 }
 
 }  // namespace

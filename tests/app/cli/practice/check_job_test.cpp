@@ -8,6 +8,7 @@
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_io.h"
 #include "tests/support/run_program.h"
+#include "tests/support/schema_fault.h"
 
 namespace arthro {
 namespace {
@@ -175,6 +176,29 @@ TEST(CheckJob, SaysWhatTheScopeLooksThroughAndWhichLensCannotBeDrawn) {
   EXPECT_EQ(wide.exit_code, 1);
   EXPECT_NE(wide.err.find("scope.lens, lens.json: the lens bends too much"), std::string::npos)
       << wide.err;
+}
+
+TEST(CheckJob, SaysWhatShareOfTheReliefIsMeasuredAlsoInItsReport) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  scene.backdrop.depth_sigma = "s.tiff";
+  scene.backdrop.depth_origin = "o.png";
+  WriteScene(folder / "scene.json", scene);
+  WriteDepthMap(folder / "s.tiff", DepthMap(64, 32, 3e-4f));
+  OriginMap origins(64, 32, ReliefOrigin::kMeasured);
+  for (int x = 0; x < 64; ++x)
+    for (int y = 0; y < 8; ++y) origins.at(x, y) = ReliefOrigin::kBrightness;
+  WriteOriginMap(folder / "o.png", origins);
+  const auto result = test::RunProgram("check " + folder.path().string() + " --report " +
+                                       (folder / "report.json").string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("relief: 75.0 % measured, 25.0 % from brightness, 0.0 % interpolated, "
+                            "median standard error 0.3 mm"),
+            std::string::npos)
+      << result.out;
+  const std::string report = ReadWholeFile(folder / "report.json");
+  EXPECT_EQ(test::SchemaFault("check-1", report), "");
+  EXPECT_NE(report.find("\"brightness\": 0.25"), std::string::npos) << report;
 }
 
 TEST(CheckJob, ListsEveryErrorAndExitsWithOne) {

@@ -23,7 +23,9 @@ struct CavityOptions {
   double noise_px = 0.3;   // standard deviation of an observation
   double outliers = 0.04;  // share of the observations of tracks
   int points = 900;
-  double head_turn = 0;  // rad
+  double head_turn = 0;        // rad
+  double contrast = 0.75;      // range of the share of the light that the texture throws back
+  double picture_noise = 1.5;  // grey levels of 255, standard deviation
   unsigned seed = 1;
   // Disturbances.
   double roll = 0.35;         // rad, largest turn of the shaft about itself
@@ -34,7 +36,6 @@ struct CavityOptions {
   bool two_clips = false;     // the second half is another clip of the same tissue, or
   bool elsewhere = false;     // shows other tissue
   double fold = 0;            // m, height of a fold with a sharp edge
-  double contrast = 1;        // contrast of the tissue's texture
   double glint = 0;           // strength of highlights that move with the light
   double blur = 0;            // share of the way to the next frame during which the shutter is open
   int debris = 0;             // specks that float before the tissue

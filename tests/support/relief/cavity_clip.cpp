@@ -1,4 +1,4 @@
-#include "tests/authoring/relief/cavity_clip.h"
+#include "tests/support/relief/cavity_clip.h"
 
 #include <algorithm>
 #include <array>
@@ -224,14 +224,13 @@ cv::Vec3d LightFrom(const CavityOptions& options, const authoring::CameraPose& p
   const double range = CavityRange(pose.centre, d, options.fold);
   const double light = std::min(1.6, std::pow(0.022 / range, 1.2));
   const Vector3d point = pose.centre + range * d;
-  const double albedo = 0.5 + options.contrast * (Albedo(point) - 0.5);
   double white = 0;
   if (options.glint > 0) {
     // Highlights that pass over the tissue when the tip moves.
     const double spot = Noise(point * 350 + pose.centre * 900, 7);
     white = options.glint * std::clamp((spot - 0.72) / 0.1, 0.0, 1.0);
   }
-  const double grey = light * (0.25 + 0.75 * albedo);
+  const double grey = light * (0.625 + options.contrast * (Albedo(point) - 0.5));
   return {0.45 * grey + white, 0.5 * grey + white, 0.75 * grey + white};
 }
 
@@ -281,7 +280,8 @@ void WriteCavityClip(const std::filesystem::path& folder, const CavityOptions& o
           light += LightFrom(options, pose, {ray->x, ray->y, ray->z}) *
                    (1.0 / static_cast<double>(poses.size()));
         const auto level = [&](double share) {
-          return cv::saturate_cast<std::uint8_t>(255 * share + 1.5 * normal(random));
+          return cv::saturate_cast<std::uint8_t>(255 * share +
+                                                 options.picture_noise * normal(random));
         };
         picture.at<cv::Vec3b>(y, x) = {level(light[0]), level(light[1]), level(light[2])};
       }
