@@ -3,8 +3,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "app/state/command.h"
 #include "app/state/edits.h"
-#include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_words.h"
@@ -186,11 +186,11 @@ namespace {
 // The picture, its relief, and what is known of it, as the backdrop.
 void UseRelief(EditorState& state, const MadeRelief& relief) {
   const FootageBoard& board = *state.steps.panorama->footage;
-  state.step = Step::kDepth;
-  state.steps.depth->board.is_shown = true;
-  if (state.document().panorama == relief.backdrop.panorama) return;  // it is the backdrop already
-  SetMeasuredPanorama(state, "Use the measured relief of " + board.name, relief.backdrop,
-                      board.lenses.at(static_cast<std::size_t>(board.lens)).lens);
+  const bool is_backdrop = state.document().panorama == relief.backdrop.panorama;
+  if (!is_backdrop)
+    SetMeasuredPanorama(state, "Use the measured relief of " + board.name, relief.backdrop,
+                        board.lenses.at(static_cast<std::size_t>(board.lens)).lens);
+  Run(state, "depth-map");
 }
 
 }  // namespace
