@@ -12,9 +12,9 @@ void PutMeasuredDepth(authoring::Document& document, const MeasuredBackdrop& mea
   backdrop.radius = measured.radius;
   backdrop.depth = "depth.tiff";
   document.depth_sigma = measured.sigma;
-  backdrop.depth_sigma = measured.sigma ? "depth_sigma.tiff" : "";
+  backdrop.depth_sigma = measured.sigma ? "depth-sigma.tiff" : "";
   document.depth_origin = measured.origin;
-  backdrop.depth_origin = measured.origin ? "depth_origin.png" : "";
+  backdrop.depth_origin = measured.origin ? "depth-origin.png" : "";
   document.is_depth_imported = true;
 }
 

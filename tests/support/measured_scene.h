@@ -49,8 +49,8 @@ inline authoring::Document MeasuredDocument() {
   Backdrop& backdrop = document.scene.backdrop;
   backdrop.panorama = "panorama.png";
   backdrop.depth = "depth.tiff";
-  backdrop.depth_sigma = "depth_sigma.tiff";
-  backdrop.depth_origin = "depth_origin.png";
+  backdrop.depth_sigma = "depth-sigma.tiff";
+  backdrop.depth_origin = "depth-origin.png";
   backdrop.radius = kMeasuredRadius;
   backdrop.projection = {ProjectionType::kEquirectangular, {60, 40}, 1000, 2};
   document.scene.title = "Measured cavity";

@@ -79,7 +79,10 @@ std::vector<double> Numbers(const nlohmann::json& json) {
 }  // namespace
 
 CavityTruth TruthOf(const CavityOptions& options) {
-  return {CavityRadius, CavityPoses(options), CavityLens(), kViewAngle};
+  const auto radius = [fold = options.fold](const Vector3d& direction) {
+    return CavityRadius(direction, fold);
+  };
+  return {radius, CavityPoses(options), CavityLens(), kViewAngle};
 }
 
 CavityTruth ReadCavityTruth(const fs::path& folder) {
