@@ -73,16 +73,16 @@ Practice MakePractice(const LoadedScene& loaded, const std::vector<TissuePreset>
                 "a scene without a panorama cannot be practised; import one first");
   auto session = std::make_unique<Session>(loaded, options);
   EnlivenTissues(*session, loaded, presets, pace);
-  ScopeEye eye(loaded);
-  return {std::move(session), std::move(eye), loaded.scene};
+  return {std::move(session), loaded};
 }
 
-Practice::Practice(std::unique_ptr<Session> session, ScopeEye eye, const Scene& scene)
+Practice::Practice(std::unique_ptr<Session> session, const LoadedScene& loaded)
     : session_(std::move(session)),
-      by_mouse_{ScriptedDevice(session_->scope_rig(), StartOfScope(scene), ScopeLimits(scene)),
-                ScriptedDevice(session_->instrument_rig(), StartOfInstrument(scene),
-                               InstrumentLimits(scene))},
-      eye_(std::move(eye)) {
+      by_mouse_{ScriptedDevice(session_->scope_rig(), StartOfScope(loaded.scene),
+                               ScopeLimits(loaded.scene)),
+                ScriptedDevice(session_->instrument_rig(), StartOfInstrument(loaded.scene),
+                               InstrumentLimits(loaded.scene))},
+      eye_(loaded) {
   request_.options = session_->options();
   request_.incision_spacing = session_->incision_spacing();
   request_.view_angle = session_->view_angle();

@@ -21,8 +21,8 @@ namespace arthro::simulation {
 
 class Practice {
  public:
-  // Takes a session of `scene`, deformable tissues included, and the eye of its scope.
-  Practice(std::unique_ptr<Session> session, ScopeEye eye, const Scene& scene);
+  // Takes a session of `loaded`, deformable tissues included.
+  Practice(std::unique_ptr<Session> session, const LoadedScene& loaded);
 
   // Advances the session by `seconds`, or reads what its thread did meanwhile. The hands move at
   // constant speed to their present pose. Of a pause longer than kLongestPause the rest is skipped.

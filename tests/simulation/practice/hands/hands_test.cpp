@@ -133,7 +133,7 @@ class PractisedHands : public testing::Test {
     hands =
         std::make_unique<Hands>(std::move(choice), std::make_unique<SocketBus>(sockets), options);
     hands->Mount(loaded.scene);
-    practice.emplace(std::make_unique<Session>(loaded), loaded.scene);
+    practice.emplace(std::make_unique<Session>(loaded), loaded);
     return *hands;
   }
   void Frame() {
@@ -385,7 +385,7 @@ class PractisedArm : public testing::Test {
   bool IsPushed() { return test::CurrentsAt(usb, kPath) != std::array<int, 3>{}; }
   // Begins a practice and waits until the wall pushes it.
   bool Begin() {
-    practice.emplace(std::make_unique<Session>(loaded), loaded.scene);
+    practice.emplace(std::make_unique<Session>(loaded), loaded);
     hands->HoldDeadMan(false);
     const auto state = [&] { return hands->Now(DeviceRole::kScope).situation.status.state; };
     if (!FramesUntil([&] { return state() == DeviceState::kReady; })) return false;

@@ -65,7 +65,7 @@ class PractisedTouch : public testing::Test {
     hands->Mount(loaded.scene);
     Begin();
   }
-  void Begin() { practice.emplace(std::make_unique<Session>(loaded), loaded.scene); }
+  void Begin() { practice.emplace(std::make_unique<Session>(loaded), loaded); }
   // Moves the hand straight in until the tip is `behind` the wall, m.
   void Place(double behind) {
     const glm::dvec3 hip = RestingHip(rig.instrument->mount, loaded.scene.backdrop.radius + behind);
