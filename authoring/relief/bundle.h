@@ -54,7 +54,7 @@ struct BundleOptions {
   // Ends the adjustment after the iteration at hand once it is set; the caller then stops. May be
   // null.
   const std::atomic<bool>* stop = nullptr;
-  double* focal = nullptr;  // where given, a factor of the focal length is an unknown too
+  double* focal = nullptr;  // factor of the focal length, an unknown if given
 };
 
 // Moves poses and points, and the pivot where there is one, with its turns of the head where they

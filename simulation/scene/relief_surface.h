@@ -19,7 +19,7 @@ enum class ReliefSample {
 
 struct ReliefSurface {
   SurfaceMesh mesh;
-  std::vector<glm::dvec2> pixel;  // of each vertex, in the depth map
+  std::vector<glm::dvec2> pixel;  // place of each vertex in the depth map
 };
 
 // Grid of at most `cells` cells along the longer side of a picture of width x height, with holes

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,6 +33,17 @@ struct BenchArguments {
   Options options;
 };
 
+// Files of a clip with known truth.
+std::vector<std::filesystem::path> FilesOfClip(const std::filesystem::path& clip) {
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"lens.json", "gt.json", "radius.npy"}) files.push_back(clip / name);
+  std::error_code fault;
+  for (const auto& frame : std::filesystem::directory_iterator(clip / "frames", fault))
+    files.push_back(frame.path());
+  return files;
+}
+constexpr InputKind kClipInput{FilesOfClip, nullptr};
+
 // `measure` makes from options and progress a bench that has TableOf, JsonOf and PlotOf.
 template <class Options, class Measure>
 void Run(const BenchArguments<Options>& job, Measure measure) {
@@ -54,6 +67,7 @@ void AddBench(CLI::App& bench, const char* name, const char* help, Measure measu
   files->Output(job->add_option("--plot", own->plot, "Write an SVG of error over time."),
                 kPlotFile);
   AddOptions(*job, own->options);
+  if (CLI::Option* clip = job->get_option_no_throw("--clip")) files->Input(clip, kClipInput);
   files->Run([own, measure] { Run(*own, measure); });
 }
 

@@ -144,12 +144,15 @@ const std::map<std::string, std::string> kOutputs = {
     {"bench micro --plot", "bench micro --plot @X"},
     {"bench panorama --json", "bench panorama --json @X"},
     {"bench panorama --plot", "bench panorama --plot @X"},
+    {"bench relief --json", "bench relief --json @X"},
+    {"bench relief --plot", "bench relief --plot @X"},
     {"bench tissue --json", "bench tissue --json @X"},
     {"bench tissue --plot", "bench tissue --plot @X"},
     {"bench view --json", "bench view --json @X"},
     {"bench view --plot", "bench view --plot @X"},
     {"centres --output", "centres @S -o @X"},
     {"centres --picture", "centres @S -o @new.csv --picture @X"},
+    {"check --report", "check @S --report @X"},
     {"demo --output", "demo -o @X.demo"},
     {"depth --output", "depth @g.png -o @X"},
     {"devices --json", "devices --json @X"},
@@ -166,9 +169,13 @@ const std::map<std::string, std::string> kOutputs = {
     {"practise --record", "practise @S --record @X.mp4"},
     {"rectify --output", "rectify @F --lens @lens.json -o @X.demo"},
     {"relief --confidence", "relief @F --lens @lens.json -o @new.tiff --confidence @X"},
+    {"relief --origin", "relief @F --lens @lens.json -o @new.tiff --origin @X"},
     {"relief --output", "relief @F --lens @lens.json -o @X"},
+    {"relief --panorama", "relief @F --lens @lens.json -o @new.tiff --panorama @X"},
     {"relief --poses", "relief @F --lens @lens.json -o @new.tiff --poses @X"},
     {"relief --report", "relief @F --lens @lens.json -o @new.tiff --report @X"},
+    {"relief --scene", "relief @F --lens @lens.json -o @new.tiff --scene @S"},
+    {"relief --sigma", "relief @F --lens @lens.json -o @new.tiff --sigma @X"},
     {"replay --output", "replay @S @t.csv -o @X"},
     {"replay --pictures", "replay @S @t.csv -o @new.csv --pictures @X.demo"},
     {"replay --report", "replay @S @t.csv -o @new.csv --report @X"},
@@ -242,7 +249,7 @@ TEST_F(JobFiles, AForeignFileWantsOverwriteInEveryJob) {
   for (const char* name : {"report.json", "frame_00000.png", "000001.png"})
     WriteAtomically(At("X.demo") + "/" + name, kForeign);
   for (const auto& [name, arguments] : kOutputs)
-    ExpectRefused(arguments, name == "panorama --scene" ? "S/scene.json" : "X",
+    ExpectRefused(arguments, name.ends_with(" --scene") ? "S/scene.json" : "X",
                   name == "phantom --output" ? "nothing is overwritten" : "--overwrite");
 }
 
