@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 namespace arthro::authoring {
 namespace {
@@ -73,7 +74,15 @@ struct PivotError {
   }
 };
 
+// Keeps the warnings of steps that failed off standard error: the solver tries again with a shorter
+// step, and its summary tells the outcome.
+void SilenceWarnings() {
+  static const bool is_silent = (FLAGS_minloglevel = google::GLOG_ERROR, true);
+  static_cast<void>(is_silent);
+}
+
 ceres::Solver::Options SolverOptions(int iterations) {
+  SilenceWarnings();
   ceres::Solver::Options options;
   options.max_num_iterations = iterations;
   options.function_tolerance = 1e-6;
