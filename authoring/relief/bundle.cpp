@@ -229,50 +229,6 @@ double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
   return std::sqrt(squares / std::max(1, count));
 }
 
-PoseSigma SigmaOf(const std::vector<Track>& tracks, const LensProfile& lens,
-                  const Reconstruction& scene, int frame, double rms_px) {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const CameraPose& pose = *scene.poses[static_cast<std::size_t>(frame)];
-  Matrix6 normal = Matrix6::Zero();
-  double range = 0;
-  int count = 0;
-  for (const TrackPoint& point : scene.points) {
-    const Track& track = tracks[static_cast<std::size_t>(point.track)];
-    for (std::size_t k = 0; k < track.seen.size(); ++k) {
-      if (track.seen[k].frame != frame || !point.uses[k]) continue;
-      const Eigen::Vector3d local = pose.InCamera(point.position);
-      range += local.norm();
-      ++count;
-      // Central differences: three turns, then three shifts as shares of the distance.
-      constexpr double kSmall = 1e-5;
-      Eigen::Matrix<double, 2, 6> by_pose;
-      for (int i = 0; i < 6; ++i) {
-        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i % 3);
-        const Eigen::Vector3d move =
-            kSmall * (i < 3 ? axis.cross(local).eval() : (axis * local.norm()).eval());
-        Eigen::Vector2d up, down;
-        const Eigen::Vector3d a = local + move, b = local - move;
-        lens.Project(a.data(), up.data());
-        lens.Project(b.data(), down.data());
-        by_pose.col(i) = (up - down) / (2 * kSmall);
-        if (i >= 3) by_pose.col(i) /= local.norm();
-      }
-      normal += by_pose.transpose() * by_pose;
-    }
-  }
-  if (count < 6) return {};
-  // Shifts in units of the mean range, so that the matrix is well scaled.
-  range /= count;
-  Eigen::Matrix<double, 6, 1> scale;
-  scale << 1, 1, 1, range, range, range;
-  const Matrix6 scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  const Matrix6 covariance = scaled.ldlt().solve(Matrix6::Identity()) * rms_px * rms_px / 2;
-  const double turn = covariance.topLeftCorner<3, 3>().trace(),
-               shift = covariance.bottomRightCorner<3, 3>().trace();
-  if (!(turn >= 0 && shift >= 0)) return {};
-  return {range * std::sqrt(shift), std::sqrt(turn)};
-}
-
 bool AdjustPose(const std::vector<Eigen::Vector3d>& points,
                 const std::vector<Eigen::Vector2d>& pixels, const LensProfile& lens,
                 CameraPose& pose) {

@@ -62,14 +62,6 @@ struct BundleOptions {
 double AdjustBundle(const std::vector<Track>& tracks, const LensProfile& lens,
                     const BundleOptions& options, Reconstruction& scene, PivotPrior* pivot);
 
-// Standard deviations of a pose while the points stay where they are, from the residuals' rms.
-struct PoseSigma {
-  double centre = 0;    // in the unit of the poses, root of the three variances' sum
-  double rotation = 0;  // rad
-};
-PoseSigma SigmaOf(const std::vector<Track>& tracks, const LensProfile& lens,
-                  const Reconstruction& scene, int frame, double rms_px);
-
 // Refines one pose over points that stay. False where it does not converge.
 bool AdjustPose(const std::vector<Eigen::Vector3d>& points,
                 const std::vector<Eigen::Vector2d>& pixels, const LensProfile& lens,

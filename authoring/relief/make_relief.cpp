@@ -13,6 +13,7 @@
 #include "authoring/relief/finish_surface.h"
 #include "authoring/relief/known_scale.h"
 #include "authoring/relief/measure_relief.h"
+#include "authoring/relief/pose_covariance.h"
 #include "authoring/relief/relief_picture.h"
 #include "authoring/relief/verdict.h"
 #include "simulation/core/error.h"
@@ -25,6 +26,7 @@ namespace {
 
 std::vector<PosedFrame> FramesOf(const MeasuredRelief& made) {
   std::vector<PosedFrame> frames;
+  const PoseSigmas sigmas = SigmasOf(made.tracks, made.lens, made.motion.scene);
   std::size_t used = 0;
   for (const ClipRow& row : made.clip.rows) {
     PosedFrame frame;
@@ -44,11 +46,10 @@ std::vector<PosedFrame> FramesOf(const MeasuredRelief& made) {
             frame.rotation[static_cast<std::size_t>(3 * r + c)] = pose->world_from_camera(r, c);
           frame.centre[static_cast<std::size_t>(r)] = pose->centre[r];
         }
-        const PoseSigma sigma = SigmaOf(made.tracks, made.lens, made.motion.scene,
-                                        static_cast<int>(used), frame.rms_px);
+        const PoseSigma sigma = sigmas.frames[used].value_or(PoseSigma{});
         if (made.has_pivot) frame.head_turn = made.pivot.head_turns[used];
-        frame.sigma_m = sigma.centre;
-        frame.sigma_rad = sigma.rotation;
+        frame.sigma_m = kSharedErrors * sigma.centre;
+        frame.sigma_rad = kSharedErrors * sigma.rotation;
       }
       ++used;
     }
@@ -183,7 +184,13 @@ void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& repor
   const auto posed =
       static_cast<double>(std::count_if(report.frames.begin(), report.frames.end(),
                                         [](const PosedFrame& frame) { return frame.is_posed; }));
-  if (!is_given)
+  constexpr double kFound = 0.1;  // standard error, share of the focal length
+  if (!is_given && !(made.focal_sigma < kFound))
+    report.warnings.push_back(
+        fmt::format("no lens was given and the motion does not tell the focal length: {:.0f} px is "
+                    "a guess; calibrate the scope with `arthroscene lens` and give --lens",
+                    focal));
+  else if (!is_given)
     report.warnings.push_back(fmt::format(
         "no lens was given: the focal length of {:.0f} px ± {:.1f} % was found from the clip; "
         "calibrate the scope with `arthroscene lens` and give --lens for exact shapes",
@@ -269,7 +276,8 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
         // A part of the clip may still be measured; a camera that only turned measures nothing.
         constexpr std::size_t kLeastToShow = 100;
         return report.verdict.is_measured() ||
-               ((report.verdict.kind == "pieces" || report.verdict.kind == "texture") &&
+               ((report.verdict.kind == "pieces" || report.verdict.kind == "texture" ||
+                 report.verdict.kind == "ambiguous") &&
                 so_far.motion.scene.points.size() >= kLeastToShow);
       },
       clock,

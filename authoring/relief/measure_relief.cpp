@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "authoring/relief/frame_inliers.h"
 #include "authoring/relief/growth.h"
 #include "authoring/relief/median.h"
 #include "authoring/relief/self_calibration.h"

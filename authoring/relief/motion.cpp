@@ -1,13 +1,12 @@
 #include "authoring/relief/motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include <Eigen/Dense>
-#include <fmt/format.h>
+#include <Eigen/Geometry>
 
+#include "authoring/relief/frame_inliers.h"
 #include "authoring/relief/growth.h"
 #include "authoring/relief/join_pieces.h"
 #include "authoring/relief/median.h"
@@ -16,11 +15,9 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr int kLeastShared = 40;       // tracks of a pair that a reconstruction starts from
-constexpr int kStarts = 8;             // pairs that are tried as a start of a piece
-constexpr std::size_t kLongTrack = 5;  // observations
-constexpr double kLongReach = 10;      // px of residual, beyond which an observation is wrong
-constexpr int kGrowths = 3;            // starts from which the largest piece is grown
+constexpr int kLeastShared = 40;  // tracks of a pair that a reconstruction starts from
+constexpr int kStarts = 8;        // pairs that are tried as a start of a piece
+constexpr int kGrowths = 4;       // starts from which the largest piece is grown
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
@@ -68,12 +65,40 @@ std::vector<Start> StartsOf(const std::vector<Track>& tracks, const TracksByFram
   return starts;
 }
 
+// How far the tips of `b` lie from those of `a` after the similarity that fits best, rms over the
+// spread of those of `a`; nothing where too few frames have both.
+std::optional<double> DifferenceOf(const Reconstruction& a, const Reconstruction& b) {
+  constexpr Eigen::Index kLeastCommon = 8;  // frames
+  Eigen::Matrix3Xd in_a(3, a.poses.size()), in_b(3, a.poses.size());
+  Eigen::Index common = 0;
+  for (std::size_t f = 0; f < a.poses.size(); ++f) {
+    if (!a.poses[f] || !b.poses[f]) continue;
+    in_a.col(common) = a.poses[f]->centre;
+    in_b.col(common++) = b.poses[f]->centre;
+  }
+  if (common < kLeastCommon) return std::nullopt;
+  in_a.conservativeResize(3, common);
+  in_b.conservativeResize(3, common);
+  const Eigen::Matrix4d a_from_b = Eigen::umeyama(in_b, in_a);
+  const Eigen::Vector3d middle = in_a.rowwise().mean();
+  const double spread = (in_a.colwise() - middle).norm();
+  const Eigen::Matrix3Xd moved =
+      (a_from_b.topLeftCorner<3, 3>() * in_b).colwise() + a_from_b.topRightCorner<3, 1>().eval();
+  if (!(spread > 0)) return std::nullopt;
+  return (moved - in_a).norm() / spread;
+}
+
+struct Piece {
+  Reconstruction scene;
+  double start_difference = 0;  // see Motion
+};
+
 // The largest piece that grows from a pair of free frames; it may reach a few frames further, so
 // that it overlaps the pieces before.
-Reconstruction GrowPiece(const std::vector<Track>& tracks, const TracksByFrame& by_frame,
-                         const LensProfile& lens, const std::vector<Start>& starts,
-                         const std::vector<bool>& is_free, int growths, const Progress& progress,
-                         const MotionObserver& observer) {
+Piece GrowPiece(const std::vector<Track>& tracks, const TracksByFrame& by_frame,
+                const LensProfile& lens, const std::vector<Start>& starts,
+                const std::vector<bool>& is_free, int growths, const Progress& progress,
+                const MotionObserver& observer) {
   constexpr int kApart = 2, kOverlap = 3;  // frames
   const int frames = static_cast<int>(is_free.size());
   // Starts that differ by more than a frame, and of them those with most points.
@@ -98,9 +123,10 @@ Reconstruction GrowPiece(const std::vector<Track>& tracks, const TracksByFrame& 
   for (int f = 0; f < frames; ++f)
     for (int step = -kOverlap; step <= kOverlap; ++step)
       if (f + step >= 0 && f + step < frames && is_free[At(f + step)]) may_add[At(f)] = true;
-  Reconstruction best;
-  best.poses.resize(At(frames));
+  Piece best;
+  best.scene.poses.resize(At(frames));
   int most = 0;
+  std::vector<Reconstruction> grown;
   for (std::size_t i = 0; i < tried.size() && i < At(growths); ++i) {
     Reconstruction scene = tried[i].second;
     if (scene.points.size() < At(kLeastPoints)) break;
@@ -108,26 +134,33 @@ Reconstruction GrowPiece(const std::vector<Track>& tracks, const TracksByFrame& 
     const int posed = PosedFrames(scene);
     if (posed > most) {
       most = posed;
-      best = std::move(scene);
+      best.scene = scene;
     }
-    if (most >= 0.9 * Count(is_free)) break;
+    if (most >= 0.9 * Count(is_free)) return best;
+    grown.push_back(std::move(scene));
   }
+  for (const Reconstruction& other : grown)
+    best.start_difference =
+        std::max(best.start_difference, DifferenceOf(best.scene, other).value_or(0));
   return best;
 }
 
 // Grows pieces until few frames are left, and joins those that share tissue. The first piece of the
-// result is the largest.
+// result is the largest. `start_difference`: that of the first piece, see Motion.
 std::vector<Reconstruction> GrowPieces(std::vector<Track>& tracks, int frames,
                                        const LensProfile& lens, const std::vector<Start>& starts,
-                                       const Progress& progress, const MotionObserver& observer) {
+                                       const Progress& progress, const MotionObserver& observer,
+                                       double& start_difference) {
   constexpr int kLeastPiece = 5, kMostPieces = 6;  // frames, pieces
   std::vector<Reconstruction> pieces;
   std::vector<bool> is_free(At(frames), true);
   TracksByFrame by_frame = IndexByFrame(tracks, frames);
   while (static_cast<int>(pieces.size()) < kMostPieces &&
          (pieces.empty() || Count(is_free) >= kLeastPiece)) {
-    Reconstruction piece = GrowPiece(tracks, by_frame, lens, starts, is_free,
-                                     pieces.empty() ? kGrowths : 1, progress, observer);
+    Piece grown = GrowPiece(tracks, by_frame, lens, starts, is_free, pieces.empty() ? kGrowths : 1,
+                            progress, observer);
+    Reconstruction& piece = grown.scene;
+    if (pieces.empty()) start_difference = grown.start_difference;
     int added = 0;
     for (std::size_t f = 0; f < is_free.size(); ++f)
       if (is_free[f] && piece.poses[f]) is_free[f] = false, ++added;
@@ -156,96 +189,7 @@ std::vector<Reconstruction> GrowPieces(std::vector<Track>& tracks, int frames,
   return pieces;
 }
 
-// Residuals of one area of one frame that point the same way: tissue that moved, not noise.
-class Coherence {
- public:
-  void Add(const Observation& seen, const Eigen::Vector2d& residual) {
-    constexpr double kArea = 60;  // px
-    areas_[{seen.frame, static_cast<int>(seen.pixel.x() / kArea),
-            static_cast<int>(seen.pixel.y() / kArea)}]
-        .push_back(residual);
-  }
-
-  // Root mean square over the areas of the median residual.
-  double Rms() const {
-    constexpr std::size_t kLeast = 5;  // residuals of an area
-    double squares = 0;
-    int count = 0;
-    for (const auto& [area, residuals] : areas_) {
-      if (residuals.size() < kLeast) continue;
-      std::vector<double> x, y;
-      for (const Eigen::Vector2d& r : residuals) x.push_back(r.x()), y.push_back(r.y());
-      squares += Median(x) * Median(x) + Median(y) * Median(y);
-      ++count;
-    }
-    return std::sqrt(squares / std::max(1, count));
-  }
-
- private:
-  std::map<std::array<int, 3>, std::vector<Eigen::Vector2d>> areas_;
-};
-
-Eigen::Vector2d ResidualOf(const CameraPose& pose, const LensProfile& lens,
-                           const Eigen::Vector3d& point, const Observation& seen) {
-  Eigen::Vector2d at;
-  lens.Project(pose.InCamera(point).data(), at.data());
-  return at - seen.pixel;
-}
-
 }  // namespace
-
-void CountInliers(const std::vector<Track>& tracks, const LensProfile& lens, Motion& motion) {
-  std::vector<double> squares(motion.frames.size(), 0);
-  std::vector<int> points(motion.frames.size(), 0);
-  for (MotionFrame& frame : motion.frames) frame.inliers = frame.tracks = 0;
-  for (const Track& track : tracks)
-    for (const Observation& seen : track.seen) ++motion.frames[At(seen.frame)].tracks;
-  Coherence coherence;
-  for (const TrackPoint& point : motion.scene.points) {
-    const Track& track = tracks[At(point.track)];
-    for (const Observation& seen : track.seen) {
-      const auto& pose = motion.scene.poses[At(seen.frame)];
-      if (!pose) continue;
-      const double error = PixelErrorOf(*pose, lens, point.position, seen);
-      ++points[At(seen.frame)];
-      if (track.seen.size() >= kLongTrack && error < kLongReach)
-        coherence.Add(seen, ResidualOf(*pose, lens, point.position, seen));
-      if (error >= kInlier) continue;
-      ++motion.frames[At(seen.frame)].inliers;
-      squares[At(seen.frame)] += error * error;
-    }
-  }
-  // Long tracks that no point explains count too: that is how tissue looks that moved.
-  std::vector<bool> has_point(tracks.size(), false);
-  for (const TrackPoint& point : motion.scene.points) has_point[At(point.track)] = true;
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    if (has_point[t] || tracks[t].seen.size() < kLongTrack) continue;
-    const auto point = NearestPoint(motion.scene, tracks[t]);
-    if (!point) continue;
-    for (const Observation& seen : tracks[t].seen)
-      if (const auto& pose = motion.scene.poses[At(seen.frame)];
-          pose && PixelErrorOf(*pose, lens, *point, seen) < kLongReach)
-        coherence.Add(seen, ResidualOf(*pose, lens, *point, seen));
-  }
-  motion.coherent_residual_px = coherence.Rms();
-  for (std::size_t f = 0; f < motion.frames.size(); ++f) {
-    MotionFrame& frame = motion.frames[f];
-    frame.rms_px = std::sqrt(squares[f] / std::max(1, frame.inliers));
-    if (motion.scene.poses[f] &&
-        (frame.inliers < kLeastPoints || frame.inliers < kLeastShare * points[f]))
-      motion.scene.poses[f].reset();
-    frame.reason =
-        motion.scene.poses[f] ? ""
-        : frame.tracks < kLeastShared
-            ? fmt::format("only {} points could be followed into it", frame.tracks)
-        : frame.other_piece > 0
-            ? fmt::format(
-                  "it belongs to part {} of the clip, which shows no tissue that was "
-                  "recognised in the largest part",
-                  frame.other_piece + 1)
-            : fmt::format("its {} points do not agree with the other frames", frame.tracks);
-  }
-}
 
 Motion SolveMotion(std::vector<Track>& tracks, int frames, const LensProfile& lens,
                    const Progress& progress, const MotionObserver& observer) {
@@ -254,7 +198,8 @@ Motion SolveMotion(std::vector<Track>& tracks, int frames, const LensProfile& le
   motion.scene.poses.resize(At(frames));
   const std::vector<Start> starts =
       StartsOf(tracks, IndexByFrame(tracks, frames), lens, progress, motion);
-  std::vector<Reconstruction> pieces = GrowPieces(tracks, frames, lens, starts, progress, observer);
+  std::vector<Reconstruction> pieces =
+      GrowPieces(tracks, frames, lens, starts, progress, observer, motion.start_difference);
   for (std::size_t piece = 1; piece < pieces.size(); ++piece)
     for (std::size_t f = 0; f < pieces[piece].poses.size(); ++f)
       if (pieces[piece].poses[f]) motion.frames[f].other_piece = static_cast<int>(piece);

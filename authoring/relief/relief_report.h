@@ -20,7 +20,7 @@ struct PosedFrame {
   std::string reason;                 // why it has no pose; "" when it has
   std::array<double, 9> rotation{};   // portal_from_camera, row-major: right, down, view
   std::array<double, 3> centre{};     // the tip, m, portal frame
-  double sigma_m = 0, sigma_rad = 0;  // standard deviations of the pose while the points stay
+  double sigma_m = 0, sigma_rad = 0;  // standard deviations; 0: not known
   double head_turn = 0;               // rad, of the camera head on the shaft
   int tracks = 0, inliers = 0;
   double rms_px = 0;

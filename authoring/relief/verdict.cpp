@@ -13,6 +13,7 @@ ReliefVerdict JudgeMotion(const Motion& motion) {
   constexpr double kTexture = 0.3;       // share of the frames that keep as many
   constexpr double kMoves = 1.5;         // px of residual that neighbours share
   constexpr double kLargestPiece = 0.5;  // share of the usable frames
+  constexpr double kSamePath = 0.1;      // share of the path's spread
   const double frames = std::max<double>(1, motion.frames.size());
   const auto share = [&](auto&& is_true) {
     return std::count_if(motion.frames.begin(), motion.frames.end(), is_true) / frames;
@@ -52,6 +53,12 @@ ReliefVerdict JudgeMotion(const Motion& motion) {
             "points that are seen for long do not stay in place; take footage in which the tissue "
             "is at rest and no instrument touches it",
             "residual that neighbouring tracks share, px", motion.coherent_residual_px, kMoves};
+  if (motion.start_difference > kSamePath)
+    return {"ambiguous",
+            "several ways of the scope explain the clip equally well; take footage that moves more "
+            "slowly, with more texture or fewer highlights",
+            "difference between the paths from different starts over their spread",
+            motion.start_difference, kSamePath};
   return {};
 }
 

@@ -6,7 +6,7 @@
 
 namespace arthro::authoring {
 
-// After the poses: still, rotation_only, texture, tissue_moves or pieces; else measured.
+// After the poses: still, rotation_only, texture, tissue_moves, pieces or ambiguous; else measured.
 ReliefVerdict JudgeMotion(const Motion& motion);
 
 // After the portal: pivot, where shafts that turn widely do not meet in one point, so that the

@@ -123,6 +123,14 @@ TEST(JudgePivot, RefusesShaftsThatTurnWidelyAndDoNotMeet) {
   EXPECT_TRUE(JudgePivot(0.26, 0.01).is_measured()) << "insertion alone does not place the portal";
 }
 
+TEST(JudgeMotion, RefusesAClipThatTwoPathsExplain) {
+  Motion motion = MotionOf({});
+  EXPECT_TRUE(JudgeMotion(motion).is_measured());
+  EXPECT_EQ(motion.start_difference, 0) << "one start explains all frames";
+  motion.start_difference = 0.11;
+  EXPECT_EQ(JudgeMotion(motion).kind, "ambiguous");
+}
+
 TEST(JudgeMotion, NamesMissingTexture) {
   CavityOptions options;
   options.points = 30;
