@@ -51,8 +51,11 @@ std::vector<Start> StartsOf(const std::vector<Track>& tracks, const TracksByFram
       if (static_cast<int>(shared.size()) < kLeastShared) continue;
       const double residual = FitRotation(tracks, shared).median * lens.focal_px();
       residuals.push_back(residual);
-      constexpr double kEnough = 12;  // px of parallax, beyond which more does not help
-      starts.push_back({a, b, std::min(residual, kEnough) * std::min<double>(shared.size(), 400)});
+      constexpr double kEnough = 12;      // px of parallax, beyond which more does not help
+      constexpr std::size_t kMany = 400;  // tracks
+      starts.push_back(
+          {a, b,
+           std::min(residual, kEnough) * static_cast<double>(std::min(shared.size(), kMany))});
     }
   }
   if (!residuals.empty()) {

@@ -148,8 +148,8 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const std::optional
   std::vector<cv::Mat> pictures;
   footage.Rewind();
   for (const int index : chosen) {
-    reading.Step("reading the chosen frames",
-                 0.5 + 0.5 * static_cast<double>(pictures.size()) / chosen.size());
+    reading.Step("reading the chosen frames", 0.5 + 0.5 * static_cast<double>(pictures.size()) /
+                                                        static_cast<double>(chosen.size()));
     while (footage.index() + 1 < index)
       if (!footage.Skip()) break;
     if (!footage.Next(raw) || raw.size() != cv::Size(info.width, info.height))

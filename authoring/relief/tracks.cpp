@@ -187,7 +187,8 @@ void AddFlow(const std::vector<WorkingFrame>& frames, const std::vector<FlowFram
              const ReliefOptions& options, const Progress& progress, PointGroups& groups) {
   std::vector<int> alive;  // last sightings
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    progress.Step("following points", 0.6 * static_cast<double>(k) / frames.size());
+    progress.Step("following points",
+                  0.6 * static_cast<double>(k) / static_cast<double>(frames.size()));
     const int frame = static_cast<int>(k);
     std::vector<int> next;
     std::vector<cv::Point2f> taken;

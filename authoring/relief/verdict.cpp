@@ -14,9 +14,10 @@ ReliefVerdict JudgeMotion(const Motion& motion) {
   constexpr double kMoves = 1.5;         // px of residual that neighbours share
   constexpr double kLargestPiece = 0.5;  // share of the usable frames
   constexpr double kSamePath = 0.1;      // share of the path's spread
-  const double frames = std::max<double>(1, motion.frames.size());
+  const double frames = std::max(1.0, static_cast<double>(motion.frames.size()));
   const auto share = [&](auto&& is_true) {
-    return std::count_if(motion.frames.begin(), motion.frames.end(), is_true) / frames;
+    const auto count = std::count_if(motion.frames.begin(), motion.frames.end(), is_true);
+    return static_cast<double>(count) / frames;
   };
   const double tracked = share([](const MotionFrame& f) { return f.tracks >= kVerified; });
   if (tracked < kTexture)
