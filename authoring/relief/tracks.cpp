@@ -182,11 +182,23 @@ std::vector<std::pair<int, int>> MatchFeatures(const Features& a, const Features
   return pairs;
 }
 
-// Flow from each frame to the next, and over one frame for points that were lost in it.
-void AddFlow(const std::vector<WorkingFrame>& frames, const std::vector<FlowFrame>& flows,
-             const ReliefOptions& options, const Progress& progress, PointGroups& groups) {
+// Flow from each frame to the next, and over one frame for points that were lost in it. Holds the
+// pyramids of a few frames at a time: they are seven times as large as a frame.
+void AddFlow(const std::vector<WorkingFrame>& frames, const ReliefOptions& options,
+             const Progress& progress, std::vector<FlowFrame>& flows, PointGroups& groups) {
+  constexpr std::size_t kAtOnce = 16;  // pyramids that are built in parallel
+  Progress quiet;                      // the loop below reports
+  quiet.stop = progress.stop;
   std::vector<int> alive;  // last sightings
   for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (k % kAtOnce == 0)
+      ForEachIndex(static_cast<int>(std::min(kAtOnce, frames.size() - k)), options.threads, quiet,
+                   "following points", [&](int i) {
+                     const std::size_t at = k + static_cast<std::size_t>(i);
+                     cv::buildOpticalFlowPyramid(frames[at].grey, flows[at].pyramid,
+                                                 {kWindow, kWindow}, kPyramid);
+                   });
+    if (k > 2) flows[k - 3].pyramid.clear();
     progress.Step("following points",
                   0.6 * static_cast<double>(k) / static_cast<double>(frames.size()));
     const int frame = static_cast<int>(k);
@@ -287,8 +299,6 @@ std::vector<Track> FollowPoints(const std::vector<WorkingFrame>& frames, const L
   ForEachIndex(static_cast<int>(frames.size()), options.threads, progress, "following points",
                [&](int i) {
                  const auto at = static_cast<std::size_t>(i);
-                 cv::buildOpticalFlowPyramid(frames[at].grey, flows[at].pyramid, {kWindow, kWindow},
-                                             kPyramid);
                  cv::Mat padded;
                  cv::copyMakeBorder(frames[at].mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
                  cv::erode(padded, padded, cv::Mat(), {-1, -1}, kMargin);
@@ -296,7 +306,8 @@ std::vector<Track> FollowPoints(const std::vector<WorkingFrame>& frames, const L
                      padded(cv::Rect(1, 1, frames[at].mask.cols, frames[at].mask.rows)).clone();
                });
   PointGroups groups;
-  AddFlow(frames, flows, options, progress, groups);
+  AddFlow(frames, options, progress, flows, groups);
+  for (FlowFrame& flow : flows) flow.pyramid.clear();
   const std::vector<Features> features = AddFeatures(frames, flows, options, progress, groups);
 
   std::vector<std::vector<Sighting>> all = groups.Groups();
