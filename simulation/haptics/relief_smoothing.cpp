@@ -275,8 +275,11 @@ Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothi
   Plane near =
       NearSteps(depth.width, depth.height, smooth, sigma, wanted.deviation, wanted.pixel_size);
   if (near.empty()) return near;
-  for (const int gap : {1, 2, 4, 8}) Widen(near, depth.width, depth.height, gap, {}, scratch);
-  return near;
+  // Fades over some 10 px; pixels beyond the border count as those beside it.
+  Sums fading{std::move(near), Plane(depth.relief.size(), 1.0f)};
+  for (Plane* plane : {&fading.value, &fading.mass})
+    for (const int gap : {1, 2, 4, 8}) Widen(*plane, depth.width, depth.height, gap, {}, scratch);
+  return Ratio(fading);
 }
 
 }  // namespace
