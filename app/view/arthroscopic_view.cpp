@@ -288,6 +288,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   frame.light_reach = p.backdrop->light_reach();
   frame.light_colour = LightOf(p.backdrop->footage_light().bright);
   frame.surround = p.backdrop->footage_light().mean;
+  frame.contact = p.backdrop->BeginContact();
   p.ShowTool(picture, frame);
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
     frame.light_colour = p.LightColourAt(i);
@@ -296,6 +297,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
     p.tissues[i]->Show(!picture.plain);
   }
   p.window->Render();
+  p.backdrop->EndContact();
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, size);
 }

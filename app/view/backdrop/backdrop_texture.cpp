@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view/backdrop/relief_filling.h"
 #include "app/view/backdrop/relief_outlines.h"
 
 namespace arthro::app {
@@ -31,6 +32,26 @@ void BlurLine(float* line, int count, int stride, int radius, bool periodic,
     line[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<float>(sum / (2 * radius + 1));
     sum += at(i + radius + 1) - at(i - radius);
   }
+}
+
+// Blurs `channels` interleaved planes in place by two means of lines in each direction, of the
+// standard deviation `deviation` in all.
+void BlurPlanes(std::vector<float>& planes, int width, int height, int channels, double deviation,
+                bool periodic) {
+  // A mean over 2 r + 1 values has the variance ((2 r + 1)² − 1) / 12.
+  const int radius =
+      static_cast<int>(std::lround(0.5 * (std::sqrt(1 + 6 * deviation * deviation) - 1)));
+  if (radius <= 0) return;
+  std::vector<float> copy;
+  for (int pass = 0; pass < 2; ++pass)
+    for (int c = 0; c < channels; ++c) {
+      for (int y = 0; y < height; ++y)
+        BlurLine(&planes[static_cast<std::size_t>(y * width * channels + c)], width, channels,
+                 radius, periodic, copy);
+      for (int x = 0; x < width; ++x)
+        BlurLine(&planes[static_cast<std::size_t>(x * channels + c)], height, width * channels,
+                 radius, false, copy);
+    }
 }
 
 // Coarser than the panorama, because it is smooth.
@@ -142,11 +163,11 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
   };
   DepthMap drawn = shrunk(depth);
   SmoothOutlines(drawn, whole_turn, shrunk(sigma));
+  FillUnknown(drawn);
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {
-      const float h = drawn.at(x, y);
       float* at = texel(x, y);
-      at[0] = std::isfinite(h) ? h : 0.0f;
+      at[0] = drawn.at(x, y);
       at[3] = Bilinear(mask, (x + 0.5) / relief.width, (y + 0.5) / relief.height);
     }
   for (int y = 0; y < relief.height; ++y) {
@@ -211,7 +232,7 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
   return ceiling;
 }
 
-BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
+BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double blur) {
   constexpr int kBlocks = 512;
   constexpr float kStep = 3e-4f;  // m per texel; a slope of this size has half the weight
   const int block = (std::max(relief.width, relief.height) + kBlocks - 1) / kBlocks;
@@ -234,6 +255,7 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
       float* to = &sums[of(x / block, y / block)];
       to[0] += weight * at[1], to[1] += weight * at[2], to[2] += weight;
     }
+  BlurPlanes(sums, broad.width, broad.height, 3, blur / block, whole_turn);
   broad.slopes.resize(2 * sums.size() / 3);
   for (int y = 0; y < broad.height; ++y)
     for (int x = 0; x < broad.width; ++x) {

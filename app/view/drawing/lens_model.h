@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -38,6 +39,15 @@ struct LensShade {
   glm::dvec3 lamp{0.0, kLampAside, 0.0};
 };
 
+// Relief that models meet, as the backdrop's texture. Lengths in m.
+struct ReliefContact {
+  int texture_unit = -1;  // while a frame is drawn; -1: there is no relief
+  glm::dvec3 tip{0.0}, right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, ahead{0.0, 0.0, 1.0};
+  double radius = 0;                   // radius of the backdrop
+  glm::dvec2 centre{0.0}, scale{1.0};  // projection, texture units
+  bool is_equirectangular = false, wraps = false;
+};
+
 // Values that all models of a frame share.
 struct LensFrame {
   double field_of_view = 1.57;  // full, rad
@@ -46,6 +56,7 @@ struct LensFrame {
   double light_reach = 0.03;    // m
   double gain = 1, relit = 0;   // camera gain; share of the scope's own lamp in the light
   LensShade shade;
+  ReliefContact contact;
   glm::dvec3 light_colour{1.0};  // linear; colour of white under lamp and camera
   glm::dvec3 surround{0.2};      // linear; colour that a shining surface mirrors
 };
@@ -77,9 +88,12 @@ class LensModel {
   void Assemble();
   void Set(const char* given_name, double value);
   void Set(const char* given_name, const glm::dvec3& value);
+  // Hands the relief's texture to the program that is about to draw.
+  void SetSamplers(vtkObject* caller, unsigned long event, void* program);
 
   Look look_;
   bool has_lens_ = false;  // not the equisolid lens
+  ReliefContact contact_;
   bool is_closed_ = false;
   Pose pose_;
   glm::dvec3 colour_{1.0};

@@ -63,6 +63,34 @@ TEST(BroadSlopes, SuppressTheNoiseOfTexels) {
   EXPECT_LT(after, before / 8);
 }
 
+// Twelve texels of further smoothing leave a third of the noise at most, and the slope of a plane.
+TEST(BroadSlopes, SmoothedFurtherHaveLessNoiseAndKeepAPlane) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  DepthMap rough(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      rough.at(x, y) = static_cast<float>(0.01 + 8e-6 * x + noise(random));
+  const ReliefTexture relief = ReliefOf(rough);
+  const auto rms = [&](const BroadSlopes& broad) {
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int y = 60; y < kHeight - 60; y += 3)
+      for (int x = 60; x < kWidth - 60; x += 3, ++count) {
+        const double slope = SlopeAt(broad, x, y).x;
+        sum += slope, squares += slope * slope;
+      }
+    EXPECT_NEAR(sum / count, 8e-6, 1e-6);
+    return std::sqrt(squares / count - std::pow(sum / count, 2));
+  };
+  EXPECT_LT(rms(MakeBroadSlopes(relief, false, 12)), rms(MakeBroadSlopes(relief, false)) / 3);
+  DepthMap plane(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) plane.at(x, y) = static_cast<float>(0.01 + 8e-6 * x);
+  const BroadSlopes smooth = MakeBroadSlopes(ReliefOf(plane), false, 12);
+  for (int x = 0; x < kWidth; x += 5) EXPECT_NEAR(SlopeAt(smooth, x, 300).x, 8e-6, 1e-8) << x;
+}
+
 // A step of 5 mm in a plane: beside it the slope is the plane's own, on it far below the step's.
 TEST(BroadSlopes, GiveAStepALowWeight) {
   DepthMap cliff(kWidth, kHeight);

@@ -97,6 +97,49 @@ TEST_F(ModelsView, ReliefHidesOnlyTissueBehindIt) {
   }
 }
 
+// A ball of 4 mm whose centre lies 3 mm below a level relief, seen from above. Where it meets the
+// relief its side rises by 0.3 mm over 0.39 mm, which are 9 px; the middle half of a smooth step
+// over them is 3 px. Higher up the ball hides the relief wholly.
+TEST_F(ModelsView, ATissueFadesIntoTheReliefWhereTheTwoMeet) {
+  constexpr int kSize = 512;
+  constexpr double kRelief = 0.02;
+  for (const ProjectionType type : {ProjectionType::kGnomonic, ProjectionType::kEquirectangular}) {
+    Backdrop backdrop;
+    backdrop.projection.type = type;
+    backdrop.projection.centre_px = {255.5, 255.5};
+    backdrop.projection.focal_px = 250;
+    backdrop.projection.px_per_deg = 5;
+    ColourImage panorama(kSize, kSize);
+    for (std::size_t i = 0; i < panorama.rgb.size(); i += 3) panorama.rgb[i + 2] = 200;  // blue
+    view_->SetBackdrop(panorama, DepthMap(kSize, kSize, kRelief), backdrop);
+    Tissue ball;
+    ball.pose.position = {0, 0, backdrop.radius - kRelief + 0.003};
+    ball.colour = glm::dvec3(0.8, 0.2, 0.2);
+    const std::vector<SharedSurface> surfaces = {Share(Ellipsoid(glm::dvec3(0.004), 96, 48))};
+    view_->SetTissues(std::span(&ball, 1), surfaces);
+    Picture picture = PictureFromPose({0, 0, 0, 0.018}, 0.0, std::numbers::pi / 2);
+    picture.relief = app::kUsualRelief;
+    view_->Render(picture, kSize);
+    const ColourImage drawn = view_->ReadPixels();
+    // Share of the ball, by the blue that its red does not explain.
+    const auto* pure = drawn.at(kSize / 2, kSize / 2);
+    const double blue_of_ball = pure[2] / double(pure[0]), ground = drawn.at(60, kSize / 2)[2];
+    const auto share = [&](int x) {
+      const auto* pixel = drawn.at(x, kSize / 2);
+      return 1 - (pixel[2] - blue_of_ball * pixel[0]) / ground;
+    };
+    for (const int way : {-1, 1}) {
+      int between = 0;
+      for (int x = kSize / 2; x > 80 && x < kSize - 80; x += way) {
+        between += share(x) > 0.25 && share(x) < 0.75 ? 1 : 0;
+      }
+      std::printf("%s: %d px between\n", way < 0 ? "left" : "right", between);
+      EXPECT_GE(between, 2);
+      EXPECT_LE(between, 6);
+    }
+  }
+}
+
 TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
