@@ -121,7 +121,7 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
     const BroadSlopes broad = MakeBroadSlopes(
         relief, wraps_,
         kLampBlur * SmoothingPx(depth, sigma, backdrop_) * relief.width / std::max(depth.width, 1));
-    Fill(*slopes_, window, broad.width, broad.height, 2, VTK_FLOAT, broad.slopes.data());
+    Fill(*slopes_, window, broad.width, broad.height, 3, VTK_FLOAT, broad.slopes.data());
   }
   is_noisy_ = is_known;
   unsearched_ = std::move(relief);

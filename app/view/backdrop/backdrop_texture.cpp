@@ -234,7 +234,8 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
 
 BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double blur) {
   constexpr int kBlocks = 512;
-  constexpr float kStep = 3e-4f;  // m per texel; a slope of this size has half the weight
+  constexpr float kStep = 3e-4f;     // m per texel; a slope of this size has half the weight
+  constexpr float kSteep = 1.5e-4f;  // m per texel; an outline, as relief_outlines.cpp finds them
   const int block = (std::max(relief.width, relief.height) + kBlocks - 1) / kBlocks;
   BroadSlopes broad;
   broad.width = (relief.width + block - 1) / block;
@@ -244,6 +245,7 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double
                 static_cast<std::size_t>(x));
   };
   std::vector<float> sums(of(0, broad.height), 0.0f);  // along u, along v, weight
+  std::vector<std::uint8_t> has_step(sums.size() / 3, 0);
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {
       const float* at =
@@ -254,22 +256,26 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double
       const float weight = 1 / (1 + (u * u + v * v) / (kStep * kStep));
       float* to = &sums[of(x / block, y / block)];
       to[0] += weight * at[1], to[1] += weight * at[2], to[2] += weight;
+      if (u * u + v * v > kSteep * kSteep) has_step[of(x / block, y / block) / 3] = 1;
     }
   BlurPlanes(sums, broad.width, broad.height, 3, blur / block, whole_turn);
-  broad.slopes.resize(2 * sums.size() / 3);
+  broad.slopes.resize(sums.size());
   for (int y = 0; y < broad.height; ++y)
     for (int x = 0; x < broad.width; ++x) {
       float sum[3] = {};
+      bool is_beside_step = false;
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
           const int column = whole_turn ? (x + i + broad.width) % broad.width
                                         : std::clamp(x + i, 0, broad.width - 1);
-          const float* from = &sums[of(column, std::clamp(y + j, 0, broad.height - 1))];
+          const std::size_t at = of(column, std::clamp(y + j, 0, broad.height - 1));
+          is_beside_step = is_beside_step || has_step[at / 3] != 0;
+          const float* from = &sums[at];
           const auto share = static_cast<float>((2 - std::abs(i)) * (2 - std::abs(j)));
           for (int c = 0; c < 3; ++c) sum[c] += share * from[c];
         }
-      float* to = &broad.slopes[2 * of(x, y) / 3];
-      to[0] = sum[0] / sum[2], to[1] = sum[1] / sum[2];
+      float* to = &broad.slopes[of(x, y)];
+      to[0] = sum[0] / sum[2], to[1] = sum[1] / sum[2], to[2] = is_beside_step ? 0.0f : 1.0f;
     }
   return broad;
 }

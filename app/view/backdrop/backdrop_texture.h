@@ -49,7 +49,9 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 // which a relief with known noise asks for.
 struct BroadSlopes {
   int width = 0, height = 0;
-  std::vector<float> slopes;  // two per block: along u and along v, like those of a ReliefTexture
+  // Three values per block: slopes along u and along v, like those of a ReliefTexture; and 0 beside
+  // a step, where no slope is that of a surface, else 1.
+  std::vector<float> slopes;
 };
 BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double blur = 0);
 

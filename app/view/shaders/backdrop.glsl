@@ -92,7 +92,7 @@ void main() {
        dy = vec2(dot(alongU, acrossY), dot(alongV, acrossY));
 
 #ifdef RELIT
-  vec2 broad = perRadius * textureLod(broadSlopes, uv, 0.0).rg;
+  vec3 broad = textureLod(broadSlopes, uv, 0.0).rgb * vec3(perRadius, perRadius, 1.0);
 #endif
   float wall = 0.0;
 #if defined(RELIEF) && !defined(PLAIN)
@@ -156,7 +156,8 @@ void main() {
 #endif
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
-  float wet = lamp * (kSheen * shine16 + glints.x * shine64 * shine64 * shine64 + glints.y * shine64);
+  float glint = glints.x * shine64 * shine64 * shine64 + glints.y * shine64;
+  float wet = lamp * (kSheen * shine16 + glint) * broad.z;
   vec3 body =
       colour * colour *
       mix(light, lamp * (kRelitAmbient + (1.0 - kRelitAmbient) * faces) * (1.0 - kWallShade * wall),

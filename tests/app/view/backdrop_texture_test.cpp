@@ -18,7 +18,7 @@ ReliefTexture ReliefOf(const DepthMap& depth, bool whole_turn = false) {
 // Slopes at a texel along u and along v, m per texel.
 glm::dvec2 SlopeAt(const BroadSlopes& broad, int x, int y) {
   const int block = kWidth / broad.width;
-  const float* at = &broad.slopes[2 * (static_cast<std::size_t>(y / block) *
+  const float* at = &broad.slopes[3 * (static_cast<std::size_t>(y / block) *
                                            static_cast<std::size_t>(broad.width) +
                                        static_cast<std::size_t>(x / block))];
   return {at[0] / kWidth, at[1] / kHeight};
@@ -100,6 +100,16 @@ TEST(BroadSlopes, GiveAStepALowWeight) {
   const BroadSlopes broad = MakeBroadSlopes(ReliefOf(cliff), false);
   for (const int x : {600, 690, 709, 800}) EXPECT_NEAR(SlopeAt(broad, x, 300).x, 8e-6, 1e-7) << x;
   EXPECT_LT(std::abs(SlopeAt(broad, 700, 300).x), 1e-4);
+  // Beside it there is no glint, else a bright line would follow each outline.
+  const auto glints = [&](int x) {
+    const int block = kWidth / broad.width;
+    return broad
+        .slopes[3 * (static_cast<std::size_t>(300 / block) * static_cast<std::size_t>(broad.width) +
+                     static_cast<std::size_t>(x / block)) +
+                2];
+  };
+  for (const int x : {699, 700}) EXPECT_EQ(glints(x), 0.0f) << x;
+  for (const int x : {600, 690, 709, 800}) EXPECT_EQ(glints(x), 1.0f) << x;
 }
 
 TEST(BroadSlopes, AFullTurnHasNoSeam) {
@@ -114,9 +124,10 @@ TEST(BroadSlopes, AFullTurnHasNoSeam) {
 
 TEST(BroadSlopes, AreZeroForOneTexelAndWithoutADepthMap) {
   EXPECT_EQ(MakeBroadSlopes(ReliefOf(DepthMap(1, 1, 0.01f)), true).slopes,
-            (std::vector<float>{0, 0}));
-  for (const float slope : MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false).slopes)
-    EXPECT_EQ(slope, 0.0f);
+            (std::vector<float>{0, 0, 1}));
+  const BroadSlopes bare = MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false);
+  for (std::size_t i = 0; i < bare.slopes.size(); ++i)
+    EXPECT_EQ(bare.slopes[i], i % 3 == 2 ? 1.0f : 0.0f);
 }
 
 }  // namespace
