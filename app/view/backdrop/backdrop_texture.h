@@ -49,8 +49,8 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 // which a relief with known noise asks for.
 struct BroadSlopes {
   int width = 0, height = 0;
-  // Three values per block: slopes along u and along v, like those of a ReliefTexture; and 0 beside
-  // a step, where no slope is that of a surface, else 1.
+  // Three values per block: slopes along u and along v, like those of a ReliefTexture; and 1, or 0
+  // near steps, where no slope is that of a surface.
   std::vector<float> slopes;
 };
 BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double blur = 0);

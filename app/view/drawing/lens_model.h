@@ -18,26 +18,13 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include "app/view/drawing/lens_shade.h"
 #include "app/view/drawing/metered_models.h"
-#include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
-
-// Instrument as it shades what is behind it: its rod, and the part that stands away from it, a hook
-// or an open jaw. m, in the lens frame (x right, y up, -z along the view).
-struct LensRod {
-  glm::dvec3 from{0.0}, to{0.0};
-  double radius = 0;  // 0: no such part
-};
-struct LensShade {
-  LensRod rod, head;
-  // Place of the light fibres: beside the lens, on the side of the scope's mark, where they stay
-  // when the camera head turns.
-  glm::dvec3 lamp{0.0, kLampAside, 0.0};
-};
 
 // Relief that models meet, as the backdrop's texture. Lengths in m.
 struct ReliefContact {
