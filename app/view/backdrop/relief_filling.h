@@ -6,8 +6,8 @@
 
 namespace arthro::app {
 
-// Replaces unknown values (NaN) by means of the known ones around them, over ever larger blocks
-// [Gortler et al. 1996, pull-push]. Known values stay. A map without any becomes 0.
+// Replaces unknown values (NaN) by means of the known ones around them, over ever larger blocks,
+// by pull and push [Gortler et al. 1996]. Known values stay. A map without any becomes 0.
 void FillUnknown(DepthMap& relief);
 
 }  // namespace arthro::app
