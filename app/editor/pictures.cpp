@@ -29,15 +29,6 @@ bool Same(const Picture& a, const Picture& b) {
          a.instrument == b.instrument && a.disturbances == b.disturbances;
 }
 
-// Converts a projection to the pixels of a smaller picture, whose pixel (x, y) covers
-// x·factor … x·factor + factor − 1.
-Projection Shrunk(Projection projection, double factor) {
-  projection.centre_px = (projection.centre_px - 0.5 * (factor - 1.0)) / factor;
-  projection.focal_px /= factor;
-  projection.px_per_deg /= factor;
-  return projection;
-}
-
 // Picture of the tools that the author holds while no session runs.
 Picture AuthorsPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
   const Scene& scene = state.document().scene;

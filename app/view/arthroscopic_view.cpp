@@ -21,6 +21,7 @@
 #include "app/view/drawing/srgb.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
+#include "app/view/instruments/tool_shade.h"
 #include "app/view/shaders/constants.h"
 #include "simulation/core/error.h"
 
@@ -40,37 +41,6 @@ glm::dvec3 LightOf(const glm::dvec3& bright) {
   if (!(luma > 0.0)) return glm::dvec3(1.0);
   const double level = std::clamp(luma / kWhite, 0.25, 1.1);
   return level * (kTint * bright / luma + (1.0 - kTint));
-}
-
-bool ShowsTool(const Picture& picture) {
-  return picture.instrument && !picture.plain &&
-         glm::distance(picture.instrument->proxy, picture.instrument->portal) > 1e-6;
-}
-
-// Returns the shading parts of the instrument: its rod, and the hook or moving jaw of its contact
-// shape.
-LensShade ShadeOf(const Picture& picture, const simulation::ToolShape& shape) {
-  LensShade shade;
-  shade.lamp = kLampAside * glm::dvec3(std::sin(picture.notch), std::cos(picture.notch), 0.0);
-  if (!ShowsTool(picture)) return shade;
-  const auto in_lens = [&view = picture.view](const glm::dvec3& x) {
-    const glm::dvec3 d = x - view.tip;
-    return glm::dvec3(glm::dot(d, view.right), glm::dot(d, view.up), -glm::dot(d, view.view));
-  };
-  constexpr double kProbe = 0.9e-3, kOther = 1.7e-3;  // m, radii of the shafts' ends
-  const InstrumentView& tool = *picture.instrument;
-  shade.rod = {in_lens(tool.portal), in_lens(tool.proxy),
-               tool.kind == simulation::ToolKind::kProbe ? kProbe : kOther};
-  const int head = tool.kind == simulation::ToolKind::kProbe ? 0
-                   : shape.jaw.empty()                       ? -1
-                                                             : shape.jaw.front();
-  if (head < 0) return shade;
-  const Pose pose = ProbePose(tool.portal, tool.proxy, tool.roll);
-  simulation::Capsule capsules[simulation::kMaxCapsules];
-  simulation::PosedCapsules(shape, {true, {pose.quaternion, pose.position}, tool.opening},
-                            capsules);
-  shade.head = {in_lens(capsules[head].a), in_lens(capsules[head].b), capsules[head].radius};
-  return shade;
 }
 
 glm::dvec3 MiddleOf(std::span<const glm::dvec3> points) {
@@ -288,6 +258,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   frame.light_reach = p.backdrop->light_reach();
   frame.light_colour = LightOf(p.backdrop->footage_light().bright);
   frame.surround = p.backdrop->footage_light().mean;
+  frame.contact = p.backdrop->BeginContact();
   p.ShowTool(picture, frame);
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
     frame.light_colour = p.LightColourAt(i);
@@ -296,6 +267,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
     p.tissues[i]->Show(!picture.plain);
   }
   p.window->Render();
+  p.backdrop->EndContact();
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, size);
 }

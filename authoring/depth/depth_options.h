@@ -31,6 +31,7 @@ struct DepthOptions {
   double low_percentile = 1.0;
   double high_percentile = 99.0;
   int median_radius = 2;
+  int texture_size = 16;
   int surround_threshold = 12;
   int border_margin = 3;
   bool fill_highlights = true;
@@ -68,6 +69,9 @@ struct DepthOptions {
     v("median_radius", median_radius, Range{0, 15}, "px",
       "Radius of noise removal: a median for the paper's estimator, otherwise an edge-preserving "
       "smoothing. 0 removes none.");
+    v("texture_size", texture_size, Range{0, 100}, "px",
+      "Structure of the relief finer than this is the tissue's texture and counts as its noise. "
+      "0: no noise is stated.");
     v("surround_threshold", surround_threshold, Range{0, 255}, "",
       "Pixels darker than this and connected to the picture's edge are surround, not tissue.");
     v("border_margin", border_margin, Range{0, 100}, "px",

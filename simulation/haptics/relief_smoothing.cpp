@@ -9,6 +9,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/haptics/relief_steps.h"
+
 namespace arthro::simulation {
 namespace {
 
@@ -55,25 +57,73 @@ void Filter(Plane& data, int width, int height, const std::vector<float>& kernel
   }
 }
 
+// Weights of the outer taps of (1 2 1)/4 per pixel, for one gap: 1/4, and less to 0 where a tap
+// lies beyond a step. Empty where there is no step.
+struct OuterTaps {
+  Plane left, right, above, below;
+};
+
+// Difference of two heights, in standard errors, from which on a tap counts less, and not at all.
+constexpr float kSameSide = 2.0f, kOtherSide = 4.0f;
+
+// `near`: how near each pixel is to a step; empty: there is none.
+OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigma, int width,
+                      int height, int gap) {
+  OuterTaps taps;
+  if (near.empty()) return taps;
+  const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
+  const std::size_t all = near.size();
+  for (Plane* plane : {&taps.left, &taps.right, &taps.above, &taps.below})
+    plane->assign(all, 0.25f);
+  const auto tap = [&](std::size_t a, std::size_t b) {
+    const float beside = std::max(near[a], near[b]), error = std::max(sigma[a], sigma[b]);
+    if (!(beside > 0.0f) || !(error > 0.0f)) return 0.25f;
+    const float off = std::abs(heights[a] - heights[b]) / error;
+    const float s = std::clamp((off - kSameSide) / (kOtherSide - kSameSide), 0.0f, 1.0f);
+    return 0.25f * (1.0f - beside * s * s * (3.0f - 2.0f * s));
+  };
+  for (int y = 0; y < height; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * w;
+    for (std::size_t i = row; i + g < row + w; ++i)
+      taps.right[i] = taps.left[i + g] = tap(i, i + g);
+  }
+  for (std::size_t i = 0; i + g * w < all; ++i)
+    taps.below[i] = taps.above[i + g * w] = tap(i, i + g * w);
+  return taps;
+}
+
 // Applies (1 2 1)/4 with `gap` pixels between its taps in both directions: adds gap²/2 to the
-// variance.
-void Widen(Plane& data, int width, int height, int gap, Plane& scratch) {
+// variance, where all taps count.
+void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps, Plane& scratch) {
   const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
   scratch.assign(w + 2 * g, 0.0f);
   for (int y = 0; y < height; ++y) {
-    float* row = data.data() + static_cast<std::size_t>(y) * w;
+    const std::size_t first = static_cast<std::size_t>(y) * w;
+    float* row = data.data() + first;
     std::copy(row, row + w, scratch.begin() + gap);
+    if (taps.left.empty()) {
+      for (std::size_t x = 0; x < w; ++x)
+        row[x] = 0.25f * (scratch[x] + scratch[x + 2 * g]) + 0.5f * scratch[x + g];
+      continue;
+    }
+    const float *left = taps.left.data() + first, *right = taps.right.data() + first;
     for (std::size_t x = 0; x < w; ++x)
-      row[x] = 0.25f * (scratch[x] + scratch[x + 2 * g]) + 0.5f * scratch[x + g];
+      row[x] = left[x] * scratch[x] + right[x] * scratch[x + 2 * g] + 0.5f * scratch[x + g];
   }
   scratch = data;
   for (int y = 0; y < height; ++y) {
-    float* row = data.data() + static_cast<std::size_t>(y) * w;
+    const std::size_t first = static_cast<std::size_t>(y) * w;
+    float* row = data.data() + first;
     for (std::size_t x = 0; x < w; ++x) row[x] *= 0.5f;
     for (const int from : {y - gap, y + gap}) {
       if (from < 0 || from >= height) continue;
       const float* source = scratch.data() + static_cast<std::size_t>(from) * w;
-      for (std::size_t x = 0; x < w; ++x) row[x] += 0.25f * source[x];
+      if (taps.above.empty()) {
+        for (std::size_t x = 0; x < w; ++x) row[x] += 0.25f * source[x];
+        continue;
+      }
+      const float* tap = (from < y ? taps.above : taps.below).data() + first;
+      for (std::size_t x = 0; x < w; ++x) row[x] += tap[x] * source[x];
     }
   }
 }
@@ -178,16 +228,22 @@ Plane SmoothSigma(const DepthMap& depth, const DepthMap& sigma) {
   }
   Plane scratch;
   for (Plane* plane : {&sums.value, &sums.mass})
-    for (const int gap : {1, 1, 2, 2, 4}) Widen(*plane, depth.width, depth.height, gap, scratch);
+    for (const int gap : {1, 1, 2, 2, 4})
+      Widen(*plane, depth.width, depth.height, gap, {}, scratch);
   Plane smooth = Ratio(sums);
   for (float& variance : smooth) variance = std::sqrt(variance);
   return smooth;
 }
 
-// Variance of the smoothing that each pixel asks for beyond the usual one, px².
-Plane WantedVariance(const DepthMap& depth, const Plane& height, const Plane& sigma,
-                     const Backdrop& backdrop, const NoiseLimits& limits) {
-  Plane wanted(height.size(), 0.0f);
+// Smoothing that each pixel asks for beyond the usual one: its standard deviation, px; and the size
+// of a pixel, m. Zero where no error or no relief is known.
+struct WantedSmoothing {
+  Plane deviation, pixel_size;
+};
+
+WantedSmoothing SmoothingFor(const DepthMap& depth, const Plane& height, const Plane& sigma,
+                             const Backdrop& backdrop, const NoiseLimits& limits) {
+  WantedSmoothing wanted{Plane(height.size(), 0.0f), Plane(height.size(), 0.0f)};
   for (int y = 0; y < depth.height; ++y)
     for (int x = 0; x < depth.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width) +
@@ -200,18 +256,30 @@ Plane WantedVariance(const DepthMap& depth, const Plane& height, const Plane& si
           std::max(glm::dot(gradients[0], gradients[0]), glm::dot(gradients[1], gradients[1])));
       const double s = std::min(limits.widest, static_cast<double>(sigma[i]) /
                                                    (2.0 * std::numbers::sqrt2 * limits.slope));
-      wanted[i] = static_cast<float>(s * s * px_per_m * px_per_m);
+      wanted.deviation[i] = static_cast<float>(s * px_per_m);
+      wanted.pixel_size[i] = static_cast<float>(1.0 / px_per_m);
     }
   return wanted;
 }
 
-// Share of a growth of the smoothing that is applied: 1 while the change of the relief may be
-// noise, falling to 0. From a variance of 1 px² on, one growth changes noise of any correlation
-// length by 0.24 σ rms at most; before, white noise by 0.87 σ.
-float Admitted(float change, float sigma, float variance) {
-  const float begin = (variance < 1.0f ? 3.0f : 0.75f) * sigma;
-  const float s = std::clamp((2.0f * begin - std::abs(change)) / begin, 0.0f, 1.0f);
-  return s * s * (3.0f - 2.0f * s);
+// How near each pixel is to a step; empty: there is none.
+Plane NearStepsOf(const DepthMap& depth, const Plane& sigma, const WantedSmoothing& wanted) {
+  Sums sums = SumsOf(depth, 0);
+  Plane scratch;
+  for (Plane* plane : {&sums.value, &sums.mass})
+    for (const int gap : {1, 1, 2, 2})  // a standard deviation of 2.2 px
+      Widen(*plane, depth.width, depth.height, gap, {}, scratch);
+  Plane smooth = Ratio(sums);
+  for (std::size_t i = 0; i < smooth.size(); ++i)
+    if (!std::isfinite(depth.relief[i])) smooth[i] = depth.relief[i];
+  Plane near =
+      NearSteps(depth.width, depth.height, smooth, sigma, wanted.deviation, wanted.pixel_size);
+  if (near.empty()) return near;
+  // Fades over some 10 px; pixels beyond the border count as those beside it.
+  Sums fading{std::move(near), Plane(depth.relief.size(), 1.0f)};
+  for (Plane* plane : {&fading.value, &fading.mass})
+    for (const int gap : {1, 2, 4, 8}) Widen(*plane, depth.width, depth.height, gap, {}, scratch);
+  return Ratio(fading);
 }
 
 }  // namespace
@@ -226,31 +294,28 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
   TouchedRelief touched{Ratio(sums), SmoothSigma(depth, sigma)};
   if (touched.sigma.empty()) return touched;
   const int w = depth.width, h = depth.height;
-  const Plane wanted = WantedVariance(depth, touched.height, touched.sigma, backdrop, limits);
-  const float most = wanted.empty() ? 0.0f : *std::max_element(wanted.begin(), wanted.end());
+  const WantedSmoothing wanted =
+      SmoothingFor(depth, touched.height, touched.sigma, backdrop, limits);
+  const float widest = *std::max_element(wanted.deviation.begin(), wanted.deviation.end());
+  const Plane near = widest > 0.0f ? NearStepsOf(depth, touched.sigma, wanted) : Plane();
 
   Moments moments(std::move(sums), w, h);
-  Plane before = touched.height, scratch, share(before.size(), 1.0f);
-  const float usual = 0.5f * static_cast<float>(passes);  // px²
-  float variance = 0.0f;                                  // beyond the usual one, px²
-  for (int growth = 0; variance < most; ++growth) {
+  Plane before = touched.height, scratch;
+  float variance = 0.0f;  // beyond the usual one, px²
+  for (int growth = 0; variance < widest * widest; ++growth) {
     const int gap = 1 << (growth / 2);
     if (gap >= std::max(w, h)) break;
     const float added = 0.5f * static_cast<float>(gap) * static_cast<float>(gap);
-    for (Plane* plane : moments.All()) Widen(*plane, w, h, gap, scratch);
+    const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap);
+    for (Plane* plane : moments.All()) Widen(*plane, w, h, gap, taps, scratch);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         const std::size_t i =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-        if (!(share[i] > 0.0f)) continue;
-        if (!(wanted[i] > variance)) {
-          share[i] = 0.0f;
-          continue;
-        }
-        const float after = moments.PlaneAt(x, y), change = after - before[i];
-        share[i] *= std::min(1.0f, (wanted[i] - variance) / added) *
-                    Admitted(change, touched.sigma[i], usual + variance);
-        touched.height[i] += share[i] * change;
+        const float rest = wanted.deviation[i] * wanted.deviation[i] - variance;
+        if (!(rest > 0.0f)) continue;
+        const float after = moments.PlaneAt(x, y);
+        touched.height[i] += std::min(1.0f, rest / added) * (after - before[i]);
         before[i] = after;
       }
     variance += added;

@@ -25,9 +25,9 @@ struct NoiseLimits {
 
 // The same, and beyond it a smoothing of the standard deviation s = σ / (2√2 slope), m. Noise of
 // the standard deviation σ and any correlation length then has at most the rms slope `slope` per
-// axis. The smoothing is exact on planes, also beside holes, and does not grow where the growth
-// changes the relief by more than its standard error: so steps and bumps that exceed the error
-// stay. `sigma` has the size of `depth`; NaN in it counts as its largest value.
+// axis. The smoothing is exact on planes, also beside holes, and does not cross a connected step
+// that is large against the error (relief_steps.h). `sigma` has the size of `depth`; NaN in it
+// counts as its largest value.
 TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& sigma,
                            const Backdrop& backdrop, const NoiseLimits& limits);
 

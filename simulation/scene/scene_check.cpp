@@ -66,8 +66,9 @@ void LookAtPanorama(const LoadedScene& loaded, SceneFindings& findings) {
                     c.x, c.y));
 }
 
-// Lists the origins of the depths and their median error.
-void LookAtOrigins(const LoadedScene& loaded, SceneFindings& findings) {
+// Lists the origins of the depths and their median error. `range`: from the least to the largest
+// depth, m.
+void LookAtOrigins(const LoadedScene& loaded, double range, SceneFindings& findings) {
   const OriginMap& origins = OrEmpty(loaded.depth_origin);
   const DepthMap& sigma = OrEmpty(loaded.depth_sigma);
   if (origins.empty() && sigma.empty()) return;
@@ -81,6 +82,13 @@ void LookAtOrigins(const LoadedScene& loaded, SceneFindings& findings) {
     line += fmt::format("{} median standard error {:.3g} mm", origins.empty() ? "" : ",",
                         Mm(*relief.median_sigma));
   if (line != "relief:") findings.found.push_back(line);
+  // An outline is higher than this (simulation/haptics/relief_steps.h).
+  constexpr double kErrorsOfStep = 7;
+  if (range > 0 && relief.median_sigma && kErrorsOfStep * *relief.median_sigma > range)
+    findings.warnings.push_back(
+        fmt::format("the depth map is mostly noise: its noise is {:.3g} mm, and its depths span "
+                    "{:.3g} mm; outlines are not drawn",
+                    Mm(*relief.median_sigma), Mm(range)));
   if (relief.without_origin > 0)
     findings.warnings.push_back(
         fmt::format("{:.1f} % of the depths have no origin in backdrop.depth_origin; is it that of "
@@ -127,7 +135,7 @@ void LookAtDepth(const LoadedScene& loaded, SceneFindings& findings) {
     findings.warnings.push_back(fmt::format(
         "{} of {} depths lie outside 0 to {:g} mm, the radius of the sphere; are they in metres?",
         outside, imaged, Mm(radius)));
-  LookAtOrigins(loaded, findings);
+  LookAtOrigins(loaded, static_cast<double>(most - least), findings);
 }
 
 // Edges that do not join exactly two triangles, once each way.

@@ -11,6 +11,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
 #include "authoring/depth/depth_filter.h"
+#include "authoring/depth/depth_noise.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/image_io.h"
@@ -19,7 +20,7 @@ namespace arthro::app {
 namespace {
 
 struct DepthJob {
-  std::string panorama, output;
+  std::string panorama, output, noise;
   authoring::DepthOptions options;
 };
 
@@ -34,6 +35,16 @@ void Run(const DepthJob& job) {
                 "this picture is nothing but dark surround; lower --surround-threshold or take "
                 "another picture",
                 job.panorama);
+  const DepthMap sigma =
+      job.noise.empty() ? DepthMap() : authoring::NoiseOfDepth(depth, job.options.texture_size);
+  if (!job.noise.empty() && sigma.empty())
+    throw Error(Code::kBadImage,
+                job.options.texture_size == 0
+                    ? "no noise is stated with --texture-size 0; raise it, or leave out --noise"
+                    : "the relief has no structure finer than --texture-size, so it states no "
+                      "noise; leave out --noise",
+                job.panorama);
+  if (!sigma.empty()) WriteDepthMap(job.noise, sigma);
   WriteDepthMap(job.output, depth);
   const auto warn = [&](const char* sentence) {
     fmt::print(stderr, "warning: {}: {}\n", job.panorama, sentence);
@@ -67,6 +78,10 @@ void AddDepthJob(CLI::App& program) {
                                "- is standard output."),
                kDepthMapFile)
       ->required();
+  files->Output(job->add_option("--noise", own->noise,
+                                "Also write the noise of the depths, in metres, for "
+                                "backdrop.depth_sigma of a scene."),
+                kDepthMapFile);
   AddOptions(*job, own->options);
   files->Run([own] { Run(*own); });
 }

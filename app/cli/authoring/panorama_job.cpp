@@ -18,10 +18,10 @@
 #include "app/cli/options_cli.h"
 #include "app/state/footage_optics.h"
 #include "app/state/relief_scene.h"
-#include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/estimated_depth.h"
 #include "authoring/relief/relief_panorama.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/lens_io.h"
@@ -49,7 +49,7 @@ fs::path PieceName(const fs::path& output, std::size_t number) {
   return name;
 }
 
-// A scene that can be practised in at once: the panorama with the paper's depth map.
+// A scene that can be practised in at once: the panorama with the paper's depth map and its noise.
 void WriteScene(const fs::path& folder, const fs::path& panorama,
                 const authoring::PanoramaReport& report, const Progress& progress) {
   authoring::Document document = authoring::DocumentFromPanorama(panorama);
@@ -59,8 +59,8 @@ void WriteScene(const fs::path& folder, const fs::path& panorama,
       ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px, {}};
   TakeFootageLens(document, report.lens, report.is_lens_guessed);
   try {
-    document.depth = std::make_shared<const DepthMap>(authoring::DepthFromColour(
-        *document.panorama, document.depth_options, nullptr, {{}, progress.stop}));
+    SetEstimatedDepth(document, authoring::EstimateDepth(*document.panorama, document.depth_options,
+                                                         {{}, progress.stop}));
   } catch (const Error& error) {
     if (error.code() != Code::kCancelled) throw;
     throw Error(Code::kCancelled, "stopped; the panorama was written, and no scene", panorama);

@@ -92,7 +92,9 @@ std::string WordsOfReading(const Document& document, const ReliefReading& readin
   if (!document.depth) return "There is no depth map yet.";
   if (!std::isfinite(reading.range)) return "No depth is known here.";
   std::string words = fmt::format("{:.1f}", MmFromMetres(reading.range));
-  if (std::isfinite(reading.sigma)) words += fmt::format(" ± {:.1f}", MmFromMetres(reading.sigma));
+  // The noise of a depth from brightness says nothing about its error.
+  if (std::isfinite(reading.sigma) && document.is_depth_imported)
+    words += fmt::format(" ± {:.1f}", MmFromMetres(reading.sigma));
   words += " mm from the portal";
   if (document.depth_origin) return words + ", " + WordsOfOrigin(reading.origin);
   return words + (document.is_depth_imported ? "" : ", estimated, not measured");

@@ -11,6 +11,13 @@ constexpr std::size_t kMostKept = 64;  // records, not maps
 
 }  // namespace
 
+Projection Shrunk(Projection projection, double factor) {
+  projection.centre_px = (projection.centre_px - 0.5 * (factor - 1.0)) / factor;
+  projection.focal_px /= factor;
+  projection.px_per_deg /= factor;
+  return projection;
+}
+
 void DepthCache::Note(const authoring::Document& document) {
   if (document.is_depth_imported) return;  // it was made from nothing that is known here
   std::erase_if(made_, [&](const Made& made) {
@@ -18,8 +25,8 @@ void DepthCache::Note(const authoring::Document& document) {
     return !panorama ||
            (panorama == document.panorama && SameOptions(made.options, document.depth_options));
   });
-  made_.push_back(
-      {document.panorama, document.depth_options, document.depth, document.depth != nullptr, ""});
+  made_.push_back({document.panorama, document.depth_options, document.depth, document.depth_sigma,
+                   document.depth != nullptr, document.depth_sigma != nullptr});
   if (made_.size() > kMostKept) made_.erase(made_.begin());
 }
 
@@ -46,12 +53,15 @@ bool DepthCache::IsStale(const authoring::Document& document) const {
   return true;
 }
 
-std::shared_ptr<const DepthMap> DepthCache::Find(const authoring::Document& document) const {
+authoring::EstimatedDepth DepthCache::Find(const authoring::Document& document) const {
   for (const Made& made : made_)
     if (made.panorama.lock() == document.panorama &&
-        SameOptions(made.options, document.depth_options))
-      return made.depth.lock();
-  return nullptr;
+        SameOptions(made.options, document.depth_options)) {
+      authoring::EstimatedDepth found{made.depth.lock(), made.sigma.lock()};
+      if (made.has_sigma && !found.sigma) return {};
+      return found;
+    }
+  return {};
 }
 
 }  // namespace arthro::app

@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "authoring/depth/depth_preview.h"
-#include "authoring/project/document.h"
+#include "authoring/project/estimated_depth.h"
 
 namespace arthro::app {
+
+// Converts a projection to the pixels of a smaller picture, whose pixel (x, y) covers
+// x·factor … x·factor + factor − 1.
+Projection Shrunk(Projection projection, double factor);
 
 class DepthCache {
  public:
@@ -20,8 +24,8 @@ class DepthCache {
   void Refuse(const authoring::Document& document, const std::string& reason);
   std::string ProblemOf(const authoring::Document& document) const;  // "" where there is none
   bool IsStale(const authoring::Document& document) const;
-  // Made before and still in memory; null if not.
-  std::shared_ptr<const DepthMap> Find(const authoring::Document& document) const;
+  // Made before and still in memory; its depth is null if not.
+  authoring::EstimatedDepth Find(const authoring::Document& document) const;
 
   // Shown by the pictures while the document's depth is stale; null otherwise.
   std::shared_ptr<const DepthMap> preview;
@@ -35,8 +39,8 @@ class DepthCache {
   struct Made {
     std::weak_ptr<const ColourImage> panorama;
     authoring::DepthOptions options;
-    std::weak_ptr<const DepthMap> depth;
-    bool has_depth = false;
+    std::weak_ptr<const DepthMap> depth, sigma;
+    bool has_depth = false, has_sigma = false;
     std::string problem = {};
   };
   std::vector<Made> made_;

@@ -5,8 +5,10 @@
 
 #include "app/state/edits.h"
 #include "authoring/depth/depth_filter.h"
+#include "authoring/depth/depth_noise.h"
 #include "authoring/depth/depth_preview.h"
 #include "simulation/core/same_options.h"
+#include "simulation/haptics/relief_smoothing.h"
 
 namespace arthro::app {
 namespace {
@@ -31,10 +33,15 @@ DepthMap Stretched(const DepthMap& small, int width, int height, int factor) {
 Jobs::Work PreviewWork(const Document& document,
                        std::shared_ptr<const authoring::DepthPreview> pyramid) {
   return [panorama = document.panorama, options = document.depth_options,
-          pyramid](const Progress&) -> Jobs::Apply {
+          backdrop = document.scene.backdrop, pyramid](const Progress&) -> Jobs::Apply {
     const auto made =
         pyramid ? pyramid : std::make_shared<const authoring::DepthPreview>(*panorama);
     DepthMap relief = made->Filter(options);
+    // Without its noise, as the picture draws the whole map; here this does not hold up the window.
+    Backdrop small = backdrop;
+    small.projection = Shrunk(backdrop.projection, made->Factor());
+    relief = simulation::WithoutNoise(
+        relief, authoring::NoiseOfDepth(relief, options.texture_size / made->Factor()), small);
     std::shared_ptr<const ColourImage> picture = panorama;
     if (panorama->width * panorama->height <= kMostStretched)
       relief = Stretched(relief, panorama->width, panorama->height, made->Factor());
@@ -53,18 +60,21 @@ Jobs::Work PreviewWork(const Document& document,
   };
 }
 
+void TakeMadeBefore(const EditorState& state, Document& next) {
+  const authoring::EstimatedDepth made = state.steps.depth->cache.Find(next);
+  if (made.depth) SetEstimatedDepth(next, made);
+}
+
 Jobs::Work FullWork(const Document& document) {
   return [panorama = document.panorama,
           options = document.depth_options](const Progress& progress) -> Jobs::Apply {
-    auto depth = std::make_shared<const DepthMap>(
-        authoring::DepthFromColour(*panorama, options, nullptr, progress));
+    const authoring::EstimatedDepth depth = authoring::EstimateDepth(*panorama, options, progress);
     return [=](EditorState& state) {
       // The author may have gone on meanwhile; then this depth belongs to nothing.
       const Document& now = state.document();
       if (now.panorama != panorama || !SameOptions(now.depth_options, options)) return;
       Document next = now;
-      SetDepth(next, depth);
-      if (next.scene.backdrop.depth.empty()) next.scene.backdrop.depth = "depth.tiff";
+      SetEstimatedDepth(next, depth);
       state.history.Amend(std::move(next));
       state.steps.depth->cache.Note(state.document());
     };
@@ -100,9 +110,9 @@ void KeepDepthFresh(EditorState& state) {
     if (state.steps.depth->when_ready) std::exchange(state.steps.depth->when_ready, {})(state);
     return;
   }
-  if (auto made = cache.Find(document)) {  // after undo: computed before
+  if (const auto made = cache.Find(document); made.depth) {  // after undo: computed before
     Document next = document;
-    SetDepth(next, made);
+    SetEstimatedDepth(next, made);
     state.history.Amend(std::move(next));
     return;
   }
@@ -148,7 +158,7 @@ void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
   Edit(state, "Depth: " + what, "depth." + what, [&](auto& next) {
     next.depth_options = options;
     // A map that was made before for these options is used again at once.
-    if (auto made = state.steps.depth->cache.Find(next)) SetDepth(next, made);
+    TakeMadeBefore(state, next);
   });
 }
 
@@ -157,7 +167,7 @@ void MakeDepth(EditorState& state) {
   if (!document.panorama || !document.is_depth_imported) return;
   Edit(state, "Replace the imported depth map", "", [&](auto& next) {
     next.is_depth_imported = false;
-    if (auto made = state.steps.depth->cache.Find(next)) SetDepth(next, made);
+    TakeMadeBefore(state, next);
   });
 }
 

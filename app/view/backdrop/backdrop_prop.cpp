@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +20,7 @@
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/relief_smoothing.h"
+#include "simulation/scene/relief_shares.h"
 
 namespace arthro::app {
 
@@ -28,9 +31,30 @@ namespace {
 // Distance of neutral light in radii of the backdrop: a usual working distance.
 constexpr double kLightReach = 0.55;
 
+// Sheen of the fluid film straight from the lamp.
+constexpr double kGlint = 0.30;
+
 // Largest second difference of the corners' distances, over the distance, at which the relief of a
 // cell counts as smooth.
 constexpr double kSmoothBend = 0.02;
+
+// Further smoothing of the slopes for the lamp, over that which the noise asks for: a glint shows a
+// third of the slope that a hand feels.
+constexpr double kLampBlur = 2;
+
+// Median smoothing that the noise of a depth map asks for, as a standard deviation in its pixels at
+// the radius of the backdrop; 0 where none is known [method.md, Backdrop force].
+double SmoothingPx(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
+  const double error = SharesOf(depth, sigma, {}).median_sigma.value_or(0.0);
+  const simulation::NoiseLimits limits;
+  const double smoothing =
+      std::min(limits.widest, error / (2 * std::numbers::sqrt2 * limits.slope));
+  const Projection& projection = backdrop.projection;
+  const double px_per_rad = projection.type == ProjectionType::kEquirectangular
+                                ? DegreesFromRadians(projection.px_per_deg)
+                                : projection.focal_px;
+  return smoothing * px_per_rad / backdrop.radius;
+}
 
 void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec3& value) {
   const float v[3] = {static_cast<float>(value.x), static_cast<float>(value.y),
@@ -94,9 +118,12 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
   ReliefTexture relief = MakeReliefTexture(panorama_size_, is_known ? quiet : depth, wraps_, sigma);
   Fill(*relief_, window, relief.width, relief.height, 4, VTK_FLOAT, relief.texels.data());
   if (backdrop_.relight > 0) {
-    const BroadSlopes broad = MakeBroadSlopes(relief, wraps_);
-    Fill(*slopes_, window, broad.width, broad.height, 2, VTK_FLOAT, broad.slopes.data());
+    const BroadSlopes broad = MakeBroadSlopes(
+        relief, wraps_,
+        kLampBlur * SmoothingPx(depth, sigma, backdrop_) * relief.width / std::max(depth.width, 1));
+    Fill(*slopes_, window, broad.width, broad.height, 3, VTK_FLOAT, broad.slopes.data());
   }
+  is_noisy_ = is_known;
   unsearched_ = std::move(relief);
   SetRelief(grid_, depth);
 }
@@ -203,15 +230,50 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   if (is_relit) slopes_->Deactivate();
   panorama_->Deactivate();
   if (has_relief) ceiling_->Deactivate();
-  relief_->Deactivate();
+  if (!is_in_contact_) relief_->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
+  // Models fade into the relief where they meet it.
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+                                GL_ONE_MINUS_SRC_ALPHA);
   return 1;
+}
+
+std::pair<glm::dvec2, glm::dvec2> BackdropProp::ProjectionInTexture() const {
+  // Pixel (0, 0) is the middle of the first texel; the last texel may extend beyond the panorama.
+  const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
+  const glm::dvec2 covered = texels * double(reduction_);
+  const Projection& projection = backdrop_.projection;
+  const double pixels = projection.type == ProjectionType::kEquirectangular
+                            ? DegreesFromRadians(projection.px_per_deg)
+                            : projection.focal_px;
+  return {(projection.centre_px + 0.5) / covered, pixels / covered};
+}
+
+ReliefContact BackdropProp::BeginContact() {
+  ReliefContact contact;
+  if (!relief_->GetHandle() || picture_.relief.steps == 0 || picture_.plain) return contact;
+  relief_->Activate();
+  contact.texture_unit = relief_->GetTextureUnit();
+  const simulation::ScopeView& view = picture_.view;
+  contact.tip = view.tip;
+  contact.right = view.right;
+  contact.up = glm::cross(view.right, view.view);
+  contact.ahead = view.view;
+  contact.radius = backdrop_.radius;
+  std::tie(contact.centre, contact.scale) = ProjectionInTexture();
+  contact.is_equirectangular = backdrop_.projection.type == ProjectionType::kEquirectangular;
+  contact.wraps = wraps_;
+  is_in_contact_ = true;
+  return contact;
+}
+
+void BackdropProp::EndContact() {
+  if (std::exchange(is_in_contact_, false)) relief_->Deactivate();
 }
 
 void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   const simulation::ScopeView& view = picture_.view;
-  const Projection& projection = backdrop_.projection;
-  const bool equirectangular = projection.type == ProjectionType::kEquirectangular;
   // Double precision until here: 1 - |tip|² is a small difference when the tip nears the sphere.
   const glm::dvec3 tip = view.tip / backdrop_.radius;
   program.SetUniformi("panorama", panorama_->GetTextureUnit());
@@ -231,13 +293,10 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
     SetUniform(program, "given_lensEnd", picture_.lens.end);
     SetUniform(program, "given_lensAxis", picture_.lens.axis);
   }
-  // Pixel (0, 0) is the middle of the first texel; the last texel may extend beyond the panorama.
+  const auto [centre, scale] = ProjectionInTexture();
   const glm::dvec2 texels = (panorama_size_ + (reduction_ - 1)) / reduction_;
-  const glm::dvec2 covered = texels * double(reduction_);
-  const double pixels =
-      equirectangular ? DegreesFromRadians(projection.px_per_deg) : projection.focal_px;
-  SetUniform(program, "given_centre", (projection.centre_px + 0.5) / covered);
-  SetUniform(program, "given_scale", pixels / covered);
+  SetUniform(program, "given_centre", centre);
+  SetUniform(program, "given_scale", scale);
   SetUniform(program, "given_texels", texels);
   SetUniform(program, "given_reliefTexels", glm::dvec2(relief_->GetWidth(), relief_->GetHeight()));
   SetUniform(program, "given_samples", double(picture_.samples));
@@ -252,6 +311,9 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_lightReach", light_reach());
   SetUniform(program, "given_gain", gain_);
   SetUniform(program, "given_relit", backdrop_.relight);
+  // Slopes whose noise is known are uncertain by more than a sharp glint is wide, so it spreads.
+  SetUniform(program, "given_glints",
+             is_noisy_ ? glm::dvec2(kGlint / 3, kGlint / 8) : glm::dvec2(kGlint, 0.0));
   SetUniform(program, "given_rodFrom", shade_.rod.from);
   SetUniform(program, "given_rodTo", shade_.rod.to);
   SetUniform(program, "given_rodRadius", shade_.rod.radius);

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vtkNew.h>
@@ -51,6 +52,9 @@ class BackdropProp : public vtkProp {
   // Camera gain of the present picture; 1 when the footage's light counts.
   double gain() const { return gain_; }
   double relight() const { return backdrop_.relight; }
+  // Binds the relief for the models of the present picture, until EndContact.
+  ReliefContact BeginContact();
+  void EndContact();
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }
@@ -62,6 +66,8 @@ class BackdropProp : public vtkProp {
 
  private:
   void SetUniforms(vtkShaderProgram& program) const;
+  // Centre and scale of the projection, texture units.
+  std::pair<glm::dvec2, glm::dvec2> ProjectionInTexture() const;
   // Prepares the textures of the relief search, for the first picture that searches.
   void PrepareSearch(vtkOpenGLRenderWindow* window);
   void Fill(vtkTextureObject& texture, vtkOpenGLRenderWindow* window, int width, int height,
@@ -74,6 +80,8 @@ class BackdropProp : public vtkProp {
   glm::ivec2 panorama_size_{0};
   int reduction_ = 1;   // panorama pixels per texel and axis
   bool wraps_ = false;  // full turn: left and right edge meet
+  bool is_in_contact_ = false;
+  bool is_noisy_ = false;  // the relief has a known standard error
   ReliefTexture unsearched_;
   double highest_ = 0;  // maximum of the relief, m
   int block_ = 1;       // texels per block of the relief's maxima

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view/backdrop/relief_filling.h"
 #include "app/view/backdrop/relief_outlines.h"
 
 namespace arthro::app {
@@ -31,6 +32,26 @@ void BlurLine(float* line, int count, int stride, int radius, bool periodic,
     line[static_cast<std::ptrdiff_t>(i) * stride] = static_cast<float>(sum / (2 * radius + 1));
     sum += at(i + radius + 1) - at(i - radius);
   }
+}
+
+// Blurs `channels` interleaved planes in place by two means of lines in each direction, of the
+// standard deviation `deviation` in all.
+void BlurPlanes(std::vector<float>& planes, int width, int height, int channels, double deviation,
+                bool periodic) {
+  // A mean over 2 r + 1 values has the variance ((2 r + 1)² − 1) / 12.
+  const int radius =
+      static_cast<int>(std::lround(0.5 * (std::sqrt(1 + 6 * deviation * deviation) - 1)));
+  if (radius <= 0) return;
+  std::vector<float> copy;
+  for (int pass = 0; pass < 2; ++pass)
+    for (int c = 0; c < channels; ++c) {
+      for (int y = 0; y < height; ++y)
+        BlurLine(&planes[static_cast<std::size_t>(y * width * channels + c)], width, channels,
+                 radius, periodic, copy);
+      for (int x = 0; x < width; ++x)
+        BlurLine(&planes[static_cast<std::size_t>(x * channels + c)], height, width * channels,
+                 radius, false, copy);
+    }
 }
 
 // Coarser than the panorama, because it is smooth.
@@ -142,11 +163,11 @@ ReliefTexture MakeReliefTexture(const glm::ivec2& panorama_size, const DepthMap&
   };
   DepthMap drawn = shrunk(depth);
   SmoothOutlines(drawn, whole_turn, shrunk(sigma));
+  FillUnknown(drawn);
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {
-      const float h = drawn.at(x, y);
       float* at = texel(x, y);
-      at[0] = std::isfinite(h) ? h : 0.0f;
+      at[0] = drawn.at(x, y);
       at[3] = Bilinear(mask, (x + 0.5) / relief.width, (y + 0.5) / relief.height);
     }
   for (int y = 0; y < relief.height; ++y) {
@@ -211,9 +232,10 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn) {
   return ceiling;
 }
 
-BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
+BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double blur) {
   constexpr int kBlocks = 512;
-  constexpr float kStep = 3e-4f;  // m per texel; a slope of this size has half the weight
+  constexpr float kStep = 3e-4f;     // m per texel; a slope of this size has half the weight
+  constexpr float kSteep = 1.5e-4f;  // m per texel; an outline, as relief_outlines.cpp finds them
   const int block = (std::max(relief.width, relief.height) + kBlocks - 1) / kBlocks;
   BroadSlopes broad;
   broad.width = (relief.width + block - 1) / block;
@@ -223,6 +245,7 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
                 static_cast<std::size_t>(x));
   };
   std::vector<float> sums(of(0, broad.height), 0.0f);  // along u, along v, weight
+  std::vector<std::uint8_t> has_step(sums.size() / 3, 0);
   for (int y = 0; y < relief.height; ++y)
     for (int x = 0; x < relief.width; ++x) {
       const float* at =
@@ -233,21 +256,26 @@ BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn) {
       const float weight = 1 / (1 + (u * u + v * v) / (kStep * kStep));
       float* to = &sums[of(x / block, y / block)];
       to[0] += weight * at[1], to[1] += weight * at[2], to[2] += weight;
+      if (u * u + v * v > kSteep * kSteep) has_step[of(x / block, y / block) / 3] = 1;
     }
-  broad.slopes.resize(2 * sums.size() / 3);
+  BlurPlanes(sums, broad.width, broad.height, 3, blur / block, whole_turn);
+  broad.slopes.resize(sums.size());
   for (int y = 0; y < broad.height; ++y)
     for (int x = 0; x < broad.width; ++x) {
       float sum[3] = {};
+      bool is_beside_step = false;
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
           const int column = whole_turn ? (x + i + broad.width) % broad.width
                                         : std::clamp(x + i, 0, broad.width - 1);
-          const float* from = &sums[of(column, std::clamp(y + j, 0, broad.height - 1))];
+          const std::size_t at = of(column, std::clamp(y + j, 0, broad.height - 1));
+          is_beside_step = is_beside_step || has_step[at / 3] != 0;
+          const float* from = &sums[at];
           const auto share = static_cast<float>((2 - std::abs(i)) * (2 - std::abs(j)));
           for (int c = 0; c < 3; ++c) sum[c] += share * from[c];
         }
-      float* to = &broad.slopes[2 * of(x, y) / 3];
-      to[0] = sum[0] / sum[2], to[1] = sum[1] / sum[2];
+      float* to = &broad.slopes[of(x, y)];
+      to[0] = sum[0] / sum[2], to[1] = sum[1] / sum[2], to[2] = is_beside_step ? 0.0f : 1.0f;
     }
   return broad;
 }

@@ -24,9 +24,9 @@ ColourImage ReducedPanorama(const ColourImage& panorama, int reduction);
 inline constexpr int kReliefSide = 2048;
 struct ReliefTexture {
   int width = 0, height = 0;
-  // Four values per texel: relief, m, 0 where it is unknown; its slopes along u and v, m per
-  // texture width and height; and a weight, 1 well inside the imaged part, which falls to 0 at its
-  // edge, on the inner side.
+  // Four values per texel: relief, m, continued where it is unknown; its slopes along u and v, m
+  // per texture width and height; and a weight, 1 well inside the imaged part, which falls to 0 at
+  // its edge, on the inner side.
   std::vector<float> texels;
 };
 // An empty `depth` gives the bare sphere, all of it imaged. `sigma`: its standard error, of its
@@ -45,12 +45,15 @@ ReliefCeiling MakeReliefCeiling(const ReliefTexture& relief, bool whole_turn);
 // Slopes for diffuse shading, over the same part of the sphere: means of block x block texels and a
 // little of their neighbours, some 512 along the longer side. A depth map from brightness has noise
 // of a few tenths of a millimetre between texels, which would glitter. Steps between near and far
-// parts have a low weight.
+// parts have a low weight. `blur`: standard deviation of a further smoothing, texels of the relief,
+// which a relief with known noise asks for.
 struct BroadSlopes {
   int width = 0, height = 0;
-  std::vector<float> slopes;  // two per block: along u and along v, like those of a ReliefTexture
+  // Three values per block: slopes along u and along v, like those of a ReliefTexture; and 1, or 0
+  // near steps, where no slope is that of a surface.
+  std::vector<float> slopes;
 };
-BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn);
+BroadSlopes MakeBroadSlopes(const ReliefTexture& relief, bool whole_turn, double blur = 0);
 
 // Whether the panorama covers a full turn, so that its left edge meets its right.
 bool IsWholeTurn(const Projection& projection, int width);

@@ -8,11 +8,13 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <vtkCommand.h>
 #include <vtkDataObject.h>
 #include <vtkMatrix4x4.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkProperty.h>
+#include <vtkShaderProgram.h>
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
 
@@ -60,6 +62,7 @@ LensModel::LensModel(Look look) : look_(look) {
   mapper_->ScalarVisibilityOff();
   // Coordinates are metres within a joint: float holds them, and the shader takes them unscaled.
   mapper_->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+  mapper_->AddObserver(vtkCommand::UpdateShaderEvent, this, &LensModel::SetSamplers);
   actor_->SetMapper(mapper_);
   actor_->ForceOpaqueOn();
 
@@ -77,8 +80,11 @@ void LensModel::Assemble() {
   if (look_ == Look::kTissue) defines.push_back("TISSUE");
   if (has_lens_) defines.push_back("LENS");
   const SteadyInputs inputs = TakeSteadyInputs(ShaderText("model_inputs.glsl", defines));
-  const auto common = [](std::initializer_list<std::string> stage) {
-    return ShaderText("model_common.glsl", stage);
+  const auto common = [&](std::initializer_list<std::string> stage) {
+    std::vector<std::string> all = stage;
+    if (contact_.is_equirectangular) all.push_back("EQUIRECTANGULAR");
+    if (contact_.wraps) all.push_back("WRAPS");
+    return ShaderText("model_common.glsl", all);
   };
   vtkShaderProperty* shader = actor_->GetShaderProperty();
   shader->ClearAllShaderReplacements();
@@ -155,6 +161,11 @@ void LensModel::Set(const char* given_name, double value) {
   actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniformf(given_name, Float(value));
 }
 
+void LensModel::SetSamplers(vtkObject*, unsigned long, void* program) {
+  if (program != nullptr && contact_.texture_unit >= 0)
+    static_cast<vtkShaderProgram*>(program)->SetUniformi("contactRelief", contact_.texture_unit);
+}
+
 void LensModel::Set(const char* given_name, const glm::dvec3& value) {
   const float v[3] = {Float(value.x), Float(value.y), Float(value.z)};
   actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform3f(given_name, v);
@@ -179,10 +190,24 @@ MeteredSurface LensModel::Metered(const glm::dvec3& light_colour) const {
 }
 
 void LensModel::SetFrame(const LensFrame& frame) {
-  if (has_lens_ == simulation::IsEquisolid(frame.lens)) {
-    has_lens_ = !has_lens_;
-    Assemble();
-  }
+  const bool has_lens = !simulation::IsEquisolid(frame.lens);
+  const bool is_other = has_lens != has_lens_ ||
+                        frame.contact.is_equirectangular != contact_.is_equirectangular ||
+                        frame.contact.wraps != contact_.wraps;
+  has_lens_ = has_lens;
+  contact_ = frame.contact;
+  if (is_other) Assemble();
+  Set("given_contactTip", contact_.tip);
+  Set("given_contactRight", contact_.right);
+  Set("given_contactUp", contact_.up);
+  Set("given_contactAhead", contact_.ahead);
+  vtkUniforms* of_fragments = actor_->GetShaderProperty()->GetFragmentCustomUniforms();
+  of_fragments->SetUniformf("contactRadius",
+                            contact_.texture_unit >= 0 ? Float(contact_.radius) : 0.0f);
+  const float centre[2] = {Float(contact_.centre.x), Float(contact_.centre.y)},
+              scale[2] = {Float(contact_.scale.x), Float(contact_.scale.y)};
+  of_fragments->SetUniform2f("contactCentre", centre);
+  of_fragments->SetUniform2f("contactScale", scale);
   Set("given_lensScale", std::sin(frame.field_of_view / 4.0));
   Set("given_windowRadius", frame.window_radius);
   Set("given_lightReach", frame.light_reach);
@@ -193,7 +218,7 @@ void LensModel::SetFrame(const LensFrame& frame) {
   // Not a steady input: with a lens a tissue's inputs are 59 numbers, and OpenGL guarantees
   // only 60.
   const float lamp[3] = {Float(frame.shade.lamp.x), Float(frame.shade.lamp.y), 0.0f};
-  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f("lampPlace", lamp);
+  of_fragments->SetUniform3f("lampPlace", lamp);
   if (look_ == Look::kTissue) {
     Set("given_rodFrom", frame.shade.rod.from);
     Set("given_rodTo", frame.shade.rod.to);

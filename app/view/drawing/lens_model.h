@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -17,25 +18,21 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include "app/view/drawing/lens_shade.h"
 #include "app/view/drawing/metered_models.h"
-#include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 
-// Instrument as it shades what is behind it: its rod, and the part that stands away from it, a hook
-// or an open jaw. m, in the lens frame (x right, y up, -z along the view).
-struct LensRod {
-  glm::dvec3 from{0.0}, to{0.0};
-  double radius = 0;  // 0: no such part
-};
-struct LensShade {
-  LensRod rod, head;
-  // Place of the light fibres: beside the lens, on the side of the scope's mark, where they stay
-  // when the camera head turns.
-  glm::dvec3 lamp{0.0, kLampAside, 0.0};
+// Relief that models meet, as the backdrop's texture. Lengths in m.
+struct ReliefContact {
+  int texture_unit = -1;  // while a frame is drawn; -1: there is no relief
+  glm::dvec3 tip{0.0}, right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, ahead{0.0, 0.0, 1.0};
+  double radius = 0;                   // radius of the backdrop
+  glm::dvec2 centre{0.0}, scale{1.0};  // projection, texture units
+  bool is_equirectangular = false, wraps = false;
 };
 
 // Values that all models of a frame share.
@@ -46,6 +43,7 @@ struct LensFrame {
   double light_reach = 0.03;    // m
   double gain = 1, relit = 0;   // camera gain; share of the scope's own lamp in the light
   LensShade shade;
+  ReliefContact contact;
   glm::dvec3 light_colour{1.0};  // linear; colour of white under lamp and camera
   glm::dvec3 surround{0.2};      // linear; colour that a shining surface mirrors
 };
@@ -77,9 +75,12 @@ class LensModel {
   void Assemble();
   void Set(const char* given_name, double value);
   void Set(const char* given_name, const glm::dvec3& value);
+  // Hands the relief's texture to the program that is about to draw.
+  void SetSamplers(vtkObject* caller, unsigned long event, void* program);
 
   Look look_;
   bool has_lens_ = false;  // not the equisolid lens
+  ReliefContact contact_;
   bool is_closed_ = false;
   Pose pose_;
   glm::dvec3 colour_{1.0};

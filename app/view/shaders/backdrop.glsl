@@ -30,7 +30,7 @@ const float kSideShift = 14.0;               // texels towards the upper edge
 const float kWallShade = 0.35;               // loss of light on a side
 const float kWallFacing = 0.8;               // cosine to the lamp that a side counts as
 // Fluid film under the lamp.
-const float kSheen = 0.02, kGlint = 0.30;
+const float kSheen = 0.02;
 const float kRelitAmbient = 0.2;  // diffuse light of what faces away
 // Orientation mark at the rim: a triangle that points outwards.
 const float kMarkTip = 0.925;     // window radii
@@ -72,7 +72,7 @@ void main() {
 #ifdef CELLS
   // One Newton step along the ray, by the slope there.
   vec3 outward = normalize(x) + (imaged ? ground.g * alongU + ground.b * alongV : vec3(0.0));
-  float gap = (imaged ? ground.r : 0.0) - 1.0 + length(x);
+  float gap = (isBefore(x) ? ground.r : 0.0) - 1.0 + length(x);
   float nearer = clamp(gap / max(dot(outward, ray), kLeastDescent), -kMostCorrection * reach,
                        kMostCorrection * reach);
   reach = min(reach - nearer, sphere);
@@ -92,7 +92,7 @@ void main() {
        dy = vec2(dot(alongU, acrossY), dot(alongV, acrossY));
 
 #ifdef RELIT
-  vec2 broad = perRadius * textureLod(broadSlopes, uv, 0.0).rg;
+  vec3 broad = textureLod(broadSlopes, uv, 0.0).rgb * vec3(perRadius, perRadius, 1.0);
 #endif
   float wall = 0.0;
 #if defined(RELIEF) && !defined(PLAIN)
@@ -156,7 +156,8 @@ void main() {
 #endif
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
-  float wet = lamp * (kSheen * shine16 + kGlint * shine64 * shine64 * shine64);
+  float glint = glints.x * shine64 * shine64 * shine64 + glints.y * shine64;
+  float wet = lamp * (kSheen * shine16 + glint) * broad.z;
   vec3 body =
       colour * colour *
       mix(light, lamp * (kRelitAmbient + (1.0 - kRelitAmbient) * faces) * (1.0 - kWallShade * wall),

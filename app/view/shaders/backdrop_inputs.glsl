@@ -4,7 +4,7 @@
 uniform sampler2D panorama;
 uniform sampler2D relief;          // m; its slopes along u and v; weight of the imaged part
 uniform sampler2D reliefCeiling;   // m, maximum of each block of blockTexels x blockTexels
-uniform sampler2D broadSlopes;     // m along u and v, low-pass filtered
+uniform sampler2D broadSlopes;     // m along u and v, low-pass filtered; 1, or 0 near steps
 uniform sampler2D corners, cells;  // relief_cells.h
 steady vec3 tip;
 steady float clearance;            // 1 - |tip|^2, computed in double precision
@@ -17,6 +17,7 @@ steady vec2 texels, reliefTexels;
 steady float samples;              // at most, per pixel
 steady float radius, perRadius;    // m, 1/m
 steady float lightReach, gain, relit;
+steady vec2 glints;                // sharp and broad glint of the fluid film
 steady vec3 rodFrom, rodTo, headFrom, headTo;
 steady float rodRadius, headRadius;
 steady float highest;              // maximum of the relief

@@ -10,7 +10,6 @@ float lampAt(float distance) {
 }
 
 #ifdef ROD
-const float kRodTaper = 0.5;       // loss of radius at the rod's tip
 const float kTaperLength = 0.006;  // m
 const float kPenumbra =
     0.0014;  // m, half width of the penumbra at the lamp, which is that of its fibres

@@ -2,6 +2,8 @@
 // for the fragments, which also define FRAGMENT.
 #include "distance.glsl"
 VARYING vec3 lensPoint, modelPoint;  // m, in the lens frame and in the model's
+VARYING vec3 contactPoint;           // m, in the portal frame
+#include "contact.glsl"
 #ifdef TISSUE
 VARYING float fresh;  // 1: a vertex of a cut face
 VARYING vec4 coarseNoise;

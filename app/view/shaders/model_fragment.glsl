@@ -60,7 +60,9 @@
            (kSteelDiffuse * facing * facing + kStreak * pow(lamp, kStreakPower) +
             kSteelGlint * pow(lamp, kGlintPower)));
 #endif
+  float height = heightOverRelief(contactPoint);
+  linear *= contactLight(height);
   vec3 root = sqrt(max(linear, vec3(0.0))), root2 = sqrt(root);
   vec3 shown = kGammaRoots.x * root + kGammaRoots.y * root2 + kGammaRoots.z * sqrt(root2);
   shown = shoulder(max(shown, vec3(0.0))) * softRim(lensR) * coverage;
-  gl_FragData[0] = vec4(shown, 1.0);
+  gl_FragData[0] = vec4(shown, contactShare(height));

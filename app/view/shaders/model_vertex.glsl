@@ -3,6 +3,7 @@
   handOn();
   lensPoint = vertexVCVSOutput.xyz;
   modelPoint = vertexMC.xyz;
+  contactPoint = inPortal(lensPoint);
   float lensDistance = max(length(lensPoint), 1e-7);
   vec2 lensPlace = placeInWindow(lensPoint, lensDistance);
   float lensClip =

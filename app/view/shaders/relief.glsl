@@ -22,10 +22,11 @@ float steepness2(vec3 x, vec4 ground) {
   return dot(slope, slope) / dot(x, x);
 }
 
-// Returns how far x is behind the relief.
+// Returns how far x is behind the relief. Beyond the panorama the relief of its edge goes on, so
+// that the edge is no cliff.
 float behind(vec3 x) {
   vec2 uv = panoramaPlace(x);
-  return (isImaged(x, uv) ? textureLod(relief, uv, 0.0).r * perRadius : 0.0) - 1.0 + length(x);
+  return (isBefore(x) ? textureLod(relief, uv, 0.0).r * perRadius : 0.0) - 1.0 + length(x);
 }
 // Returns the maximum of the relief in the block around uv.
 float ceilingAt(vec2 uv) {

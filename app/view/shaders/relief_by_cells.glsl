@@ -39,7 +39,7 @@ float meetReliefByCells(vec3 ray, float sphere, out vec3 x, out vec2 uv, out boo
     uv = there;
     ground = isLook ? ground : found;
     imaged = isImaged(x, uv);
-    float gap = (imaged ? ground.r : 0.0) - 1.0 + length(x);
+    float gap = (isBefore(x) ? ground.r : 0.0) - 1.0 + length(x);
     bool is = gap >= 0.0;
     high = is ? t : high, gapHigh = is ? gap : gapHigh;
     low = is ? low : t, gapLow = is ? gapLow : gap;

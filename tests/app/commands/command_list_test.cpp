@@ -278,7 +278,8 @@ TEST_F(Commands, AnotherDepthMapDropsTheErrorAndTheOriginsOfTheImportedOne) {
   EXPECT_EQ(state.document().depth_sigma, sigma);
   app::Run(state, "make-depth");
   Settle(state);
-  EXPECT_FALSE(state.document().depth_sigma);
+  ASSERT_TRUE(state.document().depth_sigma) << "a depth map from brightness states its own";
+  EXPECT_NE(state.document().depth_sigma, sigma);
   EXPECT_FALSE(state.document().depth_origin);
   app::Run(state, "undo");
   EXPECT_EQ(state.document().depth_sigma, sigma);
@@ -286,7 +287,8 @@ TEST_F(Commands, AnotherDepthMapDropsTheErrorAndTheOriginsOfTheImportedOne) {
   WriteColourImage(temp / "other.png", test::KneePicture(200, 100));
   ImportPanorama(state, temp / "other.png");
   Settle(state);
-  EXPECT_FALSE(state.document().depth_sigma);
+  ASSERT_TRUE(state.document().depth_sigma);
+  EXPECT_EQ(state.document().depth_sigma->width, 200);
 }
 
 TEST_F(Commands, AnImportedDepthMapStaysImportedInASavedScene) {

@@ -18,7 +18,7 @@ ReliefTexture ReliefOf(const DepthMap& depth, bool whole_turn = false) {
 // Slopes at a texel along u and along v, m per texel.
 glm::dvec2 SlopeAt(const BroadSlopes& broad, int x, int y) {
   const int block = kWidth / broad.width;
-  const float* at = &broad.slopes[2 * (static_cast<std::size_t>(y / block) *
+  const float* at = &broad.slopes[3 * (static_cast<std::size_t>(y / block) *
                                            static_cast<std::size_t>(broad.width) +
                                        static_cast<std::size_t>(x / block))];
   return {at[0] / kWidth, at[1] / kHeight};
@@ -63,6 +63,34 @@ TEST(BroadSlopes, SuppressTheNoiseOfTexels) {
   EXPECT_LT(after, before / 8);
 }
 
+// Twelve texels of further smoothing leave a third of the noise at most, and the slope of a plane.
+TEST(BroadSlopes, SmoothedFurtherHaveLessNoiseAndKeepAPlane) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  DepthMap rough(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      rough.at(x, y) = static_cast<float>(0.01 + 8e-6 * x + noise(random));
+  const ReliefTexture relief = ReliefOf(rough);
+  const auto rms = [&](const BroadSlopes& broad) {
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int y = 60; y < kHeight - 60; y += 3)
+      for (int x = 60; x < kWidth - 60; x += 3, ++count) {
+        const double slope = SlopeAt(broad, x, y).x;
+        sum += slope, squares += slope * slope;
+      }
+    EXPECT_NEAR(sum / count, 8e-6, 1e-6);
+    return std::sqrt(squares / count - std::pow(sum / count, 2));
+  };
+  EXPECT_LT(rms(MakeBroadSlopes(relief, false, 12)), rms(MakeBroadSlopes(relief, false)) / 3);
+  DepthMap plane(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) plane.at(x, y) = static_cast<float>(0.01 + 8e-6 * x);
+  const BroadSlopes smooth = MakeBroadSlopes(ReliefOf(plane), false, 12);
+  for (int x = 0; x < kWidth; x += 5) EXPECT_NEAR(SlopeAt(smooth, x, 300).x, 8e-6, 1e-8) << x;
+}
+
 // A step of 5 mm in a plane: beside it the slope is the plane's own, on it far below the step's.
 TEST(BroadSlopes, GiveAStepALowWeight) {
   DepthMap cliff(kWidth, kHeight);
@@ -72,6 +100,16 @@ TEST(BroadSlopes, GiveAStepALowWeight) {
   const BroadSlopes broad = MakeBroadSlopes(ReliefOf(cliff), false);
   for (const int x : {600, 690, 709, 800}) EXPECT_NEAR(SlopeAt(broad, x, 300).x, 8e-6, 1e-7) << x;
   EXPECT_LT(std::abs(SlopeAt(broad, 700, 300).x), 1e-4);
+  // Beside it there is no glint, else a bright line would follow each outline.
+  const auto glints = [&](int x) {
+    const int block = kWidth / broad.width;
+    return broad
+        .slopes[3 * (static_cast<std::size_t>(300 / block) * static_cast<std::size_t>(broad.width) +
+                     static_cast<std::size_t>(x / block)) +
+                2];
+  };
+  for (const int x : {699, 700}) EXPECT_EQ(glints(x), 0.0f) << x;
+  for (const int x : {600, 690, 709, 800}) EXPECT_EQ(glints(x), 1.0f) << x;
 }
 
 TEST(BroadSlopes, AFullTurnHasNoSeam) {
@@ -86,9 +124,10 @@ TEST(BroadSlopes, AFullTurnHasNoSeam) {
 
 TEST(BroadSlopes, AreZeroForOneTexelAndWithoutADepthMap) {
   EXPECT_EQ(MakeBroadSlopes(ReliefOf(DepthMap(1, 1, 0.01f)), true).slopes,
-            (std::vector<float>{0, 0}));
-  for (const float slope : MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false).slopes)
-    EXPECT_EQ(slope, 0.0f);
+            (std::vector<float>{0, 0, 1}));
+  const BroadSlopes bare = MakeBroadSlopes(MakeReliefTexture({64, 48}, {}, false), false);
+  for (std::size_t i = 0; i < bare.slopes.size(); ++i)
+    EXPECT_EQ(bare.slopes[i], i % 3 == 2 ? 1.0f : 0.0f);
 }
 
 }  // namespace

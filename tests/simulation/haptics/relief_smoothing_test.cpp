@@ -177,6 +177,37 @@ TEST(ReliefSmoothing, KeepsAStepThatTheErrorDoesNotExplain) {
     }
 }
 
+// Beside a step the smoothing goes on along it and away from it, so the slope of the noise keeps
+// its bound there too; a smoothing that stops wherever it would reach across leaves the noise.
+TEST(ReliefSmoothing, BoundsTheSlopeOfNoiseBesideAStepToo) {
+  constexpr double kHigh = 0.012;  // m
+  const AnalyticRelief step = Level([](glm::dvec2 p) { return p.x < 256 ? 0.0 : kHigh; });
+  const DepthMap sigma(kSide, kSide, static_cast<float>(kSigma));
+  for (const double correlation : {2.0, 8.0}) {
+    const TouchedRelief touched = SmoothRelief(Sum(step.Float(), Noise(kSigma, correlation, 3)), 2,
+                                               sigma, step.backdrop, NoiseLimits{});
+    const auto at = [&](int x, int y) {
+      return static_cast<double>(touched.height[static_cast<std::size_t>(y * kSide + x)]);
+    };
+    for (const auto& [first, last] : {std::pair{240, 250}, std::pair{262, 272}}) {
+      double squares = 0;
+      int count = 0;
+      for (int y = 64; y < kSide - 64; ++y)
+        for (int x = first; x < last; ++x, ++count) {
+          const double du = 0.5 * (at(x + 1, y) - at(x - 1, y)),
+                       dv = 0.5 * (at(x, y + 1) - at(x, y - 1));
+          squares += 0.5 * (du * du + dv * dv) * kPxPerM * kPxPerM;
+        }
+      const double slope = std::sqrt(squares / count);
+      std::printf("noise over %g px, columns %d to %d: slope %.3f\n", correlation, first, last,
+                  slope);
+      // Half of the kernel is left beside the step, so twice the variance of the plane's height,
+      // and of its slope in one direction; the strip has some 30 independent patches.
+      EXPECT_LT(slope, NoiseLimits{}.slope * std::numbers::sqrt2 * (1 + 4 / std::sqrt(2 * 30.0)));
+    }
+  }
+}
+
 TEST(ReliefSmoothing, IsExactOnAPlaneAlsoBesideHolesAndBorders) {
   constexpr double kSlope = 2e-5;  // m per px
   const AnalyticRelief plane =

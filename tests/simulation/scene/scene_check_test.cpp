@@ -159,6 +159,18 @@ TEST(SceneCheck, ItsReportKeepsItsSchema) {
   EXPECT_EQ(test::SchemaFault("check-1", "{\"schema\": \"arthroscene.check/1\"}"), "# required");
 }
 
+TEST(SceneCheck, SaysThatADepthMapIsMostlyNoise) {
+  LoadedScene loaded;
+  DepthMap depth(10, 10, 0.01f);
+  depth.at(3, 3) = 0.013f;
+  loaded.depth = Share(depth);
+  loaded.depth_sigma = Share(DepthMap(10, 10, 4e-4f));
+  EXPECT_FALSE(Says(CheckScene(loaded).warnings, "mostly noise")) << "3 mm are 7.5 errors";
+  loaded.depth_sigma = Share(DepthMap(10, 10, 6e-4f));
+  EXPECT_TRUE(Says(CheckScene(loaded).warnings,
+                   "its noise is 0.6 mm, and its depths span 3 mm; outlines are not drawn"));
+}
+
 TEST(SceneCheck, WarnsOfDepthsWithoutOriginOrError) {
   LoadedScene loaded;
   DepthMap sigma(10, 10, 4e-4f);

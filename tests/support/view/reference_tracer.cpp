@@ -135,8 +135,7 @@ std::optional<glm::dvec3> ReferenceReliefHit(const Backdrop& backdrop, const Dep
   const auto is_behind = [&](const glm::dvec3& x) {
     double h = 0.0;
     const auto pixel = ReferencePixel(backdrop.projection, x);
-    if (pixel && pixel->x >= -0.5 && pixel->y >= -0.5 && pixel->x <= depth.width - 0.5 &&
-        pixel->y <= depth.height - 0.5) {
+    if (pixel) {  // the relief of the panorama's edge goes on beyond it
       const double u = std::clamp(pixel->x, 0.0, depth.width - 1.0);
       const double v = std::clamp(pixel->y, 0.0, depth.height - 1.0);
       const int i = std::min(static_cast<int>(u), depth.width - 2);

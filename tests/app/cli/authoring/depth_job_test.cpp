@@ -103,11 +103,26 @@ TEST_F(DepthJob, SaysThatAPictureIsFlat) {
 TEST_F(DepthJob, HelpListsEveryOption) {
   const auto result = test::RunProgram("depth --help");
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* flag :
-       {"--red-weight", "--law", "--gamma", "--near-relief-mm", "--far-relief-mm",
-        "--low-percentile", "--high-percentile", "--median-radius", "--surround-threshold",
-        "--border-margin", "--fill-highlights", "--estimator", "--vignette", "--field-of-view-deg",
-        "--correct-tissue", "--iterations", "--options", "inverse-square"})
+  for (const char* flag : {"--red-weight",
+                           "--law",
+                           "--gamma",
+                           "--near-relief-mm",
+                           "--far-relief-mm",
+                           "--low-percentile",
+                           "--high-percentile",
+                           "--median-radius",
+                           "--texture-size",
+                           "--noise",
+                           "--surround-threshold",
+                           "--border-margin",
+                           "--fill-highlights",
+                           "--estimator",
+                           "--vignette",
+                           "--field-of-view-deg",
+                           "--correct-tissue",
+                           "--iterations",
+                           "--options",
+                           "inverse-square"})
     EXPECT_NE(result.out.find(flag), std::string::npos) << flag << "\n" << result.out;
 }
 

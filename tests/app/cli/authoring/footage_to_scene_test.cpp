@@ -80,6 +80,9 @@ TEST(FootageToScene, ThePhantomsClipBecomesAScene) {
   const auto scene = nlohmann::json::parse(ReadWholeFile(mine + "/scene.json"));
   EXPECT_NEAR(scene.at("backdrop").at("projection").at("focal_px").get<double>(),
               report.at("panorama").at("focal_px").get<double>(), 1e-6);
+  // Its relief, estimated from brightness, states its noise.
+  EXPECT_EQ(scene.at("backdrop").at("depth_sigma"), "depth-sigma.tiff");
+  EXPECT_NE(check.out.find("relief: median standard error"), std::string::npos) << check.out;
   // The scope of the scene sees through the lens of the clip.
   const auto own_lens = nlohmann::json::parse(ReadWholeFile(mine + "/lens.json"));
   EXPECT_EQ(scene.at("scope").at("lens"), "lens.json");

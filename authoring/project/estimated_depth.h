@@ -1,0 +1,22 @@
+// Relief of a document that is made from the brightness of its panorama, with the noise that it
+// states [method.md, Depth from brightness].
+#pragma once
+
+#include <memory>
+
+#include "authoring/project/document.h"
+#include "simulation/core/progress.h"
+
+namespace arthro::authoring {
+
+struct EstimatedDepth {
+  std::shared_ptr<const DepthMap> depth, sigma;  // sigma: null where no noise is stated
+};
+
+EstimatedDepth EstimateDepth(const ColourImage& panorama, const DepthOptions& options,
+                             const Progress& progress);
+
+// Puts it in the place of the document's own depth, with names for the files that have none.
+void SetEstimatedDepth(Document& document, const EstimatedDepth& estimated);
+
+}  // namespace arthro::authoring
