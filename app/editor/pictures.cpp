@@ -187,7 +187,9 @@ const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& d
 
 bool Pictures::DrawScope(const EditorState& state, int size) {
   Take(state);
-  const Picture picture = ShownPicture(state, TakeOptics(state.document()));
+  Picture picture = ShownPicture(state, TakeOptics(state.document()));
+  if (state.practice && picture.instrument)
+    picture.instrument = live_tissues_.Settled(*picture.instrument);
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
   has_picture_ = panorama_ != nullptr;

@@ -115,11 +115,12 @@ void Run(const DemoJob& job) {
   for (std::size_t i = 0; i < count; ++i) {
     progress.Step("pictures", static_cast<double>(i) / static_cast<double>(count));
     const Moment& moment = moments.all()[i];
+    tissues.Forget();  // moments are seconds apart
     if (moment.world) {
       tissues.Show(*moment.world, loaded.scene.tissues, pictures.view(), nullptr);
       pictures.eye().Follow(*moment.world);
     }
-    pictures.eye().Leave();  // moments are seconds apart
+    pictures.eye().Leave();
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     // Upright, as surgeons hold it.
     const Picture picture =

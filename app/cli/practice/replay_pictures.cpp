@@ -23,8 +23,9 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
         tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
         pictures_.eye().Follow(*world);
       }
-      const Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope),
-                                              kind, scene_, optics_, head_);
+      Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind,
+                                        scene_, optics_, head_);
+      if (picture.instrument) picture.instrument = tissues_.Settled(*picture.instrument);
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }
