@@ -106,7 +106,7 @@ void Run(const DemoJob& job) {
   for (const std::string& message : report.messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));
 
-  StillPictures pictures(loaded);
+  StillPictures pictures(loaded, ShippedLooks(loaded.scene));
   const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
   auto json = ParseJson(simulation::ReportText(report, loaded.scene), Code::kBadData);
   json["pictures"] = nlohmann::json::array();

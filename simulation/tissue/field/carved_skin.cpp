@@ -17,15 +17,15 @@
 namespace arthro::simulation {
 namespace {
 
-// In spacings of the field.
-constexpr double kOverhang = 0.05;    // of the surface beyond a cut
-constexpr double kThrough = 0.1;      // of the face of a cut beyond the surface
-constexpr double kLongestEdge = 0.8;  // of a triangle that a cut meets
+// Lengths in spacings of the field.
+constexpr double kOverhang = 0.05;    // surface beyond a cut
+constexpr double kThrough = 0.1;      // face of a cut beyond the surface
+constexpr double kLongestEdge = 0.8;  // edge of a triangle that a cut meets
 constexpr double kFar = 3.0;          // beyond it only the side of the surface is needed
 
 // Cosine between the normals of a vertex and its triangles from which the surface is smooth there.
 constexpr double kSmooth = 0.9;
-constexpr int kRefinements = 2;  // of the place where an edge meets a cut
+constexpr int kRefinements = 2;  // steps towards the place where an edge meets a cut
 constexpr int kMostDivisions = 24;
 constexpr int kBeside = 2;  // nodes
 
