@@ -257,6 +257,11 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
     p.renderer->AddViewProp(model->actor());
     p.tissues.push_back(std::move(model));
   }
+  // Instruments come last, since they are drawn over what is behind them when close to the lens.
+  for (LensModel* model : {&p.tool, &p.moving}) {
+    p.renderer->RemoveViewProp(model->actor());
+    p.renderer->AddViewProp(model->actor());
+  }
 }
 
 bool ArthroscopicView::SetTissueShape(int index, std::span<const glm::dvec3> positions,

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <vtkCommand.h>
 #include <vtkDataObject.h>
 #include <vtkMatrix4x4.h>
 #include <vtkOpenGLVertexBufferObject.h>
@@ -15,6 +16,7 @@
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 #include <vtkUniforms.h>
+#include <vtk_glew.h>
 
 #include "app/view/drawing/shader_text.h"
 #include "app/view/drawing/srgb.h"
@@ -71,12 +73,20 @@ LensModel::LensModel(Look look) : look_(look) {
 
   Assemble();
   if (look == Look::kSteel) {
+    mapper_->AddObserver(vtkCommand::StartEvent, this, &LensModel::BeginBlending);
     SetLength(1.0);
     SetEtched(true);
   }
   if (look == Look::kTissue) SetLook({}, {});
   SetColour(glm::dvec3(1.0));
   SetFrame({});
+}
+
+// Steel beside the lens is blended over what was drawn before. The mapper calls this before it
+// draws; the next frame resets the state that VTK knows.
+void LensModel::BeginBlending() {
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
 }
 
 void LensModel::Assemble() {

@@ -78,6 +78,7 @@ class LensModel {
   MeteredSurface Metered(const glm::dvec3& light_colour) const;
 
  private:
+  void BeginBlending();
   // Composes the shaders.
   void Assemble();
   void TakeGrain(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh);

@@ -83,4 +83,9 @@
   vec3 root = sqrt(max(linear, vec3(0.0))), root2 = sqrt(root);
   vec3 shown = kGammaRoots.x * root + kGammaRoots.y * root2 + kGammaRoots.z * sqrt(root2);
   shown = shoulder(max(shown, vec3(0.0))) * softRim(lensR) * coverage;
+#ifdef TISSUE
   gl_FragData[0] = vec4(shown, 1.0);
+#else
+  // Steel beside the lens is far out of focus: it passes into what is behind it.
+  gl_FragData[0] = vec4(shown, smoothstep(kGoneAt, kSolidFrom, lensDistance));
+#endif

@@ -14,6 +14,7 @@ const float kFirstRing = 0.9, kLastRing = 4.5;     // rings from the tip, four o
 const float kRingHalf = 0.03, kRingHalfSoft = 0.045;  // half their width, in ring distances
 const float kRingDark = 0.85;
 // Steel mirrors the joint, half in grey, and the lamp as a streak with a clipped core.
+const float kGoneAt = 0.0005, kSolidFrom = 0.002;  // m from the lens
 const float kGrooveRate = 9000.0, kGrooveAround = 300.0;  // 1/m
 const float kGrooveSlope = 0.022;
 const float kGreyShare = 0.7, kLeastAround = 0.25;

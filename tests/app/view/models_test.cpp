@@ -128,6 +128,38 @@ TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
   EXPECT_NE(ball_only.rgb, probe_behind.rgb) << "beside the ball the probe is seen";
 }
 
+// Out of focus beside the lens: solid from 2 mm on, gone at 0.5 mm.
+TEST_F(ModelsView, ShaftBesideTheLensFades) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+  const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.004));
+  Tissue tissue;
+  tissue.pose.position = {0, 0, 0.030};
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
+  Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
+  const auto middle = [&] {
+    view_->Render(picture, 200);
+    const ColourImage drawn = view_->ReadPixels();
+    return glm::ivec3(drawn.at(100, 100)[0], drawn.at(100, 100)[1], drawn.at(100, 100)[2]);
+  };
+  const glm::ivec3 without = middle();
+  constexpr double kRadius = 0.75e-3;  // m, of the probe's shaft
+  const auto change = [&](double gap) {
+    const double z = 0.008 + gap + kRadius;
+    picture.instrument = InstrumentView{{0.03, 0, z}, {-0.02, 0, z}, 0.0};
+    const glm::ivec3 off = glm::abs(middle() - without);
+    return std::max({off.x, off.y, off.z});
+  };
+  const int solid = change(2.5e-3), half = change(1.25e-3), gone = change(0.45e-3);
+  std::printf("change by a shaft at 2.5, 1.25 and 0.45 mm: %d, %d, %d levels\n", solid, half, gone);
+  EXPECT_GT(solid, 30);
+  EXPECT_LT(half, solid);
+  EXPECT_GT(half, 3);
+  // The shaft still shades the tissue behind it.
+  EXPECT_LT(gone, half);
+}
+
 TEST_F(ModelsView, ProbeIsDrawnOnlyFromItsPortalToTheProxy) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;
