@@ -3,7 +3,7 @@
 // and goes on over the faces of cuts. m, the tissue's own frame.
 //
 // A crescent (TissueStructure::kFibres) is a plane by principal components and a circle by least
-// squares in it [Kåsa 1976, doi 10.1109/TIM.1976.6312298]; its edges are the smallest and largest
+// squares in it [Kåsa 1976]; its edges are the smallest and largest
 // radius per angle, its ends the borders of the largest gap of angles. A plate (kHyaline) has that
 // plane and a border, where its surface turns away from the plane's normal.
 #pragma once

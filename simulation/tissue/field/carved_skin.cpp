@@ -152,8 +152,7 @@ struct Draft {
     const glm::dvec3 middle_of_chord = 0.5 * (At(a) + At(b));
     if (na == glm::dvec3(0.0) || nb == glm::dvec3(0.0))
       return found->second = Add(middle_of_chord, glm::dvec3(0.0));
-    // Middle of the cubic between two points with normals
-    // [Vlachos 2001, doi 10.1145/364338.364387].
+    // Middle of the cubic between two points with normals [Vlachos et al. 2001].
     const glm::dvec3 bulge = 0.125 * (glm::dot(way, nb) * nb - glm::dot(way, na) * na);
     return found->second = Add(middle_of_chord + bulge, glm::normalize(na + nb));
   }
