@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/practice/hands/blade_speed.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -42,6 +43,8 @@ Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::
                         const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
   Picture picture =
       PictureOf(snapshot, seen_from, kind, scene, scene.scope.view_angle, optics, head);
+  if (snapshot.instrument.is_running)
+    picture.instrument->turn = simulation::kBladeSpeed * snapshot.t;
   if (snapshot.instrument.fault != simulation::Fault::kNone) picture.instrument.reset();
   return picture;
 }
