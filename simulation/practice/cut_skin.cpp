@@ -25,7 +25,7 @@ BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface, const SolidFi
     const BodyPlaces places = PlacesOf(tissue, surface);
     SolidField field = whole;
     MakeCuts(field, places.cuts, places.fixed);
-    CarvedSkin carved = SkinCarver(places.surface).Carve(field);
+    CarvedSkin carved = SkinCarver(places.surface, whole).Carve(field);
     BodySkin skin{std::move(carved.surface), std::move(carved.is_fresh)};
     for (glm::dvec3& x : skin.surface.vertices) x /= tissue.pose.scale;
     return skin;

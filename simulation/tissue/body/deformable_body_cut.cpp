@@ -1,8 +1,9 @@
 // Removal of parts of a body: the field at rest, then elements, skin and solver.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
-#include <map>
+#include <unordered_map>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -127,7 +128,14 @@ std::vector<int> OnlyCopies(const CutMesh& cut, int elements) {
 std::vector<int> SameVertices(const SurfaceMesh& before, std::span<const int> whole_before,
                               const SurfaceMesh& now, std::span<const int> whole_now) {
   std::vector<int> of_whole;
-  std::map<std::array<double, 3>, int> of_place;
+  const auto hash = [](const std::array<double, 3>& x) {
+    std::uint64_t sum = 0;
+    for (const double coordinate : x)
+      sum = (sum ^ std::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(sum >> 16);
+  };
+  std::unordered_map<std::array<double, 3>, int, decltype(hash)> of_place(before.vertices.size(),
+                                                                          hash);
   for (std::size_t v = 0; v < whole_before.size(); ++v) {
     const glm::dvec3& x = before.vertices[v];
     if (whole_before[v] < 0) {
@@ -233,7 +241,7 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
 // Creates the data that cutting needs, at the first cut.
 void DeformableBody::Impl::BeginCutting() {
   cut = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
-                                            .carver = SkinCarver(spec.surface),
+                                            .carver = SkinCarver(spec.surface, field),
                                             .original = field});
   for (std::size_t v = 0; v < shape->skin.point.size(); ++v) {
     cut->element_of_vertex.push_back(shape->skin.point[v].element);

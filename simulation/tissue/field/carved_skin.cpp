@@ -20,8 +20,8 @@ namespace {
 // Lengths in spacings of the field.
 constexpr double kOverhang = 0.05;    // surface beyond a cut
 constexpr double kThrough = 0.1;      // face of a cut beyond the surface
-constexpr double kLongestEdge = 0.8;  // edge of a triangle that a cut meets
-constexpr double kFar = 3.0;          // beyond it only the side of the surface is needed
+constexpr double kLongestEdge = 1.1;  // edge of a triangle that a cut meets
+constexpr double kExact = 1.0;        // distance within which that of the surface is exact
 
 // Cosine between the normals of a vertex and its triangles from which the surface is smooth there.
 constexpr double kSmooth = 0.9;
@@ -48,6 +48,8 @@ class RemovedVolume {
   }
   // Returns whether a node in the box, or at its cells' corners, was removed.
   bool Meets(const glm::dvec3& low, const glm::dvec3& high) const {
+    if (glm::any(glm::lessThan(high, box_.low)) || glm::any(glm::lessThan(box_.high, low)))
+      return false;
     std::array<int, 3> first, last;
     for (int a = 0; a < 3; ++a) {
       const auto i = static_cast<std::size_t>(a);
@@ -112,7 +114,11 @@ class RemovedVolume {
       for (int j = 0; j < n[1]; ++j) {
         int row = 0;
         for (int i = 0; i < n[0]; ++i) {
-          row += value_[grid_.Index(i, j, k)] > 0;
+          if (value_[grid_.Index(i, j, k)] > 0) {
+            ++row;
+            const glm::dvec3 place = grid_.Place(i, j, k);
+            box_ = Union(box_, {place - grid_.spacing, place + grid_.spacing});
+          }
           sum_[SumIndex(i + 1, j + 1, k + 1)] = row + sum_[SumIndex(i + 1, j, k + 1)] +
                                                 sum_[SumIndex(i + 1, j + 1, k)] -
                                                 sum_[SumIndex(i + 1, j, k)];
@@ -123,6 +129,7 @@ class RemovedVolume {
   const FieldGrid& grid_;
   std::vector<float> value_;
   std::vector<int> sum_;
+  Box3 box_ = kEmptyBox;  // holds every removed node and the cells around it
 };
 
 using Edge = std::pair<int, int>;
@@ -227,8 +234,11 @@ struct Draft {
 
 }  // namespace
 
-SkinCarver::SkinCarver(SurfaceMesh whole)
-    : whole_(std::move(whole)), normals_(whole_.vertices.size()), finder_(whole_) {
+SkinCarver::SkinCarver(SurfaceMesh whole, SolidField field)
+    : whole_(std::move(whole)),
+      field_of_whole_(std::move(field)),
+      normals_(whole_.vertices.size()),
+      finder_(whole_) {
   ComputeVertexNormals(whole_.vertices, whole_.triangles, normals_);
   smooth_normals_ = normals_;
   for (std::size_t t = 0; t < whole_.triangles.size(); ++t) {
@@ -242,11 +252,12 @@ SkinCarver::SkinCarver(SurfaceMesh whole)
   }
 }
 
-double SkinCarver::DistanceFromWhole(const glm::dvec3& x, const SolidField& field) const {
-  const double far = kFar * field.spacing();
-  const SurfacePoint near = finder_.Find(x, far);
-  // On the face of a cut the field is zero inside the tissue, and the distance outside.
-  if (near.triangle < 0) return field.Distance(x) > 0.5 * far ? far : -far;
+double SkinCarver::DistanceFromWhole(const glm::dvec3& x) const {
+  // The error of the field is below a third of a spacing, also at a thin edge.
+  const double spacing = field_of_whole_.spacing(), about = field_of_whole_.Distance(x);
+  if (std::abs(about) > kExact * spacing) return about;
+  const SurfacePoint near = finder_.Find(x, 2.0 * kExact * spacing);
+  if (near.triangle < 0) return about;
   const auto& [a, b, c] = whole_.triangles[static_cast<std::size_t>(near.triangle)];
   const glm::dvec3 out = near.at.x * normals_[static_cast<std::size_t>(a)] +
                          near.at.y * normals_[static_cast<std::size_t>(b)] +
@@ -284,7 +295,7 @@ CarvedSkin SkinCarver::Carve(const SolidField& field) const {
   inside.normal.assign(faces.vertices.size(), glm::dvec3(0.0));
   inside.triangles = faces.triangles;
   const auto on_face = [&](const glm::dvec3& x) {
-    return DistanceFromWhole(x, field) - kThrough * spacing;
+    return DistanceFromWhole(x) - kThrough * spacing;
   };
   for (const glm::dvec3& x : faces.vertices) inside.value.push_back(on_face(x));
   inside.triangles = inside.Clipped(on_face);

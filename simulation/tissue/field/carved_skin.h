@@ -21,18 +21,19 @@ struct CarvedSkin {
 
 class SkinCarver {
  public:
-  // `whole`: the closed surface that the field was made from.
-  explicit SkinCarver(SurfaceMesh whole);
+  // `whole`: the closed surface that `field`, which is not yet cut, was made from.
+  SkinCarver(SurfaceMesh whole, SolidField field);
   // Triangles beside a cut are divided to about the field's spacing, along a curved surface where
   // the whole surface is smooth.
   CarvedSkin Carve(const SolidField& field) const;
 
  private:
-  // Returns the distance from the whole surface, positive outside, for points within a few spacings
-  // of it, and otherwise its sign times `far`.
-  double DistanceFromWhole(const glm::dvec3& x, const SolidField& field) const;
+  // Returns the distance from the whole surface, positive outside: exact within a spacing of it,
+  // and otherwise that of the field.
+  double DistanceFromWhole(const glm::dvec3& x) const;
 
   SurfaceMesh whole_;
+  SolidField field_of_whole_;
   std::vector<glm::dvec3> normals_, smooth_normals_;  // the latter zero at creases
   SurfaceFinder finder_;
 };

@@ -212,7 +212,21 @@ SkinUpdate FieldSkin::UpdateFrom(const SolidField& field, std::span<const float>
         for (int i = 0; i < brick_count[0]; ++i) visit(Cell{i, j, k});
   };
   const auto versions = field.brick_versions();
-  const auto has_changed = [&](const Cell& b) { return is_new || versions[index(b)] > version_; };
+  // A new skin needs no brick whose nodes are all on one side.
+  const auto is_flat = [&](const Cell& b) {
+    const auto end = [&](std::size_t a) {
+      return std::min((b[a] + 1) * kBrick, grid.count[a] - 1);
+    };
+    const bool side = values[grid.Index(b[0] * kBrick, b[1] * kBrick, b[2] * kBrick)] < 0;
+    for (int k = b[2] * kBrick; k <= end(2); ++k)
+      for (int j = b[1] * kBrick; j <= end(1); ++j)
+        for (int i = b[0] * kBrick; i <= end(0); ++i)
+          if ((values[grid.Index(i, j, k)] < 0) != side) return false;
+    return true;
+  };
+  const auto has_changed = [&](const Cell& b) {
+    return is_new ? !is_flat(b) : versions[index(b)] > version_;
+  };
 
   // Bricks to redo: those that changed, and neighbours that may have agreed to join a face with
   // them.

@@ -25,13 +25,15 @@ double FromBite(const glm::dvec3& x) { return glm::distance(x, kCentre) - kBite;
 struct Bitten {
   SurfaceMesh whole = test::Sphere({0, 0, 0}, kRadius, 5);
   SolidField field = SolidField::FromSurface(whole, kSpacing);
+  SkinCarver carver{whole, field};
   double removed = field.Subtract(field.box(), FromBite).removed;
-  CarvedSkin skin = SkinCarver(whole).Carve(field);
+  CarvedSkin skin = carver.Carve(field);
 };
 
 TEST(CarvedSkin, KeepsTheWholeSurfaceWhereNothingWasCut) {
   const SurfaceMesh whole = test::Sphere({0, 0, 0}, kRadius, 4);
-  const CarvedSkin skin = SkinCarver(whole).Carve(SolidField::FromSurface(whole, kSpacing));
+  const SolidField field = SolidField::FromSurface(whole, kSpacing);
+  const CarvedSkin skin = SkinCarver(whole, field).Carve(field);
   EXPECT_EQ(skin.surface.vertices, whole.vertices);
   EXPECT_EQ(skin.surface.triangles, whole.triangles);
   EXPECT_EQ(std::ranges::count(skin.is_fresh, 1), 0);
@@ -105,9 +107,9 @@ TEST(CarvedSkin, DebrisLeavesNoSkin) {
   const SurfaceMesh bar =
       test::Box(glm::dvec3(-10, -1.5, -1.5) * kMm, glm::dvec3(10, 1.5, 1.5) * kMm);
   SolidField field = SolidField::FromSurface(bar, kSpacing);
+  const SkinCarver carver(bar, field);
   field.Subtract({glm::dvec3(6, -3, -3) * kMm, glm::dvec3(9, 3, 3) * kMm},
                  [](const glm::dvec3& x) { return std::abs(x.x - 7.5 * kMm) - 0.5 * kMm; });
-  const SkinCarver carver(bar);
   const auto at_end = [&](const CarvedSkin& skin) {
     return std::ranges::count_if(skin.surface.vertices,
                                  [](const glm::dvec3& x) { return x.x > 7.7 * kMm; });
