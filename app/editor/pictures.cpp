@@ -100,16 +100,19 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   overview_.SetBackdrop(*panorama, relief, shown);
 }
 
-void Pictures::TakeTissues(const authoring::Document& document) {
+void Pictures::TakeTissues(const EditorState& state) {
+  const authoring::Document& document = state.document();
   const auto& tissues = document.scene.tissues;
+  std::vector<simulation::TissueLook> looks = simulation::LooksOf(tissues, state.tissue_presets);
   const auto same_look = [&] {
-    if (surfaces_ != document.surfaces || tissues_.size() != tissues.size()) return false;
+    if (surfaces_ != document.surfaces || tissues_.size() != tissues.size() || looks_ != looks)
+      return false;
     for (std::size_t i = 0; i < tissues.size(); ++i)
       if (tissues_[i].colour != tissues[i].colour) return false;
     return true;
   };
   if (!same_look()) {
-    scope_.SetTissues(tissues, document.surfaces);
+    scope_.SetTissues(tissues, document.surfaces, looks);
     overview_.SetTissues(tissues, document.surfaces);
     shown_cuts_.assign(tissues.size(), nullptr);
     chosen_ = -1;
@@ -124,6 +127,7 @@ void Pictures::TakeTissues(const authoring::Document& document) {
       }
   }
   tissues_ = tissues;
+  looks_ = std::move(looks);
   TakeCuts(document);
 }
 
@@ -150,7 +154,7 @@ void Pictures::TakeLiveTissues(const EditorState& state) {
     if (!live_tissues_.empty()) surfaces_.clear();  // they are shown anew
     live_ = live;
     live_tissues_.Forget();
-    TakeTissues(state.document());
+    TakeTissues(state);
   }
   if (live == nullptr || live->tissues() == nullptr) return;
   if (live_tissues_.Show(*live->tissues(), state.document().scene.tissues, scope_, &overview_))
@@ -159,7 +163,7 @@ void Pictures::TakeLiveTissues(const EditorState& state) {
 
 void Pictures::Take(const EditorState& state) {
   TakeBackdrop(state);
-  TakeTissues(state.document());
+  TakeTissues(state);
   TakeLiveTissues(state);
 }
 
@@ -178,7 +182,9 @@ const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& d
 
 bool Pictures::DrawScope(const EditorState& state, int size) {
   Take(state);
-  const Picture picture = ShownPicture(state, TakeOptics(state.document()));
+  Picture picture = ShownPicture(state, TakeOptics(state.document()));
+  if (state.practice && picture.instrument)
+    picture.instrument = live_tissues_.Settled(*picture.instrument);
   const bool moved = changed_ || !Same(picture, picture_);
   picture_ = picture;
   has_picture_ = panorama_ != nullptr;

@@ -51,7 +51,7 @@ class Pictures {
  private:
   void Take(const EditorState& state);
   void TakeBackdrop(const EditorState& state);
-  void TakeTissues(const authoring::Document& document);
+  void TakeTissues(const EditorState& state);
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
   void TakeLiveTissues(const EditorState& state);
@@ -82,6 +82,7 @@ class Pictures {
   bool as_filmed_ = false;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;
   std::vector<Tissue> tissues_;
+  std::vector<simulation::TissueLook> looks_;  // one per tissue
   CutSkins cut_skins_;
   std::vector<std::shared_ptr<const simulation::BodySkin>>
       shown_cuts_;  // one per tissue; null: whole

@@ -69,6 +69,7 @@ struct ArthroscopicView::Parts {
     std::optional<FootageLight> about;
   };
   std::vector<Place> places;
+  std::optional<std::array<glm::dvec3, 3>> slopes;  // change of the light along the portal's axes
   MeteredModels metered;
   LensPass lens_pass;
   bool is_disturbed = false;  // the last frame passed through lens_pass
@@ -80,7 +81,9 @@ struct ArthroscopicView::Parts {
   const FootageLight& LightAbout(std::size_t tissue);
   glm::dvec3 LightColourAt(std::size_t tissue);
   void MeterModels(const Picture& picture);
+  std::array<glm::dvec3, 3> SlopesIn(const simulation::ScopeView& view);
   void ForgetLight() {
+    slopes.reset();
     for (Place& place : places) place.about.reset();
   }
   vtkOpenGLFramebufferObject& drawn() const { return *window->GetRenderFramebuffer(); }
@@ -95,6 +98,24 @@ const FootageLight& ArthroscopicView::Parts::LightAbout(std::size_t tissue) {
     place.about = backdrop->LightAbout(far > 0 ? middle / far : glm::dvec3(0, 0, 1));
   }
   return *place.about;
+}
+
+// Returns the change of the surroundings' colour along the lens' axes, from that along the
+// portal's: half the difference between opposite directions.
+std::array<glm::dvec3, 3> ArthroscopicView::Parts::SlopesIn(const simulation::ScopeView& view) {
+  if (!slopes) {
+    slopes.emplace();
+    for (int a = 0; a < 3; ++a) {
+      glm::dvec3 axis(0.0);
+      axis[a] = 1.0;
+      (*slopes)[static_cast<std::size_t>(a)] =
+          0.5 * (backdrop->LightAbout(axis).mean - backdrop->LightAbout(-axis).mean);
+    }
+  }
+  const auto along = [&](const glm::dvec3& d) {
+    return d.x * (*slopes)[0] + d.y * (*slopes)[1] + d.z * (*slopes)[2];
+  };
+  return {along(view.right), along(view.up), along(-view.view)};
 }
 
 // Lights a model half by its own surroundings, so that it does not look pasted on.
@@ -187,7 +208,8 @@ bool ArthroscopicView::SetGeometry(const Backdrop& backdrop) {
 }
 
 void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
-                                  std::span<const SharedSurface> surfaces) {
+                                  std::span<const SharedSurface> surfaces,
+                                  std::span<const simulation::TissueLook> looks) {
   Parts& p = *parts_;
   for (const auto& model : p.tissues) p.renderer->RemoveViewProp(model->actor());
   p.tissues.clear();
@@ -196,6 +218,7 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
   for (std::size_t i = 0; i < tissues.size(); ++i) {
     auto model = std::make_unique<LensModel>(LensModel::Look::kTissue);
     const SurfaceMesh& surface = OrEmpty(i < surfaces.size() ? surfaces[i] : nullptr);
+    model->SetLook(i < looks.size() ? looks[i] : simulation::TissueLook{}, surface);
     model->SetSurface(surface);
     model->SetColour(tissues[i].colour);
     model->SetPose(tissues[i].pose);
@@ -203,6 +226,11 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
     p.places.push_back({MiddleOf(surface.vertices), tissues[i].pose, {}});
     p.renderer->AddViewProp(model->actor());
     p.tissues.push_back(std::move(model));
+  }
+  // Instruments come last, since they are drawn over what is behind them when close to the lens.
+  for (LensModel* model : {&p.tool, &p.moving}) {
+    p.renderer->RemoveViewProp(model->actor());
+    p.renderer->AddViewProp(model->actor());
   }
 }
 
@@ -259,6 +287,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   frame.light_colour = LightOf(p.backdrop->footage_light().bright);
   frame.surround = p.backdrop->footage_light().mean;
   frame.contact = p.backdrop->BeginContact();
+  if (ShowsTool(picture)) frame.slope = p.SlopesIn(view);
   p.ShowTool(picture, frame);
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
     frame.light_colour = p.LightColourAt(i);

@@ -17,6 +17,7 @@
 
 #include "app/view/drawing/picture.h"
 #include "simulation/scene/loaded_scene.h"
+#include "simulation/tissue/body/tissue_look.h"
 
 namespace arthro::app {
 
@@ -39,7 +40,9 @@ class ArthroscopicView {
   // begin or cease to cover a full turn: call SetBackdrop then.
   bool SetGeometry(const Backdrop& backdrop);
   // One surface per tissue, in its own frame; an empty one is not drawn.
-  void SetTissues(std::span<const Tissue> tissues, std::span<const SharedSurface> surfaces);
+  // Tissues without an entry in `looks` are plain.
+  void SetTissues(std::span<const Tissue> tissues, std::span<const SharedSurface> surfaces,
+                  std::span<const simulation::TissueLook> looks = {});
   // Deforms a tissue: as many vertices and unit normals as its surface has, in its own frame.
   // Computes normals when none are given. Returns whether anything moved; nothing is uploaded
   // otherwise.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "app/view/settling.h"
+
 namespace arthro::app {
 namespace {
 
@@ -24,7 +26,9 @@ bool LiveTissues::Show(const simulation::WorldPicture& world, std::span<const Ti
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const simulation::BodyPicture& body = world.bodies[i];
     Shown& shown = shown_[i];
-    if (body.skin == nullptr || (shown.skin == body.skin && shown.shape == body.shape)) continue;
+    if (body.skin == nullptr ||
+        (shown.skin == body.skin && shown.shape == body.shape && shown.has_settled))
+      continue;
     const double scale = tissues[static_cast<std::size_t>(body.tissue)].pose.scale;
 
     // The scene's own surface is there already; any other one comes from a cut or its undoing.
@@ -37,13 +41,30 @@ bool LiveTissues::Show(const simulation::WorldPicture& world, std::span<const Ti
       if (overview != nullptr)
         overview->SetTissueSurface(body.tissue, surface, body.skin->is_fresh);
     }
-    shown = {body.skin, body.shape};
-    const std::span<const glm::dvec3> positions = Unscaled(body.positions, scale, unscaled_);
-    const bool moved = scope.SetTissueShape(body.tissue, positions, body.normals);
-    if (overview != nullptr) overview->SetTissueShape(body.tissue, positions, body.normals);
+    const std::span<const glm::dvec3> now = Unscaled(body.positions, scale, unscaled_);
+    if (shown.skin != body.skin || shown.places.size() != now.size()) {
+      shown.places.assign(now.begin(), now.end());
+      shown.normals.assign(body.normals.begin(), body.normals.end());
+      shown.has_settled = true;
+    } else {
+      shown.has_settled = Settle(now, body.normals, shown.places, shown.normals);
+    }
+    shown.skin = body.skin;
+    shown.shape = body.shape;
+    const bool moved = scope.SetTissueShape(body.tissue, shown.places, shown.normals);
+    if (overview != nullptr) overview->SetTissueShape(body.tissue, shown.places, shown.normals);
     changed = changed || moved || is_other;
   }
   return changed;
+}
+
+InstrumentView LiveTissues::Settled(InstrumentView tool) {
+  const bool goes_on = tool_ && tool_->kind == tool.kind;
+  glm::dvec3 drawn = goes_on ? tool_->proxy : tool.proxy;
+  Settle(tool.proxy, drawn);
+  tool.proxy = drawn;
+  tool_ = tool;
+  return tool;
 }
 
 }  // namespace arthro::app

@@ -61,12 +61,14 @@ Picture PictureOf(const simulation::Snapshot& snapshot, const simulation::RodPos
   return picture;
 }
 
-StillPictures::StillPictures(const LoadedScene& loaded) : loaded_(loaded) {
+StillPictures::StillPictures(const LoadedScene& loaded,
+                             std::span<const simulation::TissueLook> looks)
+    : loaded_(loaded) {
   const DepthMap& depth = OrEmpty(loaded.depth);
   view_.SetBackdrop(OrEmpty(loaded.panorama), depth, WithKnownLight(loaded.scene.backdrop, depth),
                     OrEmpty(loaded.depth_sigma));
   const auto& tissues = loaded.scene.tissues;
-  view_.SetTissues(tissues, loaded.surfaces);
+  view_.SetTissues(tissues, loaded.surfaces, looks);
   for (std::size_t i = 0; i < std::min(tissues.size(), loaded.surfaces.size()); ++i) {
     const SurfaceMesh& surface = OrEmpty(loaded.surfaces[i]);
     if (!simulation::HasCutsMade(tissues[i]) || surface.triangles.empty()) continue;

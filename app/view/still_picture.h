@@ -30,8 +30,9 @@ class StillPictures {
   static constexpr int kMinSize = 16, kMaxSize = 4096;  // px
 
   // Throws Error(kDisplay) when nothing can draw, and Error for an author's cut that cannot be
-  // made. Copies `loaded` to the renderer.
-  explicit StillPictures(const LoadedScene& loaded);
+  // made. Copies `loaded` to the renderer. `looks`: one per tissue, or none.
+  explicit StillPictures(const LoadedScene& loaded,
+                         std::span<const simulation::TissueLook> looks = {});
 
   // Draws four rays per pixel: twice as large, then averaged. Throws Error(kBadArgument) for a tip
   // outside the backdrop's sphere, where there is nothing to see, and for a size out of range.

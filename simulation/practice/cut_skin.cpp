@@ -1,11 +1,12 @@
 #include "simulation/practice/cut_skin.h"
 
+#include <utility>
+
 #include "simulation/core/error.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/tissue/body/body_options.h"
-#include "simulation/tissue/contact/uncut_surface.h"
 #include "simulation/tissue/cut/cutters.h"
-#include "simulation/tissue/field/polygonise.h"
+#include "simulation/tissue/field/carved_skin.h"
 
 namespace arthro::simulation {
 
@@ -24,9 +25,8 @@ BodySkin CutSkin(const Tissue& tissue, const SurfaceMesh& surface, const SolidFi
     const BodyPlaces places = PlacesOf(tissue, surface);
     SolidField field = whole;
     MakeCuts(field, places.cuts, places.fixed);
-    BodySkin skin{Polygonise(field), {}};
-    ProjectOnto(SurfaceFinder(places.surface), field, {}, skin.surface);
-    skin.is_fresh = FreshVertices(skin.surface, field);
+    CarvedSkin carved = SkinCarver(places.surface, whole).Carve(field);
+    BodySkin skin{std::move(carved.surface), std::move(carved.is_fresh)};
     for (glm::dvec3& x : skin.surface.vertices) x /= tissue.pose.scale;
     return skin;
   } catch (const Error& error) {

@@ -25,17 +25,22 @@ SurfaceFinder::SurfaceFinder(const SurfaceMesh& surface) {
   tree_ = BoxTree(boxes);
 }
 
-glm::dvec3 SurfaceFinder::Nearest(const glm::dvec3& x, double reach) const noexcept {
-  glm::dvec3 nearest = x;
+SurfacePoint SurfaceFinder::Find(const glm::dvec3& x, double reach) const noexcept {
+  SurfacePoint nearest;
   double least2 = reach * reach;
   tree_.ForNear(x, least2, [&](int triangle) {
     const TriangleCorners& corner = triangles_[static_cast<std::size_t>(triangle)];
-    const glm::dvec3 place = PointOn(corner, ClosestOnTriangle(corner, x));
+    const glm::dvec3 at = ClosestOnTriangle(corner, x), place = PointOn(corner, at);
     const glm::dvec3 way = place - x;
     if (const double distance2 = glm::dot(way, way); distance2 < least2)
-      least2 = distance2, nearest = place;
+      least2 = distance2, nearest = {triangle, at, place};
   });
   return nearest;
+}
+
+glm::dvec3 SurfaceFinder::Nearest(const glm::dvec3& x, double reach) const noexcept {
+  const SurfacePoint nearest = Find(x, reach);
+  return nearest.triangle < 0 ? x : nearest.place;
 }
 
 }  // namespace arthro

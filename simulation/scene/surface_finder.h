@@ -12,11 +12,21 @@
 
 namespace arthro {
 
+// Point of a surface: triangle −1 for none.
+struct SurfacePoint {
+  int triangle = -1;
+  glm::dvec3 at{0.0};     // barycentric coordinates
+  glm::dvec3 place{0.0};  // m
+};
+
 class SurfaceFinder {
  public:
   explicit SurfaceFinder(const SurfaceMesh& surface);
 
-  // Returns the nearest point within `reach`, or x itself when there is none.
+  // Returns the nearest point within `reach`, the first of equals in the tree's order.
+  SurfacePoint Find(const glm::dvec3& x,
+                    double reach = std::numeric_limits<double>::infinity()) const noexcept;
+  // Returns the place of the nearest point within `reach`, or x itself when there is none.
   glm::dvec3 Nearest(const glm::dvec3& x,
                      double reach = std::numeric_limits<double>::infinity()) const noexcept;
 

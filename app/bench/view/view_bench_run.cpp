@@ -30,12 +30,17 @@ struct SceneKind {
   double fineness = 0;
   double relight = 0;
   bool is_disturbed = false;
+  simulation::TissueStructure structure = simulation::TissueStructure::kPlain;
 };
 constexpr std::array kScenes = {SceneKind{"two instruments"},
                                 SceneKind{"two instruments, {} triangles", 0.2},
                                 SceneKind{"two instruments, {} triangles", 1},
                                 SceneKind{"two instruments, {} triangles, lamp", 0.2, 1},
-                                SceneKind{"the same, haze and bubbles", 0.2, 1, true}};
+                                SceneKind{"the same, haze and bubbles", 0.2, 1, true},
+                                SceneKind{"{} triangles, lamp, as a meniscus", 0.2, 1, false,
+                                          simulation::TissueStructure::kFibres},
+                                SceneKind{"{} triangles, lamp, as cartilage", 0.2, 1, false,
+                                          simulation::TissueStructure::kHyaline}};
 
 // Number of rows, for the progress.
 constexpr double kRows = 3 * kSearches.size() + 2 * kSamples.size() + 2 * kScenes.size();
@@ -194,7 +199,10 @@ void ViewBenchRun::MeasureScenes(int size) {
     if (kind.fineness > 0) ring = Ring(0.007, 0.0024, around, around);
     loaded.scene.backdrop.relight = kind.relight;
     view_.SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
-    view_.SetTissues(tissues, std::vector{Share(lying), Share(ring)});
+    std::vector<simulation::TissueLook> looks(2);
+    looks[1].structure = kind.structure;
+    looks[1].fibres = looks[1].vessels = looks[1].fibrillation = 1;
+    view_.SetTissues(tissues, std::vector{Share(lying), Share(ring)}, looks);
     Picture picture = ViewOfWavyJoint();
     picture.relief = kUsualRelief;
     picture.samples = 2;

@@ -106,7 +106,7 @@ void Run(const DemoJob& job) {
   for (const std::string& message : report.messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));
 
-  StillPictures pictures(loaded);
+  StillPictures pictures(loaded, ShippedLooks(loaded.scene));
   const simulation::ScopeOptics optics = simulation::OpticsOf(loaded.scene.scope, loaded.lens);
   auto json = ParseJson(simulation::ReportText(report, loaded.scene), Code::kBadData);
   json["pictures"] = nlohmann::json::array();
@@ -115,11 +115,12 @@ void Run(const DemoJob& job) {
   for (std::size_t i = 0; i < count; ++i) {
     progress.Step("pictures", static_cast<double>(i) / static_cast<double>(count));
     const Moment& moment = moments.all()[i];
+    tissues.Forget();  // moments are seconds apart
     if (moment.world) {
       tissues.Show(*moment.world, loaded.scene.tissues, pictures.view(), nullptr);
       pictures.eye().Follow(*moment.world);
     }
-    pictures.eye().Leave();  // moments are seconds apart
+    pictures.eye().Leave();
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     // Upright, as surgeons hold it.
     const Picture picture =

@@ -57,7 +57,8 @@ void Run(const ReplayJob& job) {
   std::optional<ReplayPictures> pictures;
   std::optional<VideoFile> video;
   if (!job.pictures.empty() || !job.video.empty())
-    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t, head);
+    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t, head,
+                     ShippedLooks(loaded.scene));
   const auto add = [&](ReplayPictures::Form form, ReplayPictures::Take take) {
     form.shape = shape;
     pictures->AddRow(form, std::move(take));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/practice/hands/blade_speed.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -23,8 +24,9 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
         tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
         pictures_.eye().Follow(*world);
       }
-      const Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope),
-                                              kind, scene_, optics_, head_);
+      Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind,
+                                        scene_, optics_, head_);
+      if (picture.instrument) picture.instrument = tissues_.Settled(*picture.instrument);
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }
@@ -41,6 +43,8 @@ Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::
                         const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
   Picture picture =
       PictureOf(snapshot, seen_from, kind, scene, scene.scope.view_angle, optics, head);
+  if (snapshot.instrument.is_running)
+    picture.instrument->turn = simulation::kBladeSpeed * snapshot.t;
   if (snapshot.instrument.fault != simulation::Fault::kNone) picture.instrument.reset();
   return picture;
 }

@@ -28,13 +28,13 @@ class ReplayPictures {
 
   // Trace from `begin` to `end`, s.
   ReplayPictures(const LoadedScene& loaded, double begin, double end,
-                 const simulation::CameraHead& head)
+                 const simulation::CameraHead& head, std::span<const simulation::TissueLook> looks)
       : scene_(loaded.scene),
         optics_(simulation::OpticsOf(loaded.scene.scope, loaded.lens)),
         head_(head),
         begin_(begin),
         end_(end),
-        pictures_(loaded) {}
+        pictures_(loaded, looks) {}
 
   void AddRow(const Form& form, Take take);
   void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,

@@ -11,6 +11,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/practice/shipped_presets.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -66,7 +67,7 @@ void RunViewJob(const ViewArguments& arguments) {
   if (arguments.field_of_view_deg) field_of_view = RadiansFromDegrees(*arguments.field_of_view_deg);
   const simulation::ScopeOptics optics = simulation::OpticsOf(scope, loaded.lens, field_of_view);
 
-  StillPictures pictures(loaded);
+  StillPictures pictures(loaded, ShippedLooks(loaded.scene));
   Picture picture = PictureFromPose(arguments.plain ? pose : pictures.Hold(pose), view_angle,
                                     optics.field_of_view, head_roll);
   picture.lens = optics.lens;

@@ -232,7 +232,8 @@ int BackdropProp::RenderOpaqueGeometry(vtkViewport* viewport) {
   if (has_relief) ceiling_->Deactivate();
   if (!is_in_contact_) relief_->Deactivate();
   state->vtkglDepthFunc(GL_LEQUAL);
-  // Models fade into the relief where they meet it.
+  // Models fade into the relief where they meet it, and steel beside the lens into what is behind
+  // it.
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
                                 GL_ONE_MINUS_SRC_ALPHA);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <string>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -26,7 +26,9 @@
 namespace arthro::app {
 namespace {
 
-// Area vectors of a closed surface cancel; its volume is positive when they face outwards.
+// Area vectors of a closed surface cancel; its volume is positive when they face outwards. The skin
+// of a cut tissue is open by a hundredth of a millimetre along the lips of the cut.
+constexpr double kOpenShare = 1e-3;  // share of the area
 bool IsClosedAndOutward(const SurfaceMesh& surface) {
   glm::dvec3 sum{0.0};
   double area = 0.0, volume = 0.0;
@@ -39,7 +41,7 @@ bool IsClosedAndOutward(const SurfaceMesh& surface) {
     area += glm::length(twice);
     volume += glm::dot(a, twice);
   }
-  return volume > 0.0 && glm::length(sum) < 1e-6 * area;
+  return volume > 0.0 && glm::length(sum) < kOpenShare * area;
 }
 
 float Float(double value) { return static_cast<float>(value); }
@@ -53,10 +55,14 @@ LensModel::LensModel(Look look) : look_(look) {
   data_->SetPoints(points_);
   data_->GetPointData()->SetNormals(normal_array_);
   if (look == Look::kTissue) {
-    fresh_array_->SetName("Fresh");
-    data_->GetPointData()->AddArray(fresh_array_);
-    mapper_->MapDataArrayToVertexAttribute("freshMC", "Fresh",
-                                           vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+    for (const auto& [array, name, input] : {std::tuple{grain_array_.Get(), "Grain", "grainMC"},
+                                             {mark_array_.Get(), "Marks", "marksMC"}}) {
+      array->SetName(name);
+      array->SetNumberOfComponents(3);
+      data_->GetPointData()->AddArray(array);
+      mapper_->MapDataArrayToVertexAttribute(input, name, vtkDataObject::FIELD_ASSOCIATION_POINTS,
+                                             -1);
+    }
   }
   mapper_->SetInputData(data_);
   mapper_->ScalarVisibilityOff();
@@ -71,20 +77,28 @@ LensModel::LensModel(Look look) : look_(look) {
     SetLength(1.0);
     SetEtched(true);
   }
+  if (look == Look::kTissue) SetLook({}, {});
   SetColour(glm::dvec3(1.0));
   SetFrame({});
 }
 
 void LensModel::Assemble() {
   std::vector<std::string> defines;
-  if (look_ == Look::kTissue) defines.push_back("TISSUE");
+  std::vector<std::string> structure;
+  if (look_ == Look::kTissue) {
+    defines.push_back("TISSUE");
+    if (tissue_look_.structure == simulation::TissueStructure::kFibres)
+      structure.push_back("FIBRES");
+    if (tissue_look_.structure == simulation::TissueStructure::kHyaline)
+      structure.push_back("HYALINE");
+  }
   if (has_lens_) defines.push_back("LENS");
   const SteadyInputs inputs = TakeSteadyInputs(ShaderText("model_inputs.glsl", defines));
-  const auto common = [&](std::initializer_list<std::string> stage) {
-    std::vector<std::string> all = stage;
-    if (contact_.is_equirectangular) all.push_back("EQUIRECTANGULAR");
-    if (contact_.wraps) all.push_back("WRAPS");
-    return ShaderText("model_common.glsl", all);
+  const auto common = [&](std::vector<std::string> stage) {
+    stage.insert(stage.end(), structure.begin(), structure.end());
+    if (contact_.is_equirectangular) stage.push_back("EQUIRECTANGULAR");
+    if (contact_.wraps) stage.push_back("WRAPS");
+    return ShaderText("model_common.glsl", stage);
   };
   vtkShaderProperty* shader = actor_->GetShaderProperty();
   shader->ClearAllShaderReplacements();
@@ -110,16 +124,44 @@ void LensModel::SetSurface(const SurfaceMesh& surface, std::span<const std::uint
   data_->SetPolys(polys);
   points_->SetNumberOfPoints(count);
   normal_array_->SetNumberOfTuples(count);
-  fresh_array_->SetNumberOfTuples(count);
-  for (vtkIdType i = 0; i < count; ++i)
-    fresh_array_->SetValue(i, !fresh.empty() && fresh[static_cast<std::size_t>(i)] ? 1.0f : 0.0f);
-  fresh_array_->Modified();
   SetShape(surface.vertices);
+  if (look_ == Look::kTissue) TakeGrain(surface, fresh);
   points_->Modified();
   data_->Modified();
   // The inside of a closed surface is never seen; culling saves half the work.
   is_closed_ = IsClosedAndOutward(surface);
   actor_->GetProperty()->SetBackfaceCulling(is_closed_ ? 1 : 0);
+}
+
+void LensModel::SetLook(const simulation::TissueLook& look, const SurfaceMesh& whole) {
+  tissue_look_ = look;
+  grain_ = TissueGrain(whole, look.structure);
+  Assemble();
+  SetInFragments("tint", look.tint);
+  SetInFragments("cutTint", look.cut_tint);
+  SetInFragments("grainAxis", grain_.axis());
+  SetInFragments("edgeTint", look.edge_tint);
+  SetInFragments("rimTint", look.rim_tint);
+  SetInFragments("rootTint", look.root_tint);
+  SetInFragments("vesselColour", look.vessel_colour);
+  SetInFragments("lookShares", {look.vessels, look.fibres, look.fibrillation});
+  SetInFragments("lookMeasures", {look.fibre_width, look.gloss, 0.0});
+}
+
+// Pattern coordinates and marks of the vertices at rest.
+void LensModel::TakeGrain(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh) {
+  const auto count = static_cast<vtkIdType>(surface.vertices.size());
+  grain_array_->SetNumberOfTuples(count);
+  mark_array_->SetNumberOfTuples(count);
+  for (vtkIdType i = 0; i < count; ++i) {
+    const auto v = static_cast<std::size_t>(i);
+    const GrainPoint point = grain_.At(surface.vertices[v], normals_[v]);
+    const bool is_fresh = !fresh.empty() && fresh[v] != 0;
+    grain_array_->SetTuple3(i, point.place.x, point.place.y, point.place.z);
+    mark_array_->SetTuple3(i, point.rim, point.root, is_fresh ? 1.0 : 0.0);
+  }
+  grain_array_->Modified();
+  mark_array_->Modified();
 }
 
 bool LensModel::SetShape(std::span<const glm::dvec3> positions,
@@ -171,6 +213,11 @@ void LensModel::Set(const char* given_name, const glm::dvec3& value) {
   actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform3f(given_name, v);
 }
 
+void LensModel::SetInFragments(const char* name, const glm::dvec3& value) {
+  const float v[3] = {Float(value.x), Float(value.y), Float(value.z)};
+  actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f(name, v);
+}
+
 void LensModel::SetColour(const glm::dvec3& linear_rgb) {
   colour_ = linear_rgb;
   Set("given_modelColour", linear_rgb);
@@ -215,10 +262,14 @@ void LensModel::SetFrame(const LensFrame& frame) {
   Set("given_relit", frame.relit);
   Set("given_lightColour", frame.light_colour);
   Set("given_surround", frame.surround);
-  // Not a steady input: with a lens a tissue's inputs are 59 numbers, and OpenGL guarantees
+  // Not a steady input: with a lens a tissue's inputs are 57 numbers, and OpenGL guarantees
   // only 60.
-  const float lamp[3] = {Float(frame.shade.lamp.x), Float(frame.shade.lamp.y), 0.0f};
-  of_fragments->SetUniform3f("lampPlace", lamp);
+  SetInFragments("lampPlace", {frame.shade.lamp.x, frame.shade.lamp.y, 0.0});
+  if (look_ == Look::kSteel) {
+    SetInFragments("slopeRight", frame.slope[0]);
+    SetInFragments("slopeUp", frame.slope[1]);
+    SetInFragments("slopeBack", frame.slope[2]);
+  }
   if (look_ == Look::kTissue) {
     Set("given_rodFrom", frame.shade.rod.from);
     Set("given_rodTo", frame.shade.rod.to);

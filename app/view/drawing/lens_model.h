@@ -20,6 +20,8 @@
 
 #include "app/view/drawing/lens_shade.h"
 #include "app/view/drawing/metered_models.h"
+#include "app/view/drawing/tissue_grain.h"
+#include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
@@ -46,6 +48,8 @@ struct LensFrame {
   ReliefContact contact;
   glm::dvec3 light_colour{1.0};  // linear; colour of white under lamp and camera
   glm::dvec3 surround{0.2};      // linear; colour that a shining surface mirrors
+  // Change of that colour from the middle towards right, up and back: blurred surroundings.
+  std::array<glm::dvec3, 3> slope{};
 };
 
 class LensModel {
@@ -55,7 +59,9 @@ class LensModel {
 
   vtkActor* actor() { return actor_; }
   void Show(bool visible) { actor_->SetVisibility(visible && !triangles_.empty() ? 1 : 0); }
-  // `fresh` is 1 for a vertex of a cut face; empty: no cut face.
+  // Tissue only: the look, and the whole surface at rest, on which its pattern lies.
+  void SetLook(const simulation::TissueLook& look, const SurfaceMesh& whole);
+  // Surface at rest. `fresh` is 1 for a vertex of a cut face; empty: no cut face.
   void SetSurface(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh = {});
   // Positions and normals per vertex; computes normals when none are given. Returns false, and
   // uploads nothing, when nothing moved.
@@ -73,6 +79,8 @@ class LensModel {
  private:
   // Composes the shaders.
   void Assemble();
+  void TakeGrain(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh);
+  void SetInFragments(const char* name, const glm::dvec3& value);
   void Set(const char* given_name, double value);
   void Set(const char* given_name, const glm::dvec3& value);
   // Hands the relief's texture to the program that is about to draw.
@@ -84,10 +92,12 @@ class LensModel {
   bool is_closed_ = false;
   Pose pose_;
   glm::dvec3 colour_{1.0};
+  simulation::TissueLook tissue_look_;
+  TissueGrain grain_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<glm::dvec3> normals_;
   vtkNew<vtkPoints> points_;
-  vtkNew<vtkFloatArray> normal_array_, fresh_array_;
+  vtkNew<vtkFloatArray> normal_array_, grain_array_, mark_array_;
   vtkNew<vtkPolyData> data_;
   vtkNew<vtkOpenGLPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;

@@ -1,20 +1,26 @@
 // Declarations of a model's shaders, after its inputs. VARYING is `out` for the vertices and `in`
 // for the fragments, which also define FRAGMENT.
 #include "distance.glsl"
-VARYING vec3 lensPoint, modelPoint;  // m, in the lens frame and in the model's
-VARYING vec3 contactPoint;           // m, in the portal frame
+VARYING vec3 contactPoint;  // m, in the portal frame
 #include "contact.glsl"
-#ifdef TISSUE
-VARYING float fresh;  // 1: a vertex of a cut face
-VARYING vec4 coarseNoise;
 #include "noise.glsl"
+VARYING vec3 lensPoint;  // m, in the lens frame
+#ifdef TISSUE
+VARYING vec3 grain;  // m, coordinates of the pattern at rest (tissue_grain.h)
+VARYING vec3 marks;  // rim, root, and 1 on the face of a cut
+VARYING float coarseNoise;
+#else
+VARYING vec3 modelPoint;  // m, in the model's frame
 #endif
 #ifdef FRAGMENT
 #include "light.glsl"
 #include "lamp.glsl"
 #include "model_looks.glsl"
+#ifdef TISSUE
+#include "tissue_pattern.glsl"
+#endif
 #elif defined(TISSUE)
-in float freshMC;
+in vec3 grainMC, marksMC;
 const float kCoarseRate = 300.0;  // 1/m, of the coarse noise
 #endif
 

@@ -20,16 +20,24 @@
   float shine = max(dot(normal, halfway), 0.0);
   float light = mix(lightAt(lensDistance), lampAt(lensDistance), relit);
 #ifdef TISSUE
-  // Natural unevenness: patches of some millimetres, and a surface that is not quite smooth.
-  // normalMatrix is VTK's own uniform.
-  vec4 coarse = coarseNoise, fine = noise(modelPoint * kFineRate);
-  mat3 lensFromModel = normalMatrix / length(normalMatrix[0]);
-  normal = normalize(normal + kFineSlope * (lensFromModel * fine.xyz) + kCoarseSlope * coarse.xyz);
+#ifdef HYALINE
+  // The border of a plate is drawn like its face: it passes into the bone without an edge.
+  vec3 face = normalize(normalMatrix * grainAxis);
+  normal = normalize(mix(normal, dot(face, toLens) < 0.0 ? -face : face, kSoftBorder * marks.x));
+#endif
+  Pattern pattern = patternAt(normal);
+  vec3 own = modelColour * pattern.tint;
+  own = mix(own, vesselColour, pattern.vessel);
+#ifdef HYALINE
+  // Towards the border the plate takes the colour of what surrounds it.
+  const vec3 kLuma = vec3(kLumaRed, kLumaGreen, kLumaBlue);
+  vec3 around = surround * dot(own, kLuma) / max(dot(surround, kLuma), kLeastSurround);
+  own = mix(own, around / max(lightColour, vec3(kLeastSurround)) * dot(lightColour, kLuma),
+            kSoftColour * marks.x * marks.x);
+#endif
+  normal = tilted(normal, pattern.height);
   facing = max(dot(normal, toLight), 0.0);
   shine = max(dot(normal, halfway), 0.0);
-  vec3 own = modelColour * (1.0 + kCoarseTint * coarse.w + kFineTint * fine.w) *
-             mix(vec3(1.0), kPatchTint, 0.5 + 0.5 * coarse.w);
-  own = mix(own, kCutColour * (1.0 + kCutStreaks * fine.w), kCutShare * fresh);
   float wrapped = (facing + kWrap) / (1.0 + kWrap);
   vec3 scattered = mix(kScattered, vec3(1.0), smoothstep(0.0, kWhiteFacing, facing));
   vec3 body = own * scattered * (kAmbient + (1.0 - kAmbient) * wrapped) * lightColour * light;
@@ -37,8 +45,11 @@
   float shine64 = shine8 * shine8;
   shine64 *= shine64 * shine64 * shine64;
   float glance = (1.0 - seen) * (1.0 - seen);
-  vec3 wet = lightColour * light * (kWetSheen * shine8 * shine4 * shine2 +
+  vec3 wet = lightColour * light * pattern.gloss * (kWetSheen * shine8 * shine4 * shine2 +
                                     kWetGlint * shine64 * shine64 * shine64);
+#ifdef HYALINE
+  glance *= 1.0 - marks.x;
+#endif
   vec3 mirrored = surround * (kMirrored + kGrazing * glance * glance);
   vec3 linear = (body + wet) * rodShade(lensPoint) + mirrored;
 #else
@@ -48,21 +59,36 @@
                      ? 1.0 - smoothstep(kRingHalf, kRingHalfSoft, abs(ring - round(ring)))
                      : 0.0;
   vec3 steel = modelColour * (1.0 - kRingDark * etched);
-  vec3 mirror = reflect(-toLens, normal);
+  // Turned steel: fine grooves around the shaft spread what it mirrors along it.
+  vec3 turned = vec3(modelPoint.xy * kGrooveAround, modelPoint.z * kGrooveRate);
+  vec3 footprint = fwidth(turned);
+  float grooves = noise(turned).w * (1.0 - smoothstep(0.35, 0.95, footprint.z));
+  vec3 mirror = reflect(
+      -toLens, normalize(normal + kGrooveSlope * grooves * normalize(normalMatrix[2])));
   float lamp = max(dot(mirror, toLight), 0.0);
-  vec3 grey = mix(surround, vec3(dot(surround, vec3(kLumaRed, kLumaGreen, kLumaBlue))),
-                  kGreyShare);
-  float sky = 0.5 + 0.5 * dot(mirror, normalize(lampPlace));  // the joint's lit side
+  // The surroundings, blurred. Only what lies ahead of the lens is lit; behind it is the dark
+  // cavity.
+  vec3 around = max(surround + mirror.x * slopeRight + mirror.y * slopeUp + mirror.z * slopeBack,
+                    kLeastAround * surround);
+  vec3 grey = mix(around, vec3(dot(around, vec3(kLumaRed, kLumaGreen, kLumaBlue))), kGreyShare);
+  float ahead = smoothstep(kDarkFrom, kLitFrom, -mirror.z);
+  float grazing = pow(1.0 - seen, kEdgePower);
+  float glint = pow(lamp, kGlintPower);
   vec3 linear =
-      steel *
-      (grey * (kSkyLeast + kSkyGain * sky * sky + kEdgeGain * pow(1.0 - seen, kEdgePower)) +
-       lightColour * light *
-           (kSteelDiffuse * facing * facing + kStreak * pow(lamp, kStreakPower) +
-            kSteelGlint * pow(lamp, kGlintPower)));
+      steel * (grey * (mix(kDark, kLit, ahead) + kEdgeGain * grazing) +
+               lightColour * light *
+                   (kSteelDiffuse * facing * facing + kStreak * pow(lamp, kStreakPower) +
+                    kSteelGlint * glint + kSteelClip * glint * glint * glint * glint));
 #endif
   float height = heightOverRelief(contactPoint);
   linear *= contactLight(height);
   vec3 root = sqrt(max(linear, vec3(0.0))), root2 = sqrt(root);
   vec3 shown = kGammaRoots.x * root + kGammaRoots.y * root2 + kGammaRoots.z * sqrt(root2);
   shown = shoulder(max(shown, vec3(0.0))) * softRim(lensR) * coverage;
+#ifdef TISSUE
   gl_FragData[0] = vec4(shown, contactShare(height));
+#else
+  // Steel beside the lens is far out of focus: it passes into what is behind it.
+  gl_FragData[0] =
+      vec4(shown, contactShare(height) * smoothstep(kGoneAt, kSolidFrom, lensDistance));
+#endif

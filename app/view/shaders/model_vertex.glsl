@@ -2,15 +2,16 @@
 // along the view) to the window. w is the distance, so that interpolation follows the surface.
   handOn();
   lensPoint = vertexVCVSOutput.xyz;
+#ifdef TISSUE
+  grain = grainMC;
+  marks = marksMC;
+  coarseNoise = noise(grain * kCoarseRate).w;
+#else
   modelPoint = vertexMC.xyz;
+#endif
   contactPoint = inPortal(lensPoint);
   float lensDistance = max(length(lensPoint), 1e-7);
   vec2 lensPlace = placeInWindow(lensPoint, lensDistance);
   float lensClip =
       2.0 * kFarthest / (kFarthest - kNearest) * (lensDistance - kNearest) - lensDistance;
   gl_Position = vec4(lensDistance * lensPlace, lensClip, lensDistance);
-#ifdef TISSUE
-  fresh = freshMC;
-  coarseNoise = noise(modelPoint * kCoarseRate);
-  coarseNoise.xyz = normalMatrix * coarseNoise.xyz / length(normalMatrix[0]);
-#endif

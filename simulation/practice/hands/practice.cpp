@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
+#include "simulation/practice/hands/blade_speed.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
 
@@ -17,10 +18,6 @@ constexpr double kFrame = 1.0 / 60;  // s, time in which a hand moves to where i
 
 // A window that showed no frame for this time cannot report that the dead-man was released.
 constexpr double kWindowHangs = 0.5;  // s
-
-// Slow enough for the eye to follow. A real blade turns 50 times per second, and a picture at 60 Hz
-// would show it standing still.
-constexpr double kBladeSpeed = 30.0;  // rad/s
 
 }  // namespace
 

@@ -43,7 +43,8 @@ double MeanEdge(const TetMesh& mesh) {
 std::unique_ptr<BodyShape> WholeShape(const BodySpec& spec, const ElementFinder& finder,
                                       const SolidField& field) {
   return std::make_unique<BodyShape>(spec.mesh, std::span<const double>{}, spec,
-                                     EmbedSkin(spec.surface, spec.mesh, finder), field, nullptr);
+                                     EmbedSkin(spec.surface, spec.mesh, finder),
+                                     std::vector<std::uint8_t>{}, field, nullptr);
 }
 
 std::shared_ptr<const FemModel> MakeModel(const TetMesh& mesh, std::span<const double> share,
@@ -59,16 +60,15 @@ std::shared_ptr<const FemModel> MakeModel(const TetMesh& mesh, std::span<const d
 }  // namespace
 
 BodyShape::BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
-                     EmbeddedSkin carried, const SolidField& field, const FemModel* before)
+                     EmbeddedSkin carried, std::vector<std::uint8_t> fresh, const SolidField& field,
+                     const FemModel* before)
     : mesh(std::move(elements)),
       model(MakeModel(mesh, share, spec.material, before)),
       fixed(FixedBy(spec.fixed, mesh)),
       skin(std::move(carried)),
       skin_contact(skin, mesh, field, spec.material.young_modulus),
       rest_contact(mesh, fixed, model->NodeShares()),
-      skin_at_rest(std::make_shared<const BodySkin>(
-          BodySkin{skin.rest, share.empty() ? std::vector<std::uint8_t>{}
-                                            : FreshVertices(skin.rest, field)})) {}
+      skin_at_rest(std::make_shared<const BodySkin>(BodySkin{skin.rest, std::move(fresh)})) {}
 
 DeformableBody::Impl::Impl(BodySpec given, const BodyOptions& chosen)
     : spec(std::move(given)),

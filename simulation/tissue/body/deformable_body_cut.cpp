@@ -1,7 +1,9 @@
 // Removal of parts of a body: the field at rest, then elements, skin and solver.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -121,6 +123,44 @@ std::vector<int> OnlyCopies(const CutMesh& cut, int elements) {
   return only;
 }
 
+// Finds each vertex of a carved skin in the skin before; −1: it is new. Vertices of the whole
+// surface are known by their index, others by their place.
+std::vector<int> SameVertices(const SurfaceMesh& before, std::span<const int> whole_before,
+                              const SurfaceMesh& now, std::span<const int> whole_now) {
+  std::vector<int> of_whole;
+  const auto hash = [](const std::array<double, 3>& x) {
+    std::uint64_t sum = 0;
+    for (const double coordinate : x)
+      sum = (sum ^ std::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(sum >> 16);
+  };
+  std::unordered_map<std::array<double, 3>, int, decltype(hash)> of_place(before.vertices.size(),
+                                                                          hash);
+  for (std::size_t v = 0; v < whole_before.size(); ++v) {
+    const glm::dvec3& x = before.vertices[v];
+    if (whole_before[v] < 0) {
+      of_place[{x.x, x.y, x.z}] = static_cast<int>(v);
+      continue;
+    }
+    const auto whole = static_cast<std::size_t>(whole_before[v]);
+    if (whole >= of_whole.size()) of_whole.resize(whole + 1, -1);
+    of_whole[whole] = static_cast<int>(v);
+  }
+  std::vector<int> same;
+  same.reserve(whole_now.size());
+  for (std::size_t v = 0; v < whole_now.size(); ++v) {
+    const auto whole = static_cast<std::size_t>(whole_now[v]);
+    if (whole_now[v] >= 0) {
+      same.push_back(whole < of_whole.size() ? of_whole[whole] : -1);
+      continue;
+    }
+    const glm::dvec3& x = now.vertices[v];
+    const auto found = of_place.find({x.x, x.y, x.z});
+    same.push_back(found == of_place.end() ? -1 : found->second);
+  }
+  return same;
+}
+
 }  // namespace
 
 Box3 DeformableBody::Impl::RestBoxOf(const Capsule& tool) {
@@ -201,9 +241,12 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
 // Creates the data that cutting needs, at the first cut.
 void DeformableBody::Impl::BeginCutting() {
   cut = std::make_unique<CutState>(CutState{.cutter = MeshCutter(spec.mesh, field.spacing()),
-                                            .skin = FieldSkin(field),
-                                            .uncut = SurfaceFinder(spec.surface),
+                                            .carver = SkinCarver(spec.surface, field),
                                             .original = field});
+  for (std::size_t v = 0; v < shape->skin.point.size(); ++v) {
+    cut->element_of_vertex.push_back(shape->skin.point[v].element);
+    cut->whole_vertex.push_back(static_cast<int>(v));
+  }
   cut->cutter.Rebuild(field);
   cut->element_of_node = ElementsOfNodes(spec.mesh, field.grid());
   cut->point_of_node.assign(cut->element_of_node.size(), -1);
@@ -258,26 +301,17 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
   const CutMesh& after = cut->cutter.Update(field, box);
   taken.pieces = after.piece_count();
 
-  // Builds the skin of the remaining tissue on the remaining elements.
-  cut->skin.Update(field);
-  EmbeddedSkin skin{cut->skin.surface(), {}};
+  // Carves the skin of the remaining tissue and puts it on the remaining elements.
+  CarvedSkin carved = cut->carver.Carve(field);
+  EmbeddedSkin skin{std::move(carved.surface), {}};
   const std::vector<int> only_copy = OnlyCopies(after, spec.mesh.ElementCount());
-  const std::span<const int> previous = cut->skin.previous();
-  const auto before_of = [&](std::size_t v) {
-    return v < previous.size() && !cut->element_of_vertex.empty() ? previous[v] : -1;
-  };
-  std::vector<std::uint8_t> is_new(skin.rest.vertices.size(), 1);
-  for (std::size_t v = 0; v < is_new.size(); ++v)
-    if (const int before = before_of(v); before >= 0) {
-      is_new[v] = 0;
-      skin.rest.vertices[v] = shape->skin.rest.vertices[static_cast<std::size_t>(before)];
-    }
-  ProjectOnto(cut->uncut, field, is_new, skin.rest);
+  const std::vector<int> previous =
+      SameVertices(shape->skin.rest, cut->whole_vertex, skin.rest, carved.whole_vertex);
   std::vector<int> element_of(skin.rest.vertices.size());
   skin.point.resize(element_of.size());
   for (std::size_t v = 0; v < element_of.size(); ++v) {
     const glm::dvec3& rest = skin.rest.vertices[v];
-    const int before = before_of(v);
+    const int before = previous[v];
     if (before >= 0) {
       element_of[v] = cut->element_of_vertex[static_cast<std::size_t>(before)];
       const int copy = only_copy[static_cast<std::size_t>(element_of[v])];
@@ -294,10 +328,11 @@ void DeformableBody::Impl::FollowField(const Box3& box) {
     skin.point[v] = {std::max(copy.element, 0), copy.weight};
   }
   cut->element_of_vertex = std::move(element_of);
+  cut->whole_vertex = std::move(carved.whole_vertex);
 
   const std::vector<int> from = PreviousNodes(after);
-  shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin), field,
-                                      shape->model.get());
+  shape = std::make_unique<BodyShape>(after.mesh, after.share, spec, std::move(skin),
+                                      std::move(carved.is_fresh), field, shape->model.get());
   if (finish_refresh) finish_refresh();
   solver.Replace(shape->model, shape->fixed, from);
   wants_refresh = false;

@@ -8,10 +8,9 @@
 #include "simulation/tissue/contact/embedded_skin.h"
 #include "simulation/tissue/contact/obstacle_contact.h"
 #include "simulation/tissue/contact/tool_contact.h"
-#include "simulation/tissue/contact/uncut_surface.h"
 #include "simulation/tissue/cut/cut_mesh.h"
 #include "simulation/tissue/cut/cutters.h"
-#include "simulation/tissue/field/polygonise.h"
+#include "simulation/tissue/field/carved_skin.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {
@@ -19,9 +18,10 @@ namespace arthro::simulation {
 // Data that a cut rebuilds: elements, fixed nodes, skin and contact search.
 struct BodyShape {
   // `before` is the previous shape's model, or null; if it has the same elements, only shares are
-  // new.
+  // new. `fresh`: BodySkin::is_fresh.
   BodyShape(TetMesh elements, std::span<const double> share, const BodySpec& spec,
-            EmbeddedSkin carried, const SolidField& field, const FemModel* before);
+            EmbeddedSkin carried, std::vector<std::uint8_t> fresh, const SolidField& field,
+            const FemModel* before);
 
   TetMesh mesh;
   std::shared_ptr<const FemModel> model;
@@ -35,10 +35,10 @@ struct BodyShape {
 // Data kept from the author's first cut on, or from when a cutting tool first comes near.
 struct CutState {
   MeshCutter cutter;
-  FieldSkin skin;
-  SurfaceFinder uncut;
+  SkinCarver carver;
   SolidField original;                   // with the author's cuts, before the first tool's
-  std::vector<int> element_of_vertex{};  // element of the whole mesh per vertex of the field's skin
+  std::vector<int> element_of_vertex{};  // element of the whole mesh per vertex of the skin
+  std::vector<int> whole_vertex{};       // CarvedSkin::whole_vertex of the skin
   std::vector<int>
       element_of_node{};  // element of the whole mesh per node of the field; −1: far from it
   // Positions of field nodes in their elements; cached, since a shaver needs them ten times a

@@ -10,7 +10,7 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
-#include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/field_json.h"
 
 namespace arthro::simulation {
 namespace {
@@ -50,6 +50,10 @@ TissuePreset ReadTissuePreset(const std::filesystem::path& file) {
   reader.Flag("is_thin", preset.is_thin);
   reader.Number("layer_thickness", preset.layer_thickness, {0, 0.05, "metres", true});
   reader.Number("friction", preset.friction, {0, 2});
+  reader.Object("look", JsonObjectReader::kOptional, [&](JsonObjectReader& inner) {
+    preset.look.emplace().Visit(FieldReader(inner));
+    inner.RefuseOtherKeys();
+  });
   reader.Text("probing", preset.probing, JsonObjectReader::kRequired);
   reader.Texts("sources", preset.sources);
   reader.RefuseOtherKeys();
@@ -105,6 +109,16 @@ bool IsThinLayer(const Tissue& tissue, const std::vector<TissuePreset>& presets)
   if (!tissue.mesh.empty() || tissue.is_implicit) return false;
   const TissuePreset* found = FindTissuePreset(presets, tissue.material);
   return found != nullptr && found->is_thin;
+}
+
+std::vector<TissueLook> LooksOf(std::span<const Tissue> tissues,
+                                const std::vector<TissuePreset>& presets) {
+  std::vector<TissueLook> looks;
+  for (const Tissue& tissue : tissues) {
+    const TissuePreset* found = FindTissuePreset(presets, tissue.material);
+    looks.push_back(found != nullptr && found->look ? *found->look : TissueLook{});
+  }
+  return looks;
 }
 
 TissuePreset WithElasticity(TissuePreset preset, const Elasticity& elasticity) {

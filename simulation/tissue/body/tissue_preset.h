@@ -4,10 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "simulation/scene/scene.h"
+#include "simulation/tissue/body/tissue_look.h"
 #include "simulation/tissue/fem/material.h"
 
 namespace arthro::simulation {
@@ -20,6 +23,7 @@ struct TissuePreset {
   bool is_thin = false;              // layer on bone that is thin enough to need no mesh
   double layer_thickness = 0;        // m; for a thin tissue
   double friction = 0.03;            // Coulomb coefficient of an instrument on it in saline
+  std::optional<TissueLook> look;    // absent: drawn without a structure
   std::string probing;               // note about the forces that it gives
   std::vector<std::string> sources;  // one line per value: quantity, value, source
 };
@@ -42,6 +46,10 @@ TissuePreset FindTissuePreset(const std::filesystem::path& folder, const std::st
 // Returns whether the tissue deforms as a thin layer: no tetrahedra, not implicit, and a thin
 // preset.
 bool IsThinLayer(const Tissue& tissue, const std::vector<TissuePreset>& presets);
+
+// Returns the look of each tissue by its preset; a plain one where there is none.
+std::vector<TissueLook> LooksOf(std::span<const Tissue> tissues,
+                                const std::vector<TissuePreset>& presets);
 
 // Returns the preset with the overrides of the scene.
 TissuePreset WithElasticity(TissuePreset preset, const Elasticity& elasticity);

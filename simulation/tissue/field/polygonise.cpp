@@ -76,8 +76,8 @@ glm::dvec3 ComputeVertex(const std::array<double, 8>& value, const CellPatches& 
 // Read access to the cells of a field.
 class FieldSkin::Cells {
  public:
-  explicit Cells(const SolidField& field)
-      : grid_(field.grid()), value_(field.values()), bricks_(field.bricks()) {}
+  Cells(const SolidField& field, std::span<const float> values)
+      : grid_(field.grid()), value_(values), bricks_(field.bricks()) {}
 
   bool Has(const Cell& c) const {
     for (std::size_t a = 0; a < 3; ++a)
@@ -166,11 +166,14 @@ class FieldSkin::Cells {
         // Lists the four cells around the edge, counter-clockwise seen from its upper end.
         const std::size_t u = (a + 1) % 3, v = (a + 2) % 3;
         std::array<Corner, 4> quad;
+        bool is_inside = true;  // false: the surface leaves the grid here
         for (std::size_t q = 0; q < 4; ++q) {
           const int below_u = q == 0 || q == 3, below_v = q == 0 || q == 1;
           Cell cell = node;
           cell[u] -= below_u;
           cell[v] -= below_v;
+          is_inside = is_inside && Has(cell);
+          if (!is_inside) break;
           const CellPatches patches = Patches(cell, Configuration(cell));
           const int edge = static_cast<int>(4 * a) + below_u + 2 * below_v;
           const int owner = OwningBrick(cell);
@@ -178,7 +181,7 @@ class FieldSkin::Cells {
               owner, bricks[static_cast<std::size_t>(owner)].first_vertex[InBrick(cell)] +
                          patches.of_edge[static_cast<std::size_t>(edge)]};
         }
-        brick.quads.push_back(quad);
+        if (is_inside) brick.quads.push_back(quad);
       }
     });
   }
@@ -189,7 +192,7 @@ class FieldSkin::Cells {
   std::array<int, 3> bricks_;
 };
 
-SkinUpdate FieldSkin::Update(const SolidField& field) {
+SkinUpdate FieldSkin::UpdateFrom(const SolidField& field, std::span<const float> values) {
   SkinUpdate update;
   const FieldGrid& grid = field.grid();
   const std::array<int, 3> brick_count = field.bricks();
@@ -209,7 +212,21 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
         for (int i = 0; i < brick_count[0]; ++i) visit(Cell{i, j, k});
   };
   const auto versions = field.brick_versions();
-  const auto has_changed = [&](const Cell& b) { return is_new || versions[index(b)] > version_; };
+  // A new skin needs no brick whose nodes are all on one side.
+  const auto is_flat = [&](const Cell& b) {
+    const auto end = [&](std::size_t a) {
+      return std::min((b[a] + 1) * kBrick, grid.count[a] - 1);
+    };
+    const bool side = values[grid.Index(b[0] * kBrick, b[1] * kBrick, b[2] * kBrick)] < 0;
+    for (int k = b[2] * kBrick; k <= end(2); ++k)
+      for (int j = b[1] * kBrick; j <= end(1); ++j)
+        for (int i = b[0] * kBrick; i <= end(0); ++i)
+          if ((values[grid.Index(i, j, k)] < 0) != side) return false;
+    return true;
+  };
+  const auto has_changed = [&](const Cell& b) {
+    return is_new ? !is_flat(b) : versions[index(b)] > version_;
+  };
 
   // Bricks to redo: those that changed, and neighbours that may have agreed to join a face with
   // them.
@@ -246,7 +263,7 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
     return update;
   }
 
-  const Cells cells(field);
+  const Cells cells(field, values);
   std::vector<Brick> old(redo.size());
   for (std::size_t r = 0; r < redo.size(); ++r) {
     Brick& brick = bricks_[index(redo[r])];
@@ -305,14 +322,6 @@ SkinUpdate FieldSkin::Update(const SolidField& field) {
       }
     }
   return update;
-}
-
-std::vector<std::uint8_t> FreshVertices(const SurfaceMesh& skin, const SolidField& field) {
-  constexpr double kNear = -0.3;  // spacings from a cut
-  std::vector<std::uint8_t> fresh;
-  for (const glm::dvec3& x : skin.vertices)
-    fresh.push_back(field.CutDistance(x) > kNear * field.spacing() ? 1 : 0);
-  return fresh;
 }
 
 }  // namespace arthro::simulation

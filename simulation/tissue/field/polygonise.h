@@ -25,9 +25,13 @@ class FieldSkin {
   FieldSkin() = default;
   explicit FieldSkin(const SolidField& field) { Update(field); }
 
+  // Makes the surface of other values on the field's grid, negative inside. It may end at the sides
+  // of the grid, and is then open there.
+  FieldSkin(const SolidField& field, std::span<const float> values) { UpdateFrom(field, values); }
+
   // Rebuilds the bricks whose surface changed since the last call. Starts again for a field with
   // another grid or a lower version().
-  SkinUpdate Update(const SolidField& field);
+  SkinUpdate Update(const SolidField& field) { return UpdateFrom(field, field.values()); }
 
   const SurfaceMesh& surface() const { return surface_; }
   // Index that each vertex had before the last Update, if it has not moved; −1: new vertex.
@@ -46,15 +50,14 @@ class FieldSkin {
   };
   class Cells;
 
+  SkinUpdate UpdateFrom(const SolidField& field, std::span<const float> values);
+
   SurfaceMesh surface_;
   std::vector<int> previous_;
   std::vector<Brick> bricks_;
   FieldGrid grid_;
   std::uint64_t version_ = 0;
 };
-
-// Returns 1 for each vertex of `skin` on a face made by edits of the field, 0 for an original face.
-std::vector<std::uint8_t> FreshVertices(const SurfaceMesh& skin, const SolidField& field);
 
 inline SurfaceMesh Polygonise(const SolidField& field) { return FieldSkin(field).surface(); }
 

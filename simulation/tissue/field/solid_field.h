@@ -116,6 +116,8 @@ class SolidField {
   // Grid access for the polygoniser and the pieces.
   const FieldGrid& grid() const { return grid_; }
   std::span<const float> values() const { return value_; }  // one per node
+  // CutDistance at the nodes; empty before the first edit.
+  std::span<const float> cut_values() const { return cut_; }
   std::array<int, 3> bricks() const { return bricks_; }
   // version() of the last change of the surface in each brick of bricks(), i fastest.
   std::span<const std::uint64_t> brick_versions() const { return brick_version_; }

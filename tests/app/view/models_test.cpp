@@ -169,9 +169,42 @@ TEST_F(ModelsView, ProbeAndTissueHideEachOtherByDistance) {
   view_->Render(picture, 200);
   EXPECT_NEAR(view_->ReadDistances()[centre], 0.018, 30e-6);
   const ColourImage probe_behind = view_->ReadPixels();
+  // Its contact shade, 0.5 (0.9 mm / 8 mm)² of the light, is less than 2 levels.
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(ball_only.at(100, 100)[c], probe_behind.at(100, 100)[c], 1) << c;
+    EXPECT_NEAR(ball_only.at(100, 100)[c], probe_behind.at(100, 100)[c], 2) << c;
   EXPECT_NE(ball_only.rgb, probe_behind.rgb) << "beside the ball the probe is seen";
+}
+
+// Out of focus beside the lens: solid from 2 mm on, gone at 0.5 mm.
+TEST_F(ModelsView, ShaftBesideTheLensFades) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  loaded.scene.backdrop.projection.focal_px = 110;
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+  const SurfaceMesh ball = Ellipsoid(glm::dvec3(0.004));
+  Tissue tissue;
+  tissue.pose.position = {0, 0, 0.030};
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ball)});
+  Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
+  const auto middle = [&] {
+    view_->Render(picture, 200);
+    const ColourImage drawn = view_->ReadPixels();
+    return glm::ivec3(drawn.at(100, 100)[0], drawn.at(100, 100)[1], drawn.at(100, 100)[2]);
+  };
+  const glm::ivec3 without = middle();
+  constexpr double kRadius = 0.75e-3;  // m, of the probe's shaft
+  const auto change = [&](double gap) {
+    const double z = 0.008 + gap + kRadius;
+    picture.instrument = InstrumentView{{0.03, 0, z}, {-0.02, 0, z}, 0.0};
+    const glm::ivec3 off = glm::abs(middle() - without);
+    return std::max({off.x, off.y, off.z});
+  };
+  const int solid = change(2.5e-3), half = change(1.25e-3), gone = change(0.45e-3);
+  std::printf("change by a shaft at 2.5, 1.25 and 0.45 mm: %d, %d, %d levels\n", solid, half, gone);
+  EXPECT_GT(solid, 30);
+  EXPECT_LT(half, solid);
+  EXPECT_GT(half, 3);
+  // The shaft still shades the tissue behind it.
+  EXPECT_LT(gone, half);
 }
 
 TEST_F(ModelsView, ProbeIsDrawnOnlyFromItsPortalToTheProxy) {
@@ -214,7 +247,7 @@ TEST_F(ModelsView, GeometryBehindTheLensIsNotDrawn) {
   EXPECT_EQ(view_->ReadPixels().rgb, without.rgb);
 }
 
-TEST_F(ModelsView, MovedVerticesAreDrawnLikeANewSurface) {
+TEST_F(ModelsView, MovedVerticesAreDrawnInTheirNewPlaces) {
   LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
   view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
@@ -227,15 +260,41 @@ TEST_F(ModelsView, MovedVerticesAreDrawnLikeANewSurface) {
   EXPECT_TRUE(view_->SetTissueShape(0, pressed.vertices));
   EXPECT_FALSE(view_->SetTissueShape(0, pressed.vertices)) << "where it was: nothing is uploaded";
   view_->Render(picture, 200);
-  const ColourImage after = view_->ReadPixels();
-  EXPECT_NE(before.rgb, after.rgb);
-  // The light around a tissue stays that of its original place.
-  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  EXPECT_NE(before.rgb, view_->ReadPixels().rgb);
+  const std::vector<float> after = view_->ReadDistances();
+  // A new surface has the same places, with its pattern where it lies now.
   view_->SetTissueSurface(0, pressed);
   view_->Render(picture, 200);
-  EXPECT_EQ(after.rgb, view_->ReadPixels().rgb);
+  EXPECT_EQ(after, view_->ReadDistances());
   EXPECT_THROW(view_->SetTissueShape(0, std::span(pressed.vertices).first(3)), Error);
   EXPECT_THROW(view_->SetTissueShape(1, pressed.vertices), Error);
+}
+
+// A pattern lies on the tissue: moved as a whole, with the scope, it is drawn as before.
+TEST_F(ModelsView, PatternMovesWithTheTissue) {
+  LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+  const SurfaceMesh ring = Ring(0.007, 0.0024, 80, 40);
+  Tissue tissue;
+  tissue.pose.position = {0, 0, 0.030};
+  simulation::TissueLook look;
+  look.structure = simulation::TissueStructure::kFibres;
+  look.fibres = look.vessels = 1;
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(ring)}, std::span(&look, 1));
+  const Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
+  view_->Render(picture, 200);
+  const ColourImage before = view_->ReadPixels();
+  const glm::dvec3 way(0.0, 0.0, 0.0013);
+  SurfaceMesh moved = ring;
+  for (glm::dvec3& x : moved.vertices) x += way;
+  view_->SetTissueShape(0, moved.vertices);
+  view_->SetTissuePose(0, {tissue.pose.position - way, tissue.pose.quaternion, 1.0});
+  view_->Render(picture, 200);
+  const ColourImage after = view_->ReadPixels();
+  int worst = 0;
+  for (std::size_t i = 0; i < before.rgb.size(); ++i)
+    worst = std::max(worst, std::abs(int(before.rgb[i]) - int(after.rgb[i])));
+  EXPECT_LE(worst, 2) << "rounding of places";
 }
 
 TEST_F(ModelsView, GivenNormalsAreUsedAndCutFacesAreDrawnPaler) {

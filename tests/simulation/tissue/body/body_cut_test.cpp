@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "simulation/scene/vertex_normals.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
 #include "tests/simulation/tissue/body/plateau.h"
@@ -66,6 +67,38 @@ TEST(BodyCut, BiteRemovesTissueBetweenTheJawsAndTheBodyContinues) {
   body.Reset();
   EXPECT_EQ(body.cut_report().removed, 0.0);
   EXPECT_EQ(body.positions().size(), whole->surface.vertices.size());
+}
+
+// A bite at one end leaves the triangles, the places and the normals at rest of the other 17 mm.
+TEST(BodyCut, BiteKeepsTheSkinThatItDoesNotTouch) {
+  BodySpec spec = test::SlabBody();
+  spec.is_cuttable = true;
+  DeformableBody body(spec, {});
+  const auto whole = body.skin();
+  ToolCoupling coupling;
+  for (const double opening : {1.0, 0.0}) {
+    const WorldTool tool = PunchAt(spec, 2e-3, opening);
+    body.Step({&tool, 1}, nullptr, test::kFrame, {&coupling, 1});
+  }
+  ASSERT_EQ(body.cut_report().cuts, 1);
+  const auto far_triangles = [](const BodySkin& skin) {
+    std::vector<glm::dvec3> normals(skin.surface.vertices.size());
+    ComputeVertexNormals(skin.surface.vertices, skin.surface.triangles, normals);
+    std::vector<std::array<glm::dvec3, 6>> far;
+    for (const auto& t : skin.surface.triangles) {
+      std::array<glm::dvec3, 6> corner;
+      bool is_far = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        corner[i] = skin.surface.vertices[static_cast<std::size_t>(t[i])];
+        corner[i + 3] = normals[static_cast<std::size_t>(t[i])];
+        is_far = is_far && corner[i].x < 3e-3;  // the jaws reach to x = 8 mm
+      }
+      if (is_far) far.push_back(corner);
+    }
+    return far;
+  };
+  EXPECT_GT(far_triangles(*whole).size(), 100u);
+  EXPECT_TRUE(far_triangles(*body.skin()) == far_triangles(*whole));
 }
 
 // A pressed tool lies on the skin, millimetres away from its hand. A bite removes some of the

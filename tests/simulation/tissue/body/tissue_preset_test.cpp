@@ -1,5 +1,6 @@
 #include "simulation/tissue/body/tissue_preset.h"
 
+#include <array>
 #include <filesystem>
 #include <rapidjson/document.h>
 #include <rapidjson/schema.h>
@@ -46,6 +47,37 @@ TEST(TissuePreset, MeniscusAndCartilageHaveAProbingAndALiteraturePreset) {
   // 140 MPa along the fibres in total.
   const Material& stiff = FindTissuePreset(presets, "meniscus-literature")->material;
   EXPECT_EQ(stiff.young_modulus + stiff.fibre_stiffness, 1.4e8);
+}
+
+TEST(TissuePreset, LookIsReadAndMayBeLeftOut) {
+  const std::vector<TissuePreset> presets = ReadTissuePresets(kPresets);
+  ASSERT_TRUE(FindTissuePreset(presets, "meniscus")->look);
+  EXPECT_EQ(FindTissuePreset(presets, "meniscus")->look->structure, TissueStructure::kFibres);
+  EXPECT_EQ(FindTissuePreset(presets, "cartilage")->look->structure, TissueStructure::kHyaline);
+  Tissue meniscus, other;
+  other.material = "none of these";
+  const std::vector<TissueLook> looks = LooksOf(std::array{meniscus, other}, presets);
+  EXPECT_EQ(looks.at(0), *FindTissuePreset(presets, "meniscus")->look);
+  EXPECT_EQ(looks.at(1), TissueLook{});
+
+  const test::TempFolder folder;
+  json preset = json::parse(ReadWholeFile(kPresets / "meniscus-probe.json"));
+  const auto write = [&] {
+    WriteAtomically(folder.path() / "own.json", preset.dump());
+    return ReadTissuePreset(folder.path() / "own.json");
+  };
+  preset["look"] = {{"structure", "velvet"}};
+  EXPECT_FALSE(IsInSchema(preset.dump()));
+  EXPECT_THROW(write(), Error);
+  preset["look"] = {{"fibres", 1.5}};
+  EXPECT_FALSE(IsInSchema(preset.dump()));
+  EXPECT_THROW(write(), Error);
+  preset["look"] = {{"shine", 1}};
+  EXPECT_FALSE(IsInSchema(preset.dump()));
+  EXPECT_THROW(write(), Error);
+  preset.erase("look");
+  EXPECT_TRUE(IsInSchema(preset.dump()));
+  EXPECT_FALSE(write().look);
 }
 
 TEST(TissuePreset, EveryValueHasASource) {

@@ -1,0 +1,103 @@
+// Structure of a tissue in its own coordinates at rest: `grain` along the fibres, across them and
+// through the tissue. Every part fades before it is finer than a pixel, so that nothing crawls.
+// FIBRES: a crescent of circumferential fibres. HYALINE: a smooth plate.
+// Needs uniforms, which VTK declares (lens_model.cpp): vec3 tint, cutTint, edgeTint, rimTint,
+// rootTint, vesselColour; lookShares: vessels, fibres, fibrillation; lookMeasures: width of a fibre
+// bundle in m, factor of the gloss; grainAxis: the plate's normal in the model's frame.
+
+struct Pattern {
+  vec3 tint;     // factor of the colour
+  float height;  // m
+  float vessel;  // share of a capillary
+  float gloss;
+};
+
+// Returns the share that is left of a noise in these coordinates: none where a pixel spans a cell.
+float visible(vec3 cells) {
+  vec3 step = fwidth(cells);
+  return 1.0 - smoothstep(0.35, 0.95, max(step.x, max(step.y, step.z)));
+}
+
+// Tilts a normal by the slope of a height over the picture [Mikkelsen 2010].
+vec3 tilted(vec3 normal, float height) {
+  vec3 right = dFdx(lensPoint), up = dFdy(lensPoint);
+  vec3 byRight = cross(up, normal), byUp = cross(normal, right);
+  float area = dot(right, byRight);
+  vec3 slope = sign(area) * (dFdx(height) * byRight + dFdy(height) * byUp);
+  return normalize(abs(area) * normal - slope);
+}
+
+const float kPatch = 0.05;               // share of the colour of patches of some millimetres
+const float kFineRate = 1100.0;          // 1/m
+const float kFineHeight = 7e-6;          // m
+const float kFineTint = 0.025;
+
+#ifdef FIBRES
+const float kAlong = 9.0;                // length of a bundle in its widths
+const float kBundleHeight = 0.09, kBundleTint = 0.11;  // in its widths; share of the colour
+const float kEdge = 0.30;                // share of the width that the free edge is pale
+const float kRedFrom = 0.38, kRedTo = 0.85;
+const float kRedUneven = 0.16;
+const float kVesselRate = 850.0;         // 1/m
+const float kVesselHalf = 28e-6;         // m, half the width of a capillary
+const float kCutHeight = 0.22, kCutTint = 0.16;          // bundles that a cut opens
+#endif
+
+Pattern patternAt(vec3 normal) {
+  Pattern p;
+  float fresh = step(0.5, marks.z);
+  vec3 cells = grain * kFineRate;
+  float seen = visible(cells);
+  float fine = seen > 0.0 ? noise(cells).w * seen : 0.0;
+  p.tint = tint * (1.0 + kPatch * coarseNoise + kFineTint * fine);
+  p.height = kFineHeight * fine;
+  p.vessel = 0.0;
+  p.gloss = lookMeasures.y;
+#ifdef FIBRES
+  float rim = marks.x, root = marks.y;
+  // Bundles bend by a bundle's width over some millimetres, and their strength comes and goes.
+  vec3 waved = grain + lookMeasures.x * vec3(0.0, 2.0, 1.0) * coarseNoise;
+  vec3 bundle = waved / lookMeasures.x * vec3(1.0 / kAlong, 1.0, 1.0);
+  float bundleSeen = visible(bundle);
+  float strand = bundleSeen > 0.0 ? noise(bundle).w * bundleSeen : 0.0;
+  vec3 broad = waved / lookMeasures.x * vec3(0.3 / kAlong, 0.31, 0.31);
+  float sheaf = noise(broad).w * visible(broad);
+  float strength = lookShares.y * (0.55 + 0.45 * coarseNoise);
+  float groove = mix(strand + 0.7 * sheaf, 1.0 - 2.0 * abs(strand), 0.6 * fresh);
+  p.tint *= 1.0 + lookShares.y * mix(kBundleTint * strength, kCutTint, fresh) * groove;
+  p.height += lookMeasures.x * bundleSeen *
+              mix(kBundleHeight * strength, kCutHeight * lookShares.y, fresh) * groove;
+  // Free edge, vascular rim and roots.
+  p.tint *= mix(edgeTint, vec3(1.0), smoothstep(0.0, kEdge, rim + 0.05 * sheaf));
+  float red = lookShares.x *
+              smoothstep(kRedFrom, kRedTo, rim + kRedUneven * coarseNoise + 0.05 * sheaf);
+  p.tint *= mix(vec3(1.0), rimTint, red);
+  p.tint *= mix(vec3(1.0), rootTint, root);
+  // Capillaries: lines of equal width along the zeros of a noise, which another one interrupts.
+  if (red > 0.02) {
+    vec3 net = grain * kVesselRate * vec3(0.55, 1.0, 0.8) + 0.35 * vec3(sheaf, strand, 0.0);
+    vec4 value = noise(net);
+    float away = abs(value.w) / (kVesselRate * max(length(value.xyz), 0.2));
+    float pixel = length(fwidth(grain));
+    float line = 1.0 - smoothstep(kVesselHalf, kVesselHalf + max(pixel, 0.6 * kVesselHalf), away);
+    float open = smoothstep(-0.1, 0.35, noise(grain * 420.0 + 7.3).w);
+    p.vessel = 0.9 * red * line * open * (1.0 - smoothstep(40e-6, 160e-6, pixel));
+  }
+  p.gloss *= 1.0 - 0.5 * fresh;
+#elif defined(HYALINE)
+  float border = marks.x, side = marks.y;
+  p.tint *= mix(vec3(1.0), edgeTint, border * border);
+  p.tint *= mix(vec3(1.0), rootTint, side);
+  if (lookShares.z > 0.0) {
+    vec3 velvet = grain * vec3(2600.0, 5200.0, 5200.0);
+    float velvetSeen = visible(velvet);
+    float fray = velvetSeen > 0.0 ? noise(velvet + 2.0 * coarseNoise).w * velvetSeen : 0.0;
+    float worn = lookShares.z * smoothstep(-0.2, 0.5, coarseNoise);
+    p.height += 45e-6 * worn * fray;
+    p.tint *= 1.0 + 0.16 * worn * fray;
+    p.gloss *= 1.0 - 0.6 * worn;
+  }
+#endif
+  p.tint *= mix(vec3(1.0), cutTint, fresh);
+  return p;
+}
