@@ -18,6 +18,7 @@
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/relief_smoothing.h"
+#include "simulation/scene/medium.h"
 
 namespace arthro::app {
 
@@ -252,6 +253,7 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_lightReach", light_reach());
   SetUniform(program, "given_gain", gain_);
   SetUniform(program, "given_relit", backdrop_.relight);
+  SetUniform(program, "given_mirroredShare", MirroredShare(backdrop_.medium));
   SetUniform(program, "given_rodFrom", shade_.rod.from);
   SetUniform(program, "given_rodTo", shade_.rod.to);
   SetUniform(program, "given_rodRadius", shade_.rod.radius);

@@ -51,6 +51,7 @@ class BackdropProp : public vtkProp {
   // Camera gain of the present picture; 1 when the footage's light counts.
   double gain() const { return gain_; }
   double relight() const { return backdrop_.relight; }
+  Medium medium() const { return backdrop_.medium; }
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }

@@ -195,6 +195,8 @@ void LensModel::SetFrame(const LensFrame& frame) {
   const float lamp[3] = {Float(frame.shade.lamp.x), Float(frame.shade.lamp.y), 0.0f};
   actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f("lampPlace", lamp);
   if (look_ == Look::kTissue) {
+    actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
+        "mirroredShare", Float(frame.mirrored_share));
     Set("given_rodFrom", frame.shade.rod.from);
     Set("given_rodTo", frame.shade.rod.to);
     Set("given_rodRadius", frame.shade.rod.radius);

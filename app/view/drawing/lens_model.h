@@ -17,26 +17,13 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include "app/view/drawing/lens_shade.h"
 #include "app/view/drawing/metered_models.h"
-#include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
-
-// Instrument as it shades what is behind it: its rod, and the part that stands away from it, a hook
-// or an open jaw. m, in the lens frame (x right, y up, -z along the view).
-struct LensRod {
-  glm::dvec3 from{0.0}, to{0.0};
-  double radius = 0;  // 0: no such part
-};
-struct LensShade {
-  LensRod rod, head;
-  // Place of the light fibres: beside the lens, on the side of the scope's mark, where they stay
-  // when the camera head turns.
-  glm::dvec3 lamp{0.0, kLampAside, 0.0};
-};
 
 // Values that all models of a frame share.
 struct LensFrame {
@@ -45,6 +32,7 @@ struct LensFrame {
   double window_radius = 256;   // px
   double light_reach = 0.03;    // m
   double gain = 1, relit = 0;   // camera gain; share of the scope's own lamp in the light
+  double mirrored_share = 1;    // of the medium (simulation/scene/medium.h)
   LensShade shade;
   glm::dvec3 light_colour{1.0};  // linear; colour of white under lamp and camera
   glm::dvec3 surround{0.2};      // linear; colour that a shining surface mirrors

@@ -156,7 +156,7 @@ void main() {
 #endif
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
-  float wet = lamp * (kSheen * shine16 + kGlint * shine64 * shine64 * shine64);
+  float wet = mirroredShare * lamp * (kSheen * shine16 + kGlint * shine64 * shine64 * shine64);
   vec3 body =
       colour * colour *
       mix(light, lamp * (kRelitAmbient + (1.0 - kRelitAmbient) * faces) * (1.0 - kWallShade * wall),

@@ -40,7 +40,7 @@
   vec3 wet = lightColour * light * (kWetSheen * shine8 * shine4 * shine2 +
                                     kWetGlint * shine64 * shine64 * shine64);
   vec3 mirrored = surround * (kMirrored + kGrazing * glance * glance);
-  vec3 linear = (body + wet) * rodShade(lensPoint) + mirrored;
+  vec3 linear = (body + mirroredShare * wet) * rodShade(lensPoint) + mirroredShare * mirrored;
 #else
   if (-modelPoint.z > rodLength) discard;
   float ring = -modelPoint.z / kRingDistance;
