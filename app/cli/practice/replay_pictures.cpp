@@ -23,8 +23,10 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
         tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
         pictures_.eye().Follow(*world);
       }
-      const Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope),
-                                              kind, scene_, optics_, head_);
+      Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind,
+                                        scene_, optics_, head_);
+      picture.disturbances = disturbances_;
+      if (disturbances_.is_moving()) picture.disturbances.time = disturbances_.time + t - begin_;
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }
