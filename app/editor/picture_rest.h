@@ -16,7 +16,7 @@ class PictureRest {
   bool is_final() const { return rays_ == 2; }
 
  private:
-  int rays_ = 0;  // of the last picture
+  int rays_ = 0;  // rays of the last picture
   double changed_ = 0;
 };
 

@@ -16,10 +16,10 @@
 
 #include "app/view/backdrop/backdrop_prop.h"
 #include "app/view/disturbances/lens_pass.h"
-#include "app/view/drawing/camera_pass.h"
 #include "app/view/drawing/context_render_window.h"
 #include "app/view/drawing/lens_model.h"
 #include "app/view/drawing/srgb.h"
+#include "app/view/exposure/camera_pass.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/shaders/constants.h"

@@ -1,4 +1,4 @@
-// What the optics and the sensor behind a lens add to a picture, beside its projection. Lengths are
+// Effects of the optics and of the sensor behind a lens, beside its projection. Lengths are
 // shares of the radius of the round window; grey levels are those of 8 bits.
 #pragma once
 

@@ -23,7 +23,7 @@ namespace {
 // Centres of the views, as shares of the imaged part's extent in longitude and latitude.
 constexpr std::array kLongitudes{0.26, 0.42, 0.58, 0.74};
 constexpr std::array kLatitudes{0.34, 0.5, 0.66};
-constexpr std::array kDepths{0.24, 0.4};  // of the radius
+constexpr std::array kDepths{0.24, 0.4};  // share of the radius
 constexpr int kMostFrames = 24;
 constexpr int kCircleFrames = 12;
 

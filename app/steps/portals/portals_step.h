@@ -12,7 +12,7 @@ namespace arthro::app {
 struct Ui;
 
 struct PortalsStep {
-  std::vector<LensChoice> lenses;  // of common scopes; read when the panel is first shown
+  std::vector<LensChoice> lenses;  // common scopes, read when the panel is first shown
   bool shows_as_filmed = false;    // the footage's light, to compare
 };
 std::span<const Command> PortalsCommands();

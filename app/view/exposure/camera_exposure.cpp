@@ -16,7 +16,7 @@ constexpr double kBlackFrom = 0.005, kBlackTo = 0.03;
 constexpr double kWhiteFrom = 0.955, kWhiteTo = 0.985;
 // Levels before toe and shoulder at which black and white are shown.
 constexpr double kBlackShown = 0.05, kWhiteShown = 1.03;
-constexpr float kChannelShare = 0.85f;  // of the largest channel in the white level; rest: luma
+constexpr float kChannelShare = 0.85f;  // largest channel in the white level; the rest is luma
 constexpr double kMostGain = 2.0;
 constexpr double kMostBlack = 0.3;     // a brighter veil stays grey
 constexpr double kLeastCounted = 0.1;  // share of the parts

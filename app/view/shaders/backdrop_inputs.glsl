@@ -17,7 +17,7 @@ steady vec2 texels, reliefTexels;
 steady float samples;              // at most, per pixel
 steady float radius, perRadius;    // m, 1/m
 steady float lightReach, gain, relit;
-steady float mirroredShare;        // of the medium (simulation/scene/medium.h)
+steady float mirroredShare;        // ratio by medium (simulation/scene/medium.h)
 steady vec3 rodFrom, rodTo, headFrom, headTo;
 steady float rodRadius, headRadius;
 steady float highest;              // maximum of the relief

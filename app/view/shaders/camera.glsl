@@ -15,6 +15,7 @@ const vec3 kLuma = vec3(kLumaRed, kLumaGreen, kLumaBlue);
 // The gain raises the saturation of stored colours; a part of it is taken back, and more of bright
 // parts, as the wells of a sensor fill.
 const float kLessColour = 0.1, kBleached = 0.7, kBleachStart = 0.7;
+const float kLeastEdge = 0.1;  // smallest fade that is divided by
 float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 
 #ifdef EDGES
@@ -22,7 +23,7 @@ float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 // place along the stair [Lottes 2009, FXAA]. A software rasteriser leaves the loop at once where no
 // pixel of its block has an edge.
 const float kLeastContrast = 0.05;  // stored level
-const float kLeastShare = 0.12;     // of the brighter part
+const float kLeastShare = 0.12;     // share of the brighter part
 const float kSameEdge = 0.25;       // share of the step up to which a place belongs to the edge
 const float kMostWay = 9.0;         // px along the edge, on either side
 const float kAlone = 0.75;          // px, for a single pixel
@@ -105,7 +106,9 @@ void main() {
 #ifdef DETAIL
   colour += mix(sharpening, -rimBlur, min(r2 * r2, 1.0)) * detail;
 #endif
-  vec3 level = gain * colour + offset;
+  // The fade to the rim is no dark tissue: the response leaves it out.
+  float edge = max(1.0 - smoothstep(kRimStart, 1.0, sqrt(r2)), kLeastEdge);
+  vec3 level = gain / edge * colour + offset;
   float luma = dot(level, kLuma);
   level = mix(level, vec3(luma), mix(kLessColour, kBleached, smoothstep(kBleachStart, 1.0, luma)));
   vec3 below = clamp(kToe - level, 0.0, 2.0 * kToe),
@@ -114,5 +117,5 @@ void main() {
 #ifdef GRAIN
   level += grain / 255.0 * grainAt(ivec2(gl_FragCoord.xy));
 #endif
-  gl_FragData[0] = vec4(clamp(level, 0.0, 1.0) * dark, 1.0);
+  gl_FragData[0] = vec4(clamp(level, 0.0, 1.0) * (edge * dark), 1.0);
 }

@@ -1,4 +1,4 @@
-// What a film states of its colours and where a player may begin, read by FFmpeg's own libraries.
+// Colour tags and key pictures of films, read by FFmpeg's own libraries.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct FilmTags {
   AVColorPrimaries primaries{};
   AVColorTransferCharacteristic curve{};
   std::vector<double> key_times;  // s
-  int luma = -1;                  // of the first picture's middle
+  int luma = -1;                  // luma in the first picture's middle
 };
 
 FilmTags ReadTags(const std::filesystem::path& file) {

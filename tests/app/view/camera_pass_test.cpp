@@ -127,7 +127,7 @@ TEST_F(CameraPassView, GrainIsAtMostItsAmplitudeAndHasNoMean) {
     }
   EXPECT_GE(most, 2);
   EXPECT_LE(most, 3 + 1);  // and rounding
-  // Of 10 000 triangular values of variance 9/6 the mean is 0.012 rms; five of them, and the
+  // The mean of 10 000 triangular values of variance 9/6 is 0.012 rms; five of them, and the
   // rounding of the clean level.
   EXPECT_NEAR(sum / count, 0, 0.06 + 0.5);
   EXPECT_EQ(grainy.at(0, 0)[1], 0) << "the surround stays black";

@@ -1,4 +1,4 @@
-#include "app/view/drawing/camera_pass.h"
+#include "app/view/exposure/camera_pass.h"
 
 #include <algorithm>
 

@@ -25,7 +25,7 @@ class CameraPass {
   // picture.rays * size pixels a side.
   void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
             vtkTextureObject& undisturbed, vtkTextureObject& finished, int size);
-  const CameraExposure& exposure() const { return exposure_; }  // of the last picture
+  const CameraExposure& exposure() const { return exposure_; }  // exposure of the last picture
   vtkOpenGLFramebufferObject& result() { return *target_.framebuffer; }
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
 
