@@ -25,13 +25,12 @@ float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 const float kLeastContrast = 0.05;  // stored level
 const float kLeastShare = 0.12;     // share of the brighter part
 const float kSameEdge = 0.25;       // share of the step up to which a place belongs to the edge
-const float kMostWay = 9.0;         // px along the edge, on either side
+const float kMostWay = 5.0;         // px along the edge, on either side
 const float kAlone = 0.75;          // px, for a single pixel
 vec3 withoutStairs(vec3 colour, float middle, float n, float s, float e, float w) {
   float most = max(middle, max(max(n, s), max(e, w)));
   float range = most - min(middle, min(min(n, s), min(e, w)));
   bool isEdge = range > max(kLeastContrast, kLeastShare * most);
-  vec2 shift = vec2(0.0);
   while (isEdge) {
     bool isLevel = abs(n + s - 2.0 * middle) >= abs(e + w - 2.0 * middle);
     float before = isLevel ? s : w, after = isLevel ? n : e;
@@ -65,10 +64,10 @@ vec3 withoutStairs(vec3 colour, float middle, float n, float s, float e, float w
     // Single pixels and corners.
     float alone = smoothstep(0.0, 1.0, abs(0.25 * (n + s + e + w) - middle) / range);
     amount = max(amount, kAlone * alone * alone);
-    shift = amount * across;
+    colour = textureLod(picture, texCoord + amount * across, 0.0).rgb;
     isEdge = false;
   }
-  return shift == vec2(0.0) ? colour : textureLod(picture, texCoord + shift, 0.0).rgb;
+  return colour;
 }
 #endif
 
