@@ -418,7 +418,9 @@ class Editor {
 
   void DrawPictures(const Ui& ui, const Layout& layout) {
     if (!will_draw_) return;
-    if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture)) && unsettled_ < 2)
+    if (pictures_.DrawScope(state_, ScopePictureSize(ui, state_, layout.picture),
+                            ImGui::GetTime()) &&
+        unsettled_ < 2)
       unsettled_ = 2;
     if (state_.steps.practice->film && state_.practice) {
       if (std::exchange(noted_film_, state_.steps.practice->film.get()) !=

@@ -16,6 +16,7 @@
 namespace arthro::app {
 namespace {
 
+constexpr int kStillSamples = 8;  // texture samples per ray of a picture at rest
 constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two, on a slow machine
 
 // A practice shows the scene from outside too, and nothing is edited there.
@@ -25,8 +26,8 @@ bool IsTissueEdited(const EditorState& state) {
 
 bool Same(const Picture& a, const Picture& b) {
   return a.view.tip == b.view.tip && a.view.view == b.view.view && a.view.up == b.view.up &&
-         a.field_of_view == b.field_of_view && a.lens == b.lens && a.notch == b.notch &&
-         a.instrument == b.instrument && a.disturbances == b.disturbances;
+         a.field_of_view == b.field_of_view && a.lens == b.lens && a.camera == b.camera &&
+         a.notch == b.notch && a.instrument == b.instrument && a.disturbances == b.disturbances;
 }
 
 // Picture of the tools that the author holds while no session runs.
@@ -34,6 +35,7 @@ Picture AuthorsPicture(const EditorState& state, const simulation::ScopeOptics& 
   const Scene& scene = state.document().scene;
   Picture picture = PictureFromPose(state.scope, scene.scope.view_angle, optics.field_of_view);
   picture.lens = optics.lens;
+  picture.camera = optics.camera;
   picture.relief = kUsualRelief;
   const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
   picture.instrument = InstrumentView{
@@ -171,7 +173,7 @@ const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& d
   const ScopeSpec& scope = document.scene.scope;
   if (document.lens == optics_.lens && scope.field_of_view == optics_.field_of_view)
     return optics_.fitted;
-  optics_ = {document.lens, scope.field_of_view, {scope.field_of_view, {}}, {}};
+  optics_ = {document.lens, scope.field_of_view, {scope.field_of_view, {}, {}}, {}};
   try {
     optics_.fitted = simulation::OpticsOf(scope, document.lens);
   } catch (const Error& error) {
@@ -180,26 +182,33 @@ const simulation::ScopeOptics& Pictures::TakeOptics(const authoring::Document& d
   return optics_.fitted;
 }
 
-bool Pictures::DrawScope(const EditorState& state, int size) {
+bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   Take(state);
   Picture picture = ShownPicture(state, TakeOptics(state.document()));
   if (state.practice && picture.instrument)
     picture.instrument = live_tissues_.Settled(*picture.instrument);
-  const bool moved = changed_ || !Same(picture, picture_);
+  const bool has_changed = changed_ || !Same(picture, picture_) || full_size_ != size;
   picture_ = picture;
+  full_size_ = size;
   has_picture_ = panorama_ != nullptr;
   is_timed_ = false;
-  if (!has_picture_ || (!moved && drawn_size_ == size)) return false;
+  if (!has_picture_) return false;
+  const int rays = rest_.RaysDue(has_changed, seconds);
+  if (rays == 0) return !rest_.is_final();
 
   // A machine that is slow at full size draws coarser while things move, and full when they rest.
-  const double scale = moved && !steady_ ? scale_.value() : 1.0;
+  const bool is_moving = rays == 1 && !steady_;
+  const double scale = is_moving ? scale_.value() : 1.0;
+  picture_.features = is_moving ? scale_.features() : CameraFeatures::kEdges;
+  picture_.rays = rays;
+  if (rays == 2) picture_.samples = kStillSamples;
   const int pixels = static_cast<int>(std::lround(scale * size));
   scope_.Render(picture_, pixels);
-  is_timed_ = scale == scale_.value();
+  is_timed_ = is_moving;
   drawn_size_ = pixels;
   ++drawn_count_;
   changed_ = false;
-  return pixels < size;
+  return !rest_.is_final();
 }
 
 void Pictures::NoteFrame(double seconds) {

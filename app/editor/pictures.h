@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/editor/panels/panels.h"
+#include "app/editor/picture_rest.h"
 #include "app/editor/render_scale.h"
 #include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
@@ -24,9 +25,9 @@ class Pictures {
   // machine gets a coarser picture while it moves.
   explicit Pictures(bool steady) : steady_(steady) {}
 
-  // Draws the scope's picture to fill `size` pixels a side. True when it is not the final one yet:
-  // call again soon.
-  bool DrawScope(const EditorState& state, int size);
+  // Draws the scope's picture to fill `size` pixels a side, at `seconds` of the window's clock.
+  // True when it is not the final one yet: call again soon.
+  bool DrawScope(const EditorState& state, int size, double seconds);
   // The picture that was drawn last, into a film: no more often than the film needs it.
   void Record(LiveFilm& film, double t);
   // The author's view from outside. Draws only what changed; on a slow machine less often while the
@@ -69,9 +70,10 @@ class Pictures {
   const simulation::ScopeOptics& TakeOptics(const authoring::Document& document);
   Optics optics_;
   Picture picture_;
-  int drawn_size_ = 0;
+  int drawn_size_ = 0, full_size_ = 0;  // px
   long drawn_count_ = 0;
-  RenderScale scale_;      // scale of moving pictures
+  PictureRest rest_;
+  RenderScale scale_;      // scale and features of moving pictures
   bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
   std::chrono::steady_clock::time_point overview_drawn_{};

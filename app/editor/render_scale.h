@@ -1,10 +1,13 @@
-// How large a picture is drawn while things move, from how long frames take: as finely as they keep
-// to kFrameTime. It changes in steps and reluctantly, since every change makes the picture's
-// textures anew and shows.
+// How a picture is drawn while things move, from how long frames take: as finely as they keep to
+// kFrameTime. First the features of the camera step back one by one, then the resolution; the
+// geometry of the picture never does. It changes in steps and reluctantly, since a change of
+// resolution makes the picture's textures anew and shows.
 #pragma once
 
 #include <array>
 #include <cstddef>
+
+#include "app/view/drawing/picture.h"
 
 namespace arthro::app {
 
@@ -14,6 +17,7 @@ class RenderScale {
 
   // Share of the full edge, 0.5 to 1.
   double value() const;
+  CameraFeatures features() const;
   // Even a steady picture of full size would keep the user waiting.
   bool is_slow() const { return step_ > 0; }
   // A frame that drew a picture at value() took so long, handing over included, s. What is no time

@@ -2,6 +2,7 @@
 // whatever ends the program: a fragmented MP4, a Matroska file, an AVI file. CopyFilm makes an
 // ordinary film of it, with an index. H.264 or Motion JPEG, by FFmpeg's libraries: OpenCV's writer
 // neither writes fragments nor reports a short write.
+// H.264 states its colours (BT.709, limited range) and has a key picture every 2 s.
 // The same pictures give the same bytes on every machine with the same libraries.
 #pragma once
 

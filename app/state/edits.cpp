@@ -97,9 +97,16 @@ void SetIncisionSpacing(EditorState& state, double spacing) {
 }
 
 void SetFieldOfView(EditorState& state, double field_of_view) {
-  if (field_of_view == state.document().scene.scope.field_of_view) return;
+  authoring::Document changed = state.document();
+  if (field_of_view == changed.scene.scope.field_of_view || !PutFieldOfView(changed, field_of_view))
+    return;
   Edit(state, "Change the field of view", "field_of_view",
-       [&](auto& next) { next.scene.scope.field_of_view = field_of_view; });
+       [&](auto& next) { PutFieldOfView(next, field_of_view); });
+}
+
+void SetMedium(EditorState& state, Medium medium) {
+  if (medium == state.document().scene.backdrop.medium) return;
+  Edit(state, "Change the filling", "", [&](auto& next) { next.scene.backdrop.medium = medium; });
 }
 
 void SetRelight(EditorState& state, double share) {

@@ -30,7 +30,9 @@ void SetPanorama(EditorState& state, const std::string& name,
                  const std::shared_ptr<const ColourImage>& panorama, const Projection& projection,
                  const Lens& lens, bool is_lens_guessed);
 void SetIncisionSpacing(EditorState& state, double spacing);  // m
+// rad; of the lens too. Does nothing beyond the end of the lens.
 void SetFieldOfView(EditorState& state, double field_of_view);
+void SetMedium(EditorState& state, Medium medium);
 void SetRelight(EditorState& state, double share);  // Backdrop::relight
 void SetRodLength(EditorState& state, double rod_length);
 

@@ -22,6 +22,14 @@ std::optional<double> FieldOf(const Lens& lens) {
   }
 }
 
+// A file of the lens' name that the document kept holds another lens.
+void PutLens(authoring::Document& document, const std::optional<Lens>& lens) {
+  ScopeSpec& scope = document.scene.scope;
+  scope.lens = lens ? kLensFile : "";
+  document.lens = lens;
+  document.files.erase(kLensFile);
+}
+
 bool CanBeDrawn(const Lens& lens, double field_of_view) {
   try {
     simulation::FitWindowLens(lens, field_of_view);
@@ -40,10 +48,27 @@ void TakeFootageLens(authoring::Document& document, const Lens& lens, bool is_gu
   scope.field_of_view = std::min(*field, std::numbers::pi);  // the most that a scene may say
   scope.lens.clear();
   document.lens.reset();
-  if (is_guessed || !CanBeDrawn(lens, *field)) return;
-  scope.lens = kLensFile;
-  document.lens = lens;
-  document.files.erase(kLensFile);  // the file of that name holds another lens
+  if (!is_guessed && CanBeDrawn(lens, *field)) PutLens(document, lens);
+}
+
+void PutScopeLens(authoring::Document& document, const std::optional<Lens>& lens) {
+  if (lens) {
+    const double field = simulation::WindowFieldOfView(*lens);
+    simulation::FitWindowLens(*lens, field);  // throws for a lens that cannot be drawn
+    document.scene.scope.field_of_view = std::min(field, std::numbers::pi);
+  }
+  PutLens(document, lens);
+}
+
+bool PutFieldOfView(authoring::Document& document, double field_of_view) {
+  if (document.lens) {
+    Lens lens = *document.lens;
+    lens.field_of_view = field_of_view;
+    if (!CanBeDrawn(lens, field_of_view)) return false;
+    PutLens(document, lens);
+  }
+  document.scene.scope.field_of_view = field_of_view;
+  return true;
 }
 
 }  // namespace arthro::app

@@ -19,11 +19,13 @@
 #include "app/view/drawing/context_render_window.h"
 #include "app/view/drawing/lens_model.h"
 #include "app/view/drawing/srgb.h"
+#include "app/view/exposure/camera_pass.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
 #include "app/view/instruments/tool_shade.h"
 #include "app/view/shaders/constants.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/medium.h"
 
 namespace arthro::app {
 namespace {
@@ -72,9 +74,11 @@ struct ArthroscopicView::Parts {
   std::optional<std::array<glm::dvec3, 3>> slopes;  // change of the light along the portal's axes
   MeteredModels metered;
   LensPass lens_pass;
+  CameraPass camera_pass;
   bool is_disturbed = false;  // the last frame passed through lens_pass
+  bool has_camera = false;    // and through camera_pass
   std::string notice;
-  int size = 0;
+  int size = 0, rays = 0;  // px of the last frame; rays per side that were drawn
 
   void TakeTool(simulation::ToolKind kind);
   void ShowTool(const Picture& picture, const LensFrame& frame);
@@ -87,7 +91,8 @@ struct ArthroscopicView::Parts {
     for (Place& place : places) place.about.reset();
   }
   vtkOpenGLFramebufferObject& drawn() const { return *window->GetRenderFramebuffer(); }
-  vtkOpenGLFramebufferObject& shown() { return is_disturbed ? lens_pass.result() : drawn(); }
+  vtkOpenGLFramebufferObject& finished() { return is_disturbed ? lens_pass.result() : drawn(); }
+  vtkOpenGLFramebufferObject& shown() { return has_camera ? camera_pass.result() : finished(); }
 };
 
 const FootageLight& ArthroscopicView::Parts::LightAbout(std::size_t tissue) {
@@ -186,6 +191,7 @@ ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
 }
 
 ArthroscopicView::~ArthroscopicView() {
+  parts_->camera_pass.ReleaseGraphicsResources(parts_->window);
   parts_->lens_pass.ReleaseGraphicsResources(parts_->window);
   parts_->window->Finalize();
 }
@@ -260,9 +266,11 @@ void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) 
 void ArthroscopicView::Render(const Picture& picture, int size) {
   Parts& p = *parts_;
   CheckDisturbances(picture.disturbances);
+  p.has_camera = picture.camera && !picture.plain;
   p.size = size;
+  p.rays = size * (p.has_camera ? picture.rays : 1);
   p.window->GetState()->Reset();  // other code has drawn in this context
-  p.window->SetSize(size, size);
+  p.window->SetSize(p.rays, p.rays);
 
   // Only the camera's position and axes are used; the shaders apply the lens.
   const simulation::ScopeView& view = picture.view;
@@ -277,12 +285,13 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   if (ShowsTool(picture)) p.TakeTool(picture.instrument->kind);
   frame.shade = ShadeOf(picture, p.tool_shape);
   p.MeterModels(picture);
-  p.backdrop->SetPicture(picture, size, frame.shade, p.metered);
+  p.backdrop->SetPicture(picture, p.rays, frame.shade, p.metered);
   frame.gain = p.backdrop->gain();
   frame.relit = p.backdrop->relight();
+  frame.mirrored_share = MirroredShare(p.backdrop->medium());
   frame.field_of_view = picture.field_of_view;
   frame.lens = picture.lens;
-  frame.window_radius = size / 2.0;
+  frame.window_radius = p.rays / 2.0;
   frame.light_reach = p.backdrop->light_reach();
   frame.light_colour = LightOf(p.backdrop->footage_light().bright);
   frame.surround = p.backdrop->footage_light().mean;
@@ -298,7 +307,11 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   p.window->Render();
   p.backdrop->EndContact();
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
-  if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, size);
+  if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
+  if (p.has_camera)
+    p.camera_pass.Draw(p.window, picture, frame.shade,
+                       *p.drawn().GetColorAttachmentAsTextureObject(0),
+                       *p.finished().GetColorAttachmentAsTextureObject(0), size);
 }
 
 void ArthroscopicView::Finish() const { glFinish(); }
@@ -315,20 +328,20 @@ unsigned int ArthroscopicView::TextureId() const {
 }
 
 ColourImage ArthroscopicView::ReadPixels() const {
-  return parts_->window->ReadPicture(parts_->shown());
+  return parts_->window->ReadPicture(parts_->shown(), parts_->size);
 }
 
 std::vector<float> ArthroscopicView::ReadDistances() const {
-  const auto size = static_cast<std::size_t>(parts_->size);
+  const auto size = static_cast<std::size_t>(parts_->rays);
   std::vector<float> stored(size * size), distances(size * size);
   if (size == 0) return distances;
   vtkOpenGLState* state = parts_->window->GetState();
   state->PushReadFramebufferBinding();
   parts_->drawn().Bind(GL_READ_FRAMEBUFFER);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadPixels(0, 0, parts_->size, parts_->size, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
+  glReadPixels(0, 0, parts_->rays, parts_->rays, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
   state->PopReadFramebufferBinding();
-  const double middle = 0.5 * (parts_->size - 1);
+  const double middle = 0.5 * (parts_->rays - 1);
   for (std::size_t y = 0; y < size; ++y)
     for (std::size_t x = 0; x < size; ++x) {
       const float depth = stored[(size - 1 - y) * size + x];
@@ -338,6 +351,8 @@ std::vector<float> ArthroscopicView::ReadDistances() const {
     }
   return distances;
 }
+
+const CameraExposure& ArthroscopicView::exposure() const { return parts_->camera_pass.exposure(); }
 
 const std::string& ArthroscopicView::notice() const { return parts_->notice; }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/view/drawing/picture.h"
+#include "app/view/exposure/camera_exposure.h"
 #include "simulation/scene/loaded_scene.h"
 #include "simulation/tissue/body/tissue_look.h"
 
@@ -54,8 +55,9 @@ class ArthroscopicView {
                         std::span<const std::uint8_t> fresh = {});
   void SetTissuePose(int index, const Pose& portal_from_tissue);
 
-  // Draws into the texture, size x size pixels. The caller binds its own framebuffer, viewport and
-  // program afterwards. Throws Error(kBadArgument) for disturbances out of range.
+  // Draws into the texture, size x size pixels; with a camera from `rays` times as many per axis.
+  // The caller binds its own framebuffer, viewport and program afterwards. Throws
+  // Error(kBadArgument) for disturbances out of range.
   void Render(const Picture& picture, int size);
 
   // Waits until the last frame is drawn; OpenGL draws on after Render returns.
@@ -64,9 +66,12 @@ class ArthroscopicView {
   // OpenGL name of the texture with the last frame: RGBA, opaque, first row at the bottom.
   unsigned int TextureId() const;
   ColourImage ReadPixels() const;
-  // Distance from the tip at each pixel of the last frame, m; row-major from the top. 0 outside the
-  // window and under its mark. Disturbances do not change it.
+  // Distance from the tip at each ray of the last frame, m; row-major from the top. 0 outside the
+  // window and under its mark. Disturbances and camera do not change it.
   std::vector<float> ReadDistances() const;
+
+  // Exposure of the last frame with a camera.
+  const CameraExposure& exposure() const;
 
   // A sentence for the user, such as a reduced size of the panorama; empty when there is none.
   const std::string& notice() const;

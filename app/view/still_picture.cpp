@@ -52,6 +52,7 @@ Picture PictureOf(const simulation::Snapshot& snapshot, const simulation::RodPos
   Picture picture = PictureFromPose(seen_from, view_angle, optics.field_of_view,
                                     simulation::HeadRoll(head, seen_from.roll));
   picture.lens = optics.lens;
+  picture.camera = optics.camera;
   picture.relief = kUsualRelief;
   picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
                                       tool.proxy_in_portal,
@@ -94,6 +95,12 @@ ColourImage StillPictures::Draw(const Picture& picture, int size) {
                 fmt::format("a picture of {} pixels a side cannot be drawn; ask for {} to {}", size,
                             kMinSize, kMaxSize));
   CheckInside(glm::length(picture.view.tip), loaded_.scene.backdrop.radius);
+  if (picture.camera && !picture.plain) {
+    Picture fine = picture;
+    fine.rays = 2;
+    view_.Render(fine, size);
+    return view_.ReadPixels();
+  }
   view_.Render(picture, 2 * size);
   return Halved(view_.ReadPixels());
 }

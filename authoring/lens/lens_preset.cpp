@@ -10,6 +10,7 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/lens_io.h"
 
 namespace arthro::authoring {
 
@@ -29,6 +30,9 @@ LensPreset ReadLensPreset(const std::filesystem::path& file) {
   reader.Text("model", model, JsonObjectReader::kRequired);
   reader.Angle("fov_deg", preset.field_of_view, {1, 300, "degrees"});
   reader.Number("aspect", preset.aspect, {0.2, 5});
+  if (reader.Has("view_angle_deg"))
+    reader.Angle("view_angle_deg", preset.view_angle.emplace(), {0, 120, "degrees"});
+  ReadCamera(reader, preset.camera);
   reader.RefuseOtherKeys(true);
   if (schema != "arthroscene.lens_preset/1" && !schema.empty())
     reader.Fault("schema", "must be \"arthroscene.lens_preset/1\"");
@@ -70,6 +74,7 @@ Lens LensFromPreset(const LensPreset& preset, int width, int height, const LensC
   lens.aspect = preset.aspect;
   lens.circle = circle;
   lens.field_of_view = preset.field_of_view;
+  lens.camera = preset.camera;
   // Every model here is linear in f, so the radius at f = 1 determines f.
   lens.focal_px = 1;
   const auto radius = RadiusFromAngle(lens, preset.field_of_view / 2);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct LensPreset {
   LensModel model = LensModel::kEquisolid;
   double field_of_view = 0;  // full, rad
   double aspect = 1;
+  std::optional<double> view_angle;  // rad, of the scope that the lens belongs to
+  LensCamera camera;
 };
 
 // Throws Error(kBadData) that names the faulty key.

@@ -136,7 +136,8 @@ class FieldReader {
   void ReadChoice(const char* name, E& field, const Choices<E>& rule, Need need) {
     std::string word;
     reader_.Text(name, word, need);
-    is_choice_known_ = false;
+    // A choice that may be left out keeps its default.
+    is_choice_known_ = need == JsonObjectReader::kOptional && !reader_.Has(name);
     std::vector<const char*> words;
     for (const auto& [value, its_word] : rule.words) {
       words.push_back(its_word);

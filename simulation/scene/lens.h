@@ -15,6 +15,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "simulation/scene/lens_camera.h"
+
 namespace arthro {
 
 enum class LensModel { kEquisolid, kKannalaBrandt, kDoubleSphere, kPinhole };
@@ -34,6 +36,7 @@ struct Lens {
   double field_of_view = 0;   // full, rad: of the circle, or of the picture's diagonal
   LensCircle circle;          // r = 0: there is no round window
   double rms_px = 0;          // residual of the fit; 0 when it was not fitted
+  LensCamera camera;
   friend bool operator==(const Lens&, const Lens&) = default;
 };
 

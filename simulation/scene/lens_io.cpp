@@ -97,7 +97,29 @@ void ReadCircle(Reader& owner, LensCircle& circle) {
   });
 }
 
+// Reads the fields that Visit lists, each a number within its range.
+struct CameraReader {
+  Reader& reader;
+  void operator()(const char* name, double& field, const Range& range, const char* unit,
+                  const char*) {
+    reader.Number(name, field, {range.min, range.max, unit, range.above_min});
+  }
+};
+
+nlohmann::ordered_json JsonOf(LensCamera camera) {
+  nlohmann::ordered_json json;
+  camera.Visit([&](const char* name, const double& field, const auto&...) { json[name] = field; });
+  return json;
+}
+
 }  // namespace
+
+void ReadCamera(JsonObjectReader& owner, LensCamera& camera) {
+  owner.Object("camera", Reader::kOptional, [&](Reader& reader) {
+    camera.Visit(CameraReader{reader});
+    reader.RefuseOtherKeys();
+  });
+}
 
 std::string_view ToString(LensModel model) {
   for (const auto& [value, word] : kWords)
@@ -125,6 +147,7 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
   reader.Angle("fov_deg", lens.field_of_view, kFieldOfView);
   ReadCircle(reader, lens.circle);
   reader.Number("rms_px", lens.rms_px, kRadius);
+  ReadCamera(reader, lens.camera);
   reader.RefuseOtherKeys(true);
   if (faults.empty() && lens.circle.r == 0) lens.circle = {};
   if (faults.empty() && lens.circle.r > 0 &&
@@ -181,6 +204,7 @@ std::string JsonFromLens(const Lens& lens) {
   json["fov_deg"] = DegreesFromRadians(lens.field_of_view);
   json["circle"] = {{"cx", lens.circle.cx}, {"cy", lens.circle.cy}, {"r", lens.circle.r}};
   json["rms_px"] = lens.rms_px;
+  if (lens.camera != LensCamera()) json["camera"] = JsonOf(lens.camera);
   return json.dump(2) + "\n";
 }
 

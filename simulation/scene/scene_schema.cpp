@@ -61,7 +61,13 @@ struct SchemaVisitor {
   template <class T, class V, class Rule>
   void Put(const char* name, T& field, const LeftOutAt<V, Rule>& rule, const char* unit,
            const char* help, bool needed) {
-    Put(name, field, rule.rule, unit, help, needed);
+    if constexpr (std::is_enum_v<T>) {
+      Json words = Json::array();
+      for (const auto& [value, word] : rule.rule.words) words.push_back(word);
+      properties[name] = {{"enum", words}, {"description", help}};
+    } else {
+      Put(name, field, rule.rule, unit, help, needed);
+    }
   }
   template <class T, class Rule>
   void Put(const char* name, T& field, const OnlyIf<Rule>& rule, const char* unit, const char* help,

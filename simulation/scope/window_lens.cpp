@@ -110,10 +110,10 @@ WindowLens FitWindowLens(const Lens& lens, double field_of_view) {
 
 ScopeOptics OpticsOf(const ScopeSpec& scope, const std::optional<Lens>& lens,
                      std::optional<double> field_of_view) {
-  if (!lens) return {field_of_view.value_or(scope.field_of_view), {}};
+  if (!lens) return {field_of_view.value_or(scope.field_of_view), {}, {}};
   try {
     const double field = field_of_view ? *field_of_view : WindowFieldOfView(*lens);
-    return {field, FitWindowLens(*lens, field)};
+    return {field, FitWindowLens(*lens, field), lens->camera};
   } catch (const Error& error) {
     throw Error(error.code(),
                 "scope.lens, " + scope.lens.generic_string() + ": " + error.sentence());

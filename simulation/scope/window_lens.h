@@ -41,6 +41,7 @@ WindowLens FitWindowLens(const Lens& lens, double field_of_view);
 struct ScopeOptics {
   double field_of_view = 1.5707963267948966;  // full
   WindowLens lens;
+  LensCamera camera = {};
 };
 ScopeOptics OpticsOf(const ScopeSpec& scope, const std::optional<Lens>& lens,
                      std::optional<double> field_of_view = std::nullopt);

@@ -17,7 +17,9 @@
 #include "app/bench/relief/relief_bench.h"
 #include "app/bench/report/bench_report.h"
 #include "app/bench/tissue/tissue_bench.h"
+#include "app/bench/view/look_bench.h"
 #include "app/bench/view/view_bench.h"
+#include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/number_flags.h"
@@ -69,6 +71,44 @@ void AddBench(CLI::App& bench, const char* name, const char* help, Measure measu
   AddOptions(*job, own->options);
   if (CLI::Option* clip = job->get_option_no_throw("--clip")) files->Input(clip, kClipInput);
   files->Run([own, measure] { Run(*own, measure); });
+}
+
+// Speed and error of the view or, with --look, statistics of its pictures.
+void AddViewBench(CLI::App& program) {
+  struct Arguments {
+    BenchArguments<ViewBenchOptions> bench;
+    std::string look, frames;
+  };
+  CLI::App* job = program.add_subcommand(
+      "view",
+      "Arthroscopic picture: time of a frame by relief search, samples per pixel, size, tissue, "
+      "lamp, camera and disturbance, and its difference from a ray tracer. No display is needed.");
+  const auto own = std::make_shared<Arguments>();
+  const auto files = JobFiles::Of(*job);
+  files->Output(
+      job->add_option("--json", own->bench.json, "Write the rows as JSON; - for standard output."),
+      {"a table", FileForm::kJson, "arthroscene.bench."});
+  CLI::Option* plot =
+      job->add_option("--plot", own->bench.plot, "Write an SVG of error over time.");
+  files->Output(plot, kPlotFile);
+  CLI::Option* look = files->Input(
+      job->add_option("--look", own->look,
+                      "Scene of which the statistics of 24 pictures are printed instead: "
+                      "percentiles of grey, clipped share, gradient, flat share, chroma."),
+      kSceneInput);
+  look->excludes(plot);
+  files
+      ->Input(job->add_option("--frames", own->frames,
+                              "Folder of real frames, or a clip, measured beside the scene."),
+              kFootageInput)
+      ->needs(look);
+  AddOptions(*job, own->bench.options);
+  files->Run([own] {
+    if (own->look.empty()) return Run(own->bench, RunViewBench);
+    const LookBench bench = RunLookBench(own->look, own->frames, TerminalProgress());
+    if (!own->bench.json.empty()) WriteAtomically(own->bench.json, JsonOf(bench).dump(2) + "\n");
+    if (own->bench.json != "-") fmt::print("{}", TableOf(bench));
+  });
 }
 
 // OpenCV's stitcher in a process of its own.
@@ -136,11 +176,7 @@ void AddBenches(CLI::App& program) {
       "Touch: time of a servo tick by stage, force against closed forms and beside the paper's "
       "kernel, stiffness at which a wall becomes unstable.",
       RunHapticsBench);
-  AddBench<ViewBenchOptions>(
-      program, "view",
-      "Arthroscopic picture: time of a frame by relief search, samples per pixel, size, tissue, "
-      "lamp and disturbance, and its difference from a ray tracer. No display is needed.",
-      RunViewBench);
+  AddViewBench(program);
   AddBench<MicroBenchOptions>(
       program, "micro",
       "Single functions of scope, lens, depth, composition, surfaces and tissue, each with its "

@@ -41,7 +41,7 @@ std::string TableOf(const ViewBench& bench) {
       "# view: speed against error | {} | drawn by {} | {} frames a row\n"
       "{:>5}{:>6} {:<46}{:>8}{:>8} |{:>8}{:>8} |{:>9}{:>9}{:>10} |{:>8}{:>8}\n"
       "{:>5}{:>6} {:<46}{:>8}{:>8} |{:>8}{:>8} |{:>9}{:>9}{:>10} |{:>8}{:>8}\n",
-      MachineWords(), bench.drawn_by, bench.options.frames,  //
+      MachineWords(), bench.drawn_by, bench.options.timed_frames,  //
       "size", "pano", "picture", "wall ms", "", "cpu ms", "", "ends", "others", "colour", "lines",
       "px",  //
       "px", "px", "", "median", "p99", "median", "p99", "off %", "rms mm", "off %", "rms", "max");

@@ -19,14 +19,14 @@
 namespace arthro::app {
 
 struct ViewBenchOptions {
-  int frames = 60;
+  int timed_frames = 60;
   int size = 1024;
   int panorama = 4096;
   int triangles = 100000;
   int pixels = 3000;
   template <class V>
   void Visit(V&& v) {
-    v("frames", frames, Range{2, 100000}, "", "Frames that are timed per row.");
+    v("timed_frames", timed_frames, Range{2, 100000}, "", "Frames that are timed per row.");
     v("size", size, Range{64, 4096}, "px", "Side of the larger picture; the other has half of it.");
     v("panorama", panorama, Range{256, 16384}, "px",
       "Width of the larger panorama; the other has a quarter of it.");

@@ -30,17 +30,32 @@ struct SceneKind {
   double fineness = 0;
   double relight = 0;
   bool is_disturbed = false;
+  std::optional<CameraFeatures> camera = {};
   simulation::TissueStructure structure = simulation::TissueStructure::kPlain;
 };
-constexpr std::array kScenes = {SceneKind{"two instruments"},
-                                SceneKind{"two instruments, {} triangles", 0.2},
-                                SceneKind{"two instruments, {} triangles", 1},
-                                SceneKind{"two instruments, {} triangles, lamp", 0.2, 1},
-                                SceneKind{"the same, haze and bubbles", 0.2, 1, true},
-                                SceneKind{"{} triangles, lamp, as a meniscus", 0.2, 1, false,
-                                          simulation::TissueStructure::kFibres},
-                                SceneKind{"{} triangles, lamp, as cartilage", 0.2, 1, false,
-                                          simulation::TissueStructure::kHyaline}};
+constexpr std::array kScenes = {
+    SceneKind{"two instruments"},
+    SceneKind{"two instruments, {} triangles", 0.2},
+    SceneKind{"two instruments, {} triangles", 1},
+    SceneKind{"two instruments, {} triangles, lamp", 0.2, 1},
+    SceneKind{"the same, camera: exposure", 0.2, 1, false, CameraFeatures::kExposure},
+    SceneKind{"the same and grain", 0.2, 1, false, CameraFeatures::kGrain},
+    SceneKind{"the same and sharpness", 0.2, 1, false, CameraFeatures::kSharpness},
+    SceneKind{"the same and fringe", 0.2, 1, false, CameraFeatures::kFringe},
+    SceneKind{"the same and smooth edges", 0.2, 1, false, CameraFeatures::kEdges},
+    SceneKind{"without camera, haze and bubbles", 0.2, 1, true},
+    SceneKind{"{} triangles, lamp, as a meniscus",
+              0.2,
+              1,
+              false,
+              {},
+              simulation::TissueStructure::kFibres},
+    SceneKind{"{} triangles, lamp, as cartilage",
+              0.2,
+              1,
+              false,
+              {},
+              simulation::TissueStructure::kHyaline}};
 
 // Number of rows, for the progress.
 constexpr double kRows = 3 * kSearches.size() + 2 * kSamples.size() + 2 * kScenes.size();
@@ -95,7 +110,8 @@ class ViewBenchRun {
 template <class F>
 FrameTimes ViewBenchRun::TimeFrames(const std::string& words, F&& frame) {
   using Clock = std::chrono::steady_clock;
-  const int warm_up = std::min(kWarmUp, options_.frames), all = warm_up + options_.frames;
+  const int warm_up = std::min(kWarmUp, options_.timed_frames),
+            all = warm_up + options_.timed_frames;
   std::vector<double> wall, cpu;
   for (int i = 0; i < all; ++i) {
     progress_.Step(words, (static_cast<double>(bench_.rows.size()) + 1.0 * i / all) / kRows);
@@ -207,6 +223,10 @@ void ViewBenchRun::MeasureScenes(int size) {
     picture.relief = kUsualRelief;
     picture.samples = 2;
     picture.instrument = held;
+    if (kind.camera) {
+      picture.camera = LensCamera();
+      picture.features = *kind.camera;
+    }
     if (kind.is_disturbed) picture.disturbances.haze = picture.disturbances.bubbles = 0.4;
     const std::string words = fmt::format(fmt::runtime(kind.words), ring.triangles.size());
     SurfaceMesh now = ring;

@@ -35,7 +35,8 @@ struct ReplayJob {
   simulation::SessionOptions options;
   fs::path pictures, video;
   ReplayPictures::Form of_pictures, of_video{.size = 720};
-  std::string layout{ToString(FrameShape::kSquare)}, head{"upright"};
+  std::string layout{ToString(FrameShape::kSquare)}, head{"upright"}, disturb;
+  int disturb_seed = 0;
 };
 
 void Run(const ReplayJob& job) {
@@ -45,6 +46,9 @@ void Run(const ReplayJob& job) {
       fmt::print(stderr, "arthroscene: {}\n", sentence);
   const FrameShape shape = FrameShapeOf(job.layout);
   const simulation::CameraHead head = simulation::CameraHeadFromString(job.head);
+  Disturbances disturbances;
+  if (!job.disturb.empty()) disturbances = ParseDisturbances(job.disturb);
+  disturbances.seed = job.disturb_seed;
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
   if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
   std::string notice;
@@ -57,7 +61,7 @@ void Run(const ReplayJob& job) {
   std::optional<ReplayPictures> pictures;
   std::optional<VideoFile> video;
   if (!job.pictures.empty() || !job.video.empty())
-    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t, head,
+    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t, head, disturbances,
                      ShippedLooks(loaded.scene));
   const auto add = [&](ReplayPictures::Form form, ReplayPictures::Take take) {
     form.shape = shape;
@@ -138,6 +142,11 @@ void AddReplayJob(CLI::App& program) {
           "Camera head: held upright while the scope turns in it, or turning with the scope.")
       ->type_name("upright|scope")
       ->capture_default_str();
+  command->add_option(
+      "--disturb", job->disturb,
+      "Disturbances of pictures and film, as the job `view` takes them: " + DisturbanceHelp());
+  AddNumber(*command, "--disturb-seed", job->disturb_seed, kAnyWholeNumber, "",
+            "Seed of bubbles, flakes and swirls.");
   AddOptions(*command, job->options);
   files->Run([job] { Run(*job); });
 }

@@ -26,12 +26,14 @@ class ReplayPictures {
     double rate = 30.0;  // a second
   };
 
-  // Trace from `begin` to `end`, s.
+  // Trace from `begin` to `end`, s. Disturbances that move do so by the time of the trace.
   ReplayPictures(const LoadedScene& loaded, double begin, double end,
-                 const simulation::CameraHead& head, std::span<const simulation::TissueLook> looks)
+                 const simulation::CameraHead& head, const Disturbances& disturbances,
+                 std::span<const simulation::TissueLook> looks)
       : scene_(loaded.scene),
         optics_(simulation::OpticsOf(loaded.scene.scope, loaded.lens)),
         head_(head),
+        disturbances_(disturbances),
         begin_(begin),
         end_(end),
         pictures_(loaded, looks) {}
@@ -49,6 +51,7 @@ class ReplayPictures {
   const Scene& scene_;
   simulation::ScopeOptics optics_;
   simulation::CameraHead head_;
+  Disturbances disturbances_;
   double begin_, end_;
   StillPictures pictures_;
   LiveTissues tissues_;

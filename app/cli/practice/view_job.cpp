@@ -27,25 +27,12 @@ struct ViewArguments {
   std::optional<double> view_angle_deg, head_roll_deg, field_of_view_deg;
   std::optional<double> relight;
   int size = 512;
-  bool plain = false;
+  bool plain = false, no_camera = false;
   std::string disturb;
   int disturb_seed = 0;
   double disturb_time = 0;
   std::optional<int> relief_steps, relief_cell;
 };
-
-// "haze (blood in …), …" for the help, by the one list of them.
-std::string DisturbanceWords() {
-  struct Words {
-    std::string all;
-    void operator()(const char* name, double&, const Range&, const char*, const char* help) {
-      all += fmt::format("{}{} ({})", all.empty() ? "" : "; ", name,
-                         std::string_view(help).substr(0, std::string_view(help).size() - 1));
-    }
-  } words;
-  Disturbances().Visit(words);
-  return words.all;
-}
 
 void RunViewJob(const ViewArguments& arguments) {
   const simulation::RodPose pose{
@@ -71,6 +58,7 @@ void RunViewJob(const ViewArguments& arguments) {
   Picture picture = PictureFromPose(arguments.plain ? pose : pictures.Hold(pose), view_angle,
                                     optics.field_of_view, head_roll);
   picture.lens = optics.lens;
+  if (!arguments.no_camera) picture.camera = optics.camera;
   picture.plain = arguments.plain;
   picture.disturbances = disturbances;
   picture.relief = arguments.plain || arguments.relief_steps ? ReliefSearch{} : kUsualRelief;
@@ -110,9 +98,12 @@ void AddViewJob(CLI::App& program) {
             "Full angle of the round window. Default: the scene's own.");
   AddNumber(*job, "--size", arguments->size, {StillPictures::kMinSize, StillPictures::kMaxSize},
             "px", "Width and height of the picture.");
-  job->add_flag("--plain", arguments->plain,
-                "Draw backdrop colours only: no light, soft rim, mark, tissues or instrument. The "
-                "scope is drawn where it is put, also inside a surface.");
+  job->add_flag(
+      "--plain", arguments->plain,
+      "Draw backdrop colours only: no light, camera, soft rim, mark, tissues or instrument. The "
+      "scope is drawn where it is put, also inside a surface.");
+  job->add_flag("--no-camera", arguments->no_camera,
+                "Leave out the camera: its exposure, colour fringes, sharpness and grain.");
   AddNumber(*job, "--relief-steps", arguments->relief_steps, {0, 4096}, "",
             "Largest number of samples per ray of the relief. 0: all colours lie on the bare "
             "sphere. Default: 64, or 0 with --plain.");
@@ -121,7 +112,7 @@ void AddViewJob(CLI::App& program) {
   job->add_option("--disturb", arguments->disturb,
                   "Disturbances of the picture, each with a strength from 0 to 1, as in "
                   "haze=0.5,bubbles=0.3: " +
-                      DisturbanceWords());
+                      DisturbanceHelp());
   AddNumber(*job, "--disturb-seed", arguments->disturb_seed, kAnyWholeNumber, "",
             "Seed of bubbles, flakes and swirls.");
   AddNumber(*job, "--disturb-time", arguments->disturb_time, {-86400.0, 86400.0}, "s",

@@ -5,7 +5,9 @@
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
+#include "app/steps/portals/scope_lens.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -19,6 +21,35 @@ void Drag(EditorState& state, const Change& change) {
 // Least angle, in degrees, that the slider offers of a range that excludes its lower end.
 double LowestShown(const Range& angle) {
   return angle.above_min ? 1.0 : DegreesFromRadians(angle.min);
+}
+
+void LensChooser(Ui& ui, EditorState& state) {
+  std::vector<LensChoice>& lenses = state.steps.portals->lenses;
+  if (lenses.empty()) lenses = ScopeLenses(state.steps.panorama->lens_folder);
+  std::vector<std::string> words;
+  for (const LensChoice& lens : lenses) words.push_back(lens.words);
+  const int own = static_cast<int>(words.size());
+  int chosen = ChosenScopeLens(lenses, state).value_or(own);
+  if (chosen == own) words.push_back(WordsOfScopeLens(state));
+  words.emplace_back("from a file…");
+  const std::string help = chosen < own ? lenses[static_cast<std::size_t>(chosen)].help
+                                        : "Lens of the scene's own file.";
+  if (!Combo(ui, "Lens", chosen, words, help.c_str())) return;
+  if (chosen < own)
+    ChooseScopeLens(state, lenses[static_cast<std::size_t>(chosen)]);
+  else if (chosen + 1 == static_cast<int>(words.size()))
+    BrowseForScopeLens(state);
+}
+
+void MediumChooser(Ui& ui, EditorState& state, Medium medium) {
+  QuietText(ui, "Filling of the joint");
+  const float width = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
+  const std::string help = FindField<Backdrop>("medium").help;
+  if (ToggleButton(ui, "Saline", medium == Medium::kSaline, true, {width, 0}, help.c_str()))
+    SetMedium(state, Medium::kSaline);
+  ImGui::SameLine(0, ui.Px(6));
+  if (ToggleButton(ui, "Gas", medium == Medium::kGas, true, {width, 0}, help.c_str()))
+    SetMedium(state, Medium::kGas);
 }
 
 }  // namespace
@@ -45,7 +76,11 @@ void PortalsPanel(Ui& ui, EditorState& state) {
     if (ToggleButton(ui, command.words, chosen, true, {width, 0}, command.help))
       Run(state, command);
   }
-  double field_deg = DegreesFromRadians(scene.scope.field_of_view);
+  LensChooser(ui, state);
+  // The lens may have been changed just now.
+  const std::optional<Lens>& lens = state.document().lens;
+  double field_deg =
+      DegreesFromRadians(lens ? lens->field_of_view : state.document().scene.scope.field_of_view);
   const FieldFinder field = FindField<ScopeSpec>("field_of_view");
   change = Slider(ui, "Field of view", field_deg, LowestShown(field.range),
                   DegreesFromRadians(field.range.max), "%.0f°", field.help.c_str());
@@ -60,6 +95,7 @@ void PortalsPanel(Ui& ui, EditorState& state) {
 
   Gap(ui);
   Heading(ui, "Light");
+  MediumChooser(ui, state, scene.backdrop.medium);
   double relight = 100 * scene.backdrop.relight;
   const Range share = FindField<Backdrop>("relight").range;
   change =

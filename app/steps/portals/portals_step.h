@@ -2,15 +2,18 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "app/state/command.h"
+#include "app/steps/panorama/lens_choice.h"
 
 namespace arthro::app {
 
 struct Ui;
 
 struct PortalsStep {
-  bool shows_as_filmed = false;  // the footage's light, to compare
+  std::vector<LensChoice> lenses;  // common scopes, read when the panel is first shown
+  bool shows_as_filmed = false;    // the footage's light, to compare
 };
 std::span<const Command> PortalsCommands();
 void PortalsPanel(Ui& ui, EditorState& state);

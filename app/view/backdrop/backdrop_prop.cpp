@@ -20,6 +20,7 @@
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
 #include "simulation/haptics/relief_smoothing.h"
+#include "simulation/scene/medium.h"
 #include "simulation/scene/relief_shares.h"
 
 namespace arthro::app {
@@ -315,6 +316,7 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   // Slopes whose noise is known are uncertain by more than a sharp glint is wide, so it spreads.
   SetUniform(program, "given_glints",
              is_noisy_ ? glm::dvec2(kGlint / 3, kGlint / 8) : glm::dvec2(kGlint, 0.0));
+  SetUniform(program, "given_mirroredShare", MirroredShare(backdrop_.medium));
   SetUniform(program, "given_rodFrom", shade_.rod.from);
   SetUniform(program, "given_rodTo", shade_.rod.to);
   SetUniform(program, "given_rodRadius", shade_.rod.radius);

@@ -52,6 +52,7 @@ class BackdropProp : public vtkProp {
   // Camera gain of the present picture; 1 when the footage's light counts.
   double gain() const { return gain_; }
   double relight() const { return backdrop_.relight; }
+  Medium medium() const { return backdrop_.medium; }
   // Binds the relief for the models of the present picture, until EndContact.
   ReliefContact BeginContact();
   void EndContact();

@@ -64,46 +64,9 @@ void LensPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
   release(disturb_passes_);
   if (spread_pass_) spread_pass_->ReleaseGraphicsResources();
   spread_pass_.reset();
-  for (Target* target : {&target_, &gathered_, &spread_}) {
-    target->texture->ReleaseGraphicsResources(window);
-    target->framebuffer->ReleaseGraphicsResources(window);
-    target->size = 0;
-  }
+  for (RenderTarget* target : {&target_, &gathered_, &spread_})
+    target->ReleaseGraphicsResources(window);
   murk_->ReleaseGraphicsResources(window);
-}
-
-// Allocates `levels` mipmap levels, generated after drawing; clears to black with `alpha`.
-void LensPass::Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
-                      float alpha) {
-  if (target.size == size) return;
-  target.size = size;
-  vtkTextureObject& texture = *target.texture;
-  texture.ReleaseGraphicsResources(window);
-  texture.SetContext(window);
-  texture.SetWrapS(vtkTextureObject::ClampToEdge);
-  texture.SetWrapT(vtkTextureObject::ClampToEdge);
-  texture.SetMagnificationFilter(vtkTextureObject::Linear);
-  texture.SetMaximumAnisotropicFiltering(1.0f);
-  texture.SetGenerateMipmap(levels > 0);
-  texture.SetMaxLevel(levels);
-  texture.Create2D(static_cast<unsigned>(size), static_cast<unsigned>(size), 4, VTK_UNSIGNED_CHAR,
-                   false);
-  texture.SetMinificationFilter(levels > 0 ? vtkTextureObject::LinearMipmapNearest
-                                           : vtkTextureObject::Linear);
-  target.framebuffer->SetContext(window);
-  vtkOpenGLState* state = window->GetState();
-  state->PushFramebufferBindings();
-  target.framebuffer->Bind();
-  // Attaches the new storage: VTK skips a texture object that is attached already, although its
-  // OpenGL texture is new.
-  target.framebuffer->RemoveColorAttachment(0);
-  target.framebuffer->AddColorAttachment(0, &texture);
-  target.framebuffer->ActivateDrawBuffer(0);
-  state->vtkglViewport(0, 0, size, size);
-  state->vtkglScissor(0, 0, size, size);
-  state->vtkglClearColor(0, 0, 0, alpha);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT);
-  state->PopFramebufferBindings();
 }
 
 vtkShaderProgram* LensPass::Ready(Pass& pass, const Frame& frame,
@@ -116,19 +79,8 @@ vtkShaderProgram* LensPass::Ready(Pass& pass, const Frame& frame,
   return program;
 }
 
-namespace {
-
-void DrawInto(vtkOpenGLFramebufferObject& framebuffer, vtkOpenGLState* state, int size) {
-  framebuffer.Bind(GL_DRAW_FRAMEBUFFER);
-  framebuffer.ActivateDrawBuffer(0);
-  state->vtkglViewport(0, 0, size, size);
-  state->vtkglScissor(0, 0, size, size);
-}
-
-}  // namespace
-
 void LensPass::Gather(const Frame& frame, bool is_far_only) {
-  Resize(gathered_, frame.window, frame.size, kLevels, 0);
+  gathered_.Resize(frame.window, frame.size, kLevels, 0);
   Pass& pass = gather_passes_[is_far_only ? 1 : 0];
   vtkShaderProgram* program = Ready(pass, frame, [&] {
     const std::vector<std::string> defines(is_far_only ? 1 : 0, "FAR_ONLY");
@@ -141,7 +93,7 @@ void LensPass::Gather(const Frame& frame, bool is_far_only) {
                                                       frame.pixels_of_angle));
     program->SetUniformf("given_farFocus", Float(kFarBlurFocus));
   }
-  DrawInto(*gathered_.framebuffer, frame.window->GetState(), frame.size);
+  gathered_.Bind(frame.window);
   pass->Draw(frame.size);
   gathered_.texture->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);
@@ -149,7 +101,7 @@ void LensPass::Gather(const Frame& frame, bool is_far_only) {
 
 void LensPass::Spread(const Frame& frame) {
   const int size = std::max(frame.size / kCoarser, 1);
-  Resize(spread_, frame.window, size, kLevels, 0);
+  spread_.Resize(frame.window, size, kLevels, 0);
   vtkShaderProgram* program = Ready(spread_pass_, frame, [] {
     return ShaderPass(ShaderText("spread.glsl"), ShaderPass::Shape::kWhole);
   });
@@ -158,7 +110,7 @@ void LensPass::Spread(const Frame& frame) {
                        Float(kBlurAperture * frame.disturbances.near_blur * frame.pixels_of_angle));
   program->SetUniformf("given_nearFocus", Float(kNearBlurFocus));
   program->SetUniformf("given_mostBlur", Float(kMostBlur * frame.radius));
-  DrawInto(*spread_.framebuffer, frame.window->GetState(), size);
+  spread_.Bind(frame.window);
   spread_pass_->Draw(size);
   spread_.texture->Activate();
   glGenerateMipmap(GL_TEXTURE_2D);
@@ -247,7 +199,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
   const std::vector<DriftingBit> bubbles =
       Bubbles(d, picture.view, picture.field_of_view, picture.lens);
 
-  Resize(target_, window, size, 0, 1);
+  target_.Resize(window, size, 0, 1);
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
   state->vtkglDisable(GL_BLEND);
@@ -287,7 +239,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
           "given_spreadLod",
           Float(std::max(std::log2(0.3 * kMostBlur * frame.radius / kCoarser), 0.0)));
     }
-    DrawInto(*target_.framebuffer, state, size);
+    target_.Bind(window);
     pass->Draw(size);
     DrawBits(frame, Flakes(d, picture.view, picture.field_of_view, picture.lens),
              flake_passes_[frame.variant], "flake.glsl", false);

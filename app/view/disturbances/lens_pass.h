@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <vtkNew.h>
-#include <vtkOpenGLFramebufferObject.h>
 #include <vtkTextureObject.h>
 
 #include "app/view/drawing/picture.h"
+#include "app/view/drawing/render_target.h"
 #include "app/view/drawing/shader_pass.h"
 
 class vtkOpenGLRenderWindow;
@@ -31,17 +31,9 @@ class LensPass {
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
 
  private:
-  // Texture as a render target.
-  struct Target {
-    vtkNew<vtkTextureObject> texture;
-    vtkNew<vtkOpenGLFramebufferObject> framebuffer;
-    int size = 0;
-  };
   struct Frame;
   // One per variant of a shader, made when it is first needed.
   using Pass = std::optional<ShaderPass>;
-  static void Resize(Target& target, vtkOpenGLRenderWindow* window, int size, int levels,
-                     float alpha);
   static vtkShaderProgram* Ready(Pass& pass, const Frame& frame,
                                  const std::function<ShaderPass()>& make);
   void Gather(const Frame& frame, bool is_far_only);
@@ -51,7 +43,7 @@ class LensPass {
                 const char* file, bool shows_scene);
   void SetDisturbed(vtkShaderProgram& program, const Frame& frame) const;
 
-  Target target_, gathered_, spread_;
+  RenderTarget target_, gathered_, spread_;
   vtkNew<vtkTextureObject> murk_;
   int murk_seed_ = -1;
   double murk_time_ = -1;

@@ -33,9 +33,9 @@ void ContextRenderWindow::OpenGLInitContext() {
   Superclass::OpenGLInitContext();
 }
 
-ColourImage ContextRenderWindow::ReadPicture(vtkOpenGLFramebufferObject& drawn) {
+ColourImage ContextRenderWindow::ReadPicture(vtkOpenGLFramebufferObject& drawn, int side) {
   const int* size = GetActualSize();
-  ColourImage image(size[0], size[1]);
+  ColourImage image(side > 0 ? side : size[0], side > 0 ? side : size[1]);
   std::vector<std::uint8_t> rows(image.rgb.size());
   GetState()->PushReadFramebufferBinding();
   drawn.Bind(GL_READ_FRAMEBUFFER);

@@ -17,9 +17,10 @@ class ContextRenderWindow : public vtkGenericOpenGLRenderWindow {
   void OpenGLInitContext() override;
   // Returns false when the context's OpenGL is too old or could not be loaded.
   bool IsReady() const { return Initialized && GlewInitValid; }
-  // The last frame, or the result of a pass of the same size over it.
-  ColourImage ReadPicture() { return ReadPicture(*GetRenderFramebuffer()); }
-  ColourImage ReadPicture(vtkOpenGLFramebufferObject& drawn);
+  // The last frame, or the result of a pass over it.
+  ColourImage ReadPicture() { return ReadPicture(*GetRenderFramebuffer(), 0); }
+  // `side`: px; 0: as large as the window.
+  ColourImage ReadPicture(vtkOpenGLFramebufferObject& drawn, int side);
   // The caller keeps its context current.
   void MakeCurrent() override {}
   bool IsCurrent() override { return true; }

@@ -90,4 +90,17 @@ double BlurDiameter(const Disturbances& disturbances, double distance, double fi
 
 double ExposureGain(double overexposure) { return std::exp2(kOverexposureStops * overexposure); }
 
+std::string DisturbanceHelp() {
+  struct Words {
+    std::string all;
+    void operator()(const char* name, double&, const Range&, const char*, const char* help) {
+      const std::string_view words(help);
+      all += fmt::format("{}{} ({})", all.empty() ? "" : "; ", name,
+                         words.substr(0, words.size() - 1));
+    }
+  } words;
+  Disturbances().Visit(words);
+  return words.all;
+}
+
 }  // namespace arthro::app

@@ -51,6 +51,9 @@ void CheckDisturbances(const Disturbances& disturbances);
 // with the names that exist, or with the strength that is wrong.
 Disturbances ParseDisturbances(std::string_view list);
 
+// Returns "haze (blood in the fluid: …); bubbles (…)" for a help text, by the one list of them.
+std::string DisturbanceHelp();
+
 // Optics of a blurred picture. An aperture, opened by the strength, images a point as a disc of
 // aperture · |1/distance − 1/focus| rad.
 inline constexpr double kBlurAperture = 0.6e-3;  // m, at strength 1

@@ -271,6 +271,8 @@ void LensModel::SetFrame(const LensFrame& frame) {
     SetInFragments("slopeBack", frame.slope[2]);
   }
   if (look_ == Look::kTissue) {
+    actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniformf(
+        "mirroredShare", Float(frame.mirrored_share));
     Set("given_rodFrom", frame.shade.rod.from);
     Set("given_rodTo", frame.shade.rod.to);
     Set("given_rodRadius", frame.shade.rod.radius);

@@ -44,6 +44,7 @@ struct LensFrame {
   double window_radius = 256;   // px
   double light_reach = 0.03;    // m
   double gain = 1, relit = 0;   // camera gain; share of the scope's own lamp in the light
+  double mirrored_share = 1;    // ratio by medium (simulation/scene/medium.h)
   LensShade shade;
   ReliefContact contact;
   glm::dvec3 light_colour{1.0};  // linear; colour of white under lamp and camera

@@ -1,4 +1,5 @@
-// Capsules whose shadow the lamp throws. Plain values, no OpenGL.
+// The instrument as capsules in the lens frame: it shades what is behind it, and it does not count
+// in the exposure of the camera. Plain values, no OpenGL.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -19,5 +20,9 @@ struct LensShade {
   // when the camera head turns.
   glm::dvec3 lamp{0.0, kLampAside, 0.0};
 };
+
+// Returns whether a ray from the lens meets a capsule, widened by a margin for the highlights
+// beside it. `ray` is unit.
+bool MeetsRod(const glm::dvec3& ray, const LensRod& rod) noexcept;
 
 }  // namespace arthro::app

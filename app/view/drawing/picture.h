@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/view/drawing/disturbances.h"
+#include "simulation/scene/lens_camera.h"
 #include "simulation/scope/arthroscope.h"
 #include "simulation/scope/window_lens.h"
 #include "simulation/tissue/contact/tool_shape.h"
@@ -33,6 +34,10 @@ struct ReliefSearch {
 };
 inline constexpr ReliefSearch kUsualRelief{64, 8};
 
+// Features of the camera, each with all before it: the order in which a slow machine leaves them
+// out is from the last. Exposure stays, since it decides how bright the picture is.
+enum class CameraFeatures { kExposure, kGrain, kSharpness, kFringe, kEdges };
+
 // One frame.
 struct Picture {
   simulation::ScopeView view;
@@ -42,6 +47,10 @@ struct Picture {
   std::optional<InstrumentView> instrument;
   bool plain = false;         // backdrop colours only: no light, softness, mark or models
   Disturbances disturbances;  // over all but a plain picture
+  // Camera behind the scope; none: colours as they are lit. Never over a plain picture.
+  std::optional<LensCamera> camera;
+  CameraFeatures features = CameraFeatures::kEdges;
+  int rays = 1;  // per pixel and axis, 1 or 2, with a camera
   ReliefSearch relief;
   // Texture samples per pixel, at most: 8 serve footprints eight times as long as wide. 2 are
   // faster, for moving pictures; a fine pattern may then blur or shimmer.

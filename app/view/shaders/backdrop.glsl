@@ -157,7 +157,7 @@ void main() {
   float shine4 = shine * shine * shine * shine, shine16 = shine4 * shine4 * shine4 * shine4;
   float shine64 = shine16 * shine16 * shine16 * shine16;
   float glint = glints.x * shine64 * shine64 * shine64 + glints.y * shine64;
-  float wet = lamp * (kSheen * shine16 + glint) * broad.z;
+  float wet = mirroredShare * lamp * (kSheen * shine16 + glint) * broad.z;
   vec3 body =
       colour * colour *
       mix(light, lamp * (kRelitAmbient + (1.0 - kRelitAmbient) * faces) * (1.0 - kWallShade * wall),

@@ -18,6 +18,7 @@ steady float samples;              // at most, per pixel
 steady float radius, perRadius;    // m, 1/m
 steady float lightReach, gain, relit;
 steady vec2 glints;                // sharp and broad glint of the fluid film
+steady float mirroredShare;        // ratio by medium (simulation/scene/medium.h)
 steady vec3 rodFrom, rodTo, headFrom, headTo;
 steady float rodRadius, headRadius;
 steady float highest;              // maximum of the relief

@@ -16,7 +16,6 @@ float rimCoverage(float r, float rim) { return clamp((1.0 - r) * rim + 0.5, 0.0,
 // Returns the vignetting factor at r window radii: darker towards the rim, black at it.
 const float kVignette = 0.22;       // loss of light at the rim
 const float kVignetteStart = 0.55;  // window radii
-const float kRimStart = 0.975;      // window radii
 float softRim(float r) {
   return (1.0 - kVignette * smoothstep(kVignetteStart, 1.0, r)) *
          (1.0 - smoothstep(kRimStart, 1.0, r));

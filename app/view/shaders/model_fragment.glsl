@@ -51,7 +51,7 @@
   glance *= 1.0 - marks.x;
 #endif
   vec3 mirrored = surround * (kMirrored + kGrazing * glance * glance);
-  vec3 linear = (body + wet) * rodShade(lensPoint) + mirrored;
+  vec3 linear = (body + mirroredShare * wet) * rodShade(lensPoint) + mirroredShare * mirrored;
 #else
   if (-modelPoint.z > rodLength) discard;
   float ring = -modelPoint.z / kRingDistance;

@@ -84,5 +84,22 @@ TEST(RenderScale, WhatIsNoTimeIsPassedOver) {
   EXPECT_EQ(scale.value(), 1.0);
 }
 
+TEST(RenderScale, FeaturesStepBackBeforeTheResolutionAndInTheirOrder) {
+  RenderScale scale;
+  CameraFeatures before = scale.features();
+  EXPECT_EQ(before, CameraFeatures::kEdges);
+  // Each round of frames is a little slower than the one before.
+  for (double seconds = 0.03; seconds < 0.06; seconds *= 1.004) {
+    const double cost = scale.value();
+    for (int i = 0; i < 5; ++i) scale.Note(seconds * cost * cost);
+    EXPECT_LE(scale.features(), before);
+    if (scale.value() < 1) {
+      EXPECT_EQ(scale.features(), CameraFeatures::kExposure);
+    }
+    before = scale.features();
+  }
+  EXPECT_LT(scale.value(), 1);
+}
+
 }  // namespace
 }  // namespace arthro::app

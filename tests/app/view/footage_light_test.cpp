@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Lenses, LitView, testing::Bool(), [](const auto& has) {
 TEST_P(LitView, PixelsOfAGreySphereEqualTheClosedForm) {
   Backdrop backdrop = PlainBackdrop(512, 512);
   backdrop.relight = 1;
+  backdrop.medium = Medium::kGas;
   const ColourImage grey = Grey(512, 512, 100);
   view_->SetBackdrop(grey, {}, backdrop);
   const Lens lens = AsideLens();

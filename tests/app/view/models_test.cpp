@@ -207,6 +207,34 @@ TEST_F(ModelsView, ShaftBesideTheLensFades) {
   EXPECT_LT(gone, half);
 }
 
+// A ball that faces the lamp shows its highlight in gas; in saline a ninetieth of it is left, which
+// is less than one of 255.
+TEST_F(ModelsView, HighlightOfTissueIsSeenInGasAndNotInSaline) {
+  LoadedScene loaded = MakeViewScene(256, 256);
+  Tissue tissue;
+  tissue.pose.position = {0, 0, 0.030};
+  tissue.colour = {0.3, 0.25, 0.2};
+  view_->SetTissues(std::span(&tissue, 1), std::vector{Share(Ellipsoid(glm::dvec3(0.004)))});
+  const Picture picture = PictureFromPose({0, 0, 0, 0.008}, 0.0, 1.4);
+  const auto drawn = [&](Medium medium) {
+    loaded.scene.backdrop.medium = medium;
+    view_->SetBackdrop(*loaded.panorama, {}, loaded.scene.backdrop);
+    view_->Render(picture, 200);
+    return view_->ReadPixels();
+  };
+  const ColourImage gas = drawn(Medium::kGas), saline = drawn(Medium::kSaline);
+  int most = 0, least = 255;
+  for (std::size_t i = 0; i < gas.rgb.size(); ++i) {
+    most = std::max(most, gas.rgb[i] - saline.rgb[i]);
+    least = std::min(least, gas.rgb[i] - saline.rgb[i]);
+  }
+  EXPECT_GT(most, 40);
+  EXPECT_GE(least, 0);
+  // Beside the highlight the ball shades evenly: no pixel of its middle stands out.
+  for (int x = 85; x < 115; ++x)
+    EXPECT_LT(std::abs(saline.at(x, 100)[1] - saline.at(x + 1, 100)[1]), 8) << x;
+}
+
 TEST_F(ModelsView, ProbeIsDrawnOnlyFromItsPortalToTheProxy) {
   LoadedScene loaded = MakeViewScene(256, 256);
   loaded.scene.backdrop.projection.focal_px = 110;

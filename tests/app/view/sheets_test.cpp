@@ -51,7 +51,12 @@ class Sheets : public testing::Test {
   std::unique_ptr<StillPictures> pictures_;
 };
 
-LoadedScene DemoScene() { return LoadScene(std::string(ARTHRO_SOURCE_DIR) + "/resources/demo"); }
+// In gas, so that highlights of tissue are seen.
+LoadedScene DemoScene() {
+  LoadedScene loaded = LoadScene(std::string(ARTHRO_SOURCE_DIR) + "/resources/demo");
+  loaded.scene.backdrop.medium = Medium::kGas;
+  return loaded;
+}
 
 // The demo's knee, with the scope rolled by 120 degrees and its head upright: condyle, meniscus,
 // rim of the plateau, capsule.

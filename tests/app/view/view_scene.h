@@ -45,6 +45,7 @@ inline LoadedScene MakeViewScene(int width = 1024, int height = 768) {
   backdrop.panorama = "panorama.png";
   backdrop.depth = "depth.tiff";
   backdrop.radius = 0.05;
+  backdrop.medium = Medium::kGas;  // in saline tissue has no highlights
   backdrop.projection.centre_px = {(width - 1) / 2.0, (height - 1) / 2.0};
   backdrop.projection.focal_px = 0.42 * width;
   DepthMap depth(width, height);

@@ -23,7 +23,23 @@ TEST(LensPreset, TheLensOfThePaperFillsTheWindow) {
   EXPECT_NEAR(*FieldOfViewOf(lens), preset.field_of_view, 1e-9);
 }
 
-TEST(LensPreset, EveryPresetReads) { EXPECT_GE(ReadLensPresets(kPresets).size(), 2u); }
+TEST(LensPreset, EveryPresetReadsAndFillsAWindow) {
+  EXPECT_GE(ReadLensPresets(kPresets).size(), 5u);
+  for (const LensPreset& preset : ReadLensPresets(kPresets)) {
+    const Lens lens = LensFromPreset(preset, 1080, 1080, {539.5, 539.5, 540});
+    EXPECT_NEAR(*FieldOfViewOf(lens), preset.field_of_view, 1e-9) << preset.name;
+    EXPECT_EQ(lens.camera, preset.camera) << preset.name;
+  }
+}
+
+// A prism that turns the view by 70 degrees, and the noise of a thin scope.
+TEST(LensPreset, StatesTheViewAngleAndTheCameraOfItsScope) {
+  const LensPreset steep = ReadLensPreset(kPresets / "arthroscope_4mm_70_saline.json");
+  ASSERT_TRUE(steep.view_angle);
+  EXPECT_NEAR(*steep.view_angle, RadiansFromDegrees(70), 1e-12);
+  EXPECT_EQ(ReadLensPreset(kPresets / "arthroscope_2_7mm_30_saline.json").camera.grain, 2);
+  EXPECT_FALSE(ReadLensPreset(kPresets / "linvatec_hd4300_4mm.json").view_angle);
+}
 
 TEST(LensPreset, NeedsAWindowAndAFile) {
   const LensPreset preset = ReadLensPreset(kPresets / "linvatec_hd4300_4mm.json");

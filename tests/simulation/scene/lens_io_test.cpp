@@ -52,6 +52,22 @@ TEST(LensIo, WhatIsWrittenIsRead) {
   EXPECT_EQ(again.aspect, lens.aspect);
 }
 
+TEST(LensIo, CameraIsReadAndWrittenAndMayBeLeftOut) {
+  Lens lens = LensFromJson(Good().dump(), "lens.json");
+  EXPECT_EQ(lens.camera, LensCamera());
+  EXPECT_EQ(JsonFromLens(lens).find("camera"), std::string::npos);
+  lens.camera = {0.004, 0.25, 1.5, 3};
+  EXPECT_EQ(LensFromJson(JsonFromLens(lens), "lens.json").camera, lens.camera);
+  json part = Good();
+  part["camera"] = {{"grain", 0}};
+  EXPECT_EQ(LensFromJson(part.dump(), "lens.json").camera.grain, 0);
+  EXPECT_EQ(LensFromJson(part.dump(), "lens.json").camera.fringe, LensCamera().fringe);
+  part["camera"] = {{"grain", -1}};
+  EXPECT_NE(SentenceOf(part).find("camera.grain"), std::string::npos) << SentenceOf(part);
+  part["camera"] = {{"grian", 1}};
+  EXPECT_NE(SentenceOf(part).find("camera.grian"), std::string::npos) << SentenceOf(part);
+}
+
 TEST(LensIo, AFileByHandMayLeaveOut) {
   const Lens lens = LensFromJson(
       R"({"model": "kannala_brandt", "width": 640, "height": 480, "focal_px": 300, "cx": 319.5,

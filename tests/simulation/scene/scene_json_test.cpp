@@ -140,6 +140,22 @@ TEST(SceneJson, WritingAndReadingGivesTheSameScene) {
 }
 
 // Every key of the file that is read is also written, so that nothing is lost by saving.
+TEST(SceneJson, JointHoldsSalineUnlessTheFileSaysGas) {
+  std::vector<JsonFault> faults;
+  json file = test::FullSceneJson();
+  file["backdrop"].erase("medium");
+  EXPECT_EQ(SceneFromJson(file, faults).backdrop.medium, Medium::kSaline);
+  EXPECT_FALSE(JsonFromScene(SceneFromJson(file, faults)).at("backdrop").contains("medium"));
+  file["backdrop"]["medium"] = "gas";
+  EXPECT_EQ(SceneFromJson(file, faults).backdrop.medium, Medium::kGas);
+  EXPECT_EQ(JsonFromScene(SceneFromJson(file, faults)).at("backdrop").at("medium"), "gas");
+  EXPECT_TRUE(faults.empty());
+  file["backdrop"]["medium"] = "air";
+  SceneFromJson(file, faults);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].sentence.find("saline, gas"), std::string::npos) << faults[0].sentence;
+}
+
 TEST(SceneJson, WritesEveryKeyThatItReads) {
   std::vector<JsonFault> faults;
   const json full = test::FullSceneJson();

@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
+#include "simulation/scene/image_io.h"
+#include "tests/support/knee_picture.h"
 #include "tests/support/run_program.h"
 
 namespace arthro {
@@ -114,7 +116,8 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
   test::TempFolder folder;
   const std::string json = (folder / "v.json").string(), plot = (folder / "v.svg").string();
   const auto result = test::RunProgram(
-      "bench view --frames 2 --size 256 --panorama 1024 --triangles 2000 --pixels 1500 --json " +
+      "bench view --timed-frames 2 --size 256 --panorama 1024 --triangles 2000 --pixels 1500 "
+      "--json " +
           json + " --plot " + plot,
       "env -u DISPLAY -u WAYLAND_DISPLAY");
   if (result.err.find("no picture can be drawn") != std::string::npos)
@@ -171,12 +174,52 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
     }
   }
   EXPECT_EQ(parts, (std::map<std::string, int>{
-                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 10}}));
+                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 20}}));
   EXPECT_EQ(sphere.size(), 3u);
   EXPECT_EQ(triangles, (std::set<int>{0, 392, 2048}));
   const std::string svg = ReadWholeFile(plot);
   EXPECT_TRUE(svg.starts_with("<svg"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+// The demo is drawn at 24 poses, and the frames of a folder are measured beside it.
+TEST(BenchJob, PrintsTheLookOfASceneBesideThatOfFrames) {
+  test::TempFolder folder;
+  std::filesystem::create_directory(folder / "frames");
+  const ColourImage knee = test::KneePicture(320, 240);
+  WriteColourImage(folder / "frames/a.png", knee);
+  WriteColourImage(folder / "frames/b.png", knee);
+  const std::string json = (folder / "look.json").string();
+  const auto result =
+      test::RunProgram("bench view --look " ARTHRO_SOURCE_DIR "/resources/demo" +
+                           (" --frames " + (folder / "frames").string()) + " --json " + json,
+                       "env -u DISPLAY -u WAYLAND_DISPLAY");
+  if (result.err.find("no picture can be drawn") != std::string::npos)
+    GTEST_SKIP() << "NOT TESTED, NOTHING WAS DRAWN: " << result.err;
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::printf("%s", result.out.c_str());
+  const auto look = nlohmann::json::parse(ReadWholeFile(json));
+  EXPECT_EQ(look.at("schema"), "arthroscene.bench.look/1");
+  ASSERT_EQ(look.at("poses").size(), 24u);
+  ASSERT_EQ(look.at("rows").size(), 2u);
+  EXPECT_EQ(look.at("rows")[0].at("pictures").size(), 24u);
+  EXPECT_EQ(look.at("rows")[1].at("pictures").size(), 2u);
+  EXPECT_EQ(look.at("rows")[1].at("pictures")[0], look.at("rows")[1].at("pictures")[1]);
+  // Goals of the demo at its default.
+  const auto& demo = look.at("rows")[0].at("mean");
+  EXPECT_LE(demo.at("p1"), 25);
+  EXPECT_GE(demo.at("p99"), 240);
+  EXPECT_GE(demo.at("clipped"), 0.01);
+  EXPECT_LE(demo.at("clipped"), 0.06);
+}
+
+TEST(BenchJob, LookWithoutASceneOrFramesIsRefused) {
+  test::TempFolder folder;
+  const auto none = test::RunProgram("bench view --look " + (folder / "none").string());
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("none"), std::string::npos) << none.err;
+  const auto alone = test::RunProgram("bench view --frames " + folder.path().string());
+  EXPECT_NE(alone.exit_code, 0) << "--frames belongs to --look";
 }
 
 TEST(BenchJob, APictureThatNothingCanDrawIsRefused) {
@@ -195,7 +238,7 @@ TEST(BenchJob, AReportThatCannotBeWrittenIsRefusedBeforeAnythingIsMeasured) {
   test::TempFolder folder;
   const std::string nowhere = (folder / "nowhere" / "b.json").string();
   for (const std::string words :
-       {"view --frames 100000", "tissue --frames 100000", "panorama --frames 120", "haptics"})
+       {"view --timed-frames 100000", "tissue --frames 100000", "panorama --frames 120", "haptics"})
     for (const std::string to : {"--json ", "--plot "}) {
       const auto result = test::RunProgram("bench " + words + " " + to + nowhere);
       EXPECT_EQ(result.exit_code, 1) << words;

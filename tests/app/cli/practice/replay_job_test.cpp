@@ -127,6 +127,32 @@ TEST(ReplayJob, AFilmLastsAsLongAsTheTraceAndHoldsThePictures) {
   EXPECT_TRUE(ReadWholeFile(film) == bytes) << "the same trace gave another film";
 }
 
+TEST(ReplayJob, DisturbsItsPicturesByTheTimeOfTheTrace) {
+  TempFolder folder;
+  const auto scene = WriteSmallScene(folder / "knee");
+  const auto trace = WriteSwing(folder / "swing.csv");
+  const auto play = [&](const std::string& name, const std::string& flags) {
+    const ProgramResult run =
+        RunProgram("replay " + scene.string() + " " + trace.string() + " -o " +
+                   (folder / (name + ".csv")).string() + " --size 96 --rate 3 --pictures " +
+                   (folder / name).string() + " " + flags);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return ReadColourImage(folder / name / "frame_00001.png").rgb;
+  };
+  const auto clear = play("clear", ""), hazy = play("hazy", "--disturb haze=0.7,bubbles=0.5");
+  EXPECT_NE(hazy, clear);
+  EXPECT_EQ(play("again", "--disturb haze=0.7,bubbles=0.5 --disturb-seed 0"), hazy);
+  EXPECT_NE(play("other", "--disturb haze=0.7,bubbles=0.5 --disturb-seed 4"), hazy);
+  EXPECT_EQ(ReadWholeFile(folder / "hazy.csv"), ReadWholeFile(folder / "clear.csv"))
+      << "disturbances changed the forces";
+  const ProgramResult wrong =
+      RunProgram("replay " + scene.string() + " " + trace.string() + " -o " +
+                 (folder / "w.csv").string() + " --disturb hase=1");
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_NE(wrong.err.find("hase"), std::string::npos) << wrong.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "w.csv"));
+}
+
 // A scope at a view angle of 30 degrees that is rolled by a quarter turn: upright, its picture is
 // the one that turns with it, a quarter turn to the right, but for the lamp, which stands above the
 // lens.

@@ -1,0 +1,123 @@
+#include "app/view/exposure/camera_pass.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkShaderProgram.h>
+#include <vtk_glew.h>
+
+#include "app/view/drawing/grain.h"
+#include "app/view/drawing/shader_text.h"
+
+namespace arthro::app {
+namespace {
+
+constexpr double kMeteredRadius = 0.92;  // window radii; the rim is dark by its optics
+
+float Float(double value) { return static_cast<float>(value); }
+
+// Window places whose rays meet the instrument or lie at the rim do not count.
+bool Counts(const simulation::ScopeOptics& optics, const LensShade& shade, int column, int row) {
+  const glm::dvec2 place = (glm::dvec2(column, row) + 0.5) * (2.0 / kMeteredParts) - 1.0;
+  if (glm::length(place) > kMeteredRadius) return false;
+  if (!(shade.rod.radius > 0)) return true;
+  const simulation::ScopeView lens{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
+  const glm::dvec3 ray = simulation::RayThrough(optics, lens, place);
+  return !MeetsRod(ray, shade.rod) && !MeetsRod(ray, shade.head);
+}
+
+}  // namespace
+
+void CameraPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
+  if (meter_pass_) meter_pass_->ReleaseGraphicsResources();
+  meter_pass_.reset();
+  for (Pass& pass : camera_passes_) {
+    if (pass) pass->ReleaseGraphicsResources();
+    pass.reset();
+  }
+  for (RenderTarget* target : {&target_, &metered_}) target->ReleaseGraphicsResources(window);
+}
+
+void CameraPass::Meter(vtkOpenGLRenderWindow* window, const Picture& picture,
+                       const LensShade& shade, vtkTextureObject& drawn) {
+  exposure_ = {};
+  metered_.Resize(window, kMeteredParts, 0, 1);
+  if (!meter_pass_) meter_pass_.emplace(ShaderText("meter.glsl"), ShaderPass::Shape::kWhole);
+  vtkShaderProgram* program = meter_pass_->Ready(window);
+  if (program == nullptr) return;
+  program->SetUniformi("picture", drawn.GetTextureUnit());
+  metered_.Bind(window);
+  meter_pass_->Draw(kMeteredParts);
+  texels_.resize(std::size_t{4} * kMeteredParts * kMeteredParts);
+  vtkOpenGLState* state = window->GetState();
+  state->PushReadFramebufferBinding();
+  metered_.framebuffer->Bind(GL_READ_FRAMEBUFFER);
+  metered_.framebuffer->ActivateReadBuffer(0);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, kMeteredParts, kMeteredParts, GL_RGBA, GL_UNSIGNED_BYTE, texels_.data());
+  state->PopReadFramebufferBinding();
+  parts_.clear();
+  const simulation::ScopeOptics optics{picture.field_of_view, picture.lens, {}};
+  for (int row = 0; row < kMeteredParts; ++row)
+    for (int column = 0; column < kMeteredParts; ++column) {
+      const std::uint8_t* texel = &texels_[4 * parts_.size()];
+      parts_.push_back(
+          {glm::vec3(texel[0], texel[1], texel[2]) / 255.0f, Counts(optics, shade, column, row)});
+    }
+  exposure_ = ExposureOf(parts_);
+}
+
+void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
+                      vtkTextureObject& undisturbed, vtkTextureObject& finished, int size) {
+  const LensCamera& camera = *picture.camera;
+  const auto shows = [&](CameraFeatures feature) { return picture.features >= feature; };
+  target_.Resize(window, size, 0, 1);
+  vtkOpenGLState* state = window->GetState();
+  state->PushFramebufferBindings();
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  for (vtkTextureObject* source : {&undisturbed, &finished}) {
+    source->SetMinificationFilter(vtkTextureObject::Linear);
+    source->SetMagnificationFilter(vtkTextureObject::Linear);
+  }
+  undisturbed.Activate();
+  Meter(window, picture, shade, undisturbed);
+  undisturbed.Deactivate();
+  finished.Activate();
+  std::vector<std::string> defines;
+  std::size_t variant = 0, bit = 1;
+  const auto define = [&](bool is_on, const char* name) {
+    if (is_on) defines.push_back(name), variant |= bit;
+    bit <<= 1;
+  };
+  define(shows(CameraFeatures::kGrain) && camera.grain > 0, "GRAIN");
+  define(shows(CameraFeatures::kSharpness) && (camera.sharpening > 0 || camera.rim_blur > 0),
+         "DETAIL");
+  define(shows(CameraFeatures::kFringe) && camera.fringe > 0, "FRINGE");
+  // Four rays per pixel need no other smoothing.
+  define(shows(CameraFeatures::kEdges) && picture.rays == 1, "EDGES");
+  Pass& pass = camera_passes_[variant];
+  if (!pass) pass.emplace(ShaderText("camera.glsl", defines), ShaderPass::Shape::kRound);
+  if (vtkShaderProgram* program = pass->Ready(window)) {
+    program->SetUniformi("picture", finished.GetTextureUnit());
+    program->SetUniformf("given_pixel", Float(1.0 / size));
+    program->SetUniformf("given_gain", Float(exposure_.gain));
+    program->SetUniformf("given_offset", Float(exposure_.offset));
+    program->SetUniformf("given_fringe", Float(camera.fringe));
+    program->SetUniformf("given_sharpening", Float(camera.sharpening));
+    program->SetUniformf("given_rimBlur", Float(camera.rim_blur));
+    program->SetUniformf("given_grain", Float(camera.grain));
+    if (camera.grain > 0) program->SetUniformi("seed", GrainSeed(picture));
+    target_.Bind(window);
+    pass->Draw(size);
+  }
+  finished.Deactivate();
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->PopFramebufferBindings();
+}
+
+}  // namespace arthro::app

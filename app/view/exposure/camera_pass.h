@@ -1,0 +1,45 @@
+// Last pass over a picture: the camera behind the scope [method.md, Camera]. Meters the undisturbed
+// picture, and draws the picture with exposure, lateral colour, sharpness and grain into a texture
+// of its own. Compiles and draws only what is on. Needs the OpenGL context of the window.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/view/drawing/lens_shade.h"
+#include "app/view/drawing/picture.h"
+#include "app/view/drawing/render_target.h"
+#include "app/view/drawing/shader_pass.h"
+#include "app/view/exposure/camera_exposure.h"
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace arthro::app {
+
+class CameraPass {
+ public:
+  // `undisturbed` holds the picture as it was drawn and `finished` the one that is shown, both of
+  // picture.rays * size pixels a side.
+  void Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
+            vtkTextureObject& undisturbed, vtkTextureObject& finished, int size);
+  const CameraExposure& exposure() const { return exposure_; }  // exposure of the last picture
+  vtkOpenGLFramebufferObject& result() { return *target_.framebuffer; }
+  void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
+
+ private:
+  using Pass = std::optional<ShaderPass>;
+  void Meter(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
+             vtkTextureObject& drawn);
+
+  RenderTarget target_, metered_;
+  CameraExposure exposure_;
+  std::vector<std::uint8_t> texels_;
+  std::vector<MeteredPart> parts_;
+  Pass meter_pass_;
+  std::array<Pass, 16> camera_passes_;  // one per variant of the shader
+};
+
+}  // namespace arthro::app

@@ -1,0 +1,120 @@
+// The camera behind the scope, over the finished picture: lateral colour, sharpness, exposure and
+// grain [method.md, Camera]. Reads a picture of the same size, or of twice the size and averages
+// four pixels by the filter of the texture. Variants: EDGES, FRINGE, DETAIL and GRAIN.
+#include "constants.inc"
+in vec2 texCoord;
+uniform sampler2D picture;
+steady float pixel;         // side of a pixel, texture units
+steady float gain, offset;  // camera_exposure.h
+steady float fringe, sharpening, rimBlur, grain;
+#ifdef GRAIN
+uniform int seed;
+#endif
+
+const vec3 kLuma = vec3(kLumaRed, kLumaGreen, kLumaBlue);
+// The gain raises the saturation of stored colours; a part of it is taken back, and more of bright
+// parts, as the wells of a sensor fill.
+const float kLessColour = 0.1, kBleached = 0.7, kBleachStart = 0.7;
+const float kLeastEdge = 0.1;  // smallest fade that is divided by
+float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
+
+#ifdef EDGES
+// Smooths a stair where two parts meet: moves the pixel's sample towards the part beside it by its
+// place along the stair [Lottes 2009, FXAA]. A software rasteriser leaves the loop at once where no
+// pixel of its block has an edge.
+const float kLeastContrast = 0.05;  // stored level
+const float kLeastShare = 0.12;     // share of the brighter part
+const float kSameEdge = 0.25;       // share of the step up to which a place belongs to the edge
+const float kMostWay = 5.0;         // px along the edge, on either side
+const float kAlone = 0.75;          // px, for a single pixel
+vec3 withoutStairs(vec3 colour, float middle, float n, float s, float e, float w) {
+  float most = max(middle, max(max(n, s), max(e, w)));
+  float range = most - min(middle, min(min(n, s), min(e, w)));
+  bool isEdge = range > max(kLeastContrast, kLeastShare * most);
+  while (isEdge) {
+    bool isLevel = abs(n + s - 2.0 * middle) >= abs(e + w - 2.0 * middle);
+    float before = isLevel ? s : w, after = isLevel ? n : e;
+    float riseBefore = abs(before - middle), riseAfter = abs(after - middle);
+    float side = riseBefore >= riseAfter ? -1.0 : 1.0;
+    float rise = max(riseBefore, riseAfter);
+    vec2 across = (isLevel ? vec2(0.0, pixel) : vec2(pixel, 0.0)) * side;
+    vec2 along = isLevel ? vec2(pixel, 0.0) : vec2(0.0, pixel);
+    float mean = 0.5 * (middle + (side < 0.0 ? before : after));
+    vec2 place = texCoord + 0.5 * across;
+    // Way to either end of the stair; the ends are where the mean of both sides changes.
+    float back = 0.0, ahead = 0.0, endBack = 0.0, endAhead = 0.0;
+    bool goesBack = true, goesAhead = true;
+    for (float i = 1.0; i <= kMostWay; i += 1.0) {
+      if (goesBack) {
+        back = i;
+        endBack = lumaAt(place - i * along) - mean;
+        goesBack = abs(endBack) < kSameEdge * rise;
+      }
+      if (goesAhead) {
+        ahead = i;
+        endAhead = lumaAt(place + i * along) - mean;
+        goesAhead = abs(endAhead) < kSameEdge * rise;
+      }
+      if (!goesBack && !goesAhead) break;
+    }
+    float nearer = min(back, ahead);
+    float end = back < ahead ? endBack : endAhead;
+    bool leansOver = (end < 0.0) != (middle - mean < 0.0);
+    float amount = leansOver ? max(0.5 - nearer / (back + ahead), 0.0) : 0.0;
+    // Single pixels and corners.
+    float alone = smoothstep(0.0, 1.0, abs(0.25 * (n + s + e + w) - middle) / range);
+    amount = max(amount, kAlone * alone * alone);
+    colour = textureLod(picture, texCoord + amount * across, 0.0).rgb;
+    isEdge = false;
+  }
+  return colour;
+}
+#endif
+
+#ifdef GRAIN
+// Two uniform values from an integer hash, which is the same with every driver.
+float grainAt(ivec2 at) {
+  uint h = uint(at.x) * 0x8da6b343u + uint(at.y) * 0xd8163841u + uint(seed) * 0xcb1ab31fu;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  h ^= h >> 15;
+  return (float(h & 0xffffu) + float(h >> 16)) / 65535.0 - 1.0;
+}
+#endif
+
+void main() {
+  vec3 drawn = textureLod(picture, texCoord, 0.0).rgb, colour = drawn;
+  vec2 offCentre = texCoord - 0.5;
+  float r2 = 4.0 * dot(offCentre, offCentre);
+  float dark = min(max(drawn.r, max(drawn.g, drawn.b)) / kDarkEnd, 1.0);
+#if defined(DETAIL) || defined(EDGES)
+  vec2 to = vec2(pixel, 0.0);
+  float n = lumaAt(texCoord + to.yx), s = lumaAt(texCoord - to.yx), e = lumaAt(texCoord + to),
+        w = lumaAt(texCoord - to), middle = dot(drawn, kLuma);
+  float detail = middle - 0.25 * (n + s + e + w);
+#endif
+#ifdef EDGES
+  colour = withoutStairs(drawn, middle, n, s, e, w);
+  detail += dot(colour - drawn, kLuma);
+#endif
+#ifdef FRINGE
+  vec2 away = fringe * r2 * offCentre;
+  colour.r += textureLod(picture, texCoord - away, 0.0).r - drawn.r;
+  colour.b += textureLod(picture, texCoord + away, 0.0).b - drawn.b;
+#endif
+#ifdef DETAIL
+  colour += mix(sharpening, -rimBlur, min(r2 * r2, 1.0)) * detail;
+#endif
+  // The fade to the rim is no dark tissue: the response leaves it out.
+  float edge = max(1.0 - smoothstep(kRimStart, 1.0, sqrt(r2)), kLeastEdge);
+  vec3 level = gain / edge * colour + offset;
+  float luma = dot(level, kLuma);
+  level = mix(level, vec3(luma), mix(kLessColour, kBleached, smoothstep(kBleachStart, 1.0, luma)));
+  vec3 below = clamp(kToe - level, 0.0, 2.0 * kToe),
+       above = clamp(level - kShoulder, 0.0, 2.0 * (1.0 - kShoulder));
+  level += below * below / (4.0 * kToe) - above * above / (4.0 * (1.0 - kShoulder));
+#ifdef GRAIN
+  level += grain / 255.0 * grainAt(ivec2(gl_FragCoord.xy));
+#endif
+  gl_FragData[0] = vec4(clamp(level, 0.0, 1.0) * (edge * dark), 1.0);
+}

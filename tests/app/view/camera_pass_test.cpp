@@ -1,0 +1,255 @@
+// The camera behind the scope, on drawn pictures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/view/exposure/picture_statistics.h"
+#include "simulation/core/units.h"
+#include "tests/app/view/lit_scene.h"
+#include "tests/app/view/view_scene.h"
+
+namespace arthro::test {
+namespace {
+
+using app::CameraFeatures;
+using app::Picture;
+using app::PictureFromPose;
+
+constexpr int kSize = 256;
+constexpr LensCamera kNothing{0, 0, 0, 0};
+
+class CameraPassView : public ViewTest {
+ protected:
+  // A forward view of a panorama, without relief or tissues.
+  Picture Forward(const ColourImage& panorama, const LensCamera& camera) {
+    view_->SetTissues({}, {});
+    view_->SetBackdrop(panorama, {}, PlainBackdrop(panorama.width, panorama.height));
+    Picture picture = PictureFromPose({0, 0, 0, 0.01}, 0.0, std::numbers::pi / 2);
+    picture.camera = camera;
+    picture.features = CameraFeatures::kFringe;
+    return picture;
+  }
+  ColourImage Drawn(const Picture& picture, int size = kSize) {
+    view_->Render(picture, size);
+    return view_->ReadPixels();
+  }
+};
+
+// Grey of two levels, parted along a column of the panorama.
+ColourImage Halves(int width, int height, double column) {
+  ColourImage image = Grey(width, height, 60);
+  for (int y = 0; y < height; ++y)
+    for (int x = static_cast<int>(column); x < width; ++x)
+      std::fill_n(image.at(x, y), 3, std::uint8_t{160});
+  return image;
+}
+
+// Place in the middle row where a channel crosses the mean of its ends, px.
+double Crossing(const ColourImage& image, int channel, int from, int to) {
+  const auto level = [&](int x) { return double(image.at(x, image.height / 2)[channel]); };
+  const double mean = 0.5 * (level(from) + level(to));
+  for (int x = from; x < to; ++x)
+    if (level(x) <= mean && level(x + 1) > mean)
+      return x + (mean - level(x)) / (level(x + 1) - level(x));
+  ADD_FAILURE() << "no edge between " << from << " and " << to;
+  return 0;
+}
+
+TEST_F(CameraPassView, PlainPictureHasNoCamera) {
+  const LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  Picture picture = PictureFromPose({-0.1, 0.1, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+  picture.plain = true;
+  const ColourImage plain = Drawn(picture);
+  picture.camera = LensCamera();
+  EXPECT_EQ(Drawn(picture).rgb, plain.rgb);
+  picture.plain = false;
+  EXPECT_NE(Drawn(picture).rgb, plain.rgb);
+}
+
+TEST_F(CameraPassView, SamePictureGivesTheSameBytes) {
+  const LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+  Picture picture = PictureFromPose({-0.1, 0.1, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+  picture.camera = LensCamera();
+  const ColourImage first = Drawn(picture);
+  Picture other = picture;
+  other.view.tip.x += 1e-3;
+  EXPECT_NE(Drawn(other).rgb, first.rgb);
+  EXPECT_EQ(Drawn(picture).rgb, first.rgb);
+}
+
+// Displacement at r window radii is fringe r^3 radii: red outwards, blue inwards. A bilinear edge
+// is located to a tenth of a pixel.
+TEST_F(CameraPassView, FringeMovesRedOutwardsAndBlueInwards) {
+  LensCamera camera = kNothing;
+  camera.fringe = 0.02;
+  const ColourImage image = Drawn(Forward(Halves(1024, 1024, 680), camera));
+  const double green = Crossing(image, 1, 140, 240);
+  const double r = (green - 127.5) / 128, moved = camera.fringe * r * r * r * 128;
+  ASSERT_GT(moved, 0.5);
+  EXPECT_NEAR(Crossing(image, 0, 140, 240) - green, moved, 0.15);
+  EXPECT_NEAR(Crossing(image, 2, 140, 240) - green, -moved, 0.15);
+}
+
+TEST_F(CameraPassView, CentreIsSharperThanTheRim) {
+  const auto steepest = [&](double column, const LensCamera& camera, int from, int to) {
+    const ColourImage image = Drawn(Forward(Halves(1024, 1024, column), camera));
+    int most = 0;
+    for (int x = from; x < to; ++x)
+      most = std::max(most, image.at(x + 1, kSize / 2)[1] - image.at(x, kSize / 2)[1]);
+    return most;
+  };
+  LensCamera soft = kNothing, sharp = kNothing;
+  soft.rim_blur = 1;
+  sharp.sharpening = 1;
+  // At 0.87 radii 0.56 of the blur counts: either side of a step moves by a quarter of that.
+  EXPECT_LT(steepest(700, soft, 220, 250), 0.8 * steepest(700, kNothing, 220, 250));
+  EXPECT_GT(steepest(512, sharp, 100, 150), 1.2 * steepest(512, kNothing, 100, 150));
+  EXPECT_EQ(steepest(512, soft, 100, 150), steepest(512, kNothing, 100, 150));
+}
+
+TEST_F(CameraPassView, GrainIsAtMostItsAmplitudeAndHasNoMean) {
+  LensCamera camera = kNothing;
+  const ColourImage clean = Drawn(Forward(Grey(256, 256, 120), camera));
+  camera.grain = 3;
+  const ColourImage grainy = Drawn(Forward(Grey(256, 256, 120), camera));
+  int most = 0, count = 0;
+  double sum = 0;
+  for (int y = 78; y < 178; ++y)
+    for (int x = 78; x < 178; ++x) {
+      const int off = grainy.at(x, y)[1] - clean.at(x, y)[1];
+      most = std::max(most, std::abs(off));
+      sum += off;
+      ++count;
+    }
+  EXPECT_GE(most, 2);
+  EXPECT_LE(most, 3 + 1);  // and rounding
+  // The mean of 10 000 triangular values of variance 9/6 is 0.012 rms; five of them, and the
+  // rounding of the clean level.
+  EXPECT_NEAR(sum / count, 0, 0.06 + 0.5);
+  EXPECT_EQ(grainy.at(0, 0)[1], 0) << "the surround stays black";
+}
+
+// The live picture has one ray per pixel. Its edges are held against 16 rays per pixel.
+TEST_F(CameraPassView, StairsOfModelsAreSmoothed) {
+  const LoadedScene loaded = MakeViewScene();
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+  std::vector<Tissue> tissues = loaded.scene.tissues;
+  tissues[0].colour = {0.9, 0.85, 0.8};
+  view_->SetTissues(tissues, loaded.surfaces);
+  Picture picture = PictureFromPose({-0.12, 0.05, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+  picture.relief = app::kUsualRelief;
+  const ColourImage fine = Drawn(picture, 4 * kSize);
+  ColourImage reference(kSize, kSize);
+  std::vector<bool> is_edge(static_cast<std::size_t>(kSize) * kSize);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      std::array<int, 3> sum{};
+      int low = 255, high = 0;
+      for (int k = 0; k < 16; ++k) {
+        const std::uint8_t* at = fine.at(4 * x + k % 4, 4 * y + k / 4);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += at[c];
+        low = std::min<int>(low, at[1]), high = std::max<int>(high, at[1]);
+      }
+      for (std::size_t c = 0; c < 3; ++c)
+        reference.at(x, y)[c] = static_cast<std::uint8_t>((sum[c] + 8) / 16);
+      is_edge[static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)] =
+          high - low > 25 && std::hypot(x - 127.5, y - 127.5) < 118;
+    }
+  const auto error = [&](const ColourImage& drawn) {
+    double squares = 0;
+    int count = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        if (!is_edge[static_cast<std::size_t>(y) * kSize + static_cast<std::size_t>(x)]) continue;
+        squares += std::pow(drawn.at(x, y)[1] - reference.at(x, y)[1], 2);
+        ++count;
+      }
+    EXPECT_GT(count, 100);
+    return std::sqrt(squares / count);
+  };
+  // Only the smoothing: the response of the exposure is undone by metering nothing.
+  const double stairs = error(Drawn(picture));
+  picture.camera = kNothing;
+  picture.features = CameraFeatures::kFringe;
+  const ColourImage unsmoothed = Drawn(picture);
+  const app::CameraExposure exposure = view_->exposure();
+  picture.features = CameraFeatures::kEdges;
+  const ColourImage smoothed = Drawn(picture);
+  // The response is undone by its table: both pictures have the same one.
+  const auto undone = [&](ColourImage image) {
+    std::array<int, 256> stored{};
+    for (int level = 255; level >= 0; --level) {
+      const double shown = 255 * app::CameraResponse(exposure, level / 255.0);
+      for (int out = static_cast<int>(shown + 0.5); out < 256 && stored[std::size_t(out)] == 0;
+           ++out)
+        stored[static_cast<std::size_t>(out)] = level;
+    }
+    for (std::uint8_t& value : image.rgb) value = static_cast<std::uint8_t>(stored[value]);
+    return image;
+  };
+  EXPECT_NEAR(error(undone(unsmoothed)), stairs, 0.15 * stairs);
+  const double left = error(undone(smoothed));
+  std::printf("edges: %.1f of 255 rms with stairs, %.1f smoothed\n", stairs, left);
+  EXPECT_LT(left, 0.7 * stairs);
+}
+
+TEST_F(CameraPassView, FourRaysPerPixelGiveThePictureItsOwnSize) {
+  Picture picture = Forward(Halves(1024, 1024, 512), LensCamera());
+  picture.rays = 2;
+  const ColourImage image = Drawn(picture);
+  EXPECT_EQ(image.width, kSize);
+  EXPECT_EQ(view_->ReadDistances().size(), std::size_t{4} * kSize * kSize);
+  picture.rays = 1;
+  const ColourImage once = Drawn(picture);
+  // The exposure must not jump when a picture at rest gets its four rays.
+  EXPECT_NEAR(image.at(60, kSize / 2)[1], once.at(60, kSize / 2)[1], 4);
+  EXPECT_NEAR(image.at(200, kSize / 2)[1], once.at(200, kSize / 2)[1], 4);
+}
+
+// A sweep of 6 mm in steps of 0.1 mm past the ring: a hand's second. No step may be seen as a
+// flicker, which begins at a change of contrast of 1 to 2 %.
+TEST_F(CameraPassView, ExposureIsSteadyInMotion) {
+  LoadedScene loaded = MakeViewScene();
+  loaded.scene.backdrop.relight = 0.6;
+  view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+  view_->SetTissues(loaded.scene.tissues, loaded.surfaces);
+  double before = 0;
+  for (int i = 0; i <= 60; ++i) {
+    Picture picture =
+        PictureFromPose({-0.15 + 0.003 * i, 0.05, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+    picture.camera = LensCamera();
+    view_->Render(picture, 128);
+    const double now = app::CameraResponse(view_->exposure(), 0.5);
+    if (i > 0) {
+      EXPECT_LT(std::abs(now - before), 0.02) << i;
+    }
+    before = now;
+  }
+}
+
+// The goal of a lit scene at first glance.
+TEST_F(CameraPassView, PictureUsesItsRange) {
+  LoadedScene loaded = MakeViewScene();
+  loaded.scene.backdrop.relight = 0.6;
+  app::StillPictures pictures(loaded);
+  app::PictureStatistics before, after;
+  for (const bool has_camera : {false, true}) {
+    Picture picture = PictureFromPose({-0.1, 0.1, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+    picture.relief = app::kUsualRelief;
+    if (has_camera) picture.camera = LensCamera();
+    (has_camera ? after : before) = app::MeasurePicture(
+        pictures.Draw(picture, 512), app::DiscMask(512, 512, 255.5, 255.5, 0.9 * 256));
+  }
+  std::printf("p1 %.0f to %.0f, p99 %.0f to %.0f, clipped %.2f %%\n", before.p1, after.p1,
+              before.p99, after.p99, 100 * after.clipped);
+  EXPECT_LE(after.p1, std::max(25.0, before.p1 - 20));
+  EXPECT_GE(after.p99, 240);
+  EXPECT_LE(after.clipped, 0.06);
+}
+
+}  // namespace
+}  // namespace arthro::test
