@@ -9,59 +9,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "simulation/haptics/plane_filters.h"
 #include "simulation/haptics/relief_steps.h"
 
 namespace arthro::simulation {
 namespace {
-
-using Plane = std::vector<float>;
-
-// Returns the weights of `passes` passes of (1 2 1)/4, which is the binomial row 2·passes.
-std::vector<float> BinomialKernel(int passes) {
-  std::vector<double> kernel{1.0};
-  for (int pass = 0; pass < passes; ++pass) {
-    std::vector<double> next(kernel.size() + 2, 0.0);
-    for (std::size_t i = 0; i < kernel.size(); ++i) {
-      next[i] += 0.25 * kernel[i];
-      next[i + 1] += 0.5 * kernel[i];
-      next[i + 2] += 0.25 * kernel[i];
-    }
-    kernel = std::move(next);
-  }
-  return {kernel.begin(), kernel.end()};
-}
-
-// Applies the separable filter, row by row. Pixels beyond the border have no mass.
-void Filter(Plane& data, int width, int height, const std::vector<float>& kernel) {
-  const int half = static_cast<int>(kernel.size()) / 2;
-  const auto w = static_cast<std::size_t>(width);
-  Plane padded(w + 2 * static_cast<std::size_t>(half), 0.0f);
-  for (int y = 0; y < height; ++y) {
-    float* row = data.data() + static_cast<std::size_t>(y) * w;
-    std::copy(row, row + w, padded.begin() + half);
-    std::fill(row, row + w, 0.0f);
-    for (std::size_t k = 0; k < kernel.size(); ++k)
-      for (std::size_t x = 0; x < w; ++x) row[x] += kernel[k] * padded[x + k];
-  }
-  const Plane across = data;
-  std::fill(data.begin(), data.end(), 0.0f);
-  for (int y = 0; y < height; ++y) {
-    float* row = data.data() + static_cast<std::size_t>(y) * w;
-    for (int k = 0; k < static_cast<int>(kernel.size()); ++k) {
-      const int from = y + k - half;
-      if (from < 0 || from >= height) continue;
-      const float* source = across.data() + static_cast<std::size_t>(from) * w;
-      const float weight = kernel[static_cast<std::size_t>(k)];
-      for (std::size_t x = 0; x < w; ++x) row[x] += weight * source[x];
-    }
-  }
-}
-
-// Weights of the outer taps of (1 2 1)/4 per pixel, for one gap: 1/4, and less to 0 where a tap
-// lies beyond a step. Empty where there is no step.
-struct OuterTaps {
-  Plane left, right, above, below;
-};
 
 // Difference of two heights, in standard errors, from which on a tap counts less, and not at all.
 constexpr float kSameSide = 2.0f, kOtherSide = 4.0f;
@@ -92,42 +44,6 @@ OuterTaps TapsBetween(const Plane& near, const Plane& heights, const Plane& sigm
   return taps;
 }
 
-// Applies (1 2 1)/4 with `gap` pixels between its taps in both directions: adds gap²/2 to the
-// variance, where all taps count.
-void Widen(Plane& data, int width, int height, int gap, const OuterTaps& taps, Plane& scratch) {
-  const auto w = static_cast<std::size_t>(width), g = static_cast<std::size_t>(gap);
-  scratch.assign(w + 2 * g, 0.0f);
-  for (int y = 0; y < height; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * w;
-    float* row = data.data() + first;
-    std::copy(row, row + w, scratch.begin() + gap);
-    if (taps.left.empty()) {
-      for (std::size_t x = 0; x < w; ++x)
-        row[x] = 0.25f * (scratch[x] + scratch[x + 2 * g]) + 0.5f * scratch[x + g];
-      continue;
-    }
-    const float *left = taps.left.data() + first, *right = taps.right.data() + first;
-    for (std::size_t x = 0; x < w; ++x)
-      row[x] = left[x] * scratch[x] + right[x] * scratch[x + 2 * g] + 0.5f * scratch[x + g];
-  }
-  scratch = data;
-  for (int y = 0; y < height; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * w;
-    float* row = data.data() + first;
-    for (std::size_t x = 0; x < w; ++x) row[x] *= 0.5f;
-    for (const int from : {y - gap, y + gap}) {
-      if (from < 0 || from >= height) continue;
-      const float* source = scratch.data() + static_cast<std::size_t>(from) * w;
-      if (taps.above.empty()) {
-        for (std::size_t x = 0; x < w; ++x) row[x] += 0.25f * source[x];
-        continue;
-      }
-      const float* tap = (from < y ? taps.above : taps.below).data() + first;
-      for (std::size_t x = 0; x < w; ++x) row[x] += tap[x] * source[x];
-    }
-  }
-}
-
 // Sums of a normalised convolution.
 struct Sums {
   Plane value, mass;
@@ -140,11 +56,8 @@ Sums SumsOf(const DepthMap& depth, int passes) {
     sums.mass[i] = is_imaged ? 1.0f : 0.0f;
     if (!is_imaged) sums.value[i] = 0.0f;
   }
-  if (passes > 0) {
-    const std::vector<float> kernel = BinomialKernel(passes);
-    for (Plane* plane : {&sums.value, &sums.mass})
-      Filter(*plane, depth.width, depth.height, kernel);
-  }
+  for (Plane* plane : {&sums.value, &sums.mass})
+    FilterBinomial(*plane, depth.width, depth.height, passes);
   return sums;
 }
 
@@ -300,14 +213,14 @@ TouchedRelief SmoothRelief(const DepthMap& depth, int passes, const DepthMap& si
   const Plane near = widest > 0.0f ? NearStepsOf(depth, touched.sigma, wanted) : Plane();
 
   Moments moments(std::move(sums), w, h);
-  Plane before = touched.height, scratch;
+  Plane before = touched.height;
   float variance = 0.0f;  // beyond the usual one, px²
   for (int growth = 0; variance < widest * widest; ++growth) {
     const int gap = 1 << (growth / 2);
     if (gap >= std::max(w, h)) break;
     const float added = 0.5f * static_cast<float>(gap) * static_cast<float>(gap);
     const OuterTaps taps = TapsBetween(near, before, touched.sigma, w, h, gap);
-    for (Plane* plane : moments.All()) Widen(*plane, w, h, gap, taps, scratch);
+    WidenAll(moments.All(), w, h, gap, taps);
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
         const std::size_t i =
