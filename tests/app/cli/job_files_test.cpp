@@ -155,6 +155,7 @@ const std::map<std::string, std::string> kOutputs = {
     {"check --report", "check @S --report @X"},
     {"demo --output", "demo -o @X.demo"},
     {"depth --output", "depth @g.png -o @X"},
+    {"depth --noise", "depth @g.png -o @d.tiff --noise @X"},
     {"devices --json", "devices --json @X"},
     {"devices --log", "devices --self-test --log @X"},
     {"edit --log", "edit @S --hands plant --log @X"},

@@ -174,7 +174,7 @@ TEST(BenchJob, HoldsThePictureAgainstTheTracer) {
     }
   }
   EXPECT_EQ(parts, (std::map<std::string, int>{
-                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 20}}));
+                       {"relief", 18}, {"samples", 8}, {"stairs", 3}, {"scene", 24}}));
   EXPECT_EQ(sphere.size(), 3u);
   EXPECT_EQ(triangles, (std::set<int>{0, 392, 2048}));
   const std::string svg = ReadWholeFile(plot);
