@@ -137,8 +137,10 @@ TEST_F(TissueCut, ThePictureIsOfTheCutTissueAndKeptWhileNothingChanges) {
   const auto bitten = skins.SkinOf(state->document(), 0);
   ASSERT_NE(bitten, nullptr);
   EXPECT_GT(std::ranges::count(bitten->is_fresh, 1), 20) << "its walls are pale";
+  // A face of a cut passes through the surface by a tenth of the field's spacing (carved_skin.h),
+  // which is at most 0.2 mm.
   for (const glm::dvec3& x : bitten->surface.vertices)
-    ASSERT_LT(std::max(std::abs(x.x), std::abs(x.y)), 6.01 * kMm) << "in the tissue's own frame";
+    ASSERT_LT(std::max(std::abs(x.x), std::abs(x.y)), 6.02 * kMm) << "in the tissue's own frame";
   EXPECT_EQ(skins.SkinOf(state->document(), 0), bitten);
   Tissue named = Block();
   named.name = "labrum";
