@@ -185,7 +185,7 @@ void DescribeLens(bool is_given, const MeasuredRelief& made, ReliefReport& repor
       static_cast<double>(std::count_if(report.frames.begin(), report.frames.end(),
                                         [](const PosedFrame& frame) { return frame.is_posed; }));
   constexpr double kFound = 0.1;  // standard error, share of the focal length
-  if (!is_given && !(made.focal_sigma < kFound))
+  if (!is_given && !(made.focal_sigma > 0 && made.focal_sigma < kFound))
     report.warnings.push_back(
         fmt::format("no lens was given and the motion does not tell the focal length: {:.0f} px is "
                     "a guess; calibrate the scope with `arthroscene lens` and give --lens",

@@ -55,6 +55,24 @@ TEST(MakeRelief, RefusesOneFrame) {
       << sentence;
 }
 
+// Two frames that share no tissue fix no point, so that nothing tells the focal length.
+TEST(MakeRelief, CallsAFocalLengthThatNothingTellsAGuess) {
+  const test::TempFolder folder;
+  WriteFrames(folder.path(), 2, {240, 200});
+  ReliefRequest request = RequestOf(folder.path());
+  request.lens.reset();
+  const ReliefReport report = MakeRelief(request, {}).report;
+  EXPECT_FALSE(report.verdict.is_measured());
+  EXPECT_EQ(report.focal_sigma, 0) << "not determined";
+  const auto says = [&](const char* words) {
+    return std::ranges::any_of(report.warnings, [&](const std::string& warning) {
+      return warning.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says("is a guess"));
+  EXPECT_FALSE(says("was found from the clip"));
+}
+
 TEST(MakeRelief, NamesTheFrameOfAnotherSizeAndBothSizes) {
   const test::TempFolder folder;
   WriteFrames(folder.path(), 1, {240, 200});
