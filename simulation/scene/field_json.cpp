@@ -13,6 +13,7 @@ const char* UnitInFile(std::string_view unit) {
   if (unit == "px/deg") return "pixels per degree";
   if (unit == "Pa") return "pascals";
   if (unit == "kg/m3") return "kg/m³";
+  if (unit == "N" || unit == "N/m") return unit == "N" ? "newtons" : "newtons per metre";
   return "";
 }
 

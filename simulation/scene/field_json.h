@@ -37,6 +37,11 @@ struct IsVariant : std::false_type {};
 template <class... Kinds>
 struct IsVariant<std::variant<Kinds...>> : std::true_type {};
 
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+
 // Accepts the key of every field without reading it.
 struct KeyVisitor {
   JsonObjectReader& reader;
@@ -105,6 +110,8 @@ class FieldReader {
       double value = std::numeric_limits<double>::quiet_NaN();
       Read(name, value, rule, unit, need);
       if (!std::isnan(value)) field = value;
+    } else if constexpr (std::is_same_v<T, int>) {
+      reader_.Whole(name, field, LimitsInFile(rule, unit), need);
     } else if constexpr (std::is_same_v<T, bool>) {
       reader_.Flag(name, field);
     } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
@@ -119,8 +126,13 @@ class FieldReader {
       reader_.Quaternion(name, field);
     } else if constexpr (std::is_same_v<T, std::vector<glm::dvec3>>) {
       reader_.Points(name, field, rule.least, rule.most, LimitsInFile(rule.each, unit));
+    } else if constexpr (std::is_same_v<Rule, NumberList>) {
+      reader_.List(name, field);
     } else if constexpr (requires { field.emplace_back(); }) {
       ReadList(name, field);
+    } else if constexpr (internal::IsOptional<T>::value) {
+      reader_.Object(name, need,
+                     [&](JsonObjectReader& inner) { field.emplace().Visit(FieldReader(inner)); });
     } else {
       reader_.Object(name, need, [&](JsonObjectReader& inner) { field.Visit(FieldReader(inner)); });
     }
@@ -231,7 +243,8 @@ class FieldWriter {
       json_[name + std::string(FileBorder(unit).suffix)] = is_angle ? FileDegrees(field) : field;
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {
       if (field) Write(name, *field, rule, unit, always);
-    } else if constexpr (std::is_same_v<T, bool>) {
+    } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, int> ||
+                         std::is_same_v<Rule, NumberList>) {
       json_[name] = field;
     } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
       if (always || !field.empty()) json_[name] = field.generic_string();

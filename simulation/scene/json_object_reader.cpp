@@ -98,6 +98,15 @@ void JsonObjectReader::Number(const char* name, double& field, const JsonLimits&
   field = entry->get<double>();
 }
 
+void JsonObjectReader::Whole(const char* name, int& field, const JsonLimits& limits, Need need) {
+  double number = field;
+  Number(name, number, limits, need);
+  if (number != std::floor(number))
+    return Fault(
+        name, fmt::format("must be a whole number{}{}", *limits.unit ? " of " : "", limits.unit));
+  field = static_cast<int>(number);
+}
+
 void JsonObjectReader::Angle(const char* name_deg, double& radians, const JsonLimits& limits_deg) {
   double degrees = std::numeric_limits<double>::quiet_NaN();
   Number(name_deg, degrees, limits_deg);

@@ -36,6 +36,7 @@ class JsonObjectReader {
 
   // An optional key that is absent leaves the field as it is; so does a fault.
   void Number(const char* name, double& field, const JsonLimits& limits, Need need = kOptional);
+  void Whole(const char* name, int& field, const JsonLimits& limits, Need need = kOptional);
   void Angle(const char* name_deg, double& radians, const JsonLimits& limits_deg);
   void Flag(const char* name, bool& field);
   void Text(const char* name, std::string& field, Need need = kOptional);

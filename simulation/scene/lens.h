@@ -25,6 +25,13 @@ enum class LensModel { kEquisolid, kKannalaBrandt, kDoubleSphere, kPinhole };
 struct LensCircle {
   double cx = 0, cy = 0, r = 0;
   friend bool operator==(const LensCircle&, const LensCircle&) = default;
+  template <class V>
+  void Visit(V&& v) {
+    constexpr Range kPixel{-1e5, 1e5};  // the centre may lie outside of the picture
+    v("cx", cx, Required{kPixel}, "px", "Column of its centre.");
+    v("cy", cy, Required{kPixel}, "px", "Row of its centre.");
+    v("r", r, Required{Range{0, 1e5}}, "px", "Radius; 0: there is no round window.");
+  }
 };
 
 struct Lens {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,33 +12,56 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/json_object_reader.h"
+#include "simulation/scene/field_json.h"
+#include "simulation/scene/field_schema.h"
+#include "simulation/scene/scene_json.h"
 
 namespace arthro {
 namespace {
 
-using Reader = JsonObjectReader;
-
 constexpr const char* kSchema = "arthroscene.lens/1";
-constexpr JsonLimits kSize{1, 16384, "pixels"};  // the widest picture that is read
-constexpr JsonLimits kFocal{0, 1e6, "pixels", true};
-constexpr JsonLimits kPixel{-1e5, 1e5, "pixels"};
-constexpr JsonLimits kRadius{0, 1e5, "pixels"};
-constexpr JsonLimits kAspect{0.2, 5};
-constexpr JsonLimits kFieldOfView{0, 360, "degrees", true};
 
-constexpr std::array<std::pair<LensModel, std::string_view>, 4> kWords = {{
-    {LensModel::kEquisolid, "equisolid"},
-    {LensModel::kKannalaBrandt, "kannala_brandt"},
-    {LensModel::kDoubleSphere, "double_sphere"},
-    {LensModel::kPinhole, "pinhole"},
-}};
+const Choices<LensModel>& Models() {
+  static const Choices<LensModel> models{{{LensModel::kEquisolid, "equisolid"},
+                                          {LensModel::kKannalaBrandt, "kannala_brandt"},
+                                          {LensModel::kDoubleSphere, "double_sphere"},
+                                          {LensModel::kPinhole, "pinhole"}}};
+  return models;
+}
+
+// The fields of a lens file: name, rule, unit, help. `k` has as many numbers as the model.
+struct LensInFile {
+  Lens& lens;
+  std::vector<double> k;
+  template <class V>
+  void Visit(V&& v) {
+    constexpr Range kSize{1, 16384};  // the widest picture that is read
+    constexpr Range kPixel{-1e5, 1e5};
+    v("model", lens.model, Required{Models()}, "", "Where a ray falls.");
+    v("width", lens.width, Required{kSize}, "px", "Width of the raw picture.");
+    v("height", lens.height, Required{kSize}, "px", "Height of the raw picture.");
+    v("focal_px", lens.focal_px, Required{Range{0, 1e6, true}}, "px", "Focal length f.");
+    v("cx", lens.cx, Required{kPixel}, "px", "Column of the axis.");
+    v("cy", lens.cy, Required{kPixel}, "px", "Row of the axis.");
+    v("aspect", lens.aspect, Range{0.2, 5}, "", "Height of a pixel over its width.");
+    v("k", k, NumberList{}, "",
+      "Parameters of the model: up to 4 of kannala_brandt, [xi, alpha] of double_sphere, none of "
+      "the others.");
+    v("fov", lens.field_of_view, LeftOutAt{0.0, Range{0, 2 * std::numbers::pi, true}}, "rad",
+      "Full field of view of the circle, or of the picture's diagonal. If not given, it is that of "
+      "the model there.");
+    v("circle", lens.circle, Any{}, "", "The round window.");
+    v("rms_px", lens.rms_px, Range{0, 1e5}, "px", "Residual of the fit; 0: it was not fitted.");
+    v("camera", lens.camera, LeftOutAt{LensCamera(), Any{}}, "",
+      "What the optics and the sensor add to the picture.");
+  }
+};
 
 int ParametersOf(LensModel model) {
   return model == LensModel::kKannalaBrandt ? 4 : model == LensModel::kDoubleSphere ? 2 : 0;
 }
 
-void ReadSchema(Reader& reader) {
+void ReadSchema(JsonObjectReader& reader) {
   std::string schema = kSchema;
   reader.Text("schema", schema);
   if (schema != kSchema)
@@ -46,33 +69,10 @@ void ReadSchema(Reader& reader) {
                                        nlohmann::json(schema).dump(), kSchema));
 }
 
-void ReadModel(Reader& reader, Lens& lens) {
-  std::string word;
-  reader.Text("model", word, Reader::kRequired);
-  const auto known =
-      std::find_if(kWords.begin(), kWords.end(), [&](const auto& w) { return w.second == word; });
-  if (known != kWords.end()) {
-    lens.model = known->first;
-  } else if (!word.empty()) {
-    reader.Fault("model", fmt::format("is {}; it must be \"equisolid\", \"kannala_brandt\", "
-                                      "\"double_sphere\" or \"pinhole\"",
-                                      nlohmann::json(word).dump()));
-  }
-}
-
-void ReadSize(Reader& reader, const char* name, int& field) {
-  double value = 0;
-  reader.Number(name, value, kSize, Reader::kRequired);
-  if (value != std::floor(value)) reader.Fault(name, "must be a whole number of pixels");
-  field = static_cast<int>(value);
-}
-
-// Reads as many numbers as the model has. Missing ones are zeros for Kannala-Brandt only, because
-// its short forms are in use.
-void ReadParameters(Reader& reader, Lens& lens) {
+// Gives the model as many numbers as it has. Missing ones are zeros for Kannala-Brandt only,
+// because its short forms are in use.
+void SetParameters(JsonObjectReader& reader, std::vector<double> values, Lens& lens) {
   const int wanted = ParametersOf(lens.model);
-  std::vector<double> values;
-  if (reader.Has("k") && !reader.List("k", values)) return;
   const auto rest = values.begin() + std::min<std::ptrdiff_t>(wanted, std::ssize(values));
   if (std::any_of(rest, values.end(), [](double value) { return value != 0; }))
     return reader.Fault(
@@ -89,40 +89,15 @@ void ReadParameters(Reader& reader, Lens& lens) {
   std::copy(values.begin(), values.end(), lens.k.begin());
 }
 
-void ReadCircle(Reader& owner, LensCircle& circle) {
-  owner.Object("circle", Reader::kOptional, [&](Reader& reader) {
-    reader.Number("cx", circle.cx, kPixel, Reader::kRequired);
-    reader.Number("cy", circle.cy, kPixel, Reader::kRequired);
-    reader.Number("r", circle.r, kRadius, Reader::kRequired);
-  });
-}
-
-// Reads the fields that Visit lists, each a number within its range.
-struct CameraReader {
-  Reader& reader;
-  void operator()(const char* name, double& field, const Range& range, const char* unit,
-                  const char*) {
-    reader.Number(name, field, {range.min, range.max, unit, range.above_min});
-  }
-};
-
-nlohmann::ordered_json JsonOf(LensCamera camera) {
-  nlohmann::ordered_json json;
-  camera.Visit([&](const char* name, const double& field, const auto&...) { json[name] = field; });
-  return json;
-}
-
 }  // namespace
 
 void ReadCamera(JsonObjectReader& owner, LensCamera& camera) {
-  owner.Object("camera", Reader::kOptional, [&](Reader& reader) {
-    camera.Visit(CameraReader{reader});
-    reader.RefuseOtherKeys();
-  });
+  owner.Object("camera", JsonObjectReader::kOptional,
+               [&](JsonObjectReader& reader) { camera.Visit(FieldReader(reader)); });
 }
 
 std::string_view ToString(LensModel model) {
-  for (const auto& [value, word] : kWords)
+  for (const auto& [value, word] : Models().words)
     if (value == model) return word;
   return "";
 }
@@ -133,21 +108,12 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file) {
     throw Error(Code::kBadData, "a lens must be a JSON object {…}; make it with `arthroscene lens`",
                 file);
   std::vector<JsonFault> faults;
-  Reader reader(json, "", faults);
+  JsonObjectReader reader(json, "", faults);
   Lens lens;
   ReadSchema(reader);
-  ReadModel(reader, lens);
-  ReadSize(reader, "width", lens.width);
-  ReadSize(reader, "height", lens.height);
-  reader.Number("focal_px", lens.focal_px, kFocal, Reader::kRequired);
-  reader.Number("cx", lens.cx, kPixel, Reader::kRequired);
-  reader.Number("cy", lens.cy, kPixel, Reader::kRequired);
-  reader.Number("aspect", lens.aspect, kAspect);
-  ReadParameters(reader, lens);
-  reader.Angle("fov_deg", lens.field_of_view, kFieldOfView);
-  ReadCircle(reader, lens.circle);
-  reader.Number("rms_px", lens.rms_px, kRadius);
-  ReadCamera(reader, lens.camera);
+  LensInFile fields{lens, {}};
+  fields.Visit(FieldReader(reader));
+  if (faults.empty()) SetParameters(reader, fields.k, lens);
   reader.RefuseOtherKeys(true);
   if (faults.empty() && lens.circle.r == 0) lens.circle = {};
   if (faults.empty() && lens.circle.r > 0 &&
@@ -193,19 +159,23 @@ Lens ReadLens(const std::filesystem::path& file) {
 std::string JsonFromLens(const Lens& lens) {
   nlohmann::ordered_json json;
   json["schema"] = kSchema;
-  json["model"] = ToString(lens.model);
-  json["width"] = lens.width;
-  json["height"] = lens.height;
-  json["focal_px"] = lens.focal_px;
-  json["cx"] = lens.cx;
-  json["cy"] = lens.cy;
-  json["aspect"] = lens.aspect;
-  json["k"] = std::vector<double>(lens.k.begin(), lens.k.begin() + ParametersOf(lens.model));
-  json["fov_deg"] = DegreesFromRadians(lens.field_of_view);
-  json["circle"] = {{"cx", lens.circle.cx}, {"cy", lens.circle.cy}, {"r", lens.circle.r}};
-  json["rms_px"] = lens.rms_px;
-  if (lens.camera != LensCamera()) json["camera"] = JsonOf(lens.camera);
+  Lens copy = lens;
+  LensInFile fields{copy, {lens.k.begin(), lens.k.begin() + ParametersOf(lens.model)}};
+  fields.Visit(FieldWriter(json));
   return json.dump(2) + "\n";
+}
+
+std::string LensSchemaText() {
+  Lens lens;
+  auto json = FileSchema(
+      kSchema, "Arthroscene lens, version 1",
+      "The lens of an arthroscope: where a ray falls in the raw picture. px; angles in degrees. "
+      "equisolid: r = 2 f sin(theta/2); kannala_brandt: r = f theta (1 + k0 theta^2 + k1 theta^4 + "
+      "k2 theta^6 + k3 theta^8); double_sphere: k = [xi, alpha]; pinhole: r = f tan theta. r^2 = "
+      "(x - cx)^2 + (aspect (y - cy))^2; the origin is the centre of the top-left pixel.",
+      SchemaOfFields(LensInFile{lens, {}}));
+  json["required"].erase(0);  // a person may leave out the name of the schema
+  return PrettyJson(json);
 }
 
 void WriteLens(const std::filesystem::path& file, const Lens& lens) {

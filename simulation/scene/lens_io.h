@@ -3,7 +3,8 @@
 //   rms_px, camera:{fringe, rim_blur, sharpening, grain}}
 // Angles in degrees, all else in px. `schema`, `aspect`, `k`, `fov_deg`, `circle`, `rms_px`
 // and `camera` may be left out of a file that a person writes; unknown keys are refused, but for
-// those that begin with "x-". JSON Schema: resources/schemas/lens-1.schema.json.
+// those that begin with "x-". The schema for other tools is resources/schemas/lens-1.schema.json;
+// `arthroscene check --lens-schema` prints it.
 #pragma once
 
 #include <filesystem>
@@ -26,6 +27,8 @@ Lens LensFromJson(const std::string& text, const std::filesystem::path& file);
 // Reads the optional object `camera` of a lens or of its preset; a key that is left out keeps its
 // value.
 void ReadCamera(JsonObjectReader& owner, LensCamera& camera);
+
+std::string LensSchemaText();
 
 std::string JsonFromLens(const Lens& lens);
 // Written whole or not at all; "-" is standard output.

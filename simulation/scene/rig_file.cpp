@@ -8,6 +8,7 @@ namespace {
 constexpr const char* kFamilies[] = {"wooden_haptics", "space_mouse", "razer_hydra",
                                      "openhaptics",    "dual_sense",  "dual_shock_4"};
 constexpr std::size_t kHandFamilies = 4;  // the first of them
+constexpr const char* kModels[] = {"woodenhaptics_2015", "polhem_v1"};
 
 }  // namespace
 
@@ -24,6 +25,8 @@ const char* Word(RigAction action) noexcept {
 }
 
 std::span<const char* const> RigFamilies() noexcept { return kFamilies; }
+
+std::span<const char* const> RigModels() noexcept { return kModels; }
 
 bool IsHandFamily(const std::string& family) noexcept {
   return std::find(kFamilies, kFamilies + kHandFamilies, family) != kFamilies + kHandFamilies;

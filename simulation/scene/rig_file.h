@@ -1,6 +1,7 @@
 // Rig: the devices that hold scope and instrument, and their mounts on the incisions. It belongs to
 // a place, not to a scene, so that one scene is practised on many rigs. Read from rig files,
-// arthroscene.rig/1. A role follows a serial number and never a port. SI.
+// arthroscene.rig/1. A role follows a serial number and never a port. SI. Each Visit lists the
+// fields of the file once: name, rule, unit, help (core/options.h).
 #pragma once
 
 #include <array>
@@ -9,7 +10,9 @@
 #include <span>
 #include <string>
 
+#include "simulation/core/options.h"
 #include "simulation/scene/scene.h"
+#include "simulation/scene/scene_limits.h"
 
 namespace arthro {
 
@@ -22,6 +25,26 @@ const char* Word(RigAction action) noexcept;
 using RigButtons = std::array<int, kRigActions>;
 inline constexpr RigButtons kNoButtons{-1, -1, -1};
 
+// The buttons as fields of a file.
+struct ButtonsInFile {
+  RigButtons& buttons;
+  template <class V>
+  void Visit(V&& v) {
+    constexpr Range kBits{0, 31};
+    constexpr const char* kHelp[] = {"Button that is held for force.",
+                                     "Button that closes the jaws.",
+                                     "Button that takes the next instrument."};
+    for (std::size_t i = 0; i < kRigActions; ++i)
+      v(Word(static_cast<RigAction>(i)), buttons[i], LeftOutAt{-1, kBits}, "", kHelp[i]);
+  }
+};
+
+// Words that `family` may be, and whether a family measures the position of a hand.
+std::span<const char* const> RigFamilies() noexcept;
+bool IsHandFamily(const std::string& family) noexcept;
+// Arms of a WoodenHaptics whose kinematics are published.
+std::span<const char* const> RigModels() noexcept;
+
 struct RigDevice {
   std::string family;  // a word of device families
   // Empty: the only device of its family. For openhaptics: the name in its maker's setup tool;
@@ -29,30 +52,66 @@ struct RigDevice {
   std::string serial;
   std::string model;  // arm of a WoodenHaptics, which USB does not report
   int hand = 0;       // 0 or 1 of a device with two hands
+  template <class V>
+  void Visit(V&& v) {
+    v("family", family, Required{Words{RigFamilies()}}, "", "Family of the device.");
+    v("serial", serial, Any{}, "",
+      "Serial number, as `arthroscene devices` lists it. For openhaptics: the name in its maker's "
+      "setup tool, and the tool's default device if not given.");
+    v("model", model, Words{RigModels()}, "",
+      "Arm of a wooden_haptics, which must have one: a wrong arm pushes the wrong way.");
+    v("hand", hand, LeftOutAt{0, Range{0, 1}}, "", "Hand of a razer_hydra.");
+  }
 };
 
 struct RigRole {
   RigDevice device;
   DeviceRig mount;
-  double max_force = 0;      // N; 0: what the device bears
-  double max_stiffness = 0;  // N/m at the hand; 0: what it renders
+  double hand_to_incision = 0;  // m, with the handle in its rest; 0: not given
+  double max_force = 0;         // N; 0: what the device bears
+  double max_stiffness = 0;     // N/m at the hand; 0: what it renders
   RigButtons buttons = kNoButtons;
+  template <class V>
+  void Visit(V&& v) {
+    // A shorter rod does not reach a joint through its incision, a longer one is no instrument. m
+    constexpr Range kRod{0.05, 0.6};
+    v("device", device, Required{Any{}}, "", "Device that is held.");
+    v("rod_length", mount.rod_length, Required{kRod}, "m", "From the hand to the tip.");
+    v("hand_to_incision", hand_to_incision, LeftOutAt{0.0, kLength}, "m",
+      "From the hand to the incision, with the handle in its rest; checked against the rod.");
+    mount.Visit(v, false);
+    v("max_force", max_force, LeftOutAt{0.0, Range{0, 20, true}}, "N",
+      "Largest force; the device's own if not given.");
+    v("max_stiffness", max_stiffness, LeftOutAt{0.0, Range{0, 10000, true}}, "N/m",
+      "Largest stiffness at the hand; the device's own if not given.");
+    ButtonsInFile own{buttons};
+    v("buttons", own, Any{}, "", "Buttons of the device by action.");
+  }
 };
 
 struct RigPedals {
   RigDevice device;
   RigButtons buttons = kNoButtons;
+  template <class V>
+  void Visit(V&& v) {
+    v("device", device, Required{Any{}}, "", "Device with the pedals.");
+    ButtonsInFile own{buttons};
+    v("buttons", own, Any{}, "", "Pedals by action.");
+  }
 };
 
 struct RigFile {
   std::string title;
   std::optional<RigRole> scope, instrument;  // without one: by mouse and keys
   std::optional<RigPedals> pedals;
+  template <class V>
+  void Visit(V&& v) {
+    v("title", title, Required{Any{}}, "", "Name for people.");
+    v("scope", scope, Any{}, "", "Device of the scope.");
+    v("instrument", instrument, Any{}, "", "Device of the instrument.");
+    v("pedals", pedals, Any{}, "", "Device with pedals.");
+  }
 };
-
-// Words that `family` may be, and whether a family measures the position of a hand.
-std::span<const char* const> RigFamilies() noexcept;
-bool IsHandFamily(const std::string& family) noexcept;
 
 // Position of the hand when the tip is `depth` beyond the incision, straight in; device frame.
 glm::dvec3 RestingHip(const DeviceRig& mount, double depth);

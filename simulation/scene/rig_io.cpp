@@ -11,114 +11,75 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/scene/field_json.h"
+#include "simulation/scene/field_schema.h"
+#include "simulation/scene/scene_json.h"
 
 namespace arthro {
 namespace {
 
-using Reader = JsonObjectReader;
-
 constexpr const char* kSchema = "arthroscene.rig/1";
 constexpr const char *kWooden = "wooden_haptics", *kHydra = "razer_hydra",
                      *kOpenHaptics = "openhaptics";
-// m; a shorter rod does not reach a joint through its incision, a longer one is no instrument.
-constexpr JsonLimits kRod{0.05, 0.6, "metres"};
-constexpr JsonLimits kForce{0, 20, "N", true}, kStiffness{0, 10000, "N/m", true};
-constexpr int kButtons = 32;
 
-// A whole number, since the reader of objects knows numbers only.
-void Whole(Reader& reader, const char* name, int& field, int max) {
-  double number = field;
-  reader.Number(name, number, {0, static_cast<double>(max)});
-  field = static_cast<int>(number);
-  if (field != number) reader.Fault(name, "must be a whole number");
-}
+// Collects what is wrong with a rig beyond the fields: with keys from the root.
+class RigCheck {
+ public:
+  explicit RigCheck(std::vector<JsonFault>& faults) : faults_(faults) {}
 
-void ReadDevice(Reader& owner, RigDevice& device, bool needs_hand) {
-  owner.Object("device", Reader::kRequired, [&](Reader& reader) {
-    reader.Text("family", device.family, Reader::kRequired);
-    reader.Text("serial", device.serial);
-    reader.Text("model", device.model);
-    Whole(reader, "hand", device.hand, 1);
-    reader.RefuseOtherKeys();
-    std::string words;
-    bool is_known = false;
-    for (const char* word : RigFamilies()) {
-      words += (words.empty() ? "" : ", ") + std::string(word);
-      is_known = is_known || device.family == word;
-    }
-    if (!is_known) {
-      if (!device.family.empty())
-        reader.Fault("family", fmt::format("is \"{}\"; the families are {}", device.family, words));
-      return;
-    }
-    if (needs_hand && !IsHandFamily(device.family))
-      reader.Fault("family", fmt::format("is \"{}\", which does not know where a hand is; it may "
-                                         "be the pedals",
-                                         device.family));
-    if (!needs_hand && device.family == kOpenHaptics)
-      reader.Fault("family", fmt::format("is \"{}\", which may hold a hand and is no pedal; bind "
-                                         "its buttons there",
-                                         device.family));
-    if (device.hand > 0 && device.family != kHydra)
-      reader.Fault("hand",
-                   fmt::format("is {}, and a {} has one hand, 0", device.hand, device.family));
-    if (device.family == kWooden && device.model.empty())
-      reader.Fault("model",
-                   "is missing; a wrong arm pushes the wrong way, so name it: "
-                   "woodenhaptics_2015 or polhem_v1");
-    if (device.model == "polhem_v2" || device.model == "polhem_v3")
-      reader.Fault("model", fmt::format("is \"{}\", whose kinematics are not published; it cannot "
-                                        "be driven",
-                                        device.model));
-  });
-}
+  void Device(const std::string& owner, const RigDevice& device, bool needs_hand) {
+    const std::string key = owner + ".device.";
+    const std::string& family = device.family;
+    if (needs_hand && !IsHandFamily(family))
+      Fault(key + "family",
+            fmt::format("is \"{}\", which does not know where a hand is; it may be the pedals",
+                        family));
+    if (!needs_hand && family == kOpenHaptics)
+      Fault(key + "family",
+            fmt::format("is \"{}\", which may hold a hand and is no pedal; bind its buttons there",
+                        family));
+    if (device.hand > 0 && family != kHydra)
+      Fault(key + "hand", fmt::format("is {}, and a {} has one hand, 0", device.hand, family));
+    if (family == kWooden && device.model.empty())
+      Fault(key + "model", fmt::format("is missing; a wrong arm pushes the wrong way, so name it: "
+                                       "{}",
+                                       fmt::join(RigModels(), " or ")));
+  }
 
-void ReadButtons(Reader& owner, RigButtons& buttons) {
-  owner.Object("buttons", Reader::kOptional, [&](Reader& reader) {
-    for (int i = 0; i < kRigActions; ++i) {
-      const char* name = Word(static_cast<RigAction>(i));
-      if (!reader.Has(name)) continue;
-      int button = 0;
-      Whole(reader, name, button, kButtons - 1);
-      for (int other = 0; other < i; ++other)
-        if (buttons[static_cast<std::size_t>(other)] == button)
-          reader.Fault(name, fmt::format("is button {}, as {} is; give each its own", button,
-                                         Word(static_cast<RigAction>(other))));
-      buttons[static_cast<std::size_t>(i)] = button;
-    }
-    for (int i = 0; i < kRigActions; ++i) reader.Know(Word(static_cast<RigAction>(i)));
-    reader.RefuseOtherKeys();
-  });
-}
+  void Buttons(const std::string& owner, const RigButtons& buttons) {
+    for (std::size_t i = 0; i < buttons.size(); ++i)
+      for (std::size_t other = 0; other < i; ++other)
+        if (buttons[i] >= 0 && buttons[other] == buttons[i])
+          Fault(owner + ".buttons." + Word(static_cast<RigAction>(i)),
+                fmt::format("is button {}, as {} is; give each its own", buttons[i],
+                            Word(static_cast<RigAction>(other))));
+  }
 
-void ReadRole(Reader& rig, const char* name, std::optional<RigRole>& role) {
-  rig.Object(name, Reader::kOptional, [&](Reader& reader) {
-    RigRole& own = role.emplace();
-    ReadDevice(reader, own.device, true);
-    reader.Number("rod_length", own.mount.rod_length, kRod, Reader::kRequired);
-    reader.Point("pivot", own.mount.pivot, LimitsInFile(kCoordinate, "m"));
-    reader.Quaternion("portal_from_device", own.mount.portal_from_device);
-    double to_incision = 0;
-    reader.Number("hand_to_incision", to_incision, LimitsInFile(kLength, "m"));
-    reader.Number("max_force", own.max_force, kForce);
-    reader.Number("max_stiffness", own.max_stiffness, kStiffness);
-    ReadButtons(reader, own.buttons);
-    reader.RefuseOtherKeys();
-    if (to_incision >= own.mount.rod_length)
-      reader.Fault("hand_to_incision",
-                   fmt::format("is {} m and the rod {} m, so its tip would not reach the incision; "
-                               "were the two lengths swapped?",
-                               to_incision, own.mount.rod_length));
-  });
-}
+  void Role(const std::string& name, const RigRole& role) {
+    Device(name, role.device, true);
+    Buttons(name, role.buttons);
+    if (role.hand_to_incision >= role.mount.rod_length)
+      Fault(name + ".hand_to_incision",
+            fmt::format("is {} m and the rod {} m, so its tip would not reach the incision; were "
+                        "the two lengths swapped?",
+                        role.hand_to_incision, role.mount.rod_length));
+  }
+
+  void Together(const RigFile& rig);
+
+ private:
+  void Fault(const std::string& key, const std::string& sentence) {
+    faults_.push_back({key, key + " " + sentence});
+  }
+  std::vector<JsonFault>& faults_;
+};
 
 bool IsSame(const RigDevice& a, const RigDevice& b) {
   return a.family == b.family && a.serial == b.serial && a.hand == b.hand;
 }
 
-void CheckTogether(const RigFile& rig, Reader& reader) {
+void RigCheck::Together(const RigFile& rig) {
   if (!rig.scope && !rig.instrument) {
-    reader.Fault("scope", "and instrument are both missing; a rig has at least one device");
+    Fault("scope", "and instrument are both missing; a rig has at least one device");
     return;
   }
   if (!rig.scope || !rig.instrument) return;
@@ -126,16 +87,15 @@ void CheckTogether(const RigFile& rig, Reader& reader) {
   if (scope.family != instrument.family) return;
   const bool is_one_of_two_hands = scope.family == kHydra && scope.serial == instrument.serial;
   if (IsSame(scope, instrument))
-    reader.Fault(
-        "instrument.device",
-        fmt::format("is the scope's; two {} are told apart by serial, which {}{}", scope.family,
-                    scope.family == kOpenHaptics ? "is the name in the maker's setup tool"
-                                                 : "`arthroscene devices` lists",
-                    scope.family == kHydra ? ", or by hand" : ""));
+    Fault("instrument.device",
+          fmt::format("is the scope's; two {} are told apart by serial, which {}{}", scope.family,
+                      scope.family == kOpenHaptics ? "is the name in the maker's setup tool"
+                                                   : "`arthroscene devices` lists",
+                      scope.family == kHydra ? ", or by hand" : ""));
   else if (!is_one_of_two_hands && (scope.serial.empty() || instrument.serial.empty()))
-    reader.Fault("instrument.device",
-                 "and the scope's are of one family; give both a serial, or the roles would change "
-                 "with the ports");
+    Fault("instrument.device",
+          "and the scope's are of one family; give both a serial, or the roles would change "
+          "with the ports");
 }
 
 }  // namespace
@@ -145,27 +105,42 @@ RigFile ParseRig(const std::string& text, const std::filesystem::path& file) {
   if (!json.is_object())
     throw Error(Code::kBadData, "a rig must be a JSON object {…}; mend or remove it", file);
   std::vector<JsonFault> faults;
-  Reader reader(json, "", faults);
+  JsonObjectReader reader(json, "", faults);
   RigFile rig;
   std::string schema;
-  reader.Text("schema", schema, Reader::kRequired);
+  reader.Text("schema", schema, JsonObjectReader::kRequired);
   if (schema != kSchema && !schema.empty())
     throw Error(Code::kBadData,
                 fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kSchema),
                 file);
-  reader.Text("title", rig.title, Reader::kRequired);
-  ReadRole(reader, "scope", rig.scope);
-  ReadRole(reader, "instrument", rig.instrument);
-  reader.Object("pedals", Reader::kOptional, [&](Reader& inner) {
-    RigPedals& pedals = rig.pedals.emplace();
-    ReadDevice(inner, pedals.device, false);
-    ReadButtons(inner, pedals.buttons);
-    inner.RefuseOtherKeys();
-  });
+  rig.Visit(FieldReader(reader));
   reader.RefuseOtherKeys(true);
-  if (faults.empty()) CheckTogether(rig, reader);
+  if (faults.empty()) {
+    RigCheck check(faults);
+    if (rig.scope) check.Role("scope", *rig.scope);
+    if (rig.instrument) check.Role("instrument", *rig.instrument);
+    if (rig.pedals) {
+      check.Device("pedals", rig.pedals->device, false);
+      check.Buttons("pedals", rig.pedals->buttons);
+    }
+    check.Together(rig);
+  }
   if (!faults.empty()) throw Error(Code::kBadData, faults.front().sentence, file);
   return rig;
+}
+
+std::string RigSchemaText() {
+  auto json = FileSchema(
+      kSchema, "Arthroscene rig, version 1",
+      "Which device holds the scope and which the instrument, and how each is mounted on its "
+      "incision. SI units, device frame. Roles follow serial numbers, as `arthroscene devices` "
+      "lists them. This schema cannot express five rules. A hand_to_incision is shorter than its "
+      "rod. Two devices of one family both need a serial. Pads hold no hand. An openhaptics is no "
+      "pedal. Numbers of buttons differ.",
+      SchemaOfFields(RigFile()));
+  json["anyOf"] = {{{"required", {"scope"}}}, {{"required", {"instrument"}}}};
+  json["definitions"]["quaternion"] = FieldDefinitions()["quaternion"];
+  return PrettyJson(json);
 }
 
 RigFile ReadRig(const std::filesystem::path& file) {

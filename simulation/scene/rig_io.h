@@ -1,4 +1,5 @@
-// Rig files: JSON of resources/schemas/rig-1.schema.json.
+// Rig files: JSON by the fields that rig_file.h lists. The schema for other tools is
+// resources/schemas/rig-1.schema.json; `arthroscene check --rig-schema` prints it.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +14,8 @@ namespace arthro {
 // cannot be or were swapped, one device in two roles, roles that only a port would tell apart.
 RigFile ParseRig(const std::string& text, const std::filesystem::path& file = {});
 RigFile ReadRig(const std::filesystem::path& file);
+
+std::string RigSchemaText();
 
 // Calibrated incisions in the frames of a rig's devices; m.
 struct RigPivots {

@@ -12,7 +12,7 @@ inline constexpr Range kLength{0, 2, true};
 inline constexpr Range kCoordinate{-2, 2};
 inline constexpr Range kShare{0, 1};
 
-// Rules of fields that only scenes have.
+// Rules of fields that only files of scenes, rigs and lenses have.
 struct Words {  // text that is one of these
   std::span<const char* const> words;
 };
@@ -25,6 +25,7 @@ struct Name {
 struct Direction {  // vector of any length but zero
   Range each;
 };
+struct NumberList {};  // finite numbers, however many
 struct PointList {
   int least, most;
   Range each;

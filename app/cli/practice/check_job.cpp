@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "simulation/practice/cut_check.h"
 #include "simulation/scene/check_report.h"
 #include "simulation/scene/lens_io.h"
+#include "simulation/scene/rig_io.h"
 #include "simulation/scene/scene_check.h"
 #include "simulation/scene/scene_schema.h"
 #include "simulation/scope/window_lens.h"
@@ -82,13 +84,17 @@ void AddCheckJob(CLI::App& program) {
                                 "JSON: errors, warnings and hints, and what share of the relief "
                                 "is measured; - for standard output."),
                 {"a report", FileForm::kJson, "arthroscene.check/"});
-  job->add_flag_callback(
-      "--schema",
-      [] {
-        fmt::print("{}", SceneSchemaText());
-        throw CLI::Success();
-      },
-      "Print the JSON Schema of scene.json, and do nothing else.");
+  for (const auto& [flag, text, kind] :
+       {std::tuple{"--schema", &SceneSchemaText, "scene.json"},
+        std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
+        std::tuple{"--lens-schema", &LensSchemaText, "lens files"}})
+    job->add_flag_callback(
+        flag,
+        [text] {
+          fmt::print("{}", text());
+          throw CLI::Success();
+        },
+        fmt::format("Print the JSON Schema of {}, and do nothing else.", kind));
   files->Run([own] { Check(own->scene, own->report); });
 }
 

@@ -185,7 +185,7 @@ TEST(BadInput, RigAndRecordedHands) {
   std::ofstream(trace) << "time,x\n";
   const std::string practise = "practise " + folder.path().string();
   const fs::path none = folder / "untouched";
-  ExpectRefusal(practise + " --rig " + rig.string(), "the families are", none, "DISPLAY=");
+  ExpectRefusal(practise + " --rig " + rig.string(), "it must be one of", none, "DISPLAY=");
   const auto model = folder / "model.json";
   std::ofstream(model)
       << R"({"schema": "arthroscene.rig/1", "title": "t", "scope": {"rod_length": 0.2,
@@ -199,7 +199,7 @@ TEST(BadInput, RigAndRecordedHands) {
         "touch_instrument.json: instrument: this program was built without OpenHaptics", none,
         "DISPLAY=");
   ExpectRefusal(practise + " --hands " + trace.string(), "first line", none, "DISPLAY=");
-  ExpectRefusal(practise + " --hands plant --rig " + rig.string(), "the families are", none,
+  ExpectRefusal(practise + " --hands plant --rig " + rig.string(), "it must be one of", none,
                 "DISPLAY=");
 }
 

@@ -135,6 +135,20 @@ TEST(LensIo, RefusesAFileOfAnotherKindInOneSentence) {
   EXPECT_NE(many.find("(and 2 more)"), std::string::npos) << many;
 }
 
+TEST(LensIo, TheSchemaForOtherToolsIsTheGeneratedOne) {
+  const fs::path copy = fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/lens-1.schema.json";
+  EXPECT_EQ(ReadWholeFile(copy), LensSchemaText())
+      << "a field of the lens has changed; write the schema anew: arthroscene check --lens-schema "
+         "> "
+      << copy.string();
+}
+
+// Degrees in the file are those that a person would write.
+TEST(LensIo, TheFieldOfViewIsWrittenAsItWasRead) {
+  const std::string text = JsonFromLens(LensFromJson(Good().dump(), "lens.json"));
+  EXPECT_NE(text.find("\"fov_deg\": 75.0,"), std::string::npos) << text;
+}
+
 TEST(LensIo, TheSchemaTakesWhatTheWriterWrites) {
   rapidjson::Document text;
   text.Parse(
