@@ -9,6 +9,7 @@
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -23,6 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using authoring::Document;
 
+constexpr const char* kUntitled = "Untitled";
+
 std::string LowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -34,7 +37,7 @@ std::string LowerExtension(const fs::path& file) {
 
 Document NewDocument() {
   Document document;
-  document.scene.title = "Untitled";
+  document.scene.title = kUntitled;
   document.scene.instruments.push_back({});
   return document;
 }
@@ -127,6 +130,14 @@ void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
   });
 }
 
+// A scene without a title gets the name under which it is saved.
+void TakeTitleFrom(EditorState& state, const fs::path& folder) {
+  const std::string& title = state.document().scene.title;
+  const std::string name = (IsArchive(folder) ? folder.stem() : folder.filename()).string();
+  if (name.empty() || (!title.empty() && title != kUntitled)) return;
+  Edit(state, "Name the scene", "", [&](Document& next) { next.scene.title = name; });
+}
+
 }  // namespace
 
 void SaveScene(EditorState& state, std::function<void(EditorState&)> then) {
@@ -148,6 +159,7 @@ void SaveSceneAs(EditorState& state, std::function<void(EditorState&)> then) {
       state, BrowseFor::kSaveFolder, "Save the scene as a folder, or as a file NAME.arthro", "Save",
       {},
       [then = std::move(then)](EditorState& now, const fs::path& folder) {
+        TakeTitleFrom(now, folder);
         SaveInto(now, folder, IfChanged::kReplace, then);  // the browser has asked
       },
       name);
@@ -163,7 +175,7 @@ void OpenDropped(EditorState& state, const fs::path& file) {
   } else if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp"})) {
     ImportPanorama(state, file);
   } else if (is_one_of({".stl", ".obj", ".ply", ".off", ".vtp"})) {
-    state.dialogs.push_back(UnitDialog{file});
+    AskForUnit(state, file);
   } else if (fs::is_directory(file) || is_one_of({".json", ".arthro"})) {
     GuardUnsaved(state, "open another scene", [file](EditorState& sure) { OpenScene(sure, file); });
   } else {

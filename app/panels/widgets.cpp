@@ -26,6 +26,13 @@ std::string Formatted(const char* format, double value) {
   return text;
 }
 
+// Zero in the place of a negative number that would be shown as "-0.0".
+double WithoutMinusZero(const char* format, double value) {
+  const std::string text = Formatted(format, value);
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return is_zero && text.starts_with('-') ? 0.0 : value;
+}
+
 void Label(Ui& ui, const std::string& name) {
   ui.widgets.RecordText(name);
   ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
@@ -172,7 +179,7 @@ Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, 
 
 Change NumberField(Ui& ui, const std::string& name, double& value, double step, double min,
                    double max, const char* format, const char* tooltip) {
-  double shown = value;
+  double shown = WithoutMinusZero(format, value);
   const bool changed =
       ImGui::DragScalar(Hidden(name).c_str(), ImGuiDataType_Double, &shown,
                         static_cast<float>(step), &min, &max, format, ImGuiSliderFlags_AlwaysClamp);

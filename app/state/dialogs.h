@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "app/platform/file_browser_model.h"
+#include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
 
@@ -33,10 +35,12 @@ struct BrowseDialog {
   bool asks_overwrite = false, asks_folder_name = false;
   std::string new_folder;
 };
-// A mesh file says nothing of its unit.
+// A mesh file says nothing of its unit. The surface has been read; its vertices are in that unit.
 struct UnitDialog {
-  std::filesystem::path surface;
-  std::string unit = "mm";
+  std::filesystem::path file;
+  std::shared_ptr<const SurfaceMesh> surface;
+  double longest_side = 0;  // longest side of its bounding box
+  std::string unit;
 };
 struct HelpDialog {};
 struct PracticeEndedDialog {

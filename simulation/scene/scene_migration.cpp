@@ -40,8 +40,10 @@ void MigrateScene(nlohmann::json& json, const std::filesystem::path& file,
   if (found == 0)
     throw Error(
         Code::kBadScene,
-        fmt::format("schema is {}; a scene must say \"schema\": \"{}\"",
-                    schema == json.end() ? "missing" : schema->dump(), SceneSchemaName(newest)),
+        fmt::format("this file is no scene: its schema {}, and that of a scene is \"{}\"; open the "
+                    "folder of a scene, its scene.json or an .arthro file",
+                    schema == json.end() ? "is missing" : "is " + schema->dump(),
+                    SceneSchemaName(newest)),
         file);
   if (found > newest)
     throw Error(Code::kBadScene,

@@ -10,6 +10,7 @@
 #include "app/state/command.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
@@ -74,16 +75,24 @@ void Draw(Ui& ui, EditorState& state, ChangedOnDiskDialog& dialog) {
   if (replace) Guarded(state, "Save", [&] { ReplaceChangedScene(state, taken.then); });
 }
 
+// A length in millimetres with three digits, the larger ones in metres.
+std::string ShownLength(double metres) {
+  return metres < 1 ? fmt::format("{:.3g} mm", MmFromMetres(metres))
+                    : fmt::format("{:.3g} m", metres);
+}
+
 void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   Heading(ui, "Which unit is the surface in?");
   Gap(ui, 2);
   Text(ui, fmt::format("{} does not state its unit. A meniscus is 30 to 45 mm long.",
-                       dialog.surface.filename().string()));
+                       dialog.file.filename().string()));
   for (const char* unit : {"mm", "cm", "m", "um", "in"}) {
     if (ToggleButton(ui, unit, dialog.unit == unit, true, {ui.Px(64), 0})) dialog.unit = unit;
     ImGui::SameLine();
   }
   ImGui::NewLine();
+  const double length = dialog.longest_side * MetresPerUnit(dialog.unit).value_or(1.0);
+  Text(ui, fmt::format("The surface will be {} long.", ShownLength(length)));
   Gap(ui);
   const bool import = Button(ui, "Import", true, {ui.Px(120), 0}) || EnterPressed();
   ImGui::SameLine();
@@ -91,7 +100,8 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   if (!import && !cancel) return;
   const UnitDialog taken = Take<UnitDialog>(state);
   if (import)
-    Guarded(state, "Import a surface", [&] { ImportSurface(state, taken.surface, taken.unit); });
+    Guarded(state, "Import a surface",
+            [&] { ImportSurface(state, taken.file.stem().string(), *taken.surface, taken.unit); });
 }
 
 void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {

@@ -8,14 +8,19 @@ bool MayToggleFilm(const EditorState& state) {
   return state.practice && !(state.steps.practice->film && state.steps.practice->film->is_ending());
 }
 
+std::filesystem::path NumberedPictures(const std::filesystem::path& file) {
+  if (file.extension() != ".png" || file.filename().string().find('%') != std::string::npos)
+    return file;
+  return file.parent_path() / (file.stem().string() + "-%04d.png");
+}
+
 void ToggleFilm(EditorState& state) {
   if (state.steps.practice->film) return state.steps.practice->film->End(FilmSeconds(state));
   Browse(
-      state, BrowseFor::kSaveFile,
-      "Record a film, or pictures as frame-%04d.png in an empty folder", "Record",
+      state, BrowseFor::kSaveFile, "Record a film (.mp4), or numbered pictures (.png)", "Record",
       {{"Films", {".mp4", ".mkv", ".avi"}}, {"Pictures", {".png"}}},
       [](EditorState& now, const std::filesystem::path& file) {
-        if (now.practice && !now.steps.practice->film) BeginFilm(now, file);
+        if (now.practice && !now.steps.practice->film) BeginFilm(now, NumberedPictures(file));
       },
       "practice.mp4");
 }

@@ -9,6 +9,9 @@
 
 namespace arthro::app {
 
+// The pattern of the numbered pictures that a chosen .png stands for: practice-%04d.png. Other
+// files and patterns as they are.
+std::filesystem::path NumberedPictures(const std::filesystem::path& file);
 // Asks where, or ends the one that runs.
 void ToggleFilm(EditorState& state);
 bool MayToggleFilm(const EditorState& state);

@@ -10,6 +10,7 @@
 
 #include "app/state/command.h"
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
 
@@ -54,8 +55,10 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
 
 // Asks for the file, then for its unit.
 void BrowseForSurface(EditorState& state);
-// Reads it and adds a tissue in the middle of the view. `unit`: m, cm, mm, um or in.
-void ImportSurface(EditorState& state, const std::filesystem::path& surface,
+// Reads the file beside the window, then asks for its unit; a likely one is chosen already.
+void AskForUnit(EditorState& state, const std::filesystem::path& file);
+// Adds a tissue of this name in the middle of the view. Vertices in `unit`: m, cm, mm, um or in.
+void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh,
                    const std::string& unit);
 // Makes tetrahedra of the chosen tissue, beside the window.
 void TetrahedraliseTissue(EditorState& state);

@@ -1,51 +1,50 @@
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/tissue/likely_unit.h"
 #include "authoring/tissue/mesh_budget.h"
+#include "simulation/core/box3.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
-namespace {
-
 namespace fs = std::filesystem;
-
-}  // namespace
 
 void BrowseForSurface(EditorState& state) {
   Browse(state, BrowseFor::kOpenFile, "Import a surface", "Import",
-         {{"Surfaces", {".stl", ".obj", ".ply", ".off", ".vtp"}}, {"All files", {}}},
-         [](EditorState& now, const fs::path& file) { now.dialogs.push_back(UnitDialog{file}); });
+         {{"Surfaces", {".stl", ".obj", ".ply", ".off", ".vtp"}}, {"All files", {}}}, AskForUnit);
 }
 
-void ImportSurface(EditorState& state, const fs::path& file, const std::string& unit) {
-  const double metres_per_unit = MetresPerUnit(unit).value_or(1.0);
-  state.jobs.Start("Import " + file.filename().string(), [file, metres_per_unit](const Progress&) {
-    SurfaceMesh mesh = ReadSurface(file, metres_per_unit);
-    // Its own origin becomes its middle, so that turning turns it on the spot.
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-    for (const auto& x : mesh.vertices) low = glm::min(low, x), high = glm::max(high, x);
-    const glm::dvec3 middle = 0.5 * (low + high);
-    for (auto& x : mesh.vertices) x -= middle;
-    auto surface = std::make_shared<const SurfaceMesh>(std::move(mesh));
-    return [file, surface](EditorState& now) {
-      Tissue tissue;
-      tissue.name = file.stem().string();
-      // In front of the scope, where it is seen at once.
-      const Scene& scene = now.document().scene;
-      const auto view = simulation::ViewFromPose(now.scope, scene.scope.view_angle);
-      tissue.pose.position = view.tip + 0.35 * scene.backdrop.radius * view.view;
-      AddTissue(now, std::move(tissue), surface);
-      now.step = Step::kTissue;
-    };
+void AskForUnit(EditorState& state, const fs::path& file) {
+  state.jobs.Start("Read " + file.filename().string(), [file](const Progress&) {
+    auto surface = std::make_shared<const SurfaceMesh>(ReadSurface(file, 1.0));
+    const double longest_side = authoring::LongestSide(*surface);
+    return [dialog = UnitDialog{file, surface, longest_side, authoring::LikelyUnit(longest_side)}](
+               EditorState& now) { now.dialogs.push_back(dialog); };
   });
+}
+
+void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh,
+                   const std::string& unit) {
+  const double metres_per_unit = MetresPerUnit(unit).value_or(1.0);
+  // Its own origin becomes its middle, so that turning turns it on the spot.
+  Box3 box = kEmptyBox;
+  for (const auto& x : mesh.vertices) box = Union(box, {x, x});
+  const glm::dvec3 middle = 0.5 * (box.low + box.high);
+  for (auto& x : mesh.vertices) x = metres_per_unit * (x - middle);
+  Tissue tissue;
+  tissue.name = name;
+  // In front of the scope, where it is seen at once.
+  const Scene& scene = state.document().scene;
+  const auto view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
+  tissue.pose.position = view.tip + 0.35 * scene.backdrop.radius * view.view;
+  AddTissue(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)));
+  state.step = Step::kTissue;
 }
 
 void TetrahedraliseTissue(EditorState& state) {

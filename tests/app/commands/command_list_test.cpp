@@ -15,6 +15,7 @@
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
@@ -455,13 +456,48 @@ TEST_F(Commands, ANewDocumentHasNothingToSave) {
   EXPECT_TRUE(state.quit);
 }
 
+// An empty file is refused before anything is asked about it.
+TEST_F(Commands, ASurfaceThatCannotBeReadIsRefusedBeforeItsUnitIsAsked) {
+  Open();
+  std::ofstream(temp / "empty.obj");
+  AskForUnit(state, temp / "empty.obj");
+  Settle(state);
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  ASSERT_TRUE(std::holds_alternative<ErrorDialog>(state.dialogs.back()));
+  EXPECT_NE(std::get<ErrorDialog>(state.dialogs.back()).sentence.find("empty"), std::string::npos);
+}
+
+TEST_F(Commands, ASceneWithoutATitleGetsTheNameUnderWhichItIsSaved) {
+  StartDocument(state, NewDocument(), true, {});
+  SaveSceneAs(state);
+  const auto browse = std::get<BrowseDialog>(std::move(state.dialogs.back()));
+  state.dialogs.clear();
+  browse.then(state, temp / "left knee.arthro");
+  EXPECT_EQ(state.document().scene.title, "left knee");
+  Settle(state);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().scene.title, "Untitled");
+}
+
+TEST(Film, APictureBecomesNumberedPictures) {
+  EXPECT_EQ(NumberedPictures("a/practice.png"), "a/practice-%04d.png");
+  EXPECT_EQ(NumberedPictures("a/frame-%03d.png"), "a/frame-%03d.png");
+  EXPECT_EQ(NumberedPictures("a/practice.mp4"), "a/practice.mp4");
+}
+
 TEST_F(Commands, ASurfaceIsReadInItsUnitAndLaidBeforeTheScope) {
   Open();
   SurfaceMesh mesh = test::Octahedron(5.0);  // mm
   for (auto& x : mesh.vertices) x += glm::dvec3(100, 0, 0);
   WriteSurface(temp / "part.ply", mesh);
-  ImportSurface(state, temp / "part.ply", "mm");
+  AskForUnit(state, temp / "part.ply");
   Settle(state);
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  const auto dialog = std::get<UnitDialog>(state.dialogs.back());
+  state.dialogs.clear();
+  EXPECT_DOUBLE_EQ(dialog.longest_side, 10.0);
+  EXPECT_EQ(dialog.unit, "mm");
+  ImportSurface(state, "part", *dialog.surface, dialog.unit);
   ASSERT_EQ(state.document().scene.tissues.size(), 2u);
   EXPECT_EQ(state.tissue, 1);
   EXPECT_EQ(state.document().scene.tissues[1].name, "part");
