@@ -2,9 +2,12 @@
 // options.h): lengths in millimetres, angles in degrees, the help as a tooltip.
 #pragma once
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "app/panels/widgets.h"
@@ -22,6 +25,7 @@ inline std::string WordsOfField(std::string name) {
 
 struct OptionsPanelVisitor {
   Ui& ui;
+  double longest = std::numeric_limits<double>::infinity();  // m; a slider ends there
   std::string changed_field = {};  // its words; empty when nothing changed
   bool held = false, released = false;
 
@@ -48,8 +52,11 @@ struct OptionsPanelVisitor {
       }
     } else if constexpr (std::is_same_v<T, double> && std::is_same_v<R, Range>) {
       double shown = field * border.factor;
-      const double low = range.min * border.factor, high = range.max * border.factor;
-      Note(words, Slider(ui, words, shown, low, high, Format(unit, high - low).c_str(), help),
+      const double most = std::string_view(unit) == "m" ? std::min(range.max, longest) : range.max;
+      const double low = range.min * border.factor, high = most * border.factor;
+      Note(words,
+           Slider(ui, words, shown, low, high,
+                  Format(unit, (range.max - range.min) * border.factor).c_str(), help),
            [&] { field = shown / border.factor; });
     } else if constexpr (std::is_same_v<T, int> && std::is_same_v<R, Range>) {
       int shown = field;
@@ -89,10 +96,12 @@ struct OptionsPanelVisitor {
   }
 };
 
-// The words of the field that changed, or "". `held` and `released` as in Change.
+// The words of the field that changed, or "". `held` and `released` as in Change. Sliders of
+// lengths end at `longest`, m, where that is less than the field allows.
 template <class Options>
-OptionsPanelVisitor OptionsPanel(Ui& ui, Options& options) {
-  OptionsPanelVisitor visitor{ui};
+OptionsPanelVisitor OptionsPanel(Ui& ui, Options& options,
+                                 double longest = std::numeric_limits<double>::infinity()) {
+  OptionsPanelVisitor visitor{ui, longest};
   options.Visit(visitor);
   return visitor;
 }

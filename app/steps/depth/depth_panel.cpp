@@ -1,6 +1,7 @@
 // Step 2: how the panorama's brightness becomes relief.
 #include <cfloat>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
@@ -10,10 +11,13 @@
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_panels.h"
 #include "app/steps/depth/depth_step.h"
+#include "simulation/core/units.h"
 
 namespace arthro::app {
 
 namespace {
+
+constexpr double kMostRelief = 0.95;  // share of the backdrop's distance that a slider reaches
 
 // Switch between the scene through the scope and the map.
 void ScopeOrMap(Ui& ui, EditorState& state) {
@@ -56,8 +60,16 @@ void DepthPanel(Ui& ui, EditorState& state) {
     Gap(ui);
   }
   authoring::DepthOptions options = document.depth_options;
+  // Relief stands out of the backdrop towards the incision and must not pass it.
+  const double radius = document.scene.backdrop.radius;
+  if (!is_imported && options.near_relief >= radius)
+    ColouredText(ui,
+                 fmt::format("The nearest tissue would lie behind the incision. Keep Near relief "
+                             "below {:.0f} mm, the distance of the backdrop.",
+                             MmFromMetres(radius)),
+                 kWarning);
   ImGui::BeginDisabled(is_imported);
-  const auto panel = OptionsPanel(ui, options);
+  const auto panel = OptionsPanel(ui, options, kMostRelief * radius);
   ImGui::EndDisabled();
   if (!panel.changed_field.empty()) SetDepthOptions(state, options, panel.changed_field);
   if (panel.held) state.dragging = true;

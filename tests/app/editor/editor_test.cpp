@@ -100,6 +100,23 @@ expect "Saved in"
   EXPECT_NEAR(nearest, 0.015, 1e-6);
 }
 
+TEST_F(EditorWindow, ReliefThatWouldPassTheIncisionIsNamed) {
+  Drive(R"(
+click Depth
+click "Make depth from the picture"
+wait job
+set "Near relief" 131
+wait job
+expect value "Near relief" "47.5 mm"
+expect not "behind the incision"
+click Panorama
+set "Distance of the backdrop" 20
+wait job
+click Depth
+expect "behind the incision"
+)");
+}
+
 TEST_F(EditorWindow, DragAndWheelOverThePictureMoveTheScope) {
   Drive(R"(
 expect value Longitude "0.0°"
