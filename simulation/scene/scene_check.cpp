@@ -11,6 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/held_nodes.h"
+#include "simulation/scene/hidden_share.h"
 #include "simulation/scene/mesh_io.h"
 
 namespace arthro {
@@ -203,6 +204,10 @@ void LookAtTissue(const LoadedScene& loaded, std::size_t index, const IsThinLaye
     findings.warnings.push_back(what +
                                 " lies wholly outside the backdrop's sphere and is never "
                                 "seen; move it, or mend its unit or scale");
+  else if (HiddenShare(surface, tissue.pose, OrEmpty(loaded.depth), loaded.scene.backdrop) == 1)
+    findings.warnings.push_back(what +
+                                " lies wholly behind the relief of the backdrop and is never "
+                                "seen; move it towards the portal");
   else if (outside > 0)
     findings.warnings.push_back(fmt::format(
         "{} lies outside the backdrop's sphere with {:.0f} % of its vertices", what,

@@ -203,6 +203,11 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
     SetTissue(state, state.tissue, changed, "Rename");
     EndDrag(state);
   }
+  if (IsHidden(state, state.tissue)) {
+    ColouredText(ui, "It lies behind the surface of the picture, where the scope cannot see it.",
+                 kWarning);
+    CommandButton(ui, state, "tissue-before-scope", {-FLT_MIN, 0});
+  }
   PoseFields(ui, state, tissue);
   QuietText(ui, "Or drag the box around it in the overview.");
   Gap(ui);

@@ -60,6 +60,10 @@ void AskForUnit(EditorState& state, const std::filesystem::path& file);
 // Adds a tissue of this name in the middle of the view. Vertices in `unit`: m, cm, mm, um or in.
 void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh,
                    const std::string& unit);
+// True where the relief hides nearly all of it from the scope's portal.
+bool IsHidden(const EditorState& state, int tissue);
+// Moves the chosen tissue to where an imported one is laid, in the middle of the view.
+void BringBeforeScope(EditorState& state);
 // Makes tetrahedra of the chosen tissue, beside the window.
 void TetrahedraliseTissue(EditorState& state);
 

@@ -9,11 +9,39 @@
 #include "simulation/core/box3.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/hidden_share.h"
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
 namespace fs = std::filesystem;
+
+namespace {
+
+// In front of the scope, where it is seen at once; portal frame, m.
+glm::dvec3 PlaceBeforeScope(const EditorState& state) {
+  const Scene& scene = state.document().scene;
+  const auto view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
+  return view.tip + 0.35 * scene.backdrop.radius * view.view;
+}
+
+}  // namespace
+
+bool IsHidden(const EditorState& state, int tissue) {
+  constexpr double kNearlyAll = 0.95;
+  const authoring::Document& document = state.document();
+  const auto at = static_cast<std::size_t>(tissue);
+  if (!document.panorama || at >= document.surfaces.size() || !document.surfaces[at]) return false;
+  return HiddenShare(*document.surfaces[at], document.scene.tissues[at].pose,
+                     OrEmpty(document.depth), document.scene.backdrop) >= kNearlyAll;
+}
+
+void BringBeforeScope(EditorState& state) {
+  Tissue changed = state.document().scene.tissues.at(static_cast<std::size_t>(state.tissue));
+  changed.pose.position = PlaceBeforeScope(state);
+  SetTissue(state, state.tissue, changed, "Move");
+  EndDrag(state);
+}
 
 void BrowseForSurface(EditorState& state) {
   Browse(state, BrowseFor::kOpenFile, "Import a surface", "Import",
@@ -39,10 +67,7 @@ void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh
   for (auto& x : mesh.vertices) x = metres_per_unit * (x - middle);
   Tissue tissue;
   tissue.name = name;
-  // In front of the scope, where it is seen at once.
-  const Scene& scene = state.document().scene;
-  const auto view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
-  tissue.pose.position = view.tip + 0.35 * scene.backdrop.radius * view.view;
+  tissue.pose.position = PlaceBeforeScope(state);
   AddTissue(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)));
   state.step = Step::kTissue;
 }

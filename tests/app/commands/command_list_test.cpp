@@ -467,6 +467,21 @@ TEST_F(Commands, ASurfaceThatCannotBeReadIsRefusedBeforeItsUnitIsAsked) {
   EXPECT_NE(std::get<ErrorDialog>(state.dialogs.back()).sentence.find("empty"), std::string::npos);
 }
 
+TEST_F(Commands, ATissueBehindTheReliefIsFoundAndBroughtBack) {
+  Open();
+  EXPECT_FALSE(IsHidden(state, 0));
+  Tissue changed = state.document().scene.tissues[0];
+  changed.pose.position *= 3.0;
+  SetTissue(state, 0, changed, "Move");
+  EndDrag(state);
+  EXPECT_TRUE(IsHidden(state, 0));
+  app::Run(state, "tissue-before-scope");
+  EXPECT_FALSE(IsHidden(state, 0));
+  app::Run(state, "undo");
+  EXPECT_TRUE(IsHidden(state, 0));
+  EXPECT_FALSE(IsHidden(state, 7)) << "there is none";
+}
+
 TEST_F(Commands, ASceneWithoutATitleGetsTheNameUnderWhichItIsSaved) {
   StartDocument(state, NewDocument(), true, {});
   SaveSceneAs(state);
