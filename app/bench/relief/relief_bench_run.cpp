@@ -7,6 +7,7 @@
 
 #include "app/bench/relief/relief_bench.h"
 #include "app/bench/relief/touch_error.h"
+#include "app/state/measured_backdrop.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/relief/make_relief.h"
@@ -118,11 +119,7 @@ std::vector<ReliefBenchRow> RunBrightness(const BenchClip& clip, int estimators,
     return rows;
   }
   const double of_panorama = ProcessCpuMs() - start;
-  const authoring::RgbaPicture& picture = panorama.picture;
-  ColourImage colours(picture.width, picture.height);
-  for (std::size_t i = 0; i < colours.rgb.size() / 3; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      colours.rgb[3 * i + c] = picture.rgba[4 * i + 3] > 0 ? picture.rgba[4 * i + c] : 0;
+  const ColourImage colours = OnBlack(panorama.picture);
   const test::PanoramaPlaces places = test::PlacesOf(panorama.report, clip.truth, clip.surface);
   double apart = 0, count = 0;
   for (const double spread : places.spread)
