@@ -195,7 +195,7 @@ BrightnessRange RangeFromBrightness(const std::vector<SurfaceView>& views,
     request.indices.push_back(static_cast<int>(v));
     measured.push_back(visible[v] & is_measured);
   }
-  const Layout layout = LayOverRelief(views, lens, cells, closed.radius, measured, request);
+  const Layout layout = LayOverRelief(views, lens, cells, closed, measured, request);
   if (layout.frames.size() < At(kLeastViews)) return found;
   std::vector<FrameCells> frame_cells(layout.frames.size());
   std::vector<CellRays> rays;
@@ -217,7 +217,11 @@ BrightnessRange RangeFromBrightness(const std::vector<SurfaceView>& views,
     const auto v = At(layout.frames[At(i)].index);
     lit[At(i)] = {&views[v], ExposureOf(pictures[v], light), light.frames[At(i)].gain};
   });
-  const cv::Mat normals = NormalsOf(cells, closed.radius);
+  // Slopes of the membrane itself, however uncertain: the estimate starts from them.
+  constexpr double kSmooth = 3;  // cells
+  cv::Mat smooth;
+  cv::GaussianBlur(closed.radius, smooth, {0, 0}, kSmooth);
+  const cv::Mat normals = NormalsOf(cells, smooth);
   const Estimator estimator(lit, lens, cells, closed.radius, normals, light);
   const auto seen_by = [&](int x, int y) {
     std::vector<int> seen;

@@ -35,7 +35,8 @@ constexpr int kSamples = 32;  // draws from the posterior: its deviation within 
 // One unknown per cell, row by row.
 class Membrane {
  public:
-  Membrane(const OpenSurface& open) : open_(open), size_(open.matched.size()) {
+  Membrane(const OpenSurface& open, const Progress& progress)
+      : open_(open), progress_(progress), size_(open.matched.size()) {
     target_.assign(Count(), 0);
     weight_.assign(Count(), 0);
     is_measured_.assign(Count(), false);
@@ -61,6 +62,7 @@ class Membrane {
     // Steps are those of matching at first, then those of the closed surface.
     Eigen::VectorXd x = Matched();
     for (int round = 0; round < kStepRounds; ++round) {
+      Step(0.2 * round);
       CutSteps(x);
       x = Solve();
     }
@@ -73,6 +75,8 @@ class Membrane {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
            static_cast<std::size_t>(x);
   }
+
+  void Step(double done) const { progress_.Step("closing the surface", done); }
 
   void AddEstimate() {
     if (open_.estimate.empty()) return;
@@ -229,6 +233,7 @@ class Membrane {
     };
     Eigen::VectorXd right(static_cast<Eigen::Index>(Count()));
     for (int sample = 0; sample < kSamples; ++sample) {
+      Step(0.2 * kStepRounds + 0.4 * sample / kSamples);
       right.setZero();
       for (int y = 0; y < size_.height; ++y)
         for (int x = 0; x < size_.width; ++x) {
@@ -285,6 +290,7 @@ class Membrane {
   }
 
   const OpenSurface& open_;
+  const Progress& progress_;
   cv::Size size_;
   std::vector<double> target_, weight_;  // per cell: logarithm of the radius, and its weight
   std::vector<bool> is_measured_, is_estimated_;
@@ -296,9 +302,9 @@ class Membrane {
 
 }  // namespace
 
-ClosedSurface CloseSurface(const OpenSurface& open) {
+ClosedSurface CloseSurface(const OpenSurface& open, const Progress& progress) {
   if (open.matched.empty()) return {};
-  Membrane membrane(open);
+  Membrane membrane(open, progress);
   return membrane.IsEmpty() ? ClosedSurface{} : membrane.Close();
 }
 

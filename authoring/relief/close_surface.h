@@ -8,6 +8,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "simulation/core/progress.h"
+
 namespace arthro::authoring {
 
 // CV_32FC1, one size.
@@ -23,6 +25,7 @@ struct ClosedSurface {
   cv::Mat origin;         // CV_8UC1 of ReliefOrigin
 };
 
-ClosedSurface CloseSurface(const OpenSurface& open);
+// Throws Error(kCancelled).
+ClosedSurface CloseSurface(const OpenSurface& open, const Progress& progress = {});
 
 }  // namespace arthro::authoring

@@ -13,9 +13,11 @@ constexpr int kHighlight = 21;  // px, of the lens's picture: wider gaps of a ma
 
 // Finds the cells that each view sees without its highlights. Cells that are a highlight in every
 // frame count as seen, since highlights hide no tissue.
-void See(const MeasuredRelief& made, int threads, FinishedSurface& finished) {
+void See(const MeasuredRelief& made, int threads, const Progress& progress,
+         FinishedSurface& finished) {
   const auto seen_by = [&](const std::vector<SurfaceView>& views, cv::Mat& seen) {
-    auto visible = VisibleCells(views, made.lens, finished.cells, finished.closed.radius, threads);
+    auto visible =
+        VisibleCells(views, made.lens, finished.cells, finished.closed.radius, threads, progress);
     seen = cv::Mat::zeros(finished.cells.size, CV_8U);
     for (const cv::Mat& one : visible) seen |= one;
     return visible;
@@ -46,12 +48,10 @@ FinishedSurface FinishSurface(const MeasuredRelief& made, const ReliefOptions& o
   OpenSurface open{surface.radius, SigmaOfMeasured(surface, made.lens.focal_px()), {}, {}};
   open.sigma.setTo(std::numeric_limits<float>::quiet_NaN(),
                    ~(finished.confidence >= options.least_confidence));
-  progress.Step("closing the surface", 0.0);
-  finished.closed = CloseSurface(open);
+  finished.closed = CloseSurface(open, progress);
   if (finished.closed.radius.empty()) return finished;
   finished.views = ViewsOf(made.clip.frames, made.motion.scene, 0);
-  const auto see = [&] { See(made, options.threads, finished); };
-  progress.Step("what each frame sees", 0.3);
+  const auto see = [&] { See(made, options.threads, progress, finished); };
   see();
   if (!options.use_brightness || !options.close) return finished;
 
@@ -64,7 +64,7 @@ FinishedSurface FinishSurface(const MeasuredRelief& made, const ReliefOptions& o
   if (cv::countNonZero(lit.radius > 0) == 0) return finished;
   open.estimate = lit.radius;
   open.estimate_sigma = lit.sigma;
-  finished.closed = CloseSurface(open);
+  finished.closed = CloseSurface(open, progress);
   see();
   return finished;
 }

@@ -14,7 +14,6 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kLeastSigma = 0.005;  // sigma of the logarithm; half a percent
-constexpr double kMostApart = 0.10;    // largest difference of two factors
 
 float RadiusAt(const SweptSurface& surface, const glm::dvec2& pixel) {
   const int x = static_cast<int>(std::lround(pixel.x)), y = static_cast<int>(std::lround(pixel.y));
@@ -102,25 +101,6 @@ ScalePart ScaleOf(const KnownInstrument& instrument, const Lens& lens, const Cam
   // Each edge is named to one pixel.
   const double width = glm::length(instrument.to - instrument.from);
   return {"instrument", instrument.metres, factor, std::max(kLeastSigma, std::sqrt(2.0) / width)};
-}
-
-JoinedScale JoinScales(std::span<const ScalePart> parts) {
-  double sum = 0, weights = 0;
-  for (const ScalePart& part : parts) {
-    for (const ScalePart& other : parts) {
-      const double ratio = part.factor / other.factor;
-      if (ratio > 1 + kMostApart)
-        throw Error(Code::kBadArgument,
-                    fmt::format("the {} of {:g} mm and the {} of {:g} mm contradict each other by "
-                                "{:.0f} %, and may differ by {:.0f} %; correct one or leave it out",
-                                part.source, MmFromMetres(part.metres), other.source,
-                                MmFromMetres(other.metres), 100 * (ratio - 1), 100 * kMostApart));
-    }
-    const double weight = 1 / (part.sigma * part.sigma);
-    sum += weight * std::log(part.factor);
-    weights += weight;
-  }
-  return {std::exp(sum / weights), 1 / std::sqrt(weights)};
 }
 
 }  // namespace arthro::authoring

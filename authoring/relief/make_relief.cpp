@@ -342,6 +342,7 @@ ReliefResult MakeRelief(const ReliefRequest& request, const Progress& progress,
   } else if (report.verdict.is_measured()) {
     report.verdict = JudgeCoverage(0);
   }
+  report.verdict = JudgeTool(report.verdict, made.clip.tool_shares);
   report.stages = clock.costs();
   report.peak_memory_mb = PeakMemoryMb();
   report.options = OptionsText(options);

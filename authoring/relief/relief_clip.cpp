@@ -12,6 +12,7 @@
 #include "authoring/panorama/footage_lens.h"
 #include "authoring/panorama/graph/parallel.h"
 #include "authoring/panorama/preparation/clip_look.h"
+#include "authoring/panorama/preparation/frame_masks.h"
 #include "authoring/panorama/preparation/prepare.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -164,11 +165,15 @@ ReliefClip ReadReliefClip(const std::filesystem::path& path, const std::optional
   const ClipLook look = builder.Finish();
   const double filter_scale = kFilterScale * std::max(size.width, size.height) / 480;
   clip.frames.resize(pictures.size());
+  clip.tool_shares.resize(pictures.size());
+  const double window = std::max(1, cv::countNonZero(clip.window));
   ForEachIndex(static_cast<int>(pictures.size()), options.threads, preparing,
                "evening out the light", [&](int i) {
                  const auto at = static_cast<std::size_t>(i);
                  clip.frames[at] = Prepare(chosen[at], pictures[at], filter_scale, clip.window,
                                            look, options.prepare);
+                 clip.tool_shares[at] =
+                     cv::countNonZero(ToolMask(pictures[at], clip.window)) / window;
                });
   clip.pictures = std::move(pictures);
   clock.End();

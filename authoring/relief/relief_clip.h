@@ -29,6 +29,7 @@ struct ReliefClip {
   double scale = 1;                  // working px per raw px
   std::vector<WorkingFrame> frames;  // usable rows, in order; with the fisheye
   std::vector<cv::Mat> pictures;     // CV_8UC3, RGB, of the frames, without even light
+  std::vector<double> tool_shares;   // part of the window that an instrument hides, per frame
   cv::Mat window;                    // CV_8UC1, 255 where the lens shows something
   std::vector<ClipRow> rows;         // all frames of the footage, in order
   std::vector<std::string> warnings;

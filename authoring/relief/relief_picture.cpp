@@ -158,6 +158,7 @@ ReliefPicture DrawOverRelief(const std::filesystem::path& footage, const Measure
   ReliefPicture drawn;
   drawn.scale = ScaleOf(made, finished);
   const std::vector<int> indices = FootageIndices(made);
+  progress.Step("distances in the panorama", 0.0);
   drawn.error_px = ErrorsOf(made, finished, indices, drawn.scale);
   ReliefLayoutRequest request;
   request.picture_scale = 1 / made.clip.scale;
@@ -167,8 +168,9 @@ ReliefPicture DrawOverRelief(const std::filesystem::path& footage, const Measure
     request.indices.push_back(indices[static_cast<std::size_t>(view.frame)]);
     wanted.insert(request.indices.back());
   }
-  const Layout layout = LayOverRelief(finished.views, made.lens, finished.cells,
-                                      finished.closed.radius, finished.visible, request);
+  progress.Step("placing the frames", 0.0);
+  const Layout layout = LayOverRelief(finished.views, made.lens, finished.cells, finished.closed,
+                                      finished.visible, request);
   ChosenPictures pictures(footage, wanted);
   FramePicture picture;
   picture.draw = [](const cv::Mat& raw, cv::Mat& as_is) { as_is = raw; };

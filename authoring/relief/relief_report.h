@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "authoring/panorama/stage_clock.h"
+#include "authoring/relief/joined_scale.h"
 #include "simulation/scene/projection.h"
 
 namespace arthro::authoring {
@@ -33,14 +34,6 @@ struct PosedFrame {
 struct PortalSlide {
   int frame = 0;                  // in the footage
   std::array<double, 3> shift{};  // m
-};
-
-// The scale by one length that the author knows.
-struct ScalePart {
-  std::string source;  // "length" or "instrument"
-  double metres = 0;
-  double factor = 1;  // metres per metre of the reconstruction
-  double sigma = 0;   // standard error of the factor's logarithm, from the pixels that were named
 };
 
 // Whether the clip determines depth, and the test that decided it.

@@ -72,27 +72,29 @@ std::vector<SurfaceView> ViewsOf(const std::vector<WorkingFrame>& frames,
 }
 
 std::vector<cv::Mat> VisibleCells(const std::vector<SurfaceView>& views, const LensProfile& lens,
-                                  const SurfaceCells& cells, const cv::Mat& radius, int threads) {
+                                  const SurfaceCells& cells, const cv::Mat& radius, int threads,
+                                  const Progress& progress) {
   std::vector<cv::Mat> visible(views.size());
-  ForEachIndex(static_cast<int>(views.size()), threads, {}, "", [&](int i) {
-    const SurfaceView& view = views[static_cast<std::size_t>(i)];
-    cv::Mat seen = cv::Mat::zeros(cells.size, CV_8U), hidden = seen.clone();
-    for (int y = 0; y < cells.size.height; ++y) {
-      const cv::Vec3f* d = cells.Row(y);
-      for (int x = 0; x < cells.size.width; ++x) {
-        const float r = radius.at<float>(y, x);
-        double pixel[2];
-        if (!(r > 0) || !PixelOf(view, lens, d[x] * r, pixel)) continue;
-        seen.at<std::uint8_t>(y, x) = 255;
-        if (x % 2 == 0 && y % 2 == 0 && IsHidden(view, cells, radius, d[x] * r))
-          hidden.at<std::uint8_t>(y, x) = 255;
-      }
-    }
-    // Every other cell stands for its neighbours.
-    cv::dilate(hidden, hidden, cv::Mat::ones(3, 3, CV_8U));
-    seen.setTo(0, hidden);
-    visible[static_cast<std::size_t>(i)] = seen;
-  });
+  ForEachIndex(static_cast<int>(views.size()), threads, progress, "what each frame sees",
+               [&](int i) {
+                 const SurfaceView& view = views[static_cast<std::size_t>(i)];
+                 cv::Mat seen = cv::Mat::zeros(cells.size, CV_8U), hidden = seen.clone();
+                 for (int y = 0; y < cells.size.height; ++y) {
+                   const cv::Vec3f* d = cells.Row(y);
+                   for (int x = 0; x < cells.size.width; ++x) {
+                     const float r = radius.at<float>(y, x);
+                     double pixel[2];
+                     if (!(r > 0) || !PixelOf(view, lens, d[x] * r, pixel)) continue;
+                     seen.at<std::uint8_t>(y, x) = 255;
+                     if (x % 2 == 0 && y % 2 == 0 && IsHidden(view, cells, radius, d[x] * r))
+                       hidden.at<std::uint8_t>(y, x) = 255;
+                   }
+                 }
+                 // Every other cell stands for its neighbours.
+                 cv::dilate(hidden, hidden, cv::Mat::ones(3, 3, CV_8U));
+                 seen.setTo(0, hidden);
+                 visible[static_cast<std::size_t>(i)] = seen;
+               });
   return visible;
 }
 

@@ -11,6 +11,7 @@
 #include "authoring/panorama/frames/working_frame.h"
 #include "authoring/relief/bundle.h"
 #include "authoring/relief/lens_profile.h"
+#include "simulation/core/progress.h"
 #include "simulation/scene/projection.h"
 
 namespace arthro::authoring {
@@ -66,6 +67,7 @@ inline bool PixelOf(const SurfaceView& view, const LensProfile& lens, const cv::
 // For each view the cells that it sees: inside its mask, and not hidden by a nearer part of the
 // surface. CV_8UC1, 255 where seen. `radius` has a value in every cell.
 std::vector<cv::Mat> VisibleCells(const std::vector<SurfaceView>& views, const LensProfile& lens,
-                                  const SurfaceCells& cells, const cv::Mat& radius, int threads);
+                                  const SurfaceCells& cells, const cv::Mat& radius, int threads,
+                                  const Progress& progress = {});
 
 }  // namespace arthro::authoring

@@ -166,29 +166,6 @@ cv::Mat RadiusOf(const LayerChoice& choice, const std::vector<cv::Mat>& radii) {
   return radius;
 }
 
-// Smooth surface without holes, on a grid of another size, as the base of the next round.
-cv::Mat BaseOf(const cv::Mat& radius, const cv::Size& size, double smoothing) {
-  cv::Mat known = radius == radius, value = radius.clone(), weight, blurred;
-  value.setTo(0, ~known);
-  known.convertTo(weight, CV_32F, 1.0 / 255);
-  // Wider and wider, until every cell has a value.
-  cv::Mat filled = cv::Mat::zeros(radius.size(), CV_32F),
-          left(radius.size(), CV_8U, cv::Scalar(255));
-  for (double sigma = smoothing; cv::countNonZero(left) > 0 && sigma < 4 * radius.cols;
-       sigma *= 3) {
-    cv::Mat w;
-    cv::GaussianBlur(value, blurred, {0, 0}, sigma);
-    cv::GaussianBlur(weight, w, {0, 0}, sigma);
-    const cv::Mat enough = (w > 0.02) & left;
-    cv::Mat quotient = blurred / cv::max(w, 1e-6);
-    quotient.copyTo(filled, enough);
-    left.setTo(0, enough);
-  }
-  cv::Mat base;
-  cv::resize(filled, base, size, 0, 0, cv::INTER_LINEAR);
-  return base;
-}
-
 // Median of a surface with holes, by 5 x 5 cells.
 cv::Mat Cleaned(const cv::Mat& radius) {
   cv::Mat out = radius.clone();
@@ -208,6 +185,35 @@ cv::Mat Cleaned(const cv::Mat& radius) {
       out.at<float>(y, x) = *middle;
     }
   return out;
+}
+
+// Smooth surface without holes, on a grid of another size, as the base of the next round.
+cv::Mat BaseOf(const cv::Mat& radius, const cv::Size& size, double smoothing) {
+  cv::Mat known = radius == radius, value = radius.clone(), weight, blurred;
+  value.setTo(0, ~known);
+  known.convertTo(weight, CV_32F, 1.0 / 255);
+  // Wider and wider, until every cell has a value.
+  cv::Mat filled = cv::Mat::zeros(radius.size(), CV_32F),
+          left(radius.size(), CV_8U, cv::Scalar(255));
+  for (double sigma = smoothing; cv::countNonZero(left) > 0 && sigma < 4 * radius.cols;
+       sigma *= 3) {
+    cv::Mat w;
+    cv::GaussianBlur(value, blurred, {0, 0}, sigma);
+    cv::GaussianBlur(weight, w, {0, 0}, sigma);
+    const cv::Mat enough = (w > 0.02) & left;
+    cv::Mat quotient = blurred / cv::max(w, 1e-6);
+    quotient.copyTo(filled, enough);
+    left.setTo(0, enough);
+  }
+  // Across a step the blur is a ramp, from which the few layers of the next round reach neither
+  // side: there the surface stays as it is.
+  constexpr double kStep = 0.02;  // share of the radius
+  const cv::Mat cleaned = Cleaned(radius);
+  const cv::Mat is_step = known & (cv::abs(cleaned - filled) > kStep * filled);
+  cleaned.copyTo(filled, is_step);
+  cv::Mat base;
+  cv::resize(filled, base, size, 0, 0, cv::INTER_LINEAR);
+  return base;
 }
 
 // Share of the views that agree with the surface: a view agrees where it correlates best within

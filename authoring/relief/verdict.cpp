@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "authoring/relief/median.h"
+
 namespace arthro::authoring {
 
 ReliefVerdict JudgeMotion(const Motion& motion) {
@@ -80,6 +82,19 @@ ReliefVerdict JudgeCoverage(double coverage) {
                       "footage with more light, or that comes nearer",
                       100 * coverage),
           "share of the cells measured with confidence", coverage, kLeast};
+}
+
+ReliefVerdict JudgeTool(const ReliefVerdict& found, std::span<const double> shares) {
+  constexpr double kHides = 0.2;  // share of the window, at the median
+  const bool lacks_tissue = found.kind == "texture" || found.kind == "pieces" ||
+                            found.kind == "ambiguous" || found.kind == "dense";
+  const double hidden = Median({shares.begin(), shares.end()});
+  if (!lacks_tissue || hidden < kHides) return found;
+  return {"tool",
+          fmt::format("an instrument hides {:.0f} % of the picture in most frames; withdraw it, or "
+                      "give a part of the clip without it",
+                      100 * hidden),
+          "share of the picture that an instrument hides, median", hidden, kHides};
 }
 
 }  // namespace arthro::authoring

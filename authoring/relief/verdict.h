@@ -1,6 +1,8 @@
 // Decides whether a clip determines depth, by tests that the report names with value and limit.
 #pragma once
 
+#include <span>
+
 #include "authoring/relief/motion.h"
 #include "authoring/relief/relief_report.h"
 
@@ -16,5 +18,9 @@ ReliefVerdict JudgePivot(double miss, double spread);
 
 // After the sweep: dense, where too little of the surface was measured.
 ReliefVerdict JudgeCoverage(double coverage);
+
+// At the end: tool, where a clip was refused for the tissue that it shows, and an instrument hides
+// much of it throughout; else `found`. `shares`: part of the window that it hides, per frame.
+ReliefVerdict JudgeTool(const ReliefVerdict& found, std::span<const double> shares);
 
 }  // namespace arthro::authoring

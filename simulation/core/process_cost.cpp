@@ -18,6 +18,15 @@ double ProcessCpuMs() { return ClockMs(CLOCK_PROCESS_CPUTIME_ID); }
 
 double ThreadCpuMs() { return ClockMs(CLOCK_THREAD_CPUTIME_ID); }
 
+double ChildrenCpuMs() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  const auto milliseconds = [](const timeval& time) {
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
+  };
+  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
 double PeakMemoryMb() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

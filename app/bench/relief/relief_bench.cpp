@@ -21,12 +21,12 @@ std::string Number(double value, int decimals) {
 std::string TableOf(const ReliefBench& bench) {
   std::string table = fmt::format(
       "# relief: speed against error | {} | seed {}, {} touches\n"
-      "{:<9}{:<28}{:>8}{:>10}{:>9}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>9}  {}\n",
+      "{:<11}{:<34}{:>8}{:>10}{:>9}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>9}  {}\n",
       MachineWords(), bench.options.seed, bench.options.touches, "clip", "way", "placed",
       "CPU ms/fr", "covered", "rmse mm", "med. mm", "< 1 mm", "Spearman", "apart px", "force N",
       "of N", "outcome");
   for (const ReliefBenchRow& row : bench.rows)
-    table += fmt::format("{:<9}{:<28}{:>8}{:>10}{:>9}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>9}  {}\n",
+    table += fmt::format("{:<11}{:<34}{:>8}{:>10}{:>9}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>9}  {}\n",
                          row.clip, row.way, fmt::format("{}/{}", row.placed, row.frames),
                          Number(row.cpu_ms, 1), Number(row.coverage, 2), Number(row.rmse_mm, 2),
                          Number(row.median_mm, 2), Number(row.within_1mm, 2),
@@ -35,9 +35,9 @@ std::string TableOf(const ReliefBench& bench) {
   return table +
          "Errors are those of the distance from the portal, over the directions that three frames "
          "see: after the similarity\nthat fits the cameras best for motion, and after the affine "
-         "law that fits the truth best for brightness.\nforce N: rms difference from the force "
-         "over "
-         "the true surface; of N: rms of that force.\n";
+         "law that fits the truth best for brightness.\nCOLMAP gives points: they cover the cells "
+         "of half a degree that hold one.\nforce N: rms difference from the force over the true "
+         "surface; of N: rms of that force.\n";
 }
 
 nlohmann::json JsonOf(const ReliefBench& bench) {
@@ -69,8 +69,9 @@ nlohmann::json JsonOf(const ReliefBench& bench) {
 std::string PlotOf(const ReliefBench& bench) {
   std::vector<PlotMark> marks;
   for (const ReliefBenchRow& row : bench.rows)
-    marks.push_back({row.clip, row.way, row.cpu_ms, row.rmse_mm,
-                     std::isfinite(row.coverage) ? row.coverage : 0});
+    if (std::isfinite(row.cpu_ms))  // it ran
+      marks.push_back({row.clip, row.way, row.cpu_ms, row.rmse_mm,
+                       std::isfinite(row.coverage) ? row.coverage : 0});
   return SpeedErrorSvg({"Relief: speed against error", "processor time per frame, ms",
                         "error of the distance from the portal, rms, mm",
                         "filled: share of the directions covered; top edge: no surface",

@@ -1,6 +1,7 @@
 // Speed against error of relief, on clips of a cavity with known surface and poses: measured from
-// the motion of the scope, and estimated from the brightness of a panorama of homographies. The
-// processor time spans from the pictures to the relief.
+// the motion of the scope with and without portal and brightness, estimated from the brightness of
+// a panorama of homographies, and the points of COLMAP where it is installed. The processor time
+// spans from the pictures to the relief.
 #pragma once
 
 #include <string>

@@ -1,12 +1,15 @@
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "app/bench/relief/colmap_peer.h"
 #include "app/bench/relief/relief_bench.h"
 #include "app/bench/relief/touch_error.h"
+#include "app/state/measured_backdrop.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/relief/make_relief.h"
@@ -37,6 +40,8 @@ struct ReliefWay {
 
 std::vector<ReliefWay> ReliefWays() {
   return {{"motion and portal", [](authoring::ReliefOptions&) {}},
+          {"motion and portal, no brightness",
+           [](authoring::ReliefOptions& options) { options.use_brightness = false; }},
           {"motion", [](authoring::ReliefOptions& options) { options.use_pivot = false; }}};
 }
 
@@ -59,14 +64,17 @@ ReliefBenchRow NewRow(const BenchClip& clip, const char* way) {
   return row;
 }
 
-void Score(const test::FoundSurface& found, const BenchClip& clip,
-           const ReliefBenchOptions& options, ReliefBenchRow& row) {
-  const test::SurfaceScore score = test::ScoreSurface(found, clip.surface);
+void TakeScore(const test::SurfaceScore& score, ReliefBenchRow& row) {
   row.coverage = score.coverage;
   row.rmse_mm = MmFromMetres(score.rmse);
   row.median_mm = MmFromMetres(score.median);
   row.within_1mm = score.within_1mm;
   row.spearman = score.spearman;
+}
+
+void Score(const test::FoundSurface& found, const BenchClip& clip,
+           const ReliefBenchOptions& options, ReliefBenchRow& row) {
+  TakeScore(test::ScoreSurface(found, clip.surface), row);
   const TouchError touch = MeasureTouches(found, clip.surface, options.touches, options.seed);
   if (touch.touches == 0) return;
   row.force_error = touch.rms;
@@ -118,11 +126,7 @@ std::vector<ReliefBenchRow> RunBrightness(const BenchClip& clip, int estimators,
     return rows;
   }
   const double of_panorama = ProcessCpuMs() - start;
-  const authoring::RgbaPicture& picture = panorama.picture;
-  ColourImage colours(picture.width, picture.height);
-  for (std::size_t i = 0; i < colours.rgb.size() / 3; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      colours.rgb[3 * i + c] = picture.rgba[4 * i + 3] > 0 ? picture.rgba[4 * i + c] : 0;
+  const ColourImage colours = OnBlack(panorama.picture);
   const test::PanoramaPlaces places = test::PlacesOf(panorama.report, clip.truth, clip.surface);
   double apart = 0, count = 0;
   for (const double spread : places.spread)
@@ -146,6 +150,28 @@ std::vector<ReliefBenchRow> RunBrightness(const BenchClip& clip, int estimators,
     rows.push_back(row);
   }
   return rows;
+}
+
+// Sparse points instead of a surface: a cell without a point counts as not covered, and there is
+// nothing to touch.
+ReliefBenchRow RunPeer(const BenchClip& clip, const Progress& progress) {
+  ReliefBenchRow row = NewRow(clip, "COLMAP, points");
+  const char* path = std::getenv("PATH");
+  const auto program = FindProgram("colmap", path ? path : "");
+  if (!program) {
+    row.outcome = "not installed: COLMAP was not compared; install colmap";
+    row.cpu_ms = kNothing;
+    return row;
+  }
+  const ColmapModel model = RunColmap(*program, clip.footage, clip.truth.lens, progress);
+  row.outcome = model.outcome;
+  row.cpu_ms = model.cpu_ms / row.frames;
+  row.placed = static_cast<int>(model.frames.size());
+  const auto fit = test::FitCameras(model.frames, clip.truth.poses);
+  if (!fit) return row;
+  TakeScore(test::ScoreSurface(test::SurfaceOf(model.points, *fit, clip.surface), clip.surface),
+            row);
+  return row;
 }
 
 // Small clips of rising difficulty, drawn into `folder`.
@@ -194,7 +220,7 @@ ReliefBench RunReliefBench(const ReliefBenchOptions& options, const Progress& pr
   std::vector<ReliefWay> ways = ReliefWays();
   if (options.quick) ways.resize(1);
   const int estimators = options.quick ? 1 : static_cast<int>(std::size(kBrightnessWays));
-  const double runs = static_cast<double>(clips.size() * (ways.size() + 1));
+  const double runs = static_cast<double>(clips.size() * (ways.size() + 2));
   double run = 0;
   for (const BenchClip& clip : clips) {
     for (const ReliefWay& way : ways) {
@@ -204,6 +230,9 @@ ReliefBench RunReliefBench(const ReliefBenchOptions& options, const Progress& pr
     progress.Step("homographies", run++ / runs);
     for (ReliefBenchRow& row : RunBrightness(clip, estimators, options, {{}, progress.stop}))
       bench.rows.push_back(std::move(row));
+    if (options.quick) continue;
+    progress.Step("COLMAP", run++ / runs);
+    bench.rows.push_back(RunPeer(clip, {{}, progress.stop}));
   }
   return bench;
 }

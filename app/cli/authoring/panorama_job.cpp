@@ -17,7 +17,7 @@
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "app/state/footage_optics.h"
-#include "app/state/relief_scene.h"
+#include "app/state/measured_backdrop.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"

@@ -16,7 +16,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
-#include "app/state/relief_scene.h"
+#include "app/state/measured_backdrop.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
 #include "authoring/relief/make_relief.h"

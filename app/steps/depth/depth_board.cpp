@@ -33,8 +33,12 @@ MeasuredBackdrop BackdropOf(const Document& document) {
           document.scene.backdrop.radius};
 }
 
-authoring::KnownDistance KnownOf(const LengthPick& length) {
-  return {*length.points.from, *length.points.to, length.metres};
+authoring::ScalePart ScaleOf(const authoring::ReliefView& view, const LengthPick& length,
+                             const char* source) {
+  authoring::ScalePart part =
+      authoring::ScaleFromLength(view, {length.metres, *length.points.from, *length.points.to});
+  part.source = source;
+  return part;
 }
 
 // Origins of a depth that was made from brightness, which a document does not keep.
@@ -170,12 +174,13 @@ void SetScale(EditorState& state) {
   const Document& document = state.document();
   if (!CanSetScale(state)) return;
   const authoring::ReliefView view = ReliefViewOf(document);
-  std::vector<authoring::ScaleFactor> scales;
   LengthPick& chosen = board.length();
-  const LengthPick& other = board.kind == LengthKind::kTissue ? board.instrument : board.tissue;
-  scales.push_back(authoring::ScaleFromDistance(view, KnownOf(chosen)));
-  if (other.is_given) scales.push_back(authoring::ScaleFromDistance(view, KnownOf(other)));
-  const double factor = authoring::JoinScales(scales);
+  std::vector<authoring::ScalePart> parts;
+  if (&chosen == &board.tissue || board.tissue.is_given)
+    parts.push_back(ScaleOf(view, board.tissue, "length"));
+  if (&chosen == &board.instrument || board.instrument.is_given)
+    parts.push_back(ScaleOf(view, board.instrument, "instrument"));
+  const double factor = authoring::JoinScales(parts).factor;
 
   MeasuredBackdrop backdrop = BackdropOf(document);
   const double before = backdrop.radius;

@@ -5,6 +5,7 @@
 
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/state/measured_depth.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_words.h"

@@ -9,7 +9,6 @@
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/panorama_run.h"
-#include "authoring/relief/enlarge_relief.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -43,21 +42,8 @@ std::optional<ReliefSettings> ReliefSettingsOf(const FootageBoard& board) {
 
 MadeRelief MadeReliefOf(authoring::ReliefResult result) {
   MadeRelief made;
-  const int factor = std::max(1, result.picture_scale);
-  MeasuredBackdrop& backdrop = made.backdrop;
-  if (!result.relief.empty() && result.picture.width == factor * result.relief.width &&
-      result.picture.height == factor * result.relief.height) {
-    backdrop.panorama = PictureFromRgba(result.picture);
-    made.shown = PictureFromRgba(result.picture, kBoardEdge);
-    // A larger difference between neighbouring cells of half a degree is steeper than 75°.
-    constexpr double kStep = 0.035;  // share of the radius
-    const auto step = static_cast<float>(kStep * result.report.radius);
-    backdrop.depth = Share(authoring::EnlargedMap(result.relief, factor, step));
-    backdrop.sigma = Share(authoring::EnlargedMap(result.sigma, factor, step));
-    backdrop.origin = Share(authoring::EnlargedMap(result.origin, factor));
-    backdrop.projection = authoring::EnlargedProjection(result.report.projection, factor);
-    backdrop.radius = result.report.radius;
-  }
+  made.backdrop = BackdropOf(result);
+  if (made.backdrop.panorama) made.shown = PictureFromRgba(result.picture, kBoardEdge);
   made.report = std::move(result.report);
   return made;
 }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "app/state/measured_depth.h"
+#include "app/state/measured_backdrop.h"
 #include "app/steps/panorama/footage_board.h"
 #include "authoring/relief/make_relief.h"
 

@@ -15,7 +15,6 @@ namespace {
 constexpr double kShortest = 0.5e-3, kLongest = 0.2;  // m, of a length inside a joint
 constexpr double kMostFactor = 10;          // a joint is neither a tenth nor ten times as large
 constexpr double kMostRelativeSigma = 0.2;  // share of the distance between the two points
-constexpr double kMostDisagreement = 0.1;   // between two known lengths
 // Relative error of a click and of the length itself, which no reading knows.
 constexpr double kClickSigma = 0.02;
 
@@ -32,7 +31,7 @@ ReliefReading MeasuredAt(const ReliefView& view, const glm::dvec2& pixel, const 
 
 }  // namespace
 
-ScaleFactor ScaleFromDistance(const ReliefView& view, const KnownDistance& known) {
+ScalePart ScaleFromLength(const ReliefView& view, const KnownLength& known) {
   if (!(known.metres >= kShortest && known.metres <= kLongest))
     throw Error(
         Code::kBadArgument,
@@ -64,25 +63,7 @@ ScaleFactor ScaleFromDistance(const ReliefView& view, const KnownDistance& known
                 fmt::format("the two points are {:.1f} mm apart now, and {:g} mm would change the "
                             "scene by a factor of {:.3g}; check the length and the points",
                             MmFromMetres(distance), MmFromMetres(known.metres), factor));
-  return {factor, std::hypot(sigma / distance, kClickSigma)};
-}
-
-double JoinScales(std::span<const ScaleFactor> scales) {
-  double sum = 0, weights = 0;
-  for (const ScaleFactor& scale : scales) {
-    for (const ScaleFactor& other : scales) {
-      const double ratio = scale.factor / other.factor;
-      if (ratio > 1 + kMostDisagreement)
-        throw Error(Code::kBadArgument,
-                    fmt::format("the two lengths disagree by {:.0f} %, and at most {:.0f} % is "
-                                "accepted; measure both again or remove one of them",
-                                100 * (ratio - 1), 100 * kMostDisagreement));
-    }
-    const double weight = 1 / std::max(scale.relative_sigma * scale.relative_sigma, 1e-12);
-    sum += weight * std::log(scale.factor);
-    weights += weight;
-  }
-  return weights > 0 ? std::exp(sum / weights) : 1;
+  return {"length", known.metres, factor, std::hypot(sigma / distance, kClickSigma)};
 }
 
 DepthMap ScaledMap(const DepthMap& map, double factor) {

@@ -189,6 +189,22 @@ TEST_F(ReliefRun, ReliefUncertaintyAndOriginBecomeTheBackdropInOneStep) {
   EXPECT_FALSE(state.document().depth_origin);
 }
 
+TEST_F(ReliefRun, TheSceneOfAJobHasTheBackdropOfTheWindow) {
+  RunIt();
+  app::Run(state, "use-panorama");
+  const authoring::Document& window = state.document();
+  const authoring::Document job =
+      DocumentFromRelief(MadeUpRelief({}, {}, {}), board().lenses.back().lens, 0.5);
+  EXPECT_EQ(job.panorama->rgb, window.panorama->rgb);
+  EXPECT_EQ(job.depth->relief, window.depth->relief);
+  EXPECT_EQ(job.depth_sigma->relief, window.depth_sigma->relief);
+  EXPECT_EQ(job.depth_origin->origin, window.depth_origin->origin);
+  EXPECT_EQ(job.scene.backdrop.radius, window.scene.backdrop.radius);
+  EXPECT_EQ(job.scene.backdrop.projection, window.scene.backdrop.projection);
+  EXPECT_EQ(job.scene.scope.lens, window.scene.scope.lens);
+  EXPECT_TRUE(job.is_depth_imported && window.is_depth_imported);
+}
+
 TEST_F(ReliefRun, AClipThatDoesNotDetermineDepthIsPlacedAsUsualAndSaysWhy) {
   Measure(Refused);
   RunIt();

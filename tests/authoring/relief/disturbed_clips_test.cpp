@@ -64,10 +64,26 @@ TEST(MakeRelief, MeasuresUnderHighlightsOrRefuses) {
 // RELIEF-05.
 TEST(MakeRelief, MeasuresTheTissueAroundAnInstrument) {
   test::CavityOptions clip = SmallClip();
-  clip.tool = true;
+  clip.tool = 22;
   const ReliefResult result = ReliefOf(clip);
   ASSERT_TRUE(result.report.verdict.is_measured()) << result.report.verdict.sentence;
   EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+}
+
+// RELIEF-18. An instrument that hides much of every frame: right, or refused by its name.
+TEST(MakeRelief, MeasuresBesideALargeInstrumentOrNamesIt) {
+  for (const double width : {70, 110}) {
+    test::CavityOptions clip = SmallClip();
+    clip.tool = width;
+    const ReliefResult result = ReliefOf(clip);
+    EXPECT_TRUE(HasReasons(result.report));
+    const ReliefVerdict& verdict = result.report.verdict;
+    if (verdict.is_measured()) {
+      EXPECT_LT(test::MedianRadialError(result, clip), 2e-3) << "m";
+    } else {
+      EXPECT_NE(verdict.sentence.find("instrument"), std::string::npos) << verdict.sentence;
+    }
+  }
 }
 
 // RELIEF-06.

@@ -131,6 +131,20 @@ TEST(JudgeMotion, RefusesAClipThatTwoPathsExplain) {
   EXPECT_EQ(JudgeMotion(motion).kind, "ambiguous");
 }
 
+// RELIEF-18.
+TEST(JudgeTool, NamesAnInstrumentThatHidesMuchOfARefusedClip) {
+  const std::vector<double> much{0.05, 0.3, 0.25, 0.4}, little{0.3, 0.05, 0.02, 0.1};
+  const ReliefVerdict pieces{"pieces", "few frames join", "share", 0.3, 0.5};
+  const ReliefVerdict tool = JudgeTool(pieces, much);
+  EXPECT_EQ(tool.kind, "tool");
+  EXPECT_EQ(tool.value, 0.3);
+  EXPECT_NE(tool.sentence.find("30 % of the picture"), std::string::npos) << tool.sentence;
+  EXPECT_EQ(JudgeTool(pieces, little).kind, "pieces");
+  EXPECT_TRUE(JudgeTool({}, much).is_measured()) << "right beside the instrument";
+  EXPECT_EQ(JudgeTool({"rotation_only", "", "", 0, 1}, much).kind, "rotation_only")
+      << "the instrument is not the reason";
+}
+
 TEST(JudgeMotion, NamesMissingTexture) {
   CavityOptions options;
   options.points = 30;

@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <atomic>
 #include <ctime>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "authoring/relief/make_relief.h"
 #include "simulation/core/error.h"
@@ -60,6 +64,51 @@ TEST(StopRelief, TakesEffectWithinHalfASecondOfProcessorTimeInEveryStage) {
       EXPECT_EQ(error.code(), Code::kCancelled) << error.what();
       EXPECT_LT(ThreadSeconds() - stopped_at, 0.5) << "s, in \"" << stage << '"';
     }
+  }
+}
+
+// The clip at twice its size: 480 x 400 px.
+Lens DoubleClip(const std::filesystem::path& folder) {
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    const std::string name = file.path().string();
+    cv::Mat large;
+    cv::resize(cv::imread(name), large, {}, 2, 2, cv::INTER_CUBIC);
+    cv::imwrite(name, large);
+  }
+  Lens lens = test::CavityLens();
+  lens.width *= 2, lens.height *= 2;
+  lens.cx = 2 * lens.cx + 0.5, lens.cy = 2 * lens.cy + 0.5;
+  lens.focal_px *= 2;
+  lens.circle = {lens.cx, lens.cy, 2 * lens.circle.r};
+  return lens;
+}
+
+// Each report looks at the stop first, so that the time between two reports is the longest wait.
+// Stages that adjust poses look more often than they report; the test above is about them.
+TEST(StopRelief, LooksAtTheStopWithinHalfASecondFromTheSweepOn) {
+  const test::TempFolder folder;
+  test::WriteCavityClip(folder.path(), {});
+  ReliefRequest request;
+  request.lens = DoubleClip(folder.path());
+  request.footage = folder.path();
+  request.options.threads = 1;
+  std::string before;
+  double since = 0;
+  std::map<std::string, double> longest;
+  Progress progress;
+  progress.report = [&](std::string_view words, double) {
+    if (!before.empty()) longest[before] = std::max(longest[before], ThreadSeconds() - since);
+    before = StageOf(words);
+    since = ThreadSeconds();
+  };
+  ASSERT_TRUE(MakeRelief(request, progress).report.verdict.is_measured());
+  longest[before] = std::max(longest[before], ThreadSeconds() - since);
+  for (const char* stage :
+       {"trying all radii", "refining the surface", "checking the surface", "closing the surface",
+        "what each frame sees", "reading brightness", "distances in the panorama",
+        "placing the frames", "look at frames", "even light", "choose frames", "blend", "finish"}) {
+    ASSERT_TRUE(longest.contains(stage)) << stage;
+    EXPECT_LT(longest[stage], 0.5) << "s, in \"" << stage << '"';
   }
 }
 

@@ -71,6 +71,11 @@ TEST(SurfaceScore, UndoesTheSimilarityOfAMeasuredRelief) {
     frame.centre = {centre.x(), centre.y(), centre.z()};
     result.report.frames.push_back(frame);
   }
+  const PoseScore poses = ScorePoses(result.report, truth);
+  EXPECT_EQ(poses.posed, 5);
+  EXPECT_LT(poses.path, 1e-9);
+  EXPECT_LT(poses.rotation, 1e-6) << "arc cosine near one";
+  EXPECT_NEAR(poses.portal, shift.norm(), 1e-9);
   const auto found = SurfaceOf(result, truth, surface);
   ASSERT_TRUE(found);
   const SurfaceScore score = ScoreSurface(*found, surface);

@@ -251,12 +251,14 @@ void AddDebris(const CavityOptions& options, int frame, cv::Mat& picture) {
 
 // A steel shaft from the rim, that swings a little.
 void AddTool(const CavityOptions& options, int frame, cv::Mat& picture) {
-  if (!options.tool) return;
+  if (!(options.tool > 0)) return;
   const cv::Point2d tip(0.45 * picture.cols + 12 * std::sin(0.4 * frame), 0.55 * picture.rows);
   const double angle = 0.6 + 0.15 * std::sin(0.3 * frame);
   const cv::Point2d end = tip + 300 * cv::Point2d(std::cos(angle), std::sin(angle));
-  cv::line(picture, tip, end, cv::Scalar(120, 120, 120), 22, cv::LINE_AA);
-  cv::line(picture, tip, end, cv::Scalar(190, 190, 190), 8, cv::LINE_AA);
+  cv::line(picture, tip, end, cv::Scalar(120, 120, 120), static_cast<int>(options.tool),
+           cv::LINE_AA);
+  cv::line(picture, tip, end, cv::Scalar(190, 190, 190), static_cast<int>(0.36 * options.tool),
+           cv::LINE_AA);
 }
 
 }  // namespace

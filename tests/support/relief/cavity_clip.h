@@ -39,7 +39,7 @@ struct CavityOptions {
   double glint = 0;           // strength of highlights that move with the light
   double blur = 0;            // share of the way to the next frame during which the shutter is open
   int debris = 0;             // specks that float before the tissue
-  bool tool = false;          // an instrument from the rim
+  double tool = 0;            // px, width of an instrument from the rim
 };
 
 inline constexpr double kViewAngle = 0.5236;  // rad

@@ -108,7 +108,11 @@ CavityTruth ReadCavityTruth(const fs::path& folder) {
         pose.world_from_camera(i / 3, i % 3) = axes.at(static_cast<std::size_t>(i));
       pose.centre = {centre.at(0), centre.at(1), centre.at(2)};
       truth.poses.push_back(pose);
+      if (!frame.contains("pivot")) continue;
+      const std::vector<double> portal = Numbers(frame.at("pivot"));
+      truth.portal += Vector3d(portal.at(0), portal.at(1), portal.at(2));
     }
+    truth.portal /= std::max(1.0, static_cast<double>(truth.poses.size()));
   } catch (const std::exception&) {
     throw Error(Code::kBadData, "this is not the truth of a cavity clip; make the clip again",
                 file);

@@ -19,6 +19,7 @@ struct CavityTruth {
   std::vector<authoring::CameraPose> poses;              // one per frame
   Lens lens;                                             // lens of the pictures
   double view_angle = kViewAngle;                        // rad
+  Eigen::Vector3d portal = Eigen::Vector3d::Zero();      // mean over the frames: skin gives
 };
 
 CavityTruth TruthOf(const CavityOptions& options);

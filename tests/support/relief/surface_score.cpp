@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <Eigen/Dense>
 
@@ -19,55 +20,6 @@ constexpr int kHalfDeg = 60;
 constexpr double kPxPerDeg = 2;
 constexpr int kSide = static_cast<int>(2 * kHalfDeg * kPxPerDeg) + 1;
 constexpr int kLeastFrames = 3;
-
-// x_true = scale · rotation · x_found + shift
-struct Similarity {
-  double scale = 1;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Vector3d shift = Vector3d::Zero();
-};
-
-// Fits the centres and points 4 mm along the axes of each camera: the centres alone say little
-// about the rotation.
-std::optional<Similarity> TrueFromFound(const authoring::ReliefReport& report,
-                                        const CavityTruth& truth) {
-  constexpr double kAxis = 4e-3;  // m
-  Similarity fit;
-  // The length of the axes depends on the scale: first by the centres alone, then again.
-  for (int round = 0; round < 13; ++round) {
-    std::vector<Vector3d> from, to;
-    for (const authoring::PosedFrame& frame : report.frames) {
-      if (!frame.is_posed || static_cast<std::size_t>(frame.index) >= truth.poses.size()) continue;
-      const authoring::CameraPose& pose = truth.poses[static_cast<std::size_t>(frame.index)];
-      const Eigen::Map<const Vector3d> centre(frame.centre.data());
-      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(
-          frame.rotation.data());
-      from.push_back(centre);
-      to.push_back(pose.centre);
-      for (int axis = 0; axis < 3 && round > 0; ++axis) {
-        from.push_back(centre + kAxis / fit.scale * axes.col(axis));
-        to.push_back(pose.centre + kAxis * pose.world_from_camera.col(axis));
-      }
-    }
-    if (from.size() < 2) return std::nullopt;
-    const auto columns = [](const std::vector<Vector3d>& points) {
-      return Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3,
-                                                static_cast<Eigen::Index>(points.size()));
-    };
-    if (round == 0) {
-      const Eigen::Matrix3Xd a = columns(from).colwise() - columns(from).rowwise().mean(),
-                             b = columns(to).colwise() - columns(to).rowwise().mean();
-      if (!(a.norm() > 1e-9) || !(b.norm() > 1e-9)) return std::nullopt;  // nothing moved
-      fit.scale = b.norm() / a.norm();
-      continue;
-    }
-    const Eigen::Matrix4d matrix = Eigen::umeyama(columns(from), columns(to), true);
-    fit.scale = matrix.col(0).head<3>().norm();
-    fit.rotation = matrix.topLeftCorner<3, 3>() / fit.scale;
-    fit.shift = matrix.topRightCorner<3, 1>();
-  }
-  return fit;
-}
 
 // Bilinear; NaN beside an unknown value and outside.
 double Sample(const DepthMap& map, const glm::dvec2& at) {
@@ -105,7 +57,7 @@ TrueSurface SurfaceOf(const CavityTruth& truth) {
 
 std::optional<FoundSurface> SurfaceOf(const authoring::ReliefResult& result,
                                       const CavityTruth& truth, const TrueSurface& surface) {
-  const auto fit = TrueFromFound(result.report, truth);
+  const auto fit = FitCameras(result.report.frames, truth.poses);
   if (!fit || result.relief.empty()) return std::nullopt;
   FoundSurface found{DepthMap(kSide, kSide, kUnknown), DepthMap()};
   if (!result.sigma.empty()) found.sigma = found.radius;
@@ -115,20 +67,37 @@ std::optional<FoundSurface> SurfaceOf(const authoring::ReliefResult& result,
       // The portals lie a little apart, so the direction in the other frame depends on the radius.
       double radius = static_cast<double>(surface.radius.at(x, y)), sigma = 0;
       for (int round = 0; round < 6 && std::isfinite(radius); ++round) {
-        const Vector3d local =
-            fit->rotation.transpose() * (radius * direction - fit->shift) / fit->scale;
+        const Vector3d local = fit->Found(radius * direction);
         const auto pixel =
             PixelFromDirection(result.report.projection, {local.x(), local.y(), local.z()});
         const double h = pixel ? Sample(result.relief, *pixel) : kUnknown;
         sigma = pixel && !result.sigma.empty() ? Sample(result.sigma, *pixel) * fit->scale : 0;
-        const Vector3d there =
-            fit->scale * (fit->rotation * ((result.report.radius - h) * local.normalized())) +
-            fit->shift;
+        const Vector3d there = fit->True((result.report.radius - h) * local.normalized());
         radius = direction.dot(there);
       }
       found.radius.at(x, y) = static_cast<float>(radius);
       if (!found.sigma.empty()) found.sigma.at(x, y) = static_cast<float>(sigma);
     }
+  return found;
+}
+
+FoundSurface SurfaceOf(const std::vector<Vector3d>& points, const CameraFit& fit,
+                       const TrueSurface& surface) {
+  FoundSurface found{DepthMap(kSide, kSide, kUnknown), DepthMap()};
+  std::map<std::size_t, std::vector<double>> by_cell;
+  for (const Vector3d& point : points) {
+    const Vector3d there = fit.True(point);
+    const auto pixel = PixelFromDirection(surface.projection, {there.x(), there.y(), there.z()});
+    if (!pixel) continue;
+    const auto x = std::lround(pixel->x), y = std::lround(pixel->y);
+    if (x < 0 || y < 0 || x >= kSide || y >= kSide) continue;
+    by_cell[static_cast<std::size_t>(y * kSide + x)].push_back(there.norm());
+  }
+  for (auto& [cell, radii] : by_cell) {
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    found.radius.relief[cell] = static_cast<float>(*middle);
+  }
   return found;
 }
 

@@ -13,6 +13,7 @@
 #include "authoring/relief/make_relief.h"
 #include "simulation/scene/image.h"
 #include "tests/support/relief/cavity_truth.h"
+#include "tests/support/relief/pose_score.h"
 
 namespace arthro::test {
 
@@ -34,6 +35,11 @@ struct FoundSurface {
 // best; no value where fewer than two frames are posed.
 std::optional<FoundSurface> SurfaceOf(const authoring::ReliefResult& result,
                                       const CavityTruth& truth, const TrueSurface& surface);
+
+// Points of another reconstruction whose cameras fit so: the median of those in a cell, and no
+// value in a cell without one.
+FoundSurface SurfaceOf(const std::vector<Eigen::Vector3d>& points, const CameraFit& fit,
+                       const TrueSurface& surface);
 
 // Mean place of each direction in a panorama of homographies, px, and the mean distance from there
 // at which its frames show it; NaN where fewer than two frames do.
