@@ -39,9 +39,9 @@ double Bilinear(const DepthMap& map, double x, double y) {
          g * ((1 - f) * map.at(i, j + 1) + f * map.at(i + 1, j + 1));
 }
 
-// Distances of the half-height line of the step from the true outline along its normal, texels;
-// their spread is the staircase.
-double StairOf(const DepthMap& map, const Inside& inside) {
+// Distances of a level line of the step, usually that of half its height, from the true outline
+// along its normal, texels; their spread is the staircase.
+double StairOf(const DepthMap& map, const Inside& inside, double level = 0.5) {
   double sum = 0, squares = 0;
   int count = 0;
   for (double y = 20; y < kSide - 20; y += 0.21)
@@ -52,7 +52,8 @@ double StairOf(const DepthMap& map, const Inside& inside) {
       const double u = (inside(x + kBeside, y) - here) / kBeside,
                    v = (inside(x, y + kBeside) - here) / kBeside;
       double t = -3;
-      while (t < 3 && Bilinear(map, x + u * t, y + v * t) < 0.5 * (kNear + kFar)) t += 0.005;
+      while (t < 3 && Bilinear(map, x + u * t, y + v * t) < kFar + level * (kNear - kFar))
+        t += 0.005;
       sum += t, squares += t * t, ++count;
     }
   EXPECT_GT(count, 5);
@@ -87,6 +88,20 @@ TEST(ReliefOutlines, OfLinesBecomeStraightAndOfDiscsNoWorse) {
     const auto [before, after] =
         stairs(("disc of " + std::to_string(radius)).c_str(), Disc(radius));
     EXPECT_LT(after, before);
+  }
+}
+
+// The silhouette of a near part is the line where its fall begins.
+TEST(ReliefOutlines, CrestsAreAsStraightAsOutlines) {
+  for (const double slope : {1 / 23.0, 1 / 7.0, 0.4, -0.4, 2.5, 11.0}) {
+    const Inside inside = Line(slope);
+    const DepthMap map = Sampled(inside);
+    DepthMap smooth = map;
+    SmoothOutlines(smooth, false);
+    const double before = StairOf(map, inside, 0.95), after = StairOf(smooth, inside, 0.95);
+    std::printf("crest of a line of %.3f: %.3f texels before, %.3f after\n", slope, before, after);
+    EXPECT_LT(after, 0.1);
+    EXPECT_LT(after, 0.5 * before);
   }
 }
 
