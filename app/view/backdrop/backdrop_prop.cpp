@@ -16,6 +16,7 @@
 #include <vtkViewport.h>
 #include <vtk_glew.h>
 
+#include "app/view/backdrop/colour_outlines.h"
 #include "app/view/drawing/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
@@ -89,11 +90,12 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
   const bool is_relit = backdrop.relight > 0;
   if (is_relit) EvenLight(grid_, backdrop.relight);
   light_ = MeasureLight(grid_);
-  const ColourImage even = is_relit ? Evened(panorama, grid_) : ColourImage();
+  ColourImage whole = is_relit ? Evened(panorama, grid_) : panorama;
   GLint max_size = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
   reduction_ = TextureReduction(panorama.width, panorama.height, max_size);
-  const ColourImage& whole = is_relit ? even : panorama;
+  // A smaller panorama is a mean of its texels and has no stairs.
+  if (reduction_ == 1) SmoothColourOutlines(whole, depth, wraps_, sigma);
   const ColourImage reduced = reduction_ > 1 ? ReducedPanorama(whole, reduction_) : ColourImage();
   const ColourImage& drawn = reduction_ > 1 ? reduced : whole;
   panorama_->SetGenerateMipmap(true);
