@@ -44,6 +44,10 @@ constexpr double kSmoothBend = 0.02;
 // third of the slope that a hand feels.
 constexpr double kLampBlur = 2;
 
+// Least height of a step that is drawn with a side, over the median standard error of the relief:
+// five standard deviations of the difference of two texels, as outlines have (relief_outlines.cpp).
+constexpr double kSideOfError = 5 * std::numbers::sqrt2;
+
 // Median smoothing that the noise of a depth map asks for, as a standard deviation in its pixels at
 // the radius of the backdrop; 0 where none is known [method.md, Backdrop force].
 double SmoothingPx(const DepthMap& depth, const DepthMap& sigma, const Backdrop& backdrop) {
@@ -127,6 +131,8 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
     Fill(*slopes_, window, broad.width, broad.height, 3, VTK_FLOAT, broad.slopes.data());
   }
   is_noisy_ = is_known;
+  least_side_ =
+      is_known ? kSideOfError * SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
   unsearched_ = std::move(relief);
   SetRelief(grid_, depth);
 }
@@ -306,6 +312,8 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_samples", double(picture_.samples));
   SetUniform(program, "given_radius", backdrop_.radius);
   SetUniform(program, "given_perRadius", 1.0 / backdrop_.radius);
+  constexpr double kNoLimit = 1e-9;  // m
+  SetUniform(program, "given_leastSide", std::max(least_side_, kNoLimit) / backdrop_.radius);
   SetUniform(program, "given_highest", highest_ / backdrop_.radius);
   SetUniform(program, "given_blockTexels", block_);
   SetUniform(program, "given_reliefSteps", double(picture_.relief.steps));
