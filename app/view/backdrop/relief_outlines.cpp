@@ -11,6 +11,10 @@ namespace {
 constexpr float kLeastStep =
     1.5e-4f;  // m between neighbouring texels; smaller steps show no staircase
 
+// Depth of the silhouette below the near part, m, and as a share of a low step: less than can be
+// told from the relief itself (`bench view` counts ends that are 0.1 mm off).
+constexpr double kCrestDrop = 8e-5, kMostDrop = 0.05;
+
 // Standard deviations of the difference of two texels that a step has to exceed. Noise exceeds five
 // in one of two million pairs.
 constexpr float kStepsOfError = 5.0f;
@@ -110,19 +114,19 @@ struct Laid {
 };
 
 // Shares of the near height in the two texels beside an outline, which is `way` texels from the
-// near one. Bilinear interpolation then falls through the middle of the step at the outline, and
-// through kCrest of it at a constant distance before: where the lens looks over the near part, its
-// silhouette lies there.
+// near one. Bilinear interpolation then falls through the middle of the step at the outline, and to
+// `drop` (a share of the step) below the near part at a constant distance before: where the lens
+// looks over the near part, its silhouette lies there.
 struct Ramp {
   double near = 1, far = 0;
 };
-Ramp RampAt(double way) {
-  constexpr double kCrest = 0.95;
+Ramp RampAt(double way, double drop) {
   // The fall begins at the texel before the near one; either share alone holds one of the places.
-  const double for_crest = std::max(0.5, 1 - (1 - kCrest) / (way + 1 - kCrest));
+  constexpr double kForCrest = 0.4;  // weight where the two differ
+  const double for_crest = std::max(0.5, 1 - drop / (way + drop));
   const double for_middle = way < 0.5 ? 0.5 / (1 - way) : 1.0;
   Ramp ramp;
-  ramp.near = way < 0.5 ? 0.5 * (for_crest + for_middle) : for_crest;
+  ramp.near = way < 0.5 ? kForCrest * for_crest + (1 - kForCrest) * for_middle : for_crest;
   ramp.far = way > 0 ? std::max(0.0, ramp.near - (ramp.near - 0.5) / way) : 0.0;
   return ramp;
 }
@@ -150,7 +154,9 @@ void LayTread(const Steps& steps, int first, int length, int across, Laid& laid)
                                   steps.Texel(first + i, across + 1)};
     const float heights[] = {laid.stairs.relief[texels[0]], laid.stairs.relief[texels[1]]};
     const int near = heights[0] > heights[1] ? 0 : 1;
-    const Ramp ramp = RampAt(std::clamp(0.5 + (near == 0 ? offset : -offset), 0.0, 1.0));
+    const double height = std::abs(double(heights[0]) - heights[1]);
+    const Ramp ramp = RampAt(std::clamp(0.5 + (near == 0 ? offset : -offset), 0.0, 1.0),
+                             std::min(kMostDrop, kCrestDrop / height));
     for (const int side : {0, 1}) {
       if (laid.lengths[texels[side]] >= length) continue;
       laid.lengths[texels[side]] = length;
