@@ -10,6 +10,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/finite.h"
 #include "simulation/device/device_state.h"
+#include "simulation/haptics/shaft_hold.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
 
@@ -266,7 +267,25 @@ LayerHold Session::FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::d
 void Session::Forget(Tool& tool) noexcept {
   tool.contact = ContactState{};
   tool.let_be.reset();
-  tool.layer_push = tool.beside = glm::dvec3(0.0);
+  tool.layer_push = tool.beside = tool.shaft_push = glm::dvec3(0.0);
+}
+
+// Turns the rod out of the relief, and adds the force of the ridge that holds its shaft: that of
+// the spring between the tip where the surfaces leave it and the tip of the turned rod. The turn
+// changes by at most `travel` per tick, as the proxy does, which bounds each step of the force.
+void Session::TickShaft(Tool& tool, const glm::dvec3& portal, double travel, double stiffness,
+                        ContactForce& contact, ToolState& state) const noexcept {
+  const ShaftHold hold = HoldShaft(*field_, portal, tool.contact.proxy.position);
+  const glm::dvec3 way = hold.tip - tool.contact.proxy.position - tool.shaft_push;
+  const double length = glm::length(way);
+  tool.shaft_push += length > travel ? travel / length * way : way;
+  if (hold.held > 0.0) tool.shaft_weight = hold.weight;
+  state.shaft_held = glm::length(tool.shaft_push);
+  state.shaft_through = hold.through;
+  if (!(state.shaft_held > 0.0)) return;
+  const glm::dvec3 force = stiffness * tool.shaft_weight * tool.shaft_push;
+  if (glm::length(force) > glm::length(contact.force)) contact.contact = kBackdropContact;
+  contact.force += force;
 }
 
 void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
@@ -283,6 +302,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       state.pose = pose;
       state.tip_in_portal = tip;
       to_hand.hand = tool.rig.portal_from_device * (sample.hip_in_device - tool.rig.pivot);
+      const double travel = glm::distance(tip, tool.contact.tip) + 2.0 * field_->pixel_size();
       const Lever lever = LeverAt(to_hand.hand, tool.rig.rod_length, options_.lever);
       const double stiffness = std::min(options_.contact.stiffness, lever.max_stiffness);
       double give = 1.0 / options_.contact.stiffness;  // m/N, of all that yields
@@ -295,7 +315,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       tool.beside = LimitSqueeze(tool.beside + kPushedAtOnce * (push - tool.beside),
                                  tool.contact.proxy.position - tip);
       const glm::dvec3 beside = tool.beside;
-      state.tissue_tip_in_portal = tip + beside + tool.layer_push;
+      state.tissue_tip_in_portal = tip + beside + tool.layer_push + tool.shaft_push;
       TissuePull pull;
       if (tool.tissue.to.step > 0) {
         const CoupledForce tissue =
@@ -304,9 +324,9 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
         give = std::max(give, GiveAlong(tool.tissue.to, tissue.force));
         if (tool.tissue.to.is_faulty && fault == Fault::kNone) fault = Fault::kTissue;
       }
-      const LayerHold layers =
-          FeelLayers(tool, portal, tip + beside + pull.force / options_.contact.stiffness,
-                     options_.contact.stiffness, state);
+      const LayerHold layers = FeelLayers(
+          tool, portal, tip + beside + tool.shaft_push + pull.force / options_.contact.stiffness,
+          options_.contact.stiffness, state);
       if (layers.tissue >= 0) {
         if (glm::length(layers.force) > glm::length(pull.force)) pull.contact = 1 + layers.tissue;
         pull.force += layers.force;
@@ -328,9 +348,11 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
                             dt, tool.contact, pull);
       if (tool.contact.was_let_go) {
         tool.let_be.reset();
-        tool.layer_push = tool.beside = glm::dvec3(0.0);
+        tool.layer_push = tool.beside = tool.shaft_push = glm::dvec3(0.0);
         contact = ContactForce{};
       }
+      // The shaft of the scope starts at the centre of the relief, which it cannot cross.
+      if (&tool == &instrument_) TickShaft(tool, portal, travel, stiffness, contact, state);
       if (layers.tissue >= 0) contact.penetration += layers.depth;
       state.is_layer_deep = layers.is_deep;
       state.layer = layers.tissue;
@@ -338,7 +360,7 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
       to_hand.force = contact.force;
       to_hand.stiffness = stiffness / (options_.contact.stiffness * give);
       // Rigid surfaces alone store a known energy: that of a spring that the fade softens.
-      to_hand.is_elastic = pull.force == glm::dvec3(0.0);
+      to_hand.is_elastic = pull.force == glm::dvec3(0.0) && tool.shaft_push == glm::dvec3(0.0);
       if (to_hand.is_elastic && tool.contact.share > 0)
         to_hand.stiffness *= tool.contact.share * tool.contact.hold;
       to_hand.lever = lever;
@@ -357,8 +379,9 @@ void Session::TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3&
     state.is_layer_deep = false;
     state.layer = -1;
   }
-  state.proxy_in_portal =
-      tool.contact.has_started ? tool.contact.proxy.position : state.tip_in_portal;
+  if (!tool.contact.has_started) state.shaft_held = state.shaft_through = 0.0;
+  state.proxy_in_portal = tool.contact.has_started ? tool.contact.proxy.position + tool.shaft_push
+                                                   : state.tip_in_portal;
   state.tip_force = tool.entry * contact.force;
   if (tool.entry < 1.0)
     tool.entry = options_.limiter.ramp_time > 0.0

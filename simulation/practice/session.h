@@ -97,6 +97,8 @@ class Session {
     DeviceRig rig;
     glm::dvec3 beside{0.0};            // m, push of the surfaces where tissue holds the tool
     glm::dvec3 layer_push{0.0};        // m, push of the layers in the last tick
+    glm::dvec3 shaft_push{0.0};        // m, way of the tip by the turn that holds the shaft
+    double shaft_weight = 0;           // weight of the relief that holds it
     std::optional<glm::dvec3> let_be;  // tip as the layers held it; nullopt: no contact
     ContactState contact;
     OutputState output;
@@ -116,6 +118,8 @@ class Session {
   void FeelSolids() noexcept;
   LayerHold FeelLayers(Tool& tool, const glm::dvec3& portal, const glm::dvec3& held,
                        double stiffness, const ToolState& state) const noexcept;
+  void TickShaft(Tool& tool, const glm::dvec3& portal, double travel, double stiffness,
+                 ContactForce& contact, ToolState& state) const noexcept;
   void TickTool(Tool& tool, const DeviceSample& sample, const glm::dvec3& portal, double dt,
                 ToolState& state) noexcept;
 

@@ -28,6 +28,8 @@ struct ToolState {
   int layer = -1;              // tissue in the scene of the thin layer in contact; −1: none
   double layer_depth = 0;      // m, depth of the deepest point in that layer
   bool is_layer_deep = false;  // deeper than the theory of a thin layer holds (elastic_layer.h)
+  double shaft_held = 0;       // m, way of the tip by which a ridge of bone holds the shaft off it
+  double shaft_through = 0;    // m, depth of the shaft in bone where no turn of the rod frees it
   glm::dvec2 pixel{0.0};       // scope: centre of its view; instrument: under its tip; NaN: none
   Fault fault = Fault::kNoSample;  // reason for a hand_force of zero
   double opening = 1;              // opening of the jaws, 0 closed; the first button closes them

@@ -52,6 +52,8 @@ struct ViewBenchRow {
   FrameTimes times;
   std::optional<TracedAgreement> traced;  // parts "relief" and "scene"; no colours for a lit scene
   std::optional<test::GridAgreement> grid;  // part "samples"
+  // Root mean square difference from the same scene at rest, of 255, for a picture with a camera.
+  std::optional<double> off_still = {};
 };
 
 struct ViewBench {

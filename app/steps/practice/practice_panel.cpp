@@ -13,6 +13,7 @@
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/practice_step.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/shaft_notice.h"
 
 namespace arthro::app {
 namespace {
@@ -274,10 +275,14 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
     CommandRow(ui, state, {{"reset-hands", false}, {"disturbances", is_disturbed}});
   Gap(ui);
   // Missing devices are more urgent than the hint, and there is room for one of them.
-  if (!MissingDevices(ui, state) && !ScreenNews(ui, state))
-    QuietText(
-        ui,
-        "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
+  if (!MissingDevices(ui, state) && !ScreenNews(ui, state)) {
+    if (const char* notice = simulation::ShaftNotice(instrument); *notice != '\0')
+      ColouredText(ui, notice, kWarning);
+    else
+      QuietText(
+          ui,
+          "Left drag and wheel: scope. Right drag and Ctrl+wheel: instrument. Roll: Shift+wheel.");
+  }
 
   // At the foot, where it is not pressed by chance.
   const float foot = 2 * ui.Px(kButton) + ui.Px(22);

@@ -16,6 +16,7 @@
 #include <vtkViewport.h>
 #include <vtk_glew.h>
 
+#include "app/view/backdrop/colour_outlines.h"
 #include "app/view/drawing/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
@@ -42,6 +43,10 @@ constexpr double kSmoothBend = 0.02;
 // Further smoothing of the slopes for the lamp, over that which the noise asks for: a glint shows a
 // third of the slope that a hand feels.
 constexpr double kLampBlur = 2;
+
+// Least height of a step that is drawn with a side, over the median standard error of the relief:
+// five standard deviations of the difference of two texels, as outlines have (relief_outlines.cpp).
+constexpr double kSideOfError = 5 * std::numbers::sqrt2;
 
 // Median smoothing that the noise of a depth map asks for, as a standard deviation in its pixels at
 // the radius of the backdrop; 0 where none is known [method.md, Backdrop force].
@@ -89,11 +94,12 @@ std::string BackdropProp::Upload(vtkOpenGLRenderWindow* window, const ColourImag
   const bool is_relit = backdrop.relight > 0;
   if (is_relit) EvenLight(grid_, backdrop.relight);
   light_ = MeasureLight(grid_);
-  const ColourImage even = is_relit ? Evened(panorama, grid_) : ColourImage();
+  ColourImage whole = is_relit ? Evened(panorama, grid_) : panorama;
   GLint max_size = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
   reduction_ = TextureReduction(panorama.width, panorama.height, max_size);
-  const ColourImage& whole = is_relit ? even : panorama;
+  // A smaller panorama is a mean of its texels and has no stairs.
+  if (reduction_ == 1) SmoothColourOutlines(whole, depth, wraps_, sigma);
   const ColourImage reduced = reduction_ > 1 ? ReducedPanorama(whole, reduction_) : ColourImage();
   const ColourImage& drawn = reduction_ > 1 ? reduced : whole;
   panorama_->SetGenerateMipmap(true);
@@ -125,6 +131,8 @@ void BackdropProp::UploadDepth(vtkOpenGLRenderWindow* window, const DepthMap& de
     Fill(*slopes_, window, broad.width, broad.height, 3, VTK_FLOAT, broad.slopes.data());
   }
   is_noisy_ = is_known;
+  least_side_ =
+      is_known ? kSideOfError * SharesOf(depth, sigma, {}).median_sigma.value_or(0.0) : 0.0;
   unsearched_ = std::move(relief);
   SetRelief(grid_, depth);
 }
@@ -304,6 +312,8 @@ void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
   SetUniform(program, "given_samples", double(picture_.samples));
   SetUniform(program, "given_radius", backdrop_.radius);
   SetUniform(program, "given_perRadius", 1.0 / backdrop_.radius);
+  constexpr double kNoLimit = 1e-9;  // m
+  SetUniform(program, "given_leastSide", std::max(least_side_, kNoLimit) / backdrop_.radius);
   SetUniform(program, "given_highest", highest_ / backdrop_.radius);
   SetUniform(program, "given_blockTexels", block_);
   SetUniform(program, "given_reliefSteps", double(picture_.relief.steps));

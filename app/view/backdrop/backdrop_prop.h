@@ -83,6 +83,7 @@ class BackdropProp : public vtkProp {
   bool wraps_ = false;  // full turn: left and right edge meet
   bool is_in_contact_ = false;
   bool is_noisy_ = false;  // the relief has a known standard error
+  double least_side_ = 0;  // m, height of the lowest step that has a side; 0: no limit
   ReliefTexture unsearched_;
   double highest_ = 0;  // maximum of the relief, m
   int block_ = 1;       // texels per block of the relief's maxima

@@ -11,6 +11,10 @@ namespace {
 constexpr float kLeastStep =
     1.5e-4f;  // m between neighbouring texels; smaller steps show no staircase
 
+// Depth of the silhouette below the near part, m, and as a share of a low step: less than can be
+// told from the relief itself (`bench view` counts ends that are 0.1 mm off).
+constexpr double kCrestDrop = 8e-5, kMostDrop = 0.05;
+
 // Standard deviations of the difference of two texels that a step has to exceed. Noise exceeds five
 // in one of two million pairs.
 constexpr float kStepsOfError = 5.0f;
@@ -109,6 +113,24 @@ struct Laid {
   std::vector<int> lengths;
 };
 
+// Shares of the near height in the two texels beside an outline, which is `way` texels from the
+// near one. Bilinear interpolation then falls through the middle of the step at the outline, and to
+// `drop` (a share of the step) below the near part at a constant distance before: where the lens
+// looks over the near part, its silhouette lies there.
+struct Ramp {
+  double near = 1, far = 0;
+};
+Ramp RampAt(double way, double drop) {
+  // The fall begins at the texel before the near one; either share alone holds one of the places.
+  constexpr double kForCrest = 0.4;  // weight where the two differ
+  const double for_crest = std::max(0.5, 1 - drop / (way + drop));
+  const double for_middle = way < 0.5 ? 0.5 / (1 - way) : 1.0;
+  Ramp ramp;
+  ramp.near = way < 0.5 ? kForCrest * for_crest + (1 - kForCrest) * for_middle : for_crest;
+  ramp.far = way > 0 ? std::max(0.0, ramp.near - (ramp.near - 0.5) / way) : 0.0;
+  return ramp;
+}
+
 // A tread of `length` steps from `first` on.
 void LayTread(const Steps& steps, int first, int length, int across, Laid& laid) {
   const auto goes_on = [&](int i, float from) {
@@ -118,25 +140,28 @@ void LayTread(const Steps& steps, int first, int length, int across, Laid& laid)
   };
   const int before = goes_on(first - 1, steps.at(first, across));
   const int after = goes_on(first + length, steps.at(first + length - 1, across));
+  if (before == 0 && after == 0) return;
   const bool is_straight = before != 0 && after == -before;
   for (int i = 0; i < length; ++i) {
-    // Offset of the outline from the middle of the step, and its slope.
+    // Offset of the outline from the middle of the step.
     const double place = (i + 0.5) / length, from_middle = 2 * place - 1;
     const int by = from_middle < 0 ? before : after;
     // Straight from half a texel to half a texel. For a crest, or an unknown continuation, to 0 in
     // the middle.
     const double offset =
         is_straight ? after * (place - 0.5) : 0.5 * by * from_middle * from_middle;
-    const double slope = (is_straight ? after : 2 * by * from_middle) / static_cast<double>(length);
     const std::size_t texels[] = {steps.Texel(first + i, across),
                                   steps.Texel(first + i, across + 1)};
+    const float heights[] = {laid.stairs.relief[texels[0]], laid.stairs.relief[texels[1]]};
+    const int near = heights[0] > heights[1] ? 0 : 1;
+    const double height = std::abs(double(heights[0]) - heights[1]);
+    const Ramp ramp = RampAt(std::clamp(0.5 + (near == 0 ? offset : -offset), 0.0, 1.0),
+                             std::min(kMostDrop, kCrestDrop / height));
     for (const int side : {0, 1}) {
       if (laid.lengths[texels[side]] >= length) continue;
       laid.lengths[texels[side]] = length;
-      const double beyond = (side - 0.5 - offset) / std::sqrt(1 + slope * slope);
-      const auto share = static_cast<float>(std::clamp(0.5 + beyond, 0.0, 1.0));
-      laid.relief.relief[texels[side]] =
-          (1 - share) * laid.stairs.relief[texels[0]] + share * laid.stairs.relief[texels[1]];
+      const auto share = static_cast<float>(side == near ? ramp.near : ramp.far);
+      laid.relief.relief[texels[side]] = share * heights[near] + (1 - share) * heights[1 - near];
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtkRenderbuffer.h>
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
@@ -37,6 +38,7 @@ void CameraPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
     if (pass) pass->ReleaseGraphicsResources();
     pass.reset();
   }
+  marks_->ReleaseGraphicsResources(window);
   for (RenderTarget* target : {&target_, &metered_}) target->ReleaseGraphicsResources(window);
 }
 
@@ -69,10 +71,51 @@ void CameraPass::Meter(vtkOpenGLRenderWindow* window, const Picture& picture,
   exposure_ = ExposureOf(parts_);
 }
 
-void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
-                      vtkTextureObject& undisturbed, vtkTextureObject& finished, int size) {
+void CameraPass::Expose(vtkOpenGLRenderWindow* window, const Picture& picture,
+                        vtkTextureObject& finished, int size, Edges edges) {
   const LensCamera& camera = *picture.camera;
   const auto shows = [&](CameraFeatures feature) { return picture.features >= feature; };
+  std::vector<std::string> defines;
+  std::size_t variant = 0, bit = 1;
+  const auto define = [&](bool is_on, const char* name) {
+    if (is_on) defines.push_back(name), variant |= bit;
+    bit <<= 1;
+  };
+  define(shows(CameraFeatures::kGrain) && camera.grain > 0, "GRAIN");
+  define(shows(CameraFeatures::kSharpness) && (camera.sharpening > 0 || camera.rim_blur > 0),
+         "DETAIL");
+  define(shows(CameraFeatures::kFringe) && camera.fringe > 0, "FRINGE");
+  define(picture.rays == 1, "SAME_SIZE");
+  define(edges == Edges::kMarked, "MARKS");
+  define(edges == Edges::kSmoothed, "EDGES");
+  Pass& pass = camera_passes_[variant];
+  if (!pass) pass.emplace(ShaderText("camera.glsl", defines), ShaderPass::Shape::kRound);
+  vtkShaderProgram* program = pass->Ready(window);
+  if (program == nullptr) return;
+  program->SetUniformi("picture", finished.GetTextureUnit());
+  program->SetUniformf("given_pixel", Float(1.0 / size));
+  program->SetUniformf("given_gain", Float(exposure_.gain));
+  program->SetUniformf("given_offset", Float(exposure_.offset));
+  program->SetUniformf("given_fringe", Float(camera.fringe));
+  program->SetUniformf("given_sharpening", Float(camera.sharpening));
+  program->SetUniformf("given_rimBlur", Float(camera.rim_blur));
+  program->SetUniformf("given_grain", Float(camera.grain));
+  if (camera.grain > 0) program->SetUniformi("seed", GrainSeed(picture));
+  pass->Draw(size);
+}
+
+void CameraPass::TakeMarks(vtkOpenGLRenderWindow* window) {
+  if (marks_->GetHandle() != 0 && marks_->GetWidth() == static_cast<unsigned>(target_.size)) return;
+  marks_->SetContext(window);
+  const auto side = static_cast<unsigned>(target_.size);
+  marks_->Create(GL_DEPTH_COMPONENT16, side, side);
+  target_.framebuffer->Bind();
+  target_.framebuffer->RemoveDepthAttachment();
+  target_.framebuffer->AddDepthAttachment(marks_);
+}
+
+void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
+                      vtkTextureObject& undisturbed, vtkTextureObject& finished, int size) {
   target_.Resize(window, size, 0, 1);
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
@@ -87,32 +130,23 @@ void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, con
   Meter(window, picture, shade, undisturbed);
   undisturbed.Deactivate();
   finished.Activate();
-  std::vector<std::string> defines;
-  std::size_t variant = 0, bit = 1;
-  const auto define = [&](bool is_on, const char* name) {
-    if (is_on) defines.push_back(name), variant |= bit;
-    bit <<= 1;
-  };
-  define(shows(CameraFeatures::kGrain) && camera.grain > 0, "GRAIN");
-  define(shows(CameraFeatures::kSharpness) && (camera.sharpening > 0 || camera.rim_blur > 0),
-         "DETAIL");
-  define(shows(CameraFeatures::kFringe) && camera.fringe > 0, "FRINGE");
   // Four rays per pixel need no other smoothing.
-  define(shows(CameraFeatures::kEdges) && picture.rays == 1, "EDGES");
-  Pass& pass = camera_passes_[variant];
-  if (!pass) pass.emplace(ShaderText("camera.glsl", defines), ShaderPass::Shape::kRound);
-  if (vtkShaderProgram* program = pass->Ready(window)) {
-    program->SetUniformi("picture", finished.GetTextureUnit());
-    program->SetUniformf("given_pixel", Float(1.0 / size));
-    program->SetUniformf("given_gain", Float(exposure_.gain));
-    program->SetUniformf("given_offset", Float(exposure_.offset));
-    program->SetUniformf("given_fringe", Float(camera.fringe));
-    program->SetUniformf("given_sharpening", Float(camera.sharpening));
-    program->SetUniformf("given_rimBlur", Float(camera.rim_blur));
-    program->SetUniformf("given_grain", Float(camera.grain));
-    if (camera.grain > 0) program->SetUniformi("seed", GrainSeed(picture));
+  if (picture.features >= CameraFeatures::kEdges && picture.rays == 1) {
+    // A software rasteriser executes the smoothing for every pixel that it shades. The depth test
+    // leaves blocks without an edge out before that.
+    TakeMarks(window);
     target_.Bind(window);
-    pass->Draw(size);
+    state->vtkglEnable(GL_DEPTH_TEST);
+    state->vtkglDepthMask(GL_TRUE);
+    state->vtkglDepthFunc(GL_ALWAYS);
+    Expose(window, picture, finished, size, Edges::kMarked);
+    state->vtkglDepthMask(GL_FALSE);
+    state->vtkglDepthFunc(GL_LESS);
+    Expose(window, picture, finished, size, Edges::kSmoothed);
+    state->vtkglDepthFunc(GL_LEQUAL);
+  } else {
+    target_.Bind(window);
+    Expose(window, picture, finished, size, Edges::kLeft);
   }
   finished.Deactivate();
   state->vtkglDepthMask(GL_TRUE);

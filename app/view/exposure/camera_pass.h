@@ -8,6 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include <vtkNew.h>
+#include <vtkRenderbuffer.h>
+
 #include "app/view/drawing/lens_shade.h"
 #include "app/view/drawing/picture.h"
 #include "app/view/drawing/render_target.h"
@@ -31,15 +34,21 @@ class CameraPass {
 
  private:
   using Pass = std::optional<ShaderPass>;
+  enum class Edges { kLeft, kMarked, kSmoothed };
+  // Draws one variant of the camera's shader from `finished`; the depth test chooses the pixels.
+  void Expose(vtkOpenGLRenderWindow* window, const Picture& picture, vtkTextureObject& finished,
+              int size, Edges edges);
+  void TakeMarks(vtkOpenGLRenderWindow* window);
   void Meter(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
              vtkTextureObject& drawn);
 
   RenderTarget target_, metered_;
+  vtkNew<vtkRenderbuffer> marks_;  // depth 1 at edges of the picture, of the target's size
   CameraExposure exposure_;
   std::vector<std::uint8_t> texels_;
   std::vector<MeteredPart> parts_;
   Pass meter_pass_;
-  std::array<Pass, 16> camera_passes_;  // one per variant of the shader
+  std::array<Pass, 64> camera_passes_;  // one per variant of the shader
 };
 
 }  // namespace arthro::app

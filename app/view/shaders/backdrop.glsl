@@ -109,11 +109,14 @@ void main() {
   float side = smoothstep(kSide, kFullSide, steep);
   float down = (looks.x - here) / max(looks.x - looks.y, 1e-6);
   float way = max(length(up / vec2(length(alongU), length(alongV))), 1e-6);
-  // The foot of a step shows the surface behind it.
+  // The foot of a step shows the surface behind it. Slopes that the noise of the relief explains are
+  // no steps.
   float top = max(looks.x, looks.z);
+  float isStep = smoothstep(leastSide, 2.0 * leastSide, top - looks.y);
+  side *= isStep;
   float foot = step(kFoot, (top - here) / max(top - looks.y, 1e-6));
   wall = max(side * smoothstep(kTopStart, kTopEnd, down),
-             smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
+             isStep * smoothstep(kSide, kFullSide, (looks.z - looks.x) / way)) *
          (1.0 - foot);
   side *= 1.0 - foot;
   dx += side * kSideBlur / texels * vec2(1.0, 0.0);

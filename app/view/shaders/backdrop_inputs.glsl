@@ -21,6 +21,7 @@ steady vec2 glints;                // sharp and broad glint of the fluid film
 steady float mirroredShare;        // ratio by medium (simulation/scene/medium.h)
 steady vec3 rodFrom, rodTo, headFrom, headTo;
 steady float rodRadius, headRadius;
+steady float leastSide;            // height of the lowest step that has a side, above 0
 steady float highest;              // maximum of the relief
 steady float blockTexels;
 steady float reliefSteps;          // at most, along a ray

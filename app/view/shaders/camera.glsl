@@ -1,6 +1,9 @@
 // The camera behind the scope, over the finished picture: lateral colour, sharpness, exposure and
 // grain [method.md, Camera]. Reads a picture of the same size, or of twice the size and averages
-// four pixels by the filter of the texture. Variants: EDGES, FRINGE, DETAIL and GRAIN.
+// four pixels by the filter of the texture. Variants: SAME_SIZE, MARKS, EDGES,
+// FRINGE, DETAIL and GRAIN. MARKS
+// draws all pixels without smoothing and writes the depth 1 at edges, 0 elsewhere; EDGES then draws
+// the pixels at edges alone, by a depth test.
 #include "constants.inc"
 in vec2 texCoord;
 uniform sampler2D picture;
@@ -18,56 +21,68 @@ const float kLessColour = 0.1, kBleached = 0.7, kBleachStart = 0.7;
 const float kLeastEdge = 0.1;  // smallest fade that is divided by
 float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 
-#ifdef EDGES
-// Smooths a stair where two parts meet: moves the pixel's sample towards the part beside it by its
-// place along the stair [Lottes 2009, FXAA]. A software rasteriser leaves the loop at once where no
-// pixel of its block has an edge.
+// Returns the colour of the pixel that lies (x, y) pixels aside. SAME_SIZE: reads one texel.
+vec3 colourAside(int x, int y) {
+#ifdef SAME_SIZE
+  ivec2 at = ivec2(gl_FragCoord.xy) + ivec2(x, y);
+  return texelFetch(picture, clamp(at, ivec2(0), textureSize(picture, 0) - 1), 0).rgb;
+#else
+  return textureLod(picture, texCoord + pixel * vec2(x, y), 0.0).rgb;
+#endif
+}
+
+#if defined(MARKS) || defined(EDGES)
 const float kLeastContrast = 0.05;  // stored level
 const float kLeastShare = 0.12;     // share of the brighter part
-const float kSameEdge = 0.25;       // share of the step up to which a place belongs to the edge
-const float kMostWay = 5.0;         // px along the edge, on either side
-const float kAlone = 0.75;          // px, for a single pixel
-vec3 withoutStairs(vec3 colour, float middle, float n, float s, float e, float w) {
+// Returns the range of the luma of a pixel and its neighbours, and the least range of an edge.
+vec2 contrast(float middle, float n, float s, float e, float w) {
   float most = max(middle, max(max(n, s), max(e, w)));
   float range = most - min(middle, min(min(n, s), min(e, w)));
-  bool isEdge = range > max(kLeastContrast, kLeastShare * most);
-  while (isEdge) {
-    bool isLevel = abs(n + s - 2.0 * middle) >= abs(e + w - 2.0 * middle);
-    float before = isLevel ? s : w, after = isLevel ? n : e;
-    float riseBefore = abs(before - middle), riseAfter = abs(after - middle);
-    float side = riseBefore >= riseAfter ? -1.0 : 1.0;
-    float rise = max(riseBefore, riseAfter);
-    vec2 across = (isLevel ? vec2(0.0, pixel) : vec2(pixel, 0.0)) * side;
-    vec2 along = isLevel ? vec2(pixel, 0.0) : vec2(0.0, pixel);
-    float mean = 0.5 * (middle + (side < 0.0 ? before : after));
-    vec2 place = texCoord + 0.5 * across;
-    // Way to either end of the stair; the ends are where the mean of both sides changes.
-    float back = 0.0, ahead = 0.0, endBack = 0.0, endAhead = 0.0;
-    bool goesBack = true, goesAhead = true;
-    for (float i = 1.0; i <= kMostWay; i += 1.0) {
-      if (goesBack) {
-        back = i;
-        endBack = lumaAt(place - i * along) - mean;
-        goesBack = abs(endBack) < kSameEdge * rise;
-      }
-      if (goesAhead) {
-        ahead = i;
-        endAhead = lumaAt(place + i * along) - mean;
-        goesAhead = abs(endAhead) < kSameEdge * rise;
-      }
-      if (!goesBack && !goesAhead) break;
+  return vec2(range, max(kLeastContrast, kLeastShare * most));
+}
+#endif
+
+#ifdef EDGES
+// Smooths a stair where two parts meet: moves the pixel's sample towards the part beside it by its
+// place along the stair [Lottes 2009, FXAA].
+const float kSameEdge = 0.25;  // share of the step up to which a place belongs to the edge
+const float kMostWay = 5.0;    // px along the edge, on either side
+const float kAlone = 0.75;     // px, for a single pixel
+vec3 withoutStairs(float middle, float n, float s, float e, float w) {
+  bool isLevel = abs(n + s - 2.0 * middle) >= abs(e + w - 2.0 * middle);
+  float before = isLevel ? s : w, after = isLevel ? n : e;
+  float riseBefore = abs(before - middle), riseAfter = abs(after - middle);
+  float side = riseBefore >= riseAfter ? -1.0 : 1.0;
+  float rise = max(riseBefore, riseAfter);
+  vec2 across = (isLevel ? vec2(0.0, pixel) : vec2(pixel, 0.0)) * side;
+  vec2 along = isLevel ? vec2(pixel, 0.0) : vec2(0.0, pixel);
+  float mean = 0.5 * (middle + (side < 0.0 ? before : after));
+  vec2 place = texCoord + 0.5 * across;
+  // Way to either end of the stair; the ends are where the mean of both sides changes.
+  float back = 0.0, ahead = 0.0, endBack = 0.0, endAhead = 0.0;
+  bool goesBack = true, goesAhead = true;
+  for (float i = 1.0; i <= kMostWay; i += 1.0) {
+    if (goesBack) {
+      back = i;
+      endBack = lumaAt(place - i * along) - mean;
+      goesBack = abs(endBack) < kSameEdge * rise;
     }
-    float nearer = min(back, ahead);
-    float end = back < ahead ? endBack : endAhead;
-    bool leansOver = (end < 0.0) != (middle - mean < 0.0);
-    float amount = leansOver ? max(0.5 - nearer / (back + ahead), 0.0) : 0.0;
-    // Single pixels and corners.
-    float alone = smoothstep(0.0, 1.0, abs(0.25 * (n + s + e + w) - middle) / range);
-    amount = max(amount, kAlone * alone * alone);
-    colour = textureLod(picture, texCoord + amount * across, 0.0).rgb;
-    isEdge = false;
+    if (goesAhead) {
+      ahead = i;
+      endAhead = lumaAt(place + i * along) - mean;
+      goesAhead = abs(endAhead) < kSameEdge * rise;
+    }
+    if (!goesBack && !goesAhead) break;
   }
-  return colour;
+  float nearer = min(back, ahead);
+  float end = back < ahead ? endBack : endAhead;
+  bool leansOver = (end < 0.0) != (middle - mean < 0.0);
+  float amount = leansOver ? max(0.5 - nearer / (back + ahead), 0.0) : 0.0;
+  // Single pixels and corners.
+  float alone = smoothstep(0.0, 1.0, abs(0.25 * (n + s + e + w) - middle) /
+                                            contrast(middle, n, s, e, w).x);
+  amount = max(amount, kAlone * alone * alone);
+  return textureLod(picture, texCoord + amount * across, 0.0).rgb;
 }
 #endif
 
@@ -83,18 +98,22 @@ float grainAt(ivec2 at) {
 #endif
 
 void main() {
-  vec3 drawn = textureLod(picture, texCoord, 0.0).rgb, colour = drawn;
+  vec3 drawn = colourAside(0, 0), colour = drawn;
   vec2 offCentre = texCoord - 0.5;
   float r2 = 4.0 * dot(offCentre, offCentre);
   float dark = min(max(drawn.r, max(drawn.g, drawn.b)) / kDarkEnd, 1.0);
-#if defined(DETAIL) || defined(EDGES)
-  vec2 to = vec2(pixel, 0.0);
-  float n = lumaAt(texCoord + to.yx), s = lumaAt(texCoord - to.yx), e = lumaAt(texCoord + to),
-        w = lumaAt(texCoord - to), middle = dot(drawn, kLuma);
+#if defined(DETAIL) || defined(MARKS) || defined(EDGES)
+  float n = dot(colourAside(0, 1), kLuma), s = dot(colourAside(0, -1), kLuma),
+        e = dot(colourAside(1, 0), kLuma), w = dot(colourAside(-1, 0), kLuma),
+        middle = dot(drawn, kLuma);
   float detail = middle - 0.25 * (n + s + e + w);
 #endif
+#ifdef MARKS
+  vec2 range = contrast(middle, n, s, e, w);
+  gl_FragDepth = range.x > range.y ? 1.0 : 0.0;
+#endif
 #ifdef EDGES
-  colour = withoutStairs(drawn, middle, n, s, e, w);
+  colour = withoutStairs(middle, n, s, e, w);
   detail += dot(colour - drawn, kLuma);
 #endif
 #ifdef FRINGE

@@ -139,6 +139,36 @@ TEST_F(DrawnRelief, NoiseOfAKnownErrorIsNeitherSidesNorWorms) {
   }
 }
 
+// A long slope of 4 mm that the map's error of 0.15 mm leaves as a step. Between the places that a
+// side is judged by, 6.6 texels apart, it rises by less than seven standard errors.
+TEST_F(DrawnRelief, SlopesThatTheErrorExplainsHaveNoSides) {
+  constexpr int kSize = 320;
+  DepthMap depth(kTexels, kTexels);
+  for (int y = 0; y < kTexels; ++y)
+    for (int x = 0; x < kTexels; ++x)
+      depth.at(x, y) =
+          static_cast<float>(0.02 + 0.004 * std::clamp((y - kTexels / 2) / 48.0, 0.0, 1.0));
+  backdrop_.projection.focal_px = 1500;
+  const glm::dvec3 ahead = glm::normalize(glm::dvec3(0, 0.25, 0.97)), right(1, 0, 0);
+  picture_.view = {{0, -0.004, 0.014}, ahead, glm::cross(right, ahead), right};
+  picture_.field_of_view = 0.5;
+  picture_.relief = kUsualRelief;
+  const auto share_dark = [&](const DepthMap& sigma) {
+    view_->SetBackdrop(Grey(kTexels, kTexels, 150), depth, backdrop_, sigma);
+    view_->Render(picture_, kSize);
+    const ColourImage drawn = view_->ReadPixels();
+    int dark = 0, all = 0;
+    for (int y = 120; y < 200; ++y)
+      for (int x = 120; x < 200; ++x, ++all) dark += drawn.at(x, y)[1] < 140 ? 1 : 0;
+    return double(dark) / all;
+  };
+  const double unaware = share_dark({}), aware = share_dark(DepthMap(kTexels, kTexels, 1.5e-4f));
+  std::printf("sides: %.1f %% of the picture without the error, %.2f %% with it\n", 100 * unaware,
+              100 * aware);
+  EXPECT_GT(unaware, 0.02);
+  EXPECT_EQ(aware, 0);
+}
+
 // A relief of 28 mm whose picture ends 40 degrees below the view: the sphere behind is 28 mm
 // further, but the relief goes on beyond the edge of the picture, and beyond an unknown part of it.
 TEST_F(DrawnRelief, TheEndOfThePanoramaIsNoCliff) {
