@@ -13,14 +13,15 @@ struct RenderStep {
   CameraFeatures features;
   double cost;
 };
-constexpr double kFewest = 0.61;  // cost with the exposure alone
+constexpr double kFewest = 0.57;  // cost with the exposure alone
 constexpr RenderStep Coarser(double scale) {
   return {scale, CameraFeatures::kExposure, kFewest * scale * scale};
 }
-constexpr std::array kSteps{RenderStep{1.0, CameraFeatures::kEdges, 1.0},
-                            RenderStep{1.0, CameraFeatures::kFringe, 0.70},
-                            RenderStep{1.0, CameraFeatures::kSharpness, 0.67},
-                            RenderStep{1.0, CameraFeatures::kGrain, 0.63},
+constexpr std::array kSteps{RenderStep{1.0, CameraFeatures::kOcclusion, 1.0},
+                            RenderStep{1.0, CameraFeatures::kEdges, 0.93},
+                            RenderStep{1.0, CameraFeatures::kFringe, 0.65},
+                            RenderStep{1.0, CameraFeatures::kSharpness, 0.62},
+                            RenderStep{1.0, CameraFeatures::kGrain, 0.59},
                             RenderStep{1.0, CameraFeatures::kExposure, kFewest},
                             Coarser(0.9),
                             Coarser(0.8),

@@ -43,6 +43,7 @@ constexpr std::array kScenes = {
     SceneKind{"the same and sharpness", 0.2, 1, false, CameraFeatures::kSharpness},
     SceneKind{"the same and fringe", 0.2, 1, false, CameraFeatures::kFringe},
     SceneKind{"the same and smooth edges", 0.2, 1, false, CameraFeatures::kEdges},
+    SceneKind{"the same and occlusion", 0.2, 1, false, CameraFeatures::kOcclusion},
     SceneKind{"without camera, haze and bubbles", 0.2, 1, true},
     SceneKind{"{} triangles, lamp, as a meniscus",
               0.2,
