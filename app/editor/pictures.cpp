@@ -199,7 +199,7 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   // A machine that is slow at full size draws coarser while things move, and full when they rest.
   const bool is_moving = rays == 1 && !steady_;
   const double scale = is_moving ? scale_.value() : 1.0;
-  picture_.features = is_moving ? scale_.features() : CameraFeatures::kEdges;
+  picture_.features = is_moving ? scale_.features() : CameraFeatures::kOcclusion;
   picture_.rays = rays;
   if (rays == 2) picture_.samples = kStillSamples;
   const int pixels = static_cast<int>(std::lround(scale * size));

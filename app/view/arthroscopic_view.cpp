@@ -18,6 +18,7 @@
 #include "app/view/disturbances/lens_pass.h"
 #include "app/view/drawing/context_render_window.h"
 #include "app/view/drawing/lens_model.h"
+#include "app/view/drawing/occlusion_pass.h"
 #include "app/view/drawing/srgb.h"
 #include "app/view/exposure/camera_pass.h"
 #include "app/view/instruments/probe_mesh.h"
@@ -73,6 +74,7 @@ struct ArthroscopicView::Parts {
   std::vector<Place> places;
   std::optional<std::array<glm::dvec3, 3>> slopes;  // change of the light along the portal's axes
   MeteredModels metered;
+  OcclusionPass occlusion_pass;
   LensPass lens_pass;
   CameraPass camera_pass;
   bool is_disturbed = false;  // the last frame passed through lens_pass
@@ -193,6 +195,7 @@ ArthroscopicView::ArthroscopicView() : parts_(std::make_unique<Parts>()) {
 ArthroscopicView::~ArthroscopicView() {
   parts_->camera_pass.ReleaseGraphicsResources(parts_->window);
   parts_->lens_pass.ReleaseGraphicsResources(parts_->window);
+  parts_->occlusion_pass.ReleaseGraphicsResources(parts_->window);
   parts_->window->Finalize();
 }
 
@@ -306,6 +309,8 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   }
   p.window->Render();
   p.backdrop->EndContact();
+  if (p.has_camera && picture.features >= CameraFeatures::kOcclusion)
+    p.occlusion_pass.Draw(p.window, picture, p.rays);
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
   if (p.has_camera)

@@ -1,6 +1,6 @@
-// Appearance of the phantom's surfaces through a scope: tissue colours, mottling, fibres, vessels,
-// wetness, light that falls off from the scope and dark recesses. Linear RGB; the exposure sets the
-// scale of the light.
+// Appearance of the phantom's surfaces through a scope: tissues (tissue_looks.h), light that falls
+// off from the scope and dark recesses. Highlights are absent, because they move with the scope and
+// the view adds them. Linear RGB; the exposure sets the scale of the light.
 #pragma once
 
 #include <glm/vec3.hpp>

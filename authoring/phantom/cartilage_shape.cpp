@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kMm = kMetrePerMillimetre;
 constexpr int kRings = 13;  // spaced by about 0.6 mm; ring k has 6k vertices, so triangles are even
-constexpr double kShare = 0.95;        // share of the bed's radius; its rim has no depth to fill
-constexpr double kProud = 0.10 * kMm;  // height of the layer's middle over the cartilage around it
+constexpr double kShare = 0.97;        // share of the bed's radius; its rim has no depth to fill
+constexpr double kProud = 0.05 * kMm;  // height of the layer's middle over the cartilage around it
 constexpr double kGlue = 0.05 * kMm;   // gap between the layer and the bed
 
 int FirstOfRing(int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
 
 #include <glm/geometric.hpp>
 
+#include "authoring/phantom/crescent.h"
 #include "authoring/phantom/noise.h"
 #include "simulation/core/units.h"
 
@@ -59,36 +62,58 @@ double CastBundle(const Bundle& bundle, const glm::dvec3& d) {
   return nearest;
 }
 
-// Range of heights that holds the visible plateau; m.
-constexpr double kPlateauTop = 17.0 * kMm, kPlateauBottom = -16.0 * kMm;
+// Root of a function that is positive at `outside` and not at `inside`, to a picometre: false
+// position, with the Illinois rule that halves the value of an end that stays.
+template <class Function>
+double RootBetween(const Function& f, double outside, double inside) {
+  double f_outside = f(outside), f_inside = f(inside);
+  constexpr double kExact = 1e-12;  // m
+  int stays = 0;
+  for (int i = 0; i < 60 && inside - outside > kExact; ++i) {
+    const double middle = std::clamp(
+        (outside * f_inside - inside * f_outside) / (f_inside - f_outside), outside, inside);
+    const double value = f(middle);
+    if (std::abs(value) < kExact) return middle;
+    if (value > 0.0) {
+      outside = middle, f_outside = value;
+      if (stays > 0) f_inside *= 0.5;
+      stays = 1;
+    } else {
+      inside = middle, f_inside = value;
+      if (stays < 0) f_outside *= 0.5;
+      stays = -1;
+    }
+  }
+  return 0.5 * (outside + inside);
+}
 
-// Steps down through the range of heights until below the height field, then bisects the step to a
-// picometre.
+// Range of heights that holds the visible plateau; m.
+constexpr double kPlateauTop = 30.0 * kMm, kPlateauBottom = -16.0 * kMm;
+
+// Walks by a share of the clearance until below the height field.
 double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double limit) {
   const Rigid3 plateau_from_portal = Inverse(plateau.portal_from_plateau);
   const glm::dvec3 o = plateau_from_portal.translation,
                    d = plateau_from_portal.rotation * direction;
-  if (d.z > -1e-3) return kNever;
-  double s = std::max((kPlateauTop - o.z) / d.z, 0.0);
-  const double end = std::min((kPlateauBottom - o.z) / d.z, limit);
+  const bool is_downward = d.z < -1e-3;
+  double s = is_downward ? std::max((kPlateauTop - o.z) / d.z, 0.0) : 0.0;
+  const double end = is_downward ? std::min((kPlateauBottom - o.z) / d.z, limit) : limit;
+  constexpr double kStep = 0.3 * kMm;  // finer than anything on the plateau
   const auto above = [&](double at) {
     const glm::dvec3 p = o + at * d;
-    return p.z - PlateauHeight(plateau, p.x, p.y);
+    const double least = LeastPlateauClearance(plateau, p);
+    return least > kStep ? least : PlateauClearance(plateau, p);
   };
-  constexpr double kStep = 0.35 * kMm;  // finer than anything on the plateau
+  constexpr double kShare =
+      0.75;  // share of the clearance, since lobules are steeper than it knows
   double last = s, height = above(s);
   while (height > 0.0) {
     if (s > end) return kNever;
     last = s;
-    s += std::max(kStep, 0.5 * height);
+    s += std::max(kStep, kShare * height);
     height = above(s);
   }
-  double inside = s;
-  for (int i = 0; i < 32; ++i) {
-    const double middle = 0.5 * (last + inside);
-    (above(middle) > 0.0 ? last : inside) = middle;
-  }
-  return 0.5 * (last + inside);
+  return RootBetween(above, last, s);
 }
 
 // Folds are long and run in one direction: noise stretched along a slowly turning direction, its
@@ -130,6 +155,116 @@ double FatShare(const Cavity& cavity, const glm::dvec3& d) {
   return SmoothStep(kFatFrom, kFatTo, d.y - kLateral * d.x + edge);
 }
 
+// Cross-section of a ligament: one bundle in the middle and the others around it.
+glm::dvec2 PlaceInSection(std::size_t i, std::size_t count) {
+  if (i == 0) return glm::dvec2(0.0);
+  const double angle =
+      2.0 * std::numbers::pi * static_cast<double>(i - 1) / static_cast<double>(count - 1);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+// Bundles between two places, in elliptic sections that turn by `twist` between them.
+struct Section {
+  glm::dvec3 centre, across, along;  // half axes
+};
+void MakeBundles(std::span<Bundle> bundles, const Section& from, const Section& to, double twist,
+                 double radius, Random& random) {
+  const glm::dvec2 turn(std::cos(twist), std::sin(twist));
+  for (std::size_t i = 0; i < bundles.size(); ++i) {
+    const glm::dvec2 u = PlaceInSection(i, bundles.size());
+    const glm::dvec2 v(turn.x * u.x - turn.y * u.y, turn.y * u.x + turn.x * u.y);
+    bundles[i].from =
+        from.centre + u.x * from.across + u.y * from.along + Jitter(random, 0.2 * kMm);
+    bundles[i].to = to.centre + v.x * to.across + v.y * to.along + Jitter(random, 0.2 * kMm);
+    bundles[i].radius = radius * random.Uniform(0.88, 1.12);
+  }
+}
+
+// Everything that joins the bones: lateral condyle, eminence, roots, capsule, ligaments. Draws from
+// a sequence of its own, so that the bones of a seed do not depend on it.
+void MakeSoftTissue(Cavity& cavity) {
+  Random random(0x50F7715ull + cavity.seed);
+  Plateau& plateau = cavity.plateau;
+  plateau.seed = cavity.seed;
+  plateau.lobule_height = random.Near(1.5, 0.1) * kMm;
+  const Tubercle& medial = plateau.eminence[0];
+  plateau.eminence[1] = {medial.centre + glm::dvec2(-6.2, -1.5) * kMm,
+                         glm::dvec2(random.Near(2.7, 0.1), random.Near(4.6, 0.1)) * kMm,
+                         random.Near(3.0, 0.12) * kMm};
+  plateau.footprint = {
+      0.5 * (medial.centre + plateau.eminence[1].centre) + glm::dvec2(0.6, -5.5) * kMm,
+      glm::dvec2(5.0, 5.5) * kMm, random.Near(1.7, 0.1) * kMm};
+
+  // The capsule begins beyond the bulge of the meniscus.
+  const Crescent crescent = MakeCrescent(cavity);
+  constexpr double kBeyondRim = 1.25 * kMm;
+  CapsuleBorder& border = plateau.border;
+  border.medial = crescent.centre;
+  border.medial_radii = glm::dvec2(crescent.outer_x, crescent.outer_y) + kBeyondRim;
+  border.lateral_x = medial.centre.x - random.Uniform(11.5, 12.5) * kMm;
+  border.lateral_radius = random.Near(11.5, 0.03) * kMm;
+  border.height = random.Near(9.0, 0.06) * kMm;
+  border.front_height = random.Near(2.4, 0.06) * kMm;
+  border.reach = random.Near(2.4, 0.05) * kMm;
+  border.hiatus_depth = random.Near(3.2, 0.1) * kMm;
+  border.hiatus_angle = RadiansFromDegrees(random.Uniform(118.0, 128.0));
+  plateau.lateral_meniscus = {random.Near(7.6, 0.04) * kMm, random.Near(4.4, 0.05) * kMm};
+  for (const bool posterior : {false, true}) {
+    const double angle = posterior ? crescent.to : crescent.from, onwards = posterior ? 1.0 : -1.0;
+    const Wedge wedge = WedgeAt(crescent, angle);
+    const double r = OuterRadius(crescent, angle) - 0.42 * wedge.width;
+    const glm::dvec2 out(std::cos(angle), std::sin(angle)), tangent(-out.y, out.x);
+    MeniscalRoot& root = plateau.roots[posterior ? 1 : 0];
+    // The root encloses the end of the horn.
+    root.from = crescent.centre + r * out - 0.8 * kMm * onwards * tangent;
+    root.to = root.from + random.Near(posterior ? 6.5 : 8.5, 0.06) * kMm *
+                              glm::normalize(onwards * tangent - 0.15 * out);
+    root.half_width = 1.0 * wedge.width;
+    root.height = 1.3 * wedge.height;
+  }
+
+  // The lateral condyle bounds the notch opposite the medial one; the trochlea joins both above.
+  cavity.lateral_condyle.centre = glm::dvec3(-32.0, -23.5, 30.5) * kMm + Jitter(random, 0.5 * kMm);
+  cavity.lateral_condyle.radii =
+      glm::dvec3(random.Near(16.0, 0.02), random.Near(22.5, 0.02), random.Near(18.0, 0.02)) * kMm;
+  cavity.lateral_condyle.portal_from_body =
+      glm::angleAxis(RadiansFromDegrees(random.Uniform(-6.0, 0.0)), glm::dvec3(0, 0, 1));
+
+  cavity.trochlea.centre = glm::dvec3(-13.0, -38.5, 29.0) * kMm + Jitter(random, 0.5 * kMm);
+  cavity.trochlea.radii = glm::dvec3(20.0, 13.0, 16.0) * kMm;
+
+  const auto on_bone = [&](const glm::dvec2& at, double sunk) {
+    return plateau.portal_from_plateau *
+           glm::dvec3(at.x, at.y, BoneHeight(plateau, at.x, at.y) - sunk);
+  };
+  const std::span<Bundle> all(cavity.ligament);
+  const glm::dquat& turn = plateau.portal_from_plateau.rotation;
+  const glm::dvec3 right = turn * glm::dvec3(1, 0, 0), back = turn * glm::dvec3(0, 1, 0);
+  // Anterior cruciate ligament: from its footprint in front of the eminence up, back and outwards
+  // to the wall of the lateral condyle.
+  const glm::dvec2 foot = 0.5 * (medial.centre + plateau.eminence[1].centre);
+  MakeBundles(all.first(kAnteriorBundles),
+              {on_bone(plateau.footprint.centre, 4.2 * kMm), 2.5 * kMm * right, 3.2 * kMm * back},
+              {cavity.lateral_condyle.centre + glm::dvec3(10.8, 9.6, 5.0) * kMm,
+               glm::dvec3(0.4, 1.6, 0.6) * kMm, glm::dvec3(0.2, -0.6, 2.4) * kMm},
+              RadiansFromDegrees(75.0), 2.3 * kMm, random);
+  // Posterior cruciate ligament: from the wall of the medial condyle back and down behind the
+  // eminence.
+  MakeBundles(
+      all.subspan(kAnteriorBundles, kPosteriorBundles),
+      {cavity.condyle.centre + glm::dvec3(-11.0, 10.0, 9.5) * kMm, glm::dvec3(0.5, 1.8, 0.0) * kMm,
+       glm::dvec3(0.0, 0.6, 2.0) * kMm},
+      {on_bone(foot + glm::dvec2(3.5, 14.5) * kMm, 1.0 * kMm), 2.2 * kMm * right, 1.0 * kMm * back},
+      RadiansFromDegrees(40.0), 2.2 * kMm, random);
+  // Popliteus tendon: from the lateral condyle obliquely down through the hiatus.
+  const double angle = border.hiatus_angle;
+  const glm::dvec2 through(border.lateral_x + (border.lateral_radius + 1.5 * kMm) * std::cos(angle),
+                           border.medial.y + (border.medial_radii.y + 1.5 * kMm) * std::sin(angle));
+  all.back() = {on_bone(through + glm::dvec2(-3.5, -2.0) * kMm, -9.0 * kMm),
+                on_bone(through + glm::dvec2(2.0, 1.0) * kMm, 2.0 * kMm),
+                random.Near(2.0, 0.05) * kMm};
+}
+
 }  // namespace
 
 Cavity MakeCavity(std::uint32_t seed) {
@@ -162,9 +297,10 @@ Cavity MakeCavity(std::uint32_t seed) {
   plateau.half_width_lateral = random.Near(38.0, 0.03) * kMm;
   plateau.half_depth = random.Near(18.0, 0.02) * kMm;
   plateau.roll_off = 60.0 * kMm;
-  plateau.spine = glm::dvec2(random.Uniform(-17.5, -16.0), random.Uniform(0.0, 4.0)) * kMm;
-  plateau.spine_radii = glm::dvec2(random.Near(4.2, 0.1), random.Near(8.0, 0.1)) * kMm;
-  plateau.spine_height = random.Near(4.6, 0.12) * kMm;
+  plateau.eminence[0].centre =
+      glm::dvec2(random.Uniform(-17.5, -16.0), random.Uniform(0.0, 4.0)) * kMm;
+  plateau.eminence[0].radii = glm::dvec2(random.Near(2.9, 0.1), random.Near(5.4, 0.1)) * kMm;
+  plateau.eminence[0].height = random.Near(4.2, 0.12) * kMm;
   plateau.bed.centre = glm::dvec2(random.Uniform(-3.2, -2.0), random.Uniform(-2.6, -1.6)) * kMm;
   plateau.bed.radii = glm::dvec2(random.Near(8.0, 0.04), random.Near(5.6, 0.04)) * kMm;
   plateau.bed.wobble = {random.Uniform(0.0, 6.28), random.Uniform(0.0, 6.28)};
@@ -182,55 +318,8 @@ Cavity MakeCavity(std::uint32_t seed) {
   cavity.condyle.centre =
       lowest + cavity.condyle.portal_from_body * glm::dvec3(0.0, -cavity.condyle.radii.y, 0.0);
 
-  // Ligament similar to a cruciate, with fibres that fan out at the tibia.
-  const glm::dvec3 foot =
-      plateau.portal_from_plateau * glm::dvec3(-18.0 * kMm, 3.0 * kMm, -0.5 * kMm);
-  const glm::dvec3 roof = glm::dvec3(-22.0, -26.0, 37.0) * kMm + Jitter(random, 0.8 * kMm);
-  for (std::size_t i = 0; i < cavity.ligament.size(); ++i) {
-    const double side = static_cast<double>(i) - 2.0;
-    cavity.ligament[i].from =
-        foot + glm::dvec3(1.9 * side, 0.3 * std::abs(side), 0.8 * std::abs(side)) * kMm +
-        Jitter(random, 0.4 * kMm);
-    cavity.ligament[i].to = roof + glm::dvec3(0.8 * side, 0.5 * side, 1.0 * std::abs(side)) * kMm +
-                            Jitter(random, 0.4 * kMm);
-    cavity.ligament[i].radius = random.Uniform(1.7, 2.3) * kMm;
-  }
+  MakeSoftTissue(cavity);
   return cavity;
-}
-
-double BedOutline(const CartilageBed& bed, double angle) {
-  return 1.0 + 0.07 * std::cos(2.0 * angle + bed.wobble.x) +
-         0.05 * std::cos(3.0 * angle + bed.wobble.y);
-}
-
-double BedShare(const CartilageBed& bed, double x, double y) {
-  const double u = (x - bed.centre.x) / bed.radii.x, v = (y - bed.centre.y) / bed.radii.y;
-  const double r2 = u * u + v * v;
-  if (r2 < 1e-12 || r2 > 4.0) return std::sqrt(r2);
-  return std::sqrt(r2) / BedOutline(bed, std::atan2(v, u));
-}
-
-double BedDepth(const CartilageBed& bed, double share) {
-  return bed.depth * SmoothStep(1.0, 1.0 - bed.wall, share);
-}
-
-double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) {
-  double z = 0.5 * plateau.curvature_x * x * x + 0.5 * plateau.curvature_y * y * y;
-  // Outline of a rounded box, with an edge that rolls off beyond nine tenths of it.
-  constexpr double kRollFrom = 0.9;
-  const double u = x / (x > 0.0 ? plateau.half_width_medial : plateau.half_width_lateral),
-               v = y / plateau.half_depth;
-  const double past = std::sqrt(std::sqrt(u * u * u * u + v * v * v * v)) - kRollFrom;
-  if (past > 0.0) z -= plateau.roll_off * past * past;
-  const double su = (x - plateau.spine.x) / plateau.spine_radii.x,
-               sv = (y - plateau.spine.y) / plateau.spine_radii.y;
-  const double spine2 = su * su + sv * sv;
-  if (spine2 < 16.0) z += plateau.spine_height * std::exp(-spine2);
-  if (with_bed) {
-    const double share = BedShare(plateau.bed, x, y);
-    if (share < 1.0) z -= BedDepth(plateau.bed, share);
-  }
-  return z;
 }
 
 double CapsuleDistance(const Cavity& cavity, const glm::dvec3& d) {
@@ -268,6 +357,42 @@ double CastEllipsoid(const Ellipsoid& e, const glm::dvec3& direction) {
   return s > 0.0 ? s : kNever;
 }
 
+namespace {
+
+// Minimum of two distances with a fillet: exact where they differ by more than kFillet.
+double FilletedMinimum(double a, double b) {
+  constexpr double kFillet = 7.0 * kMm;
+  const double near = std::max(kFillet - std::abs(a - b), 0.0) / kFillet;
+  return std::min(a, b) - 0.25 * kFillet * near * near;
+}
+
+glm::dvec3 FemurNormal(const Cavity& cavity, const glm::dvec3& x) {
+  constexpr double kStep = 0.02 * kMm;
+  glm::dvec3 slope(0.0);
+  for (int i = 0; i < 3; ++i) {
+    glm::dvec3 step(0.0);
+    step[i] = kStep;
+    slope[i] = FemurClearance(cavity, x + step) - FemurClearance(cavity, x - step);
+  }
+  return glm::normalize(slope);
+}
+
+// Walks by a share of the clearance until inside.
+double CastFemur(const Cavity& cavity, const glm::dvec3& d, double limit) {
+  constexpr double kShare = 0.9, kLeastStep = 0.05 * kMm;
+  double s = 0.0, last = 0.0;
+  double clearance = FemurClearance(cavity, glm::dvec3(0.0));
+  while (clearance > 0.0) {
+    last = s;
+    s += std::max(kLeastStep, kShare * clearance);
+    if (s > limit) return kNever;
+    clearance = FemurClearance(cavity, s * d);
+  }
+  return RootBetween([&](double at) { return FemurClearance(cavity, at * d); }, last, s);
+}
+
+}  // namespace
+
 CavityHit CastFromPortal(const Cavity& cavity, const glm::dvec3& d) {
   const double capsule = CapsuleDistance(cavity, d), fat = FatDistance(cavity, d);
   CavityHit hit{capsule, Surface::kCapsule, std::min(capsule, fat)};
@@ -275,18 +400,13 @@ CavityHit CastFromPortal(const Cavity& cavity, const glm::dvec3& d) {
     if (distance < hit.distance) hit.distance = distance, hit.surface = surface;
   };
   offer(fat, Surface::kFat);
-  offer(CastEllipsoid(cavity.condyle, d), Surface::kCondyle);
+  offer(CastFemur(cavity, d, hit.distance), Surface::kCondyle);
   for (const Bundle& bundle : cavity.ligament) offer(CastBundle(bundle, d), Surface::kLigament);
   offer(CastPlateau(cavity.plateau, d, hit.distance), Surface::kPlateau);
   return hit;
 }
 
 namespace {
-
-glm::dvec3 EllipsoidNormal(const Ellipsoid& e, const glm::dvec3& x) {
-  const glm::dvec3 body = glm::conjugate(e.portal_from_body) * (x - e.centre);
-  return glm::normalize(e.portal_from_body * (body / (e.radii * e.radii)));
-}
 
 // Normal towards the portal of a surface at distance R(direction): -∇(|x| - R(x/|x|)); x lies on
 // it.
@@ -313,10 +433,16 @@ double BundleClearance(const Bundle& bundle, const glm::dvec3& x, glm::dvec3* ne
 
 }  // namespace
 
+double FemurClearance(const Cavity& cavity, const glm::dvec3& x) {
+  return FilletedMinimum(FilletedMinimum(EllipsoidClearance(cavity.condyle, x),
+                                         EllipsoidClearance(cavity.trochlea, x)),
+                         EllipsoidClearance(cavity.lateral_condyle, x));
+}
+
 glm::dvec3 NormalAt(const Cavity& cavity, Surface surface, const glm::dvec3& x, bool with_bed) {
   switch (surface) {
     case Surface::kCondyle:
-      return EllipsoidNormal(cavity.condyle, x);
+      return FemurNormal(cavity, x);
     case Surface::kFat:
       return StarNormal(x, [&](const glm::dvec3& d) { return FatDistance(cavity, d); });
     case Surface::kPlateau: {
@@ -344,6 +470,20 @@ glm::dvec3 NormalAt(const Cavity& cavity, Surface surface, const glm::dvec3& x, 
   }
 }
 
+BundlePlace NearestBundle(const Cavity& cavity, const glm::dvec3& x) {
+  BundlePlace place;
+  double best = kNever;
+  for (std::size_t i = 0; i < cavity.ligament.size(); ++i) {
+    const Bundle& bundle = cavity.ligament[i];
+    const double clearance = BundleClearance(bundle, x);
+    if (clearance >= best) continue;
+    const glm::dvec3 axis = bundle.to - bundle.from;
+    best = clearance;
+    place = {i, std::clamp(glm::dot(x - bundle.from, axis) / glm::dot(axis, axis), 0.0, 1.0)};
+  }
+  return place;
+}
+
 double EllipsoidClearance(const Ellipsoid& e, const glm::dvec3& x) {
   const glm::dvec3 body = glm::conjugate(e.portal_from_body) * (x - e.centre);
   const double k0 = glm::length(body / e.radii), k1 = glm::length(body / (e.radii * e.radii));
@@ -353,9 +493,9 @@ double EllipsoidClearance(const Ellipsoid& e, const glm::dvec3& x) {
 double Clearance(const Cavity& cavity, const glm::dvec3& x, bool with_bed) {
   const double length = glm::length(x);
   double clearance = length > 0.0 ? CapsuleBase(cavity, x / length) - length : cavity.radius;
-  clearance = std::min(clearance, EllipsoidClearance(cavity.condyle, x));
+  clearance = std::min(clearance, FemurClearance(cavity, x));
   const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
-  clearance = std::min(clearance, 0.9 * (p.z - PlateauHeight(cavity.plateau, p.x, p.y, with_bed)));
+  clearance = std::min(clearance, PlateauClearance(cavity.plateau, p, with_bed));
   for (const Bundle& bundle : cavity.ligament)
     clearance = std::min(clearance, BundleClearance(bundle, x));
   return clearance;

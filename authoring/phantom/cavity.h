@@ -3,10 +3,11 @@
 // Portal frame, m [method.md, Frames]: (+z into the joint, +x to the viewer's right and medial, +y
 // down).
 //
-//   condyle       ellipsoid
-//   plateau       height field z = H(x, y) in its own frame (x medial, y posterior, z up): a dish
-//                 with a tibial spine, a rim that rolls off, and the bed of the cartilage
-//   ligament      bundles of cylinders with round ends
+//   femur         ellipsoids with fillets between them: medial and lateral condyle, trochlea
+//   plateau       height field in its own frame (plateau.h)
+//   ligaments     bundles of cylinders with round ends: the anterior cruciate ligament from the
+//                 plateau to the lateral condyle, the posterior one from the medial condyle to the
+//                 back of the plateau, the popliteus tendon
 //   capsule, fat  star-shaped about the portal: distance = R(direction), folds and lobes in R
 #pragma once
 
@@ -17,7 +18,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/core/frames.h"
+#include "authoring/phantom/plateau.h"
 
 namespace arthro::authoring {
 
@@ -36,49 +37,26 @@ struct Ellipsoid {
   glm::dquat portal_from_body{1.0, 0.0, 0.0, 0.0};
 };
 
-// Place of the cartilage layer in the plateau; plateau frame. The bed is `depth` deep, with walls
-// that rise over the outer `wall` share of its radii.
-struct CartilageBed {
-  glm::dvec2 centre{0.0}, radii{1.0};
-  glm::dvec2 wobble{0.0};  // rad; phases of the outline's two- and three-fold waves
-  double depth = 0.0, wall = 0.16;
-};
-
-struct Plateau {
-  Rigid3 portal_from_plateau;
-  double curvature_x = 0, curvature_y = 0;  // 1/m, curvature of the dish
-  double half_width_medial = 0, half_width_lateral = 0, half_depth = 0;
-  double roll_off = 0;  // m per (share past the rim)²
-  glm::dvec2 spine{0.0};
-  glm::dvec2 spine_radii{1.0};
-  double spine_height = 0;
-  CartilageBed bed;
-};
-
 struct Bundle {
   glm::dvec3 from{0.0}, to{0.0};
   double radius = 0;
 };
+
+// Bundles in their order: anterior cruciate ligament, posterior one, popliteus tendon.
+constexpr std::size_t kAnteriorBundles = 7, kPosteriorBundles = 4;
+constexpr std::size_t kBundles = kAnteriorBundles + kPosteriorBundles + 1;
 
 struct Cavity {
   std::uint32_t seed = 0;
   double radius = 0.05;  // D, radius of the backdrop sphere
   double capsule_side = 0, capsule_front = 0, fold_height = 0;
   double overhang = 0, fat_distance = 0, lobe_height = 0;
-  Ellipsoid condyle;
+  Ellipsoid condyle, lateral_condyle, trochlea;
   Plateau plateau;
-  std::array<Bundle, 5> ligament;
+  std::array<Bundle, kBundles> ligament;
 };
 
 Cavity MakeCavity(std::uint32_t seed);
-
-// Height of the plateau, with and without the bed; plateau frame.
-double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed = true);
-// Outline of the bed, as a factor on its radii; `angle` is measured on the point scaled by them.
-double BedOutline(const CartilageBed& bed, double angle);
-// Share of the bed's radius at a point: 0 in the middle, 1 at the rim.
-double BedShare(const CartilageBed& bed, double x, double y);
-double BedDepth(const CartilageBed& bed, double share);
 
 // Distances of the two star-shaped surfaces in a unit direction. A direction without fat gives a
 // distance behind the capsule.
@@ -90,6 +68,13 @@ double FatLobule(const Cavity& cavity, const glm::dvec3& direction);
 // Distance along a unit direction at which a ray from the portal enters the ellipsoid; infinite
 // when it misses.
 double CastEllipsoid(const Ellipsoid& ellipsoid, const glm::dvec3& direction);
+
+// Bundle of the ligaments that is nearest to a point; a place on its axis as a share of its length.
+struct BundlePlace {
+  std::size_t bundle = 0;
+  double share = 0;
+};
+BundlePlace NearestBundle(const Cavity& cavity, const glm::dvec3& x);
 
 // Nearest surface along a unit direction from the portal.
 struct CavityHit {
@@ -107,6 +92,10 @@ glm::dvec3 NormalAt(const Cavity& cavity, Surface surface, const glm::dvec3& x,
 // lobes; negative inside tissue. Exact near the surfaces, elsewhere too small rather than too
 // large.
 double Clearance(const Cavity& cavity, const glm::dvec3& x, bool with_bed = true);
+
+// Distance of a point from the femur, as in Clearance: both condyles and the trochlea, with fillets
+// between them; 0 on its surface.
+double FemurClearance(const Cavity& cavity, const glm::dvec3& x);
 
 // Distance of a point from the condyle, as in Clearance.
 double EllipsoidClearance(const Ellipsoid& ellipsoid, const glm::dvec3& x);

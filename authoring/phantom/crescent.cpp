@@ -33,7 +33,7 @@ Crescent MakeCrescent(const Cavity& cavity) {
   c.plateau_from_tissue.rotation =
       glm::angleAxis(RadiansFromDegrees(random.Uniform(-20.0, 20.0)), glm::dvec3(0, 0, 1));
   c.plateau_from_tissue.translation = {c.centre.x, c.centre.y,
-                                       PlateauHeight(cavity.plateau, c.centre.x, c.centre.y)};
+                                       BoneHeight(cavity.plateau, c.centre.x, c.centre.y)};
   return c;
 }
 
@@ -56,7 +56,7 @@ Wedge WedgeAt(const Crescent& c, double angle) {
 
 glm::dvec3 OnPlateau(const Cavity& cavity, const Crescent& c, double angle, double r, double lift) {
   const double x = c.centre.x + r * std::cos(angle), y = c.centre.y + r * std::sin(angle);
-  return {x, y, PlateauHeight(cavity.plateau, x, y) + lift};
+  return {x, y, BoneHeight(cavity.plateau, x, y) + lift};
 }
 
 double OuterRadius(const Crescent& c, double angle) {

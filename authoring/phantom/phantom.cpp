@@ -54,7 +54,8 @@ Phantom MakePhantom(const PhantomOptions& options, const Progress& progress) {
 
   phantom.landmarks.push_back({"condyle apex, nearest to the portal", NearestToPortal(cavity)});
   phantom.landmarks.push_back(
-      {"plateau, tibial spine", OnPlateau(cavity, cavity.plateau.spine.x, cavity.plateau.spine.y)});
+      {"plateau, tibial spine", OnPlateau(cavity, cavity.plateau.eminence[0].centre.x,
+                                          cavity.plateau.eminence[0].centre.y)});
   phantom.landmarks.push_back(
       {"plateau, middle of the cartilage bed",
        OnPlateau(cavity, cavity.plateau.bed.centre.x, cavity.plateau.bed.centre.y)});

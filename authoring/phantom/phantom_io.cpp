@@ -85,6 +85,25 @@ fs::path Plain(const fs::path& folder) {
   return plain.has_filename() ? plain : plain.parent_path();
 }
 
+// Colour of a model that continues a surface of the picture: its mean linear colour, to hundredths.
+// A square stands for the inverse of sRGB, as in the view.
+glm::dvec3 ModelColour(const PhantomPicture& picture, Surface surface) {
+  glm::dvec3 sum(0.0);
+  double count = 0.0;
+  for (std::size_t i = 0; i < picture.surfaces.size(); ++i) {
+    if (picture.surfaces[i] != surface) continue;
+    const glm::dvec3 rgb = glm::dvec3(picture.colour.rgb[3 * i], picture.colour.rgb[3 * i + 1],
+                                      picture.colour.rgb[3 * i + 2]) /
+                           255.0;
+    sum += rgb * rgb;
+    ++count;
+  }
+  // The picture holds the shade of its recesses, which is dark and red; a model gets the light of
+  // the lamp alone. The factors make it as bright in the view as what it continues.
+  const glm::dvec3 kInView(1.30, 1.38, 1.26);
+  return count > 0.0 ? glm::round(100.0 * kInView * sum / count) / 100.0 : glm::dvec3(0.5);
+}
+
 void WriteFiles(const fs::path& folder, const Phantom& phantom, const FootageWriter& footage) {
   const std::string extension = Extension(phantom);
   WriteColourImage(folder / ("panorama" + extension), phantom.without_tissues.colour);
@@ -216,7 +235,8 @@ Scene SceneOf(const Phantom& phantom) {
   cartilage.is_cuttable = false;
   cartilage.pose = phantom.cartilage.portal_from_tissue;
   cartilage.material = "cartilage";
-  cartilage.colour = {0.81, 0.72, 0.57};
+  // The layer continues the cartilage around it, in the light that the panorama holds.
+  cartilage.colour = ModelColour(phantom.with_tissues, Surface::kCartilage);
   scene.tissues = {meniscus, cartilage};
   scene.instruments = {{"probe", "probe"},
                        {"basket forceps", "punch"},
@@ -254,6 +274,21 @@ Json TruthOf(const Phantom& phantom) {
                 {"vertices", t.surface.vertices.size()},
                 {"triangles", t.surface.triangles.size()}};
   };
+  const auto tubercle = [](const Tubercle& t) {
+    return Json{{"centre", JsonOf(t.centre)}, {"radii", JsonOf(t.radii)}, {"height", t.height}};
+  };
+  const auto ellipsoid = [](const Ellipsoid& e) {
+    return Json{{"type", "ellipsoid"},
+                {"centre", JsonOf(e.centre)},
+                {"radii", JsonOf(e.radii)},
+                {"portal_from_body", JsonOf(e.portal_from_body)}};
+  };
+  Json roots = Json::array();
+  for (const MeniscalRoot& root : p.roots)
+    roots.push_back({{"from", JsonOf(root.from)},
+                     {"to", JsonOf(root.to)},
+                     {"half_width", root.half_width},
+                     {"height", root.height}});
   PhantomOptions recorded = phantom.options;
   recorded.threads = 0;  // has no effect, so it is not part of the truth
   Json options = JsonFromOptions(recorded);
@@ -266,11 +301,9 @@ Json TruthOf(const Phantom& phantom) {
                 {"height", phantom.without_tissues.colour.height}}},
               {"radius", c.radius},
               {"incision_spacing", phantom.incision_spacing},
-              {"condyle",
-               {{"type", "ellipsoid"},
-                {"centre", JsonOf(c.condyle.centre)},
-                {"radii", JsonOf(c.condyle.radii)},
-                {"portal_from_body", JsonOf(c.condyle.portal_from_body)}}},
+              {"condyle", ellipsoid(c.condyle)},
+              {"lateral_condyle", ellipsoid(c.lateral_condyle)},
+              {"trochlea", ellipsoid(c.trochlea)},
               {"plateau",
                {{"type", "height field"},
                 {"portal_from_plateau",
@@ -281,10 +314,22 @@ Json TruthOf(const Phantom& phantom) {
                 {"half_width_lateral", p.half_width_lateral},
                 {"half_depth", p.half_depth},
                 {"roll_off", p.roll_off},
-                {"spine",
-                 {{"centre", JsonOf(p.spine)},
-                  {"radii", JsonOf(p.spine_radii)},
-                  {"height", p.spine_height}}},
+                {"eminence", {tubercle(p.eminence[0]), tubercle(p.eminence[1])}},
+                {"footprint", tubercle(p.footprint)},
+                {"roots", roots},
+                {"capsule",
+                 {{"medial_centre", JsonOf(p.border.medial)},
+                  {"medial_radii", JsonOf(p.border.medial_radii)},
+                  {"lateral_x", p.border.lateral_x},
+                  {"lateral_radius", p.border.lateral_radius},
+                  {"height", p.border.height},
+                  {"front_height", p.border.front_height},
+                  {"reach", p.border.reach},
+                  {"hiatus_depth", p.border.hiatus_depth},
+                  {"hiatus_angle", p.border.hiatus_angle}}},
+                {"lateral_meniscus",
+                 {{"width", p.lateral_meniscus.width}, {"height", p.lateral_meniscus.height}}},
+                {"lobule_height", p.lobule_height},
                 {"cartilage_bed",
                  {{"centre", JsonOf(p.bed.centre)},
                   {"radii", JsonOf(p.bed.radii)},

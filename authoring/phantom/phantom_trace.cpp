@@ -123,7 +123,7 @@ std::vector<ProbeContact> ProbeContacts(const Cavity& cavity, const PhantomTissu
   contacts.push_back({on_condyle, NormalAt(cavity, Surface::kCondyle, on_condyle), 1.5 * kMm,
                       5.0 * kMm, 3.75, 4.5});
   // Point of the plateau in front of the cartilage layer.
-  const double x = -1.0 * kMm, y = -16.0 * kMm;
+  const double x = -1.0 * kMm, y = -10.4 * kMm;
   const glm::dvec3 on_plateau =
       cavity.plateau.portal_from_plateau * glm::dvec3(x, y, PlateauHeight(cavity.plateau, x, y));
   contacts.push_back({on_plateau, NormalAt(cavity, Surface::kPlateau, on_plateau), 2.0 * kMm,

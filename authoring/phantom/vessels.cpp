@@ -38,7 +38,7 @@ double LatitudeOf(const glm::dvec3& d) { return -std::asin(std::clamp(d.y, -1.0,
 VesselTrees::VesselTrees(std::uint32_t seed) {
   Random random(0x7E55E1ull + seed);
   // Deep trunks first: few, broad, blurred. Then the sharp network on the surface.
-  constexpr int kDeepTrees = 18, kSurfaceTrees = 42;
+  constexpr int kDeepTrees = 14, kSurfaceTrees = 110;
   constexpr double kLongitude = 115.0, kLatitude = 80.0;  // degrees, limits of the roots
   for (int i = 0; i < kDeepTrees + kSurfaceTrees; ++i) {
     const bool deep = i < kDeepTrees;
@@ -50,7 +50,7 @@ VesselTrees::VesselTrees(std::uint32_t seed) {
     const glm::dvec3 heading = glm::normalize(glm::cross(at, other));
     // Radii in degrees of the sphere; depths from 0 on the surface to 1.
     const double radius =
-        RadiansFromDegrees(deep ? random.Uniform(0.30, 0.55) : random.Uniform(0.11, 0.27));
+        RadiansFromDegrees(deep ? random.Uniform(0.26, 0.46) : random.Uniform(0.08, 0.21));
     Grow(random.Next(), at, heading, radius,
          deep ? random.Uniform(0.7, 1.0) : random.Uniform(0.0, 0.3), 0);
   }
@@ -73,7 +73,11 @@ void VesselTrees::Grow(std::uint64_t seed, glm::dvec3 at, glm::dvec3 heading, do
     heading = turned(heading, curl);
     const glm::dvec3 next = std::cos(kStep) * at + std::sin(kStep) * heading;
     const double thinner = radius * random.Uniform(kTaper, kStraight);
-    segments_.push_back({at, next, radius, thinner, depth});
+    // A trunk comes up through the tissue; a branch that reaches its greatest length runs out.
+    constexpr double kRise = 12.0, kRunOut = 25.0;  // steps
+    const double up = generation == 0 ? SmoothStep(0.0, kRise, step + 0.5) : 1.0;
+    const double shown = up * SmoothStep(kLongest, kLongest - kRunOut, step);
+    segments_.push_back({at, next, radius, thinner, depth + (1.0 - depth) * (1.0 - up), shown});
     heading = glm::normalize(heading - glm::dot(heading, next) * next);
     at = next;
     radius = thinner;
@@ -126,9 +130,9 @@ VesselTrees::Cover VesselTrees::At(const glm::dvec3& d) const {
                  outer = radius * (1.25 + (kSoftness - 1.25) * s.depth);
     if (distance >= outer) continue;
     // Thin vessels are fainter: they hold less blood.
-    constexpr double kFaintest = 0.12, kFullRadius = RadiansFromDegrees(0.22);
+    constexpr double kFaintest = 0.02, kFullRadius = RadiansFromDegrees(0.22);
     const double strength =
-        std::min(1.0, kFaintest + radius / kFullRadius) * (1.0 - 0.45 * s.depth);
+        s.strength * std::min(1.0, kFaintest + radius / kFullRadius) * (1.0 - 0.45 * s.depth);
     const double amount = strength * SmoothStep(outer, inner, distance);
     if (amount > cover.amount) cover = {amount, s.depth};
   }

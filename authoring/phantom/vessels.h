@@ -1,6 +1,6 @@
-// Blood vessels on the star-shaped surfaces of the phantom: trees with branches that grow thinner,
-// as short arcs of the unit sphere of directions about the portal. Radii are angles seen from the
-// portal.
+// Blood vessels on the star-shaped surfaces of the phantom: trees that rise from the depth, with
+// branches that taper to capillaries, as short arcs of the unit sphere of directions about the
+// portal. Radii are angles seen from the portal.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@ struct VesselSegment {
   glm::dvec3 from{0.0}, to{0.0};          // unit directions
   double from_radius = 0, to_radius = 0;  // rad
   double depth = 0;                       // 0 on the surface, crisp and red; 1 deep, soft and dark
+  double strength = 1;                    // less than 1 where the vessel rises to the surface
 };
 
 class VesselTrees {

@@ -54,7 +54,8 @@ constexpr std::array kCamera = {CameraRow{"the same, camera: exposure", CameraFe
                                 CameraRow{"the same and grain", CameraFeatures::kGrain},
                                 CameraRow{"the same and sharpness", CameraFeatures::kSharpness},
                                 CameraRow{"the same and fringe", CameraFeatures::kFringe},
-                                CameraRow{"the same and smooth edges", CameraFeatures::kEdges}};
+                                CameraRow{"the same and smooth edges", CameraFeatures::kEdges},
+                                CameraRow{"the same and occlusion", CameraFeatures::kOcclusion}};
 
 // Number of rows, for the progress.
 constexpr double kRows =

@@ -34,9 +34,9 @@ struct ReliefSearch {
 };
 inline constexpr ReliefSearch kUsualRelief{64, 8};
 
-// Features of the camera, each with all before it: the order in which a slow machine leaves them
-// out is from the last. Exposure stays, since it decides how bright the picture is.
-enum class CameraFeatures { kExposure, kGrain, kSharpness, kFringe, kEdges };
+// Features of a picture with a camera, each with all before it: the order in which a slow machine
+// leaves them out is from the last. Exposure stays, since it decides how bright the picture is.
+enum class CameraFeatures { kExposure, kGrain, kSharpness, kFringe, kEdges, kOcclusion };
 
 // One frame.
 struct Picture {
@@ -49,7 +49,7 @@ struct Picture {
   Disturbances disturbances;  // over all but a plain picture
   // Camera behind the scope; none: colours as they are lit. Never over a plain picture.
   std::optional<LensCamera> camera;
-  CameraFeatures features = CameraFeatures::kEdges;
+  CameraFeatures features = CameraFeatures::kOcclusion;
   int rays = 1;  // per pixel and axis, 1 or 2, with a camera
   ReliefSearch relief;
   // Texture samples per pixel, at most: 8 serve footprints eight times as long as wide. 2 are

@@ -3,7 +3,7 @@ const float kBackOfLens = 2.42;    // 2 * 1.1^2: directions beyond 1.1 window ra
 const float kMostOffPlace = 0.12;  // window radii
 #ifdef TISSUE
 const float kSoftBorder = 0.75;  // share of the plate's own normal at its border
-const float kSoftColour = 0.5, kLeastSurround = 0.02;
+const float kSoftColour = 0.2, kLeastSurround = 0.02;
 const vec3 kScattered = vec3(0.95, 0.70, 0.58);    // light through tissue that faces away, warmer
 // Film of fluid: a broad sheen, a small glint, and the surroundings at grazing angles.
 const float kWetSheen = 0.05, kWetGlint = 0.5;

@@ -87,7 +87,7 @@ TEST(RenderScale, WhatIsNoTimeIsPassedOver) {
 TEST(RenderScale, FeaturesStepBackBeforeTheResolutionAndInTheirOrder) {
   RenderScale scale;
   CameraFeatures before = scale.features();
-  EXPECT_EQ(before, CameraFeatures::kEdges);
+  EXPECT_EQ(before, CameraFeatures::kOcclusion);
   // Each round of frames is a little slower than the one before.
   for (double seconds = 0.03; seconds < 0.06; seconds *= 1.004) {
     const double cost = scale.value();

@@ -69,6 +69,43 @@ TEST_F(CameraPassView, PlainPictureHasNoCamera) {
   EXPECT_NE(Drawn(picture).rgb, plain.rgb);
 }
 
+TEST_F(CameraPassView, OcclusionLeavesLevelGroundAsItIs) {
+  Picture picture = Forward(Halves(1024, 1024, 680), kNothing);
+  picture.features = CameraFeatures::kEdges;
+  const ColourImage without = Drawn(picture);
+  picture.features = CameraFeatures::kOcclusion;
+  EXPECT_EQ(Drawn(picture).rgb, without.rgb);
+}
+
+// A part that stands out by a millimetre darkens the ground beside it, and nothing a reach away.
+TEST_F(CameraPassView, OcclusionDarkensTheFootOfAStep) {
+  Picture picture = Forward(Grey(1024, 1024, 120), kNothing);
+  DepthMap depth(1024, 1024);
+  for (int y = 0; y < 1024; ++y)
+    for (int x = 0; x < 1024; ++x) depth.at(x, y) = x < 512 ? 0.0f : 1e-3f;
+  view_->SetBackdrop(Grey(1024, 1024, 120), depth, PlainBackdrop(1024, 1024));
+  picture.relief = app::kUsualRelief;
+  picture.features = CameraFeatures::kEdges;
+  const ColourImage without = Drawn(picture);
+  picture.features = CameraFeatures::kOcclusion;
+  const ColourImage with = Drawn(picture);
+  // Light of both pictures, relative to the middle of the level part on the left.
+  constexpr int kRow = kSize / 2, kLevel = kSize / 4;
+  const auto light = [&](const ColourImage& image, int x) {
+    return double(image.at(x, kRow)[1]) / image.at(kLevel, kRow)[1];
+  };
+  double darkest = 1.0;
+  for (int x = kSize / 8; x < kSize * 7 / 8; ++x) {
+    const double share = light(with, x) / light(without, x);
+    darkest = std::min(darkest, share);
+    if (std::abs(x - kSize / 2) > kSize / 8) {
+      EXPECT_NEAR(share, 1.0, 0.02) << x;
+    }
+  }
+  std::printf("darkest place at the foot: %.2f of its light\n", darkest);
+  EXPECT_LT(darkest, 0.9);
+}
+
 TEST_F(CameraPassView, SamePictureGivesTheSameBytes) {
   const LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "authoring/phantom/crescent.h"
 #include "authoring/phantom/noise.h"
 
 namespace arthro::authoring {
@@ -35,11 +36,7 @@ TEST(Cavity, HitsSatisfyTheFormulaOfTheirSurface) {
       const CavityHit hit = CastFromPortal(cavity, d);
       const glm::dvec3 x = hit.distance * d;
       if (hit.surface == Surface::kCondyle) {
-        // (p·p)/r² = 1 in the ellipsoid's own axes; the residual is converted to a length.
-        const glm::dvec3 p =
-            glm::conjugate(cavity.condyle.portal_from_body) * (x - cavity.condyle.centre);
-        const double f = glm::dot(p / cavity.condyle.radii, p / cavity.condyle.radii) - 1.0;
-        worst_condyle = std::max(worst_condyle, 0.5 * std::abs(f) * cavity.condyle.radii.y);
+        worst_condyle = std::max(worst_condyle, std::abs(FemurClearance(cavity, x)));
         ++condyle;
       } else if (hit.surface == Surface::kPlateau) {
         const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
@@ -78,10 +75,7 @@ TEST(Cavity, NothingLiesInFrontOfAHit) {
   const auto inside = [&](const glm::dvec3& x) {
     const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
     if (p.z < PlateauHeight(cavity.plateau, p.x, p.y)) return true;
-    const glm::dvec3 e =
-        (glm::conjugate(cavity.condyle.portal_from_body) * (x - cavity.condyle.centre)) /
-        cavity.condyle.radii;
-    if (glm::dot(e, e) < 1.0) return true;
+    if (FemurClearance(cavity, x) < 0.0) return true;
     for (const Bundle& bundle : cavity.ligament) {
       const glm::dvec3 axis = bundle.to - bundle.from;
       const double t = std::clamp(glm::dot(x - bundle.from, axis) / glm::dot(axis, axis), 0.0, 1.0);
@@ -122,6 +116,74 @@ TEST(Cavity, LeavesRoomForScopeAndInstrument) {
     // A straight scope, and the instrument's portal.
     EXPECT_GT(CastFromPortal(cavity, {0, 0, 1}).distance, 0.026) << "seed " << seed;
     EXPECT_GT(CastFromPortal(cavity, {1, 0, 0}).distance, 0.034) << "seed " << seed;
+  }
+}
+
+// A fillet joins the ellipsoids: away from the others each is exact.
+TEST(Cavity, TheMedialCondyleIsItsEllipsoidAwayFromTheNotch) {
+  const Cavity cavity = MakeCavity(1);
+  int rays = 0;
+  ForEachRay([&](const glm::dvec3& d) {
+    const CavityHit hit = CastFromPortal(cavity, d);
+    const glm::dvec3 x = hit.distance * d;
+    if (hit.surface != Surface::kCondyle || x.x < cavity.condyle.centre.x ||
+        x.y < cavity.condyle.centre.y)
+      return;
+    // (p·p)/r² = 1 in the ellipsoid's own axes; the residual is converted to a length.
+    const glm::dvec3 p =
+        glm::conjugate(cavity.condyle.portal_from_body) * (x - cavity.condyle.centre);
+    const double f = glm::dot(p / cavity.condyle.radii, p / cavity.condyle.radii) - 1.0;
+    EXPECT_LT(0.5 * std::abs(f) * cavity.condyle.radii.y, 1e-9);
+    ++rays;
+  });
+  EXPECT_GT(rays, 100);
+}
+
+// Every cruciate bundle ends in bone at both ends, and both horns of the
+// meniscus end in a root.
+TEST(Cavity, LigamentsAndHornsEndInBone) {
+  for (const int seed : kSeeds) {
+    const Cavity cavity = MakeCavity(static_cast<std::uint32_t>(seed));
+    const auto into_plateau = [&](const glm::dvec3& x) {
+      const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
+      return BoneHeight(cavity.plateau, p.x, p.y) - p.z;
+    };
+    for (std::size_t i = 0; i < kAnteriorBundles + kPosteriorBundles; ++i) {
+      const bool is_anterior = i < kAnteriorBundles;
+      const Bundle& bundle = cavity.ligament[i];
+      const glm::dvec3 tibial = is_anterior ? bundle.from : bundle.to,
+                       femoral = is_anterior ? bundle.to : bundle.from;
+      EXPECT_GT(into_plateau(tibial), 0.0) << "seed " << seed << ", bundle " << i;
+      EXPECT_LT(EllipsoidClearance(is_anterior ? cavity.lateral_condyle : cavity.condyle, femoral),
+                0.0)
+          << "seed " << seed << ", bundle " << i;
+    }
+    const Crescent crescent = MakeCrescent(cavity);
+    for (const double end : {crescent.from, crescent.to}) {
+      // A point of the upper face on the last millimetre of the horn.
+      const Wedge wedge = WedgeAt(crescent, end);
+      const glm::dvec3 top =
+          OnPlateau(cavity, crescent, end, OuterRadius(crescent, end) - 0.5 * wedge.width,
+                    TopOf(crescent, wedge, 0.5));
+      EXPECT_GT(PlateauHeight(cavity.plateau, top.x, top.y), top.z) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Cavity, TheCapsuleRisesBesideTheWholeRimOfTheMeniscus) {
+  for (const int seed : kSeeds) {
+    const Cavity cavity = MakeCavity(static_cast<std::uint32_t>(seed));
+    const Crescent crescent = MakeCrescent(cavity);
+    for (double angle = 0.0; angle < 2.2; angle += 0.1) {
+      constexpr double kBeyond = 5e-3;  // m
+      const double r = OuterRadius(crescent, angle);
+      const glm::dvec3 rim = OnPlateau(cavity, crescent, angle, r, 0.0);
+      const glm::dvec2 wall =
+          crescent.centre + (r + kBeyond) * glm::dvec2(std::cos(angle), std::sin(angle));
+      EXPECT_GT(PlateauHeight(cavity.plateau, wall.x, wall.y),
+                rim.z + WedgeAt(crescent, angle).height)
+          << "seed " << seed << ", " << angle << " rad";
+    }
   }
 }
 

@@ -77,7 +77,7 @@ TEST_P(EveryTissue, LiesOnThePlateauUnderTheCondyle) {
     // Vertices and the middles of triangles.
     const auto probe = [&](const glm::dvec3& x) {
       const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
-      under_plateau = std::max(under_plateau, PlateauHeight(cavity.plateau, p.x, p.y) - p.z);
+      under_plateau = std::max(under_plateau, BoneHeight(cavity.plateau, p.x, p.y) - p.z);
       into_condyle = std::max(into_condyle, -EllipsoidClearance(cavity.condyle, x));
     };
     for (const glm::dvec3& x : mesh.vertices) probe(x);
@@ -102,7 +102,7 @@ TEST_P(EveryTissue, MeniscusIsThinAtItsFreeEdgeAndThickAtItsRim) {
   const SurfaceMesh mesh = InPortal(meniscus);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * mesh.vertices[i];
-    const double height = p.z - PlateauHeight(cavity.plateau, p.x, p.y);
+    const double height = p.z - BoneHeight(cavity.plateau, p.x, p.y);
     highest = std::max(highest, height);
     if (meniscus.rims[i] == 0.0) highest_edge = std::max(highest_edge, height);
   }

@@ -1,0 +1,69 @@
+#include "app/view/drawing/occlusion_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkShaderProgram.h>
+#include <vtk_glew.h>
+
+#include "app/view/drawing/shader_text.h"
+
+namespace arthro::app {
+
+void OcclusionPass::ReleaseGraphicsResources(vtkOpenGLRenderWindow* window) {
+  for (std::optional<ShaderPass>* pass : {&occlusion_, &multiply_}) {
+    if (*pass) (*pass)->ReleaseGraphicsResources();
+    pass->reset();
+  }
+  light_.ReleaseGraphicsResources(window);
+}
+
+void OcclusionPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, int size) {
+  vtkOpenGLFramebufferObject& drawn = *window->GetRenderFramebuffer();
+  vtkTextureObject& depths = *drawn.GetDepthAttachmentAsTextureObject();
+  const int half = std::max(size / 2, 1);
+  light_.Resize(window, half, 0, 1);
+  if (!occlusion_) occlusion_.emplace(ShaderText("occlusion.glsl"), ShaderPass::Shape::kRound);
+  if (!multiply_) multiply_.emplace(ShaderText("multiply.glsl"), ShaderPass::Shape::kRound);
+  vtkOpenGLState* state = window->GetState();
+  state->PushFramebufferBindings();
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglDisable(GL_BLEND);
+  vtkShaderProgram* program = occlusion_->Ready(window);
+  const bool is_drawn = program != nullptr;
+  if (is_drawn) {
+    depths.Activate();
+    program->SetUniformi("depths", depths.GetTextureUnit());
+    program->SetUniformf("given_shadeReach", static_cast<float>(kOcclusionReach));
+    // Half a texture unit is the window's radius.
+    program->SetUniformf("given_unitsOfAngle",
+                         static_cast<float>(picture.lens.outward[0] /
+                                            (4.0 * std::sin(picture.field_of_view / 4.0))));
+    program->SetUniformf("given_texel", static_cast<float>(1.0 / size));
+    light_.Bind(window);
+    occlusion_->Draw(half);
+    depths.Deactivate();
+  }
+  program = is_drawn ? multiply_->Ready(window) : nullptr;
+  if (program != nullptr) {
+    light_.texture->Activate();
+    program->SetUniformi("factor", light_.texture->GetTextureUnit());
+    drawn.Bind(GL_DRAW_FRAMEBUFFER);
+    drawn.ActivateDrawBuffer(0);
+    state->vtkglViewport(0, 0, size, size);
+    state->vtkglScissor(0, 0, size, size);
+    state->vtkglEnable(GL_BLEND);
+    state->vtkglBlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE);
+    multiply_->Draw(size);
+    state->vtkglDisable(GL_BLEND);
+    light_.texture->Deactivate();
+  }
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->PopFramebufferBindings();
+}
+
+}  // namespace arthro::app

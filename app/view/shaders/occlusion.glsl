@@ -1,0 +1,52 @@
+// Short-range ambient occlusion: how far the ground rises around a pixel over the plane through it,
+// from pairs of stored depths on opposite sides [method.md, Camera]. Reads the stored depths of
+// the finished picture, and draws a picture of half the size.
+#include "distance.glsl"
+in vec2 texCoord;
+uniform sampler2D depths;
+steady float shadeReach;   // m
+steady float unitsOfAngle; // texture units per radian
+steady float texel;        // side of a pixel of the depths, texture units
+
+const float kStrength = 0.55;  // loss of light where all pairs rise by their distance or more
+const float kFlat = 0.10;      // rise as a share of the distance that is noise of a relief
+const float kFull = 0.75;      // rise as a share of the distance that blocks all light of a pair
+const float kNearStart = 1.6, kNearEnd = 3.2;  // reaches above a pixel: a part in front, no ground
+const float kMostPlace = 0.08;                 // texture units
+const float kRimFrom = 0.78, kRimTo = 0.94;    // window radii; beyond, places lie outside the window
+const int kPairs = 8;
+// Half of two rings of eight places, one at half the reach.
+const vec2 kPair[kPairs] =
+    vec2[](vec2(1.0, 0.0), vec2(0.707, 0.707), vec2(0.0, 1.0), vec2(-0.707, 0.707),
+           vec2(0.462, 0.191), vec2(0.191, 0.462), vec2(-0.191, 0.462), vec2(-0.462, 0.191));
+
+// Returns the inverse distance, which is linear in the stored depth and over a plane.
+float inverseOf(float stored) {
+  return (1.0 - stored * (kFarthest - kNearest) / kFarthest) / kNearest;
+}
+float storedAt(vec2 at) {
+  float stored = textureLod(depths, at, 0.0).r;
+  return stored < 1.0 ? stored : 0.0;
+}
+
+void main() {
+  vec2 place = texCoord + 0.5 * texel;
+  float stored = storedAt(place);
+  float inverse = inverseOf(stored), squared = 1.0 / (inverse * inverse);
+  float aside = min(shadeReach * inverse * unitsOfAngle, kMostPlace);
+  float inside = 1.0 - smoothstep(kRimFrom, kRimTo, length(2.0 * texCoord - 1.0));
+  float blocked = 0.0;
+  for (int i = 0; i < kPairs; ++i) {
+    vec2 to = aside * kPair[i];
+    float before = storedAt(place - to), after = storedAt(place + to);
+    float away = shadeReach * length(kPair[i]);
+    float riseBefore = (inverseOf(before) - inverse) * squared,
+          riseAfter = (inverseOf(after) - inverse) * squared;
+    float rise = 0.5 * (riseBefore + riseAfter) / away;
+    float ground = 1.0 - smoothstep(kNearStart, kNearEnd, max(riseBefore, riseAfter) / shadeReach);
+    float share = clamp((rise - kFlat) / (kFull - kFlat), 0.0, 1.0) * ground;
+    blocked += before > 0.0 && after > 0.0 ? share : 0.0;
+  }
+  float light = stored > 0.0 ? 1.0 - kStrength * inside * blocked / float(kPairs) : 1.0;
+  gl_FragData[0] = vec4(vec3(light), 1.0);
+}
