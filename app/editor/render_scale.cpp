@@ -13,15 +13,15 @@ struct RenderStep {
   CameraFeatures features;
   double cost;
 };
-constexpr double kFewest = 0.85;  // cost with the exposure alone
+constexpr double kFewest = 0.795;  // cost with the exposure alone
 constexpr RenderStep Coarser(double scale) {
   return {scale, CameraFeatures::kExposure, kFewest * scale * scale};
 }
 constexpr std::array kSteps{RenderStep{1.0, CameraFeatures::kOcclusion, 1.0},
-                            RenderStep{1.0, CameraFeatures::kEdges, 0.93},
-                            RenderStep{1.0, CameraFeatures::kFringe, 0.89},
-                            RenderStep{1.0, CameraFeatures::kSharpness, 0.86},
-                            RenderStep{1.0, CameraFeatures::kGrain, 0.855},
+                            RenderStep{1.0, CameraFeatures::kEdges, 0.875},
+                            RenderStep{1.0, CameraFeatures::kFringe, 0.84},
+                            RenderStep{1.0, CameraFeatures::kSharpness, 0.805},
+                            RenderStep{1.0, CameraFeatures::kGrain, 0.80},
                             RenderStep{1.0, CameraFeatures::kExposure, kFewest},
                             Coarser(0.9),
                             Coarser(0.8),
