@@ -190,8 +190,8 @@ TEST(BadInput, RigAndRecordedHands) {
   std::ofstream(model)
       << R"({"schema": "arthroscene.rig/1", "title": "t", "scope": {"rod_length": 0.2,
                               "device": {"family": "wooden_haptics", "model": "of pine"}}})";
-  ExpectRefusal(practise + " --rig " + model.string(), "there is no model of pine", none,
-                "DISPLAY=");
+  ExpectRefusal(practise + " --rig " + model.string(), "model is \"of pine\"; it must be one of",
+                none, "DISPLAY=");
   ExpectRefusal(practise + " --rig " + none.string(), "untouched", none, "DISPLAY=");
   if (RunProgram("devices --json -").out.find("built without OpenHaptics") != std::string::npos)
     ExpectRefusal(

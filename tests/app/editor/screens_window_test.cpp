@@ -87,8 +87,8 @@ key f2
 wait job
 expect "The pictures are in"
 key f2
-expect "frame-%04d.png in an empty folder"
-set "File name" ")" + (by_command / "frame-%04d.png").string() +
+expect "numbered pictures"
+set "File name" ")" + (by_command / "frame.png").string() +
                                                                                        R"("
 wait frames 20
 key f2
