@@ -55,6 +55,15 @@ struct OnlyIf {  // belongs to the struct only while `holds`
   bool holds;
   Rule rule;
 };
+// Clang 14, by which clang-tidy reads the sources, deduces no arguments of aggregates without them.
+template <class Rule>
+Required(Rule) -> Required<Rule>;
+template <class Rule>
+Always(Rule) -> Always<Rule>;
+template <class T, class Rule>
+LeftOutAt(T, Rule) -> LeftOutAt<T, Rule>;
+template <class Rule>
+OnlyIf(bool, Rule) -> OnlyIf<Rule>;
 
 // Finds the rule, unit and help of one field by its name.
 struct FieldFinder {

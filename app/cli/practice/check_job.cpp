@@ -90,7 +90,7 @@ void AddCheckJob(CLI::App& program) {
         std::tuple{"--lens-schema", &LensSchemaText, "lens files"}})
     job->add_flag_callback(
         flag,
-        [text] {
+        [text = text] {
           fmt::print("{}", text());
           throw CLI::Success();
         },
