@@ -134,17 +134,6 @@ double Folds(const glm::dvec3& d, std::uint32_t seed) {
   return kBroadShare * broad + kNarrowShare * narrow * (0.4 + 0.6 * broad);
 }
 
-// Smooth approximations of the star-shaped surfaces, for Clearance.
-double CapsuleBase(const Cavity& cavity, const glm::dvec3& d) {
-  const double front = SmoothStep(0.58, 0.96, d.z - 0.08 * d.x);
-  const double base = cavity.capsule_side + (cavity.capsule_front - cavity.capsule_side) * front;
-  // Overhead the synovium reaches down to its junction with the condyle.
-  if (d.y > -0.45) return base;
-  constexpr double kOverheadFrom = 0.74;  // sine of the elevation
-  const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + kOverhangMargin);
-  return base - cavity.overhang * SmoothStep(kOverheadFrom, 1.0, -d.y + ragged);
-}
-
 // Share of the fat pad in a direction, 0 to 1: below and in front, more on the lateral side.
 double FatShare(const Cavity& cavity, const glm::dvec3& d) {
   constexpr double kFatFrom = 0.38,
@@ -322,6 +311,16 @@ Cavity MakeCavity(std::uint32_t seed) {
   return cavity;
 }
 
+double CapsuleBase(const Cavity& cavity, const glm::dvec3& d) {
+  const double front = SmoothStep(0.58, 0.96, d.z - 0.08 * d.x);
+  const double base = cavity.capsule_side + (cavity.capsule_front - cavity.capsule_side) * front;
+  // Overhead the synovium reaches down to its junction with the condyle.
+  if (d.y > -0.45) return base;
+  constexpr double kOverheadFrom = 0.74;  // sine of the elevation
+  const double ragged = 0.22 * GradientNoise(1.9 * d, cavity.seed + kOverhangMargin);
+  return base - cavity.overhang * SmoothStep(kOverheadFrom, 1.0, -d.y + ragged);
+}
+
 double CapsuleDistance(const Cavity& cavity, const glm::dvec3& d) {
   // Folds fade towards the back of the joint and at the instrument's portal.
   const double portal_side = SmoothStep(0.75, 0.97, d.x);
@@ -359,24 +358,6 @@ double CastEllipsoid(const Ellipsoid& e, const glm::dvec3& direction) {
 
 namespace {
 
-// Minimum of two distances with a fillet: exact where they differ by more than kFillet.
-double FilletedMinimum(double a, double b) {
-  constexpr double kFillet = 7.0 * kMm;
-  const double near = std::max(kFillet - std::abs(a - b), 0.0) / kFillet;
-  return std::min(a, b) - 0.25 * kFillet * near * near;
-}
-
-glm::dvec3 FemurNormal(const Cavity& cavity, const glm::dvec3& x) {
-  constexpr double kStep = 0.02 * kMm;
-  glm::dvec3 slope(0.0);
-  for (int i = 0; i < 3; ++i) {
-    glm::dvec3 step(0.0);
-    step[i] = kStep;
-    slope[i] = FemurClearance(cavity, x + step) - FemurClearance(cavity, x - step);
-  }
-  return glm::normalize(slope);
-}
-
 // Walks by a share of the clearance until inside.
 double CastFemur(const Cavity& cavity, const glm::dvec3& d, double limit) {
   constexpr double kShare = 0.9, kLeastStep = 0.05 * kMm;
@@ -404,101 +385,6 @@ CavityHit CastFromPortal(const Cavity& cavity, const glm::dvec3& d) {
   for (const Bundle& bundle : cavity.ligament) offer(CastBundle(bundle, d), Surface::kLigament);
   offer(CastPlateau(cavity.plateau, d, hit.distance), Surface::kPlateau);
   return hit;
-}
-
-namespace {
-
-// Normal towards the portal of a surface at distance R(direction): -∇(|x| - R(x/|x|)); x lies on
-// it.
-template <class Distance>
-glm::dvec3 StarNormal(const glm::dvec3& x, const Distance& distance) {
-  const double length = glm::length(x);
-  const glm::dvec3 d = x / length;
-  const glm::dvec3 a = glm::normalize(
-      glm::cross(d, std::abs(d.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
-  const glm::dvec3 b = glm::cross(d, a);
-  constexpr double kTurn = 1.5e-3;  // rad: finer than a fold, coarser than rounding
-  const double slope_a = (distance(glm::normalize(d + kTurn * a)) - length) / kTurn;
-  const double slope_b = (distance(glm::normalize(d + kTurn * b)) - length) / kTurn;
-  return glm::normalize(-d + (slope_a * a + slope_b * b) / length);
-}
-
-double BundleClearance(const Bundle& bundle, const glm::dvec3& x, glm::dvec3* nearest = nullptr) {
-  const glm::dvec3 axis = bundle.to - bundle.from;
-  const double t = std::clamp(glm::dot(x - bundle.from, axis) / glm::dot(axis, axis), 0.0, 1.0);
-  const glm::dvec3 on_axis = bundle.from + t * axis;
-  if (nearest) *nearest = on_axis;
-  return glm::length(x - on_axis) - bundle.radius;
-}
-
-}  // namespace
-
-double FemurClearance(const Cavity& cavity, const glm::dvec3& x) {
-  return FilletedMinimum(FilletedMinimum(EllipsoidClearance(cavity.condyle, x),
-                                         EllipsoidClearance(cavity.trochlea, x)),
-                         EllipsoidClearance(cavity.lateral_condyle, x));
-}
-
-glm::dvec3 NormalAt(const Cavity& cavity, Surface surface, const glm::dvec3& x, bool with_bed) {
-  switch (surface) {
-    case Surface::kCondyle:
-      return FemurNormal(cavity, x);
-    case Surface::kFat:
-      return StarNormal(x, [&](const glm::dvec3& d) { return FatDistance(cavity, d); });
-    case Surface::kPlateau: {
-      const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
-      constexpr double kStep = 0.05 * kMm;
-      const auto height = [&](double dx, double dy) {
-        return PlateauHeight(cavity.plateau, p.x + dx, p.y + dy, with_bed);
-      };
-      const double slope_x = (height(kStep, 0) - height(-kStep, 0)) / (2.0 * kStep);
-      const double slope_y = (height(0, kStep) - height(0, -kStep)) / (2.0 * kStep);
-      return cavity.plateau.portal_from_plateau.rotation *
-             glm::normalize(glm::dvec3(-slope_x, -slope_y, 1.0));
-    }
-    case Surface::kLigament: {
-      glm::dvec3 axis_point{0.0}, candidate{0.0};
-      double best = kNever;
-      for (const Bundle& bundle : cavity.ligament) {
-        const double clearance = BundleClearance(bundle, x, &candidate);
-        if (clearance < best) best = clearance, axis_point = candidate;
-      }
-      return glm::normalize(x - axis_point);
-    }
-    default:
-      return StarNormal(x, [&](const glm::dvec3& d) { return CapsuleDistance(cavity, d); });
-  }
-}
-
-BundlePlace NearestBundle(const Cavity& cavity, const glm::dvec3& x) {
-  BundlePlace place;
-  double best = kNever;
-  for (std::size_t i = 0; i < cavity.ligament.size(); ++i) {
-    const Bundle& bundle = cavity.ligament[i];
-    const double clearance = BundleClearance(bundle, x);
-    if (clearance >= best) continue;
-    const glm::dvec3 axis = bundle.to - bundle.from;
-    best = clearance;
-    place = {i, std::clamp(glm::dot(x - bundle.from, axis) / glm::dot(axis, axis), 0.0, 1.0)};
-  }
-  return place;
-}
-
-double EllipsoidClearance(const Ellipsoid& e, const glm::dvec3& x) {
-  const glm::dvec3 body = glm::conjugate(e.portal_from_body) * (x - e.centre);
-  const double k0 = glm::length(body / e.radii), k1 = glm::length(body / (e.radii * e.radii));
-  return k1 > 0.0 ? k0 * (k0 - 1.0) / k1 : -std::min({e.radii.x, e.radii.y, e.radii.z});
-}
-
-double Clearance(const Cavity& cavity, const glm::dvec3& x, bool with_bed) {
-  const double length = glm::length(x);
-  double clearance = length > 0.0 ? CapsuleBase(cavity, x / length) - length : cavity.radius;
-  clearance = std::min(clearance, FemurClearance(cavity, x));
-  const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
-  clearance = std::min(clearance, PlateauClearance(cavity.plateau, p, with_bed));
-  for (const Bundle& bundle : cavity.ligament)
-    clearance = std::min(clearance, BundleClearance(bundle, x));
-  return clearance;
 }
 
 }  // namespace arthro::authoring

@@ -61,6 +61,8 @@ Cavity MakeCavity(std::uint32_t seed);
 // Distances of the two star-shaped surfaces in a unit direction. A direction without fat gives a
 // distance behind the capsule.
 double CapsuleDistance(const Cavity& cavity, const glm::dvec3& direction);
+// The capsule's distance without its folds.
+double CapsuleBase(const Cavity& cavity, const glm::dvec3& direction);
 double FatDistance(const Cavity& cavity, const glm::dvec3& direction);
 // Height of the fat's lobules: 0 in the creases between them to 1 on their tops.
 double FatLobule(const Cavity& cavity, const glm::dvec3& direction);
