@@ -309,7 +309,10 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   }
   p.window->Render();
   p.backdrop->EndContact();
-  if (p.has_camera && picture.features >= CameraFeatures::kOcclusion)
+  // Where the error of the depth map is as high as the occlusion reaches, it would be drawn as
+  // shade.
+  if (p.has_camera && picture.features >= CameraFeatures::kOcclusion &&
+      p.backdrop->least_side() < kOcclusionReach)
     p.occlusion_pass.Draw(p.window, picture, p.rays);
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
