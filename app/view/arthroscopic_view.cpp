@@ -309,8 +309,7 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   }
   p.window->Render();
   p.backdrop->EndContact();
-  // Where the error of the depth map is as high as the occlusion reaches, it would be drawn as
-  // shade.
+  // An error of the depth map that is as high as the occlusion reaches would be drawn as shade.
   if (p.has_camera && picture.features >= CameraFeatures::kOcclusion &&
       p.backdrop->least_side() < kOcclusionReach)
     p.occlusion_pass.Draw(p.window, picture, p.rays);
