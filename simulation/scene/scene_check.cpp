@@ -90,6 +90,11 @@ void LookAtOrigins(const LoadedScene& loaded, double range, SceneFindings& findi
         fmt::format("the depth map is mostly noise: its noise is {:.3g} mm, and its depths span "
                     "{:.3g} mm; outlines are not drawn",
                     Mm(*relief.median_sigma), Mm(range)));
+  else if (relief.median_sigma && loaded.scene.backdrop.depth_sigma.empty())
+    findings.warnings.push_back(
+        fmt::format("the depth map differs by noise of {:.3g} mm from pixel to pixel, and no "
+                    "backdrop.depth_sigma states it; picture and forces smooth it",
+                    Mm(*relief.median_sigma)));
   if (relief.without_origin > 0)
     findings.warnings.push_back(
         fmt::format("{:.1f} % of the depths have no origin in backdrop.depth_origin; is it that of "

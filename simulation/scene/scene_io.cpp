@@ -16,6 +16,7 @@
 #include "simulation/scene/mesh_io.h"
 #include "simulation/scene/scene_json.h"
 #include "simulation/scene/scene_migration.h"
+#include "simulation/scene/steep_noise.h"
 
 namespace arthro {
 namespace {
@@ -150,6 +151,9 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
     if (loaded.depth) RequireSameSize(*loaded.depth, *loaded.depth_sigma, path);
     return loaded.depth_sigma;
   });
+  if (loaded.depth && backdrop.depth_sigma.empty())
+    if (const std::optional<float> noise = SteepNoise(*loaded.depth, backdrop))
+      loaded.depth_sigma = Share(DepthMap(loaded.depth->width, loaded.depth->height, *noise));
   named("backdrop.depth_origin", backdrop.depth_origin, [&](const fs::path& path) -> Part {
     loaded.depth_origin = Share(ReadOriginMap(path));
     if (loaded.depth) RequireSameSize(*loaded.depth, *loaded.depth_origin, path);
