@@ -50,7 +50,7 @@ std::string PieceNames(const fs::path& file) {
 }  // namespace
 
 std::shared_ptr<JobFiles> JobFiles::Of(CLI::App& job, bool has_overwrite) {
-  const std::shared_ptr<JobFiles> files(new JobFiles(job));
+  std::shared_ptr<JobFiles> files(new JobFiles(job));
   if (has_overwrite)
     job.add_flag(
         "--overwrite", files->overwrites_,

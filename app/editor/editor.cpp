@@ -120,7 +120,7 @@ class Editor {
   ~Editor() {
     for (auto& [mark, seconds] : frame_seconds_) {
       std::sort(seconds.begin(), seconds.end());
-      const auto at = [&](double share) {
+      const auto at = [&seconds = seconds](double share) {
         return 1e3 *
                seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
       };

@@ -105,7 +105,7 @@ void LiveFilm::Write() {
   }
 }
 
-void LiveFilm::Encode() noexcept {
+void LiveFilm::Encode() noexcept {  // NOLINT(bugprone-exception-escape): as declared
   const CrashStack crash_stack;
   std::string fault;
   try {

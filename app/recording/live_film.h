@@ -65,7 +65,7 @@ class LiveFilm {
     ColourImage picture;  // empty: the film's end
   };
   std::int64_t FrameAt(double t) const;
-  void Encode() noexcept;
+  void Encode() noexcept;  // NOLINT(bugprone-exception-escape): ends the program with its stack
   void Write();
 
   std::filesystem::path file_;

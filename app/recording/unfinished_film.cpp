@@ -274,7 +274,7 @@ std::vector<std::string> FinishFilmsEverywhere(const fs::path& wanted) {
     at = end + 1;
   }
   std::ranges::sort(folders);
-  folders.erase(std::ranges::unique(folders).begin(), folders.end());
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   std::string still;
   for (const std::string& folder : folders) {
     for (std::string& sentence : FinishFilmsIn(folder, wanted))

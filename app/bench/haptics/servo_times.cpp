@@ -269,7 +269,7 @@ void TimeQueries(const AnalyticRelief& relief, int rounds, std::vector<ServoTime
     CallTimes ours(fmt::format("depth query, {}", source), batches),
         paper(fmt::format("the paper's 3x3 kernel, {}", source), batches);
     const auto time = [&](CallTimes& times, int batch, auto&& query) {
-      const auto first = static_cast<std::size_t>(batch * kBatch);
+      const auto first = static_cast<std::size_t>(batch) * kBatch;
       const Clock::time_point start = Clock::now();
       for (std::size_t i = first; i < first + kBatch; ++i) query(stroke.tip[i]);
       times.Add(batch, Since(start) / kBatch);

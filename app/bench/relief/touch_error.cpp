@@ -59,7 +59,8 @@ TouchError MeasureTouches(const test::FoundSurface& found, const test::TrueSurfa
     bool is_seen = true;
     for (int j = -kAround; j <= kAround && is_seen; ++j)
       for (int i = -kAround; i <= kAround && is_seen; ++i)
-        is_seen = truth.seen_by[static_cast<std::size_t>((y + j) * width + x + i)] >= kLeastFrames;
+        is_seen = truth.seen_by[static_cast<std::size_t>(y + j) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(x + i)] >= kLeastFrames;
     if (!is_seen) continue;
     const glm::dvec3 tip = (static_cast<double>(truth.radius.at(x, y)) + depth) *
                            DirectionFromPixel(truth.projection, {x, y});

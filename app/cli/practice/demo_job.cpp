@@ -32,8 +32,6 @@ namespace arthro::app {
 namespace {
 
 namespace fs = std::filesystem;
-using simulation::DeviceRole;
-using simulation::ForceRow;
 
 struct DemoJob {
   fs::path folder = "arthroscene-demo";

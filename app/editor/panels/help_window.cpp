@@ -2,6 +2,7 @@
 #include <cstring>
 #include <string>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/editor/panels/panels.h"
@@ -96,7 +97,7 @@ void HelpWindow(Ui& ui, EditorState& state) {
       if (!in_table) return ImGui::EndChild();
     }
     const std::string other = WordsOf(command.other_shortcut);
-    Row(ui, keys + (other.empty() ? "" : " or " + other), command.help);
+    Row(ui, other.empty() ? keys : fmt::format("{} or {}", keys, other), command.help);
   }
   if (in_table) ImGui::EndTable(), Gap(ui);
   Heading(ui, "Anywhere");

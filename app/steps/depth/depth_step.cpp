@@ -31,7 +31,7 @@ DepthMap Stretched(const DepthMap& small, int width, int height, int factor) {
 
 // A small picture and its relief, at the speed of the slider.
 Jobs::Work PreviewWork(const Document& document,
-                       std::shared_ptr<const authoring::DepthPreview> pyramid) {
+                       const std::shared_ptr<const authoring::DepthPreview>& pyramid) {
   return [panorama = document.panorama, options = document.depth_options,
           backdrop = document.scene.backdrop, pyramid](const Progress&) -> Jobs::Apply {
     const auto made =

@@ -27,6 +27,7 @@ void LensChooser(Ui& ui, EditorState& state) {
   std::vector<LensChoice>& lenses = state.steps.portals->lenses;
   if (lenses.empty()) lenses = ScopeLenses(state.steps.panorama->lens_folder);
   std::vector<std::string> words;
+  words.reserve(lenses.size() + 2);
   for (const LensChoice& lens : lenses) words.push_back(lens.words);
   const int own = static_cast<int>(words.size());
   int chosen = ChosenScopeLens(lenses, state).value_or(own);

@@ -134,7 +134,9 @@ class SolidField {
   std::int64_t BrickVolume(int bi, int bj, int bk) const;
   bool IsAtSurface(int i, int j, int k) const;
   std::size_t BrickIndex(int i, int j, int k) const {
-    return static_cast<std::size_t>((k * bricks_[1] + j) * bricks_[0] + i);
+    const auto nx = static_cast<std::size_t>(bricks_[0]), ny = static_cast<std::size_t>(bricks_[1]);
+    return (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
+           static_cast<std::size_t>(i);
   }
   template <class Change>
   FieldEdit Edit(const NodeBox& nodes, const Change& change);
