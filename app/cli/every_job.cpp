@@ -7,6 +7,7 @@ namespace arthro::app {
 void AddEveryJob(CLI::App& program) {
   AddBenchJob(program);
   AddCentresJob(program);
+  AddReachJob(program);
   AddCheckJob(program);
   AddDemoJob(program);
   AddDepthJob(program);

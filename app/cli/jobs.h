@@ -18,6 +18,7 @@ inline constexpr const char* kBenchProgram = "arthroscene-bench";  // beside thi
 // status only where that fails.
 int RunBenchProgram(char** arguments);
 void AddCentresJob(CLI::App& program);
+void AddReachJob(CLI::App& program);
 void AddCheckJob(CLI::App& program);
 void AddDemoJob(CLI::App& program);
 void AddDepthJob(CLI::App& program);

@@ -1,0 +1,123 @@
+// arthroscene reach SCENE [method.md, Reach]: what scope and instrument reach through their
+// portals, and at which angle the rods meet, as a table and as a picture.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/input_files.h"
+#include "app/cli/job_files.h"
+#include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
+#include "authoring/portals/portal_reach.h"
+#include "authoring/portals/reach_picture.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/units.h"
+#include "simulation/scene/image_io.h"
+#include "simulation/scene/scene_io.h"
+
+namespace arthro::app {
+namespace {
+
+using authoring::ReachShares;
+
+struct ReachArguments {
+  std::filesystem::path scene, output, picture;
+  std::optional<double> view_angle_deg, spacing_mm;
+  std::string target;
+};
+
+// A name with a comma or a quote is quoted.
+std::string Cell(const std::string& name) {
+  if (name.find_first_of(",\"\n") == std::string::npos) return name;
+  std::string cell = "\"";
+  for (const char c : name) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + '"';
+}
+
+std::string Row(const std::string& target, const ReachShares& shares) {
+  return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.1f}\n", Cell(target), shares.seen,
+                     shares.touched, shares.both, shares.good,
+                     DegreesFromRadians(shares.median_angle));
+}
+
+// Index of a tissue by its name; -1 for the relief.
+int TargetOf(const LoadedScene& loaded, const std::string& name) {
+  if (name == "relief") return -1;
+  std::string names = "relief";
+  for (std::size_t i = 0; i < loaded.scene.tissues.size(); ++i) {
+    if (loaded.scene.tissues[i].name == name) return static_cast<int>(i);
+    names += ", " + loaded.scene.tissues[i].name;
+  }
+  throw Error(Code::kBadArgument,
+              fmt::format("--suggest: there is no \"{}\" here; name one of {}", name, names));
+}
+
+void RunReachJob(const ReachArguments& arguments) {
+  LoadedScene loaded = LoadScene(arguments.scene);
+  if (arguments.view_angle_deg)
+    loaded.scene.scope.view_angle = RadiansFromDegrees(*arguments.view_angle_deg);
+  if (arguments.spacing_mm)
+    loaded.scene.portals.incision_spacing = MetresFromMm(*arguments.spacing_mm);
+  const bool is_asked = !arguments.target.empty();
+  const int target = is_asked ? TargetOf(loaded, arguments.target) : -1;
+  const authoring::ScopeReach scope = authoring::ScopeReachOf(loaded);
+  const authoring::PortalReach reach =
+      authoring::ReachWith(scope, loaded, loaded.scene.portals.incision_spacing);
+  if (!arguments.picture.empty())
+    WriteColourImage(arguments.picture,
+                     authoring::DrawReach(OrEmpty(loaded.panorama), scope, reach));
+  std::string table =
+      "target,seen,touched,both,good,median_angle_deg\n" + Row("relief", reach.relief);
+  for (std::size_t i = 0; i < reach.tissues.size(); ++i)
+    table += Row(loaded.scene.tissues[i].name, reach.tissues[i]);
+  WriteAtomically(arguments.output, table);
+  if (!is_asked) return;
+  const double spacing = authoring::SuggestedSpacing(scope, loaded, target);
+  fmt::print(arguments.output == "-" ? stderr : stdout,
+             "suggested incision spacing for {}: {:.0f} mm\n", arguments.target,
+             MmFromMetres(spacing));
+}
+
+}  // namespace
+
+void AddReachJob(CLI::App& program) {
+  auto arguments = std::make_shared<ReachArguments>();
+  CLI::App* job = program.add_subcommand(
+      "reach",
+      "List what scope and instrument reach through their portals, and how the rods meet.");
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SCENE", arguments->scene,
+                              "Folder of the scene, its scene.json, or an .arthro archive."),
+              kSceneInput)
+      ->required();
+  AddNumber(*job, "--view-angle-deg", arguments->view_angle_deg, {0.0, 120.0}, "degrees",
+            "Angle between rod and view. Default: the scene's own.");
+  AddNumber(*job, "--spacing-mm", arguments->spacing_mm, {-1000.0, 1000.0}, "mm",
+            "Incision spacing. Default: the scene's own.");
+  job->add_option("--suggest", arguments->target,
+                  "Print the incision spacing that suits a tissue best, or the relief: the name of "
+                  "a tissue, or relief.");
+  files
+      ->Output(
+          job->add_option("-o,--output", arguments->output,
+                          "Table to write; - is standard output."),
+          {"a table of reach", FileForm::kTable, "target,seen,touched,both,good,median_angle_deg"})
+      ->required();
+  files->Output(job->add_option("--picture", arguments->picture,
+                                "Picture to write: the panorama with what is reached in colours."),
+                kPictureFile);
+  job->footer(
+      "Columns, with shares from 0 to 1: seen is the share that the scope brings to the middle of "
+      "its picture from 5 to 25 mm. The tip of the instrument touches the share in touched. Both "
+      "have both. The rods meet there at 45 to 75 degrees for the share in good; their median "
+      "angle comes last.");
+  files->Run([arguments] { RunReachJob(*arguments); });
+}
+
+}  // namespace arthro::app
