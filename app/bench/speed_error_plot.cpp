@@ -223,8 +223,8 @@ void Plot::DrawLabel(const PlotMark& mark) {
     for (int i = 0; i < kDirections; ++i) {
       // Right, left, right below, right above, and so on.
       const double turn = (i % 2) * std::numbers::pi;
-      const int steps = (i / 2 + 1) / 2, side = (i / 2) % 2 == 0 ? 1 : -1;
-      const double angle = turn + side * steps * 2 * std::numbers::pi / kDirections;
+      const int steps = (i / 2 + 1) / 2, sense = (i / 2) % 2 == 0 ? 1 : -1;
+      const double angle = turn + sense * steps * 2 * std::numbers::pi / kDirections;
       const double cx = x + away * std::cos(angle), cy = y + away * std::sin(angle);
       // Puts the point of the box that is nearest to the mark on the ring.
       const Box box{cx - w * 0.5 * (1 - std::cos(angle)), cy - h * 0.5 * (1 - std::sin(angle)), w,
