@@ -34,6 +34,7 @@
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/practice/calibrate_incision.h"
+#include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
@@ -271,6 +272,7 @@ class Editor {
   bool Busy() const {
     return state_.jobs.busy() || state_.steps.depth->preview_jobs.busy() ||
            state_.steps.panorama->frame_jobs.busy() || state_.steps.practice->pivot_jobs.busy() ||
+           state_.steps.portals->reach.jobs.busy() ||
            (state_.steps.practice->film && state_.steps.practice->film->is_ending());
   }
 

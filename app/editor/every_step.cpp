@@ -106,7 +106,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.panorama.emplace(wake);
   steps.depth.emplace(wake);
   steps.tissue.emplace();
-  steps.portals.emplace();
+  steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));
@@ -124,6 +124,7 @@ bool FinishWork(EditorState& state) {
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
+  Guarded(state, "Reach", [&] { changed = KeepReachFresh(state) || changed; });
   return changed;
 }
 

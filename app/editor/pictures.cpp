@@ -6,6 +6,7 @@
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
+#include "app/steps/portals/reach_board.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
@@ -77,29 +78,36 @@ void Pictures::TakeBackdrop(const EditorState& state) {
   const Backdrop& wanted = document.scene.backdrop;
   const bool as_filmed = state.steps.portals->shows_as_filmed && !state.practice;
   const bool same_place = backdrop_ == wanted && as_filmed == as_filmed_;
+  const std::shared_ptr<const ColourImage> reach = ReachPictureOf(state);
+  const bool same_reach = reach == reach_;
   const bool same_panorama = panorama == panorama_ && panorama;
   const bool same_depth = depth == depth_ && sigma == sigma_;
-  if (panorama == panorama_ && same_depth && same_place) return;
+  const bool same_scene = panorama == panorama_ && same_depth && same_place;
+  if (same_scene && same_reach) return;
   panorama_ = panorama;
   depth_ = depth;
   sigma_ = sigma;
   backdrop_ = wanted;
   as_filmed_ = as_filmed;
+  reach_ = reach;
   changed_ = true;
   if (!panorama) return;
+  const ColourImage& coloured = reach && !preview ? *reach : *panorama;
   Backdrop shown = WithKnownLight(backdrop_, relief);
   if (as_filmed) shown.relight = 0;
   if (preview)
     shown.projection =
         Shrunk(shown.projection, static_cast<double>(document.panorama->width) / panorama->width);
   // The panorama is by far the most to upload; a slider changes only its place or the relief.
-  if (same_panorama && scope_.SetGeometry(shown)) {
-    if (!same_depth) scope_.SetDepth(relief, OrEmpty(sigma));
+  const bool is_kept = same_scene || (same_panorama && scope_.SetGeometry(shown));
+  if (!is_kept)
+    scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma));
+  else if (!same_depth)
+    scope_.SetDepth(relief, OrEmpty(sigma));
+  if (is_kept && same_reach)
     overview_.SetRelief(relief, shown);
-    return;
-  }
-  scope_.SetBackdrop(*panorama, relief, shown, OrEmpty(sigma));
-  overview_.SetBackdrop(*panorama, relief, shown);
+  else
+    overview_.SetBackdrop(coloured, relief, shown);
 }
 
 void Pictures::TakeTissues(const EditorState& state) {

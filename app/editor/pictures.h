@@ -80,6 +80,7 @@ class Pictures {
   // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
   std::shared_ptr<const DepthMap> depth_, sigma_;
+  std::shared_ptr<const ColourImage> reach_;  // null: the panorama as it is
   Backdrop backdrop_;
   bool as_filmed_ = false;
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces_;

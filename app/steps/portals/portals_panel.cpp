@@ -7,6 +7,7 @@
 #include "app/state/edits.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
+#include "app/steps/portals/reach_fields.h"
 #include "app/steps/portals/scope_lens.h"
 #include "simulation/core/units.h"
 
@@ -64,6 +65,7 @@ void PortalsPanel(Ui& ui, EditorState& state) {
                          "instrument enters on the left. Ctrl+click to type.");
   if (change) SetIncisionSpacing(state, MetresFromMm(spacing_mm));
   Drag(state, change);
+  ReachFields(ui, state);
 
   Gap(ui);
   Heading(ui, "Scope");

@@ -1,0 +1,105 @@
+#include "app/steps/portals/reach_board.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "app/state/edits.h"
+#include "app/steps/portals/portals_step.h"
+#include "authoring/portals/reach_picture.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+Jobs::Work ReachWork(const LoadedScene& loaded, ReachKey key,
+                     std::shared_ptr<const authoring::ScopeReach> scope) {
+  return [loaded, key = std::move(key), scope = std::move(scope)](const Progress&) -> Jobs::Apply {
+    auto made = std::make_shared<MadeReach>();
+    made->key = key;
+    made->scope = scope ? scope : Share(authoring::ScopeReachOf(loaded));
+    made->reach = authoring::ReachWith(*made->scope, loaded, key.incision_spacing);
+    made->picture =
+        Share(authoring::DrawReach(OrEmpty(loaded.panorama), *made->scope, made->reach));
+    return [made](EditorState& state) { state.steps.portals->reach.made = made; };
+  };
+}
+
+bool IsWanted(const EditorState& state) {
+  return state.steps.portals->reach.is_shown && state.step == Step::kPortals && !state.practice &&
+         state.document().panorama != nullptr;
+}
+
+}  // namespace
+
+bool HasSameScope(const ReachKey& a, const ReachKey& b) {
+  return a.panorama == b.panorama && a.depth == b.depth && a.surfaces == b.surfaces &&
+         a.poses == b.poses && a.backdrop == b.backdrop && a.view_angle == b.view_angle &&
+         a.scope_length == b.scope_length;
+}
+
+bool operator==(const ReachKey& a, const ReachKey& b) {
+  return HasSameScope(a, b) && a.incision_spacing == b.incision_spacing &&
+         a.instrument_length == b.instrument_length;
+}
+
+ReachKey ReachKeyOf(const authoring::Document& document) {
+  const Scene& scene = document.scene;
+  ReachKey key{document.panorama,
+               document.depth,
+               document.surfaces,
+               {},
+               scene.backdrop,
+               scene.scope.view_angle,
+               scene.rig.scope.rod_length,
+               scene.portals.incision_spacing,
+               scene.rig.instrument.rod_length};
+  for (const Tissue& tissue : scene.tissues) key.poses.push_back(tissue.pose);
+  return key;
+}
+
+bool KeepReachFresh(EditorState& state) {
+  ReachBoard& board = state.steps.portals->reach;
+  const bool was_busy = board.jobs.busy();
+  const bool has_changed = was_busy && board.jobs.Finish(state);
+  if (board.jobs.busy() || !IsWanted(state)) return has_changed;
+  ReachKey key = ReachKeyOf(state.document());
+  if (board.made && board.made->key == key) return has_changed;
+  const auto scope = board.made && HasSameScope(board.made->key, key) ? board.made->scope : nullptr;
+  board.jobs.Start("Reach", ReachWork(state.document(), std::move(key), scope));
+  return has_changed;
+}
+
+std::shared_ptr<const ColourImage> ReachPictureOf(const EditorState& state) {
+  const ReachBoard& board = state.steps.portals->reach;
+  if (!IsWanted(state) || !board.made) return nullptr;
+  return board.made->key.panorama == state.document().panorama ? board.made->picture : nullptr;
+}
+
+void SuggestSpacing(EditorState& state, int tissue) {
+  const std::string target =
+      tissue < 0 ? "the relief"
+                 : state.document().scene.tissues[static_cast<std::size_t>(tissue)].name;
+  state.jobs.Start("Suggest a spacing",
+                   [loaded = static_cast<const LoadedScene&>(state.document()), tissue,
+                    target](const Progress&) -> Jobs::Apply {
+                     const authoring::ScopeReach scope = authoring::ScopeReachOf(loaded);
+                     const double spacing = authoring::SuggestedSpacing(scope, loaded, tissue);
+                     return [spacing, target](EditorState& now) {
+                       SetIncisionSpacing(now, spacing);
+                       EndDrag(now);
+                       now.message = fmt::format("Incision spacing {:.0f} mm, which suits {} best",
+                                                 MmFromMetres(spacing), target);
+                     };
+                   });
+}
+
+double AngleBetweenRods(const EditorState& state) {
+  const double cosine =
+      glm::dot(simulation::BasisOf(state.scope).axis, simulation::BasisOf(state.instrument).axis);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+}  // namespace arthro::app
