@@ -122,6 +122,7 @@ RimRay CastRay(const cv::Mat& grey, cv::Point2d origin, double angle, const Leve
 
 std::vector<RimRay> CastRays(const cv::Mat& grey, cv::Point2d origin, const Levels& levels) {
   std::vector<RimRay> rays;
+  rays.reserve(kRays);
   for (int i = 0; i < kRays; ++i)
     rays.push_back(CastRay(grey, origin, 2 * std::numbers::pi * i / kRays, levels));
   return rays;

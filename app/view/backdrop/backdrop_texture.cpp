@@ -46,11 +46,13 @@ void BlurPlanes(std::vector<float>& planes, int width, int height, int channels,
   for (int pass = 0; pass < 2; ++pass)
     for (int c = 0; c < channels; ++c) {
       for (int y = 0; y < height; ++y)
-        BlurLine(&planes[static_cast<std::size_t>(y * width * channels + c)], width, channels,
-                 radius, periodic, copy);
+        BlurLine(&planes[static_cast<std::size_t>(y) * static_cast<std::size_t>(width * channels) +
+                         static_cast<std::size_t>(c)],
+                 width, channels, radius, periodic, copy);
       for (int x = 0; x < width; ++x)
-        BlurLine(&planes[static_cast<std::size_t>(x * channels + c)], height, width * channels,
-                 radius, false, copy);
+        BlurLine(&planes[static_cast<std::size_t>(x) * static_cast<std::size_t>(channels) +
+                         static_cast<std::size_t>(c)],
+                 height, width * channels, radius, false, copy);
     }
 }
 

@@ -115,7 +115,7 @@ void MeteredModels::DrawTriangle(const Corner& a, const Corner& b, const Corner&
   float light = -1;
   for (int row = CellOf(-high.y); row <= last_row; ++row)
     for (int column = first_column; column <= last_column; ++column) {
-      const auto index = static_cast<std::size_t>(row * kAcross + column);
+      const auto index = IndexOf(column, row);
       const glm::vec2& at = window_places_[index];
       const float v = Cross(at - a.place, ac) * per, w = Cross(ab, at - a.place) * per;
       if (!(v >= 0 && w >= 0 && v + w <= 1) || glm::dot(at, at) > 1) continue;

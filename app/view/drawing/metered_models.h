@@ -43,11 +43,12 @@ class MeteredModels {
 
   bool empty() const { return !has_any_; }
   // Row 0 is the top of the window.
-  const Place& at(int column, int row) const {
-    return places_[static_cast<std::size_t>(row * kAcross + column)];
-  }
+  const Place& at(int column, int row) const { return places_[IndexOf(column, row)]; }
 
  private:
+  static std::size_t IndexOf(int column, int row) {
+    return static_cast<std::size_t>(row) * kAcross + static_cast<std::size_t>(column);
+  }
   struct Corner {
     glm::vec3 point{0.0f};   // lens frame: right, up, ahead
     glm::vec2 place{0.0f};   // place in the window

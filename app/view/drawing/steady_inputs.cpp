@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include <fmt/format.h>
+
 namespace arthro::app {
 
 SteadyInputs TakeSteadyInputs(const std::string& fragment) {
@@ -21,11 +23,11 @@ SteadyInputs TakeSteadyInputs(const std::string& fragment) {
     for (bool is_last = false; !is_last && words >> name;) {
       is_last = name.back() == ';';
       name.pop_back();  // or its comma
-      inputs.fragment += "flat in " + type + " " + name + ";\n";
-      inputs.uniforms += "uniform " + type + " given_" + name + ";\n";
-      inputs.outputs += "flat out " + type + " " + name + ";\n";
+      inputs.fragment += fmt::format("flat in {} {};\n", type, name);
+      inputs.uniforms += fmt::format("uniform {} given_{};\n", type, name);
+      inputs.outputs += fmt::format("flat out {} {};\n", type, name);
       name = name.substr(0, name.find('['));
-      body += "  " + name + " = given_" + name + ";\n";
+      body += fmt::format("  {0} = given_{0};\n", name);
     }
   }
   inputs.outputs += "void handOn() {\n" + body + "}\n";

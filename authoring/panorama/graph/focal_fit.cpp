@@ -43,6 +43,7 @@ cv::Matx33d Through(const FourPoints& from, const FourPoints& to) {
 double MisfitAt(const FocalChange& change, int frames, const std::vector<PairEstimate>& pairs,
                 int root, const RefineOptions& options, std::vector<cv::Matx33d>* places) {
   std::vector<PairEstimate> moved;
+  moved.reserve(pairs.size());
   for (const PairEstimate& pair : pairs) moved.push_back(change.Apply(pair));
   *places = LeastVarianceTree(frames, moved, root).root_from_frame;
   RefineOptions loose = options;
