@@ -47,6 +47,15 @@ void SetAuthor(EditorState& state, const std::string& author) {
   Edit(state, "Change the author", "author", [&](auto& next) { next.scene.author = author; });
 }
 
+void SetRights(EditorState& state, int asset, const AssetRights& rights, const std::string& what) {
+  const auto rights_of = [asset](auto& document) -> auto& {
+    return asset < 0 ? document.scene.backdrop.rights
+                     : document.scene.tissues[static_cast<std::size_t>(asset)].rights;
+  };
+  if (rights == rights_of(state.document())) return;
+  Edit(state, "Change the " + what, "", [&](auto& next) { rights_of(next) = rights; });
+}
+
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what) {
   if (backdrop == state.document().scene.backdrop) return;
   Edit(state, "Change " + what, Key("backdrop", what),

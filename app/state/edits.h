@@ -19,6 +19,8 @@ void Edit(EditorState& state, const std::string& name, const std::string& merge_
 
 void SetTitle(EditorState& state, const std::string& title);
 void SetAuthor(EditorState& state, const std::string& author);
+// Rights in the tissue of that index; -1: in the panorama.
+void SetRights(EditorState& state, int asset, const AssetRights& rights, const std::string& what);
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what);
 // Another picture as the backdrop, its depth to be made anew. No projection: the one there is stays
 // when the size is the same, else it is guessed; an imported depth map of that size stays, too.

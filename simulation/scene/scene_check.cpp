@@ -19,13 +19,18 @@ namespace {
 
 double Mm(double metres) { return MmFromMetres(metres); }
 
-void LookAtRights(const std::string& what, const AssetRights& rights, SceneFindings& findings) {
+// The parts of an asset's rights that are not given, as a list of words; empty: all are.
+std::string MissingRights(const AssetRights& rights) {
   std::string missing;
   for (const auto& [text, word] :
        {std::pair{&rights.source, "source"}, std::pair{&rights.licence, "licence"},
         std::pair{&rights.consent, "consent"}})
     if (text->empty()) missing += (missing.empty() ? "" : ", ") + std::string(word);
-  if (!missing.empty())
+  return missing;
+}
+
+void LookAtRights(const std::string& what, const AssetRights& rights, SceneFindings& findings) {
+  if (const std::string missing = MissingRights(rights); !missing.empty())
     findings.warnings.push_back(
         fmt::format("{}: no {} is given; patients and makers have rights, so say it under "
                     "\"rights\" before sharing",
@@ -286,6 +291,20 @@ void LookAtScope(const Scene& scene, SceneFindings& findings) {
 }
 
 }  // namespace
+
+std::vector<std::string> MissingForSharing(const Scene& scene) {
+  std::vector<std::string> missing;
+  if (scene.title.empty()) missing.push_back("the scene has no title");
+  if (scene.author.empty()) missing.push_back("the scene has no author");
+  const auto look = [&](const std::string& asset, const AssetRights& rights) {
+    if (const std::string words = MissingRights(rights); !words.empty())
+      missing.push_back(fmt::format("{} has no {}", asset, words));
+  };
+  if (!scene.backdrop.panorama.empty()) look("the panorama", scene.backdrop.rights);
+  for (const Tissue& tissue : scene.tissues)
+    look(fmt::format("tissue \"{}\"", tissue.name), tissue.rights);
+  return missing;
+}
 
 SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer) {
   SceneFindings findings;

@@ -41,7 +41,21 @@ void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
   }
 }
 
-void Check(const std::string& scene, const std::string& report) {
+void CheckForSharing(const std::string& scene, const LoadedScene& loaded) {
+  const std::vector<std::string> missing = MissingForSharing(loaded.scene);
+  Print(stderr, "missing: ", missing);
+  if (missing.empty()) {
+    fmt::print("this scene states its title, its author and the rights in each asset\n");
+    return;
+  }
+  throw Error(Code::kBadScene,
+              fmt::format("{} thing{} should be stated before this scene is shared; fill in "
+                          "\"rights\", or the Rights of the Panorama page",
+                          missing.size(), missing.size() == 1 ? "" : "s"),
+              scene);
+}
+
+void Check(const std::string& scene, const std::string& report, bool is_for_sharing) {
   const auto presets = ShippedTissuePresets();
   LoadedScene loaded;
   SceneFindings findings = CheckScene(scene, &loaded, [&](const Tissue& tissue) {
@@ -56,6 +70,7 @@ void Check(const std::string& scene, const std::string& report) {
     throw Error(Code::kBadScene,
                 fmt::format("this scene has {} error{}", count, count == 1 ? "" : "s"), scene);
   }
+  if (is_for_sharing) return CheckForSharing(scene, loaded);
   if (report == "-") return;  // standard output holds the report
   Print(stdout, "", findings.found);
   Print(stdout, "warning: ", findings.warnings);
@@ -72,6 +87,7 @@ void AddCheckJob(CLI::App& program) {
       program.add_subcommand("check", "Load a scene with all its files and say what is wrong.");
   struct Arguments {
     std::string scene, report;
+    bool is_for_sharing = false;
   };
   const auto own = std::make_shared<Arguments>();
   const auto files = JobFiles::Of(*job);
@@ -84,6 +100,9 @@ void AddCheckJob(CLI::App& program) {
                                 "JSON: errors, warnings and hints, and what share of the relief "
                                 "is measured; - for standard output."),
                 {"a report", FileForm::kJson, "arthroscene.check/"});
+  job->add_flag("--for-sharing", own->is_for_sharing,
+                "List only what should be stated before the scene is shared: title, author, and "
+                "source, licence and consent of each asset. The exit code is 1 if anything is.");
   for (const auto& [flag, text, kind] :
        {std::tuple{"--schema", &SceneSchemaText, "scene.json"},
         std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
@@ -95,7 +114,7 @@ void AddCheckJob(CLI::App& program) {
           throw CLI::Success();
         },
         fmt::format("Print the JSON Schema of {}, and do nothing else.", kind));
-  files->Run([own] { Check(own->scene, own->report); });
+  files->Run([own] { Check(own->scene, own->report, own->is_for_sharing); });
 }
 
 }  // namespace arthro::app

@@ -9,6 +9,7 @@
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/panorama/panorama_step.h"
+#include "app/steps/panorama/rights_fields.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -89,6 +90,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
     SetBackdrop(state, backdrop, "the distance of the backdrop");
   }
   Drag(state, change);
+  RightsFields(ui, state);
 }
 
 }  // namespace arthro::app

@@ -23,6 +23,7 @@ struct PanoramaStep {
   Owned<FootageMakers> makers;        // never empty
   std::filesystem::path lens_folder;  // presets
   Jobs frame_jobs;                    // one frame of the footage at full size
+  int rights_of = 0;                  // asset whose rights are shown: 0 the panorama, then tissues
 };
 std::span<const Command> PanoramaCommands();
 void PanoramaPanel(Ui& ui, EditorState& state);

@@ -376,6 +376,20 @@ TEST_F(Commands, SavingASceneThatWasOnlyTouchedOrWasRemovedAsksNothing) {
   EXPECT_TRUE(state.history.IsSaved());
 }
 
+TEST_F(Commands, RightsOfPanoramaAndTissueAreStepsThatCanBeUndone) {
+  Open();
+  SetRights(state, -1, {"ward 3", "CC BY 4.0", ""}, "licence");
+  SetRights(state, 0, {"made in code", "", ""}, "source");
+  EXPECT_EQ(state.document().scene.backdrop.rights.licence, "CC BY 4.0");
+  EXPECT_EQ(state.document().scene.tissues[0].rights.source, "made in code");
+  state.history.Undo();
+  EXPECT_EQ(state.document().scene.tissues[0].rights.source, "");
+  EXPECT_EQ(state.document().scene.backdrop.rights.licence, "CC BY 4.0");
+  SetRights(state, -1, {"ward 3", "CC BY 4.0", ""}, "licence");
+  state.history.Undo();
+  EXPECT_EQ(state.document().scene.backdrop.rights.licence, "") << "no step without a change";
+}
+
 TEST_F(Commands, ASecondSceneFileIsNotSavedOverTheFirst) {
   test::WriteSmallScene(temp / "knee");
   fs::copy_file(temp / "knee/scene.json", temp / "knee/variant.json");

@@ -218,6 +218,26 @@ TEST(CheckJob, ListsEveryErrorAndExitsWithOne) {
     EXPECT_NE(result.err.find(part), std::string::npos) << part << "\n" << result.err;
 }
 
+TEST(CheckJob, ListsWhatIsMissingForSharing) {
+  test::TempFolder folder;
+  Scene scene = WriteGoodScene(folder.path());
+  const std::string job = "check --for-sharing " + folder.path().string();
+  const auto good = test::RunProgram(job);
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_EQ(good.out, "this scene states its title, its author and the rights in each asset\n");
+  scene.author = "";
+  scene.backdrop.rights.consent = "";
+  scene.tissues[0].rights = {"", "", "none needed"};
+  WriteScene(folder / "scene.json", scene);
+  const auto poor = test::RunProgram(job);
+  EXPECT_EQ(poor.exit_code, 1);
+  EXPECT_EQ(poor.out, "");
+  for (const char* line :
+       {"missing: the scene has no author\n", "missing: the panorama has no consent\n",
+        "missing: tissue \"meniscus\" has no source, licence\n", "3 things should be stated"})
+    EXPECT_NE(poor.err.find(line), std::string::npos) << line << "\n" << poor.err;
+}
+
 TEST(CheckJob, RefusesWhatIsNoScene) {
   test::TempFolder folder;
   WriteAtomically(folder / "scene.json", "{\"schema\": \"arthroscene.scene/9\"}");
