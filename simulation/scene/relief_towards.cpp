@@ -1,0 +1,18 @@
+#include "simulation/scene/relief_towards.h"
+
+#include <cmath>
+
+#include "simulation/scene/projection.h"
+
+namespace arthro {
+
+double ReliefTowards(const glm::dvec3& direction, const DepthMap& depth, const Backdrop& backdrop) {
+  if (depth.empty()) return 0;
+  const auto pixel = PixelFromDirection(backdrop.projection, direction);
+  if (!pixel) return std::nan("");
+  const double u = std::round(pixel->x), v = std::round(pixel->y);
+  if (!(u >= 0 && v >= 0 && u < depth.width && v < depth.height)) return std::nan("");
+  return depth.at(static_cast<int>(u), static_cast<int>(v));
+}
+
+}  // namespace arthro
