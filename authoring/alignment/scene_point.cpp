@@ -33,8 +33,9 @@ double RangeOf(const LoadedScene& scene, const Sight& sight) {
     return backdrop.radius - ReliefTowards(x / radius, depth, backdrop) - radius;
   };
   double free = std::nan("");  // range of the last place in front of the relief
-  // Twice the radius is beyond the sphere from any place inside.
-  for (double range = 0; range <= 2 * backdrop.radius; range += kMarchStep) {
+  // The far side of the sphere, from an eye inside or outside of it.
+  const double last = glm::length(sight.eye) + backdrop.radius + kMarchStep;
+  for (double range = 0; range <= last; range += kMarchStep) {
     const double now = height(range);
     if (std::isnan(now)) {
       free = std::nan("");  // a surface behind a hole is uncertain
