@@ -16,6 +16,7 @@
 
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
+#include "app/editor/landmark_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/pictures.h"
 #include "app/files/recovery_copy.h"
@@ -410,6 +411,20 @@ class Editor {
     TakePictureInput(input);
     pictures_.HandleOverview(state_,
                              OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
+    Landmarks(ui, layout, input);
+  }
+
+  // Marks over both pictures, and clicks into the scope's.
+  void Landmarks(Ui& ui, const Layout& layout, const PictureInput& input) {
+    if (!PlacesLandmarks(state_)) return;
+    const int size = static_cast<int>(input.area.width);
+    if (input.clicked)
+      if (const auto sight =
+              authoring::SightOfScope(pictures_.optics(), pictures_.view(), size, *input.clicked))
+        TakeScenePoint(state_, *sight);
+    MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
+    MarkOverview(ui, state_, layout.overview,
+                 [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
   }
 
   void TakePictureInput(const PictureInput& input) {

@@ -196,6 +196,8 @@ void PokeFields(Ui& ui, EditorState& state) {
 }
 
 void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
+  LandmarkFields(ui, state);
+  if (PlacesLandmarks(state)) return;
   std::string name = tissue.name;
   if (TextField(ui, "Name", name) && !name.empty()) {
     Tissue changed = tissue;
