@@ -256,8 +256,9 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   }
   // The box is there while tissue is worked on.
   const bool is_brush =
-      IsTissueEdited(state) && (PlacesLandmarks(state) || state.steps.tissue->brush.has_value() ||
-                                state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
+      IsTissueEdited(state) &&
+      (PlacesLandmarks(state) || LaysOnRelief(state) || state.steps.tissue->brush.has_value() ||
+       state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
   const int chosen = IsTissueEdited(state) && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
@@ -320,6 +321,11 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
   for (int button = 0; button < 3; ++button) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
+      // With Shift the view turns, as it does elsewhere.
+      if (button == 0 && LaysOnRelief(state) && !input.shift) {
+        is_laying_ = true;
+        continue;
+      }
       const bool is_cutting = state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone;
       if (button == 0 && (state.steps.tissue->brush || is_cutting) && IsTissueEdited(state))
         if (const auto place = overview_.PickTissue(event.x, event.y)) {
@@ -334,6 +340,14 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
     if (input.released[button]) {
       event.kind = Kind::kRelease;
       overview_.Handle(event);
+    }
+  }
+  if (is_laying_) {
+    const Overview::Line line = overview_.LineThrough(event.x, event.y);
+    LayTissue(state, {line.eye, line.direction, line.px_per_radian});
+    if (!input.owned) {
+      EndDrag(state);
+      is_laying_ = false;
     }
   }
   if (input.clicked && PlacesLandmarks(state)) {

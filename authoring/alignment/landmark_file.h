@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "authoring/alignment/landmark_alignment.h"
+#include "authoring/alignment/surface_alignment.h"
 #include "simulation/scene/scene_limits.h"
 
 namespace arthro::authoring {
@@ -86,8 +87,10 @@ std::string PairsSchemaText();
 std::vector<LandmarkPair> PairsInScene(const PairsFile& pairs, const LoadedScene& scene,
                                        const std::filesystem::path& file = {});
 
-// Result as JSON text, arthroscene.align/1: pose, standard errors, residuals and warnings. m.
+// Result as JSON text, arthroscene.align/1: pose, standard errors, residuals and warnings of the
+// pairs; steps and distances of the surface. m.
 std::string AlignmentReport(const std::string& tissue, std::span<const LandmarkPair> pairs,
-                            const LandmarkAlignment& alignment);
+                            const std::optional<LandmarkAlignment>& landmarks,
+                            const std::optional<SurfaceAlignment>& surface);
 
 }  // namespace arthro::authoring

@@ -38,6 +38,8 @@ struct PictureInput {
   glm::dvec2 scope_drag{0.0}, instrument_drag{0.0};  // share of the picture's width, down positive
   double wheel = 0;                                  // notches, away from the user positive
   std::optional<glm::dvec2> clicked;  // px from the picture's top left, where nothing was dragged
+  std::optional<glm::dvec2> held;     // the same while the left button is down
+  bool released = false;              // it was let go
   Area area;                          // square of the picture
   bool shift = false, ctrl = false;
 };

@@ -128,8 +128,10 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   input.focused = ImGui::IsWindowFocused();
   input.area = {low.x, low.y, edge, edge};
   const ImGuiIO& io = ImGui::GetIO();
-  if (WasClicked())
-    input.clicked = glm::dvec2(io.MousePos.x - low.x - 0.5, io.MousePos.y - low.y - 0.5);
+  const glm::dvec2 pointer(io.MousePos.x - low.x - 0.5, io.MousePos.y - low.y - 0.5);
+  if (WasClicked()) input.clicked = pointer;
+  if (ImGui::IsItemActive() && io.MouseDown[0]) input.held = pointer;
+  input.released = ImGui::IsItemDeactivated();
   // The way to the place of the press is no drag.
   if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
     const glm::dvec2 drag = {io.MouseDelta.x / edge, io.MouseDelta.y / edge};

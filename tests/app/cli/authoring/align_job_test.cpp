@@ -9,6 +9,7 @@
 #include "simulation/scene/scene_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/support/run_program.h"
+#include "tests/support/shapes.h"
 
 namespace arthro::test {
 namespace {
@@ -97,6 +98,22 @@ TEST_F(AlignJob, RefusesInOneSentenceAndWritesNoScene) {
   WriteAtomically(At("pairs.json"), "{");
   EXPECT_EQ(Align().exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(At("A")));
+}
+
+TEST_F(AlignJob, LaysTheSurfaceOntoTheRelief) {
+  WriteSurface(At("S/octahedron.ply"), Sphere({0, 0, 0}, 0.006, 4));
+  Scene scene = ReadScene(At("S"));
+  scene.tissues.at(0).pose.position.z = 0.037;
+  WriteScene(At("S/scene.json"), scene);
+  const ProgramResult run = RunProgram(
+      Whole("align @S --tissue octahedron --surface --reach-mm 25 -o @A --report @r.json"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("laid onto the relief in"), std::string::npos) << run.out;
+  const auto surface = nlohmann::json::parse(ReadWholeFile(At("r.json"))).at("surface");
+  EXPECT_LT(surface.at("after").at("median"), surface.at("before").at("median"));
+  const ProgramResult none = RunProgram(Whole("align @S --tissue octahedron -o @B"));
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("give --pairs, --surface or both"), std::string::npos) << none.err;
 }
 
 TEST_F(AlignJob, GivesTheSameBytesTwice) {
