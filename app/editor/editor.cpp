@@ -434,8 +434,7 @@ class Editor {
 
   // Marks over both pictures, and clicks into the scope's.
   void Landmarks(Ui& ui, const Layout& layout, const PictureInput& input) {
-    if (!PlacesLandmarks(state_)) return;
-    if (input.clicked)
+    if (input.clicked && PlacesLandmarks(state_))
       if (const auto sight = SightOf(input, *input.clicked)) TakeScenePoint(state_, *sight);
     MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
     MarkOverview(ui, state_, layout.overview,

@@ -121,7 +121,7 @@ void DrawOutline(const Ui& ui, const EditorState& state, const Area& area, const
 
 void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area& picture,
                const simulation::ScopeView& view, const simulation::ScopeOptics& optics) {
-  if (!PlacesLandmarks(state)) return;
+  if (!IsOutlined(state) && !PlacesLandmarks(state)) return;
   const FixedWindow same(ui, "picture", window, kPictureWindow);  // appended windows are on top
   const double radius = 0.5 * picture.width;
   const auto to_window = [&](const glm::dvec3& x) -> std::optional<glm::dvec2> {
@@ -129,9 +129,8 @@ void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area&
     if (!(glm::length(place) <= 1.0)) return std::nullopt;
     return glm::dvec2(picture.x + radius + radius * place.x, picture.y + radius - radius * place.y);
   };
-  if (state.steps.tissue->landmarks.shows_outline)
-    DrawOutline(ui, state, picture, view.tip, to_window);
-  DrawLandmarks(ui, state, picture, to_window);
+  if (IsOutlined(state)) DrawOutline(ui, state, picture, view.tip, to_window);
+  if (PlacesLandmarks(state)) DrawLandmarks(ui, state, picture, to_window);
 }
 
 void MarkOverview(Ui& ui, const EditorState& state, const Area& window,

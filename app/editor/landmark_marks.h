@@ -1,5 +1,5 @@
 // Numbered marks of landmarks over the scope's picture and the overview, and the outline of the
-// tissue that is aligned. Filled marks are points of the model, rings are their places in the
+// tissue that is placed. Filled marks are points of the model, rings are their places in the
 // scene. Portal frame, m; areas in window coordinates, px.
 #pragma once
 

@@ -137,8 +137,7 @@ void Pictures::TakeTissues(const EditorState& state) {
 
 // The tissue whose outline is drawn over the scope's picture is not in it.
 void Pictures::HideOutlined(const EditorState& state) {
-  const int wanted =
-      PlacesLandmarks(state) && state.steps.tissue->landmarks.shows_outline ? state.tissue : -1;
+  const int wanted = IsOutlined(state) ? state.tissue : -1;
   if (wanted == outlined_) return;
   const int shown = std::exchange(outlined_, wanted);
   if (shown >= 0 && shown < static_cast<int>(shown_cuts_.size())) {

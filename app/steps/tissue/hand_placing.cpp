@@ -28,6 +28,13 @@ void SetPose(EditorState& state, const Pose& pose, const std::string& what) {
   SetTissue(state, state.tissue, changed, what);
 }
 
+// True while the Place page of a tissue is open.
+bool IsPlacePage(const EditorState& state) {
+  return !state.practice && state.step == Step::kTissue &&
+         state.steps.tissue->page == TissuePage::kPlace && state.tissue >= 0 &&
+         state.tissue < static_cast<int>(state.document().scene.tissues.size());
+}
+
 const authoring::ReliefTarget& ReliefOf(EditorState& state) {
   HandPlacing::Kept& kept = state.steps.tissue->placing.kept;
   const authoring::Document& document = state.document();
@@ -107,13 +114,15 @@ void FitToRelief(EditorState& state) {
   state.message = found.sentence;
 }
 
+bool IsOutlined(const EditorState& state) {
+  if (PlacesLandmarks(state)) return state.steps.tissue->landmarks.shows_outline;
+  return IsPlacePage(state) && state.steps.tissue->placing.shows_outline;
+}
+
 bool LaysOnRelief(const EditorState& state) {
   const HandPlacing& placing = state.steps.tissue->placing;
-  const auto& tissues = state.document().scene.tissues;
-  return placing.lays && !state.practice && state.step == Step::kTissue &&
-         state.steps.tissue->page == TissuePage::kPlace && state.tissue >= 0 &&
-         state.tissue < static_cast<int>(tissues.size()) &&
-         ChosenTissue(state).name == placing.tissue && !PlacesLandmarks(state);
+  return placing.lays && IsPlacePage(state) && ChosenTissue(state).name == placing.tissue &&
+         !PlacesLandmarks(state);
 }
 
 void ToggleLaying(EditorState& state) {

@@ -17,10 +17,11 @@ struct Ui;
 
 struct HandPlacing {
   authoring::NudgeAxes axes = authoring::NudgeAxes::kPortal;
-  double step = 1e-3;        // m
-  double turn = 0.08726646;  // rad, 5 degrees
-  bool lays = false;         // a drag over a picture lays the tissue onto the relief
-  std::string tissue;        // name of the one that is laid
+  double step = 1e-3;          // m
+  double turn = 0.08726646;    // rad, 5 degrees
+  bool shows_outline = false;  // the tissue is an outline in the scope's picture
+  bool lays = false;           // a drag over a picture lays the tissue onto the relief
+  std::string tissue;          // name of the one that is laid
   // Relief and fit of the chosen tissue, kept while nothing of them changes.
   struct Kept {
     std::shared_ptr<const DepthMap> depth;
@@ -47,6 +48,9 @@ void NudgeTurn(EditorState& state, int axis, double sign);
 void MirrorTissue(EditorState& state);  // its tetrahedra are to be made anew
 // Refines the pose until the surface lies on the relief.
 void FitToRelief(EditorState& state);
+
+// True while the chosen tissue is an outline in the scope's picture.
+bool IsOutlined(const EditorState& state);
 
 // True while drags over the pictures lay the chosen tissue onto the relief.
 bool LaysOnRelief(const EditorState& state);

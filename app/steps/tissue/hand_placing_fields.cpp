@@ -25,6 +25,8 @@ void FitFields(Ui& ui, EditorState& state) {
   QuietText(ui, FitWords(fit));
   if (const std::string words = IntersectionWords(fit); !words.empty())
     ColouredText(ui, words, kWarning);
+  Checkbox(ui, "Only its outline", state.steps.tissue->placing.shows_outline,
+           "The tissue is an outline in the scope's picture: compare it with what lies below.");
 }
 
 void StepFields(Ui& ui, EditorState& state) {
