@@ -9,10 +9,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/ball_flag.h"
 #include "app/cli/input_files.h"
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
-#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "app/cli/output_check.h"
 #include "authoring/alignment/landmark_file.h"
@@ -111,15 +111,6 @@ void Run(const AlignJob& job) {
                surface->steps, surface->sentence);
 }
 
-// "X,Y,Z,R" in mm.
-Ball PatchFromWords(const std::string& words) {
-  const std::vector<double> mm = NumbersFromWord("--patch", words, {{-1e4, 1e4}, "mm"});
-  if (mm.size() != 4 || !(mm[3] > 0))
-    throw CLI::ValidationError(
-        "--patch", words + " is not X,Y,Z,R: a centre and a radius of more than 0, in mm");
-  return {kMetrePerMillimetre * glm::dvec3(mm[0], mm[1], mm[2]), MetresFromMm(mm[3])};
-}
-
 }  // namespace
 
 void AddAlignJob(CLI::App& program) {
@@ -141,7 +132,8 @@ void AddAlignJob(CLI::App& program) {
   job->add_flag("--surface", own->takes_surface,
                 "Lay the surface onto the relief, after the pairs where both are given.");
   job->add_option_function<std::string>(
-         "--patch", [own](const std::string& words) { own->patch = PatchFromWords(words); },
+         "--patch",
+         [own](const std::string& words) { own->patch = BallFromWords("--patch", words); },
          "Ball in the tissue's own frame, mm, whose part of the surface lies on the relief; the "
          "side that faces the portal if not given.")
       ->type_name("X,Y,Z,R");
