@@ -46,7 +46,7 @@ expect "Now click its place in the scope's picture"
 key escape
 wait frames 3
 expect not "Landmark 1"
-expect "Or drag the box around it"
+expect "Fit to the relief"
 quit
 )");
 }
