@@ -13,9 +13,11 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
+#include "app/editor/landmark_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/pictures.h"
 #include "app/files/recovery_copy.h"
@@ -95,6 +97,7 @@ void RunShortcuts(EditorState& state) {
       if (io.KeyCtrl != shortcut.ctrl || io.KeyShift != shortcut.shift || io.KeyAlt) continue;
       const bool function_key = shortcut.key >= GLFW_KEY_F1 && shortcut.key <= GLFW_KEY_F12;
       if (io.WantTextInput && !function_key) continue;
+      ImGui::NavMoveRequestCancel();  // an arrow that is a command does not walk the panels
       Run(state, command);
       return;  // one key, one command
     }
@@ -407,11 +410,37 @@ class Editor {
 
   void Scene(Ui& ui, const Layout& layout) {
     DrawPictures(ui, layout);
-    const PictureInput input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+    PictureInput input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
     picture_focused_ = input.focused;
+    Lay(input);
     TakePictureInput(input);
     pictures_.HandleOverview(state_,
                              OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
+    Landmarks(ui, layout, input);
+  }
+
+  std::optional<authoring::Sight> SightOf(const PictureInput& input,
+                                          const glm::dvec2& pixel) const {
+    return authoring::SightOfScope(pictures_.optics(), pictures_.view(),
+                                   static_cast<int>(input.area.width), pixel);
+  }
+
+  // A drag over the scope's picture that lays a tissue does not swing the scope.
+  void Lay(PictureInput& input) {
+    if (!LaysOnRelief(state_)) return;
+    if (input.held)
+      if (const auto sight = SightOf(input, *input.held)) LayTissue(state_, *sight);
+    if (input.held) input.scope_drag = glm::dvec2(0.0);
+    if (input.released) EndDrag(state_);
+  }
+
+  // Marks over both pictures, and clicks into the scope's.
+  void Landmarks(Ui& ui, const Layout& layout, const PictureInput& input) {
+    if (input.clicked && PlacesLandmarks(state_))
+      if (const auto sight = SightOf(input, *input.clicked)) TakeScenePoint(state_, *sight);
+    MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
+    MarkOverview(ui, state_, layout.overview,
+                 [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
   }
 
   void TakePictureInput(const PictureInput& input) {

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/portals/reach_board.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
 #include "app/view/exposure/footage_light.h"
@@ -125,7 +127,7 @@ void Pictures::TakeTissues(const EditorState& state) {
     scope_.SetTissues(tissues, document.surfaces, looks);
     overview_.SetTissues(tissues, document.surfaces);
     shown_cuts_.assign(tissues.size(), nullptr);
-    chosen_ = -1;
+    chosen_ = outlined_ = -1;
     surfaces_ = document.surfaces;
     changed_ = true;
   } else {
@@ -139,6 +141,22 @@ void Pictures::TakeTissues(const EditorState& state) {
   tissues_ = tissues;
   looks_ = std::move(looks);
   TakeCuts(document);
+}
+
+// The tissue whose outline is drawn over the scope's picture is not in it.
+void Pictures::HideOutlined(const EditorState& state) {
+  const int wanted = IsOutlined(state) ? state.tissue : -1;
+  if (wanted == outlined_) return;
+  const int shown = std::exchange(outlined_, wanted);
+  if (shown >= 0 && shown < static_cast<int>(shown_cuts_.size())) {
+    const auto at = static_cast<std::size_t>(shown);
+    if (shown_cuts_[at])
+      scope_.SetTissueSurface(shown, shown_cuts_[at]->surface, shown_cuts_[at]->is_fresh);
+    else
+      scope_.SetTissueSurface(shown, OrEmpty(surfaces_[at]));
+  }
+  if (wanted >= 0) scope_.SetTissueSurface(wanted, {});
+  changed_ = true;
 }
 
 // Tissues as their author's cuts leave them.
@@ -174,6 +192,7 @@ void Pictures::TakeLiveTissues(const EditorState& state) {
 void Pictures::Take(const EditorState& state) {
   TakeBackdrop(state);
   TakeTissues(state);
+  HideOutlined(state);
   TakeLiveTissues(state);
 }
 
@@ -244,8 +263,9 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   }
   // The box is there while tissue is worked on.
   const bool is_brush =
-      IsTissueEdited(state) && (state.steps.tissue->brush.has_value() ||
-                                state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
+      IsTissueEdited(state) &&
+      (PlacesLandmarks(state) || LaysOnRelief(state) || state.steps.tissue->brush.has_value() ||
+       state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
   const int chosen = IsTissueEdited(state) && !is_brush ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
@@ -308,6 +328,11 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
   for (int button = 0; button < 3; ++button) {
     event.button = kButtons[button];
     if (input.pressed[button]) {
+      // With Shift the view turns, as it does elsewhere.
+      if (button == 0 && LaysOnRelief(state) && !input.shift) {
+        is_laying_ = true;
+        continue;
+      }
       const bool is_cutting = state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone;
       if (button == 0 && (state.steps.tissue->brush || is_cutting) && IsTissueEdited(state))
         if (const auto place = overview_.PickTissue(event.x, event.y)) {
@@ -322,6 +347,24 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
     if (input.released[button]) {
       event.kind = Kind::kRelease;
       overview_.Handle(event);
+    }
+  }
+  if (is_laying_) {
+    const Overview::Line line = overview_.LineThrough(event.x, event.y);
+    LayTissue(state, {line.eye, line.direction, line.px_per_radian});
+    if (!input.owned) {
+      EndDrag(state);
+      is_laying_ = false;
+    }
+  }
+  if (input.clicked && PlacesLandmarks(state)) {
+    const auto place = overview_.PickTissue(event.x, event.y);
+    // A model point that waits for its partner is followed by a click on the relief.
+    if (place && !state.steps.tissue->landmarks.model) {
+      TakeModelPoint(state, place->tissue, place->x_in_tissue);
+    } else {
+      const Overview::Line line = overview_.LineThrough(event.x, event.y);
+      TakeScenePoint(state, {line.eye, line.direction, line.px_per_radian});
     }
   }
   if (input.wheel != 0) {

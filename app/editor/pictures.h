@@ -44,6 +44,11 @@ class Pictures {
   int scope_edge() const { return drawn_size_; }       // px of that texture
   long scope_version() const { return drawn_count_; }  // grows with each picture
   const simulation::ScopeView& view() const { return picture_.view; }
+  simulation::ScopeOptics optics() const { return {picture_.field_of_view, picture_.lens}; }
+  // Pixel of the overview for a place; nothing behind its camera.
+  std::optional<glm::dvec2> OverviewPixelOf(const glm::dvec3& x_in_portal) const {
+    return overview_.PixelOf(x_in_portal);
+  }
   const std::string& notice() const {
     if (!cut_fault_.empty()) return cut_fault_;
     return optics_.fault.empty() ? scope_.notice() : optics_.fault;
@@ -55,6 +60,7 @@ class Pictures {
   void TakeTissues(const EditorState& state);
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
+  void HideOutlined(const EditorState& state);
   void TakeLiveTissues(const EditorState& state);
 
   ArthroscopicView scope_;
@@ -76,6 +82,7 @@ class Pictures {
   RenderScale scale_;      // scale and features of moving pictures
   bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
+  bool is_laying_ = false;  // a drag over the overview lays a tissue onto the relief
   std::chrono::steady_clock::time_point overview_drawn_{};
   // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;
@@ -90,6 +97,7 @@ class Pictures {
   std::vector<std::shared_ptr<const simulation::BodySkin>>
       shown_cuts_;  // one per tissue; null: whole
   std::string cut_fault_;
+  int outlined_ = -1;  // tissue that the scope's picture leaves out, -1 none
   const simulation::Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;
   int chosen_ = -1, document_number_ = -1;

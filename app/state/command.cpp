@@ -19,6 +19,18 @@ std::string WordsOf(const Shortcut& shortcut) {
       return words + "Delete";
     case GLFW_KEY_HOME:
       return words + "Home";
+    case GLFW_KEY_LEFT:
+      return words + "Left";
+    case GLFW_KEY_RIGHT:
+      return words + "Right";
+    case GLFW_KEY_UP:
+      return words + "Up";
+    case GLFW_KEY_DOWN:
+      return words + "Down";
+    case GLFW_KEY_PAGE_UP:
+      return words + "Page up";
+    case GLFW_KEY_PAGE_DOWN:
+      return words + "Page down";
     default:
       return words + static_cast<char>(shortcut.key);
   }

@@ -132,4 +132,15 @@ glm::dvec3 RayThrough(const ScopeOptics& optics, const ScopeView& view,
   return across.x * view.right + across.y * view.up + (1.0 - 2.0 * s2) * view.view;
 }
 
+glm::dvec2 PlaceOf(const ScopeOptics& optics, const ScopeView& view,
+                   const glm::dvec3& direction) noexcept {
+  const glm::dvec2 across(glm::dot(direction, view.right), glm::dot(direction, view.up));
+  const double length = glm::length(across);
+  if (!(length > 0.0)) return optics.lens.axis;
+  const double theta = std::atan2(length, glm::dot(direction, view.view));
+  const double q = std::sin(0.5 * theta) / std::sin(0.25 * optics.field_of_view);
+  const double r = q * LensFactor(optics.lens.outward, std::min(q * q, optics.lens.end));
+  return optics.lens.axis + (r / length) * across;
+}
+
 }  // namespace arthro::simulation

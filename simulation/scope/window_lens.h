@@ -50,6 +50,10 @@ ScopeOptics OpticsOf(const ScopeSpec& scope, const std::optional<Lens>& lens,
 // radius.
 glm::dvec3 RayThrough(const ScopeOptics& optics, const ScopeView& view,
                       const glm::dvec2& place) noexcept;
+// Returns the place in the window of a direction from the tip, the inverse of RayThrough; one
+// outside the window is more than 1 from its centre.
+glm::dvec2 PlaceOf(const ScopeOptics& optics, const ScopeView& view,
+                   const glm::dvec3& direction) noexcept;
 
 // Evaluates the even polynomial `factor` at a squared radius.
 double LensFactor(const std::array<double, WindowLens::kTerms>& factor, double squared) noexcept;

@@ -62,13 +62,14 @@ struct MicroBench {
   std::vector<MicroRow> rows;
 };
 
-MicroGroup ScopeMicro(bool quick);    // closed forms of the arthroscope, pivot calibration
-MicroGroup LensMicro(bool quick);     // lens fit, rectifier
-MicroGroup DepthMicro(bool quick);    // depth from colour against known distances
-MicroGroup PreviewMicro(bool quick);  // preview of the depth against the whole result
-MicroGroup ComposeMicro(bool quick);  // composition of placed frames
-MicroGroup SurfaceMicro(bool quick);  // checks and filling of surfaces
-MicroGroup KernelMicro(bool quick);   // assembly and matrix products of tissue
+MicroGroup AlignmentMicro(bool quick);  // poses of tissues from landmarks
+MicroGroup ScopeMicro(bool quick);      // closed forms of the arthroscope, pivot calibration
+MicroGroup LensMicro(bool quick);       // lens fit, rectifier
+MicroGroup DepthMicro(bool quick);      // depth from colour against known distances
+MicroGroup PreviewMicro(bool quick);    // preview of the depth against the whole result
+MicroGroup ComposeMicro(bool quick);    // composition of placed frames
+MicroGroup SurfaceMicro(bool quick);    // checks and filling of surfaces
+MicroGroup KernelMicro(bool quick);     // assembly and matrix products of tissue
 
 // Throws Error(kBadArgument) when no group is named so.
 MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progress);

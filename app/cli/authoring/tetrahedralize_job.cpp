@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/cli/ball_flag.h"
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
@@ -34,15 +35,6 @@ struct Arguments {
   std::vector<Ball> held;
   authoring::TetrahedralizeOptions options;
 };
-
-// "X,Y,Z,R" in mm.
-Ball BallFromWords(const std::string& flag, const std::string& words) {
-  const std::vector<double> mm = NumbersFromWord(flag, words, {{-1e4, 1e4}, "mm"});
-  if (mm.size() != 4 || !(mm[3] > 0))
-    throw CLI::ValidationError(
-        flag, fmt::format("{} is not X,Y,Z,R: a centre and a radius of more than 0, in mm", words));
-  return {kMetrePerMillimetre * glm::dvec3(mm[0], mm[1], mm[2]), MetresFromMm(mm[3])};
-}
 
 CLI::Option* AddBalls(CLI::App& job, const std::string& flag, std::vector<Ball>& balls,
                       const std::string& help) {

@@ -11,6 +11,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/practice/shipped_presets.h"
+#include "authoring/alignment/landmark_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -106,7 +107,8 @@ void AddCheckJob(CLI::App& program) {
   for (const auto& [flag, text, kind] :
        {std::tuple{"--schema", &SceneSchemaText, "scene.json"},
         std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
-        std::tuple{"--lens-schema", &LensSchemaText, "lens files"}})
+        std::tuple{"--lens-schema", &LensSchemaText, "lens files"},
+        std::tuple{"--pairs-schema", &authoring::PairsSchemaText, "pairs of landmarks"}})
     job->add_flag_callback(
         flag,
         [text = text] {

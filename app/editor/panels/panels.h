@@ -2,6 +2,7 @@
 // commands and edits. They compute nothing.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -36,6 +37,10 @@ struct PictureInput {
   bool hovered = false, focused = false;
   glm::dvec2 scope_drag{0.0}, instrument_drag{0.0};  // share of the picture's width, down positive
   double wheel = 0;                                  // notches, away from the user positive
+  std::optional<glm::dvec2> clicked;  // px from the picture's top left, where nothing was dragged
+  std::optional<glm::dvec2> held;     // the same while the left button is down
+  bool released = false;              // it was let go
+  Area area;                          // square of the picture
   bool shift = false, ctrl = false;
 };
 // The square picture of the scope, as large as the area lets it be.
@@ -49,6 +54,7 @@ struct OverviewInput {
   bool pressed[3] = {false, false, false}, released[3] = {false, false, false};
   double wheel = 0;
   bool shift = false, ctrl = false;
+  bool clicked = false;  // with the left button, and nothing was dragged
 };
 OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture);
 // The same in a corner of the scope's picture.

@@ -23,6 +23,14 @@ void OpaqueImage(ImDrawList* draw, unsigned texture, const ImVec2& low, const Im
                  {0, 1}, {1, 0});
 }
 
+// The left button was let go over the last item where it had been pressed.
+bool WasClicked() {
+  constexpr float kSlack = 4;  // px
+  const ImGuiIO& io = ImGui::GetIO();
+  return ImGui::IsItemDeactivated() && ImGui::IsItemHovered() && ImGui::IsMouseReleased(0) &&
+         io.MouseDragMaxDistanceSqr[0] <= kSlack * kSlack;
+}
+
 // The edge of the square picture in its area.
 float PictureEdge(const Ui& ui, bool practice, const Area& area) {
   const float strip = practice ? 0 : ui.Px(kStripHeight);
@@ -85,6 +93,7 @@ OverviewInput Overview(Ui& ui, const Area& area, unsigned texture) {
     input.released[button] = ImGui::IsMouseReleased(button) && ImGui::IsItemDeactivated();
   }
   if (input.hovered) input.wheel = io.MouseWheel;
+  input.clicked = WasClicked();
   input.shift = io.KeyShift;
   input.ctrl = io.KeyCtrl;
   if (texture != 0)
@@ -117,8 +126,14 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   RecordItem(ui, "Picture", true, "", WidgetKind::kPicture);
   input.hovered = ImGui::IsItemHovered();
   input.focused = ImGui::IsWindowFocused();
+  input.area = {low.x, low.y, edge, edge};
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsItemActive()) {
+  const glm::dvec2 pointer(io.MousePos.x - low.x - 0.5, io.MousePos.y - low.y - 0.5);
+  if (WasClicked()) input.clicked = pointer;
+  if (ImGui::IsItemActive() && io.MouseDown[0]) input.held = pointer;
+  input.released = ImGui::IsItemDeactivated();
+  // The way to the place of the press is no drag.
+  if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
     const glm::dvec2 drag = {io.MouseDelta.x / edge, io.MouseDelta.y / edge};
     if (io.MouseDown[0]) input.scope_drag = drag;
     if (io.MouseDown[1]) input.instrument_drag = drag;

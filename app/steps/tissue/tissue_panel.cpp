@@ -196,6 +196,9 @@ void PokeFields(Ui& ui, EditorState& state) {
 }
 
 void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
+  LandmarkFields(ui, state);
+  if (PlacesLandmarks(state)) return;
+  FitFields(ui, state);
   std::string name = tissue.name;
   if (TextField(ui, "Name", name) && !name.empty()) {
     Tissue changed = tissue;
@@ -209,6 +212,7 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
     CommandButton(ui, state, "tissue-before-scope", {-FLT_MIN, 0});
   }
   PoseFields(ui, state, tissue);
+  StepFields(ui, state);
   QuietText(ui, "Or drag the box around it in the overview.");
   Gap(ui);
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;

@@ -9,6 +9,8 @@
 #include <glm/vec3.hpp>
 
 #include "app/state/command.h"
+#include "app/steps/tissue/hand_placing.h"
+#include "app/steps/tissue/landmark_mode.h"
 #include "authoring/tissue/mesh_budget.h"
 #include "simulation/scene/surface_mesh.h"
 
@@ -43,6 +45,8 @@ struct TissueStep {
   std::optional<BallKind> brush;  // a click on tissue in the overview puts a ball there
   double ball_radius = 2e-3;      // m, of the next one
   CutBrush cut_brush;
+  LandmarkMode landmarks;
+  HandPlacing placing;
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;

@@ -64,6 +64,14 @@ class Overview {
     glm::dvec3 x_in_tissue{0.0};
   };
   std::optional<TissuePlace> PickTissue(double x, double y) const;
+  // Line of sight through a pixel: from the camera, unit direction, pixels per radian there.
+  struct Line {
+    glm::dvec3 eye{0.0}, direction{0.0};
+    double px_per_radian = 0;
+  };
+  Line LineThrough(double x, double y) const;
+  // Pixel of a place; nothing for one behind the camera.
+  std::optional<glm::dvec2> PixelOf(const glm::dvec3& x_in_portal) const;
   // Called while the box is dragged, with the pose that it asks for; `finished` with the last one.
   std::function<void(int tissue, const Pose& pose, bool finished)> on_pose;
 

@@ -13,6 +13,7 @@
 #include "app/view/drawing/srgb.h"
 #include "app/view/overview/overview_impl.h"
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
 
 namespace arthro::app {
 namespace {
@@ -164,16 +165,49 @@ void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
   p.changed = true;
 }
 
+namespace {
+
+// World coordinates of a pixel on the near plane (0) or the far one (1).
+glm::dvec3 WorldAt(vtkRenderer& renderer, double x, double y_from_below, double depth) {
+  double world[4];
+  renderer.SetDisplayPoint(x, y_from_below, depth);
+  renderer.DisplayToWorld();
+  renderer.GetWorldPoint(world);
+  return glm::dvec3(world[0], world[1], world[2]) / world[3];
+}
+
+}  // namespace
+
+Overview::Line Overview::LineThrough(double x, double y) const {
+  const Parts& p = *parts_;
+  const glm::dvec3 near = WorldAt(*p.renderer, x, p.height - 1 - y, 0),
+                   far = WorldAt(*p.renderer, x, p.height - 1 - y, 1);
+  vtkCamera* camera = p.renderer->GetActiveCamera();
+  double eye[3];
+  camera->GetPosition(eye);
+  const double edge = camera->GetUseHorizontalViewAngle() ? p.width : p.height;
+  const double focal = 0.5 * edge / std::tan(0.5 * RadiansFromDegrees(camera->GetViewAngle()));
+  return {{eye[0], eye[1], eye[2]}, glm::normalize(far - near), focal};
+}
+
+std::optional<glm::dvec2> Overview::PixelOf(const glm::dvec3& x_in_portal) const {
+  const Parts& p = *parts_;
+  double eye[3], forward[3], display[3];
+  vtkCamera* camera = p.renderer->GetActiveCamera();
+  camera->GetPosition(eye);
+  camera->GetDirectionOfProjection(forward);
+  const glm::dvec3 way = x_in_portal - glm::dvec3(eye[0], eye[1], eye[2]);
+  if (!(glm::dot(way, glm::dvec3(forward[0], forward[1], forward[2])) > 0)) return std::nullopt;
+  p.renderer->SetWorldPoint(x_in_portal.x, x_in_portal.y, x_in_portal.z, 1.0);
+  p.renderer->WorldToDisplay();
+  p.renderer->GetDisplayPoint(display);
+  return glm::dvec2(display[0], p.height - 1 - display[1]);
+}
+
 std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) const {
   const Parts& p = *parts_;
-  glm::dvec3 ends[2];
-  for (int i = 0; i < 2; ++i) {
-    double world[4];
-    p.renderer->SetDisplayPoint(x, p.height - 1 - y, i);
-    p.renderer->DisplayToWorld();
-    p.renderer->GetWorldPoint(world);
-    ends[i] = glm::dvec3(world[0], world[1], world[2]) / world[3];
-  }
+  const glm::dvec3 ends[2] = {WorldAt(*p.renderer, x, p.height - 1 - y, 0),
+                              WorldAt(*p.renderer, x, p.height - 1 - y, 1)};
   std::optional<TissuePlace> place;
   double nearest = 1.0;  // share of the way between the ends
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {

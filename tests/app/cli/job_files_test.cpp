@@ -41,6 +41,7 @@ class JobFiles : public JobInputs {
     WriteColourImage(At("g.png"), KneePicture(64, 48));
     WriteDepthMap(At("y.tiff"), DepthMap(64, 48, 0.01f));
     WriteAtomically(At("o.json"), "{}");
+    WriteAtomically(At("pairs.json"), R"({"schema": "arthroscene.pairs/1", "pairs": []})");
     WriteAtomically(At("lens.json"), R"({"schema": "arthroscene.lens/1"})");
     WriteAtomically(At("t.csv"),
                     "t,device,hip_x,hip_y,hip_z,qw,qx,qy,qz,buttons\n"
@@ -77,6 +78,8 @@ TEST_F(JobFiles, AnOutputThatIsAnInputIsRefusedAlsoWithOverwrite) {
   fs::create_hard_link(At("S/panorama.png"), At("hard.csv"));
   const std::pair<std::string, std::string> kCases[] = {
       {"centres @S -o @S/scene.json", "scene.json"},
+      {"align @S --tissue octahedron --pairs @pairs.json -o @S", "scene.json"},
+      {"align @S --tissue octahedron --pairs @pairs.json -o @A --report @pairs.json", "pairs.json"},
       {"centres @S -o @S/panorama.png", "panorama.png"},
       {"centres @S -o @S/depth.tiff", "depth.tiff"},
       {"centres @S/scene.json -o @S/octahedron.ply", "octahedron.ply"},
@@ -137,6 +140,8 @@ TEST_F(JobFiles, APieceOrPictureThatIsAnInputIsRefused) {
 // Flags that help shows as OUTPUT, with a command for each, in which a foreign file stands where
 // the job would write. A job that is missing here fails the next test.
 const std::map<std::string, std::string> kOutputs = {
+    {"align --output", "align @S.arthro --tissue octahedron --pairs @pairs.json -o @S"},
+    {"align --report", "align @S --tissue octahedron --pairs @pairs.json -o @new.demo --report @X"},
     {"bench all --output", "bench all -o @X.demo"},
     {"bench haptics --json", "bench haptics --json @X"},
     {"bench haptics --plot", "bench haptics --plot @X"},
@@ -254,7 +259,8 @@ TEST_F(JobFiles, AForeignFileWantsOverwriteInEveryJob) {
   for (const char* name : {"report.json", "frame_00000.png", "000001.png"})
     WriteAtomically(At("X.demo") + "/" + name, kForeign);
   for (const auto& [name, arguments] : kOutputs)
-    ExpectRefused(arguments, name.ends_with(" --scene") ? "S/scene.json" : "X",
+    ExpectRefused(arguments,
+                  name.ends_with(" --scene") || name == "align --output" ? "S/scene.json" : "X",
                   name == "phantom --output" ? "nothing is overwritten" : "--overwrite");
 }
 

@@ -1,0 +1,150 @@
+#include "app/steps/tissue/hand_placing.h"
+
+#include <fmt/format.h>
+
+#include "app/state/edits.h"
+#include "app/steps/tissue/tissue_step.h"
+#include "authoring/alignment/surface_alignment.h"
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+// Share of the front behind the relief that is worth a word: less is a horn
+// behind a bone, or the noise of a relief.
+constexpr double kWorthSaying = 0.1;
+
+const Tissue& ChosenTissue(const EditorState& state) {
+  return state.document().scene.tissues.at(static_cast<std::size_t>(state.tissue));
+}
+
+const SurfaceMesh& ChosenSurface(const EditorState& state) {
+  return OrEmpty(state.document().surfaces.at(static_cast<std::size_t>(state.tissue)));
+}
+
+void SetPose(EditorState& state, const Pose& pose, const std::string& what) {
+  Tissue changed = ChosenTissue(state);
+  changed.pose = pose;
+  SetTissue(state, state.tissue, changed, what);
+}
+
+// True while the Place page of a tissue is open.
+bool IsPlacePage(const EditorState& state) {
+  return !state.practice && state.step == Step::kTissue &&
+         state.steps.tissue->page == TissuePage::kPlace && state.tissue >= 0 &&
+         state.tissue < static_cast<int>(state.document().scene.tissues.size());
+}
+
+const authoring::ReliefTarget& ReliefOf(EditorState& state) {
+  HandPlacing::Kept& kept = state.steps.tissue->placing.kept;
+  const authoring::Document& document = state.document();
+  if (kept.depth != document.depth || kept.panorama != document.panorama ||
+      !(kept.backdrop == document.scene.backdrop)) {
+    kept = {document.depth, document.panorama, document.scene.backdrop, {}, {}, {}, {}};
+    kept.relief = authoring::MakeReliefTarget(document);
+  }
+  return kept.relief;
+}
+
+}  // namespace
+
+const authoring::ReliefFit& FitOfChosen(EditorState& state) {
+  const authoring::ReliefTarget& relief = ReliefOf(state);
+  HandPlacing::Kept& kept = state.steps.tissue->placing.kept;
+  const SharedSurface& surface =
+      state.document().surfaces.at(static_cast<std::size_t>(state.tissue));
+  const Pose& pose = ChosenTissue(state).pose;
+  if (kept.surface == surface && (kept.pose == pose || state.dragging)) return kept.fit;
+  kept.surface = surface;
+  kept.pose = pose;
+  kept.fit = authoring::FitOf(relief, OrEmpty(surface), pose);
+  return kept.fit;
+}
+
+std::string FitWords(const authoring::ReliefFit& fit) {
+  if (!fit.is_known) return "It is nowhere near the relief.";
+  return fmt::format("{:.2f} mm from the relief (median); {:.0f} % of its front within 1 mm.",
+                     MmFromMetres(fit.median), 100 * fit.within);
+}
+
+std::string IntersectionWords(const authoring::ReliefFit& fit) {
+  if (!fit.is_known || fit.behind < kWorthSaying) return "";
+  return fmt::format("{:.0f} % of its front lies behind the relief, up to {:.1f} mm deep.",
+                     100 * fit.behind, MmFromMetres(fit.deepest));
+}
+
+void Nudge(EditorState& state, int axis, double sign) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  SetPose(state,
+          authoring::Shifted(ChosenTissue(state).pose, axis, sign * placing.step, placing.axes),
+          "Move");
+  EndDrag(state);
+}
+
+void NudgeTurn(EditorState& state, int axis, double sign) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  SetPose(state,
+          authoring::Turned(ChosenTissue(state).pose, axis, sign * placing.turn, placing.axes,
+                            authoring::MiddleOf(ChosenSurface(state))),
+          "Turn");
+  EndDrag(state);
+}
+
+void MirrorTissue(EditorState& state) {
+  const SurfaceMesh& surface = ChosenSurface(state);
+  const double at = authoring::MiddleOf(surface).x;
+  Tissue changed = authoring::Mirrored(ChosenTissue(state), at);
+  const bool had_mesh = !changed.mesh.empty();
+  changed.mesh.clear();
+  const auto index = static_cast<std::size_t>(state.tissue);
+  Edit(state, "Mirror " + changed.name, "", [&](authoring::Document& next) {
+    next.surfaces[index] = Share(authoring::Mirrored(surface, at));
+    next.scene.tissues[index] = changed;
+  });
+  if (had_mesh) state.message += "; make its tetrahedra anew.";
+}
+
+void FitToRelief(EditorState& state) {
+  const authoring::SurfaceAlignment found =
+      authoring::AlignSurface(ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose);
+  if (found.is_aligned) {
+    SetPose(state, found.portal_from_tissue, "Fit");
+    EndDrag(state);
+  }
+  state.message = found.sentence;
+}
+
+bool IsOutlined(const EditorState& state) {
+  if (PlacesLandmarks(state)) return state.steps.tissue->landmarks.shows_outline;
+  return IsPlacePage(state) && state.steps.tissue->placing.shows_outline;
+}
+
+bool LaysOnRelief(const EditorState& state) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  return placing.lays && IsPlacePage(state) && ChosenTissue(state).name == placing.tissue &&
+         !PlacesLandmarks(state);
+}
+
+void ToggleLaying(EditorState& state) {
+  HandPlacing& placing = state.steps.tissue->placing;
+  placing.lays = !LaysOnRelief(state);
+  placing.tissue = ChosenTissue(state).name;
+  state.message = placing.lays ? "Drag over the scope's picture or the overview to lay it there."
+                               : "Drags turn and move the views again.";
+}
+
+void LayTissue(EditorState& state, const authoring::Sight& sight) {
+  if (!LaysOnRelief(state)) return;
+  const auto point = authoring::PointOnRelief(state.document(), sight);
+  if (!point) {
+    state.message = authoring::kNothingImaged;
+    return;
+  }
+  state.dragging = true;
+  SetPose(state,
+          authoring::LaidOnRelief(ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose,
+                                  point->x_in_portal),
+          "Lay");
+}
+
+}  // namespace arthro::app

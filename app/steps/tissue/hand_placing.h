@@ -1,0 +1,63 @@
+// Placing the chosen tissue by hand on the Place page: steps along and about axes, dragging on the
+// relief, its mirror image, the fit of its surface to the relief, and how well it lies there. m,
+// rad, portal frame.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/state/editor_state.h"
+#include "authoring/alignment/place_by_hand.h"
+#include "authoring/alignment/relief_distance.h"
+#include "authoring/alignment/scene_point.h"
+
+namespace arthro::app {
+
+struct Ui;
+
+struct HandPlacing {
+  authoring::NudgeAxes axes = authoring::NudgeAxes::kPortal;
+  double step = 1e-3;          // m
+  double turn = 0.08726646;    // rad, 5 degrees
+  bool shows_outline = false;  // the tissue is an outline in the scope's picture
+  bool lays = false;           // a drag over a picture lays the tissue onto the relief
+  std::string tissue;          // name of the one that is laid
+  // Relief and fit of the chosen tissue, kept while nothing of them changes.
+  struct Kept {
+    std::shared_ptr<const DepthMap> depth;
+    std::shared_ptr<const ColourImage> panorama;
+    Backdrop backdrop;
+    authoring::ReliefTarget relief;
+    SharedSurface surface;
+    Pose pose;
+    authoring::ReliefFit fit;
+  } kept;
+};
+
+// Fit of the chosen tissue to the relief; while a drag goes on, that of its beginning.
+const authoring::ReliefFit& FitOfChosen(EditorState& state);
+// "0.12 mm from the relief, 91 % of its front within 1 mm": how well it lies there.
+std::string FitWords(const authoring::ReliefFit& fit);
+// A front that lies behind the relief, which a wrong place or what hides it explains; empty where
+// little of it does.
+std::string IntersectionWords(const authoring::ReliefFit& fit);
+
+// One step of the history each.
+void Nudge(EditorState& state, int axis, double sign);
+void NudgeTurn(EditorState& state, int axis, double sign);
+void MirrorTissue(EditorState& state);  // its tetrahedra are to be made anew
+// Refines the pose until the surface lies on the relief.
+void FitToRelief(EditorState& state);
+
+// True while the chosen tissue is an outline in the scope's picture.
+bool IsOutlined(const EditorState& state);
+
+// True while drags over the pictures lay the chosen tissue onto the relief.
+bool LaysOnRelief(const EditorState& state);
+void ToggleLaying(EditorState& state);
+void LayTissue(EditorState& state, const authoring::Sight& sight);
+
+void FitFields(Ui& ui, EditorState& state);   // judging, fitting and laying
+void StepFields(Ui& ui, EditorState& state);  // sizes of steps, and the mirror
+
+}  // namespace arthro::app
