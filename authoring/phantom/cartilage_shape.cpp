@@ -16,7 +16,7 @@ constexpr double kGlue = 0.05 * kMm;   // gap between the layer and the bed
 // The layer covers the lip of its bed, and its rim lies in the bone: neither the wall of the bed
 // nor a gap is seen along the seam.
 constexpr double kOverLip = 1.03, kRim = 1.07;  // radii of the bed
-constexpr double kSunk = 0.08 * kMm;            // of the top at the rim
+constexpr double kSunk = 0.08 * kMm;            // m, depth of the rim's top in the bone
 constexpr double kLeastThickness = 0.10 * kMm;
 
 int FirstOfRing(int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); }
