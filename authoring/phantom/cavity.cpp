@@ -99,11 +99,7 @@ double CastPlateau(const Plateau& plateau, const glm::dvec3& direction, double l
   double s = is_downward ? std::max((kPlateauTop - o.z) / d.z, 0.0) : 0.0;
   const double end = is_downward ? std::min((kPlateauBottom - o.z) / d.z, limit) : limit;
   constexpr double kStep = 0.3 * kMm;  // finer than anything on the plateau
-  const auto above = [&](double at) {
-    const glm::dvec3 p = o + at * d;
-    const double least = LeastPlateauClearance(plateau, p);
-    return least > kStep ? least : PlateauClearance(plateau, p);
-  };
+  const auto above = [&](double at) { return PlateauClearance(plateau, o + at * d, true, kStep); };
   constexpr double kShare =
       0.75;  // share of the clearance, since lobules are steeper than it knows
   double last = s, height = above(s);
@@ -374,9 +370,13 @@ double CastFemur(const Cavity& cavity, const glm::dvec3& d, double limit) {
 
 }  // namespace
 
+double WallDistance(const Cavity& cavity, const glm::dvec3& d) {
+  return std::min(CapsuleDistance(cavity, d), FatDistance(cavity, d));
+}
+
 CavityHit CastFromPortal(const Cavity& cavity, const glm::dvec3& d) {
   const double capsule = CapsuleDistance(cavity, d), fat = FatDistance(cavity, d);
-  CavityHit hit{capsule, Surface::kCapsule, std::min(capsule, fat)};
+  CavityHit hit{capsule, Surface::kCapsule};
   const auto offer = [&hit](double distance, Surface surface) {
     if (distance < hit.distance) hit.distance = distance, hit.surface = surface;
   };

@@ -78,11 +78,13 @@ struct BundlePlace {
 };
 BundlePlace NearestBundle(const Cavity& cavity, const glm::dvec3& x);
 
+// Distance of capsule or fat in a unit direction, whichever is nearer.
+double WallDistance(const Cavity& cavity, const glm::dvec3& direction);
+
 // Nearest surface along a unit direction from the portal.
 struct CavityHit {
   double distance = 0;
   Surface surface = Surface::kCapsule;
-  double wall_distance = 0;  // distance of capsule or fat in this direction, whichever is nearer
 };
 CavityHit CastFromPortal(const Cavity& cavity, const glm::dvec3& direction);
 

@@ -118,10 +118,9 @@ double Clearance(const Cavity& cavity, const glm::dvec3& x, bool with_bed) {
   double clearance = length > 0.0 ? CapsuleBase(cavity, x / length) - length : cavity.radius;
   clearance = std::min(clearance, FemurClearance(cavity, x));
   const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
-  clearance = std::min(clearance, PlateauClearance(cavity.plateau, p, with_bed));
   for (const Bundle& bundle : cavity.ligament)
     clearance = std::min(clearance, BundleClearance(bundle, x));
-  return clearance;
+  return std::min(clearance, PlateauClearance(cavity.plateau, p, with_bed, clearance));
 }
 
 }  // namespace arthro::authoring

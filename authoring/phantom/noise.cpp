@@ -78,22 +78,28 @@ double LobeNoise(const glm::dvec3& p, std::uint32_t seed) {
   // Soft maximum of bells, one per lattice cell: log Σ exp(-k d²) / k is -d² to the nearest point
   // with rounded creases. Lobes differ in size by `share`.
   constexpr double kSharpness = 7.0;
+  // The bell reaches zero at 1.3 cells, inside the 27 cells searched.
+  constexpr double kReach = 1.69;  // squared cells
+  constexpr double kMostShare = 1.15, kMostReach = kReach * kMostShare * kMostShare;
+  constexpr double kStep = 1.0 / 255.0;
   const glm::dvec3 base(std::floor(p.x), std::floor(p.y), std::floor(p.z));
+  const glm::dvec3 offset = base - p;
+  const std::uint32_t x0 = Whole(base.x) * kLatticeX, y0 = Whole(base.y) * kLatticeY,
+                      z0 = Whole(base.z) * kLatticeZ;
   double sum = 0.0;
   for (int dz = -1; dz <= 1; ++dz)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        const glm::dvec3 cell = base + glm::dvec3(dx, dy, dz);
-        const std::uint32_t h = Bits(Whole(cell.x) * kLatticeX, Whole(cell.y) * kLatticeY,
-                                     Whole(cell.z) * kLatticeZ, seed);
-        const glm::dvec3 jitter(static_cast<double>(h & 255u) / 255.0,
-                                static_cast<double>((h >> 8) & 255u) / 255.0,
-                                static_cast<double>((h >> 16) & 255u) / 255.0);
-        const double share = 0.85 + 0.3 * static_cast<double>(h >> 24) / 255.0;
-        const glm::dvec3 d = cell + jitter - p;
-        const double d2 = (d.x * d.x + d.y * d.y + d.z * d.z) / (share * share);
-        // The bell reaches zero at 1.3 cells, inside the 27 cells searched.
-        constexpr double kReach = 1.69;  // squared cells
+        const std::uint32_t h = Bits(x0 + static_cast<std::uint32_t>(dx) * kLatticeX,
+                                     y0 + static_cast<std::uint32_t>(dy) * kLatticeY,
+                                     z0 + static_cast<std::uint32_t>(dz) * kLatticeZ, seed);
+        const double x = offset.x + dx + kStep * static_cast<double>(h & 255u),
+                     y = offset.y + dy + kStep * static_cast<double>((h >> 8) & 255u),
+                     z = offset.z + dz + kStep * static_cast<double>((h >> 16) & 255u);
+        const double distance2 = x * x + y * y + z * z;
+        if (distance2 >= kMostReach) continue;
+        const double share = 0.85 + 0.3 * kStep * static_cast<double>(h >> 24);
+        const double d2 = distance2 / (share * share);
         const double fade = 1.0 - d2 / kReach;
         if (fade <= 0.0) continue;
         sum += fade * fade * std::exp(-kSharpness * d2);

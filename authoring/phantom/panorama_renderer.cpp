@@ -17,34 +17,59 @@ constexpr double kDepthStep = 0x1p-20;   // m
 constexpr double kSilhouette = 0.25e-3;  // m, least step of depth at a silhouette
 constexpr int kSubpixels = 3;            // per side
 
-SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
-  const CavityHit hit = CastFromPortal(view.cavity, direction);
+double BedShareAt(const Cavity& cavity, const glm::dvec3& x) {
+  const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * x;
+  return BedShare(cavity.plateau.bed, p.x, p.y);
+}
+
+// Nearest surface with the tissues. Only a tissue's point has a normal.
+SurfacePoint PointAt(const PhantomView& view, const glm::dvec3& direction, const CavityHit& hit) {
   SurfacePoint point;
   point.direction = direction;
   point.surface = hit.surface;
-  point.wall_gap = hit.wall_distance - hit.distance;
   point.x = hit.distance * direction;
-  if (view.tissues) {
-    if (const auto tissue = view.tissues->Cast(direction);
-        tissue && tissue->distance < hit.distance) {
-      point.surface = tissue->surface;
-      point.wall_gap = hit.wall_distance - tissue->distance;
-      point.x = tissue->distance * direction;
-      // The layer is flush: its seam shows in colour, not in shading.
-      point.normal = tissue->surface == Surface::kCartilage
-                         ? NormalAt(view.cavity, Surface::kPlateau, point.x, false)
-                         : tissue->normal;
-      point.rim = tissue->rim;
-      return point;
-    }
+  if (!view.tissues) return point;
+  const auto tissue = view.tissues->Cast(direction);
+  if (tissue && tissue->distance < hit.distance) {
+    point.surface = tissue->surface;
+    point.x = tissue->distance * direction;
+    point.normal = tissue->normal;
+    point.rim = tissue->rim;
+  } else {
     point.shade = view.tissues->ShadeAt(hit.surface, point.x);
   }
-  point.normal = NormalAt(view.cavity, hit.surface, point.x, false);
+  return point;
+}
+
+// Adds the normal and the gap to the wall, which the colour of a point needs.
+void Complete(const PhantomView& view, SurfacePoint& point) {
+  const Cavity& cavity = view.cavity;
+  switch (point.surface) {
+    case Surface::kMeniscus:
+      return;  // its normal is its mesh's
+    case Surface::kCartilage:
+      // The layer is flush: its seam shows in colour, not in shading.
+      point.normal = NormalAt(cavity, Surface::kPlateau, point.x, false);
+      return;
+    case Surface::kCondyle:
+      point.wall_gap = WallDistance(cavity, point.direction) - glm::length(point.x);
+      break;
+    default:
+      break;
+  }
+  point.normal = NormalAt(cavity, point.surface, point.x, false);
   // Visible share of the bed's depth: translucent walls show the empty bed as a shallow dimple.
   constexpr double kDimple = 0.22;
-  if (hit.surface == Surface::kPlateau && !view.tissues)
+  constexpr double kBedReach = 1.02;  // radii of the bed; the step of a normal reaches into it
+  if (point.surface == Surface::kPlateau && !view.tissues &&
+      BedShareAt(cavity, point.x) < kBedReach)
     point.normal = glm::normalize(
-        point.normal + kDimple * (NormalAt(view.cavity, hit.surface, point.x) - point.normal));
+        point.normal + kDimple * (NormalAt(cavity, point.surface, point.x) - point.normal));
+}
+
+SurfacePoint PointAlong(const PhantomView& view, const glm::dvec3& direction) {
+  SurfacePoint point = PointAt(view, direction, CastFromPortal(view.cavity, direction));
+  Complete(view, point);
   return point;
 }
 
@@ -85,8 +110,7 @@ bool ConcernsTissue(const Cavity& cavity, const SurfacePoint& point) {
   if (point.surface != Surface::kPlateau) return false;
   // Reach of the bed's effect on the light around it, filled or empty.
   constexpr double kLightReach = 1.9;  // radii of the bed
-  const glm::dvec3 p = Inverse(cavity.plateau.portal_from_plateau) * point.x;
-  return BedShare(cavity.plateau.bed, p.x, p.y) < kLightReach;
+  return BedShareAt(cavity, point.x) < kLightReach;
 }
 
 // Fast rejection: a ray in this direction meets no tissue, and no tissue shades the point it meets.
@@ -125,9 +149,10 @@ double ExposureOf(const PhantomView& view, const Projection& projection, int wid
 PhantomPicture RenderPanorama(const PhantomView& view, const Projection& projection, int width,
                               int height, double exposure, int threads, const Progress& progress,
                               const char* stage, const PhantomPicture* without) {
-  PhantomPicture picture{ColourImage(width, height), DepthMap(width, height), {}};
+  PhantomPicture picture{ColourImage(width, height), DepthMap(width, height), {}, {}};
   const auto index = [width](int x, int y) { return static_cast<std::size_t>(y) * width + x; };
   picture.surfaces.resize(index(0, height));
+  if (!without) picture.distances.resize(index(0, height));
   std::vector<std::uint8_t> is_drawn(index(0, height), 1);
   ForEachRow(height, threads, progress, stage, 0.0, 0.6, [&](int y) {
     for (int x = 0; x < width; ++x) {
@@ -139,13 +164,18 @@ PhantomPicture RenderPanorama(const PhantomView& view, const Projection& project
         std::copy_n(without->colour.at(x, y), 3, picture.colour.at(x, y));
         continue;
       }
-      const SurfacePoint point = PointAlong(view, direction);
+      const CavityHit hit =
+          without ? CavityHit{without->distances[index(x, y)], without->surfaces[index(x, y)]}
+                  : CastFromPortal(view.cavity, direction);
+      if (!without) picture.distances[index(x, y)] = hit.distance;
+      SurfacePoint point = PointAt(view, direction, hit);
       picture.surfaces[index(x, y)] = point.surface;
       picture.depth.at(x, y) = ReliefOf(view.cavity, point);
       if (without && !ConcernsTissue(view.cavity, point)) {
         is_drawn[index(x, y)] = 0;
         std::copy_n(without->colour.at(x, y), 3, picture.colour.at(x, y));
       } else {
+        Complete(view, point);
         PutColour(picture.colour, x, y, ColourAlong(view, point, exposure));
       }
     }

@@ -2,6 +2,8 @@
 // pixel centres.
 #pragma once
 
+#include <vector>
+
 #include "authoring/phantom/appearance.h"
 #include "authoring/phantom/cavity.h"
 #include "authoring/phantom/tissue_caster.h"
@@ -23,6 +25,7 @@ struct PhantomPicture {
   ColourImage colour;
   DepthMap depth;  // relief D - distance, rounded to 2⁻²⁰ m (0.95 µm) so that it packs well
   std::vector<Surface> surfaces;  // visible surface at each pixel centre
+  std::vector<double> distances;  // m, of the surfaces; empty with tissues
 };
 
 // Exposure that makes the cavity's bright parts bright but not white.

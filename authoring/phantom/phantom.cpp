@@ -79,6 +79,7 @@ Phantom MakePhantom(const PhantomOptions& options, const Progress& progress) {
   phantom.with_tissues =
       RenderPanorama(view, frame.projection, frame.width, frame.height, exposure, options.threads,
                      progress, "drawing the tissues", &phantom.without_tissues);
+  phantom.without_tissues.distances = {};
   return phantom;
 }
 

@@ -226,14 +226,12 @@ double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed) 
   return HeightWithoutWall(plateau, x, y, with_bed) + WallHeight(plateau, x, y);
 }
 
-double PlateauClearance(const Plateau& plateau, const glm::dvec3& x, bool with_bed) {
-  return ClearanceAbove(plateau, x, HeightWithoutWall(plateau, x.x, x.y, with_bed));
-}
-
-double LeastPlateauClearance(const Plateau& plateau, const glm::dvec3& x) {
-  return ClearanceAbove(plateau, x,
-                        FloorHeight(plateau, x.x, x.y, true) +
-                            plateau.lobule_height * LobuleShare(plateau, x.x, x.y));
+double PlateauClearance(const Plateau& plateau, const glm::dvec3& x, bool with_bed, double enough) {
+  const double floor = FloorHeight(plateau, x.x, x.y, with_bed);
+  const double lobules = plateau.lobule_height * LobuleShare(plateau, x.x, x.y);
+  const double under_tops = ClearanceAbove(plateau, x, floor + lobules);
+  if (lobules == 0.0 || under_tops >= enough) return under_tops;
+  return ClearanceAbove(plateau, x, floor + lobules * SlopeLobule(plateau, x.x, x.y));
 }
 
 PlateauCover CoverAt(const Plateau& plateau, double x, double y) {

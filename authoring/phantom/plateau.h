@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -71,11 +72,10 @@ double PlateauHeight(const Plateau& plateau, double x, double y, bool with_bed =
 double BoneHeight(const Plateau& plateau, double x, double y, bool with_bed = true);
 
 // Approximate distance of a point from the plateau, positive above it; too small rather than too
-// large beside the capsule's steep wall. Exact near level parts.
-double PlateauClearance(const Plateau& plateau, const glm::dvec3& x, bool with_bed = true);
-
-// The same under the tops of the lobules, without their noise: at most PlateauClearance, and quick.
-double LeastPlateauClearance(const Plateau& plateau, const glm::dvec3& x);
+// large beside the capsule's steep wall. Exact near level parts. A point further off than `enough`
+// may give less than its clearance, but not less than `enough`: the lobules need no noise there.
+double PlateauClearance(const Plateau& plateau, const glm::dvec3& x, bool with_bed = true,
+                        double enough = std::numeric_limits<double>::infinity());
 
 // Share of the way to the rim: 0 in the middle, 1 at the rim, more beyond.
 double RimShare(const Plateau& plateau, double x, double y);

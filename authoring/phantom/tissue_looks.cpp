@@ -24,6 +24,7 @@ enum NoiseChannel : std::uint32_t {
   kSynoviumPatch = 62,
   kSynoviumNap = 65,
   kSynoviumVilli = 66,
+  kSynoviumTips = 67,
   kFatCloud = 71,
   kFatGrain = 72,
   kFatVeil = 73,
@@ -119,14 +120,16 @@ TissueLook Synovium(const Cavity& cavity, const VesselTrees& vessels, const Look
   // smooth translucent membrane.
   const double villous = SmoothStep(-0.22, 0.30, region + 0.7 * patch);
   const double villi = LobeNoise(mm / 0.62, seed + kSynoviumVilli);
+  const double tips = LobeNoise(mm / 0.31, seed + kSynoviumTips);
   const double nap = FractalNoise(mm / 0.5, 2, seed + kSynoviumNap);
   TissueLook t;
   t.colour = Mix(kSynoviumPale, kSynovium, 0.42 + look.texture * (1.1 * region + 0.5 * patch));
   t.colour = Mix(t.colour, kSynoviumDeep,
                  look.texture * 0.6 * SmoothStep(0.02, 0.42, patch + 0.3 * region));
-  t.colour *= 1.0 + look.texture * (0.42 * nap + (0.32 + 0.45 * villous) * (villi - 0.6));
+  t.colour *= 1.0 + look.texture * (0.34 * nap + (0.42 + 0.62 * villous) * (villi - 0.6) +
+                                    (0.14 + 0.32 * villous) * (tips - 0.6));
   t.colour = Mix(t.colour, kVesselRed,
-                 0.60 * look.vessels * Plexus(p.x, 1.0 * kMm, 0.040 * kMm, seed + kPlexusFine));
+                 0.80 * look.vessels * Plexus(p.x, 1.0 * kMm, 0.045 * kMm, seed + kPlexusFine));
   const VesselTrees::Cover vessel = vessels.At(d);
   t.colour = Mix(t.colour, Mix(kVesselRed, kVesselDeep, vessel.depth),
                  0.80 * look.vessels * vessel.amount);
@@ -177,8 +180,8 @@ TissueLook Fibrous(const glm::dvec3& x, const glm::dvec3& along, const Look& loo
   const double cloud = FractalNoise(mm / 6.0, 2, seed + kSinewCloud);
   TissueLook t;
   t.colour = Mix(kSinew, kSinewShade, 0.30 + look.texture * (0.5 * cloud + 0.55 * bundle));
-  t.colour *= 1.0 + look.texture * 0.60 * fibre.value;
-  t.slope = look.texture * 0.22 * (fibre.slope - glm::dot(fibre.slope, along) * along);
+  t.colour *= 1.0 + look.texture * 0.72 * fibre.value;
+  t.slope = look.texture * 0.27 * (fibre.slope - glm::dot(fibre.slope, along) * along);
   t.depth = 0.25;
   return t;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,8 +38,19 @@ struct PanoramaJob {
   // Whether the panorama lies over a measured relief; auto: where frames fit no plane, the clip
   // determines depth, and the expected error is smaller.
   std::string relief = "auto";
+  Backdrop backdrop;  // gives the scene its medium
   std::vector<int> excluded;
   authoring::PanoramaRequest request;
+};
+
+// Flag for the medium of a backdrop, with the words and the help of its field.
+struct MediumFlag {
+  CLI::App& job;
+  template <class T, class Rule>
+  void operator()(const char* name, T& field, const Rule& rule, const char* unit,
+                  const char* help) {
+    if constexpr (std::is_same_v<T, Medium>) CliVisitor{job}(name, field, rule.rule, unit, help);
+  }
 };
 
 // pano.png, pano-2.png, pano-3.png …
@@ -50,13 +62,14 @@ fs::path PieceName(const fs::path& output, std::size_t number) {
 }
 
 // A scene that can be practised in at once: the panorama with the paper's depth map and its noise.
-void WriteScene(const fs::path& folder, const fs::path& panorama,
+void WriteScene(const fs::path& folder, const fs::path& panorama, Medium medium,
                 const authoring::PanoramaReport& report, const Progress& progress) {
   authoring::Document document = authoring::DocumentFromPanorama(panorama);
   document.scene.title = panorama.stem().string();
   const authoring::PinholeView& view = report.panorama;
   document.scene.backdrop.projection = {
       ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px, {}};
+  document.scene.backdrop.medium = medium;
   TakeFootageLens(document, report.lens, report.is_lens_guessed);
   try {
     SetEstimatedDepth(document, authoring::EstimateDepth(*document.panorama, document.depth_options,
@@ -153,9 +166,10 @@ void Run(PanoramaJob job) {
     authoring::Document document =
         DocumentFromRelief(*made.relief, report.lens, authoring::ReliefOptions().view_angle);
     document.scene.title = fs::path(job.output).stem().string();
+    document.scene.backdrop.medium = job.backdrop.medium;
     authoring::SaveDocument(document, job.scene);
   } else if (!job.scene.empty()) {
-    WriteScene(job.scene, job.output, report, progress);
+    WriteScene(job.scene, job.output, job.backdrop.medium, report, progress);
   }
   progress.Step("done", 1.0);
 
@@ -203,6 +217,7 @@ void AddPanoramaJob(CLI::App& program) {
                   "no plane and --lens is given.")
       ->check(CLI::IsMember({"auto", "yes", "no"}))
       ->capture_default_str();
+  own->backdrop.Visit(MediumFlag{*job});
   AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
              "Numbers of frames to leave out, separated by commas.");
   AddOptions(*job, own->request.options);
@@ -210,6 +225,8 @@ void AddPanoramaJob(CLI::App& program) {
     // Whoever names a detector wants it used; on its own, pairs are aligned without one.
     if (job->count("--detector") > 0 && job->count("--method") == 0)
       own->request.options.registration.method = authoring::PairMethod::kFeaturesThenDirect;
+    if (job->count("--medium") > 0 && own->scene.empty())
+      throw CLI::ValidationError("--medium", "is kept in a scene; name its folder with --scene");
     if (own->relief == "yes" && own->lens.empty())
       throw CLI::ValidationError("--relief", "yes needs --lens; calibrate one with `lens`");
     Run(*own);

@@ -10,6 +10,7 @@
 
 #include "app/view/disturbances/drifting_bits.h"
 #include "app/view/disturbances/murk_field.h"
+#include "app/view/drawing/pass_state.h"
 #include "app/view/drawing/shader_text.h"
 
 namespace arthro::app {
@@ -200,11 +201,7 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
       Bubbles(d, picture.view, picture.field_of_view, picture.lens);
 
   target_.Resize(window, size, 0, 1);
-  vtkOpenGLState* state = window->GetState();
-  state->PushFramebufferBindings();
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
+  PassState state(window);
   frame.colours->Activate();
   frame.depths->Activate();
   if (is_blurred || !bubbles.empty())
@@ -251,9 +248,6 @@ void LensPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, doubl
   if (is_blurred || !bubbles.empty()) gathered_.texture->Deactivate();
   frame.depths->Deactivate();
   frame.colours->Deactivate();
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->PopFramebufferBindings();
 }
 
 }  // namespace arthro::app

@@ -8,6 +8,7 @@
 #include <vtkShaderProgram.h>
 #include <vtk_glew.h>
 
+#include "app/view/drawing/pass_state.h"
 #include "app/view/drawing/shader_text.h"
 
 namespace arthro::app {
@@ -27,11 +28,7 @@ void OcclusionPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, 
   light_.Resize(window, half, 0, 1);
   if (!occlusion_) occlusion_.emplace(ShaderText("occlusion.glsl"), ShaderPass::Shape::kRound);
   if (!multiply_) multiply_.emplace(ShaderText("multiply.glsl"), ShaderPass::Shape::kRound);
-  vtkOpenGLState* state = window->GetState();
-  state->PushFramebufferBindings();
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
-  state->vtkglDisable(GL_BLEND);
+  PassState state(window);
   vtkShaderProgram* program = occlusion_->Ready(window);
   const bool is_drawn = program != nullptr;
   if (is_drawn) {
@@ -61,9 +58,6 @@ void OcclusionPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, 
     state->vtkglDisable(GL_BLEND);
     light_.texture->Deactivate();
   }
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->PopFramebufferBindings();
 }
 
 }  // namespace arthro::app

@@ -10,6 +10,7 @@
 #include <vtk_glew.h>
 
 #include "app/view/drawing/grain.h"
+#include "app/view/drawing/pass_state.h"
 #include "app/view/drawing/shader_text.h"
 
 namespace arthro::app {
@@ -117,11 +118,7 @@ void CameraPass::TakeMarks(vtkOpenGLRenderWindow* window) {
 void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, const LensShade& shade,
                       vtkTextureObject& undisturbed, vtkTextureObject& finished, int size) {
   target_.Resize(window, size, 0, 1);
-  vtkOpenGLState* state = window->GetState();
-  state->PushFramebufferBindings();
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
+  PassState state(window);
   for (vtkTextureObject* source : {&undisturbed, &finished}) {
     source->SetMinificationFilter(vtkTextureObject::Linear);
     source->SetMagnificationFilter(vtkTextureObject::Linear);
@@ -149,9 +146,6 @@ void CameraPass::Draw(vtkOpenGLRenderWindow* window, const Picture& picture, con
     Expose(window, picture, finished, size, Edges::kLeft);
   }
   finished.Deactivate();
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->PopFramebufferBindings();
 }
 
 }  // namespace arthro::app

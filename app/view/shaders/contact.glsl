@@ -14,9 +14,15 @@ uniform sampler2D contactRelief;  // weight of the imaged part in its fourth cha
 #define centre contactCentre
 #define scale contactScale
 #include "place.glsl"
-const float kContactFade = 0.3e-3;   // over the relief, from nothing to the whole model
+// kContactFade: over the relief, from nothing to the whole model; kContactLight: light that is left
+// at the relief.
+#ifdef HYALINE
+// A plate lies on the relief like a skin and sinks into it at its rim: nothing shades it there.
+const float kContactFade = 0.05e-3, kContactLight = 1.0;
+#else
+const float kContactFade = 0.3e-3, kContactLight = 0.55;
+#endif
 const float kContactReach = 1.2e-3;  // reach of the shade between model and relief
-const float kContactLight = 0.55;    // light that is left at the relief
 
 // Returns the height of a point of the portal frame over the relief, along its direction from the
 // portal; more than kContactReach where there is no relief.

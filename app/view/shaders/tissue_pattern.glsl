@@ -34,13 +34,19 @@ const float kFineTint = 0.025;
 
 #ifdef FIBRES
 const float kAlong = 9.0;                // length of a bundle in its widths
-const float kBundleHeight = 0.09, kBundleTint = 0.11;  // in its widths; share of the colour
+const float kBundleHeight = 0.12, kBundleTint = 0.16;  // in its widths; share of the colour
 const float kEdge = 0.30;                // share of the width that the free edge is pale
 const float kRedFrom = 0.38, kRedTo = 0.85;
 const float kRedUneven = 0.16;
 const float kVesselRate = 850.0;         // 1/m
 const float kVesselHalf = 28e-6;         // m, half the width of a capillary
 const float kCutHeight = 0.22, kCutTint = 0.16;          // bundles that a cut opens
+#endif
+
+#ifdef HYALINE
+// Clouds of a millimetre and of less than half of one, as in the cartilage of a phantom.
+const float kCloudRate = 770.0, kMottleRate = 2300.0;  // 1/m
+const float kCloudTint = 0.03, kMottleTint = 0.055;
 #endif
 
 Pattern patternAt(vec3 normal) {
@@ -86,6 +92,10 @@ Pattern patternAt(vec3 normal) {
   p.gloss *= 1.0 - 0.5 * fresh;
 #elif defined(HYALINE)
   float border = marks.x, side = marks.y;
+  vec3 cloud = grain * kCloudRate, mottle = grain * kMottleRate;
+  float cloudSeen = visible(cloud), mottleSeen = visible(mottle);
+  p.tint *= 1.0 + (cloudSeen > 0.0 ? kCloudTint * cloudSeen * noise(cloud).w : 0.0) +
+            (mottleSeen > 0.0 ? kMottleTint * mottleSeen * noise(mottle).w : 0.0);
   p.tint *= mix(vec3(1.0), edgeTint, border * border);
   p.tint *= mix(vec3(1.0), rootTint, side);
   if (lookShares.z > 0.0) {

@@ -106,6 +106,36 @@ TEST_F(CameraPassView, OcclusionDarkensTheFootOfAStep) {
   EXPECT_LT(darkest, 0.9);
 }
 
+// Occlusion reaches 1.4 mm. Where seven standard errors are as high, rises are noise, and shade
+// would draw them as grey dashes.
+TEST_F(CameraPassView, NoiseOfADepthMapIsNotShaded) {
+  constexpr int kSide = 1024, kCell = 64;
+  const ColourImage grey = Grey(kSide, kSide, 120);
+  DepthMap rough(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      rough.at(x, y) = (x / kCell + y / kCell) % 2 == 0 ? 0.0f : 2e-3f;
+  // Share of the pixels that occlusion changes, by the standard error of the depths in m.
+  const auto shaded = [&](float error) {
+    DepthMap sigma(kSide, kSide);
+    std::fill(sigma.relief.begin(), sigma.relief.end(), error);
+    Picture picture = Forward(grey, kNothing);
+    view_->SetBackdrop(grey, rough, PlainBackdrop(kSide, kSide), sigma);
+    picture.relief = app::kUsualRelief;
+    picture.features = CameraFeatures::kEdges;
+    const ColourImage without = Drawn(picture);
+    picture.features = CameraFeatures::kOcclusion;
+    const ColourImage with = Drawn(picture);
+    int changed = 0;
+    for (std::size_t i = 0; i < with.rgb.size(); i += 3) changed += with.rgb[i] != without.rgb[i];
+    return static_cast<double>(changed) / (kSize * kSize);
+  };
+  const double known = shaded(0.19e-3f), noisy = shaded(0.21e-3f);
+  std::printf("shaded in known depths: %.1f %%, in noise: %.1f %%\n", 100 * known, 100 * noisy);
+  EXPECT_GT(known, 0.05);
+  EXPECT_EQ(noisy, 0.0);
+}
+
 TEST_F(CameraPassView, SamePictureGivesTheSameBytes) {
   const LoadedScene loaded = MakeViewScene();
   view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);

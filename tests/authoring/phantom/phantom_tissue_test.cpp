@@ -96,6 +96,25 @@ TEST_P(EveryTissue, KeepsClearOfTheOther) {
   EXPECT_GT(nearest, 0.3e-3);
 }
 
+// A side or a gap at the seam is seen as a light lip with dark dashes.
+TEST_P(EveryTissue, CartilageCoversTheLipOfItsBedAndEndsInTheBone) {
+  const Plateau& plateau = cavity.plateau;
+  const SurfaceMesh mesh = InPortal(tissues[1]);
+  int over_lip = 0, in_bone = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const glm::dvec3 p = Inverse(plateau.portal_from_plateau) * mesh.vertices[i];
+    if (BedShare(plateau.bed, p.x, p.y) < 1.0) continue;
+    const bool is_top = i < mesh.vertices.size() / 2;
+    const bool is_above = p.z > PlateauHeight(plateau, p.x, p.y);
+    over_lip += is_top && is_above;
+    in_bone += is_top && !is_above;
+    EXPECT_TRUE(is_top || !is_above);
+  }
+  // Each is a ring of the mesh: the outermost one, and the next.
+  EXPECT_EQ(in_bone, 78);
+  EXPECT_EQ(over_lip, 72);
+}
+
 TEST_P(EveryTissue, MeniscusIsThinAtItsFreeEdgeAndThickAtItsRim) {
   const PhantomTissue& meniscus = tissues[0];
   double highest = 0, highest_edge = 0;

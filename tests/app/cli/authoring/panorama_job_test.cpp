@@ -42,6 +42,17 @@ TEST_F(PanoramaJob, WritesPictureAndReport) {
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
 }
 
+TEST_F(PanoramaJob, SceneKeepsTheMedium) {
+  for (const std::string medium : {"gas", "saline"}) {
+    const auto scene = folder_ / medium;
+    const auto result =
+        Run("clip", "--medium " + medium + " --scene " + scene.string(), medium + ".png");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto backdrop = nlohmann::json::parse(ReadWholeFile(scene / "scene.json")).at("backdrop");
+    EXPECT_EQ(backdrop.value("medium", "saline"), medium);  // saline is left out of the file
+  }
+}
+
 // PAN-13 and every wrong flag: one sentence, exit 1 or 2, and the old file stays.
 TEST_F(PanoramaJob, RefusesInOneSentenceAndLeavesTheOldFile) {
   WriteAtomically(folder_ / "p.png", "old");
@@ -64,6 +75,8 @@ TEST_F(PanoramaJob, RefusesInOneSentenceAndLeavesTheOldFile) {
   refused("clip", "--lens " + (folder_ / "lens.json").string(), 1, "1920 x 1080");
   refused("clip", "--options " + (folder_ / "bad.json").string(), 1, "\"evry\" is not known");
   refused("clip", "--every 0", 2, "every");
+  refused("clip", "--medium gas", 2, "--scene");
+  refused("clip", "--medium air --scene " + (folder_ / "s").string(), 2, "gas");
   refused("clip", "--leave-out 0,1,2", 1, "only 1 frame is left in");
   EXPECT_EQ(Run("clip", "", "p.bmp").exit_code, 1);
   EXPECT_EQ(Run("clip", "", "no/such/p.png").exit_code, 1);
