@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "authoring/phantom/disc_layer.h"
 #include "authoring/phantom/noise.h"
 #include "authoring/phantom/phantom_tissue.h"
 #include "simulation/core/units.h"
@@ -9,14 +10,10 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kMm = kMetrePerMillimetre;
-constexpr int kRings = 13;  // spaced by about 0.6 mm; ring k has 6k vertices, so triangles are even
+constexpr int kRings = 13;             // spaced by about 0.6 mm
 constexpr double kShare = 0.97;        // share of the bed's radius; its rim has no depth to fill
 constexpr double kProud = 0.05 * kMm;  // height of the layer's middle over the cartilage around it
 constexpr double kGlue = 0.05 * kMm;   // gap between the layer and the bed
-
-int FirstOfRing(int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); }
-int OfRing(int ring, int i) { return ring == 0 ? 0 : FirstOfRing(ring) + i % (6 * ring); }
-constexpr int kSide = 1 + 3 * kRings * (kRings + 1);
 
 }  // namespace
 
@@ -35,36 +32,14 @@ PhantomTissue MakeCartilage(const Cavity& cavity) {
   PhantomTissue tissue;
   tissue.name = "tibial cartilage";
   tissue.portal_from_tissue = {portal_from_tissue.translation, portal_from_tissue.rotation, 1.0};
-  // Top first, then bottom: two discs of rings with the same plan.
-  for (const bool top : {true, false})
-    for (int ring = 0; ring <= kRings; ++ring)
-      for (int i = 0; i < std::max(6 * ring, 1); ++i) {
-        const double angle = ring == 0 ? 0.0 : 2.0 * std::numbers::pi * i / (6.0 * ring);
-        const double share = kShare * ring / kRings, reach = share * BedOutline(bed, angle);
-        const double x = bed.centre.x + bed.radii.x * reach * std::cos(angle);
-        const double y = bed.centre.y + bed.radii.y * reach * std::sin(angle);
-        const double left = share / kShare;
-        const double z = top ? PlateauHeight(plateau, x, y, false) + kProud * (1.0 - left * left)
-                             : PlateauHeight(plateau, x, y) + kGlue;
-        tissue.surface.vertices.push_back(tissue_from_plateau * glm::dvec3(x, y, z));
-      }
-  const auto face = [&](int a, int b, int c) {  // given as on the top, mirrored below
-    tissue.surface.triangles.push_back({a, b, c});
-    tissue.surface.triangles.push_back({kSide + a, kSide + c, kSide + b});
-  };
-  for (int ring = 1; ring <= kRings; ++ring)
-    for (int sextant = 0; sextant < 6; ++sextant)
-      for (int i = 0; i < ring; ++i) {
-        const int outer = sextant * ring + i, inner = sextant * (ring - 1) + i;
-        face(OfRing(ring - 1, inner), OfRing(ring, outer), OfRing(ring, outer + 1));
-        if (i + 1 < ring)
-          face(OfRing(ring - 1, inner), OfRing(ring, outer + 1), OfRing(ring - 1, inner + 1));
-      }
-  for (int i = 0; i < 6 * kRings; ++i) {
-    const int a = OfRing(kRings, i), b = OfRing(kRings, i + 1);
-    tissue.surface.triangles.push_back({a, kSide + a, kSide + b});
-    tissue.surface.triangles.push_back({a, kSide + b, b});
-  }
+  tissue.surface = DiscLayer(kRings, kShare, [&](double share, double angle, bool is_top) {
+    const double left = share / kShare, reach = share * BedOutline(bed, angle);
+    const double x = bed.centre.x + bed.radii.x * reach * std::cos(angle);
+    const double y = bed.centre.y + bed.radii.y * reach * std::sin(angle);
+    const double z = is_top ? PlateauHeight(plateau, x, y, false) + kProud * (1.0 - left * left)
+                            : PlateauHeight(plateau, x, y) + kGlue;
+    return tissue_from_plateau * glm::dvec3(x, y, z);
+  });
   tissue.landmarks.push_back(
       {"cartilage layer, middle of the top", portal_from_tissue * tissue.surface.vertices[0]});
   return tissue;
