@@ -26,4 +26,13 @@ CrescentSkin SkinOf(const Crescent& crescent, const CrescentGround& ground);
 glm::dvec3 FreeEdgeAt(const Crescent& crescent, const CrescentGround& ground, double angle);
 glm::dvec3 ShoulderAt(const Crescent& crescent, const CrescentGround& ground, double angle);
 
+// Point at a share q of the width, 0 at the free edge, and a share t of the height.
+glm::dvec3 PlaceInCrescent(const Crescent& crescent, const CrescentGround& ground, double angle,
+                           double q, double t);
+
+// Places where a meniscus is held, as in the knee: the horns at their roots, the rim along the
+// capsule. `place` has the arguments of PlaceInCrescent.
+using CrescentPlace = std::function<glm::dvec3(double angle, double q, double t)>;
+std::vector<Ball> HoldsOf(const Crescent& crescent, const CrescentPlace& place);
+
 }  // namespace arthro::authoring
