@@ -10,6 +10,7 @@
 #include "authoring/tissue/fine_places.h"
 #include "authoring/tissue/time_limit.h"
 #include "simulation/core/error.h"
+#include "simulation/core/units.h"
 
 namespace arthro::authoring {
 namespace {
@@ -31,6 +32,8 @@ constexpr std::array<MeshBudget, 3> kBudgets = {
 constexpr int kPasses = 6;
 constexpr double kGrowth = 1.4;
 constexpr double kNear = 0.12;
+// Elements with a smaller dihedral angle are improved; ten degrees are asked for.
+constexpr double kGoalDihedral = RadiansFromDegrees(12);
 
 // Returns a weight of 1 where the tissue is held, up to kFree where it is freest.
 std::function<double(const glm::dvec3&)> FreedomWeight(const SurfaceMesh& surface,
@@ -145,8 +148,13 @@ TetMesh TetrahedralizeToBudget(const SurfaceMesh& surface, const SurfaceSource& 
                 "deforms; fill it with `arthroscene tetrahedralize` and a longer edge",
                 source.file);
   result.repairs = repaired.repairs;
+  result.improvement = ImproveTets(best, repaired.surface, kGoalDihedral, progress);
   PullMiddles(best, repaired.surface, progress);
   result.quality = MeasureTets(best);
+  result.nodes = static_cast<int>(best.rest_positions.size());
+  result.elements = best.ElementCount();
+  result.surface_nodes = static_cast<int>(
+      std::count(best.sets["surface"].begin(), best.sets["surface"].end(), std::uint8_t{1}));
   result.volume_error = std::abs(result.quality.curved_volume - check.volume) / check.volume;
   return best;
 }
