@@ -11,10 +11,9 @@ void Mirror(LibraryModel& model) {
   for (Ball& ball : model.fixed) ball.centre.x = -ball.centre.x;
 }
 
-Tissue TissueOf(const LibraryModel& model, const std::filesystem::path& file) {
+Tissue TissueOf(const LibraryModel& model) {
   Tissue tissue;
   tissue.name = model.name;
-  tissue.surface = file;
   tissue.material = model.material;
   tissue.fixed = model.fixed;
   tissue.regions = model.regions;

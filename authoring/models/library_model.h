@@ -48,7 +48,7 @@ struct LibraryModel {
 // Mirrors a model in x: the same structure of the other knee.
 void Mirror(LibraryModel& model);
 
-// Returns the tissue of a scene, whose surface lies in `file` of the scene's folder.
-Tissue TissueOf(const LibraryModel& model, const std::filesystem::path& file);
+// Returns the tissue of a scene, whose surface is not yet in a file.
+Tissue TissueOf(const LibraryModel& model);
 
 }  // namespace arthro::authoring

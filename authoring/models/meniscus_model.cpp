@@ -55,7 +55,7 @@ double HornDistance(const Crescent& c) {
 // Ball whose surface passes through the middle of a section, at right angles to the crescent: its
 // inside is the crescent beyond the section.
 Ball BallBeyond(const Crescent& c, double angle, bool is_anterior) {
-  constexpr double kRadius = MetresFromMm(22);
+  constexpr double kRadius = MetresFromMm(16);
   const double r = OuterRadius(c, angle) - 0.5 * WedgeAt(c, angle).width;
   const glm::dvec3 along(-std::sin(angle), std::cos(angle), 0);
   return {OnLevelGround(angle, r, 0.3 * c.body_height) + (is_anterior ? -kRadius : kRadius) * along,
@@ -101,7 +101,7 @@ void NameParts(const Crescent& c, const std::vector<double>& rims, LibraryModel&
   }
   model.regions = {{"anterior horn", BallBeyond(c, c.from + third, true)},
                    {"posterior horn", BallBeyond(c, c.to - third, false)},
-                   {"body", {glm::dvec3(0), 2.0 * std::max(c.outer_x, c.outer_y)}}};
+                   {"body", {glm::dvec3(0), 1.2 * std::max(c.outer_x, c.outer_y)}}};
 }
 
 }  // namespace

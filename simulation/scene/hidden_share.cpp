@@ -7,10 +7,7 @@
 #include "simulation/scene/projection.h"
 
 namespace arthro {
-namespace {
 
-// Relief in a direction, from the nearest pixel: 0 without a depth map, NaN where nothing was
-// imaged.
 double ReliefTowards(const glm::dvec3& direction, const DepthMap& depth, const Backdrop& backdrop) {
   if (depth.empty()) return 0;
   const auto pixel = PixelFromDirection(backdrop.projection, direction);
@@ -19,8 +16,6 @@ double ReliefTowards(const glm::dvec3& direction, const DepthMap& depth, const B
   if (!(u >= 0 && v >= 0 && u < depth.width && v < depth.height)) return std::nan("");
   return depth.at(static_cast<int>(u), static_cast<int>(v));
 }
-
-}  // namespace
 
 double HiddenShare(const SurfaceMesh& surface, const Pose& portal_from_surface,
                    const DepthMap& depth, const Backdrop& backdrop) {

@@ -9,6 +9,10 @@
 
 namespace arthro {
 
+// Relief in a direction from the portal, from the nearest pixel: 0 without a depth map, NaN where
+// nothing was imaged.
+double ReliefTowards(const glm::dvec3& direction, const DepthMap& depth, const Backdrop& backdrop);
+
 // 0 to 1, by vertices; 0 for a surface without any. A vertex is hidden where the line from the
 // portal to it passes the relief first; nothing hides it where nothing was imaged. Without a depth
 // map the bare sphere hides it.
