@@ -9,12 +9,14 @@
 #include <glm/vec3.hpp>
 
 #include "app/state/command.h"
+#include "app/state/owned.h"
 #include "authoring/tissue/mesh_budget.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
 
 struct Ui;
+struct ModelShelf;
 
 // Page of the chosen tissue.
 enum class TissuePage { kPlace, kMaterial, kMesh, kHold, kCut };
@@ -43,6 +45,7 @@ struct TissueStep {
   std::optional<BallKind> brush;  // a click on tissue in the overview puts a ball there
   double ball_radius = 2e-3;      // m, of the next one
   CutBrush cut_brush;
+  Owned<ModelShelf> shelf;     // library of models and tears (tissue_library.h)
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
@@ -51,6 +54,8 @@ struct TissueStep {
 std::span<const Command> TissueCommands();
 void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
+void TissueLibraryFields(Ui& ui, EditorState& state);
+void TissueTearFields(Ui& ui, EditorState& state);  // kinds of tears, on the Cut page
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind);
 
 // Asks for the file, then for its unit.
