@@ -65,6 +65,7 @@ std::optional<ReliefPoint> FindOnRelief(const LoadedScene& scene, const glm::dve
       glm::normalize(glm::cross(towards, std::abs(towards.y) < 0.9 ? kUp : kIn));
   const glm::dvec3 across = glm::cross(towards, aside);
   constexpr int kAround = 12;
+  constexpr double kOtherSurface = 2.0;
   glm::dvec3 sum(0.0);
   for (const double share : {0.35, 0.7, 1.0}) {
     std::vector<glm::dvec3> ring;
@@ -73,7 +74,9 @@ std::optional<ReliefPoint> FindOnRelief(const LoadedScene& scene, const glm::dve
       const glm::dvec3 way = glm::normalize(
           *hit + share * reach * (std::cos(angle) * aside + std::sin(angle) * across));
       const double relief = ReliefTowards(way, OrEmpty(scene.depth), scene.scene.backdrop);
-      if (!std::isnan(relief)) ring.push_back((scene.scene.backdrop.radius - relief) * way);
+      const glm::dvec3 x = (scene.scene.backdrop.radius - relief) * way;
+      // Beyond a step of the relief lies another surface.
+      if (glm::distance(x, *hit) < kOtherSurface * share * reach) ring.push_back(x);
     }
     for (std::size_t i = 0; i < ring.size(); ++i)
       sum += glm::cross(ring[i] - *hit, ring[(i + 1) % ring.size()] - *hit);
@@ -98,12 +101,18 @@ Pose PoseOnRelief(const LibraryModel& model, const LoadedScene& scene, const glm
   Pose pose;
   pose.position = point.place;
   pose.quaternion = glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z)));
+  const auto hidden = [&] {
+    return HiddenShare(model.surface, pose, OrEmpty(scene.depth), scene.scene.backdrop);
+  };
   constexpr double kMostHidden = 0.25, kLift = 5e-4, kMostLift = 6e-3;
   for (double lift = 0; lift < kMostLift; lift += kLift) {
     pose.position = point.place + lift * z;
-    if (HiddenShare(model.surface, pose, OrEmpty(scene.depth), scene.scene.backdrop) <= kMostHidden)
-      break;
+    if (hidden() <= kMostHidden) return pose;
   }
+  // In a groove that is too narrow for it: towards the eye, out of the groove.
+  constexpr double kMostlyHidden = 0.5, kStep = 5e-4, kFarthest = 25e-3;
+  for (double back = 0; back < kFarthest && hidden() > kMostlyHidden; back += kStep)
+    pose.position -= kStep * to;
   return pose;
 }
 

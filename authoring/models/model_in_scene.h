@@ -22,7 +22,8 @@ std::optional<ReliefPoint> FindOnRelief(const LoadedScene& scene, const glm::dve
 
 // Pose of a model whose base lies on the relief where a ray meets it. Its z follows the normal and
 // its y the direction into the joint. Where the relief is uneven it is lifted until no more than a
-// quarter of it is hidden, by 6 mm at most. A ray that meets nothing places it on the sphere.
+// quarter of it is hidden, by 6 mm at most; in a narrow groove it is drawn back until no more than
+// half of it is. A ray that meets nothing places it on the sphere.
 Pose PoseOnRelief(const LibraryModel& model, const LoadedScene& scene, const glm::dvec3& from,
                   const glm::dvec3& direction);
 

@@ -49,6 +49,21 @@ TEST(ModelInScene, LaysTheBaseOnTheReliefAlongItsNormal) {
   EXPECT_GT((pose.quaternion * glm::dvec3(0, 1, 0)).z, 0);
 }
 
+// A groove of 2 degrees, 15 mm deeper than its surroundings, before the scope.
+TEST(ModelInScene, IsSeenWhereTheReliefHasANarrowGroove) {
+  Document document = SceneOf(0.02f);
+  DepthMap depth = *document.depth;
+  for (int y = 0; y < depth.height; ++y)
+    for (int x = 198; x <= 201; ++x) depth.at(x, y) = 0.005f;
+  document.depth = Share(depth);
+  for (const ModelEntry& entry : ModelEntries()) {
+    const LibraryModel model = MakeModel(DefaultOptionsOf(entry.kind), KneeSide::kRight);
+    const Pose pose = PoseOnRelief(model, document, glm::dvec3(0), {0, 0, 1});
+    EXPECT_LE(HiddenShare(model.surface, pose, *document.depth, document.scene.backdrop), 0.5)
+        << entry.title;
+  }
+}
+
 TEST(ModelInScene, WhereNothingWasImagedItLiesBeforeTheScope) {
   const Document document = SceneOf(std::nanf(""));
   const LibraryModel model = MakeModel(DefaultOptionsOf(ModelKind::kLooseBody), KneeSide::kRight);
