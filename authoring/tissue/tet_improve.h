@@ -1,7 +1,7 @@
 // Raises the smallest dihedral angles of a tetrahedral mesh: an element that is nearly flat makes
 // the stiffness matrix ill-conditioned. Removes edges by the best triangulation of their ring
 // [Klincsek 1980; Shewchuk 2002], flips faces, collapses edges and moves nodes, each only where the
-// smallest angle of the changed elements grows [Freitag and Ollivier-Gooch 1997].
+// smallest angle of the changed elements grows [Freitag & Ollivier-Gooch 1997].
 #pragma once
 
 #include "simulation/core/progress.h"
