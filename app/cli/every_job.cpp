@@ -17,6 +17,7 @@ void AddEveryJob(CLI::App& program) {
   AddEditJob(program);
 #endif
   AddLensJob(program);
+  AddModelJob(program);
   AddPanoramaJob(program);
   AddPhantomJob(program);
   AddPivotJob(program);

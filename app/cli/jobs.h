@@ -26,6 +26,7 @@ void AddDepthJob(CLI::App& program);
 void AddDevicesJob(CLI::App& program);
 void AddEditJob(CLI::App& program);  // runs without a job as well
 void AddLensJob(CLI::App& program);
+void AddModelJob(CLI::App& program);
 void AddPanoramaJob(CLI::App& program);
 void AddPhantomJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);

@@ -11,6 +11,7 @@
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/tissue_poke.h"
+#include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
 namespace arthro::app {
@@ -106,6 +107,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.panorama.emplace(wake);
   steps.depth.emplace(wake);
   steps.tissue.emplace();
+  steps.tissue->shelf.emplace();
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),

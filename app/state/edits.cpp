@@ -4,6 +4,7 @@
 
 #include "app/state/footage_optics.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/free_tissue_name.h"
 
 namespace arthro::app {
 namespace {
@@ -11,18 +12,6 @@ namespace {
 std::string Key(const std::string& area, const std::string& what) { return area + "." + what; }
 
 // A name that no tissue has yet: "meniscus", "meniscus 2", …
-std::string FreeName(const Scene& scene, const std::string& wanted) {
-  const auto taken = [&](const std::string& name) {
-    for (const Tissue& tissue : scene.tissues)
-      if (tissue.name == name) return true;
-    return false;
-  };
-  std::string name = wanted.empty() ? "tissue" : wanted;
-  const std::string stem = name;
-  for (int number = 2; taken(name); ++number) name = stem + " " + std::to_string(number);
-  return name;
-}
-
 bool HasTissue(const EditorState& state, int tissue) {
   return tissue >= 0 && tissue < static_cast<int>(state.document().scene.tissues.size());
 }
@@ -131,7 +120,7 @@ void SetRodLength(EditorState& state, double rod_length) {
 }
 
 void AddTissue(EditorState& state, Tissue tissue, std::shared_ptr<const SurfaceMesh> surface) {
-  tissue.name = FreeName(state.document().scene, tissue.name);
+  tissue.name = authoring::FreeTissueName(state.document().scene, tissue.name);
   const std::string name = tissue.name;
   Edit(state, "Add " + name, "", [&](auto& next) {
     next.scene.tissues.push_back(std::move(tissue));

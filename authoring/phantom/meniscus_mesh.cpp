@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/phantom/crescent.h"
+#include "authoring/phantom/crescent_skin.h"
 
 namespace arthro::authoring {
 namespace {
@@ -50,16 +51,6 @@ constexpr int kInSection = static_cast<int>(kSection.size());
 struct Parameters {
   double angle, q, t;
 };
-
-glm::dvec3 PlaceOf(const Cavity& cavity, const Crescent& c, const Parameters& p) {
-  const Wedge wedge = WedgeAt(c, p.angle);
-  const double bottom = c.film, top = TopOf(c, wedge, p.q);
-  // The bulge of the rim decreases inwards, so that elements beside it keep their shape.
-  const double share = std::max(0.0, (p.q - 0.72) / 0.28);
-  const double r =
-      OuterRadius(c, p.angle) - (1.0 - p.q) * wedge.width + share * RimBulge(wedge, p.t);
-  return OnPlateau(cavity, c, p.angle, r, bottom + p.t * (top - bottom));
-}
 
 // Angle of the plane before a slice. The two slices at either horn are shorter, since the wedge
 // tapers there.
@@ -105,10 +96,23 @@ std::vector<std::array<int, 4>> CornersOfElements(const std::vector<glm::dvec3>&
 
 }  // namespace
 
+glm::dvec3 PlaceInCrescent(const Crescent& c, const CrescentGround& ground, double angle, double q,
+                           double t) {
+  const Wedge wedge = WedgeAt(c, angle);
+  const double bottom = c.film, top = TopOf(c, wedge, q);
+  // The bulge of the rim decreases inwards, so that elements beside it keep their shape.
+  const double share = std::max(0.0, (q - 0.72) / 0.28);
+  const double r = OuterRadius(c, angle) - (1.0 - q) * wedge.width + share * RimBulge(wedge, t);
+  return ground(angle, r, bottom + t * (top - bottom));
+}
+
 void FillMeniscus(const Cavity& cavity, const Crescent& c, PhantomTissue& tissue) {
   const Rigid3 tissue_from_plateau = Inverse(c.plateau_from_tissue);
+  const CrescentGround ground = [&](double angle, double r, double lift) {
+    return OnPlateau(cavity, c, angle, r, lift);
+  };
   const auto place = [&](const Parameters& p) {
-    return tissue_from_plateau * PlaceOf(cavity, c, p);
+    return tissue_from_plateau * PlaceInCrescent(c, ground, p.angle, p.q, p.t);
   };
   TetMesh& mesh = tissue.mesh;
   mesh.order = 2;
@@ -140,24 +144,30 @@ void FillMeniscus(const Cavity& cavity, const Crescent& c, PhantomTissue& tissue
     }
   }
 
+  tissue.fixed = HoldsOf(c, [&](double angle, double q, double t) { return place({angle, q, t}); });
+}
+
+std::vector<Ball> HoldsOf(const Crescent& c, const CrescentPlace& place) {
+  std::vector<Ball> fixed;
   // Fixed as in the knee: the horns at their roots, the rim along the capsule. The balls of the rim
   // are centred outside and reach in by 1 mm.
   const auto hold = [&](const glm::dvec3& centre, double radius) {
     constexpr double kStep = 1e-5;  // m, resolution of the file
-    tissue.fixed.push_back({glm::round(centre / kStep) * kStep, radius});
+    fixed.push_back({glm::round(centre / kStep) * kStep, radius});
   };
-  for (const double angle : {c.from, c.to}) hold(place({angle, 0.5, 0.5}), 2.2 * kMm);
+  for (const double angle : {c.from, c.to}) hold(place(angle, 0.5, 0.5), 2.2 * kMm);
   constexpr int kRimBalls = 22;
   constexpr double kFromHorn = 0.4;  // rad, length of the roots
   constexpr double kRadius = 2.5 * kMm, kReach = 1.0 * kMm;
   for (int i = 0; i < kRimBalls; ++i) {
     const double share = (i + 0.5) / kRimBalls;
     const double angle = c.from + kFromHorn + share * (c.to - c.from - 2.0 * kFromHorn);
-    const glm::dvec3 rim = place({angle, 1.0, 0.3});
-    const glm::dvec3 inwards = place({angle, 0.9, 0.3}) - rim;
+    const glm::dvec3 rim = place(angle, 1.0, 0.3);
+    const glm::dvec3 inwards = place(angle, 0.9, 0.3) - rim;
     const glm::dvec3 level = glm::normalize(glm::dvec3(inwards.x, inwards.y, 0.0));
     hold(rim - (kRadius - kReach) * level, kRadius);
   }
+  return fixed;
 }
 
 }  // namespace arthro::authoring

@@ -12,6 +12,7 @@
 #include "authoring/tissue/surface_check.h"
 #include "authoring/tissue/surface_repair.h"
 #include "authoring/tissue/surface_simplify.h"
+#include "authoring/tissue/tet_improve.h"
 #include "authoring/tissue/tet_quality.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
@@ -80,7 +81,8 @@ struct TetrahedralizeReport {
   SurfaceRepairs repairs;
   int thickened_parts = 0;
   Simplification simplification;
-  SurfaceCheck surface;  // filled surface, after repairs
+  SurfaceCheck surface;        // filled surface, after repairs
+  TetImprovement improvement;  // in a mesh to a budget
   TetQuality quality;
   int nodes = 0, elements = 0, surface_nodes = 0;
   double volume_error = 0;       // elements against surface, relative

@@ -1,10 +1,12 @@
 // Meshes to and from files. Surfaces: STL (text and binary), OBJ, PLY, OFF and VTP are read, PLY,
-// STL and OBJ are written. Volumes: VTU with VTK_TETRA or VTK_QUADRATIC_TETRA cells, whose 0/1
+// STL, OBJ and VTP are written. Volumes: VTU with VTK_TETRA or VTK_QUADRATIC_TETRA cells, whose 0/1
 // point arrays are the sets. Files say nothing of their unit, so it is declared on reading; what is
 // written is in metres. Every fault is Error(kBadMesh): one sentence, with the line or index.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,9 +28,13 @@ struct SurfaceReadReport {
 SurfaceMesh ReadSurface(const std::filesystem::path& file, double metres_per_unit,
                         SurfaceReadReport* report = nullptr);
 
-// .ply (binary, 64-bit), .obj (text, exact) or .stl (binary, 32-bit as the format has it);
-// atomically.
-void WriteSurface(const std::filesystem::path& file, const SurfaceMesh& surface);
+// Numbers of the vertices by name, such as the zone of each.
+using SurfaceLabels = std::map<std::string, std::vector<std::uint8_t>>;
+
+// .ply (binary, 64-bit), .obj (text, exact), .stl (binary, 32-bit as the format has it) or .vtp
+// (64-bit, the only one that holds labels); atomically.
+void WriteSurface(const std::filesystem::path& file, const SurfaceMesh& surface,
+                  const SurfaceLabels& labels = {});
 
 // Changes that were made on reading a volume, one sentence each: nodes of no element, duplicate
 // nodes and elements, inverted elements, and slivers that make solving harder.

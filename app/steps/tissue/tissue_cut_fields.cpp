@@ -130,6 +130,10 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
     RegionFields(ui, state, tissue);
   else
     Sizes(ui, state, tissue);
+  const bool shows_tears = ImGui::CollapsingHeader("Tears of a meniscus");
+  RecordItem(ui, "Tears of a meniscus", true, shows_tears ? "on" : "off");
+  if (ImGui::IsItemToggledOpen()) ImGui::SetScrollHereY(0.0f);
+  if (shows_tears) TissueTearFields(ui, state);
 }
 
 }  // namespace arthro::app

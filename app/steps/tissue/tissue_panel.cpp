@@ -15,6 +15,7 @@
 #include "app/state/edits.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_pose.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/options.h"
@@ -225,12 +226,20 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 void TissuePanel(Ui& ui, EditorState& state) {
   const authoring::Document document = state.document();  // a copy: edits below move it
-  CommandButton(ui, state, "import-surface", {-FLT_MIN, 0});
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  CommandButton(ui, state, "import-surface", {half, 0});
+  ImGui::SameLine(0, ui.Px(8));
+  const Command& library = CommandOf(state, "library");
+  if (ToggleButton(ui, library.words, state.steps.tissue->shelf->is_open, library.enabled(state),
+                   {half, 0}, library.help))
+    Run(state, library);
+  if (state.steps.tissue->shelf->is_open && library.enabled(state))
+    return TissueLibraryFields(ui, state);
   const auto& tissues = document.scene.tissues;
   if (tissues.empty()) {
-    QuietText(ui, document.panorama
-                      ? "No tissue yet. Import a closed surface of a meniscus or cartilage."
-                      : "Tissue is placed on a panorama. Import one first.");
+    QuietText(ui, document.panorama ? "No tissue yet. Import a closed surface of a meniscus or "
+                                      "cartilage, or take one from the library."
+                                    : "Tissue is placed on a panorama. Import one first.");
     return;
   }
   for (int i = 0; i < static_cast<int>(tissues.size()); ++i) {

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/state/command.h"
+#include "app/state/owned.h"
 #include "app/steps/tissue/hand_placing.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "authoring/tissue/mesh_budget.h"
@@ -17,6 +18,7 @@
 namespace arthro::app {
 
 struct Ui;
+struct ModelShelf;
 
 // Page of the chosen tissue.
 enum class TissuePage { kPlace, kMaterial, kMesh, kHold, kCut };
@@ -47,6 +49,7 @@ struct TissueStep {
   CutBrush cut_brush;
   LandmarkMode landmarks;
   HandPlacing placing;
+  Owned<ModelShelf> shelf;     // library of models and tears (tissue_library.h)
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
@@ -55,6 +58,8 @@ struct TissueStep {
 std::span<const Command> TissueCommands();
 void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
+void TissueLibraryFields(Ui& ui, EditorState& state);
+void TissueTearFields(Ui& ui, EditorState& state);  // kinds of tears, on the Cut page
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind);
 
 // Asks for the file, then for its unit.

@@ -13,6 +13,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "simulation/scene/crescent_fit.h"
 #include "simulation/scene/surface_mesh.h"
 #include "simulation/tissue/body/tissue_look.h"
 
@@ -32,17 +33,16 @@ class TissueGrain {
   // `normal`: of the surface at rest there.
   GrainPoint At(const glm::dvec3& rest, const glm::dvec3& normal) const;
   // Normal of the plane in which the tissue lies; zero for a plain tissue.
-  const glm::dvec3& axis() const { return axis_; }
+  const glm::dvec3& axis() const { return plane_.axis; }
 
  private:
   static constexpr int kBins = 96;  // angles
   void FindCrescent(const SurfaceMesh& whole);
   void FindBorder(const SurfaceMesh& whole);
-  glm::dvec3 InPlane(const glm::dvec3& x) const;
   GrainPoint InCrescent(const glm::dvec3& flat) const;
 
   simulation::TissueStructure structure_ = simulation::TissueStructure::kPlain;
-  glm::dvec3 middle_{0.0}, across_{0.0}, along_{0.0}, axis_{0.0};  // plane and its directions
+  PlaneFit plane_;
   // Crescent: radius of its circle (m), its first angle and its extent (rad), mean width (m), and
   // radii of its edges per angle (m).
   double radius_ = 0, begin_ = 0, sweep_ = 0, width_ = 0;

@@ -100,14 +100,15 @@ SurfaceMesh ReadSurface(const fs::path& file, double metres_per_unit, SurfaceRea
   return SurfaceFromPolygons(Parse(bytes, file), metres_per_unit, file, report);
 }
 
-void WriteSurface(const fs::path& file, const SurfaceMesh& surface) {
+void WriteSurface(const fs::path& file, const SurfaceMesh& surface, const SurfaceLabels& labels) {
   const std::string extension = Extension(file);
   if (extension == ".ply") return WriteAtomically(file, PlyBytes(surface));
   if (extension == ".obj") return WriteAtomically(file, ObjBytes(surface));
   if (extension == ".stl") return WriteAtomically(file, StlBytes(surface));
+  if (extension == ".vtp") return WriteAtomically(file, VtpBytes(surface, labels));
   throw Error(Code::kBadArgument,
-              fmt::format("\"{}\" is not a surface format that can be written; use .ply, .obj or "
-                          ".stl",
+              fmt::format("\"{}\" is not a surface format that can be written; use .ply, .obj, "
+                          ".stl or .vtp",
                           extension),
               file);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,6 +29,9 @@ PolygonSoup ParseObj(std::string_view bytes, const std::filesystem::path& file);
 PolygonSoup ParseOff(std::string_view bytes, const std::filesystem::path& file);
 PolygonSoup ParsePly(std::string_view bytes, const std::filesystem::path& file);
 PolygonSoup ParseVtp(std::string_view bytes, const std::filesystem::path& file);
+
+// Text of a VTP file, in metres, with the labels as point arrays.
+std::string VtpBytes(const SurfaceMesh& surface, const SurfaceLabels& labels);
 
 // Welds, triangulates and scales. Refuses a coordinate that is not finite, a corner that names no
 // point, and a soup without a triangle.

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <vtkCellArray.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
+#include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -18,10 +20,13 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkXMLWriter.h>
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -144,7 +149,52 @@ void AppendSets(VtkXmlFile& xml, const VtkXmlPiece& piece, std::size_t points_be
   }
 }
 
+void FillPoints(const std::vector<glm::dvec3>& places, vtkPoints* points) {
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(static_cast<vtkIdType>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    coordinates->SetTypedTuple(static_cast<vtkIdType>(i), &places[i].x);
+  points->SetData(coordinates);
+}
+
+void AddLabels(const std::map<std::string, std::vector<std::uint8_t>>& labels, vtkPointData* data) {
+  for (const auto& [name, numbers] : labels) {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfTuples(static_cast<vtkIdType>(numbers.size()));
+    std::copy(numbers.begin(), numbers.end(), array->GetPointer(0));
+    data->AddArray(array);
+  }
+}
+
+std::string TextOf(vtkXMLWriter* writer, vtkDataObject* data) {
+  writer->SetInputDataObject(data);
+  writer->SetDataModeToBinary();
+  writer->SetCompressorTypeToNone();  // other tools, and people, read it more easily
+  writer->SetHeaderTypeToUInt64();
+  writer->WriteToOutputStringOn();
+  if (!writer->Write()) throw Error(Code::kFile, "the mesh could not be put into VTK's XML format");
+  return writer->GetOutputString();
+}
+
 }  // namespace
+
+std::string VtpBytes(const SurfaceMesh& surface, const SurfaceLabels& labels) {
+  const vtkNew<vtkPoints> points;
+  FillPoints(surface.vertices, points);
+  vtkNew<vtkPolyData> polygons;
+  polygons->SetPoints(points);
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const vtkIdType ids[] = {a, b, c};
+    triangles->InsertNextCell(3, ids);
+  }
+  polygons->SetPolys(triangles);
+  AddLabels(labels, polygons->GetPointData());
+  const vtkNew<vtkXMLPolyDataWriter> writer;
+  return TextOf(writer, polygons);
+}
 
 PolygonSoup ParseVtp(std::string_view bytes, const fs::path& file) {
   const VtkSilence silence;
@@ -241,13 +291,8 @@ TetMesh ReadTetMesh(const fs::path& file, TetReadReport* report) {
 void WriteTetMesh(const fs::path& file, const TetMesh& mesh) {
   if (file != "-" && file.extension() != ".vtu")
     throw Error(Code::kBadArgument, "a volume is written as VTK's XML format; name it .vtu", file);
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(static_cast<vtkIdType>(mesh.rest_positions.size()));
-  for (std::size_t i = 0; i < mesh.rest_positions.size(); ++i)
-    coordinates->SetTypedTuple(static_cast<vtkIdType>(i), &mesh.rest_positions[i].x);
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
+  const vtkNew<vtkPoints> points;
+  FillPoints(mesh.rest_positions, points);
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
   const int nodes = mesh.NodesPerElement();
@@ -257,21 +302,9 @@ void WriteTetMesh(const fs::path& file, const TetMesh& mesh) {
     for (int k = 0; k < nodes; ++k) ids[k] = mesh.elements[static_cast<std::size_t>(i) * nodes + k];
     grid->InsertNextCell(mesh.order == 2 ? VTK_QUADRATIC_TETRA : VTK_TETRA, nodes, ids.data());
   }
-  for (const auto& [name, flags] : mesh.sets) {
-    vtkNew<vtkUnsignedCharArray> array;
-    array->SetName(name.c_str());
-    array->SetNumberOfTuples(static_cast<vtkIdType>(flags.size()));
-    std::copy(flags.begin(), flags.end(), array->GetPointer(0));
-    grid->GetPointData()->AddArray(array);
-  }
+  AddLabels(mesh.sets, grid->GetPointData());
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(grid);
-  writer->SetDataModeToBinary();
-  writer->SetCompressorTypeToNone();  // other tools, and people, read it more easily
-  writer->SetHeaderTypeToUInt64();
-  writer->WriteToOutputStringOn();
-  if (!writer->Write()) throw Error(Code::kFile, "the volume could not be put into VTU", file);
-  WriteAtomically(file, writer->GetOutputString());
+  WriteAtomically(file, TextOf(writer, grid));
 }
 
 }  // namespace arthro

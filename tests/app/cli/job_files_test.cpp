@@ -103,6 +103,7 @@ TEST_F(JobFiles, AnOutputThatIsAnInputIsRefusedAlsoWithOverwrite) {
       {"lens @g.png --spacing-mm 1 -o @g.png", "g.png"},
       {"lens @g.png --spacing-mm 1 -o @l.json --report @g.png", "g.png"},
       {"pivot @po.csv -o @po.csv", "po.csv"},
+      {"model loose-body --scene @S -o @S/octahedron.ply", "octahedron.ply"},
       {"tetrahedralize @s.stl --unit m -o @o.vtu --report @s.stl", "s.stl"},
       {"solve @case.json -o @case.json", "case.json"},
       {"solve @case.json -o @r.json --vtu @m.vtu", "m.vtu"},
@@ -166,6 +167,9 @@ const std::map<std::string, std::string> kOutputs = {
     {"edit --log", "edit @S --hands plant --log @X"},
     {"lens --output", "lens @g.png --spacing-mm 1 -o @X"},
     {"lens --report", "lens @g.png --spacing-mm 1 -o @new.json --report @X"},
+    {"model --output", "model loose-body -o @X.ply"},
+    {"model --report", "model loose-body -o @new.ply --report @X"},
+    {"model --save-scene", "model loose-body --scene @S --save-scene @Z"},
     {"panorama --output", "panorama @F -o @X"},
     {"panorama --report", "panorama @F -o @new.png --report @X"},
     {"panorama --scene", "panorama @F -o @new.png --scene @S"},
@@ -254,13 +258,16 @@ TEST(EveryJob, DeclaresItsOutputsToTheOneCheck) {
 }
 
 TEST_F(JobFiles, AForeignFileWantsOverwriteInEveryJob) {
-  for (const char* name : {"X", "X.mp4", "X.vtu"}) WriteAtomically(At(name), kForeign);
+  for (const char* name : {"X", "X.mp4", "X.ply", "X.vtu"}) WriteAtomically(At(name), kForeign);
   fs::create_directory(At("X.demo"));
+  fs::copy(At("S"), At("Z"), fs::copy_options::recursive);
   for (const char* name : {"report.json", "frame_00000.png", "000001.png"})
     WriteAtomically(At("X.demo") + "/" + name, kForeign);
   for (const auto& [name, arguments] : kOutputs)
     ExpectRefused(arguments,
-                  name.ends_with(" --scene") || name == "align --output" ? "S/scene.json" : "X",
+                  name.ends_with(" --save-scene")                          ? "Z/scene.json"
+                  : name.ends_with(" --scene") || name == "align --output" ? "S/scene.json"
+                                                                           : "X",
                   name == "phantom --output" ? "nothing is overwritten" : "--overwrite");
 }
 

@@ -651,7 +651,7 @@ TEST_F(Commands, MaterialsArePresetsAndWhatTheSceneSaysOtherwise) {
   Open();
   state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
   LoadTissuePresets(state);
-  ASSERT_EQ(state.tissue_presets.size(), 4u);
+  ASSERT_EQ(state.tissue_presets.size(), 6u);
   const auto tissue = [&]() -> const Tissue& { return state.document().scene.tissues[0]; };
   Elasticity own;
   own.young_modulus = 3e5;

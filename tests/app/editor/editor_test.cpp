@@ -418,6 +418,33 @@ expect "Saved in"
   EXPECT_NEAR(saved.tissues[0].probed[0].radius, 0.0015, 1e-9);
 }
 
+TEST_F(EditorWindow, AMeniscusOfTheLibraryIsAddedByAClickTornAndSaved) {
+  Drive(R"(
+click Tissue
+click Library
+wait frames 20
+click "Medial meniscus"
+wait job
+expect "lies on the relief"
+click Cut
+click "Tears of a meniscus"
+wait frames 3
+click "Make this tear"
+expect "Longitudinal tear of"
+click Undo
+click Redo
+click Save
+wait job
+expect "Saved in"
+)");
+  const Scene saved = ReadScene(scene);
+  const Tissue& meniscus = saved.tissues.back();
+  EXPECT_TRUE(meniscus.name.starts_with("medial meniscus")) << meniscus.name;
+  EXPECT_FALSE(meniscus.mesh.empty());
+  EXPECT_EQ(meniscus.cuts.size(), 1u);
+  EXPECT_EQ(meniscus.regions.size(), 3u);
+}
+
 TEST_F(EditorWindow, ATissueIsMadeASolidThatDoesNotGiveWayAndThatIsUndone) {
   Drive(R"(
 click Tissue
