@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "authoring/phantom/disc_layer.h"
 #include "authoring/phantom/noise.h"
