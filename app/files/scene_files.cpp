@@ -113,6 +113,7 @@ void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
     authoring::SaveOptions options;
     options.needed_files = ready.history.FilesOnlyOnDisk();
     options.keeps_all_files = is_changed;
+    options.keeps_backup = is_changed || !ready.history.IsSaved();
     ready.jobs.Start(
         "Save " + folder.filename().string(),
         [folder, options, then, document = ready.document()](const Progress&) {

@@ -46,10 +46,13 @@ struct HelpDialog {};
 struct PracticeEndedDialog {
   double seconds = 0;
 };
-// A copy of unsaved work was left by a program that ended (recovery/recovery_copy.h).
+// A copy of unsaved work was left by a program that ended (app/files/recovery_copy.h).
 struct RecoveryDialog {
   std::string title, when;
   std::filesystem::path folder;  // folder of the document; empty: it was never saved
+  int edits = 0;                 // unsaved ones; 0: not known
+  std::string last_edit;
+  std::string problem;  // why it cannot be restored; empty: it can
   std::function<void(EditorState&)> restore, discard;
 };
 using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,

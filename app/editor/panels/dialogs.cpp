@@ -120,15 +120,26 @@ void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {
   if (quit) state.quit = true;
 }
 
+std::string WordsForEdits(int edits) {
+  if (edits == 0) return "unsaved changes";
+  return edits == 1 ? "1 unsaved edit" : fmt::format("{} unsaved edits", edits);
+}
+
 void Draw(Ui& ui, EditorState& state, RecoveryDialog& dialog) {
   Heading(ui, "Unsaved work was found");
   Gap(ui, 2);
-  Text(ui, fmt::format("\"{}\" had unsaved changes when the program ended. The copy is of {}.",
-                       dialog.title, dialog.when));
+  if (dialog.problem.empty())
+    Text(ui, fmt::format("\"{}\" had {} when the program ended. The copy is of {}.", dialog.title,
+                         WordsForEdits(dialog.edits), dialog.when));
+  else
+    Text(ui, dialog.problem);
+  if (!dialog.last_edit.empty()) QuietText(ui, "Last edit: " + dialog.last_edit);
   if (!dialog.folder.empty()) QuietText(ui, "Scene: " + dialog.folder.string());
   Gap(ui);
   const ImVec2 size = {ui.Px(120), 0};
-  const bool restore = Button(ui, "Restore it", true, size) || EnterPressed();
+  const bool can_be_restored = dialog.problem.empty();
+  const bool restore =
+      Button(ui, "Restore it", can_be_restored, size) || (can_be_restored && EnterPressed());
   ImGui::SameLine();
   const bool later =
       Button(ui, "Later", true, size, "Asks again at the next start.") || EscapePressed();
