@@ -209,6 +209,7 @@ class Editor {
   }
 
   void Begin() {
+    state_.practice_only = options_.practice;
     if (options_.scene) {
       const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
       StartDocument(state_, OpenSceneDocument(*options_.scene), true, on_disk);
@@ -216,7 +217,6 @@ class Editor {
                std::filesystem::exists(demo / "scene.json")) {
       StartDocument(state_, OpenSceneDocument(demo), true);
     }
-    state_.practice_only = options_.practice;
     state_.steps.practice->hands = std::make_unique<simulation::Hands>(options_.hands);
     state_.steps.practice->session_options = options_.session;
     state_.steps.panorama->lens_folder = ResourceFolder() / "presets" / "lenses";

@@ -38,14 +38,6 @@ bool HasUnsavedWork(const EditorState& state) {
   return !state.practice_only && !state.history.IsSaved() && state.document().panorama != nullptr;
 }
 
-std::string WordsOfTime(std::time_t time) {
-  std::tm local{};
-  ::localtime_r(&time, &local);
-  char words[64];
-  std::strftime(words, sizeof words, "%d %b, %H:%M:%S", &local);
-  return words;
-}
-
 }  // namespace
 
 RecoveryCopy::RecoveryCopy(fs::path parent, std::function<void()> wake)

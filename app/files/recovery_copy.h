@@ -19,7 +19,7 @@ namespace arthro::app {
 class RecoveryCopy {
  public:
   // A copy is written so long after the last change, and at least so often while they go on, s.
-  static constexpr double kAfterChange = 0.3, kAtLeastEvery = 1.0;
+  static constexpr double kAfterChange = 0.3, kAtLeastEvery = 0.5;
 
   // `parent`: empty keeps no copy and offers none. `wake` ends the window's sleep.
   explicit RecoveryCopy(std::filesystem::path parent, std::function<void()> wake = {});

@@ -31,6 +31,14 @@ std::time_t TimeOf(const fs::path& file) {
 
 }  // namespace
 
+std::string WordsOfTime(std::time_t time) {
+  std::tm local{};
+  ::localtime_r(&time, &local);
+  char words[64];
+  std::strftime(words, sizeof words, "%d %b, %H:%M:%S", &local);
+  return words;
+}
+
 fs::path RecoveryFolder() {
   const fs::path below = fs::path("arthroscene") / "recovery";
   const char* state = std::getenv("XDG_STATE_HOME");

@@ -31,6 +31,8 @@ struct RecoveryNote {
 inline constexpr const char* kRecoveryKey = "x-recovery";
 std::string JsonFromRecoveryNote(const RecoveryNote& note);
 
+std::string WordsOfTime(std::time_t time);  // "23 Nov, 13:04:22"
+
 // A session's folder while this program has its lock. Moving hands the lock on.
 class RecoverySession {
  public:

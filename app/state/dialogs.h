@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/platform/file_browser_model.h"
+#include "authoring/project/scene_versions.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
@@ -27,6 +28,16 @@ struct GuardDialog {
 struct ChangedOnDiskDialog {
   std::filesystem::path place;
   std::function<void(EditorState&)> then;
+};
+// The scene that was opened is open in another window.
+struct OpenElsewhereDialog {
+  std::filesystem::path place;
+  std::string who;  // "process 1234 on HOST since 13:04"
+};
+// Steps of the history, earlier saves and snapshots.
+struct HistoryDialog {
+  std::vector<authoring::SceneVersion> versions;
+  std::string snapshot;  // name that is typed
 };
 struct BrowseDialog {
   std::string title, accept_words;
@@ -56,7 +67,8 @@ struct RecoveryDialog {
   std::function<void(EditorState&)> restore, discard;
 };
 using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,
-                            HelpDialog, PracticeEndedDialog, RecoveryDialog>;
+                            HelpDialog, PracticeEndedDialog, RecoveryDialog, OpenElsewhereDialog,
+                            HistoryDialog>;
 
 // Opens the file browser; `then` gets what was chosen.
 void Browse(EditorState& state, BrowseFor purpose, const std::string& title,

@@ -15,6 +15,7 @@
 #include "app/state/jobs.h"
 #include "app/state/owned.h"
 #include "app/state/recent_scenes.h"
+#include "app/state/scene_lock.h"
 #include "app/state/scratch_folder.h"
 #include "authoring/project/history.h"
 #include "simulation/scope/rod_pose.h"
@@ -68,6 +69,7 @@ struct EditorState {
   authoring::History history;
   const authoring::Document& document() const { return history.current(); }
   SceneOnDisk on_disk;
+  SceneLock lock;           // mark of the scene that is edited
   int document_number = 0;  // grows when another document is begun
 
   Step step = Step::kPanorama;

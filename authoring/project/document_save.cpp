@@ -316,10 +316,7 @@ class Saving {
     auto& extensions = after_.scene.extensions;
     // Keys of other tools stay in this scene; a copy that is handed on does not carry them.
     if (is_copy_) extensions.clear();
-    extensions[kDepthOptionsKey] = OptionsText(after_.depth_options);
-    extensions.erase(kDepthMadeKey);
-    if (after_.depth && !after_.depth->empty() && !after_.is_depth_imported)
-      extensions[kDepthMadeKey] = DepthFingerprint(*after_.depth);
+    PutDocumentKeys(after_);
     extensions.erase(kWrittenFilesKey);
     if (!written_.empty()) extensions[kWrittenFilesKey] = JsonFromWrittenFiles(written_);
   }
@@ -334,6 +331,14 @@ class Saving {
 };
 
 }  // namespace
+
+void PutDocumentKeys(Document& document) {
+  auto& extensions = document.scene.extensions;
+  extensions[kDepthOptionsKey] = OptionsText(document.depth_options);
+  extensions.erase(kDepthMadeKey);
+  if (document.depth && !document.depth->empty() && !document.is_depth_imported)
+    extensions[kDepthMadeKey] = DepthFingerprint(*document.depth);
+}
 
 std::string DepthFingerprint(const DepthMap& depth) {
   const std::string_view bytes(reinterpret_cast<const char*>(depth.relief.data()),

@@ -3,7 +3,14 @@
 #include <algorithm>
 
 #include "authoring/project/asset_writer.h"
+#include "authoring/project/document_extensions.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/written_files.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/fingerprint.h"
+#include "simulation/scene/scene_files.h"
+#include "simulation/scene/scene_io.h"
 
 namespace arthro::authoring {
 
@@ -17,7 +24,7 @@ IncrementalCopy::Source IncrementalCopy::SourceOf(const fs::path& file) {
 // Gives a part the name under which the last write kept it, if it did; else one that is free.
 void IncrementalCopy::NameAsWritten(const Document& document,
                                     const std::shared_ptr<const void>& part, fs::path& name,
-                                    std::map<std::string, AssetFile>& files) const {
+                                    std::map<std::string, AssetFile>& files) {
   if (name.empty()) return;
   const fs::path source = FileOf(document, name);
   const auto is_kept = [&](const auto& entry) {
@@ -41,6 +48,21 @@ void IncrementalCopy::NameAsWritten(const Document& document,
   while (is_other(Numbered(name, number).generic_string())) ++number;
   name = Numbered(name, number);
   files[name.generic_string()] = asset;
+  if (CopyFile(asset, name, part)) files[name.generic_string()].file = fs::absolute(folder_ / name);
+}
+
+bool IncrementalCopy::CopyFile(const AssetFile& asset, const fs::path& name,
+                               const std::shared_ptr<const void>& part) {
+  std::error_code fault;
+  if (asset.fingerprint.empty() || asset.part.lock() != part ||
+      fs::exists(fs::symlink_status(folder_ / name, fault)))
+    return false;
+  const std::string bytes = ReadWholeFile(asset.file);
+  if (FingerprintOf(bytes) != asset.fingerprint) return false;
+  fs::create_directories((folder_ / name).parent_path(), fault);
+  WriteAtomically(folder_ / name, bytes);
+  copied_.insert(name.generic_string());
+  return true;
 }
 
 void IncrementalCopy::Write(const Document& document) {
@@ -62,8 +84,26 @@ void IncrementalCopy::Write(const Document& document) {
     keep(next.scene.tissues[i].mesh, nullptr);
   }
 
+  // Nothing but values has changed: the files stay.
+  const auto is_written = [&](const fs::path& name) {
+    return next.files.contains(name.generic_string()) && written_.contains(name.generic_string());
+  };
+  const std::vector<fs::path> names = FilesNamedBy(next.scene);
+  if (!next.lens && next.panorama && next.depth &&
+      std::all_of(names.begin(), names.end(), is_written)) {
+    PutDocumentKeys(next);
+    if (!listed_.empty()) next.scene.extensions[kWrittenFilesKey] = listed_;
+    return WriteScene(folder_ / "scene.json", next.scene);
+  }
+
   const Document saved = SaveDocument(next, folder_);
   written_ = saved.files;
+  std::erase_if(copied_, [&](const std::string& name) {
+    std::error_code ignored;
+    return !written_.contains(name) && (fs::remove(folder_ / name, ignored), true);
+  });
+  const auto listed = saved.scene.extensions.find(kWrittenFilesKey);
+  listed_ = listed != saved.scene.extensions.end() ? listed->second : "";
   sources_.clear();
   const auto note = [&](const fs::path& name, const fs::path& in_copy) {
     if (!name.empty()) sources_[in_copy.generic_string()] = SourceOf(FileOf(document, name));

@@ -65,6 +65,8 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
   CommandButton(ui, state, "undo");
   ImGui::SameLine();
   CommandButton(ui, state, "redo");
+  ImGui::SameLine();
+  CommandButton(ui, state, "history");
   ImGui::SameLine(0, ui.Px(22));
   CommandButton(ui, state, "practise");
   ImGui::SameLine(0, ui.Px(22));

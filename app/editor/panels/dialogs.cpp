@@ -157,6 +157,23 @@ void Draw(Ui& ui, EditorState& state, HelpDialog&) {
     Take<HelpDialog>(state);
 }
 
+void Draw(Ui& ui, EditorState& state, OpenElsewhereDialog& dialog) {
+  Heading(ui, "This scene is open in another window");
+  Gap(ui, 2);
+  Text(ui, fmt::format("{} is edited by {}. A save there and a save here replace each other.",
+                       dialog.place.string(), dialog.who));
+  Gap(ui);
+  const ImVec2 size = {ui.Px(130), 0};
+  const bool copy = Button(ui, "Edit a copy", true, size, "Saving asks where.") || EnterPressed();
+  ImGui::SameLine();
+  const bool anyway = Button(ui, "Edit it anyway", true, {ui.Px(150), 0}) || EscapePressed();
+  if (!copy && !anyway) return;
+  Take<OpenElsewhereDialog>(state);
+  if (copy) EditCopy(state);
+}
+
+void Draw(Ui& ui, EditorState& state, HistoryDialog& dialog) { HistoryWindow(ui, state, dialog); }
+
 void Draw(Ui& ui, EditorState& state, BrowseDialog& dialog) { BrowseWindow(ui, state, dialog); }
 
 // Width at scale 1; a height of 0 fits the content.
@@ -166,6 +183,7 @@ struct WindowSize {
 WindowSize SizeOf(const Dialog& dialog) {
   if (std::holds_alternative<BrowseDialog>(dialog)) return {760, 540};
   if (std::holds_alternative<HelpDialog>(dialog)) return {760, 640};
+  if (std::holds_alternative<HistoryDialog>(dialog)) return {820, 560};
   if (std::holds_alternative<ErrorDialog>(dialog)) return {560, 0};
   return {};
 }

@@ -30,6 +30,7 @@ void Dialogs(Ui& ui, EditorState& state);
 // ---- Dialogs with much in them. ----
 void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog
 void HelpWindow(Ui& ui, EditorState& state);
+void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog);  // may end the dialog
 
 // ---- The pictures. `texture` is an OpenGL texture with its first row at the bottom. ----
 struct PictureInput {
