@@ -37,6 +37,7 @@
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
+#include "app/steps/tissue/tissue_cut.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
@@ -88,6 +89,8 @@ std::vector<CrawlKeys> KeysOfCrawl(const EditorState& state) {
 void RunShortcuts(EditorState& state) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!state.dialogs.empty()) return;
+  if (InEditor(state) && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !io.WantTextInput)
+    LeaveBrush(state);
   for (const Command& command : state.commands)
     for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
       if (shortcut.key == 0 || !ImGui::IsKeyPressed(shortcut.key, false)) continue;
@@ -161,6 +164,7 @@ class Editor {
       break;
     }
     recovery_.Remove();
+    if (!FileOfViews(options_).empty()) WriteViewLayout(FileOfViews(options_), state_.views);
     if (state_.quit && script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
       throw Error(
           Code::kBadData,
@@ -208,7 +212,13 @@ class Editor {
       std::fprintf(stderr, "warning: %s\n", state_.steps.practice->film_words.c_str());
   }
 
+  static std::filesystem::path FileOfViews(const EditorOptions& options) {
+    if (options.script || options.frames > 0 || RecentScenesFile().empty()) return {};
+    return RecentScenesFile().replace_filename("views.json");
+  }
+
   void Begin() {
+    state_.views = ReadViewLayout(FileOfViews(options_));
     state_.practice_only = options_.practice;
     if (options_.scene) {
       const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
@@ -373,7 +383,7 @@ class Editor {
       else
         PracticePanel(ui, state_, layout.side);
     } else {
-      const Layout layout = EditorLayout(width, height, ui.scale);
+      const Layout layout = EditorLayout(width, height, ui.scale, state_.views);
       TopBar(ui, state_, layout.top);
       StepsPanel(ui, state_, layout.side);
       if (ShowsFootage(state_)) {
@@ -405,11 +415,20 @@ class Editor {
 
   void Scene(Ui& ui, const Layout& layout) {
     DrawPictures(ui, layout);
-    const PictureInput input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
-    picture_focused_ = input.focused;
-    TakePictureInput(input);
-    pictures_.HandleOverview(state_,
-                             OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
+    picture_focused_ = false;
+    if (layout.shows_picture) {
+      const PictureInput input =
+          ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+      picture_focused_ = input.focused;
+      TakePictureInput(input);
+      if (input.click) pictures_.ClickScope(state_, *input.click);
+    }
+    if (layout.shows_overview)
+      pictures_.HandleOverview(state_,
+                               OverviewPicture(ui, state_, layout.overview,
+                                               pictures_.overview_texture(), pictures_.handle()),
+                               ui.scale);
+    ViewSplitter(ui, state_, layout);
   }
 
   void TakePictureInput(const PictureInput& input) {
@@ -429,6 +448,7 @@ class Editor {
       pictures_.Record(*state_.steps.practice->film, FilmSeconds(state_));
     }
     if (state_.practice && !state_.steps.practice->shows_outside) return;
+    if (!layout.shows_overview) return;
     if (pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
                                static_cast<int>(layout.overview.height)) &&
         unsettled_ < 2)

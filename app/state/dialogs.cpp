@@ -22,7 +22,7 @@ void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
     start = start.parent_path();
   state.dialogs.push_back(BrowseDialog{
       title, accept_words, FileBrowserModel(purpose, std::move(filters), start, file_name),
-      std::move(then), false, false, ""});
+      std::move(then), false, false, false, ""});
 }
 
 void GuardUnsaved(EditorState& state, const std::string& action,

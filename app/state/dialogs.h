@@ -44,6 +44,7 @@ struct BrowseDialog {
   FileBrowserModel model;
   std::function<void(EditorState&, const std::filesystem::path&)> then;
   bool asks_overwrite = false, asks_folder_name = false;
+  bool is_shown = false;  // in an earlier frame
   std::string new_folder;
 };
 // A mesh file says nothing of its unit. The surface has been read; its vertices are in that unit.

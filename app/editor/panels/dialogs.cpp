@@ -45,7 +45,9 @@ void Draw(Ui& ui, EditorState& state, GuardDialog& dialog) {
                        dialog.action));
   Gap(ui);
   const ImVec2 size = {ui.Px(120), 0};
-  const bool save = Button(ui, "Save first", state.document().panorama != nullptr, size);
+  const bool can_be_saved = state.document().panorama != nullptr;
+  if (!can_be_saved) QuietText(ui, "It cannot be saved yet: it has no panorama.");
+  const bool save = Button(ui, "Save first", can_be_saved, size);
   ImGui::SameLine();
   const bool discard = Button(ui, "Discard", true, size);
   ImGui::SameLine();

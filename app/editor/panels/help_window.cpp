@@ -48,9 +48,11 @@ void HelpWindow(Ui& ui, EditorState& state) {
     Row(ui, "Drag", "Turn it");
     Row(ui, "Wheel or right drag", "Nearer, or further");
     Row(ui, "Middle drag", "Shift it");
-    Row(ui, "Drag the box", "Move the chosen tissue");
-    Row(ui, "Shift+drag the box", "Turn the chosen tissue");
-    Row(ui, "Right drag the box", "Make it larger, or smaller");
+    Row(ui, "Drag the handle", "Move the chosen tissue");
+    Row(ui, "Shift+drag the handle", "Turn the chosen tissue");
+    Row(ui, "Right drag the handle", "Make it larger, or smaller");
+    Row(ui, "Drag the border", "Give one view more room");
+    Row(ui, "Esc", "End holding, cutting and naming by clicks");
     ImGui::EndTable();
   }
   Gap(ui);

@@ -2,6 +2,7 @@
 // commands and edits. They compute nothing.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -16,8 +17,9 @@ namespace arthro::app {
 // ---- Where things are, in window coordinates. ----
 struct Layout {
   Area top, side, picture, overview, status;
+  bool shows_picture = true, shows_overview = true;
 };
-Layout EditorLayout(float width, float height, float scale);
+Layout EditorLayout(float width, float height, float scale, const ViewLayout& views = {});
 Layout PracticeLayout(float width, float height, float scale);
 
 // ---- The pages. Each fills its area. ----
@@ -36,7 +38,8 @@ void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog);  // may e
 struct PictureInput {
   bool hovered = false, focused = false;
   glm::dvec2 scope_drag{0.0}, instrument_drag{0.0};  // share of the picture's width, down positive
-  double wheel = 0;                                  // notches, away from the user positive
+  std::optional<glm::dvec2> click;  // without a drag; right and up, in units of its radius
+  double wheel = 0;                 // notches, away from the user positive
   bool shift = false, ctrl = false;
 };
 // The square picture of the scope, as large as the area lets it be.
@@ -51,7 +54,11 @@ struct OverviewInput {
   double wheel = 0;
   bool shift = false, ctrl = false;
 };
-OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture);
+// `handle`: of the chosen tissue, px from the top left.
+OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsigned texture,
+                              const std::optional<glm::dvec2>& handle);
+// The border between the two views, which can be dragged.
+void ViewSplitter(Ui& ui, EditorState& state, const Layout& layout);
 // The same in a corner of the scope's picture.
 OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture);
 

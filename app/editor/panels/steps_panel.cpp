@@ -75,6 +75,7 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui, 2);
 
   // Only the controls scroll; the list of steps stays in sight.
+  ImGui::PushID(static_cast<int>(state.step));  // each page keeps its own place
   ImGui::BeginChild("controls", {0, 0}, false, 0);
   switch (state.step) {
     case Step::kPanorama:
@@ -95,6 +96,7 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
       break;
   }
   ImGui::EndChild();
+  ImGui::PopID();
 }
 
 }  // namespace arthro::app

@@ -164,6 +164,31 @@ void Overview::ShowBalls(int tissue, std::span<const Ball> balls, int chosen) {
   p.changed = true;
 }
 
+std::optional<glm::dvec2> Overview::HandlePlace() const {
+  const Parts& p = *parts_;
+  if (p.chosen < 0 || p.height < 1) return std::nullopt;
+  const Parts::Model& model = p.tissues[std::size_t(p.chosen)];
+  if (model.surface.triangles.empty()) return std::nullopt;
+  double middle[3], display[3];
+  model.data->GetCenter(middle);
+  const glm::dvec3 world =
+      model.pose.position +
+      model.pose.scale * (model.pose.quaternion * glm::dvec3(middle[0], middle[1], middle[2]));
+  vtkCamera* camera = p.renderer->GetActiveCamera();
+  double eye[3], ahead[3];
+  camera->GetPosition(eye);
+  camera->GetDirectionOfProjection(ahead);
+  if (glm::dot(world - glm::dvec3(eye[0], eye[1], eye[2]),
+               glm::dvec3(ahead[0], ahead[1], ahead[2])) <= 0)
+    return std::nullopt;
+  p.renderer->SetWorldPoint(world.x, world.y, world.z, 1.0);
+  p.renderer->WorldToDisplay();
+  p.renderer->GetDisplayPoint(display);
+  const glm::dvec2 place(display[0], p.height - 1 - display[1]);
+  const bool is_seen = place.x >= 0 && place.y >= 0 && place.x < p.width && place.y < p.height;
+  return is_seen ? std::optional(place) : std::nullopt;
+}
+
 std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) const {
   const Parts& p = *parts_;
   glm::dvec3 ends[2];
@@ -174,14 +199,20 @@ std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) co
     p.renderer->GetWorldPoint(world);
     ends[i] = glm::dvec3(world[0], world[1], world[2]) / world[3];
   }
+  return PickAlong(ends[0], ends[1] - ends[0]);
+}
+
+std::optional<Overview::TissuePlace> Overview::PickAlong(const glm::dvec3& start,
+                                                         const glm::dvec3& line) const {
+  const Parts& p = *parts_;
   std::optional<TissuePlace> place;
-  double nearest = 1.0;  // share of the way between the ends
+  double nearest = 1.0;  // share of the line
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
     const Pose& pose = p.tissues[i].pose;
     const auto own = [&](const glm::dvec3& world) {
       return (glm::conjugate(pose.quaternion) * (world - pose.position)) / pose.scale;
     };
-    const glm::dvec3 from = own(ends[0]), way = own(ends[1]) - from;
+    const glm::dvec3 from = own(start), way = own(start + line) - from;
     if (const auto share = FirstHit(p.tissues[i].surface, from, way); share && *share < nearest) {
       nearest = *share;
       place = TissuePlace{static_cast<int>(i), from + *share * way};

@@ -270,6 +270,28 @@ TEST_F(UndoSession, AFolderThatCannotBeWrittenIsOpenedWithoutAMark) {
   fs::permissions(temp / "knee", fs::perms::owner_all);
 }
 
+TEST_F(UndoSession, RecentScenesNameASceneOnceHoweverItWasOpened) {
+  RecentScenes recent(temp / "recent.json");
+  recent.Add(temp / "knee");
+  recent.Add(temp / "knee/scene.json");
+  recent.Add(temp.path().string() + "/knee/");
+  EXPECT_EQ(recent.Existing(), (std::vector<fs::path>{temp / "knee"}));
+  EXPECT_EQ(RecentScenes(temp / "recent.json").Existing(), recent.Existing());
+}
+
+TEST_F(UndoSession, TheLayoutOfTheViewsIsRememberedAndABrokenFileGivesTheDefaults) {
+  const fs::path file = temp / "config/views.json";
+  const ViewLayout layout{ViewLayout::Shown::kOverview, 0.6, true};
+  WriteViewLayout(file, layout);
+  EXPECT_EQ(ReadViewLayout(file), layout);
+  for (const char* text : {"", "{", "{\"overview_share\": \"wide\"}", "[]"}) {
+    std::ofstream(file) << text;
+    EXPECT_EQ(ReadViewLayout(file), ViewLayout()) << text;
+  }
+  std::ofstream(file) << R"({"overview_share": 7, "swapped": false, "shown": "other"})";
+  EXPECT_EQ(ReadViewLayout(file).overview_share, ViewLayout::kMostShare);
+}
+
 TEST_F(UndoSession, TheProgramsOwnScenesAreNeverReplaced) {
   const fs::path demo = fs::path(ARTHRO_SOURCE_DIR) / "resources/demo";
   authoring::Document document = state.document();
