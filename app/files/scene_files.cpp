@@ -61,17 +61,6 @@ bool HasChangedOnDisk(const EditorState& state, const fs::path& place) {
          NoteOnDisk(place).fingerprint != state.on_disk.fingerprint;
 }
 
-namespace {
-
-bool IsProgramsOwn(const fs::path& place) {
-  std::error_code ignored;
-  const fs::path within = fs::weakly_canonical(place, ignored)
-                              .lexically_relative(fs::canonical(ResourceFolder(), ignored));
-  return !within.empty() && *within.begin() != "..";
-}
-
-}  // namespace
-
 void HoldScene(EditorState& state) {
   state.lock = {};  // its own mark is not another window's
   const fs::path& place = state.document().folder;
@@ -107,7 +96,7 @@ void StartDocument(EditorState& state, Document document, bool saved, SceneOnDis
 
 Document OpenSceneDocument(const fs::path& scene) {
   Document document = authoring::OpenDocument(scene);
-  if (IsProgramsOwn(scene)) document.folder.clear();
+  if (IsInResourceFolder(scene)) document.folder.clear();
   return document;
 }
 
@@ -132,7 +121,7 @@ enum class IfChanged { kAsk, kReplace };
 
 void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
               std::function<void(EditorState&)> then) {
-  if (IsProgramsOwn(folder))
+  if (IsInResourceFolder(folder))
     throw Error(Code::kBadArgument,
                 "the scenes that came with the program stay as they are; choose another folder",
                 folder);

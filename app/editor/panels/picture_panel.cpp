@@ -90,7 +90,8 @@ void CornerButtons(Ui& ui, EditorState& state, const Area& area,
 // The overview's picture and what is done to it, in the window that was begun.
 // `buttons` come before the area that takes the mouse, so that a click on one is theirs alone.
 template <class Buttons>
-OverviewInput OverviewArea(Ui& ui, const Area& area, unsigned texture, const Buttons& buttons) {
+OverviewInput OverviewArea(Ui& ui, const Area& area, unsigned texture, bool has_label,
+                           const Buttons& buttons) {
   OverviewInput input;
   if (texture != 0)
     OpaqueImage(ImGui::GetWindowDrawList(), texture, {area.x, area.y},
@@ -113,8 +114,7 @@ OverviewInput OverviewArea(Ui& ui, const Area& area, unsigned texture, const But
   input.shift = io.KeyShift;
   input.ctrl = io.KeyCtrl;
   ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
-  // The commands over its other corner come first where there is no room for both.
-  if (area.width > ui.Px(300)) QuietText(ui, "Overview");
+  if (has_label) QuietText(ui, "Overview");
   return input;
 }
 
@@ -193,7 +193,8 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
 OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsigned texture,
                               const std::optional<glm::dvec2>& handle) {
   const FixedWindow window(ui, "overview", area, kPictureWindow);
-  return OverviewArea(ui, area, texture, [&] {
+  // The commands come first where there is no room for both.
+  return OverviewArea(ui, area, texture, area.width > ui.Px(300), [&] {
     if (handle) DrawHandle(ui, area, *handle);
     if (state.views.shown == ViewLayout::Shown::kBoth)
       CornerButtons(ui, state, area, {"fit-overview", "swap-views", "view-overview"});
@@ -226,7 +227,7 @@ void ViewSplitter(Ui& ui, EditorState& state, const Layout& layout) {
 
 OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture) {
   const FixedWindow window(ui, "inset overview", area, kInsetWindow);
-  const OverviewInput input = OverviewArea(ui, area, texture, [] {});
+  const OverviewInput input = OverviewArea(ui, area, texture, true, [] {});
   ImGui::GetWindowDrawList()->AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height},
                                       kQuiet);
   return input;

@@ -1,7 +1,9 @@
 // The copy of unsaved work (app/files): when it is written, and when it goes.
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <limits>
+#include <sys/resource.h>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -216,6 +218,30 @@ TEST_F(Recovery, OfASceneThatChangedOnDiskSinceIsSavedElsewhere) {
   ASSERT_EQ(next.dialogs.size(), 1u);
   std::get<RecoveryDialog>(next.dialogs.back()).restore(next);
   EXPECT_EQ(next.document().folder, fs::path());
+}
+
+TEST_F(Recovery, AFullDiskKeepsTheCopyBeforeAndTheNextChangeIsTriedAgain) {
+  RecoveryCopy copy(folder);
+  SetIncisionSpacing(state, -0.02);
+  ASSERT_TRUE(copy.WriteNow(state));
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &usual), 0);
+  rlimit full = usual;
+  full.rlim_cur = 100;  // bytes
+  setrlimit(RLIMIT_FSIZE, &full);
+  SetIncisionSpacing(state, -0.021);
+  EXPECT_FALSE(copy.WriteNow(state));
+  setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, handler);
+  const auto kept = [&] {
+    const fs::path scene_of_copy = fs::directory_iterator(folder)->path() / "scene";
+    return authoring::OpenDocument(scene_of_copy).scene.portals.incision_spacing;
+  };
+  EXPECT_DOUBLE_EQ(kept(), -0.02);
+  SetIncisionSpacing(state, -0.022);
+  EXPECT_TRUE(copy.WriteNow(state));
+  EXPECT_DOUBLE_EQ(kept(), -0.022);
 }
 
 TEST_F(Recovery, AFolderThatCannotBeWrittenIsToldAndStopsNothing) {

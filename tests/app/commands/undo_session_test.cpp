@@ -10,7 +10,9 @@
 
 #include "app/editor/every_step.h"
 #include "app/files/earlier_versions.h"
+#include "app/files/scene_checklist.h"
 #include "app/files/scene_files.h"
+#include "app/platform/resource_folder.h"
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
@@ -290,6 +292,36 @@ TEST_F(UndoSession, TheLayoutOfTheViewsIsRememberedAndABrokenFileGivesTheDefault
   }
   std::ofstream(file) << R"({"overview_share": 7, "swapped": false, "shown": "other"})";
   EXPECT_EQ(ReadViewLayout(file).overview_share, ViewLayout::kMostShare);
+}
+
+TEST_F(UndoSession, WhatASceneLacksIsListedWithThePageThatMendsIt) {
+  const auto sentences = [&] {
+    std::string all;
+    for (const MissingPart& part : MissingParts(state)) all += part.sentence + "\n";
+    return all;
+  };
+  EXPECT_EQ(sentences(),
+            "It names no author.\n\"octahedron\" has no tetrahedra: it does not give way.\n");
+  GoToMissingPart(state, MissingParts(state).back());
+  EXPECT_EQ(state.step, Step::kTissue);
+  EXPECT_EQ(state.tissue, 0);
+  EXPECT_EQ(state.steps.tissue->page, TissuePage::kMesh);
+  SetAuthor(state, "A. Surgeon");
+  ChoosePreset(state, 0, "cartilage");
+  EXPECT_EQ(sentences(), "") << "a thin layer needs no tetrahedra";
+  RemoveTissue(state, 0);
+  EXPECT_EQ(sentences(), "There is no tissue to probe or to cut.\n");
+  EXPECT_EQ(MissingParts(MakeEditorState(NewDocument())).front().sentence,
+            "There is no panorama yet.");
+}
+
+TEST_F(UndoSession, ASceneOfTheProgramIsSavedElsewhere) {
+  StartDocument(state, OpenSceneDocument(fs::path(ARTHRO_SOURCE_DIR) / "resources/demo"), true);
+  state.recent.Add(fs::path(ARTHRO_SOURCE_DIR) / "resources/demo");
+  app::Run(state, "save-as");
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  const fs::path start = std::get<BrowseDialog>(state.dialogs.back()).model.folder();
+  EXPECT_FALSE(IsInResourceFolder(start)) << start;
 }
 
 TEST_F(UndoSession, TheProgramsOwnScenesAreNeverReplaced) {
