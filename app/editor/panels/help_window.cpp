@@ -1,6 +1,7 @@
 // All keys and mouse actions, made from the lists that they are made from.
-#include <cstring>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -84,23 +85,23 @@ void HelpWindow(Ui& ui, EditorState& state) {
   QuietText(ui, "Arrow and page keys move the scope after a click on the picture.");
   Gap(ui);
 
-  // Commands, under the headings of their groups.
-  const char* group = "";
-  bool in_table = false;
-  for (const Command& command : state.commands) {
-    const std::string keys = WordsOf(command.shortcut);
-    if (keys.empty()) continue;
-    if (std::strcmp(group, command.group) != 0) {
-      if (in_table) ImGui::EndTable(), Gap(ui);
-      group = command.group;
-      Heading(ui, group);
-      in_table = BeginRows(ui, group);
-      if (!in_table) return ImGui::EndChild();
+  // Commands, each group once, in the order of its first command.
+  std::vector<std::string> groups;
+  for (const Command& command : state.commands)
+    if (!WordsOf(command.shortcut).empty() &&
+        std::find(groups.begin(), groups.end(), command.group) == groups.end())
+      groups.push_back(command.group);
+  for (const std::string& group : groups) {
+    Heading(ui, group);
+    if (!BeginRows(ui, group.c_str())) return ImGui::EndChild();
+    for (const Command& command : state.commands) {
+      const std::string keys = WordsOf(command.shortcut), other = WordsOf(command.other_shortcut);
+      if (keys.empty() || group != command.group) continue;
+      Row(ui, keys + (other.empty() ? "" : " or " + other), command.help);
     }
-    const std::string other = WordsOf(command.other_shortcut);
-    Row(ui, keys + (other.empty() ? "" : " or " + other), command.help);
+    ImGui::EndTable();
+    Gap(ui);
   }
-  if (in_table) ImGui::EndTable(), Gap(ui);
   Heading(ui, "Anywhere");
   if (BeginRows(ui, "anywhere")) {
     Row(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");
