@@ -35,11 +35,12 @@
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
-#include "app/steps/practice/calibrate_incision.h"
 #include "app/steps/portals/portals_step.h"
+#include "app/steps/practice/calibrate_incision.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
+#include "app/steps/tissue/tissue_cut.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
@@ -91,6 +92,8 @@ std::vector<CrawlKeys> KeysOfCrawl(const EditorState& state) {
 void RunShortcuts(EditorState& state) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!state.dialogs.empty()) return;
+  if (InEditor(state) && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !io.WantTextInput)
+    LeaveBrush(state);
   for (const Command& command : state.commands)
     for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
       if (shortcut.key == 0 || !ImGui::IsKeyPressed(shortcut.key, false)) continue;
@@ -165,6 +168,7 @@ class Editor {
       break;
     }
     recovery_.Remove();
+    if (!FileOfViews(options_).empty()) WriteViewLayout(FileOfViews(options_), state_.views);
     if (state_.quit && script_ && script_->state() == ScriptState::kRunning && !script_->at_end())
       throw Error(
           Code::kBadData,
@@ -212,7 +216,14 @@ class Editor {
       std::fprintf(stderr, "warning: %s\n", state_.steps.practice->film_words.c_str());
   }
 
+  static std::filesystem::path FileOfViews(const EditorOptions& options) {
+    if (options.script || options.frames > 0 || RecentScenesFile().empty()) return {};
+    return RecentScenesFile().replace_filename("views.json");
+  }
+
   void Begin() {
+    state_.views = ReadViewLayout(FileOfViews(options_));
+    state_.practice_only = options_.practice;
     if (options_.scene) {
       const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
       StartDocument(state_, OpenSceneDocument(*options_.scene), true, on_disk);
@@ -220,7 +231,6 @@ class Editor {
                std::filesystem::exists(demo / "scene.json")) {
       StartDocument(state_, OpenSceneDocument(demo), true);
     }
-    state_.practice_only = options_.practice;
     state_.steps.practice->hands = std::make_unique<simulation::Hands>(options_.hands);
     state_.steps.practice->session_options = options_.session;
     state_.steps.panorama->lens_folder = ResourceFolder() / "presets" / "lenses";
@@ -378,7 +388,7 @@ class Editor {
       else
         PracticePanel(ui, state_, layout.side);
     } else {
-      const Layout layout = EditorLayout(width, height, ui.scale);
+      const Layout layout = EditorLayout(width, height, ui.scale, state_.views);
       TopBar(ui, state_, layout.top);
       StepsPanel(ui, state_, layout.side);
       if (ShowsFootage(state_)) {
@@ -410,13 +420,28 @@ class Editor {
 
   void Scene(Ui& ui, const Layout& layout) {
     DrawPictures(ui, layout);
-    PictureInput input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
-    picture_focused_ = input.focused;
-    Lay(input);
-    TakePictureInput(input);
-    pictures_.HandleOverview(state_,
-                             OverviewPicture(ui, layout.overview, pictures_.overview_texture()));
+    picture_focused_ = false;
+    PictureInput input;
+    if (layout.shows_picture) {
+      input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+      picture_focused_ = input.focused;
+      Lay(input);
+      TakePictureInput(input);
+      if (input.clicked) pictures_.ClickScope(state_, PlaceInPicture(input, *input.clicked));
+    }
+    if (layout.shows_overview)
+      pictures_.HandleOverview(state_,
+                               OverviewPicture(ui, state_, layout.overview,
+                                               pictures_.overview_texture(), pictures_.handle()),
+                               ui.scale);
     Landmarks(ui, layout, input);
+    ViewSplitter(ui, state_, layout);
+  }
+
+  // Right and up from the middle of the scope's picture, in units of its radius.
+  static glm::dvec2 PlaceInPicture(const PictureInput& input, const glm::dvec2& pixel) {
+    const double edge = input.area.width;
+    return {2.0 * (pixel.x + 0.5) / edge - 1.0, 1.0 - 2.0 * (pixel.y + 0.5) / edge};
   }
 
   std::optional<authoring::Sight> SightOf(const PictureInput& input,
@@ -438,9 +463,11 @@ class Editor {
   void Landmarks(Ui& ui, const Layout& layout, const PictureInput& input) {
     if (input.clicked && PlacesLandmarks(state_))
       if (const auto sight = SightOf(input, *input.clicked)) TakeScenePoint(state_, *sight);
-    MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
-    MarkOverview(ui, state_, layout.overview,
-                 [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
+    if (layout.shows_picture)
+      MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
+    if (layout.shows_overview)
+      MarkOverview(ui, state_, layout.overview,
+                   [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
   }
 
   void TakePictureInput(const PictureInput& input) {
@@ -460,6 +487,7 @@ class Editor {
       pictures_.Record(*state_.steps.practice->film, FilmSeconds(state_));
     }
     if (state_.practice && !state_.steps.practice->shows_outside) return;
+    if (!layout.shows_overview) return;
     if (pictures_.DrawOverview(state_, static_cast<int>(layout.overview.width),
                                static_cast<int>(layout.overview.height)) &&
         unsettled_ < 2)

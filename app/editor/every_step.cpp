@@ -67,6 +67,57 @@ constexpr Command kStepCommands[] = {
      Open<Step::kPractice>},
 };
 
+using Shown = ViewLayout::Shown;
+
+// The one view alone, or both again.
+template <Shown shown>
+void Show(State& state) {
+  state.views.shown = state.views.shown == shown ? Shown::kBoth : shown;
+}
+
+constexpr Command kViewCommands[] = {
+    {"view-scope",
+     "Scope alone",
+     "Show the scope's picture without the overview, or both again.",
+     "Views",
+     {GLFW_KEY_1, true},
+     {},
+     InEditor,
+     Show<Shown::kScope>},
+    {"view-overview",
+     "Overview alone",
+     "Show the overview without the scope's picture, or both again.",
+     "Views",
+     {GLFW_KEY_2, true},
+     {},
+     InEditor,
+     Show<Shown::kOverview>},
+    {"view-both",
+     "Both views",
+     "Show the scope's picture and the overview.",
+     "Views",
+     {GLFW_KEY_3, true},
+     {},
+     InEditor,
+     Show<Shown::kBoth>},
+    {"swap-views",
+     "Swap",
+     "Let the two views change sides.",
+     "Views",
+     {GLFW_KEY_4, true},
+     {},
+     InEditor,
+     [](State& state) { state.views.is_swapped = !state.views.is_swapped; }},
+    {"fit-overview",
+     "Fit",
+     "Show the whole scene in the overview.",
+     "Views",
+     {GLFW_KEY_HOME, true},
+     {},
+     InEditor,
+     [](State& state) { ++state.overview_fits; }},
+};
+
 constexpr Command kWindowCommands[] = {
     {"full-screen",
      "Full screen",
@@ -94,7 +145,8 @@ std::span<const Command> AllCommands() {
     for (const auto group :
          {FileCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
           std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
-          DisturbanceCommands(), IncisionCommands(), std::span<const Command>(kWindowCommands)})
+          DisturbanceCommands(), IncisionCommands(), std::span<const Command>(kViewCommands),
+          std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/portals/portals_step.h"
@@ -15,6 +17,7 @@
 #include "app/view/exposure/footage_light.h"
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
+#include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
 namespace {
@@ -25,6 +28,21 @@ constexpr auto kOverviewPause = std::chrono::milliseconds(200);  // between two,
 // A practice shows the scene from outside too, and nothing is edited there.
 bool IsTissueEdited(const EditorState& state) {
   return state.step == Step::kTissue && !state.practice;
+}
+
+// A click puts a ball, a cut or a region onto the tissue.
+bool HasBrush(const EditorState& state) {
+  return IsTissueEdited(state) && (state.steps.tissue->brush.has_value() ||
+                                   state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
+}
+
+void UseBrush(EditorState& state, const std::optional<Overview::TissuePlace>& place) {
+  if (!place)
+    state.message = "There is no tissue at that place. Click on the tissue; Esc ends this.";
+  else if (state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone)
+    UseCutBrush(state, place->tissue, place->x_in_tissue);
+  else
+    AddBall(state, *state.steps.tissue->brush, place->tissue, place->x_in_tissue);
 }
 
 bool Same(const Picture& a, const Picture& b) {
@@ -251,8 +269,9 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   Take(state);
   has_overview_ = panorama_ != nullptr;
   if (!has_overview_) return false;
-  if (document_number_ != state.document_number) {
+  if (document_number_ != state.document_number || overview_fits_ != state.overview_fits) {
     document_number_ = state.document_number;
+    overview_fits_ = state.overview_fits;
     overview_.ResetCamera();
   }
   const Picture picture = ShownPicture(state, TakeOptics(state.document()));
@@ -262,11 +281,8 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
     overview_.SetTools({picture.view, picture.field_of_view, picture.instrument});
   }
   // The box is there while tissue is worked on.
-  const bool is_brush =
-      IsTissueEdited(state) &&
-      (PlacesLandmarks(state) || LaysOnRelief(state) || state.steps.tissue->brush.has_value() ||
-       state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone);
-  const int chosen = IsTissueEdited(state) && !is_brush ? state.tissue : -1;
+  const bool is_clicked = HasBrush(state) || PlacesLandmarks(state) || LaysOnRelief(state);
+  const int chosen = IsTissueEdited(state) && !is_clicked ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
   // Draws the scope's picture before the overview on a slow machine.
@@ -302,8 +318,21 @@ void Pictures::ShowPlaces(const EditorState& state) {
   overview_.ShowBalls(state.tissue, balls, chosen);
 }
 
-void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
+void Pictures::ClickScope(EditorState& state, const glm::dvec2& place) {
+  if (!HasBrush(state) || !has_picture_) return;
+  std::optional<Overview::TissuePlace> hit;
+  if (glm::length(place) <= 1.0) {
+    const glm::dvec3 ray =
+        simulation::RayThrough(TakeOptics(state.document()), picture_.view, place);
+    hit =
+        overview_.PickAlong(picture_.view.tip, 4.0 * state.document().scene.backdrop.radius * ray);
+  }
+  UseBrush(state, hit);
+}
+
+void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, double scale) {
   if (!has_overview_) return;
+  overview_.handle_scale = scale;
   overview_.on_pose = [&state](int index, const Pose& pose, bool finished) {
     const auto& tissues = state.document().scene.tissues;
     if (index < 0 || index >= static_cast<int>(tissues.size())) return;
@@ -333,14 +362,11 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input) {
         is_laying_ = true;
         continue;
       }
-      const bool is_cutting = state.steps.tissue->cut_brush.kind != CutBrush::Kind::kNone;
-      if (button == 0 && (state.steps.tissue->brush || is_cutting) && IsTissueEdited(state))
-        if (const auto place = overview_.PickTissue(event.x, event.y)) {
-          is_cutting
-              ? UseCutBrush(state, place->tissue, place->x_in_tissue)
-              : AddBall(state, *state.steps.tissue->brush, place->tissue, place->x_in_tissue);
-          continue;
-        }
+      if (button == 0 && HasBrush(state)) {
+        const auto place = overview_.PickTissue(event.x, event.y);
+        UseBrush(state, place);
+        if (place) continue;  // a drag beside the tissue turns the view
+      }
       event.kind = Kind::kPress;
       overview_.Handle(event);
     }

@@ -34,8 +34,14 @@ class Pictures {
   // user is busy elsewhere. True when it is not up to date yet.
   bool DrawOverview(const EditorState& state, int width, int height);
   unsigned overview_texture() const { return has_overview_ ? overview_.TextureId() : 0; }
-  // Turns the overview or, on the box, moves the chosen tissue.
-  void HandleOverview(EditorState& state, const OverviewInput& input);
+  // Turns the overview or, on its handle, moves the chosen tissue. `scale`: of the window.
+  void HandleOverview(EditorState& state, const OverviewInput& input, double scale = 1.0);
+  std::optional<glm::dvec2> handle() const {
+    return has_overview_ ? overview_.HandlePlace() : std::nullopt;
+  }
+  // Uses the brush at hand, if any, where the scope's picture was clicked: right and up, in units
+  // of its radius.
+  void ClickScope(EditorState& state, const glm::dvec2& place);
 
   // How long the whole frame took, handing over included, s: graphics in software draw behind our
   // back.
@@ -100,7 +106,7 @@ class Pictures {
   int outlined_ = -1;  // tissue that the scope's picture leaves out, -1 none
   const simulation::Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;
-  int chosen_ = -1, document_number_ = -1;
+  int chosen_ = -1, document_number_ = -1, overview_fits_ = 0;
   Picture overview_tools_;  // tools of the last overview
   glm::dvec2 pointer_{-1.0};
 };

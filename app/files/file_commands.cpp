@@ -1,6 +1,7 @@
 // Scenes and their files, undo.
 #include <GLFW/glfw3.h>
 
+#include "app/files/earlier_versions.h"
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
@@ -86,6 +87,14 @@ constexpr Command kCommands[] = {
        state.message = "Redone: " + state.history.RedoName();
        state.history.Redo();
      }},
+    {"history",
+     "History…",
+     "List the steps, earlier saves and snapshots, and go back to one.",
+     "Edit",
+     {GLFW_KEY_H, true},
+     {},
+     Idle,
+     OpenHistory},
 };
 
 }  // namespace

@@ -18,34 +18,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the fault; empty: written.
-std::string Write(const RecoverySession& session, const authoring::Document& document) {
-  try {
-    // The next start may be from elsewhere.
-    const fs::path folder =
-        document.folder.empty() ? fs::path() : fs::absolute(document.folder).lexically_normal();
-    session.WriteAbout({document.scene.title, folder});
-    // Its final name stands for a copy that is whole and private.
-    const fs::path next = session.folder() / "next.arthro";
-    authoring::SaveDocument(document, next);
-    fs::permissions(next, fs::perms::owner_read | fs::perms::owner_write);
-    fs::rename(next, session.copy());
-    return {};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+// The document as it is written: with a note of what it holds, and without a depth map that its
+// options do not give any more.
+authoring::Document ForCopy(const EditorState& state) {
+  authoring::Document document = state.document();
+  RecoveryNote note;
+  note.title = document.scene.title;
+  // The next start may be from elsewhere.
+  if (!document.folder.empty()) note.folder = fs::absolute(document.folder).lexically_normal();
+  note.edits = std::max(1, state.history.StepsFromSaved());
+  note.last_edit = state.history.StepName();
+  note.is_depth_pending = DepthIsUnderWay(state);
+  if (note.is_depth_pending) SetDepth(document, nullptr);
+  document.scene.extensions[kRecoveryKey] = JsonFromRecoveryNote(note);
+  return document;
 }
 
 bool HasUnsavedWork(const EditorState& state) {
   return !state.practice_only && !state.history.IsSaved() && state.document().panorama != nullptr;
-}
-
-std::string WordsOfTime(std::time_t time) {
-  std::tm local{};
-  ::localtime_r(&time, &local);
-  char words[64];
-  std::strftime(words, sizeof words, "%d %b, %H:%M", &local);
-  return words;
 }
 
 }  // namespace
@@ -61,10 +51,13 @@ void RecoveryCopy::Offer(EditorState& state) {
   if (left.empty()) return;
   // Shared, because a dialog is copied; the lock keeps other windows from offering the same.
   const auto session = std::make_shared<RecoverySession>(std::move(left.front()));
-  const RecoverySession::About about = session->ReadAbout();
+  const RecoveryNote note = session->ReadNote();
   RecoveryDialog dialog;
-  dialog.title = about.title.empty() ? "Untitled" : about.title;
-  dialog.folder = about.folder;
+  dialog.title = note.title.empty() ? "Untitled" : note.title;
+  dialog.folder = note.folder;
+  dialog.edits = note.edits;
+  dialog.last_edit = note.last_edit;
+  dialog.problem = note.problem;
   dialog.when = WordsOfTime(session->time_of_copy());
   dialog.restore = [this, session](EditorState& now) { Restore(now, std::move(*session)); };
   dialog.discard = [session](EditorState&) { session->Remove(); };
@@ -74,23 +67,30 @@ void RecoveryCopy::Offer(EditorState& state) {
 void RecoveryCopy::Restore(EditorState& state, RecoverySession session) {
   Collect(nullptr);
   authoring::Document document = authoring::OpenDocument(session.copy());
-  const RecoverySession::About about = session.ReadAbout();
+  document.scene.extensions.erase(kRecoveryKey);
+  const RecoveryNote note = session.ReadNote();
   // Saving asks where, unless the scene is as it was when the copy was made.
   std::error_code error;
   const fs::path scene =
-      fs::is_directory(about.folder, error) ? about.folder / "scene.json" : about.folder;
+      fs::is_directory(note.folder, error) ? note.folder / "scene.json" : note.folder;
   const auto changed = fs::last_write_time(scene, error);
   const bool is_there = !error;
   const bool is_as_it_was = is_there && changed <= fs::last_write_time(session.copy(), error);
-  document.folder = is_as_it_was ? about.folder : fs::path();
+  document.folder = is_as_it_was ? note.folder : fs::path();
   const std::string when = WordsOfTime(session.time_of_copy());
   StartDocument(state, std::move(document), false,
-                is_as_it_was ? NoteOnDisk(about.folder) : SceneOnDisk{});
+                is_as_it_was ? NoteOnDisk(note.folder) : SceneOnDisk{});
+  if (note.is_depth_pending) state.steps.depth->cache = {};
   // The old copy protects the document until the next one replaces it.
   session_.Remove();
-  session_ = std::move(session);
-  seen_ = written_ = state.history.StateId();
+  copy_.reset();
+  restored_.push_back(std::move(session));
+  seen_ = written_ = -1;
   state.message = "Restored the unsaved work of " + when + ". Save it to keep it.";
+}
+
+void RecoveryCopy::Retire() {
+  for (RecoverySession& session : restored_) session.Retire();
 }
 
 void RecoveryCopy::Follow(EditorState& state, double now) {
@@ -101,7 +101,9 @@ void RecoveryCopy::Follow(EditorState& state, double now) {
   }
   const long long id = state.history.StateId();
   if (!HasUnsavedWork(state)) {
-    if (session_.is_open()) session_.Remove();
+    session_.Remove();
+    copy_.reset();
+    Retire();
     seen_ = id;
     written_ = -1;
     is_due_ = false;
@@ -116,10 +118,7 @@ void RecoveryCopy::Follow(EditorState& state, double now) {
     is_due_ = false;
     return;
   }
-  // The depth map must be that of its options.
-  if (now < std::min(last_change_ + kAfterChange, first_change_ + kAtLeastEvery) ||
-      DepthIsUnderWay(state))
-    return;
+  if (now < std::min(last_change_ + kAfterChange, first_change_ + kAtLeastEvery)) return;
   Start(state);
 }
 
@@ -131,11 +130,12 @@ double RecoveryCopy::SecondsUntilDue(double now) const {
 void RecoveryCopy::Start(const EditorState& state) {
   is_due_ = false;
   in_work_ = state.history.StateId();
-  writing_ = std::async(std::launch::async, [this, document = state.document()] {
+  writing_ = std::async(std::launch::async, [this, document = ForCopy(state)] {
     std::string fault;
     try {
       if (!session_.is_open()) session_ = RecoverySession::Create(parent_);
-      fault = Write(session_, document);
+      if (!copy_) copy_.emplace(session_.scene_folder());
+      copy_->Write(document);
     } catch (const std::exception& error) {
       fault = error.what();
     }
@@ -147,10 +147,12 @@ void RecoveryCopy::Start(const EditorState& state) {
 void RecoveryCopy::Collect(EditorState* state) {
   if (!writing_.valid()) return;
   const std::string fault = writing_.get();
-  if (fault.empty())
+  if (fault.empty()) {
     written_ = in_work_;
-  else if (state != nullptr)
+    Retire();
+  } else if (state != nullptr) {
     state->message = "There is no recovery copy: " + fault;
+  }
 }
 
 bool RecoveryCopy::WriteNow(const EditorState& state) noexcept {
@@ -169,6 +171,9 @@ bool RecoveryCopy::WriteNow(const EditorState& state) noexcept {
 void RecoveryCopy::Remove() {
   Collect(nullptr);
   session_.Remove();
+  copy_.reset();
+  for (RecoverySession& session : restored_) session.Remove();
+  restored_.clear();
   written_ = -1;
 }
 

@@ -1,23 +1,25 @@
 // Keeps a copy of the open document aside while it has unsaved changes, so that a crash, a kill or
-// a lost display loses at most the last seconds; offers such copies at the next start. Written
+// a lost display loses at most the last two seconds; offers such copies at the next start. Written
 // beside the window, whole or not at all. The clip of the footage page is no part of the document.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <future>
-#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/files/recovery_folder.h"
 #include "app/state/editor_state.h"
+#include "authoring/project/incremental_copy.h"
 
 namespace arthro::app {
 
 class RecoveryCopy {
  public:
   // A copy is written so long after the last change, and at least so often while they go on, s.
-  static constexpr double kAfterChange = 3.0, kAtLeastEvery = 20.0;
+  static constexpr double kAfterChange = 0.3, kAtLeastEvery = 0.5;
 
   // `parent`: empty keeps no copy and offers none. `wake` ends the window's sleep.
   explicit RecoveryCopy(std::filesystem::path parent, std::function<void()> wake = {});
@@ -38,6 +40,7 @@ class RecoveryCopy {
 
  private:
   void Start(const EditorState& state);
+  void Retire();  // the copy that was restored: another one holds its work now
   // Waits for the write under way and takes its result.
   void Collect(EditorState* state);
   void Restore(EditorState& state, RecoverySession session);
@@ -45,6 +48,9 @@ class RecoveryCopy {
   std::filesystem::path parent_;
   std::function<void()> wake_;
   RecoverySession session_;
+  std::optional<authoring::IncrementalCopy> copy_;  // in session_
+  // The copies that were restored. Steps of the history may still name files in them.
+  std::vector<RecoverySession> restored_;
   long long seen_ = -1, in_work_ = -1, written_ = -1;  // states of the document
   double first_change_ = 0, last_change_ = 0;          // times of the unwritten changes, s
   bool is_due_ = false;

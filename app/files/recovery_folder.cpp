@@ -8,9 +8,9 @@
 #include <unistd.h>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSchema = "arthroscene.recovery/1";
+constexpr const char* kSchema = "arthroscene.recovery/2";
+constexpr const char* kEarlierSchema = "arthroscene.recovery/1";
 constexpr std::time_t kYoung = 60;  // s; a folder of that age may be about to get its copy
 
 std::time_t TimeOf(const fs::path& file) {
@@ -29,6 +30,14 @@ std::time_t TimeOf(const fs::path& file) {
 }
 
 }  // namespace
+
+std::string WordsOfTime(std::time_t time) {
+  std::tm local{};
+  ::localtime_r(&time, &local);
+  char words[64];
+  std::strftime(words, sizeof words, "%d %b, %H:%M:%S", &local);
+  return words;
+}
 
 fs::path RecoveryFolder() {
   const fs::path below = fs::path("arthroscene") / "recovery";
@@ -99,7 +108,18 @@ std::vector<RecoverySession> RecoverySession::Left(const fs::path& parent) {
   return left;
 }
 
+fs::path RecoverySession::copy() const {
+  const fs::path earlier = folder_ / "scene.arthro";
+  std::error_code ignored;
+  return fs::exists(earlier, ignored) ? earlier : scene_folder() / "scene.json";
+}
+
 std::time_t RecoverySession::time_of_copy() const { return TimeOf(copy()); }
+
+void RecoverySession::Retire() {
+  std::error_code ignored;
+  if (is_open()) fs::remove(copy(), ignored);
+}
 
 void RecoverySession::Remove() {
   if (!is_open()) return;
@@ -108,25 +128,41 @@ void RecoverySession::Remove() {
   ::close(std::exchange(lock_, -1));
 }
 
-RecoverySession::About RecoverySession::ReadAbout() const {
-  About about;
+RecoveryNote RecoverySession::ReadNote() const {
+  RecoveryNote note;
   try {
-    const fs::path file = folder_ / "about.json";
-    const auto json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
-    about.title = json.at("title").get<std::string>();
-    about.folder = json.at("folder").get<std::string>();
+    const bool is_earlier = copy().filename() == "scene.arthro";
+    const fs::path file = is_earlier ? folder_ / "about.json" : copy();
+    auto json = ParseJson(ReadWholeFile(file, kMostJsonBytes), Code::kBadData, file);
+    if (!is_earlier) json = json.at(kRecoveryKey);
+    if (const auto schema = json.at("schema").get<std::string>();
+        schema != kSchema && schema != kEarlierSchema) {
+      note.problem = fmt::format(
+          "Another version of the program left this copy ({}). That version restores it from {}.",
+          schema, folder_.string());
+      return note;
+    }
+    note.title = json.at("title").get<std::string>();
+    note.folder = json.at("folder").get<std::string>();
+    note.edits = json.value("edits", 0);
+    note.last_edit = json.value("last_edit", "");
+    note.is_depth_pending = json.value("depth_pending", false);
   } catch (const std::exception&) {
-    // The copy is whole without it.
+    note.problem = fmt::format(
+        "The copy is damaged and cannot be restored. Its pictures and surfaces lie in {}.",
+        folder_.string());
   }
-  return about;
+  return note;
 }
 
-void RecoverySession::WriteAbout(const About& about) const {
-  const fs::path file = folder_ / "about.json";
-  const nlohmann::json json = {
-      {"schema", kSchema}, {"title", about.title}, {"folder", about.folder.string()}};
-  WriteAtomically(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
-                  Access::kPrivate);
+std::string JsonFromRecoveryNote(const RecoveryNote& note) {
+  const nlohmann::json json = {{"schema", kSchema},
+                               {"title", note.title},
+                               {"folder", note.folder.string()},
+                               {"edits", note.edits},
+                               {"last_edit", note.last_edit},
+                               {"depth_pending", note.is_depth_pending}};
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace arthro::app

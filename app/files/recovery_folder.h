@@ -1,8 +1,9 @@
 // Folders of recovery copies, one per running editor: RecoveryFolder()/session-XXXXXX, which only
 // its user may read. A lock on the folder tells whether its program still runs, whatever the number
 // of its process. It holds
-//   scene.arthro   the open document, with its unsaved changes
-//   about.json     {"schema", "title", "folder": where the document was opened from or saved}
+//   scene/   the open document with its unsaved changes, as a scene; "x-recovery" of its scene.json
+//            is a RecoveryNote
+// or, from earlier versions, scene.arthro and about.json.
 #pragma once
 
 #include <ctime>
@@ -16,6 +17,21 @@ namespace arthro::app {
 // $XDG_STATE_HOME/arthroscene/recovery, below ~/.local/state where that is not set; empty without a
 // home.
 std::filesystem::path RecoveryFolder();
+
+// Description of a copy before it is restored.
+struct RecoveryNote {
+  std::string title;
+  std::filesystem::path folder;   // place of the document; empty: it was never saved
+  int edits = 0;                  // unsaved ones; 0: not known
+  std::string last_edit;          // name of the last one
+  bool is_depth_pending = false;  // the depth map is to be made from the picture
+  std::string problem;            // why it cannot be restored; empty: it can
+};
+
+inline constexpr const char* kRecoveryKey = "x-recovery";
+std::string JsonFromRecoveryNote(const RecoveryNote& note);
+
+std::string WordsOfTime(std::time_t time);  // "23 Nov, 13:04:22"
 
 // A session's folder while this program has its lock. Moving hands the lock on.
 class RecoverySession {
@@ -33,16 +49,12 @@ class RecoverySession {
 
   bool is_open() const { return lock_ >= 0; }
   const std::filesystem::path& folder() const { return folder_; }
-  std::filesystem::path copy() const { return folder_ / "scene.arthro"; }
-  std::time_t time_of_copy() const;  // 0: there is none
-  void Remove();                     // the folder, and the lock
-
-  struct About {
-    std::string title;
-    std::filesystem::path folder;
-  };
-  About ReadAbout() const;                    // empty where it cannot be read
-  void WriteAbout(const About& about) const;  // Throws Error(kFile).
+  std::filesystem::path scene_folder() const { return folder_ / "scene"; }
+  std::filesystem::path copy() const;  // the scene to open
+  std::time_t time_of_copy() const;    // 0: there is none
+  RecoveryNote ReadNote() const;
+  void Remove();  // the folder, and the lock
+  void Retire();  // nothing is offered any more; the files stay until Remove
 
  private:
   // Not open where the folder is another user's, or another program has the lock.

@@ -61,6 +61,25 @@ bool HasChangedOnDisk(const EditorState& state, const fs::path& place) {
          NoteOnDisk(place).fingerprint != state.on_disk.fingerprint;
 }
 
+void HoldScene(EditorState& state) {
+  state.lock = {};  // its own mark is not another window's
+  const fs::path& place = state.document().folder;
+  if (state.practice_only || place.empty()) return;
+  state.lock = SceneLock(place);
+  if (!state.lock.other().empty())
+    state.dialogs.push_back(OpenElsewhereDialog{place, state.lock.other()});
+}
+
+void EditCopy(EditorState& state) {
+  Document copy = state.document();
+  copy.folder.clear();
+  const bool was_saved = state.history.IsSaved();
+  state.on_disk = {};
+  state.lock = {};
+  state.history = authoring::History(std::move(copy));
+  if (was_saved) state.history.MarkSaved();
+}
+
 void StartDocument(EditorState& state, Document document, bool saved, SceneOnDisk on_disk) {
   state.on_disk = std::move(on_disk);
   state.history = authoring::History(std::move(document));
@@ -70,16 +89,14 @@ void StartDocument(EditorState& state, Document document, bool saved, SceneOnDis
   state.scope = simulation::StartOfScope(state.document().scene);
   state.instrument = simulation::StartOfInstrument(state.document().scene);
   state.practice.reset();
+  HoldScene(state);
   state.steps.panorama->shows_footage = false;  // the scene is what was asked for
   ++state.document_number;
 }
 
 Document OpenSceneDocument(const fs::path& scene) {
   Document document = authoring::OpenDocument(scene);
-  std::error_code ignored;
-  const fs::path within =
-      fs::canonical(scene, ignored).lexically_relative(fs::canonical(ResourceFolder(), ignored));
-  if (!within.empty() && *within.begin() != "..") document.folder.clear();
+  if (IsInResourceFolder(scene)) document.folder.clear();
   return document;
 }
 
@@ -104,6 +121,10 @@ enum class IfChanged { kAsk, kReplace };
 
 void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
               std::function<void(EditorState&)> then) {
+  if (IsInResourceFolder(folder))
+    throw Error(Code::kBadArgument,
+                "the scenes that came with the program stay as they are; choose another folder",
+                folder);
   WhenDepthIsReady(state, [folder, if_changed, then = std::move(then)](EditorState& ready) {
     const bool is_changed = HasChangedOnDisk(ready, folder);
     if (is_changed && if_changed == IfChanged::kAsk) {
@@ -113,6 +134,7 @@ void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
     authoring::SaveOptions options;
     options.needed_files = ready.history.FilesOnlyOnDisk();
     options.keeps_all_files = is_changed;
+    options.keeps_backup = is_changed || !ready.history.IsSaved();
     ready.jobs.Start(
         "Save " + folder.filename().string(),
         [folder, options, then, document = ready.document()](const Progress&) {
@@ -120,6 +142,7 @@ void SaveInto(EditorState& state, const fs::path& folder, IfChanged if_changed,
           return [then, saved, on_disk = NoteOnDisk(saved.folder)](EditorState& now) {
             now.history.MarkSaved(saved);
             now.on_disk = on_disk;
+            if (!now.lock.is_held()) HoldScene(now);
             now.steps.depth->cache.Note(saved);
             now.recent.Add(saved.folder);
             now.message = "Saved in " + saved.folder.string();

@@ -28,6 +28,10 @@ SceneOnDisk NoteOnDisk(const std::filesystem::path& scene);
 // The scene as a document to edit. One of the program's own resources, such as the demo, has no
 // folder: saving it asks where. Throws Error as authoring::OpenDocument.
 authoring::Document OpenSceneDocument(const std::filesystem::path& scene);
+// Marks the document's scene as the one that is edited here. Tells where another window has it.
+void HoldScene(EditorState& state);
+// The document without its place: saving it asks where.
+void EditCopy(EditorState& state);
 // There is a scene at `place`, and it is not the one that this window has last read or written.
 bool HasChangedOnDisk(const EditorState& state, const std::filesystem::path& place);
 

@@ -15,4 +15,12 @@ std::filesystem::path ResourceFolder() {
   throw Error(Code::kFile, "the program's own files are not here; install it again", installed);
 }
 
+bool IsInResourceFolder(const std::filesystem::path& place) {
+  std::error_code ignored;
+  const std::filesystem::path within =
+      std::filesystem::weakly_canonical(place, ignored)
+          .lexically_relative(std::filesystem::canonical(ResourceFolder(), ignored));
+  return !within.empty() && *within.begin() != "..";
+}
+
 }  // namespace arthro::app

@@ -1,8 +1,10 @@
 #include "app/state/dialogs.h"
 
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include "app/platform/resource_folder.h"
 #include "app/state/editor_state.h"
 
 namespace arthro::app {
@@ -20,9 +22,14 @@ void Browse(EditorState& state, BrowseFor purpose, const std::string& title,
   // A scene is a folder: a copy goes beside it, not into it.
   if (purpose == BrowseFor::kSaveFolder && fs::exists(start / "scene.json", ignored))
     start = start.parent_path();
+  // The program's own scenes are not replaced.
+  if (purpose == BrowseFor::kSaveFolder && IsInResourceFolder(start)) {
+    const char* home = std::getenv("HOME");
+    start = home != nullptr && *home != '\0' ? fs::path(home) : fs::current_path(ignored);
+  }
   state.dialogs.push_back(BrowseDialog{
       title, accept_words, FileBrowserModel(purpose, std::move(filters), start, file_name),
-      std::move(then), false, false, ""});
+      std::move(then), false, false, false, ""});
 }
 
 void GuardUnsaved(EditorState& state, const std::string& action,

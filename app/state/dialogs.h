@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/platform/file_browser_model.h"
+#include "authoring/project/scene_versions.h"
 #include "simulation/scene/surface_mesh.h"
 
 namespace arthro::app {
@@ -28,11 +29,22 @@ struct ChangedOnDiskDialog {
   std::filesystem::path place;
   std::function<void(EditorState&)> then;
 };
+// The scene that was opened is open in another window.
+struct OpenElsewhereDialog {
+  std::filesystem::path place;
+  std::string who;  // "process 1234 on HOST since 13:04"
+};
+// Steps of the history, earlier saves and snapshots.
+struct HistoryDialog {
+  std::vector<authoring::SceneVersion> versions;
+  std::string snapshot;  // name that is typed
+};
 struct BrowseDialog {
   std::string title, accept_words;
   FileBrowserModel model;
   std::function<void(EditorState&, const std::filesystem::path&)> then;
   bool asks_overwrite = false, asks_folder_name = false;
+  bool is_shown = false;  // in an earlier frame
   std::string new_folder;
 };
 // A mesh file says nothing of its unit. The surface has been read; its vertices are in that unit.
@@ -46,14 +58,18 @@ struct HelpDialog {};
 struct PracticeEndedDialog {
   double seconds = 0;
 };
-// A copy of unsaved work was left by a program that ended (recovery/recovery_copy.h).
+// A copy of unsaved work was left by a program that ended (app/files/recovery_copy.h).
 struct RecoveryDialog {
   std::string title, when;
   std::filesystem::path folder;  // folder of the document; empty: it was never saved
+  int edits = 0;                 // unsaved ones; 0: not known
+  std::string last_edit;
+  std::string problem;  // why it cannot be restored; empty: it can
   std::function<void(EditorState&)> restore, discard;
 };
 using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,
-                            HelpDialog, PracticeEndedDialog, RecoveryDialog>;
+                            HelpDialog, PracticeEndedDialog, RecoveryDialog, OpenElsewhereDialog,
+                            HistoryDialog>;
 
 // Opens the file browser; `then` gets what was chosen.
 void Browse(EditorState& state, BrowseFor purpose, const std::string& title,

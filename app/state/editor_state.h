@@ -15,7 +15,9 @@
 #include "app/state/jobs.h"
 #include "app/state/owned.h"
 #include "app/state/recent_scenes.h"
+#include "app/state/scene_lock.h"
 #include "app/state/scratch_folder.h"
+#include "app/state/view_layout.h"
 #include "authoring/project/history.h"
 #include "simulation/scope/rod_pose.h"
 #include "simulation/tissue/body/tissue_preset.h"
@@ -68,9 +70,12 @@ struct EditorState {
   authoring::History history;
   const authoring::Document& document() const { return history.current(); }
   SceneOnDisk on_disk;
+  SceneLock lock;           // mark of the scene that is edited
   int document_number = 0;  // grows when another document is begun
 
   Step step = Step::kPanorama;
+  ViewLayout views;
+  int overview_fits = 0;  // grows when the whole scene is to be shown in the overview
   StepStates steps;
   int tissue = -1;  // chosen one, -1 none
   std::vector<simulation::TissuePreset> tissue_presets;

@@ -17,6 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kMostKept = 8;
 
+// A scene's folder, whichever of its names it was opened by.
+fs::path PlaceOf(const fs::path& scene) {
+  return scene.filename() == "scene.json" ? scene.parent_path() : scene;
+}
+
 }  // namespace
 
 RecentScenes::RecentScenes(fs::path file) : file_(std::move(file)) {
@@ -24,7 +29,10 @@ RecentScenes::RecentScenes(fs::path file) : file_(std::move(file)) {
   if (file_.empty() || !fs::exists(file_, ignored)) return;
   try {
     const auto json = ParseJson(ReadWholeFile(file_, kMostJsonBytes), Code::kBadData, file_);
-    for (const auto& scene : json.at("scenes")) scenes_.emplace_back(scene.get<std::string>());
+    for (const auto& scene : json.at("scenes"))
+      if (const fs::path place = PlaceOf(scene.get<std::string>());
+          std::find(scenes_.begin(), scenes_.end(), place) == scenes_.end())
+        scenes_.push_back(place);
   } catch (const std::exception&) {
     scenes_.clear();
   }
@@ -32,7 +40,8 @@ RecentScenes::RecentScenes(fs::path file) : file_(std::move(file)) {
 
 void RecentScenes::Add(const fs::path& scene) {
   std::error_code error;
-  const fs::path absolute = fs::absolute(scene, error).lexically_normal();
+  fs::path absolute = PlaceOf(fs::absolute(scene, error).lexically_normal());
+  if (absolute.filename().empty()) absolute = absolute.parent_path();  // a slash at its end
   if (error) return;
   std::erase(scenes_, absolute);
   scenes_.insert(scenes_.begin(), absolute);

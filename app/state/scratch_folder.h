@@ -12,6 +12,9 @@ class ScratchFolder {
  public:
   // Throws Error(kFile) when it cannot be made.
   const std::filesystem::path& path();
+  // A name in the folder that no file has yet, with a number if need be: earlier steps of the
+  // history go on to name the earlier files.
+  std::filesystem::path NewFile(const std::filesystem::path& name);
 
  private:
   std::optional<TemporaryFolder> folder_;

@@ -18,7 +18,8 @@ bool IsTaken(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, ignored));
 }
 
-// "depth.tiff", "depth-2.tiff", "depth-3.tiff"…
+}  // namespace
+
 fs::path Numbered(const fs::path& name, int number) {
   fs::path numbered = name;
   if (number > 1)
@@ -26,8 +27,6 @@ fs::path Numbered(const fs::path& name, int number) {
         fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string()));
   return numbered;
 }
-
-}  // namespace
 
 AssetWriter::AssetWriter(const fs::path& folder, WrittenFiles known)
     : folder_(folder), files_(std::move(known)), was_noted_(HasUnfinishedSave(folder)) {

@@ -10,6 +10,9 @@
 
 namespace arthro::authoring {
 
+// "depth.tiff", "depth-2.tiff", "depth-3.tiff" for the numbers 1, 2, 3.
+std::filesystem::path Numbered(const std::filesystem::path& name, int number);
+
 class AssetWriter {
  public:
   // `known`: files that earlier saves of this scene wrote; the list of an unfinished save holds

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "simulation/scene/image.h"
+#include "authoring/project/document.h"
 
 namespace arthro::authoring {
 
@@ -12,6 +12,9 @@ inline constexpr const char* kDepthOptionsKey = "x-depth-options";
 // Fingerprint of the depth map that was made with those options. A map that does not have it was
 // brought along by a person.
 inline constexpr const char* kDepthMadeKey = "x-depth-made";
+
+// Puts both keys as they are for this document.
+void PutDocumentKeys(Document& document);
 
 // Fingerprint as JSON text, over width, height and relief, however the file packs them.
 std::string DepthFingerprint(const DepthMap& depth);

@@ -34,6 +34,8 @@ struct SaveOptions {
   // The scene on disk is not the one that this document was opened from or saved to last, so none
   // of its files is removed.
   bool keeps_all_files = false;
+  // Keeps the scene that the save replaces as a backup (scene_versions.h).
+  bool keeps_backup = false;
 };
 
 // Writes the document as a scene into `folder`, which is made if its parent is there. A name that

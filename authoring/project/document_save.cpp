@@ -9,6 +9,7 @@
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/document_io.h"
 #include "authoring/project/file_ending.h"
+#include "authoring/project/scene_versions.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/file_name.h"
@@ -116,6 +117,8 @@ class Saving {
     SaveDepth();
     for (std::size_t i = 0; i < after_.scene.tissues.size(); ++i) SaveTissue(i);
     SaveLens();
+    // Before the sort, so that the files of the backup are kept.
+    if (options_.keeps_backup) KeepBackup(folder_);
     const WrittenFiles unused = SortWrittenFiles();
     SaveExtensions();
     if (!unused.empty()) writer_.NoteUnfinished();
@@ -313,10 +316,7 @@ class Saving {
     auto& extensions = after_.scene.extensions;
     // Keys of other tools stay in this scene; a copy that is handed on does not carry them.
     if (is_copy_) extensions.clear();
-    extensions[kDepthOptionsKey] = OptionsText(after_.depth_options);
-    extensions.erase(kDepthMadeKey);
-    if (after_.depth && !after_.depth->empty() && !after_.is_depth_imported)
-      extensions[kDepthMadeKey] = DepthFingerprint(*after_.depth);
+    PutDocumentKeys(after_);
     extensions.erase(kWrittenFilesKey);
     if (!written_.empty()) extensions[kWrittenFilesKey] = JsonFromWrittenFiles(written_);
   }
@@ -331,6 +331,14 @@ class Saving {
 };
 
 }  // namespace
+
+void PutDocumentKeys(Document& document) {
+  auto& extensions = document.scene.extensions;
+  extensions[kDepthOptionsKey] = OptionsText(document.depth_options);
+  extensions.erase(kDepthMadeKey);
+  if (document.depth && !document.depth->empty() && !document.is_depth_imported)
+    extensions[kDepthMadeKey] = DepthFingerprint(*document.depth);
+}
 
 std::string DepthFingerprint(const DepthMap& depth) {
   const std::string_view bytes(reinterpret_cast<const char*>(depth.relief.data()),
@@ -348,7 +356,10 @@ Document SaveDocument(const Document& document, const fs::path& folder,
   }
   // Beside the archive rather than in it lie the files that the next save copies from.
   const auto unpacked = std::make_shared<const TemporaryFolder>();
-  Document saved = Saving(document, unpacked->path(), folder, options).Run();
+  SaveOptions into_archive = options;
+  into_archive.keeps_backup = false;
+  Document saved = Saving(document, unpacked->path(), folder, into_archive).Run();
+  if (options.keeps_backup) KeepBackup(folder);
   PackScene(unpacked->path(), folder);
   saved.folder = folder;
   saved.unpacked = unpacked;

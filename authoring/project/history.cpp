@@ -1,6 +1,7 @@
 #include "authoring/project/history.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 namespace arthro::authoring {
@@ -72,6 +73,13 @@ void History::MarkSaved() {
 void History::MarkSaved(Document saved) {
   steps_[position_].document = std::move(saved);
   MarkSaved();
+}
+
+int History::StepsFromSaved() const {
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    if (steps_[i].id == saved_id_)
+      return std::abs(static_cast<int>(i) - static_cast<int>(position_));
+  return static_cast<int>(position_);
 }
 
 std::set<std::filesystem::path> History::FilesOnlyOnDisk() const {

@@ -39,6 +39,8 @@ class History {
   void Undo();  // nothing happens where there is nothing to undo
   void Redo();
 
+  std::string StepName() const { return steps_[position_].name; }  // the current one
+
   // For a list of steps: their names, oldest first (the first is how the document began), and which
   // one is current. GoTo clamps.
   std::vector<std::string> StepNames() const;
@@ -51,6 +53,9 @@ class History {
   // Differs for each state of the document, and is the same again after undo and redo.
   long long StateId() const { return steps_[position_].id; }
   bool IsSaved() const { return steps_[position_].id == saved_id_; }
+  // Steps between the current document and the one that was saved; all of them where that one is
+  // gone.
+  int StepsFromSaved() const;
 
   // Files that some step needs and that no step holds in memory: tetrahedra, lenses.
   std::set<std::filesystem::path> FilesOnlyOnDisk() const;

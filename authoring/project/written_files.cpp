@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "authoring/project/scene_versions.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
@@ -118,7 +119,8 @@ bool IsNamedByAnotherFile(const fs::path& folder, const std::string& name) {
     const fs::path& file = entry->path();
     std::error_code ignored;
     if (file.extension() != ".json" || file.filename() == "scene.json" ||
-        file.filename().string().starts_with('.') ||  // our own, and temporaries
+        (file.filename().string().starts_with('.') &&  // our own, and temporaries
+         !IsBackupName(file.filename().string())) ||
         !entry->is_regular_file(ignored))
       continue;
     try {

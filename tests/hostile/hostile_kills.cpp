@@ -255,7 +255,9 @@ class Kills {
   }
 
   static bool IsOutput(const WritingJob& job, const std::string& name) {
-    if (fs::path(name).filename().string().starts_with(".")) return false;
+    const std::string file_name = fs::path(name).filename().string();
+    if (job.is_scene && file_name.starts_with(".scene.backup-")) return true;  // earlier saves
+    if (file_name.starts_with(".")) return false;
     if (name.find("partial") != std::string::npos) return false;
     for (const std::string& output : job.outputs)
       if (name == output || (output.ends_with('/') && name.starts_with(output))) return true;

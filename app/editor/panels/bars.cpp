@@ -16,30 +16,43 @@ namespace {
 
 constexpr float kTopHeight = 48, kStatusHeight = 32, kSideWidth = 330;
 constexpr float kPracticeWidth = 370;
-constexpr float kOutsideShare = 0.34f;   // share of the picture's shorter side, in practice
-constexpr float kOverviewShare = 0.38f;  // share of the width beside the controls
+constexpr float kOutsideShare = 0.34f;  // share of the picture's shorter side, in practice
 
 // ImGui takes a size of 0 for "as large as the content", and textures need a pixel.
 Area AtLeastAPixel(const Area& area) {
   return {area.x, area.y, std::max(area.width, 1.0f), std::max(area.height, 1.0f)};
 }
 Layout AtLeastAPixel(const Layout& layout) {
-  return {AtLeastAPixel(layout.top), AtLeastAPixel(layout.side), AtLeastAPixel(layout.picture),
-          AtLeastAPixel(layout.overview), AtLeastAPixel(layout.status)};
+  return {AtLeastAPixel(layout.top),     AtLeastAPixel(layout.side),
+          AtLeastAPixel(layout.picture), AtLeastAPixel(layout.overview),
+          AtLeastAPixel(layout.status),  layout.shows_picture,
+          layout.shows_overview};
 }
 
 }  // namespace
 
-Layout EditorLayout(float width, float height, float scale) {
+Layout EditorLayout(float width, float height, float scale, const ViewLayout& views) {
   const float top = kTopHeight * scale, status = kStatusHeight * scale;
   const float side = std::min(kSideWidth * scale, 0.4f * width);
   const float middle = std::max(1.0f, height - top - status);
-  const float overview = std::floor(kOverviewShare * (width - side));
+  const float beside = width - side;
+  if (views.shown != ViewLayout::Shown::kBoth) {
+    const Area all = {side, top, beside, middle};
+    Layout layout{
+        {0, 0, width, top}, {0, top, side, middle}, all, all, {0, height - status, width, status}};
+    layout.shows_picture = views.shown == ViewLayout::Shown::kScope;
+    layout.shows_overview = !layout.shows_picture;
+    return AtLeastAPixel(layout);
+  }
+  const float overview = std::floor(static_cast<float>(views.overview_share) * beside);
   const float gap = std::max(1.0f, std::floor(scale));  // between the pictures
+  const float picture = beside - overview - gap;
+  const float left = views.is_swapped ? overview + gap : 0,
+              right = views.is_swapped ? 0 : picture + gap;
   return AtLeastAPixel(Layout{{0, 0, width, top},
                               {0, top, side, middle},
-                              {side, top, width - side - overview - gap, middle},
-                              {width - overview, top, overview, middle},
+                              {side + left, top, picture, middle},
+                              {side + right, top, overview, middle},
                               {0, height - status, width, status}});
 }
 
@@ -65,6 +78,8 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
   CommandButton(ui, state, "undo");
   ImGui::SameLine();
   CommandButton(ui, state, "redo");
+  ImGui::SameLine();
+  CommandButton(ui, state, "history");
   ImGui::SameLine(0, ui.Px(22));
   CommandButton(ui, state, "practise");
   ImGui::SameLine(0, ui.Px(22));

@@ -1,4 +1,6 @@
 // The looks of the file browser (app/platform/file_browser_model.h).
+#include <utility>
+
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -102,7 +104,8 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
 
   const float filter = model.filters().size() > 1 ? ui.Px(150) : 0;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - filter - (filter > 0 ? ui.Px(8) : 0));
-  ImGui::InputTextWithHint("##name", "Name", &model.file_name);
+  if (!std::exchange(dialog.is_shown, true)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputTextWithHint("##name", "Name", &model.file_name, ImGuiInputTextFlags_AutoSelectAll);
   RecordItem(ui, "File name", true, model.file_name, WidgetKind::kText);
   if (ImGui::IsItemDeactivated() && enter) accept = true;
   if (filter > 0) {

@@ -45,7 +45,9 @@ void Draw(Ui& ui, EditorState& state, GuardDialog& dialog) {
                        dialog.action));
   Gap(ui);
   const ImVec2 size = {ui.Px(120), 0};
-  const bool save = Button(ui, "Save first", state.document().panorama != nullptr, size);
+  const bool can_be_saved = state.document().panorama != nullptr;
+  if (!can_be_saved) QuietText(ui, "It cannot be saved yet: it has no panorama.");
+  const bool save = Button(ui, "Save first", can_be_saved, size);
   ImGui::SameLine();
   const bool discard = Button(ui, "Discard", true, size);
   ImGui::SameLine();
@@ -120,15 +122,26 @@ void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {
   if (quit) state.quit = true;
 }
 
+std::string WordsForEdits(int edits) {
+  if (edits == 0) return "unsaved changes";
+  return edits == 1 ? "1 unsaved edit" : fmt::format("{} unsaved edits", edits);
+}
+
 void Draw(Ui& ui, EditorState& state, RecoveryDialog& dialog) {
   Heading(ui, "Unsaved work was found");
   Gap(ui, 2);
-  Text(ui, fmt::format("\"{}\" had unsaved changes when the program ended. The copy is of {}.",
-                       dialog.title, dialog.when));
+  if (dialog.problem.empty())
+    Text(ui, fmt::format("\"{}\" had {} when the program ended. The copy is of {}.", dialog.title,
+                         WordsForEdits(dialog.edits), dialog.when));
+  else
+    Text(ui, dialog.problem);
+  if (!dialog.last_edit.empty()) QuietText(ui, "Last edit: " + dialog.last_edit);
   if (!dialog.folder.empty()) QuietText(ui, "Scene: " + dialog.folder.string());
   Gap(ui);
   const ImVec2 size = {ui.Px(120), 0};
-  const bool restore = Button(ui, "Restore it", true, size) || EnterPressed();
+  const bool can_be_restored = dialog.problem.empty();
+  const bool restore =
+      Button(ui, "Restore it", can_be_restored, size) || (can_be_restored && EnterPressed());
   ImGui::SameLine();
   const bool later =
       Button(ui, "Later", true, size, "Asks again at the next start.") || EscapePressed();
@@ -146,6 +159,23 @@ void Draw(Ui& ui, EditorState& state, HelpDialog&) {
     Take<HelpDialog>(state);
 }
 
+void Draw(Ui& ui, EditorState& state, OpenElsewhereDialog& dialog) {
+  Heading(ui, "This scene is open in another window");
+  Gap(ui, 2);
+  Text(ui, fmt::format("{} is edited by {}. A save there and a save here replace each other.",
+                       dialog.place.string(), dialog.who));
+  Gap(ui);
+  const ImVec2 size = {ui.Px(130), 0};
+  const bool copy = Button(ui, "Edit a copy", true, size, "Saving asks where.") || EnterPressed();
+  ImGui::SameLine();
+  const bool anyway = Button(ui, "Edit it anyway", true, {ui.Px(150), 0}) || EscapePressed();
+  if (!copy && !anyway) return;
+  Take<OpenElsewhereDialog>(state);
+  if (copy) EditCopy(state);
+}
+
+void Draw(Ui& ui, EditorState& state, HistoryDialog& dialog) { HistoryWindow(ui, state, dialog); }
+
 void Draw(Ui& ui, EditorState& state, BrowseDialog& dialog) { BrowseWindow(ui, state, dialog); }
 
 // Width at scale 1; a height of 0 fits the content.
@@ -155,6 +185,7 @@ struct WindowSize {
 WindowSize SizeOf(const Dialog& dialog) {
   if (std::holds_alternative<BrowseDialog>(dialog)) return {760, 540};
   if (std::holds_alternative<HelpDialog>(dialog)) return {760, 640};
+  if (std::holds_alternative<HistoryDialog>(dialog)) return {820, 560};
   if (std::holds_alternative<ErrorDialog>(dialog)) return {560, 0};
   return {};
 }

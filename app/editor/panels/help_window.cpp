@@ -1,6 +1,7 @@
 // All keys and mouse actions, made from the lists that they are made from.
-#include <cstring>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -49,9 +50,11 @@ void HelpWindow(Ui& ui, EditorState& state) {
     Row(ui, "Drag", "Turn it");
     Row(ui, "Wheel or right drag", "Nearer, or further");
     Row(ui, "Middle drag", "Shift it");
-    Row(ui, "Drag the box", "Move the chosen tissue");
-    Row(ui, "Shift+drag the box", "Turn the chosen tissue");
-    Row(ui, "Right drag the box", "Make it larger, or smaller");
+    Row(ui, "Drag the handle", "Move the chosen tissue");
+    Row(ui, "Shift+drag the handle", "Turn the chosen tissue");
+    Row(ui, "Right drag the handle", "Make it larger, or smaller");
+    Row(ui, "Drag the border", "Give one view more room");
+    Row(ui, "Esc", "End holding, cutting and naming by clicks");
     ImGui::EndTable();
   }
   Gap(ui);
@@ -83,23 +86,23 @@ void HelpWindow(Ui& ui, EditorState& state) {
   QuietText(ui, "Arrow and page keys move the scope after a click on the picture.");
   Gap(ui);
 
-  // Commands, under the headings of their groups.
-  const char* group = "";
-  bool in_table = false;
-  for (const Command& command : state.commands) {
-    const std::string keys = WordsOf(command.shortcut);
-    if (keys.empty()) continue;
-    if (std::strcmp(group, command.group) != 0) {
-      if (in_table) ImGui::EndTable(), Gap(ui);
-      group = command.group;
-      Heading(ui, group);
-      in_table = BeginRows(ui, group);
-      if (!in_table) return ImGui::EndChild();
+  // Commands, each group once, in the order of its first command.
+  std::vector<std::string> groups;
+  for (const Command& command : state.commands)
+    if (!WordsOf(command.shortcut).empty() &&
+        std::find(groups.begin(), groups.end(), command.group) == groups.end())
+      groups.push_back(command.group);
+  for (const std::string& group : groups) {
+    Heading(ui, group);
+    if (!BeginRows(ui, group.c_str())) return ImGui::EndChild();
+    for (const Command& command : state.commands) {
+      const std::string keys = WordsOf(command.shortcut), other = WordsOf(command.other_shortcut);
+      if (keys.empty() || group != command.group) continue;
+      Row(ui, other.empty() ? keys : fmt::format("{} or {}", keys, other), command.help);
     }
-    const std::string other = WordsOf(command.other_shortcut);
-    Row(ui, other.empty() ? keys : fmt::format("{} or {}", keys, other), command.help);
+    ImGui::EndTable();
+    Gap(ui);
   }
-  if (in_table) ImGui::EndTable(), Gap(ui);
   Heading(ui, "Anywhere");
   if (BeginRows(ui, "anywhere")) {
     Row(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");

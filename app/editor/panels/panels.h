@@ -17,8 +17,9 @@ namespace arthro::app {
 // ---- Where things are, in window coordinates. ----
 struct Layout {
   Area top, side, picture, overview, status;
+  bool shows_picture = true, shows_overview = true;
 };
-Layout EditorLayout(float width, float height, float scale);
+Layout EditorLayout(float width, float height, float scale, const ViewLayout& views = {});
 Layout PracticeLayout(float width, float height, float scale);
 
 // ---- The pages. Each fills its area. ----
@@ -31,6 +32,7 @@ void Dialogs(Ui& ui, EditorState& state);
 // ---- Dialogs with much in them. ----
 void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog
 void HelpWindow(Ui& ui, EditorState& state);
+void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog);  // may end the dialog
 
 // ---- The pictures. `texture` is an OpenGL texture with its first row at the bottom. ----
 struct PictureInput {
@@ -56,7 +58,11 @@ struct OverviewInput {
   bool shift = false, ctrl = false;
   bool clicked = false;  // with the left button, and nothing was dragged
 };
-OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture);
+// `handle`: of the chosen tissue, px from the top left.
+OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsigned texture,
+                              const std::optional<glm::dvec2>& handle);
+// The border between the two views, which can be dragged.
+void ViewSplitter(Ui& ui, EditorState& state, const Layout& layout);
 // The same in a corner of the scope's picture.
 OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture);
 

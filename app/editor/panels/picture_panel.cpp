@@ -2,14 +2,18 @@
 // it.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include <imgui.h>
 
 #include "app/editor/panels/panels.h"
+#include "app/panels/command_button.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/practice/hand_motion.h"
+#include "app/view/overview/overview.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -76,9 +80,31 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
                    RadiansFromDegrees(roll), MetresFromMm(mm)};
 }
 
+// Commands over the upper right corner of a picture, the last one at the edge.
+void CornerButtons(Ui& ui, EditorState& state, const Area& area,
+                   std::initializer_list<const char*> ids) {
+  const float gap = ui.Px(6), edge = ui.Px(8), padding = 2 * ImGui::GetStyle().FramePadding.x;
+  float width = 0;
+  for (const char* id : ids)
+    width += ImGui::CalcTextSize(CommandOf(state, id).words).x + padding + gap;
+  float x = area.x + area.width - width - edge + gap;
+  for (const char* id : ids) {
+    ImGui::SetCursorScreenPos({x, area.y + edge});
+    CommandButton(ui, state, id);
+    x += ImGui::GetItemRectSize().x + gap;
+  }
+}
+
 // The overview's picture and what is done to it, in the window that was begun.
-OverviewInput Overview(Ui& ui, const Area& area, unsigned texture) {
+// `buttons` come before the area that takes the mouse, so that a click on one is theirs alone.
+template <class Buttons>
+OverviewInput OverviewArea(Ui& ui, const Area& area, unsigned texture, bool has_label,
+                           const Buttons& buttons) {
   OverviewInput input;
+  if (texture != 0)
+    OpaqueImage(ImGui::GetWindowDrawList(), texture, {area.x, area.y},
+                {area.x + area.width, area.y + area.height});
+  buttons();
   ImGui::SetCursorScreenPos({area.x, area.y});
   HitArea("Overview", {area.width, area.height},
           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -96,12 +122,27 @@ OverviewInput Overview(Ui& ui, const Area& area, unsigned texture) {
   input.clicked = WasClicked();
   input.shift = io.KeyShift;
   input.ctrl = io.KeyCtrl;
-  if (texture != 0)
-    OpaqueImage(ImGui::GetWindowDrawList(), texture, {area.x, area.y},
-                {area.x + area.width, area.y + area.height});
   ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
-  QuietText(ui, "Overview");
+  if (has_label) QuietText(ui, "Overview");
   return input;
+}
+
+// Place to take hold of the chosen tissue: a disc with four arrows.
+void DrawHandle(Ui& ui, const Area& area, const glm::dvec2& place) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 middle = {area.x + static_cast<float>(place.x),
+                         area.y + static_cast<float>(place.y)};
+  const float radius = ui.Px(Overview::kHandleRadius);
+  draw->AddCircleFilled(middle, radius, 0xA0202020);
+  draw->AddCircle(middle, radius, kAccent, 0, ui.Px(1.5));
+  for (const auto& [x, y] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}}) {
+    const float out = 0.72f * radius, in = 0.38f * radius, half = 0.26f * radius;
+    draw->AddTriangleFilled({middle.x + x * out, middle.y + y * out},
+                            {middle.x + x * in + y * half, middle.y + y * in + x * half},
+                            {middle.x + x * in - y * half, middle.y + y * in - x * half}, kBright);
+  }
+  ui.widgets.Record({"Handle", middle.x - radius, middle.y - radius, middle.x + radius,
+                     middle.y + radius, true, true, "", WidgetKind::kPicture});
 }
 
 }  // namespace
@@ -119,6 +160,17 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
                       std::floor(area.y + std::max(0.5f * (area.height - strip - edge), 0.0f))};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
+  if (texture != 0) {
+    OpaqueImage(draw, texture, low, {low.x + edge, low.y + edge});
+  } else {
+    const char* words = "Drop a panorama, a video or a scene here";
+    ui.widgets.RecordText(words);
+    const ImVec2 size = ImGui::CalcTextSize(words);
+    draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet, words);
+  }
+  if (!practice)
+    CornerButtons(ui, state, area,
+                  {state.views.shown == ViewLayout::Shown::kBoth ? "view-scope" : "view-both"});
   PictureInput input;
   ImGui::SetCursorScreenPos(low);
   HitArea("Picture", {edge, edge},
@@ -132,7 +184,7 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   if (WasClicked()) input.clicked = pointer;
   if (ImGui::IsItemActive() && io.MouseDown[0]) input.held = pointer;
   input.released = ImGui::IsItemDeactivated();
-  // The way to the place of the press is no drag.
+  // The way to where a drag begins is no part of it.
   if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
     const glm::dvec2 drag = {io.MouseDelta.x / edge, io.MouseDelta.y / edge};
     if (io.MouseDown[0]) input.scope_drag = drag;
@@ -141,14 +193,6 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   if (input.hovered) input.wheel = io.MouseWheel;
   input.shift = io.KeyShift;
   input.ctrl = io.KeyCtrl;
-  if (texture != 0) {
-    OpaqueImage(draw, texture, low, {low.x + edge, low.y + edge});
-  } else {
-    const char* words = "Drop a panorama, a video or a scene here";
-    ui.widgets.RecordText(words);
-    const ImVec2 size = ImGui::CalcTextSize(words);
-    draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet, words);
-  }
   if (!practice) {
     PoseStrip(ui, state, {area.x + ui.Px(12), area.y + area.height - strip + ui.Px(2)},
               area.width - ui.Px(24));
@@ -156,14 +200,44 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   return input;
 }
 
-OverviewInput OverviewPicture(Ui& ui, const Area& area, unsigned texture) {
+OverviewInput OverviewPicture(Ui& ui, EditorState& state, const Area& area, unsigned texture,
+                              const std::optional<glm::dvec2>& handle) {
   const FixedWindow window(ui, "overview", area, kPictureWindow);
-  return Overview(ui, area, texture);
+  // The commands come first where there is no room for both.
+  return OverviewArea(ui, area, texture, area.width > ui.Px(300), [&] {
+    if (handle) DrawHandle(ui, area, *handle);
+    if (state.views.shown == ViewLayout::Shown::kBoth)
+      CornerButtons(ui, state, area, {"fit-overview", "swap-views", "view-overview"});
+    else
+      CornerButtons(ui, state, area, {"fit-overview", "view-both"});
+  });
+}
+
+void ViewSplitter(Ui& ui, EditorState& state, const Layout& layout) {
+  if (!layout.shows_picture || !layout.shows_overview) return;
+  const Area& left = layout.picture.x < layout.overview.x ? layout.picture : layout.overview;
+  const float width = ui.Px(9), beside = layout.picture.width + layout.overview.width;
+  const Area area = {left.x + left.width - 0.5f * width, left.y, width, left.height};
+  const FixedWindow window(ui, "splitter", area, kInsetWindow | ImGuiWindowFlags_NoBackground);
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  HitArea("Border of the views", {area.width, area.height});
+  RecordItem(ui, "Border of the views", true, "", WidgetKind::kPicture);
+  const bool is_held = ImGui::IsItemActive();
+  if (is_held || ImGui::IsItemHovered()) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    const float middle = area.x + 0.5f * width;
+    ImGui::GetWindowDrawList()->AddLine({middle, area.y}, {middle, area.y + area.height}, kAccent,
+                                        ui.Px(2));
+  }
+  if (!is_held || ImGui::IsItemActivated() || beside < 1) return;
+  const float from_left = ImGui::GetIO().MousePos.x - left.x;
+  const double share = state.views.is_swapped ? from_left / beside : 1.0 - from_left / beside;
+  state.views.overview_share = std::clamp(share, ViewLayout::kLeastShare, ViewLayout::kMostShare);
 }
 
 OverviewInput InsetOverview(Ui& ui, const Area& area, unsigned texture) {
   const FixedWindow window(ui, "inset overview", area, kInsetWindow);
-  const OverviewInput input = Overview(ui, area, texture);
+  const OverviewInput input = OverviewArea(ui, area, texture, true, [] {});
   ImGui::GetWindowDrawList()->AddRect({area.x, area.y}, {area.x + area.width, area.y + area.height},
                                       kQuiet);
   return input;

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include "app/editor/panels/panels.h"
+#include "app/files/scene_checklist.h"
 #include "app/files/scene_files.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
@@ -63,6 +64,18 @@ void RecentList(Ui& ui, EditorState& state) {
   }
 }
 
+void Checklist(Ui& ui, EditorState& state) {
+  const std::vector<MissingPart> missing = MissingParts(state);
+  if (missing.empty()) return;
+  Heading(ui, "Still missing in this scene");
+  int number = 0;
+  for (const MissingPart& part : missing) {
+    Text(ui, part.sentence);
+    if (Button(ui, "Take me there##" + std::to_string(++number))) GoToMissingPart(state, part);
+  }
+  Gap(ui);
+}
+
 }  // namespace
 
 void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
@@ -75,6 +88,7 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
   Gap(ui, 2);
 
   // Only the controls scroll; the list of steps stays in sight.
+  ImGui::PushID(static_cast<int>(state.step));  // each page keeps its own place
   ImGui::BeginChild("controls", {0, 0}, false, 0);
   switch (state.step) {
     case Step::kPanorama:
@@ -92,9 +106,11 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
       break;
     case Step::kPractice:
       PracticeStepPanel(ui, state);
+      if (!state.steps.practice->shows_devices) Checklist(ui, state);
       break;
   }
   ImGui::EndChild();
+  ImGui::PopID();
 }
 
 }  // namespace arthro::app

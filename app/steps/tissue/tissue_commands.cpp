@@ -26,8 +26,8 @@ void ToggleBrush(State& state) {
     state.steps.tissue->brush = kind;
   state.message = !state.steps.tissue->brush ? "The overview turns and moves again."
                   : kind == BallKind::kHeld
-                      ? "Click on the tissue in the overview to hold it there."
-                      : "Click on the tissue in the overview where its mesh should be finer.";
+                      ? "Click on the tissue in either view to hold it there."
+                      : "Click on the tissue in either view where its mesh should be finer.";
 }
 
 template <int axis, int sign>
@@ -167,7 +167,7 @@ constexpr Command kCommands[] = {
      TetrahedraliseTissue},
     {"hold-brush",
      "Hold it here…",
-     "Click on the tissue in the overview. It is held there, in a ball of the radius above.",
+     "Click on the tissue in either view. It is held there, in a ball of the radius above.",
      "Edit",
      {},
      {},
@@ -202,7 +202,7 @@ constexpr Command kCommands[] = {
      [](State& state) { RemoveAllBalls(state, BallKind::kHeld); }},
     {"probe-brush",
      "Finer here…",
-     "Click on the tissue in the overview. The next tetrahedra are finer there, in a ball of the "
+     "Click on the tissue in either view. The next tetrahedra are finer there, in a ball of the "
      "radius above.",
      "Edit",
      {},
@@ -238,7 +238,7 @@ constexpr Command kCommands[] = {
      [](State& state) { RemoveAllBalls(state, BallKind::kProbed); }},
     {"cut-tear",
      "Tear…",
-     "Click points along the tear on the tissue in the overview. Press again to end it.",
+     "Click points along the tear on the tissue in either view. Press again to end it.",
      "Edit",
      {},
      {},
@@ -246,7 +246,7 @@ constexpr Command kCommands[] = {
      [](State& state) { ToggleCutBrush(state, CutBrush::Kind::kTear); }},
     {"cut-bite",
      "Bite…",
-     "Click on the tissue in the overview. A round bite is removed there.",
+     "Click on the tissue in either view. A round bite is removed there.",
      "Edit",
      {},
      {},
@@ -273,7 +273,7 @@ constexpr Command kCommands[] = {
      RemoveAllCuts},
     {"cut-region",
      "Region…",
-     "Click on the tissue in the overview. The volume that a trainee removes in a ball around it "
+     "Click on the tissue in either view. The volume that a trainee removes in a ball around it "
      "is reported by name.",
      "Edit",
      {},

@@ -116,6 +116,16 @@ void ChangeCut(EditorState& state, const std::string& what, double CutKind::*fie
 
 }  // namespace
 
+void LeaveBrush(EditorState& state) {
+  CutBrush& brush = state.steps.tissue->cut_brush;
+  if (!state.steps.tissue->brush && brush.kind == CutBrush::Kind::kNone) return;
+  state.steps.tissue->brush.reset();
+  brush.kind = CutBrush::Kind::kNone;
+  brush.start.reset();
+  brush.goes_on = false;
+  state.message = "The overview turns and moves again.";
+}
+
 void ToggleCutBrush(EditorState& state, CutBrush::Kind kind) {
   CutBrush& brush = state.steps.tissue->cut_brush;
   brush.kind = brush.kind == kind ? CutBrush::Kind::kNone : kind;
@@ -126,13 +136,13 @@ void ToggleCutBrush(EditorState& state, CutBrush::Kind kind) {
       state.message = "The overview turns and moves again.";
       break;
     case CutBrush::Kind::kTear:
-      state.message = "Click along the tear on the tissue in the overview; two points or more.";
+      state.message = "Click along the tear on the tissue in either view; two points or more.";
       break;
     case CutBrush::Kind::kBite:
-      state.message = "Click on the tissue in the overview to take a round bite there.";
+      state.message = "Click on the tissue in either view to take a round bite there.";
       break;
     case CutBrush::Kind::kRegion:
-      state.message = "Click in the middle of the region on the tissue in the overview.";
+      state.message = "Click in the middle of the region on the tissue in either view.";
       break;
   }
 }

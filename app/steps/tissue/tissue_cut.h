@@ -10,6 +10,8 @@
 
 namespace arthro::app {
 
+// Puts away whichever brush is up; a tear that was begun is forgotten.
+void LeaveBrush(EditorState& state);
 // Takes it up, or, where it is up, puts it away. A tear begins anew.
 void ToggleCutBrush(EditorState& state, CutBrush::Kind kind);
 // Applies the active brush to a click on a tissue: a point of a tear (from its second on

@@ -214,7 +214,7 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   }
   PoseFields(ui, state, tissue);
   StepFields(ui, state);
-  QuietText(ui, "Or drag the box around it in the overview.");
+  QuietText(ui, "Or drag its handle in the overview.");
   Gap(ui);
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
   CommandButton(ui, state, "duplicate-tissue", {half, 0});

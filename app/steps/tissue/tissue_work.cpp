@@ -83,7 +83,7 @@ void TetrahedraliseTissue(EditorState& state) {
   wish.fixed = tissue.fixed;
   wish.probed = tissue.probed;
   // Kept beside the window until the scene is saved; saving copies it into the scene's folder.
-  const fs::path file = state.scratch.path() / (FileNameFrom(tissue.name, "tissue") + ".vtu");
+  const fs::path file = state.scratch.NewFile(FileNameFrom(tissue.name, "tissue") + ".vtu");
   state.jobs.Start("Make tetrahedra of " + tissue.name, [=](const Progress& progress) {
     authoring::SurfaceSource source;
     source.file = tissue.name;

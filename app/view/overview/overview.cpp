@@ -258,6 +258,13 @@ void Overview::Handle(const PointerEvent& event) {
     return;
   }
   const bool press = event.kind == Kind::kPress;
+  // Only a drag that begins on the handle is the box's; every other one is the view's.
+  if (press) {
+    const auto handle = HandlePlace();
+    const bool is_on_handle =
+        handle && glm::distance(*handle, {event.x, event.y}) <= kHandleRadius * handle_scale;
+    p.box->SetProcessEvents(is_on_handle ? 1 : 0);
+  }
   p.dragging = press;
   if (event.button == Button::kLeft)
     p.interactor->InvokeEvent(press ? vtkCommand::LeftButtonPressEvent

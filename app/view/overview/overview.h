@@ -53,9 +53,14 @@ class Overview {
   void SetIncisionSpacing(double spacing);
   void SetTools(const OverviewTools& tools);
 
-  // Puts the box around a tissue; -1 removes it. A left drag moves it across the picture, with
-  // Shift or Control turns it; a right drag scales it.
+  // Puts the box around a tissue; -1 removes it. A left drag that begins on its handle, in the
+  // middle of the box, moves it across the picture, with Shift or Control turns it; a right drag
+  // from there scales it.
   void ChooseTissue(int index);
+  // The handle, px from the picture's top left; nothing where none is chosen or it is out of sight.
+  std::optional<glm::dvec2> HandlePlace() const;
+  static constexpr double kHandleRadius = 14.0;  // px at scale 1
+  double handle_scale = 1.0;                     // pixels of the picture per pixel at scale 1
   // Balls of one tissue, in its own frame, the chosen one highlighted; -1: none are shown.
   void ShowBalls(int tissue, std::span<const Ball> balls, int chosen);
   // Place on a tissue's surface under a pixel, in the tissue's own frame.
@@ -72,11 +77,13 @@ class Overview {
   Line LineThrough(double x, double y) const;
   // Pixel of a place; nothing for one behind the camera.
   std::optional<glm::dvec2> PixelOf(const glm::dvec3& x_in_portal) const;
+  // The first one along a line in the portal frame, from a point to `way` beyond it.
+  std::optional<TissuePlace> PickAlong(const glm::dvec3& from, const glm::dvec3& way) const;
   // Called while the box is dragged, with the pose that it asks for; `finished` with the last one.
   std::function<void(int tissue, const Pose& pose, bool finished)> on_pose;
 
-  // Pointer events over the picture, and those of a drag that began there. Beside the box: a left
-  // drag turns the view, a middle drag shifts it, wheel and right drag zoom.
+  // Pointer events over the picture, and those of a drag that began there. Beside the handle: a
+  // left drag turns the view, a middle drag shifts it, wheel and right drag zoom.
   void Handle(const PointerEvent& event);
   void ResetCamera();
 

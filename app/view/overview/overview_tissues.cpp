@@ -204,18 +204,39 @@ std::optional<glm::dvec2> Overview::PixelOf(const glm::dvec3& x_in_portal) const
   return glm::dvec2(display[0], p.height - 1 - display[1]);
 }
 
+std::optional<glm::dvec2> Overview::HandlePlace() const {
+  const Parts& p = *parts_;
+  if (p.chosen < 0 || p.height < 1) return std::nullopt;
+  const Parts::Model& model = p.tissues[std::size_t(p.chosen)];
+  if (model.surface.triangles.empty()) return std::nullopt;
+  double middle[3];
+  model.data->GetCenter(middle);
+  const auto place = PixelOf(
+      model.pose.position +
+      model.pose.scale * (model.pose.quaternion * glm::dvec3(middle[0], middle[1], middle[2])));
+  if (!place) return std::nullopt;
+  const bool is_seen = place->x >= 0 && place->y >= 0 && place->x < p.width && place->y < p.height;
+  return is_seen ? place : std::nullopt;
+}
+
 std::optional<Overview::TissuePlace> Overview::PickTissue(double x, double y) const {
   const Parts& p = *parts_;
-  const glm::dvec3 ends[2] = {WorldAt(*p.renderer, x, p.height - 1 - y, 0),
-                              WorldAt(*p.renderer, x, p.height - 1 - y, 1)};
+  const glm::dvec3 near = WorldAt(*p.renderer, x, p.height - 1 - y, 0),
+                   far = WorldAt(*p.renderer, x, p.height - 1 - y, 1);
+  return PickAlong(near, far - near);
+}
+
+std::optional<Overview::TissuePlace> Overview::PickAlong(const glm::dvec3& start,
+                                                         const glm::dvec3& line) const {
+  const Parts& p = *parts_;
   std::optional<TissuePlace> place;
-  double nearest = 1.0;  // share of the way between the ends
+  double nearest = 1.0;  // share of the line
   for (std::size_t i = 0; i < p.tissues.size(); ++i) {
     const Pose& pose = p.tissues[i].pose;
     const auto own = [&](const glm::dvec3& world) {
       return (glm::conjugate(pose.quaternion) * (world - pose.position)) / pose.scale;
     };
-    const glm::dvec3 from = own(ends[0]), way = own(ends[1]) - from;
+    const glm::dvec3 from = own(start), way = own(start + line) - from;
     if (const auto share = FirstHit(p.tissues[i].surface, from, way); share && *share < nearest) {
       nearest = *share;
       place = TissuePlace{static_cast<int>(i), from + *share * way};

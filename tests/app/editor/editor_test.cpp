@@ -580,16 +580,112 @@ expect not "instruments cause harm above 8.5 N"
 )");
 }
 
-TEST_F(EditorWindow, TheBoxInTheOverviewMovesTheTissueInOneStep) {
+TEST_F(EditorWindow, ADragInTheOverviewTurnsItUnlessItBeginsOnTheHandle) {
   Drive(R"(
 click Tissue
 wait frames 3
-drag Overview 30 0
+wheel Overview 12
+wait frames 3
+drag Overview 60 10
+wait frames 3
+expect not "Place octahedron"
+expect disabled Undo
+click Fit
+wait frames 3
+drag Handle 30 0
 wait frames 3
 expect "Place octahedron"
 click Undo
 expect disabled Undo
 expect value "Position (right, down, in), in" "30.0 mm"
+)");
+}
+
+TEST_F(EditorWindow, AClickInTheScopesPictureHoldsTheTissueAndAMissIsToldAndEscLeaves) {
+  Drive(R"(
+click Portals
+click "0°"
+click Tissue
+set "Position (right, down, in), down" 0
+set "Position (right, down, in), in" 26
+click Hold
+click "Hold it here…"
+wait frames 3
+click Picture 0 -190
+wait frames 3
+expect "1 ball hold"
+click Picture
+wait frames 3
+expect "There is no tissue at that place"
+expect "1 ball hold"
+key escape
+wait frames 3
+expect "The overview turns and moves again."
+click Picture 0 -190
+wait frames 3
+expect "1 ball hold"
+)");
+}
+
+TEST_F(EditorWindow, ViewsHaveASizeOfTheirOwnChangeSidesAndStandAlone) {
+  Drive(R"(
+drag "Border of the views" -150 0
+wait frames 5
+shot )" +
+        (temp / "wide.png").string() +
+        R"(
+click Swap
+wait frames 5
+click "Overview alone"
+wait frames 5
+expect not "Insertion"
+key ctrl+3
+wait frames 5
+expect "Insertion"
+key ctrl+1
+wait frames 5
+expect not "Overview alone"
+click "Both views"
+wait frames 5
+expect "Overview alone"
+)");
+}
+
+TEST_F(EditorWindow, TheNameOfASceneIsTypedAtOnceAndEnterSaves) {
+  Drive(R"(
+key ctrl+shift+s
+wait frames 5
+type )" +
+        (temp / "typed").string() +
+        R"(
+key enter
+wait job
+expect "Saved in"
+)");
+  EXPECT_TRUE(std::filesystem::exists(temp / "typed/scene.json"));
+}
+
+TEST_F(EditorWindow, TheHistoryGoesBackByAClick) {
+  Drive(R"(
+click Portals
+set "Incision spacing" -25
+set "Length of the scope" 210
+key ctrl+h
+wait frames 3
+expect "1  Change the incision spacing"
+click "0  Open"
+wait frames 3
+click Close
+wait frames 3
+expect value "Incision spacing" "30.0 mm"
+expect disabled Undo
+key ctrl+h
+wait frames 3
+click "Snapshot's name"
+type "Before the tear"
+click "Keep snapshot"
+wait job
+expect "Kept the snapshot"
 )");
 }
 

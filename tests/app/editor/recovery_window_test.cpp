@@ -55,7 +55,7 @@ class EditorEnd : public testing::Test {
   fs::path Copy() const {
     std::error_code ignored;
     for (const auto& session : fs::directory_iterator(copies, ignored))
-      if (fs::exists(session.path() / "scene.arthro")) return session.path() / "scene.arthro";
+      if (const fs::path copy = session.path() / "scene/scene.json"; fs::exists(copy)) return copy;
     return {};
   }
   std::string Log() const { return TextOf(temp / "log"); }
@@ -81,13 +81,15 @@ TEST_F(EditorEnd, UnsavedWorkOfAKilledEditorIsOfferedAndRestored) {
     editor->Wait(20);
   }
   const fs::path copy = Copy();
-  EXPECT_EQ(fs::status(copy).permissions() & fs::perms(0777), fs::perms(0600));
-  EXPECT_EQ(fs::status(copy.parent_path()).permissions() & fs::perms(0777), fs::perms(0700));
+  const fs::path session = copy.parent_path().parent_path();
+  EXPECT_EQ(fs::status(session).permissions() & fs::perms(0777), fs::perms(0700));
   EXPECT_DOUBLE_EQ(LoadScene(scene).scene.portals.incision_spacing, 0.03) << "not saved";
 
   const auto next = Edit(R"(
 expect "Unsaved work was found"
 expect "Small knee"
+expect "1 unsaved edit"
+expect "Change the incision spacing"
 click "Later"
 quit
 )");

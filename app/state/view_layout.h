@@ -1,0 +1,24 @@
+// The editor's two views beside the controls, as their user has set them: which are shown, on which
+// side, how wide. Kept between runs in the user's configuration folder; a file that cannot be read
+// gives the defaults.
+#pragma once
+
+#include <filesystem>
+
+namespace arthro::app {
+
+struct ViewLayout {
+  static constexpr double kLeastShare = 0.15, kMostShare = 0.85;
+  enum class Shown { kBoth, kScope, kOverview };
+
+  Shown shown = Shown::kBoth;
+  double overview_share = 0.38;  // share of the width beside the controls
+  bool is_swapped = false;       // the overview stands on the left
+  friend bool operator==(const ViewLayout&, const ViewLayout&) = default;
+};
+
+ViewLayout ReadViewLayout(const std::filesystem::path& file);
+// Not being able to write is not worth a word.
+void WriteViewLayout(const std::filesystem::path& file, const ViewLayout& layout);
+
+}  // namespace arthro::app

@@ -1,0 +1,340 @@
+// Long sessions of random commands: undo, redo and undo again give the same scenes, byte by byte.
+#include <chrono>
+#include <fstream>
+#include <random>
+#include <set>
+#include <thread>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "app/editor/every_step.h"
+#include "app/files/earlier_versions.h"
+#include "app/files/scene_checklist.h"
+#include "app/files/scene_files.h"
+#include "app/platform/resource_folder.h"
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
+#include "app/steps/portals/portals_step.h"
+#include "app/steps/tissue/tissue_balls.h"
+#include "app/steps/tissue/tissue_cut.h"
+#include "app/steps/tissue/tissue_step.h"
+#include "authoring/project/document_io.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/fingerprint.h"
+#include "simulation/scene/scene_files.h"
+#include "simulation/scene/scene_json.h"
+#include "tests/support/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Part>
+std::string MarkOf(const std::vector<Part>& part) {
+  return FingerprintOf({reinterpret_cast<const char*>(part.data()), part.size() * sizeof(Part)});
+}
+
+// Everything that a save of the document would write.
+std::string BytesOf(const authoring::Document& document) {
+  std::string text = PrettyJson(JsonFromScene(document.scene));
+  authoring::DepthOptions options = document.depth_options;
+  options.Visit([&](const char* name, auto& field, const auto&, const char*, const char*) {
+    text += name + std::string(" ") + std::to_string(static_cast<double>(field)) + "\n";
+  });
+  text += document.panorama ? MarkOf(document.panorama->rgb) : "no panorama";
+  text += document.depth ? MarkOf(document.depth->relief) : "no depth";
+  for (const auto& surface : document.surfaces)
+    text += MarkOf(surface->vertices) + MarkOf(surface->triangles);
+  for (const Tissue& tissue : document.scene.tissues)
+    if (!tissue.mesh.empty()) text += FingerprintOf(ReadWholeFile(FileOf(document, tissue.mesh)));
+  if (document.lens) text += std::to_string(document.lens->focal_px);
+  return text + (document.is_depth_imported ? " imported" : " made") + document.folder.string();
+}
+
+class UndoSession : public testing::Test {
+ protected:
+  UndoSession() {
+    test::WriteSmallScene(temp / "knee");
+    StartDocument(state, authoring::OpenDocument(temp / "knee"), true, NoteOnDisk(temp / "knee"));
+    state.steps.tissue->preset_folder = fs::path(ARTHRO_SOURCE_DIR) / "resources/presets/tissues";
+    LoadTissuePresets(state);
+    state.steps.tissue->mesh_size = authoring::MeshSize::kCoarse;
+    for (const Command& command : AllCommands()) {
+      // Without those that ask for a file, leave the scene or begin a practice.
+      const std::string group = command.group, id = command.id;
+      if (group == "Edit" || group == "Depth" || group == "Steps" || group == "Portals" ||
+          id == "make-depth")
+        if (id != "undo" && id != "redo" && id != "history" && !id.starts_with("import"))
+          commands.push_back(&command);
+    }
+  }
+  void Settle() {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
+    do {
+      FinishWork(state);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
+    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() || DepthIsUnderWay(state));
+  }
+  std::string ErrorOnTop() const {
+    const auto* error =
+        state.dialogs.empty() ? nullptr : std::get_if<ErrorDialog>(&state.dialogs.back());
+    return error ? error->sentence : "";
+  }
+  int Pick(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); }
+  double Share() { return std::uniform_real_distribution<double>(0, 1)(random); }
+  int TissueCount() const { return static_cast<int>(state.document().scene.tissues.size()); }
+
+  void EditByMouse() {
+    state.tissue = TissueCount() > 0 ? Pick(TissueCount()) : -1;
+    const glm::dvec3 place(0.006 * Share(), 0.006 * Share(), 0.006 * Share());
+    switch (Pick(14)) {
+      case 0:
+        return SetTitle(state, "title " + std::to_string(Pick(1000)));
+      case 1:
+        for (int i = 0; i < 5; ++i) SetIncisionSpacing(state, 0.01 + 0.03 * Share());
+        return EndDrag(state);
+      case 2:
+        return SetFieldOfView(state, 0.8 + Share());
+      case 3:
+        return SetRelight(state, Share());
+      case 4:
+        return SetRodLength(state, 0.15 + 0.1 * Share());
+      case 5:
+        return SetViewAngle(state, Pick(2) == 0 ? 0.5 : 1.2);
+      case 6: {
+        if (state.tissue < 0) return;
+        Tissue moved = state.document().scene.tissues[static_cast<std::size_t>(state.tissue)];
+        for (int i = 0; i < 4; ++i) {
+          moved.pose.position.x += 1e-3 * Share();
+          SetTissue(state, state.tissue, moved, "Place");
+        }
+        return EndDrag(state);
+      }
+      case 7:
+        if (TissueCount() < 4) DuplicateTissue(state, state.tissue);
+        return;
+      case 8:
+        if (TissueCount() > 1) RemoveTissue(state, state.tissue);
+        return;
+      case 9:
+        if (state.tissue >= 0) AddBall(state, BallKind::kHeld, state.tissue, place);
+        return;
+      case 10:
+        if (state.tissue >= 0) AddBall(state, BallKind::kProbed, state.tissue, place);
+        return;
+      case 11:
+        state.steps.tissue->cut_brush.kind =
+            Pick(2) == 0 ? CutBrush::Kind::kBite : CutBrush::Kind::kRegion;
+        if (state.tissue >= 0) UseCutBrush(state, state.tissue, place);
+        return;
+      case 12: {
+        authoring::DepthOptions options = state.document().depth_options;
+        options.gamma = 0.5 + Share();
+        return SetDepthOptions(state, options, "Gamma");
+      }
+      default: {
+        Backdrop backdrop = state.document().scene.backdrop;
+        backdrop.radius = 0.04 + 0.02 * Share();
+        return SetBackdrop(state, backdrop, "the radius");
+      }
+    }
+  }
+
+  void DoSomething() {
+    if (Pick(3) > 0) {
+      EditByMouse();
+    } else {
+      const Command& command = *commands[static_cast<std::size_t>(Pick(int(commands.size())))];
+      const long long before = state.history.StateId();
+      app::Run(state, command);
+      if (state.history.StateId() != before) used.insert(command.id);
+    }
+    state.dialogs.clear();
+    if (state.jobs.busy() || Pick(20) == 0) Settle();
+    if (Pick(10) == 0) app::Run(state, "undo");
+  }
+
+  // Scenes of every step, from the newest back to the oldest, or the other way.
+  std::vector<std::string> Walk(const char* command) {
+    std::vector<std::string> scenes = {BytesOf(state.document())};
+    while (CommandOf(state, command).enabled(state)) {
+      app::Run(state, command);
+      scenes.push_back(BytesOf(state.document()));
+    }
+    return scenes;
+  }
+
+  test::TempFolder temp;
+  std::mt19937 random{7};
+  EditorState state = MakeEditorState(NewDocument());
+  std::vector<const Command*> commands;
+  std::set<std::string> used;
+};
+
+TEST_F(UndoSession, AThousandRandomCommandsAreUndoneRedoneAndUndoneToTheSameBytes) {
+  for (int i = 0; i < 1000; ++i) DoSomething();
+  Settle();
+  Walk("redo");
+  const std::vector<std::string> undone = Walk("undo");
+  EXPECT_GT(undone.size(), 300u) << "most commands are steps";
+  EXPECT_GE(used.size(), 6u) << "commands that are edits";
+  std::vector<std::string> redone = Walk("redo");
+  std::reverse(redone.begin(), redone.end());
+  EXPECT_TRUE(redone == undone);
+  EXPECT_TRUE(Walk("undo") == undone);
+  RecordProperty("steps", static_cast<int>(undone.size()));
+  EXPECT_GT(std::set<std::string>(undone.begin(), undone.end()).size(), 250u);
+}
+
+// Tetrahedra that are made again do not take the place of those that undo brings back.
+TEST_F(UndoSession, AProductThatIsMadeAgainGetsAFileOfItsOwn) {
+  const fs::path first = state.scratch.NewFile("meniscus.vtu");
+  std::ofstream(first) << "coarse";
+  const fs::path second = state.scratch.NewFile("meniscus.vtu");
+  EXPECT_NE(first, second);
+  EXPECT_EQ(first.extension(), second.extension());
+}
+
+TEST_F(UndoSession, AnEarlierSaveComesBackAsAnEditThatIsUndone) {
+  for (const double spacing : {0.011, 0.012, 0.013}) {
+    SetIncisionSpacing(state, spacing);
+    EndDrag(state);
+    app::Run(state, "save");
+    Settle();
+  }
+  app::Run(state, "history");
+  ASSERT_EQ(state.dialogs.size(), 1u) << ErrorOnTop();
+  const auto versions = std::get<HistoryDialog>(state.dialogs.back()).versions;
+  state.dialogs.clear();
+  ASSERT_EQ(versions.size(), 3u);
+  ReturnToVersion(state, versions[1]);
+  Settle();
+  EXPECT_EQ(state.document().scene.portals.incision_spacing, 0.011);
+  EXPECT_EQ(state.document().folder, temp / "knee");
+  app::Run(state, "save");
+  Settle();
+  EXPECT_TRUE(state.history.IsSaved());
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().scene.portals.incision_spacing, 0.013);
+}
+
+TEST_F(UndoSession, ASnapshotIsSavedByNameAndANameIsTakenOnce) {
+  SetIncisionSpacing(state, 0.011);
+  EndDrag(state);
+  KeepSnapshotOf(state, "Before the tear");
+  Settle();
+  EXPECT_EQ(ErrorOnTop(), "");
+  KeepSnapshotOf(state, "Before the tear");
+  Settle();
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  EXPECT_NE(std::get<ErrorDialog>(state.dialogs.back()).sentence.find("choose another name"),
+            std::string::npos);
+  EXPECT_EQ(authoring::VersionsOf(temp / "knee").front().name, "Before the tear");
+}
+
+// Two windows on one scene, in one process or two.
+TEST_F(UndoSession, ASceneThatAnotherWindowHasIsTold) {
+  EXPECT_TRUE(state.lock.is_held());
+  EditorState second = MakeEditorState(NewDocument());
+  StartDocument(second, authoring::OpenDocument(temp / "knee"), true);
+  ASSERT_EQ(second.dialogs.size(), 1u);
+  const auto dialog = std::get<OpenElsewhereDialog>(second.dialogs.back());
+  EXPECT_NE(dialog.who.find("process " + std::to_string(::getpid())), std::string::npos)
+      << dialog.who;
+  EditCopy(second);
+  EXPECT_TRUE(second.document().folder.empty());
+  EXPECT_TRUE(second.history.IsSaved());
+  // The first window goes on to another scene.
+  StartDocument(state, NewDocument(), true);
+  EXPECT_FALSE(fs::exists(temp / "knee/.scene.lock"));
+  second.dialogs.clear();
+  StartDocument(second, authoring::OpenDocument(temp / "knee"), true);
+  EXPECT_TRUE(second.dialogs.empty());
+  EXPECT_TRUE(second.lock.is_held());
+}
+
+TEST_F(UndoSession, AFolderThatCannotBeWrittenIsOpenedWithoutAMark) {
+  if (::geteuid() == 0) GTEST_SKIP() << "SKIPPED: the administrator writes anywhere";
+  StartDocument(state, NewDocument(), true);
+  fs::permissions(temp / "knee", fs::perms::owner_read | fs::perms::owner_exec);
+  StartDocument(state, authoring::OpenDocument(temp / "knee"), true);
+  EXPECT_FALSE(state.lock.is_held());
+  EXPECT_TRUE(state.dialogs.empty());
+  SetIncisionSpacing(state, 0.011);
+  app::Run(state, "save");
+  Settle();
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<ErrorDialog>(state.dialogs.back()));
+  fs::permissions(temp / "knee", fs::perms::owner_all);
+}
+
+TEST_F(UndoSession, RecentScenesNameASceneOnceHoweverItWasOpened) {
+  RecentScenes recent(temp / "recent.json");
+  recent.Add(temp / "knee");
+  recent.Add(temp / "knee/scene.json");
+  recent.Add(temp.path().string() + "/knee/");
+  EXPECT_EQ(recent.Existing(), (std::vector<fs::path>{temp / "knee"}));
+  EXPECT_EQ(RecentScenes(temp / "recent.json").Existing(), recent.Existing());
+}
+
+TEST_F(UndoSession, TheLayoutOfTheViewsIsRememberedAndABrokenFileGivesTheDefaults) {
+  const fs::path file = temp / "config/views.json";
+  const ViewLayout layout{ViewLayout::Shown::kOverview, 0.6, true};
+  WriteViewLayout(file, layout);
+  EXPECT_EQ(ReadViewLayout(file), layout);
+  for (const char* text : {"", "{", "{\"overview_share\": \"wide\"}", "[]"}) {
+    std::ofstream(file) << text;
+    EXPECT_EQ(ReadViewLayout(file), ViewLayout()) << text;
+  }
+  std::ofstream(file) << R"({"overview_share": 7, "swapped": false, "shown": "other"})";
+  EXPECT_EQ(ReadViewLayout(file).overview_share, ViewLayout::kMostShare);
+}
+
+TEST_F(UndoSession, WhatASceneLacksIsListedWithThePageThatMendsIt) {
+  const auto sentences = [&] {
+    std::string all;
+    for (const MissingPart& part : MissingParts(state)) all += part.sentence + "\n";
+    return all;
+  };
+  EXPECT_EQ(sentences(),
+            "It names no author.\n\"octahedron\" has no tetrahedra: it does not give way.\n");
+  GoToMissingPart(state, MissingParts(state).back());
+  EXPECT_EQ(state.step, Step::kTissue);
+  EXPECT_EQ(state.tissue, 0);
+  EXPECT_EQ(state.steps.tissue->page, TissuePage::kMesh);
+  SetAuthor(state, "A. Surgeon");
+  ChoosePreset(state, 0, "cartilage");
+  EXPECT_EQ(sentences(), "") << "a thin layer needs no tetrahedra";
+  RemoveTissue(state, 0);
+  EXPECT_EQ(sentences(), "There is no tissue to probe or to cut.\n");
+  EXPECT_EQ(MissingParts(MakeEditorState(NewDocument())).front().sentence,
+            "There is no panorama yet.");
+}
+
+TEST_F(UndoSession, ASceneOfTheProgramIsSavedElsewhere) {
+  StartDocument(state, OpenSceneDocument(fs::path(ARTHRO_SOURCE_DIR) / "resources/demo"), true);
+  state.recent.Add(fs::path(ARTHRO_SOURCE_DIR) / "resources/demo");
+  app::Run(state, "save-as");
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  const fs::path start = std::get<BrowseDialog>(state.dialogs.back()).model.folder();
+  EXPECT_FALSE(IsInResourceFolder(start)) << start;
+}
+
+TEST_F(UndoSession, TheProgramsOwnScenesAreNeverReplaced) {
+  const fs::path demo = fs::path(ARTHRO_SOURCE_DIR) / "resources/demo";
+  authoring::Document document = state.document();
+  document.folder = demo;
+  state.history.Push(document, "Stray");
+  app::Run(state, "save");
+  Settle();
+  ASSERT_EQ(state.dialogs.size(), 1u);
+  EXPECT_NE(std::get<ErrorDialog>(state.dialogs.back()).sentence.find("choose another folder"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace arthro::app
