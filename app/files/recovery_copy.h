@@ -1,5 +1,5 @@
 // Keeps a copy of the open document aside while it has unsaved changes, so that a crash, a kill or
-// a lost display loses at most the last two seconds; offers such copies at the next start. Written
+// a lost display loses the last second or two; offers such copies at the next start. Written
 // beside the window, whole or not at all. The clip of the footage page is no part of the document.
 #pragma once
 
