@@ -11,6 +11,7 @@
 
 #include "authoring/project/free_tissue_name.h"
 #include "simulation/core/file_name.h"
+#include "simulation/scene/hidden_share.h"
 #include "simulation/scene/relief_range.h"
 
 namespace arthro::authoring {
