@@ -12,18 +12,18 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
-#include "authoring/portals/portal_reach.h"
-#include "authoring/portals/reach_picture.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/reach/portal_reach.h"
+#include "simulation/practice/reach/reach_picture.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {
 
-using authoring::ReachShares;
+using simulation::ReachShares;
 
 struct ReachArguments {
   std::filesystem::path scene, output, picture;
@@ -65,19 +65,19 @@ void RunReachJob(const ReachArguments& arguments) {
     loaded.scene.portals.incision_spacing = MetresFromMm(*arguments.spacing_mm);
   const bool is_asked = !arguments.target.empty();
   const int target = is_asked ? TargetOf(loaded, arguments.target) : -1;
-  const authoring::ScopeReach scope = authoring::ScopeReachOf(loaded);
-  const authoring::PortalReach reach =
-      authoring::ReachWith(scope, loaded, loaded.scene.portals.incision_spacing);
+  const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded);
+  const simulation::PortalReach reach =
+      simulation::ReachWith(scope, loaded, loaded.scene.portals.incision_spacing);
   if (!arguments.picture.empty())
     WriteColourImage(arguments.picture,
-                     authoring::DrawReach(OrEmpty(loaded.panorama), scope, reach));
+                     simulation::DrawReach(OrEmpty(loaded.panorama), scope, reach));
   std::string table =
       "target,seen,touched,both,good,median_angle_deg\n" + Row("relief", reach.relief);
   for (std::size_t i = 0; i < reach.tissues.size(); ++i)
     table += Row(loaded.scene.tissues[i].name, reach.tissues[i]);
   WriteAtomically(arguments.output, table);
   if (!is_asked) return;
-  const double spacing = authoring::SuggestedSpacing(scope, loaded, target);
+  const double spacing = simulation::SuggestedSpacing(scope, loaded, target);
   fmt::print(arguments.output == "-" ? stderr : stdout,
              "suggested incision spacing for {}: {:.0f} mm\n", arguments.target,
              MmFromMetres(spacing));

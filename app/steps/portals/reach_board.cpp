@@ -8,21 +8,21 @@
 
 #include "app/state/edits.h"
 #include "app/steps/portals/portals_step.h"
-#include "authoring/portals/reach_picture.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/reach/reach_picture.h"
 
 namespace arthro::app {
 namespace {
 
 Jobs::Work ReachWork(const LoadedScene& loaded, ReachKey key,
-                     std::shared_ptr<const authoring::ScopeReach> scope) {
+                     std::shared_ptr<const simulation::ScopeReach> scope) {
   return [loaded, key = std::move(key), scope = std::move(scope)](const Progress&) -> Jobs::Apply {
     auto made = std::make_shared<MadeReach>();
     made->key = key;
-    made->scope = scope ? scope : Share(authoring::ScopeReachOf(loaded));
-    made->reach = authoring::ReachWith(*made->scope, loaded, key.incision_spacing);
+    made->scope = scope ? scope : Share(simulation::ScopeReachOf(loaded));
+    made->reach = simulation::ReachWith(*made->scope, loaded, key.incision_spacing);
     made->picture =
-        Share(authoring::DrawReach(OrEmpty(loaded.panorama), *made->scope, made->reach));
+        Share(simulation::DrawReach(OrEmpty(loaded.panorama), *made->scope, made->reach));
     return [made](EditorState& state) { state.steps.portals->reach.made = made; };
   };
 }
@@ -85,8 +85,8 @@ void SuggestSpacing(EditorState& state, int tissue) {
   state.jobs.Start("Suggest a spacing",
                    [loaded = static_cast<const LoadedScene&>(state.document()), tissue,
                     target](const Progress&) -> Jobs::Apply {
-                     const authoring::ScopeReach scope = authoring::ScopeReachOf(loaded);
-                     const double spacing = authoring::SuggestedSpacing(scope, loaded, tissue);
+                     const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded);
+                     const double spacing = simulation::SuggestedSpacing(scope, loaded, tissue);
                      return [spacing, target](EditorState& now) {
                        SetIncisionSpacing(now, spacing);
                        EndDrag(now);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/state/editor_state.h"
-#include "authoring/portals/portal_reach.h"
+#include "simulation/practice/reach/portal_reach.h"
 #include "simulation/scene/image.h"
 
 namespace arthro::app {
@@ -29,8 +29,8 @@ ReachKey ReachKeyOf(const authoring::Document& document);
 
 struct MadeReach {
   ReachKey key;
-  std::shared_ptr<const authoring::ScopeReach> scope;
-  authoring::PortalReach reach;
+  std::shared_ptr<const simulation::ScopeReach> scope;
+  simulation::PortalReach reach;
   std::shared_ptr<const ColourImage> picture;  // the panorama in the colours of what is reached
 };
 

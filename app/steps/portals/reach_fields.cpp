@@ -8,13 +8,13 @@
 
 #include "app/panels/widgets.h"
 #include "app/steps/portals/portals_step.h"
-#include "authoring/portals/reach_picture.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/reach/reach_picture.h"
 
 namespace arthro::app {
 namespace {
 
-using authoring::ReachShares;
+using simulation::ReachShares;
 
 // Rods are about 4 mm thick.
 constexpr double kLeastSpacing = 1e-2;  // m
@@ -22,8 +22,8 @@ constexpr double kLeastSpacing = 1e-2;  // m
 std::string Percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
 void Legend(Ui& ui) {
-  for (const authoring::ReachClass reached : authoring::kReachClasses) {
-    const authoring::ReachColour& colour = authoring::ColourOf(reached);
+  for (const simulation::ReachClass reached : simulation::kReachClasses) {
+    const simulation::ReachColour& colour = simulation::ColourOf(reached);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float edge = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddRectFilled(

@@ -83,7 +83,7 @@ TEST_F(HandPlacingTest, AMirrorImageIsOneStepAndLosesItsTetrahedra) {
 TEST_F(HandPlacingTest, ADragLaysTheBaseOntoTheReliefAsOneStep) {
   app::Run(*state, "lay-on-relief");
   ASSERT_TRUE(LaysOnRelief(*state));
-  const Backdrop& backdrop = state->document().scene.backdrop;
+  const Backdrop backdrop = state->document().scene.backdrop;  // edits move the document
   for (const double u : {200.0, 220.0, 240.0})
     LayTissue(*state, authoring::SightOfPanorama(backdrop, {u, 150}));
   EndDrag(*state);

@@ -68,7 +68,7 @@ TEST_F(Desktop, SixFastClicksAreSixClicks) {
   // Undo after six clicks on six different view angles: each click is a step.
   const int exit_code = WithDesktop(scene, R"(
 click 60 156
-for x in 50 200 50 200 50 200; do xdotool mousemove --window $W $x 378; xdotool click 1; sleep 0.02; done
+for x in 50 200 50 200 50 200; do xdotool mousemove --window $W $x 449; xdotool click 1; sleep 0.02; done
 sleep 1
 xdotool key ctrl+z; sleep 0.3
 xdotool key ctrl+z; sleep 0.3

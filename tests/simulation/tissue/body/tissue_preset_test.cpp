@@ -140,7 +140,7 @@ TEST(TissuePreset, UnknownWordIsRefusedWithTheKnownNames) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Code::kBadData);
-    EXPECT_NE(error.sentence().find("cartilage-literature, cartilage-probe, meniscus-literature"),
+    EXPECT_NE(error.sentence().find("cartilage-literature, cartilage-probe, ligament-probe, "),
               std::string::npos)
         << error.sentence();
   }

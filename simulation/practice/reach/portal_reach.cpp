@@ -1,4 +1,4 @@
-#include "authoring/portals/portal_reach.h"
+#include "simulation/practice/reach/portal_reach.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,8 @@
 #include "simulation/scene/projection.h"
 #include "simulation/scene/relief_range.h"
 
-namespace arthro::authoring {
+namespace arthro::simulation {
 namespace {
-
-using simulation::SurfaceBvh;
 
 constexpr int kTurns = 16;        // rod directions on a cone
 constexpr double kPace = 5e-4;    // m between the points of a line that are compared
@@ -48,7 +46,7 @@ struct Obstacles {
 
   bool MeetsTissue(const glm::dvec3& from, const glm::dvec3& to, double radius) const {
     return std::any_of(tissues.begin(), tissues.end(), [&](const SurfaceBvh& tissue) {
-      simulation::SweepHit hit;
+      SweepHit hit;
       return tissue.Sweep(from, to, radius, -1, hit);
     });
   }
@@ -248,4 +246,4 @@ double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded, int 
   return chosen;
 }
 
-}  // namespace arthro::authoring
+}  // namespace arthro::simulation

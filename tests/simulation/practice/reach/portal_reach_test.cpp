@@ -1,4 +1,4 @@
-#include "authoring/portals/portal_reach.h"
+#include "simulation/practice/reach/portal_reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/portals/reach_picture.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/reach/reach_picture.h"
 #include "simulation/scene/projection.h"
 #include "tests/support/shapes.h"
 
-namespace arthro::authoring {
+namespace arthro::simulation {
 namespace {
 
 // 100 x 80 degrees of a sphere of 50 mm.
@@ -203,4 +203,4 @@ TEST(PortalReach, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace arthro::authoring
+}  // namespace arthro::simulation

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdint>
 
-#include "authoring/portals/portal_reach.h"
+#include "simulation/practice/reach/portal_reach.h"
 #include "simulation/scene/image.h"
 
-namespace arthro::authoring {
+namespace arthro::simulation {
 
 // In order from nothing to all.
 enum class ReachClass { kNeither, kSeen, kTouched, kBoth, kGood };
@@ -28,4 +28,4 @@ ReachClass ClassOf(const PlaceReach& place);
 ColourImage DrawReach(const ColourImage& panorama, const ScopeReach& scope,
                       const PortalReach& reach);
 
-}  // namespace arthro::authoring
+}  // namespace arthro::simulation

@@ -1,11 +1,11 @@
-#include "authoring/portals/reach_picture.h"
+#include "simulation/practice/reach/reach_picture.h"
 
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
-namespace arthro::authoring {
+namespace arthro::simulation {
 namespace {
 
 constexpr int kShare = 45;  // percent of the colour in the picture
@@ -95,4 +95,4 @@ ColourImage DrawReach(const ColourImage& panorama, const ScopeReach& scope,
   return drawn;
 }
 
-}  // namespace arthro::authoring
+}  // namespace arthro::simulation

@@ -16,7 +16,7 @@
 
 #include "simulation/scene/loaded_scene.h"
 
-namespace arthro::authoring {
+namespace arthro::simulation {
 
 struct ReachLimits {
   double nearest = 5e-3, farthest = 25e-3;  // from lens to place
@@ -73,4 +73,4 @@ PortalReach ReachWith(const ScopeReach& scope, const LoadedScene& loaded, double
 double SuggestedSpacing(const ScopeReach& scope, const LoadedScene& loaded, int tissue,
                         const ReachLimits& limits = {});
 
-}  // namespace arthro::authoring
+}  // namespace arthro::simulation
