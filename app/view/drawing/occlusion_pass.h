@@ -23,8 +23,8 @@ class OcclusionPass {
   void ReleaseGraphicsResources(vtkOpenGLRenderWindow* window);
 
  private:
-  RenderTarget light_;  // half the size
-  std::optional<ShaderPass> occlusion_, multiply_;
+  RenderTarget light_, mean_;  // half the size; as computed, and without its pattern
+  std::optional<ShaderPass> occlusion_, smooth_, multiply_;
 };
 
 }  // namespace arthro::app

@@ -106,6 +106,48 @@ TEST_F(CameraPassView, OcclusionDarkensTheFootOfAStep) {
   EXPECT_LT(darkest, 0.9);
 }
 
+// A post of 1 mm darkens the ground around it smoothly. Without a change of direction from pixel to
+// pixel each of the eight pairs draws a copy of the post, whose outline is a jump by a pair's loss.
+TEST_F(CameraPassView, OcclusionOfAPostHasNoCopiesOfIt) {
+  constexpr int kSide = 1024, kMiddle = kSide / 2, kRadius = 24;
+  constexpr std::uint8_t kGround = 200;
+  ColourImage panorama = Grey(kSide, kSide, kGround);
+  DepthMap depth(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      if (std::hypot(x - kMiddle, y - kMiddle) < kRadius) {
+        depth.at(x, y) = 1e-3f;
+        std::fill_n(panorama.at(x, y), 3, std::uint8_t{60});
+      }
+  Picture picture = Forward(panorama, kNothing);
+  picture.view = PictureFromPose({0, 0, 0, 0.04}, 0.0, std::numbers::pi / 2).view;
+  view_->SetBackdrop(panorama, depth, PlainBackdrop(kSide, kSide));
+  picture.relief = app::kUsualRelief;
+  picture.features = CameraFeatures::kEdges;
+  constexpr int kLarge = 512, kBeside = 12;  // px; at the foot itself the light falls steeply
+  const ColourImage without = Drawn(picture, kLarge);
+  picture.features = CameraFeatures::kOcclusion;
+  const ColourImage with = Drawn(picture, kLarge);
+  const auto is_ground = [&](int x, int y) {
+    for (int v = y - kBeside; v <= y + kBeside; ++v)
+      for (int u = x - kBeside; u <= x + kBeside; ++u)
+        if (without.at(u, v)[1] < kGround / 2) return false;
+    return true;
+  };
+  const auto share = [&](int x, int y) { return double(with.at(x, y)[1]) / without.at(x, y)[1]; };
+  double darkest = 1, jump = 0;
+  for (int y = kLarge / 4; y < kLarge * 3 / 4; ++y)
+    for (int x = kLarge / 4; x < kLarge * 3 / 4; ++x) {
+      if (!is_ground(x, y) || !is_ground(x + 1, y)) continue;
+      darkest = std::min(darkest, share(x, y));
+      jump = std::max(jump, std::abs(share(x + 1, y) - share(x, y)));
+    }
+  std::printf("darkest ground %.3f of its light, largest jump %.3f\n", darkest, jump);
+  EXPECT_LT(darkest, 0.97);
+  // Half the loss by one of eight pairs (0.55 / 8), and the rounding of two pairs of bytes.
+  EXPECT_LT(jump, 0.5 * 0.55 / 8 + 2.0 / kGround);
+}
+
 // Occlusion reaches 1.4 mm. Where seven standard errors are as high, rises are noise, and shade
 // would draw them as grey dashes.
 TEST_F(CameraPassView, NoiseOfADepthMapIsNotShaded) {
