@@ -69,7 +69,7 @@ fs::path AssetWriter::Write(const fs::path& name,
   for (const fs::path& part : name.parent_path()) MakeFolder(inside /= part);
   int number = 1;
   while (IsTaken(folder_ / Numbered(name, number))) ++number;
-  const fs::path free_name = Numbered(name, number);
+  fs::path free_name = Numbered(name, number);
   PartialFile partial(folder_ / free_name);
   write(partial.beside());
   const std::string mark = FingerprintOf(ReadWholeFile(partial.beside()));

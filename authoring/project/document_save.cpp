@@ -89,7 +89,7 @@ bool HoldsSurface(const fs::path& file, const SurfaceMesh& surface) {
 // other formats, and where metadata say how the pixels are turned.
 std::optional<std::string> CleanCopy(const fs::path& source, const ColourImage& panorama) {
   if (source.empty()) return std::nullopt;
-  const std::optional<std::string> clean = PictureWithoutMetadata(ReadWholeFile(source));
+  std::optional<std::string> clean = PictureWithoutMetadata(ReadWholeFile(source));
   if (!clean) return std::nullopt;
   const TemporaryFolder folder;
   WriteAtomically(folder.path() / "clean", *clean);

@@ -140,6 +140,7 @@ class Estimator {
   // Sum of the squared disagreement about the albedo, about its median: glints are outliers.
   static double Residual(const std::vector<Reading>& readings) {
     std::vector<double> albedo;
+    albedo.reserve(readings.size());
     for (const Reading& reading : readings) albedo.push_back(reading.value - reading.light);
     const double middle = Median(albedo);
     double sum = 0;

@@ -43,7 +43,8 @@ std::vector<PosedFrame> FramesOf(const MeasuredRelief& made) {
         frame.is_posed = true;
         for (int r = 0; r < 3; ++r) {
           for (int c = 0; c < 3; ++c)
-            frame.rotation[static_cast<std::size_t>(3 * r + c)] = pose->world_from_camera(r, c);
+            frame.rotation[3 * static_cast<std::size_t>(r) + static_cast<std::size_t>(c)] =
+                pose->world_from_camera(r, c);
           frame.centre[static_cast<std::size_t>(r)] = pose->centre[r];
         }
         const PoseSigma sigma = sigmas.frames[used].value_or(PoseSigma{});

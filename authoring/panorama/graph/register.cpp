@@ -44,6 +44,7 @@ void CheckFocal(const Lens& lens, const RectifiedView& view, const FrameWindow& 
                 RegisterReport& told) {
   const int frames = static_cast<int>(results.size());
   std::vector<cv::Matx33d> places;
+  places.reserve(results.size());
   for (const FrameResult& result : results) places.push_back(result.panorama_from_rectified);
   for (int piece = 0; piece < told.components; ++piece) {
     std::vector<PairEstimate> own;

@@ -90,8 +90,9 @@ BandSolver::BandSolver(const DirectBand& a, const DirectBand& b) : size_(a.value
   const int width = a.values.cols;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int8_t* at = a.values.ptr<std::int8_t>() + a.points[i];
-    x_[i] = static_cast<float>(a.points[i] % width);
-    y_[i] = static_cast<float>(a.points[i] / width);
+    const int column = a.points[i] % width, row = a.points[i] / width;
+    x_[i] = static_cast<float>(column);
+    y_[i] = static_cast<float>(row);
     value_[i] = static_cast<float>(at[0]) / kBandUnit;
     gx_[i] = static_cast<float>(at[1] - at[-1]) / (2 * kBandUnit);
     gy_[i] = static_cast<float>(at[width] - at[-width]) / (2 * kBandUnit);
@@ -186,8 +187,10 @@ BandSolver::Sums BandSolver::Accumulate(const cv::Matx33d& h, const Patch& patch
     if (with_cells)
       for (int i = 0; i < n; ++i) {
         const std::size_t k = start + static_cast<std::size_t>(i);
-        Cell& cell = cells_[static_cast<std::size_t>(
-            (static_cast<int>(y_[k]) / kCellSide) * across + static_cast<int>(x_[k]) / kCellSide)];
+        const int row = static_cast<int>(y_[k]) / kCellSide,
+                  column = static_cast<int>(x_[k]) / kCellSide;
+        Cell& cell = cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(across) +
+                            static_cast<std::size_t>(column)];
         cell.aa += one[i] * a[i] * a[i];
         cell.ab += one[i] * a[i] * b[i];
         cell.bb += one[i] * b[i] * b[i];
@@ -309,8 +312,8 @@ Evidence DirectSolver::Weigh(const cv::Matx33d& b_from_a, bool with_response) {
   Likeness whole, parts[9];
   for (std::size_t i = 0; i < count; ++i) {
     // Thirds of the overlap in both directions; those of an ellipse hold about as many cells each.
-    const double x = (static_cast<int>(i) % across + 0.5) * kCellSide,
-                 y = (static_cast<int>(i) / across + 0.5) * kCellSide;
+    const int column = static_cast<int>(i) % across, row = static_cast<int>(i) / across;
+    const double x = (column + 0.5) * kCellSide, y = (row + 0.5) * kCellSide;
     const auto third = [](double u) { return u < -0.45 ? 0 : u < 0.45 ? 1 : 2; };
     Likeness& part = parts[3 * third((y - patch.centre.y) / patch.reach_y) +
                            third((x - patch.centre.x) / patch.reach_x)];

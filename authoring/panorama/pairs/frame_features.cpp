@@ -61,7 +61,8 @@ std::vector<int> SpreadOver(const std::vector<cv::KeyPoint>& points, cv::Size si
   for (std::size_t i = 0; i < points.size(); ++i) {
     const int x = std::clamp(static_cast<int>(points[i].pt.x * kCells / width), 0, kCells - 1);
     const int y = std::clamp(static_cast<int>(points[i].pt.y * kCells / height), 0, kCells - 1);
-    cells[static_cast<std::size_t>(y * kCells + x)].push_back(static_cast<int>(i));
+    cells[static_cast<std::size_t>(y) * kCells + static_cast<std::size_t>(x)].push_back(
+        static_cast<int>(i));
   }
   std::vector<int> kept;
   for (std::size_t round = 0; kept.size() < static_cast<std::size_t>(most); ++round) {

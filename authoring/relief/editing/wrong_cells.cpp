@@ -165,8 +165,8 @@ ClosedRelief CloseMarked(const ReliefView& view, const CellMarks& marks) {
   Relax(uncertain, sigmas);
   for (const OpenCell& cell : uncertain) {
     const auto width = static_cast<std::size_t>(view.relief.width);
-    const glm::dvec2 pixel(static_cast<double>(cell.cell % width),
-                           static_cast<double>(cell.cell / width));
+    const std::size_t column = cell.cell % width, row = cell.cell / width;
+    const glm::dvec2 pixel(static_cast<double>(column), static_cast<double>(row));
     const double range = view.radius - static_cast<double>(heights[cell.cell]);
     const double distance = cell.steps * range * CellAngle(view.projection, pixel);
     sigmas[cell.cell] = static_cast<float>(

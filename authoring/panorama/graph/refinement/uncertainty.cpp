@@ -55,6 +55,7 @@ Uncertainty EstimateUncertainty(const std::vector<PairEstimate>& pairs,
   result.pair_checked.assign(pairs.size(), 0.0);
   const Normalisation normalisation = NormalisationOf(pairs);
   std::vector<Eigen::Matrix3d> places;
+  places.reserve(plane_from_frame.size());
   for (const cv::Matx33d& m : plane_from_frame) places.push_back(normalisation.Normalise(m));
 
   // Rows of the frames with any pair.
