@@ -1,7 +1,6 @@
 // Pictures, videos, JSON and names of files that once crashed the program, made it hang or took all
 // memory: each is refused (refusal.h). Volumes, cases and archives: fault_inputs_test.cpp.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,6 +13,7 @@
 #include "simulation/scene/image_io.h"
 #include "tests/hostile/refusal.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/wavy_picture.h"
 
 namespace arthro {
 namespace {
@@ -21,16 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using test::RefusalOf;
 using test::TempFolder;
+using test::WavyPicture;
 using Words = std::vector<std::string>;
-
-ColourImage Picture(int width, int height) {
-  ColourImage image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c)
-        image.at(x, y)[c] = static_cast<std::uint8_t>(128 + 100 * std::sin(0.1 * x + 0.07 * y + c));
-  return image;
-}
 
 std::string Nested(int depth) {
   return std::string(static_cast<std::size_t>(depth), '[') +
@@ -47,7 +39,7 @@ TEST(FileFaults, DeeplyNestedJsonIsRefusedByEveryReader) {
   WriteAtomically(folder / "deep.json", Nested(kDeep));
   WriteAtomically(folder / "keys.json",
                   R"({"schema": "arthroscene.lens/1", "x-a": )" + Nested(kDeep) + "}");
-  WriteColourImage(folder / "p.png", Picture(64, 48));
+  WriteColourImage(folder / "p.png", WavyPicture(64, 48));
   const std::string deep = at("deep.json");
   for (const Words& job :
        {Words{"centres", folder.path().string(), "--view-angle-deg", "30", "--insertion-mm", "5",
@@ -70,7 +62,7 @@ TEST(FileFaults, PicturesTooLargeAreRefusedBeforeTheyAreDecoded) {
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
     return bytes;
   };
-  WriteColourImage(folder / "p.png", Picture(64, 48));
+  WriteColourImage(folder / "p.png", WavyPicture(64, 48));
   std::string bytes = ReadWholeFile(folder / "p.png");
   bytes.replace(16, 8, big(60000) + big(60000));  // behind the signature, IHDR's width and height
   bytes.replace(29, 4, big(0x0fb0e215));          // the checksum of that head
@@ -84,7 +76,7 @@ TEST(FileFaults, DamagedPicturesAreRefusedAndNeverHalfGrey) {
   TempFolder folder;
   for (const char* const ending : {"png", "jpg", "tiff", "bmp", "webp", "ppm"}) {
     const fs::path file = folder / (std::string("a.") + ending);
-    WriteColourImage(file, Picture(160, 120));
+    WriteColourImage(file, WavyPicture(160, 120));
     std::string bytes = ReadWholeFile(file);
     if (std::string(ending) == "bmp" || std::string(ending) == "ppm")
       bytes.resize(bytes.size() / 2);  // no more than a cut can be seen in bare pixels

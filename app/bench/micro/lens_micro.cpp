@@ -10,20 +10,12 @@
 #include "authoring/lens/fit/lens_fit.h"
 #include "authoring/lens/rectifier.h"
 #include "tests/support/board_picture.h"
+#include "tests/support/round_lens.h"
 
 namespace arthro::app {
 namespace {
 
-Lens Truth() {
-  Lens lens;
-  lens.width = 800;
-  lens.height = 640;
-  lens.focal_px = 392;
-  lens.cx = 402.5;
-  lens.cy = 317.5;
-  lens.circle = {402.5, 317.5, 300};
-  return lens;
-}
+Lens Truth() { return test::RoundLens(800, 640, 392, 402.5, 317.5, 300); }
 
 // Six tilted 9 x 7 boards; corners with noise of 0.06 px per coordinate, as detected in rendered
 // pictures.

@@ -1,6 +1,5 @@
 // Bad input gets one clear sentence on stderr and exit 1; nothing is overwritten and nothing
 // crashes.
-#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "simulation/scene/image_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/wavy_picture.h"
 
 namespace arthro {
 namespace {
@@ -17,24 +17,15 @@ namespace {
 using test::ProgramResult;
 using test::RunProgram;
 using test::TempFolder;
+using test::WavyPicture;
 
 namespace fs = std::filesystem;
 
 const char* const kOldBytes = "what was here before";
 
-// A small picture with some structure.
-ColourImage Picture(int width, int height) {
-  ColourImage image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c)
-        image.at(x, y)[c] = static_cast<std::uint8_t>(128 + 100 * std::sin(0.1 * x + 0.07 * y + c));
-  return image;
-}
-
 // A scene that is right in every part, as text and files.
 void MakeScene(const fs::path& folder) {
-  WriteColourImage(folder / "panorama.png", Picture(200, 150));
+  WriteColourImage(folder / "panorama.png", WavyPicture(200, 150));
   WriteDepthMap(folder / "depth.tiff", DepthMap(200, 150, 0.01f));
   WriteAtomically(folder / "scene.json", R"({"schema": "arthroscene.scene/1", "title": "t",
     "backdrop": {"panorama": "panorama.png", "depth": "depth.tiff", "radius": 0.05,
@@ -68,7 +59,7 @@ TEST(BadInput, MissingPicture) {
 
 TEST(BadInput, TruncatedPicture) {
   TempFolder folder;
-  WriteColourImage(folder / "a.png", Picture(200, 150));
+  WriteColourImage(folder / "a.png", WavyPicture(200, 150));
   std::string bytes = ReadWholeFile(folder / "a.png");
   WriteAtomically(folder / "a.png", bytes.substr(0, bytes.size() / 2));
   ExpectRefusal("depth " + (folder / "a.png").string() + " -o " + (folder / "d.tiff").string(),
@@ -207,7 +198,7 @@ TEST(BadInput, RigAndRecordedHands) {
 TEST(BadInput, FullDiskWhileWriting) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "SKIPPED: no /dev/full here";
   TempFolder folder;
-  WriteColourImage(folder / "a.png", Picture(200, 150));
+  WriteColourImage(folder / "a.png", WavyPicture(200, 150));
   const std::string line = ARTHRO_PROGRAM " depth " + (folder / "a.png").string() +
                            " -o - > /dev/full 2> " + (folder / "err").string();
   const int status = std::system(line.c_str());
@@ -218,7 +209,7 @@ TEST(BadInput, FullDiskWhileWriting) {
 // RLIMIT_FSIZE stands in for a disk that fills up half-way through a file.
 TEST(BadInput, DiskThatFillsUpLeavesTheOldFile) {
   TempFolder folder;
-  WriteColourImage(folder / "a.png", Picture(1200, 900));
+  WriteColourImage(folder / "a.png", WavyPicture(1200, 900));
   WriteAtomically(folder / "d.tiff", kOldBytes);
   const std::string line = "(ulimit -f 8; trap '' XFSZ; " ARTHRO_PROGRAM " depth " +
                            (folder / "a.png").string() + " --overwrite -o " +

@@ -12,6 +12,7 @@
 #include "simulation/scene/json/lens_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/authoring/panorama/tiny_clip.h"
+#include "tests/support/round_lens.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"
 
@@ -26,13 +27,7 @@ class ShortWrite : public JobInputs {
     JobInputs::SetUp();
     WriteColourImage(At("g.png"), KneePicture(400, 300));
     TinyClip().WriteAll(At("F"), TinyClip::Arc(3));
-    Lens lens;
-    lens.width = 96;
-    lens.height = 64;
-    lens.focal_px = 60;
-    lens.cx = 47.5;
-    lens.cy = 31.5;
-    lens.circle = {47.5, 31.5, 30};
+    Lens lens = test::RoundLens(96, 64, 60, 47.5, 31.5, 30);
     lens.field_of_view = *FieldOfViewOf(lens);
     WriteLens(At("lens.json"), lens);
     fs::create_directory(At("R"));

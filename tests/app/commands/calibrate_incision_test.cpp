@@ -2,10 +2,8 @@
 // by commands, on simulated and recorded hands, on a rig whose file keeps it.
 #include "app/steps/practice/calibrate_incision.h"
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
-#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -22,6 +20,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json/rig_io.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/fake_hidapi.h"
 #include "tests/support/moved_rig.h"
 #include "tests/support/small_scene.h"
@@ -58,13 +57,7 @@ class CalibrateIncision : public testing::Test {
   }
   // Until all work is done.
   void Settle() {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
-    do {
-      Frame();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() ||
-             state.steps.practice->pivot_jobs.busy());
+    SettleBy(state, [this] { Frame(); });
   }
   void Begin(const char* command = "calibrate-scope") {
     app::Run(state, command);

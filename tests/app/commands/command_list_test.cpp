@@ -22,6 +22,7 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json/scene_json.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -29,16 +30,6 @@ namespace arthro::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Does the work of the window's loop between frames, until nothing is under way.
-void Settle(EditorState& state) {
-  const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
-  do {
-    FinishWork(state);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-  } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() || DepthIsUnderWay(state));
-}
 
 std::string Print(const EditorState& state) {
   return PrettyJson(JsonFromScene(state.document().scene));

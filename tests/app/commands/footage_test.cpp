@@ -25,6 +25,7 @@
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -92,17 +93,7 @@ class Footage : public testing::Test {
     state.steps.panorama->makers->run = MadeUpRun;
   }
 
-  // Does the work of the window's loop between frames, until nothing is under way.
-  void Settle() {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
-    do {
-      FinishWork(state);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() ||
-             state.steps.panorama->frame_jobs.busy());
-    FinishWork(state);
-  }
+  void Settle() { app::Settle(state); }
   void OpenClip() {
     OpenFootage(state, clip);
     Settle();

@@ -1,6 +1,4 @@
 // Reach of scope and instrument on the Portals page, without a window.
-#include <chrono>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 #include "app/state/edits.h"
 #include "app/steps/portals/portals_step.h"
 #include "simulation/core/units.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -23,14 +22,7 @@ class Reach : public testing::Test {
     ASSERT_TRUE(state.dialogs.empty());
     state.step = Step::kPortals;
   }
-  void Settle() {
-    for (int i = 0; i < 600000; ++i) {
-      FinishWork(state);
-      if (!state.jobs.busy() && !board().jobs.busy()) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    FAIL() << "work does not end";
-  }
+  void Settle() { app::Settle(state); }
   ReachBoard& board() { return state.steps.portals->reach; }
 
   test::TempFolder temp;

@@ -18,6 +18,7 @@
 #include "app/steps/panorama/motion_plan.h"
 #include "app/steps/panorama/panorama_run.h"
 #include "simulation/scene/image_io.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
@@ -120,16 +121,7 @@ class ReliefRun : public testing::Test {
       return maker(request, progress, observer);
     };
   }
-  void Settle() {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
-    do {
-      FinishWork(state);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() ||
-             state.steps.panorama->frame_jobs.busy());
-    FinishWork(state);
-  }
+  void Settle() { app::Settle(state); }
   void RunIt() {
     app::Run(state, "run-footage");
     Settle();

@@ -1,10 +1,8 @@
 // Lens and field of view of the scope in the Portals step, without a window.
 #include "app/steps/portals/scope_lens.h"
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +13,7 @@
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/json/lens_io.h"
 #include "simulation/scope/window_lens.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -28,14 +27,7 @@ class ScopeLens : public testing::Test {
     Settle();
     ASSERT_TRUE(state.dialogs.empty());
   }
-  void Settle() {
-    for (int i = 0; i < 600000; ++i) {
-      FinishWork(state);
-      if (!state.jobs.busy()) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    FAIL() << "work does not end";
-  }
+  void Settle() { app::Settle(state); }
   double DrawnField() const {
     return simulation::OpticsOf(state.document().scene.scope, state.document().lens).field_of_view;
   }

@@ -1,9 +1,7 @@
 // Long sessions of random commands: undo, redo and undo again give the same scenes, byte by byte.
-#include <chrono>
 #include <fstream>
 #include <random>
 #include <set>
-#include <thread>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -24,6 +22,7 @@
 #include "simulation/core/fingerprint.h"
 #include "simulation/scene/files/scene_files.h"
 #include "simulation/scene/json/scene_json.h"
+#include "tests/app/commands/settle.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -71,14 +70,7 @@ class UndoSession : public testing::Test {
           commands.push_back(&command);
     }
   }
-  void Settle() {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(10);
-    do {
-      FinishWork(state);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-    } while (state.jobs.busy() || state.steps.depth->preview_jobs.busy() || DepthIsUnderWay(state));
-  }
+  void Settle() { app::Settle(state); }
   std::string ErrorOnTop() const {
     const auto* error =
         state.dialogs.empty() ? nullptr : std::get_if<ErrorDialog>(&state.dialogs.back());

@@ -11,6 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "tests/support/board_picture.h"
+#include "tests/support/round_lens.h"
 
 namespace arthro::authoring {
 namespace {
@@ -18,16 +19,7 @@ namespace {
 const cv::Size kPicture{800, 640};
 constexpr double kRim = 300;
 
-Lens Truth() {
-  Lens lens;
-  lens.width = 800;
-  lens.height = 640;
-  lens.focal_px = 392;
-  lens.cx = 402.5;
-  lens.cy = 317.5;
-  lens.circle = {402.5, 317.5, kRim};
-  return lens;
-}
+Lens Truth() { return test::RoundLens(800, 640, 392, 402.5, 317.5, kRim); }
 
 // Points of a 13 x 11 board through a lens, with noise of `sigma` px.
 std::vector<TargetView> Views(const Lens& lens, int count, double sigma, unsigned seed) {

@@ -9,6 +9,7 @@
 
 #include "simulation/core/error.h"
 #include "tests/support/board_picture.h"
+#include "tests/support/round_lens.h"
 
 namespace arthro::authoring {
 namespace {
@@ -16,16 +17,7 @@ namespace {
 using test::BoardPicture;
 using test::BoardPlace;
 
-Lens Fisheye() {
-  Lens lens;
-  lens.width = 320;
-  lens.height = 256;
-  lens.focal_px = 180;
-  lens.cx = 161;
-  lens.cy = 126.5;
-  lens.circle = {161, 126.5, 120};
-  return lens;
-}
+Lens Fisheye() { return test::RoundLens(320, 256, 180, 161, 126.5, 120); }
 
 test::RayOfPixel RaysOf(const Lens& lens) {
   return [lens](double x, double y, glm::dvec3& ray) {

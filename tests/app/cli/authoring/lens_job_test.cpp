@@ -8,6 +8,7 @@
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 #include "tests/support/knee_picture.h"
+#include "tests/support/round_lens.h"
 #include "tests/support/run_program.h"
 
 namespace arthro {
@@ -23,13 +24,7 @@ class LensJob : public ::testing::Test {
   }
   // A lens for pictures of 96 x 64.
   void WriteSmallLens() const {
-    arthro::Lens lens;
-    lens.width = 96;
-    lens.height = 64;
-    lens.focal_px = 60;
-    lens.cx = 47.5;
-    lens.cy = 31.5;
-    lens.circle = {47.5, 31.5, 30};
+    arthro::Lens lens = test::RoundLens(96, 64, 60, 47.5, 31.5, 30);
     lens.field_of_view = *FieldOfViewOf(lens);
     WriteLens(folder_ / "small.json", lens);
   }
