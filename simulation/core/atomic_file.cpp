@@ -2,9 +2,9 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -97,7 +97,7 @@ std::string WhyNotWritten(int error) {
     return "no more may be written here; free some space or choose another folder";
   if (error == EACCES || error == EPERM || error == EROFS)
     return "this place may not be written; choose another folder";
-  return std::strerror(error);
+  return std::generic_category().message(error);
 }
 
 PartialFile::PartialFile(fs::path target, Access access)

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <new>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 #include <vector>
 
@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void RefuseToOpen(int error, const fs::path& file) {
   throw Error(Code::kFile,
-              fmt::format("could not be opened: {}; check the name", std::strerror(error)), file);
+              fmt::format("could not be opened: {}; check the name",
+                          std::generic_category().message(error)),
+              file);
 }
 
 void RequireRegular(const struct ::stat& status, const fs::path& file) {
@@ -85,7 +87,7 @@ class OpenFile {
       if (got < 0)
         throw Error(Code::kFile,
                     fmt::format("could not be read to its end: {}; copy it to another disk",
-                                std::strerror(errno)),
+                                std::generic_category().message(errno)),
                     file_);
       if (got == 0) break;
       bytes.append(piece.data(), static_cast<std::size_t>(got));

@@ -59,7 +59,8 @@ inline bool ProjectPoint(const SurfaceView& view, const LensProfile& lens, const
 inline bool PixelOf(const SurfaceView& view, const LensProfile& lens, const cv::Vec3f& point,
                     double* pixel) {
   if (!ProjectPoint(view, lens, point, pixel)) return false;
-  const int x = static_cast<int>(pixel[0] + 0.5), y = static_cast<int>(pixel[1] + 0.5);
+  const int x = static_cast<int>(std::floor(pixel[0] + 0.5));
+  const int y = static_cast<int>(std::floor(pixel[1] + 0.5));
   return pixel[0] >= 1 && pixel[1] >= 1 && x < view.mask.cols - 2 && y < view.mask.rows - 2 &&
          view.mask.at<std::uint8_t>(y, x) != 0;
 }

@@ -379,8 +379,8 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
     if (pose) insertions.push_back(pose->centre.norm());
   std::sort(insertions.begin(), insertions.end());
   const double origin = std::min(0.7 * insertions[insertions.size() / 2], 0.6 * nearest);
-  const auto radius_at = [&](double share) {
-    return origin + 1 / ((1 - share) / (furthest - origin) + share / (nearest - origin));
+  const auto radius_at = [origin, near = nearest, far = furthest](double share) {
+    return origin + 1 / ((1 - share) / (far - origin) + share / (near - origin));
   };
 
   // First round: coarse cells, all radii.
@@ -390,6 +390,7 @@ SweptSurface SweepSurface(const std::vector<WorkingFrame>& frames, const LensPro
   half.centre_px.y = 0.5 * (half.centre_px.y - 0.5);
   const SurfaceCells coarse = CellDirections(half, {cells.size.width / 2, cells.size.height / 2});
   std::vector<cv::Mat> radii;
+  radii.reserve(static_cast<std::size_t>(options.layers));
   for (int k = 0; k < options.layers; ++k)
     radii.emplace_back(coarse.size, CV_32F, cv::Scalar(radius_at(k / (options.layers - 1.0))));
   const Round first = RunRound(ViewsOf(frames, scene, 2.0), lens, coarse, radii, 5, options,

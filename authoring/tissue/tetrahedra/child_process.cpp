@@ -4,11 +4,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ class Descriptor {
   ::setpgid(0, 0);  // Ctrl-C then reaches the parent alone, which ends the child in an orderly way
   sigset_t none;
   ::sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
   const int null = ::open("/dev/null", O_RDONLY);
   ::dup2(null, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
@@ -72,15 +72,16 @@ ChildResult RunChild(const std::filesystem::path& program,
   list.push_back(nullptr);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(Code::kFile, fmt::format("no pipe could be opened: {}", std::strerror(errno)));
+    throw Error(Code::kFile,
+                fmt::format("no pipe could be opened: {}", std::generic_category().message(errno)));
   Descriptor output(ends[0]), input(ends[1]);
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0)
-    throw Error(
-        Code::kFile,
-        fmt::format("no process could be started: {}; close other programs", std::strerror(errno)),
-        program);
+    throw Error(Code::kFile,
+                fmt::format("no process could be started: {}; close other programs",
+                            std::generic_category().message(errno)),
+                program);
   if (child == 0) Become(program.c_str(), list.data(), input.get(), parent);
   input.Close();
 

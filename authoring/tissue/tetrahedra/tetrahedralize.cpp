@@ -63,9 +63,11 @@ std::string SayTetgenCode(int code) {
 
 std::string Say(const ChildResult& result) {
   if (result.end == ChildResult::End::kTimedOut) return "TetGen did not finish in time";
-  if (result.end == ChildResult::End::kSignalled)
-    return result.code == SIGXCPU ? "TetGen did not finish in time"
-                                  : fmt::format("TetGen crashed ({})", ::strsignal(result.code));
+  if (result.end == ChildResult::End::kSignalled) {
+    if (result.code == SIGXCPU) return "TetGen did not finish in time";
+    const char* signal = ::sigdescr_np(result.code);
+    return fmt::format("TetGen crashed ({})", signal != nullptr ? signal : "unknown signal");
+  }
   if (result.code == kWorkerDone) return "done";
   if (result.code == kWorkerOutOfMemory) return "TetGen ran out of memory";
   if (result.code >= kWorkerTetgen) return SayTetgenCode(result.code - kWorkerTetgen);
@@ -134,7 +136,8 @@ TetMesh Fill(const Run& run, double max_edge) {
   const std::string order = options.order == 2 ? "o2" : "";
   // z: numbers from 0; Y: no new nodes on the surface; Q: silent.
   for (const std::string& switches :
-       {"p" + quality + "zQ" + order, "pY" + quality + "zQ" + order, "pYzQ" + order}) {
+       {fmt::format("p{}zQ{}", quality, order), fmt::format("pY{}zQ{}", quality, order),
+        fmt::format("pYzQ{}", order)}) {
     if (options.keep_surface && switches.find('Y') == switches.npos) continue;
     if (auto mesh = RunTetgen(run, switches, max_edge)) return *std::move(mesh);
   }
