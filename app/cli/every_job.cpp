@@ -6,6 +6,7 @@ namespace arthro::app {
 
 void AddEveryJob(CLI::App& program) {
   AddAlignJob(program);
+  AddAssessJob(program);
   AddBenchJob(program);
   AddCentresJob(program);
   AddReachJob(program);

@@ -13,6 +13,7 @@ void AddEveryJob(CLI::App& program);
 
 void AddAlignJob(CLI::App& program);
 // Lists `bench` in the help. RunBenchProgram runs it.
+void AddAssessJob(CLI::App& program);
 void AddBenchJob(CLI::App& program);
 inline constexpr const char* kBenchProgram = "arthroscene-bench";  // beside this program's file
 // Replaces this process with kBenchProgram; `arguments` end with a null pointer. Returns the exit

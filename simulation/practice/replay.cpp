@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "simulation/core/csv_field.h"
 #include "simulation/device/recorded_device.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/practice/servo_loop.h"
@@ -47,6 +48,14 @@ void CountTissues(const WorldPicture& world, std::vector<TissueReport>& reports)
   }
 }
 
+// Name of a region; the entry after the last region is the volume outside all of them.
+std::string RegionName(const Scene& scene, int tissue, std::size_t index) {
+  const auto& regions = scene.tissues[static_cast<std::size_t>(tissue)].regions;
+  return index < regions.size() ? regions[index].name : kElsewhere;
+}
+
+}  // namespace
+
 std::string ContactName(int contact, const Scene& scene) {
   if (contact < 0) return "none";
   if (contact == kBackdropContact) return "backdrop";
@@ -55,22 +64,6 @@ std::string ContactName(int contact, const Scene& scene) {
     return scene.tissues[tissue].name;
   return fmt::format("tissue {}", contact);
 }
-
-// Name of a region; the entry after the last region is the volume outside all of them.
-std::string RegionName(const Scene& scene, int tissue, std::size_t index) {
-  const auto& regions = scene.tissues[static_cast<std::size_t>(tissue)].regions;
-  return index < regions.size() ? regions[index].name : kElsewhere;
-}
-
-// Quotes a name with a comma, a quote or a line break; its own quotes are doubled (RFC 4180).
-std::string CsvField(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-}  // namespace
 
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
                              const SessionOptions& options, const Progress& progress,

@@ -55,6 +55,9 @@ struct ReplayReport {
   std::vector<std::string> messages;     // repairs made while reading tetrahedra, one sentence each
 };
 
+// Name of a surface that a tool touches: none, backdrop, or that of the tissue.
+std::string ContactName(int contact, const Scene& scene);
+
 // Called after each tick, which is at `t` in s. `world` is null where no tissue deforms.
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;

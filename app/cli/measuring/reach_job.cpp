@@ -13,6 +13,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "simulation/core/atomic_file.h"
+#include "simulation/core/csv_field.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/reach/portal_reach.h"
@@ -31,16 +32,8 @@ struct ReachArguments {
   std::string target;
 };
 
-// A name with a comma or a quote is quoted.
-std::string Cell(const std::string& name) {
-  if (name.find_first_of(",\"\n") == std::string::npos) return name;
-  std::string cell = "\"";
-  for (const char c : name) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return cell + '"';
-}
-
 std::string Row(const std::string& target, const ReachShares& shares) {
-  return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.1f}\n", Cell(target), shares.seen,
+  return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.1f}\n", CsvField(target), shares.seen,
                      shares.touched, shares.both, shares.good,
                      DegreesFromRadians(shares.median_angle));
 }

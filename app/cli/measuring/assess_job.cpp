@@ -1,0 +1,77 @@
+// arthroscene assess SCENE TRACE -o metrics.csv [method.md, Metrics]: how a recorded attempt was
+// done, as numbers.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/input_files.h"
+#include "app/cli/job_files.h"
+#include "app/cli/job_progress.h"
+#include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
+#include "app/cli/options_cli.h"
+#include "app/cli/practice/shipped_presets.h"
+#include "simulation/core/atomic_file.h"
+#include "simulation/device/log/log_replay.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/training/assessment.h"
+
+namespace arthro::app {
+namespace {
+
+struct AssessJob {
+  std::filesystem::path scene, trace, output, report;
+  simulation::SessionOptions options;
+  simulation::MetricLimits limits;
+};
+
+void Run(const AssessJob& job) {
+  CheckOptions(job.options);
+  std::string notice;
+  const std::vector<simulation::TraceRow> trace = simulation::ReadTraceOrLog(job.trace, notice);
+  if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
+  const LoadedScene loaded = LoadScene(job.scene);
+  std::vector<std::string> messages;
+  const simulation::Assessment assessment =
+      simulation::Assess(loaded, trace, job.options, job.limits, TerminalProgress(),
+                         ShippedTissuePresets(), &messages);
+  for (const std::string& message : messages)
+    fmt::print(stderr, "note: {}\n", PrintableLine(message));
+  WriteAtomically(job.output, simulation::AssessmentTable(assessment));
+  if (!job.report.empty())
+    WriteAtomically(job.report, simulation::AssessmentReport(assessment, loaded.scene.title));
+}
+
+}  // namespace
+
+void AddAssessJob(CLI::App& program) {
+  const auto own = std::make_shared<AssessJob>();
+  CLI::App* job = program.add_subcommand(
+      "assess", "Measure how recorded hands worked in a scene: paths, smoothness, forces.");
+  const auto files = JobFiles::Of(*job);
+  files
+      ->Input(job->add_option("SCENE", own->scene, "Scene folder, scene.json or .arthro archive."),
+              kSceneInput)
+      ->required();
+  files->Input(job->add_option("TRACE", own->trace, "Recorded devices: TRACE.csv or a device log."))
+      ->required();
+  files
+      ->Output(job->add_option("-o,--output", own->output,
+                               "Table to write, one metric a line; - is standard output."),
+               {"a table of metrics", FileForm::kTable, "metric,part,value,"})
+      ->required();
+  files->Output(job->add_option("--report", own->report,
+                                "Report as JSON, with what each metric means; - is standard "
+                                "output."),
+                {"a report", FileForm::kJson, "arthroscene.assessment/"});
+  AddNumber(*job, "--harm-force", own->limits.harm, {0.1, 100.0}, "N",
+            "Force above which an instrument may do harm.");
+  AddOptions(*job, own->options);
+  files->Run([own] { Run(*own); });
+}
+
+}  // namespace arthro::app

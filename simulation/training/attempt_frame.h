@@ -1,0 +1,36 @@
+// Observation of an attempt, one frame every 10 ms; the metrics read nothing else, so that a
+// recorded attempt and a live one give the same bits [method.md, Metrics]. Portal frame, m, N, rad.
+// Numbers are rounded to 32 bits.
+#pragma once
+
+#include <array>
+
+#include <glm/vec3.hpp>
+
+#include "simulation/device/device_sample.h"
+#include "simulation/practice/snapshot.h"
+
+namespace arthro::simulation {
+
+inline constexpr double kFrameTime = 0.01;  // s
+
+struct ToolFrame {
+  // Means over the ticks of the frame, weighted by their length.
+  glm::vec3 tip{0.0F};               // held by the hand
+  glm::vec3 drawn_tip{0.0F};         // outside the surfaces
+  glm::vec3 axis{0.0F, 0.0F, 1.0F};  // from hand to tip; unit
+  float mean_force = 0;              // on the tip
+  float peak_force = 0;              // on the tip, largest of the ticks
+  float roll = 0, depth = 0;         // in the last tick
+  int contact = kNoContact;          // surface touched for the longest time
+  float contact_share = 0;           // share of the frame's time in contact with it
+  bool is_valid = false;             // every tick had a sample without a fault of the device
+  bool is_inside() const { return is_valid && depth > 0; }
+};
+
+struct AttemptFrame {
+  std::array<ToolFrame, 2> tool;  // indexed by DeviceRole
+  bool is_paused = false;
+};
+
+}  // namespace arthro::simulation
