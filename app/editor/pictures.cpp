@@ -71,8 +71,7 @@ Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& op
   Picture picture;
   if (const auto& practice = state.practice) {
     const simulation::Snapshot& snapshot = practice->snapshot();
-    picture = PictureOf(snapshot, practice->seen_from(), practice->instrument_kind(),
-                        state.document().scene, practice->view_angle(), optics,
+    picture = PictureOf(snapshot, practice->seen_from(), practice->instrument_kind(), optics,
                         state.steps.practice->head);
     picture.instrument->turn = practice->blade_turn();
     picture.disturbances = state.steps.practice->disturbing.now;

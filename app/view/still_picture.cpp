@@ -46,15 +46,15 @@ Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, doub
 }
 
 Picture PictureOf(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
-                  simulation::ToolKind kind, const Scene& scene, double view_angle,
-                  const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
+                  simulation::ToolKind kind, const simulation::ScopeOptics& optics,
+                  const simulation::CameraHead& head) {
   const simulation::ToolState& tool = snapshot.instrument;
-  Picture picture = PictureFromPose(seen_from, view_angle, optics.field_of_view,
+  Picture picture = PictureFromPose(seen_from, snapshot.view_angle, optics.field_of_view,
                                     simulation::HeadRoll(head, seen_from.roll));
   picture.lens = optics.lens;
   picture.camera = optics.camera;
   picture.relief = kUsualRelief;
-  picture.instrument = InstrumentView{{scene.portals.incision_spacing, 0.0, 0.0},
+  picture.instrument = InstrumentView{{snapshot.incision_spacing, 0.0, 0.0},
                                       tool.proxy_in_portal,
                                       tool.pose.roll,
                                       kind,

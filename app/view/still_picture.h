@@ -20,10 +20,10 @@ Picture PictureFromPose(const simulation::RodPose& pose, double view_angle, doub
                         std::optional<double> head_roll = std::nullopt);
 
 // Picture of a moment of a session from the eye of the scope (simulation/practice/scope_eye.h),
-// with the instrument where its proxy is.
+// with the instrument where its proxy is, at the view angle and incision spacing of that moment.
 Picture PictureOf(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
-                  simulation::ToolKind kind, const Scene& scene, double view_angle,
-                  const simulation::ScopeOptics& optics, const simulation::CameraHead& head);
+                  simulation::ToolKind kind, const simulation::ScopeOptics& optics,
+                  const simulation::CameraHead& head);
 
 class StillPictures {
  public:

@@ -28,6 +28,33 @@ void Count(const ToolState& state, double dt, HandReport& hand) {
   hand.deepest = std::max(hand.deepest, state.penetration);
 }
 
+// Gives the session what was wished before a tick.
+class Wishes {
+ public:
+  explicit Wishes(const std::vector<TimedWish>& wishes) : wishes_(wishes) {}
+  void Apply(double t, Session& session) {
+    for (; next_ < wishes_.size() && wishes_[next_].t < t - kSameTime; ++next_) {
+      const LoggedWish& wish = wishes_[next_].wish;
+      session.SetViewAngle(wish.view_angle);
+      session.SetIncisionSpacing(wish.incision_spacing);
+      session.SetInstrument(KindOf(wish.instrument));
+      if (wish.resets != resets_) session.ResetTissues();
+      resets_ = wish.resets;
+    }
+  }
+
+ private:
+  static constexpr double kSameTime = 1e-6;  // s; times of the log are rounded
+  // An instrument that this program does not know is taken as the probe.
+  static ToolKind KindOf(std::uint8_t number) {
+    const auto kind = static_cast<ToolKind>(number);
+    return number <= static_cast<std::uint8_t>(ToolKind::kGrasper) ? kind : ToolKind::kProbe;
+  }
+  const std::vector<TimedWish>& wishes_;
+  std::size_t next_ = 0;
+  std::uint32_t resets_ = 0;
+};
+
 void CountTissues(const WorldPicture& world, std::vector<TissueReport>& reports) {
   reports.resize(world.bodies.size());
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -65,10 +92,11 @@ std::string ContactName(int contact, const Scene& scene) {
   return fmt::format("tissue {}", contact);
 }
 
-std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
+std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recording,
                              const SessionOptions& options, const Progress& progress,
                              ReplayReport* report, const std::vector<TissuePreset>& presets,
                              const ReplayWatch& watch) {
+  const std::vector<TraceRow>& trace = recording.rows;
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
@@ -80,7 +108,9 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceR
   servo_options.period_without_force = kServoPeriod;
   ServoLoop servo(session, &scope, &instrument, servo_options);
   const WorldPicture* world = session.tissues();
+  Wishes wishes(recording.wishes);
   const auto tick = [&](double t, double dt) {
+    wishes.Apply(t, session);
     servo.TickOnce(t, dt);
     ++counts.ticks;
     const Snapshot& snapshot = session.snapshot();

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "simulation/core/progress.h"
-#include "simulation/device/trace_io.h"
+#include "simulation/device/log/log_replay.h"
 #include "simulation/practice/session.h"
 #include "simulation/tissue/body/tissue_preset.h"
 
@@ -62,8 +62,10 @@ std::string ContactName(int contact, const Scene& scene);
 using ReplayWatch =
     std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
 
-// Tissues deform by their `presets` and step inline; without presets all of them are rigid.
-std::vector<ForceRow> Replay(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
+// Tissues deform by their `presets` and step inline; without presets all of them are rigid. View
+// angle, incision spacing, instrument and resets of the tissue follow the wishes of the recording;
+// without wishes they stay as the scene has them.
+std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recording,
                              const SessionOptions& options = {}, const Progress& progress = {},
                              ReplayReport* report = nullptr,
                              const std::vector<TissuePreset>& presets = {},

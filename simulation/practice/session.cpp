@@ -420,6 +420,8 @@ void Session::TickTissues(double dt) noexcept {
 void Session::Tick(const DeviceSample& scope, const DeviceSample& instrument, double dt) noexcept {
   const double step = dt > 0.0 && std::isfinite(dt) ? dt : 0.0;
   snapshot_.t += step;
+  snapshot_.view_angle = view_angle_;
+  snapshot_.incision_spacing = spacing_;
   TickTool(scope_, scope, glm::dvec3(0.0), step, snapshot_.scope);
   TickTool(instrument_, instrument, {spacing_, 0.0, 0.0}, step, snapshot_.instrument);
   snapshot_.scope.pixel =

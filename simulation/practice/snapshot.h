@@ -37,7 +37,8 @@ struct ToolState {
 };
 
 struct Snapshot {
-  double t = 0;  // s since the session began
+  double t = 0;                                 // s since the session began
+  double view_angle = 0, incision_spacing = 0;  // rad, m; as they were in this tick
   ToolState scope, instrument;
 };
 

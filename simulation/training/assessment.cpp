@@ -15,15 +15,15 @@ const char* Better(const Metric& metric) { return metric.is_more_better ? "more"
 
 }  // namespace
 
-Assessment Assess(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
+Assessment Assess(const LoadedScene& loaded, const Recording& recording,
                   const SessionOptions& options, const MetricLimits& limits,
                   const Progress& progress, const std::vector<TissuePreset>& presets,
                   std::vector<std::string>* messages) {
   Assessment assessment;
-  if (trace.empty()) return assessment;
-  FrameBuilder builder(trace.front().sample.t);
+  if (recording.rows.empty()) return assessment;
+  FrameBuilder builder(recording.rows.front().sample.t);
   ReplayReport replay;
-  Replay(loaded, trace, options, progress, &replay, presets,
+  Replay(loaded, recording, options, progress, &replay, presets,
          [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture*) {
            builder.Add(t, snapshot);
          });

@@ -15,9 +15,9 @@ struct Assessment {
   std::vector<MetricValue> values;
 };
 
-// Replays the hands of `trace` in the scene and measures them. Forces on deformable tissue are
+// Replays a recording in the scene and measures them. Forces on deformable tissue are
 // those of the replay, which steps the tissue on a fixed clock, not those of the practice itself.
-Assessment Assess(const LoadedScene& loaded, const std::vector<TraceRow>& trace,
+Assessment Assess(const LoadedScene& loaded, const Recording& recording,
                   const SessionOptions& options = {}, const MetricLimits& limits = {},
                   const Progress& progress = {}, const std::vector<TissuePreset>& presets = {},
                   std::vector<std::string>* messages = nullptr);

@@ -32,12 +32,12 @@ struct AssessJob {
 void Run(const AssessJob& job) {
   CheckOptions(job.options);
   std::string notice;
-  const std::vector<simulation::TraceRow> trace = simulation::ReadTraceOrLog(job.trace, notice);
+  const simulation::Recording recording = simulation::ReadRecording(job.trace, notice);
   if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
   std::vector<std::string> messages;
   const simulation::Assessment assessment =
-      simulation::Assess(loaded, trace, job.options, job.limits, TerminalProgress(),
+      simulation::Assess(loaded, recording, job.options, job.limits, TerminalProgress(),
                          ShippedTissuePresets(), &messages);
   for (const std::string& message : messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));

@@ -97,7 +97,7 @@ void Run(const DemoJob& job) {
   if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
   Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
   const auto rows =
-      simulation::Replay(loaded, trace, {}, progress, &report, ShippedTissuePresets(),
+      simulation::Replay(loaded, {trace, {}}, {}, progress, &report, ShippedTissuePresets(),
                          [&](double t, const auto& snapshot, auto kind, const auto* world) {
                            moments.Watch(t, snapshot, kind, world);
                          });
@@ -123,7 +123,7 @@ void Run(const DemoJob& job) {
     // Upright, as surgeons hold it.
     const Picture picture =
         RecordedPicture(moment.snapshot, pictures.eye().MoveTo(moment.snapshot.scope), moment.kind,
-                        loaded.scene, optics, {.is_upright = true});
+                        optics, {.is_upright = true});
     WriteColourImage(folder.beside() / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},

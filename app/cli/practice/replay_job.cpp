@@ -52,7 +52,7 @@ void Run(const ReplayJob& job) {
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
   if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
   std::string notice;
-  const std::vector<simulation::TraceRow> trace = simulation::ReadTraceOrLog(job.trace, notice);
+  const simulation::Recording recording = simulation::ReadRecording(job.trace, notice);
   if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
 
@@ -61,8 +61,8 @@ void Run(const ReplayJob& job) {
   std::optional<ReplayPictures> pictures;
   std::optional<VideoFile> video;
   if (!job.pictures.empty() || !job.video.empty())
-    pictures.emplace(loaded, trace.front().sample.t, trace.back().sample.t, head, disturbances,
-                     ShippedLooks(loaded.scene));
+    pictures.emplace(loaded, recording.rows.front().sample.t, recording.rows.back().sample.t, head,
+                     disturbances, ShippedLooks(loaded.scene));
   const auto add = [&](ReplayPictures::Form form, ReplayPictures::Take take) {
     form.shape = shape;
     pictures->AddRow(form, std::move(take));
@@ -79,7 +79,7 @@ void Run(const ReplayJob& job) {
       pictures->Watch(t, snapshot, kind, world);
     };
   simulation::ReplayReport report;
-  const auto forces = simulation::Replay(loaded, trace, job.options, progress, &report,
+  const auto forces = simulation::Replay(loaded, recording, job.options, progress, &report,
                                          ShippedTissuePresets(), watch);
   for (const std::string& message : report.messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));

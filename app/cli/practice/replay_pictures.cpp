@@ -24,8 +24,8 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
         tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
         pictures_.eye().Follow(*world);
       }
-      Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind,
-                                        scene_, optics_, head_);
+      Picture picture =
+          RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind, optics_, head_);
       if (picture.instrument) picture.instrument = tissues_.Settled(*picture.instrument);
       picture.disturbances = disturbances_;
       if (disturbances_.is_moving()) picture.disturbances.time = disturbances_.time + t - begin_;
@@ -41,10 +41,9 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder) {
 }
 
 Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
-                        simulation::ToolKind kind, const Scene& scene,
-                        const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
-  Picture picture =
-      PictureOf(snapshot, seen_from, kind, scene, scene.scope.view_angle, optics, head);
+                        simulation::ToolKind kind, const simulation::ScopeOptics& optics,
+                        const simulation::CameraHead& head) {
+  Picture picture = PictureOf(snapshot, seen_from, kind, optics, head);
   if (snapshot.instrument.is_running)
     picture.instrument->turn = simulation::kBladeSpeed * snapshot.t;
   if (snapshot.instrument.fault != simulation::Fault::kNone) picture.instrument.reset();

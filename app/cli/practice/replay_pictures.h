@@ -63,7 +63,7 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
 // Picture of a recorded moment; without the instrument while its device has a fault.
 Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
-                        simulation::ToolKind kind, const Scene& scene,
-                        const simulation::ScopeOptics& optics, const simulation::CameraHead& head);
+                        simulation::ToolKind kind, const simulation::ScopeOptics& optics,
+                        const simulation::CameraHead& head);
 
 }  // namespace arthro::app

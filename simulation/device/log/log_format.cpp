@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -23,6 +24,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kMagic = "ARTHRLOG";
 constexpr std::size_t kBlockHead = 16, kRecordHead = 20;  // bytes
+constexpr std::uint32_t kVersionInHead = 3;  // first version that the checksum of its head covers
 
 std::uint32_t Checksum(std::string_view bytes) noexcept {
   return static_cast<std::uint32_t>(
@@ -143,15 +145,26 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
     case LogKind::kEnd:
       record.pushed = body.Take<std::uint64_t>();
       break;
+    case LogKind::kWish:
+      record.wish.view_angle = body.Take<double>();
+      record.wish.incision_spacing = body.Take<double>();
+      record.wish.instrument = body.Take<std::uint8_t>();
+      record.wish.resets = body.Take<std::uint32_t>();
+      if (!std::isfinite(record.wish.view_angle + record.wish.incision_spacing)) return false;
+      break;
     default:
       return false;
   }
   return body.is_good() && body.left() == 0;
 }
 
-std::vector<LogSource> SourcesIn(std::string_view text) {
+// Throws for a head that is not one of this version.
+std::vector<LogSource> SourcesIn(std::string_view text, std::uint32_t version) {
   std::vector<LogSource> sources;
   const auto json = ParseJson(text, Code::kBadData);
+  if (json.contains("version") != (version >= kVersionInHead) ||
+      json.value("version", version) != version)
+    throw Error(Code::kBadData, "the version in the head is another");
   for (const auto& each : json.at("sources")) {
     LogSource& source = sources.emplace_back();
     each.at("family").get_to(source.family);
@@ -172,8 +185,10 @@ long CountMissing(std::span<const LogRecord> records) {
   };
   std::map<int, Channel> channels;
   for (const LogRecord& record : records) {
-    const int hand = record.kind == LogKind::kTick ? 1 + record.tick_hand : 0;
-    Channel& channel = channels[record.source * 4 + hand];
+    const int part = record.kind == LogKind::kTick   ? 1 + record.tick_hand
+                     : record.kind == LogKind::kWish ? 3
+                                                     : 0;
+    Channel& channel = channels[record.source * 4 + part];
     channel.end = std::max(channel.end, record.number + 1);
     ++channel.count;
   }
@@ -246,6 +261,12 @@ void Append(const LogRecord& record, std::string& payload) {
     case LogKind::kEnd:
       Put(payload, record.pushed);
       break;
+    case LogKind::kWish:
+      Put(payload, record.wish.view_angle);
+      Put(payload, record.wish.incision_spacing);
+      Put(payload, record.wish.instrument);
+      Put(payload, record.wish.resets);
+      break;
   }
   const auto size = static_cast<std::uint16_t>(payload.size() - begin - kRecordHead);
   std::memcpy(payload.data() + begin + 2, &size, sizeof size);
@@ -272,6 +293,7 @@ std::string LogEnd(std::uint64_t pushed) {
 
 std::string LogHead(std::span<const LogSource> sources, std::uint32_t version) {
   nlohmann::ordered_json json;
+  if (version >= kVersionInHead) json["version"] = version;
   json["sources"] = nlohmann::ordered_json::array();
   for (const LogSource& source : sources) {
     nlohmann::ordered_json roles;
@@ -334,7 +356,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
     }
     if (!has_sources) {
       try {
-        log.sources = SourcesIn(payload);
+        log.sources = SourcesIn(payload, version);
       } catch (const std::exception&) {  // invalid JSON, or JSON of another form
         refuse("the head of this device log cannot be; record it again");
       }

@@ -1,12 +1,13 @@
-// Bytes of a device log, little-endian, version 2:
+// Bytes of a device log, little-endian, version 3:
 //   "ARTHRLOG", u32 version, then blocks to the end of the file
 //   block: u32 size of the payload, u32 records in it, u32 CRC-32 of the payload, u32 CRC-32 of the
 //          twelve bytes before; payload
-// The payload of the first block is JSON, {"sources": [{family, model, serial, roles}]}, and its
-// count that of the sources. Other blocks contain records: u8 kind, u8 source, u16 size of the
-// body, i64 t_ns, u64 number; then, by kind, the body that Append writes. The last block holds a
-// single record, the end. A program that dies while writing leaves no end, and perhaps an
-// incomplete block; nothing else is lost. Version 1 has no end, and can be read.
+// The payload of the first block is JSON, {"version": 3, "sources": [{family, model, serial,
+// roles}]}, and its count that of the sources. Other blocks contain records: u8 kind, u8 source,
+// u16 size of the body, i64 t_ns, u64 number; then, by kind, the body that Append writes. The last
+// block holds a single record, the end. A program that dies while writing leaves no end, and
+// perhaps an incomplete block; nothing else is lost. Version 1 has no end, and versions 1 and 2
+// have no wishes and no version in their first block; they can be read.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@
 
 namespace arthro::simulation {
 
-inline constexpr std::uint32_t kLogVersion = 2, kOldestLogVersion = 1;
+inline constexpr std::uint32_t kLogVersion = 3, kOldestLogVersion = 1;
 inline constexpr std::size_t kLargestBlock = 1 << 20;  // bytes of payload
 
 // Appends a record to `payload`; allocates nothing where kLargestRecord more bytes are reserved.

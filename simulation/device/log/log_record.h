@@ -1,6 +1,6 @@
 // Records of a device log: the sources, each report with the state that the driver decoded from it,
-// and each tick of the servo with its command [devices.md, Simulated hand]. Device frame, m, N, s;
-// times on the clock of live devices.
+// each tick of the servo with its command, and each wish of the trainee [devices.md, Simulated
+// hand]. Device frame, m, N, s; times on the clock of live devices.
 #pragma once
 
 #include <array>
@@ -30,6 +30,7 @@ enum class LogKind : std::uint8_t {
   kReport,
   kTick,
   kEnd,  // last record, of the log itself
+  kWish,
 };
 
 // State of a hand after a report. Joints, push and turn, which the servo does not see, are kept as
@@ -42,6 +43,14 @@ struct LoggedHand {
 LoggedHand LoggedHandOf(const HandReading& reading) noexcept;
 // Compares bit by bit, NaN included.
 bool IsSame(const LoggedHand& a, const LoggedHand& b) noexcept;
+
+// State of a practice that its hands do not tell; logged when it changes.
+struct LoggedWish {
+  double view_angle = 0, incision_spacing = 0;  // rad, m
+  std::uint8_t instrument = 0;                  // number of its kind (ToolKind)
+  std::uint32_t resets = 0;                     // times that the tissue was made whole again
+  friend bool operator==(const LoggedWish&, const LoggedWish&) = default;
+};
 
 struct LogRecord {
   LogKind kind = LogKind::kTick;
@@ -68,6 +77,9 @@ struct LogRecord {
 
   // kEnd
   std::uint64_t pushed = 0;  // records of all channels, dropped ones included
+
+  // kWish
+  LoggedWish wish;
 };
 
 }  // namespace arthro::simulation

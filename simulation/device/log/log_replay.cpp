@@ -57,8 +57,9 @@ ReportReplay ReplayReports(const DeviceLogContent& log, int source) {
   return replay;
 }
 
-std::vector<TraceRow> TraceOf(const DeviceLogContent& log, const std::filesystem::path& file) {
-  std::vector<TraceRow> rows;
+Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& file) {
+  Recording recording;
+  std::vector<TraceRow>& rows = recording.rows;
   std::array<double, 2> newest{-1, -1};  // s, by role; a sample that is read again has the same t
   for (const LogRecord& record : log.records) {
     if (record.kind != LogKind::kTick || !record.sample.valid) continue;
@@ -93,19 +94,22 @@ std::vector<TraceRow> TraceOf(const DeviceLogContent& log, const std::filesystem
                   file);
     before = row.sample.t;
   }
-  return rows;
+  for (const LogRecord& record : log.records)
+    if (record.kind == LogKind::kWish)
+      recording.wishes.push_back({1e-9 * static_cast<double>(record.t_ns) - begin, record.wish});
+  return recording;
 }
 
-std::vector<TraceRow> ReadTraceOrLog(const std::filesystem::path& file, std::string& notice) {
+Recording ReadRecording(const std::filesystem::path& file, std::string& notice) {
   const std::string bytes = ReadWholeFile(file);
   notice.clear();
-  if (!IsDeviceLog(bytes)) return ParseTrace(bytes, file);
+  if (!IsDeviceLog(bytes)) return {ParseTrace(bytes, file), {}};
   const DeviceLogContent log = ParseDeviceLog(bytes, file);
   if (!log.torn.empty()) notice = file.string() + ": " + log.torn;
   if (log.missing > 0)
     notice += fmt::format("{}{}: {} records were dropped when it was recorded",
                           notice.empty() ? "" : "; ", file.string(), log.missing);
-  return TraceOf(log, file);
+  return RecordingOf(log, file);
 }
 
 }  // namespace arthro::simulation

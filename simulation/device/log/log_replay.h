@@ -17,12 +17,24 @@ struct ReportReplay {
 // records were dropped. Throws Error(kBadData) where there is no driver.
 ReportReplay ReplayReports(const DeviceLogContent& log, int source);
 
-// Returns the samples of the hands with a role, each once. Time begins at 0. Throws Error(kBadData)
-// for no sample, or a gap of more than a minute.
-std::vector<TraceRow> TraceOf(const DeviceLogContent& log, const std::filesystem::path& file = {});
+// A wish counts for the ticks after its time.
+struct TimedWish {
+  double t = 0;  // s
+  LoggedWish wish;
+};
+
+// A practice as it was recorded, on one clock.
+struct Recording {
+  std::vector<TraceRow> rows;
+  std::vector<TimedWish> wishes;  // none in TRACE.csv and in logs before version 3
+};
+
+// Returns the samples of the hands with a role, each once, and the wishes. Time begins at 0 with
+// the first sample. Throws Error(kBadData) for no sample, or a gap of more than a minute.
+Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& file = {});
 
 // Reads TRACE.csv or a device log, distinguished by their first bytes. `notice` is a sentence where
 // a log is incomplete.
-std::vector<TraceRow> ReadTraceOrLog(const std::filesystem::path& file, std::string& notice);
+Recording ReadRecording(const std::filesystem::path& file, std::string& notice);
 
 }  // namespace arthro::simulation

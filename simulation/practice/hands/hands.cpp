@@ -1,6 +1,7 @@
 #include "simulation/practice/hands/hands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -124,8 +125,18 @@ void Hands::OpenLog() {
       sources.push_back({"", "", serial, {role, {}}});
     }
   log_ = std::make_unique<DeviceLog>(choice_.log, sources);
+  wishes_ = &log_->AddChannel();
   for (std::size_t i = 0; i < links; ++i)
     taps_.push_back(std::make_unique<LoggedReports>(*log_, static_cast<int>(i)));
+}
+
+void Hands::LogWish(double t, const LoggedWish& wish) noexcept {
+  if (wishes_ == nullptr) return;
+  LogRecord record;
+  record.kind = LogKind::kWish;
+  record.t_ns = static_cast<std::int64_t>(std::llround(1e9 * t));
+  record.wish = wish;
+  wishes_->Push(record);
 }
 
 std::shared_ptr<LiveLink> Hands::LinkOf(const RigDevice& device) {

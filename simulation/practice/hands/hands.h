@@ -67,6 +67,9 @@ class Hands {
   bool is_zero_force() const noexcept { return is_zero_force_; }
   void SetZeroForce(bool is_on) noexcept { is_zero_force_ = is_on; }
 
+  // Logs what the hands do not tell, where there is a log; `t` on the clock of the ticks.
+  void LogWish(double t, const LoggedWish& wish) noexcept;
+
   bool HasDevices() const noexcept { return !links_.empty() || openhaptics_ != nullptr; }
   // True where a device, and not mouse and keys, held this hand in the newest tick.
   bool Leads(DeviceRole role) const;
@@ -128,6 +131,7 @@ class Hands {
   LiveOptions options_;
   std::unique_ptr<HidBus> bus_;  // outlives the links, as do the next three members
   std::unique_ptr<DeviceLog> log_;
+  LogChannel* wishes_ = nullptr;                      // channel of the log
   std::vector<std::unique_ptr<LoggedReports>> taps_;  // one per link, where there is a log
   std::array<Logged, 2> logged_{};                    // indexed by DeviceRole
   std::array<bool, 2> is_recorded_{};                 // indexed by DeviceRole

@@ -39,7 +39,8 @@ HandsChoice ReadHands(const std::filesystem::path& rig, const std::string& hands
     if (choice.rig->pedals) CheckDriven(choice.rig->pedals->device, "pedals", rig);
   }
   choice.is_simulated = hands == "plant";
-  if (!hands.empty() && !choice.is_simulated) choice.trace = ReadTraceOrLog(hands, choice.notice);
+  if (!hands.empty() && !choice.is_simulated)
+    choice.trace = ReadRecording(hands, choice.notice).rows;
   return choice;
 }
 

@@ -134,6 +134,11 @@ void Practice::SendRequests(Hands* hands, double until) noexcept {
   request_.is_dead_man_held = {is_held, is_held};
   request_.is_zero_force = hands != nullptr && (hands->is_zero_force() || hands->calibrated());
   servo_->SetRequest(request_);
+  const LoggedWish wish{request_.view_angle, request_.incision_spacing,
+                        static_cast<std::uint8_t>(request_.instrument), resets_};
+  if (hands == nullptr || logged_ == wish) return;
+  hands->LogWish(has_thread_ ? hands->Clock() : t_, wish);
+  logged_ = wish;
 }
 
 void Practice::TakeReports() {
@@ -181,6 +186,7 @@ void Practice::SetMount(DeviceRole role, const DeviceRig& mount) {
 void Practice::ResetTissues() {
   if (has_thread_) servo_->Stop();  // the next Advance starts it again
   session_->ResetTissues();
+  ++resets_;
 }
 
 double Practice::blade_turn() const { return kBladeSpeed * running_; }

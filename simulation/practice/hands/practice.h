@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,8 @@ class Practice {
   std::unique_ptr<Session> session_;
   std::array<ScriptedDevice, 2> by_mouse_;  // indexed by DeviceRole
   ServoRequest request_;
+  std::optional<LoggedWish> logged_;  // last wish in the log
+  std::uint32_t resets_ = 0;
   Snapshot snapshot_;
   ScopeEye eye_;
   RodPose seen_from_;

@@ -261,7 +261,7 @@ TEST_F(DemoReach, AShaverTakesOfTheFreeEdge) {
 // The trace of `arthroscene demo` lifts the edge, and nothing lifts it earlier.
 TEST_F(DemoReach, TheDemosOwnTraceLiftsTheFreeEdgeAndLetsItGo) {
   double lifted = 0, before = 0, after = 0, peak = 0;
-  Replay(demo, ReadTrace(demo.folder / "trace.csv"), {}, {}, nullptr, presets,
+  Replay(demo, {ReadTrace(demo.folder / "trace.csv"), {}}, {}, {}, nullptr, presets,
          [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture* world) {
            peak = std::max(peak, glm::length(snapshot.instrument.tip_force));
            if (!world) return;

@@ -345,7 +345,7 @@ TEST(HardCase27, TenMinutesAreBitIdenticalOverThreeRuns) {
     trace.push_back({DeviceRole::kScope, scope.Sample(t)});
     trace.push_back({DeviceRole::kInstrument, instrument.Sample(t)});
   }
-  const std::vector<ForceRow> first = Replay(loaded, trace);
+  const std::vector<ForceRow> first = Replay(loaded, {trace, {}});
   ASSERT_EQ(first.size(), trace.size());
   double sum = 0;
   for (const ForceRow& row : first) sum += glm::length(row.state.hand_force);
@@ -353,7 +353,7 @@ TEST(HardCase27, TenMinutesAreBitIdenticalOverThreeRuns) {
   for (const KnownForce& known : kKnownForces)
     EXPECT_LT(glm::distance(first[known.row].state.hand_force, known.hand), 1e-9) << known.row;
   for (int run = 0; run < 2; ++run) {
-    const std::vector<ForceRow> again = Replay(loaded, trace);
+    const std::vector<ForceRow> again = Replay(loaded, {trace, {}});
     ASSERT_EQ(again.size(), first.size());
     for (std::size_t i = 0; i < first.size(); ++i) {
       ASSERT_EQ(again[i].state.tip_force, first[i].state.tip_force) << i;

@@ -76,8 +76,8 @@ TEST(Replay, ReportsTheVolumeThatAShaverRemovesAndGivesTheSameBytesTwice) {
     trace.push_back({DeviceRole::kInstrument, instrument.Sample(0.004 * i)});
   }
   ReplayReport first, second;
-  const std::string forces = ForcesText(Replay(loaded, trace, {}, {}, &first), loaded.scene);
-  EXPECT_EQ(ForcesText(Replay(loaded, trace, {}, {}, &second), loaded.scene), forces);
+  const std::string forces = ForcesText(Replay(loaded, {trace, {}}, {}, {}, &first), loaded.scene);
+  EXPECT_EQ(ForcesText(Replay(loaded, {trace, {}}, {}, {}, &second), loaded.scene), forces);
   ASSERT_EQ(first.tissues.size(), 1u);
   EXPECT_GT(first.tissues[0].cut.removed, 1e-9);
   EXPECT_EQ(first.tissues[0].cut.removed, second.tissues[0].cut.removed);
@@ -88,7 +88,7 @@ TEST(Replay, ReportsTheVolumeThatAShaverRemovesAndGivesTheSameBytesTwice) {
 TEST(Replay, GivesOneRowPerRowOfTheTrace) {
   const LoadedScene loaded = MakeScene();
   const auto trace = MakeTrace(0.5, 250);
-  const auto forces = Replay(loaded, trace);
+  const auto forces = Replay(loaded, {trace, {}});
   ASSERT_EQ(forces.size(), trace.size());
   const auto table = Table(ForcesText(forces, loaded.scene));
   ASSERT_EQ(table.size(), trace.size() + 1);
@@ -106,18 +106,18 @@ TEST(Replay, GivesOneRowPerRowOfTheTrace) {
 TEST(Replay, IsBitIdenticalOverThreeRuns) {
   const LoadedScene loaded = MakeScene();
   const auto trace = MakeTrace(2.0, 60);
-  const std::string first = ForcesText(Replay(loaded, trace), loaded.scene);
+  const std::string first = ForcesText(Replay(loaded, {trace, {}}), loaded.scene);
   EXPECT_GT(first.size(), 10000u);
-  EXPECT_EQ(ForcesText(Replay(loaded, trace), loaded.scene), first);
-  EXPECT_EQ(ForcesText(Replay(loaded, trace), loaded.scene), first);
+  EXPECT_EQ(ForcesText(Replay(loaded, {trace, {}}), loaded.scene), first);
+  EXPECT_EQ(ForcesText(Replay(loaded, {trace, {}}), loaded.scene), first);
 }
 
 // The tick rate does not depend on the rate of the recording; the hand is interpolated between
 // rows.
 TEST(Replay, ASlowRecordingGivesTheForcesOfAFastOne) {
   const LoadedScene loaded = MakeScene();
-  const auto fast = Replay(loaded, MakeTrace(2.0, 1000)),
-             slow = Replay(loaded, MakeTrace(2.0, 100));
+  const auto fast = Replay(loaded, {MakeTrace(2.0, 1000), {}}),
+             slow = Replay(loaded, {MakeTrace(2.0, 100), {}});
   ASSERT_EQ(slow.size(), 402u);
   double worst = 0;
   for (std::size_t i = 0; i < slow.size(); ++i) {
@@ -133,7 +133,7 @@ TEST(Replay, ASlowRecordingGivesTheForcesOfAFastOne) {
 TEST(Replay, ReportAddsUp) {
   const LoadedScene loaded = MakeScene();
   ReplayReport report;
-  const auto forces = Replay(loaded, MakeTrace(2.0, 100), {}, {}, &report);
+  const auto forces = Replay(loaded, {MakeTrace(2.0, 100), {}}, {}, {}, &report);
   EXPECT_NEAR(report.duration, 2.0, 1e-12);
   EXPECT_EQ(report.ticks, 2001);
   const HandReport& scope = report.hand[0];

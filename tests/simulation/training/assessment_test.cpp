@@ -50,7 +50,7 @@ double ValueOf(const Assessment& assessment, std::string_view id, std::string_vi
 TEST(Assessment, MeasuresRecordedHands) {
   const LoadedScene loaded = BareSphere();
   const auto trace = SwingAndPress(loaded);
-  const Assessment assessment = Assess(loaded, trace);
+  const Assessment assessment = Assess(loaded, {trace, {}});
   EXPECT_EQ(assessment.frames, 1000U);
   EXPECT_EQ(assessment.unknown, 0U);
   EXPECT_NEAR(assessment.duration, 10, 1e-9);
@@ -61,7 +61,7 @@ TEST(Assessment, MeasuresRecordedHands) {
   EXPECT_NEAR(ValueOf(assessment, "depth_path", "instrument"), 2 * 0.0205, 5e-4);
   EXPECT_EQ(ValueOf(assessment, "contacts", "instrument on backdrop"), 1);
   ReplayReport replay;
-  Replay(loaded, trace, {}, {}, &replay);
+  Replay(loaded, {trace, {}}, {}, {}, &replay);
   const HandReport& hand = replay.hand[Index(DeviceRole::kInstrument)];
   EXPECT_GT(hand.peak_force, 0.1);
   EXPECT_NEAR(ValueOf(assessment, "peak_force", "instrument"), hand.peak_force, 1e-5);
@@ -73,7 +73,7 @@ TEST(Assessment, MeasuresRecordedHands) {
 
 TEST(Assessment, SaysWhatTheScopeDidNot) {
   const LoadedScene loaded = BareSphere();
-  const Assessment assessment = Assess(loaded, SwingAndPress(loaded));
+  const Assessment assessment = Assess(loaded, {SwingAndPress(loaded), {}});
   std::set<std::string> missing;
   for (const MetricValue& value : assessment.values)
     if (value.part == "scope" && !value.value) {
@@ -86,7 +86,7 @@ TEST(Assessment, SaysWhatTheScopeDidNot) {
 TEST(Assessment, TableAndReportHoldTheSameValues) {
   const LoadedScene loaded = BareSphere();
   const auto trace = SwingAndPress(loaded);
-  const Assessment assessment = Assess(loaded, trace);
+  const Assessment assessment = Assess(loaded, {trace, {}});
   const std::string table = AssessmentTable(assessment);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             static_cast<std::ptrdiff_t>(assessment.values.size()) + 1);
@@ -99,7 +99,7 @@ TEST(Assessment, TableAndReportHoldTheSameValues) {
     EXPECT_EQ(json["metrics"][i]["value"].is_null(), !value.value);
     EXPECT_EQ(json["metrics"][i].contains("why_none"), !value.value);
   }
-  EXPECT_EQ(AssessmentTable(Assess(loaded, trace)), table);
+  EXPECT_EQ(AssessmentTable(Assess(loaded, {trace, {}})), table);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(ReplayJob, ADeviceLogGivesTheForcesOfItsTraceEachTime) {
   ASSERT_GT(count, 50u);
   const std::string log = LogHead({&source, 1}) + LogBlock(payload, count);
   WriteAtomically(folder / "session.bin", log + LogEnd(count));
-  WriteTrace(folder / "trace.csv", TraceOf(ParseDeviceLog(log)));
+  WriteTrace(folder / "trace.csv", RecordingOf(ParseDeviceLog(log)).rows);
   const auto forces = [&](const std::string& input, const std::string& output) {
     const ProgramResult run = RunProgram("replay " + demo + " " + (folder / input).string() +
                                          " -o " + (folder / output).string());

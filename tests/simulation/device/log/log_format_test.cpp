@@ -160,9 +160,9 @@ TEST(LogFormat, RefusesOtherFilesWithOneSentence) {
   EXPECT_NE(Refusal("").find("empty"), std::string::npos);
   EXPECT_NE(Refusal("t,device,hip_x").find("no device log"), std::string::npos);
   std::string other = Sample();
-  for (const char version : {0, 3}) {
+  for (const char version : {0, 4}) {
     other[8] = version;
-    EXPECT_NE(Refusal(other).find("and 1 to 2 are read here"), std::string::npos);
+    EXPECT_NE(Refusal(other).find("and 1 to 3 are read here"), std::string::npos);
   }
 }
 
@@ -251,6 +251,36 @@ TEST(LogFormat, RefusesRecordsAfterTheEnd) {
   end.kind = LogKind::kEnd;
   EXPECT_NE(Refusal(LogHead(kSources) + BlockOf({Tick(1, 0), end})).find("an end among"),
             std::string::npos);
+}
+
+LogRecord Wish(std::int64_t t_ns, std::uint64_t number, double view_angle) {
+  LogRecord record;
+  record.kind = LogKind::kWish;
+  record.t_ns = t_ns;
+  record.number = number;
+  record.wish = {view_angle, -0.018, 4, 7};
+  return record;
+}
+
+TEST(LogFormat, WishComesBackAsItWasWritten) {
+  const std::string head = LogHead(kSources);
+  const auto log =
+      ParseDeviceLog(head + BlockOf({Tick(3, 0), Wish(4, 0, 1.25), Wish(9, 1, 0.5)}) + LogEnd(3));
+  ASSERT_EQ(log.records.size(), 3u);
+  EXPECT_EQ(log.missing, 0) << "wishes are numbered apart from ticks";
+  EXPECT_EQ(log.records[1].wish, (LoggedWish{1.25, -0.018, 4, 7}));
+  EXPECT_EQ(log.records[2].wish.view_angle, 0.5);
+}
+
+TEST(LogFormat, RefusesAWishThatIsNoNumber) {
+  EXPECT_THROW(ParseDeviceLog(LogHead(kSources) + BlockOf({Wish(4, 0, std::nan(""))}) + LogEnd(1)),
+               Error);
+}
+
+TEST(LogFormat, VersionBeforeWishesCanBeRead) {
+  const auto log = ParseDeviceLog(LogHead(kSources, 2) + BlockOf({Tick(3, 0)}) + LogEnd(1));
+  EXPECT_EQ(log.records.size(), 1u);
+  EXPECT_EQ(log.torn, "");
 }
 
 }  // namespace

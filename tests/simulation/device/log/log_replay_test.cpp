@@ -179,7 +179,7 @@ TEST_F(LogReplay, DetectsADriverWithADifferentResult) {
 
 TEST_F(LogReplay, TicksAreARecordingOfHands) {
   const DeviceLogContent log = ReadDeviceLog(file);
-  const auto rows = TraceOf(log, file);
+  const auto rows = RecordingOf(log, file).rows;
   ASSERT_GT(rows.size(), 60u);
   EXPECT_EQ(rows.front().sample.t, 0);
   std::size_t next = 0;
@@ -200,13 +200,13 @@ TEST_F(LogReplay, TicksAreARecordingOfHands) {
 }
 
 TEST_F(LogReplay, IsDistinguishedFromATraceByItsBytes) {
-  const auto rows = TraceOf(ReadDeviceLog(file));
+  const auto rows = RecordingOf(ReadDeviceLog(file)).rows;
   std::string notice;
   std::filesystem::copy(file, folder / "log.csv");
-  EXPECT_EQ(TraceText(ReadTraceOrLog(folder / "log.csv", notice)), TraceText(rows));
+  EXPECT_EQ(TraceText(ReadRecording(folder / "log.csv", notice).rows), TraceText(rows));
   EXPECT_EQ(notice, "");
   WriteTrace(folder / "trace.log", rows);
-  EXPECT_EQ(TraceText(ReadTraceOrLog(folder / "trace.log", notice)), TraceText(rows));
+  EXPECT_EQ(TraceText(ReadRecording(folder / "trace.log", notice).rows), TraceText(rows));
   EXPECT_EQ(notice, "");
 }
 
@@ -215,18 +215,18 @@ TEST_F(LogReplay, ReplaysAnIncompleteLogWithANotice) {
   std::string notice;
   const DeviceLogContent log = ReadDeviceLog(file);
   EXPECT_FALSE(log.torn.empty());
-  ReadTraceOrLog(file, notice);
+  ReadRecording(file, notice);
   EXPECT_NE(notice.find("was cut short"), std::string::npos) << notice;
 }
 
 TEST_F(LogReplay, RefusesALogWithoutAHand) {
   DeviceLogContent log = ReadDeviceLog(file);
   log.sources[0].roles = {};
-  EXPECT_THROW(TraceOf(log), Error);
+  EXPECT_THROW(RecordingOf(log), Error);
   log = ReadDeviceLog(file);
   for (LogRecord& record : log.records)
     if (record.sample.t > test::BenchSeconds() - 0.01) record.sample.t += 61;
-  EXPECT_THROW(TraceOf(log), Error) << "a gap";
+  EXPECT_THROW(RecordingOf(log), Error) << "a gap";
 }
 
 }  // namespace

@@ -336,7 +336,7 @@ TEST_F(PractisedHands, LogsSamplesAndCommandsOfBothHands) {
   for (const LogRecord& record : log.records)
     if (record.source == 1) pushed = std::max(pushed, glm::length(record.command));
   EXPECT_GT(pushed, 0.1);
-  const auto trace = TraceOf(log);
+  const auto trace = RecordingOf(log).rows;
   EXPECT_NEAR(static_cast<double>(trace.size()), 2e3 * t, 4) << "each tick, each hand";
   EXPECT_NEAR(trace.back().sample.t, t, 3e-3);
 }

@@ -247,7 +247,7 @@ TEST_F(PractisedTouch, LogsEachTickOfThePractice) {
         record.status.state == DeviceState::kArmed)
       pushed = std::max(pushed, glm::length(record.command));
   EXPECT_GT(pushed, 0.3);
-  EXPECT_FALSE(TraceOf(content).empty());
+  EXPECT_FALSE(RecordingOf(content).rows.empty());
 }
 
 TEST(OpenHapticsRig, IsAcceptedWhereTheLibraryIsInstalled) {
