@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/csv_field.h"
-#include "simulation/training/frame_builder.h"
+#include "simulation/training/observe/frame_builder.h"
 
 namespace arthro::simulation {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/training/attempt_frame.h"
+#include "simulation/training/observe/attempt_frame.h"
 
 namespace arthro::simulation {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "simulation/tissue/body/tissue_preset.h"
-#include "simulation/training/attempt_frame.h"
+#include "simulation/training/observe/attempt_frame.h"
 
 namespace arthro::simulation {
 

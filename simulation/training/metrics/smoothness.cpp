@@ -7,7 +7,7 @@
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
-#include "simulation/training/attempt_frame.h"
+#include "simulation/training/observe/attempt_frame.h"
 
 namespace arthro::simulation {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/training/frame_builder.h"
+#include "simulation/training/observe/frame_builder.h"
 
 namespace arthro::test {
 

@@ -1,4 +1,4 @@
-#include "simulation/training/frame_builder.h"
+#include "simulation/training/observe/frame_builder.h"
 
 #include <algorithm>
 #include <cmath>

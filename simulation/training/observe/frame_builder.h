@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulation/practice/snapshot.h"
-#include "simulation/training/attempt_frame.h"
+#include "simulation/training/observe/attempt_frame.h"
 
 namespace arthro::simulation {
 
