@@ -27,6 +27,9 @@ void AddEveryJob(CLI::App& program) {
   AddRectifyJob(program);
   AddReliefJob(program);
   AddReplayJob(program);
+#ifdef ARTHRO_EDITOR
+  AddRunJob(program);
+#endif
   AddSolveJob(program);
   AddTetrahedralizeJob(program);
   AddViewJob(program);

@@ -266,9 +266,9 @@ void TissuePanel(Ui& ui, EditorState& state) {
                                                            {TissuePage::kCut, "Cut"}};
   // Widths of the words, plus equal shares of the remaining space.
   float free = ImGui::GetContentRegionAvail().x - 4 * ui.Px(4);
-  for (const auto& [page, words] : kPages) free -= ImGui::CalcTextSize(words).x;
+  for (const auto& [page, words] : kPages) free -= ui.WidthOf(words);
   for (const auto& [page, words] : kPages) {
-    const float page_width = ImGui::CalcTextSize(words).x + free / 5;
+    const float page_width = ui.WidthOf(words) + free / 5;
     if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.steps.tissue->page == page, true, {page_width, 0})) {
       if (state.steps.tissue->page != page)

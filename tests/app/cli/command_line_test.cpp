@@ -17,7 +17,8 @@ constexpr std::array kJobs = {"demo",    "phantom", "depth",  "tetrahedralize", 
                               "centres", "view",    "replay", "check",          "lens",
                               "rectify", "relief",  "reach",
 #ifdef ARTHRO_EDITOR  // jobs that open a window
-                              "edit",    "practise"
+                              "edit",    "practise",
+                              "run"
 #endif
 };
 
