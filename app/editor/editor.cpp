@@ -283,7 +283,7 @@ class Editor {
     return Translation(ParsePo(ReadWholeFile(file), file));
   }
 
-  // What was done in this frame, for a script.
+  // Notes the acts of this frame for the script that is recorded.
   void FollowByRecord() {
     const ImGuiIO& io = ImGui::GetIO();
     const FramePointer pointer{{io.MousePos.x, io.MousePos.y},

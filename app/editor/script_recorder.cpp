@@ -46,6 +46,11 @@ bool HasFileDialog(const EditorState& state) {
   return !state.dialogs.empty() && std::holds_alternative<BrowseDialog>(state.dialogs.back());
 }
 
+bool MayBeginWork(const std::string& line) {
+  return line.starts_with("do ") && !line.starts_with("do step-") && line != "do undo" &&
+         line != "do redo";
+}
+
 std::string Modifiers(bool shift, bool ctrl) {
   return std::string(shift ? " shift" : "") + (ctrl ? " ctrl" : "");
 }
@@ -171,6 +176,9 @@ void ScriptRecorder::Follow(EditorState& state, const WidgetRegistry& widgets,
     FollowPicture(state, widgets, pointer, scale, keeps_stroke);
   }
   if (!record.pending.empty()) AddPose(record, state);
+  // Work that a command began may have ended within its frame; it is waited for all the same.
+  const bool begins_work =
+      !had_dialog_ && std::any_of(record.pending.begin(), record.pending.end(), MayBeginWork);
   record.lines.insert(record.lines.end(), record.pending.begin(), record.pending.end());
   record.pending.clear();
   record.command_words.clear();
@@ -180,7 +188,7 @@ void ScriptRecorder::Follow(EditorState& state, const WidgetRegistry& widgets,
       record.lines.insert(record.lines.begin() + static_cast<std::ptrdiff_t>(before), "wait job");
     was_busy_ = false;
   }
-  was_busy_ = was_busy_ || busy;
+  was_busy_ = was_busy_ || busy || begins_work;
   last_ = pointer;
 }
 

@@ -35,9 +35,9 @@ class ScriptRecorder {
     std::string name;
     int button = 0;
     bool shift = false, ctrl = false;
-    glm::dvec2 middle{0.0};  // of the picture, window coordinates
+    glm::dvec2 middle{0.0};  // middle of the picture, window coordinates
     std::vector<glm::dvec2> points;
-    long long state_id = 0;  // of the history when it began
+    long long state_id = 0;  // state of the history when it began
   };
   void Begin(EditorState& state, int width, int height);
   void AddPose(ScriptRecord& record, const EditorState& state);
@@ -48,7 +48,7 @@ class ScriptRecorder {
   bool is_on_ = false, was_busy_ = false, had_dialog_ = false, had_any_dialog_ = false;
   std::optional<Stroke> stroke_;
   FramePointer last_;
-  std::optional<simulation::RodPose> scope_, instrument_;  // as last written
+  std::optional<simulation::RodPose> scope_, instrument_;  // the last that were written
 };
 
 }  // namespace arthro::app

@@ -15,7 +15,7 @@ namespace arthro::app {
 
 struct StartScene {
   std::filesystem::path place;
-  std::string title;                           // of the scene, or the name of its folder
+  std::string title;                           // title of the scene, or the name of its folder
   std::string folder;                          // tells two scenes of one title apart
   std::string saved;                           // date and time of the last save
   std::shared_ptr<const ColourImage> picture;  // null: not read yet, or it cannot be
@@ -28,7 +28,7 @@ struct StartPage {
 
   explicit StartPage(std::function<void()> wake) : jobs(std::move(wake)) {}
   bool is_shown = false;
-  int document_number = 0;  // of the document behind it
+  int document_number = 0;  // number of the document behind it
   std::vector<StartScene> scenes;
   Jobs jobs;  // reads the next scene
 };

@@ -64,7 +64,7 @@ struct ScriptLine {
   std::string name, text;  // name of an item; text that is typed or expected, or a file
   double x = 0, y = 0;  // drag, click from the middle, wheel (y), frames (x), size, seed and steps
   bool right_button = false;
-  int button = 0;  // of a stroke: 0 left, 1 right, 2 middle
+  int button = 0;  // button of a stroke: 0 left, 1 right, 2 middle
   bool shift = false, ctrl = false;
   std::vector<double> numbers;  // points of a stroke, numbers of a pose
 };

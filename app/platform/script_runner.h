@@ -19,7 +19,7 @@ namespace arthro::app {
 
 enum class ScriptState { kRunning, kFinished, kFailed };
 
-// What lines do that go past the window's items. Each gives back why it failed, or "".
+// Acts of lines that go past the window's items. Each gives back why it failed, or "".
 struct ScriptActions {
   std::function<std::string(const std::string& command, const std::filesystem::path& file)> run;
   std::function<std::string(const std::filesystem::path& file)> choose;

@@ -21,7 +21,7 @@ enum class Theme { kDark, kLight };
 
 // Colours, spacing and sizes of every widget.
 void ApplyTheme(double scale, Theme theme);
-Theme CurrentTheme();  // that of ApplyTheme, read from ImGui's style
+Theme CurrentTheme();  // the theme of ApplyTheme, read from ImGui's style
 
 // A colour below as it is drawn on the ground of the current theme; over a picture, which is dark
 // in either theme, they are drawn as they are. Other colours stay as they are.

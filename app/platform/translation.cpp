@@ -13,7 +13,7 @@ namespace arthro::app {
 namespace {
 
 constexpr std::size_t kMostKnown = 20000;  // texts that are remembered; numbers make new ones
-constexpr std::size_t kLeastLetters = 2;   // of a pattern: "{} {}" would fit everything
+constexpr std::size_t kLeastLetters = 2;   // letters of a pattern: "{} {}" would fit everything
 constexpr std::size_t kMostMissing = 5000;
 
 bool IsLetter(char c) {

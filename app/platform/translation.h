@@ -18,7 +18,7 @@ namespace arthro::app {
 // One entry of a .po file.
 struct PoEntry {
   std::string english, translated;
-  int line = 0;  // of its msgid, from 1
+  int line = 0;  // line of its msgid, from 1
 };
 // Entries that are translated and not marked fuzzy; the file's own header is left out. Throws
 // Error(kBadData) with the line.
@@ -43,7 +43,7 @@ class Translation {
   struct Pattern {
     std::vector<std::string> pieces;
     std::string translated;
-    std::size_t letters = 0;  // of the pieces: the one with most letters fits first
+    std::size_t letters = 0;  // letters of the pieces: the one with most letters fits first
   };
   bool Find(std::string_view english, std::string& translated);
   std::string Filled(const Pattern& pattern, const std::vector<std::string_view>& values);

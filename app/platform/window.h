@@ -66,7 +66,7 @@ class Window {
   void SetTitle(const std::string& title);
   // Takes effect with the next frame. Without a scale the monitor's.
   void SetLook(std::optional<double> scale, Theme theme);
-  MonitorSize monitor() const;  // that of the window, or the primary one
+  MonitorSize monitor() const;  // the monitor of the window, or the primary one
   void SetFullScreen(bool full);
 
  private:

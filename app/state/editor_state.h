@@ -96,7 +96,7 @@ struct EditorState {
   RecentScenes recent;
   Owned<StartPage> start;      // the page before a scene is open (app/files/start_page.h)
   WindowSettings settings;     // looks and language
-  ScriptRecord record;         // of the session, while it is recorded
+  ScriptRecord record;         // record of the session
   std::function<void()> wake;  // ends the window's sleep, from any thread
   bool quit = false, full_screen = false;
 };

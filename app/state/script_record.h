@@ -15,7 +15,7 @@ struct EditorState;
 struct ScriptRecord {
   bool is_on = false;
   std::vector<std::string> lines;    // so far
-  std::vector<std::string> pending;  // of the frame that is built
+  std::vector<std::string> pending;  // lines of the frame that is built
   // Words of commands of this frame: a click on their button is the same act.
   std::vector<std::string> command_words;
 };

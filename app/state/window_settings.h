@@ -39,7 +39,8 @@ struct WindowSettings {
   friend bool operator==(const WindowSettings&, const WindowSettings&) = default;
 };
 
-// Scale of text and controls. A monitor whose system reports a content scale of 1 and has at least 3200 px over less than 400 mm counts as 2, at least 2400 px as 1.5.
+// Scale of text and controls. A monitor whose system reports a content scale of 1 and has at least
+// 3200 px over less than 400 mm counts as 2, at least 2400 px as 1.5.
 double ScaleOf(UiScale choice, const MonitorSize& monitor);
 
 // "de" or "en": the choice, or the first language of the environment's that is known.

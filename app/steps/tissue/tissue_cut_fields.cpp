@@ -85,7 +85,7 @@ void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (const Region* region = ChosenRegion(state)) {
     radius = region->ball.radius * scale;
     std::string name = region->name;
-    if (TextField(ui, "Region name", name)) {
+    if (TextField(ui, "Region name", name, "name in the report")) {
       RenameRegion(state, name);
       EndDrag(state);
     }

@@ -80,7 +80,8 @@ void TearSlider(Ui& ui, EditorState& state, const char* name, double& value, dou
 void TissueLibraryFields(Ui& ui, EditorState& state) {
   ModelShelf& shelf = *state.steps.tissue->shelf;
   int side = shelf.side == authoring::KneeSide::kLeft ? 0 : 1;
-  if (Combo(ui, "Knee", side, {"left knee", "right knee"}))
+  if (Combo(ui, "Knee", side, {"left knee", "right knee"},
+            "Side of the knee that the models are made for."))
     shelf.side = side == 0 ? authoring::KneeSide::kLeft : authoring::KneeSide::kRight;
   int size = static_cast<int>(shelf.size);
   if (Combo(ui, "Size", size, {"small", "average", "large"},

@@ -201,7 +201,7 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (PlacesLandmarks(state)) return;
   FitFields(ui, state);
   std::string name = tissue.name;
-  if (TextField(ui, "Name", name) && !name.empty()) {
+  if (TextField(ui, "Name", name, "name of the tissue") && !name.empty()) {
     Tissue changed = tissue;
     changed.name = name;
     SetTissue(state, state.tissue, changed, "Rename");

@@ -13,12 +13,11 @@ namespace {
 using test::ProgramResult;
 using test::RunProgram;
 
-constexpr std::array kJobs = {"demo",    "phantom", "depth",  "tetrahedralize", "pivot",
-                              "centres", "view",    "replay", "check",          "lens",
-                              "rectify", "relief",  "reach",
+constexpr std::array kJobs = {"demo",    "phantom",  "depth",  "tetrahedralize", "pivot",
+                              "centres", "view",     "replay", "check",          "lens",
+                              "rectify", "relief",   "reach",
 #ifdef ARTHRO_EDITOR  // jobs that open a window
-                              "edit",    "practise",
-                              "run"
+                              "edit",    "practise", "run"
 #endif
 };
 
