@@ -59,7 +59,7 @@ std::string Modifiers(bool shift, bool ctrl) {
 
 void ScriptRecorder::Begin(EditorState& state, int width, int height) {
   is_on_ = true;
-  was_busy_ = had_dialog_ = false;
+  was_busy_ = needs_wait_ = had_dialog_ = false;
   stroke_.reset();
   scope_.reset(), instrument_.reset();
   auto& lines = state.record.lines;
@@ -184,11 +184,14 @@ void ScriptRecorder::Follow(EditorState& state, const WidgetRegistry& widgets,
   record.command_words.clear();
   // Work that ended between two acts is waited for.
   if (record.lines.size() > before) {
-    if (was_busy_ && !busy)
+    if (needs_wait_)
       record.lines.insert(record.lines.begin() + static_cast<std::ptrdiff_t>(before), "wait job");
-    was_busy_ = false;
+    was_busy_ = needs_wait_ = false;
   }
   was_busy_ = was_busy_ || busy || begins_work;
+  // An act may begin work of its own in its frame, so that the end of the work before is noted
+  // here.
+  if (was_busy_ && !busy) needs_wait_ = true;
   last_ = pointer;
 }
 

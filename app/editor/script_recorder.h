@@ -45,7 +45,8 @@ class ScriptRecorder {
                      double scale, bool keeps_stroke);
   void EndStroke(EditorState& state, double scale, bool keeps_stroke);
 
-  bool is_on_ = false, was_busy_ = false, had_dialog_ = false, had_any_dialog_ = false;
+  bool is_on_ = false, was_busy_ = false, needs_wait_ = false, had_dialog_ = false,
+       had_any_dialog_ = false;
   std::optional<Stroke> stroke_;
   FramePointer last_;
   std::optional<simulation::RodPose> scope_, instrument_;  // the last that were written

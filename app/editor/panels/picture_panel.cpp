@@ -172,7 +172,7 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   } else {
     const char* words = "Drop a panorama, a video or a scene here";
     ui.widgets.RecordText(words);
-    const std::string& shown = ui.In(words);
+    const std::string shown = ui.In(words);
     const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
     draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet,
                   shown.c_str());

@@ -92,7 +92,7 @@ void ProfileFigure(Ui& ui, const EditorState& state, const Area& area) {
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF231E1B);
   const auto note = [&](const char* words) {
     ui.widgets.RecordText(words);
-    const std::string& shown = ui.In(words);
+    const std::string shown = ui.In(words);
     const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
     draw->AddText({area.x + 0.5f * (area.width - size.x), area.y + 0.5f * (area.height - size.y)},
                   kQuiet, shown.c_str());

@@ -59,7 +59,7 @@ void Caption(Ui& ui, const Area& area, const std::vector<Line>& lines) {
 void InTheMiddle(Ui& ui, const Area& area, const std::string& words) {
   ui.widgets.RecordText(words);
   const float width = std::min(area.width - ui.Px(40), ui.Px(420));
-  const std::string& shown = ui.In(words);
+  const std::string shown = ui.In(words);
   const ImVec2 size = ImGui::CalcTextSize(shown.c_str(), nullptr, false, width);
   ImGui::GetWindowDrawList()->AddText(
       ImGui::GetFont(), ImGui::GetFontSize(),

@@ -60,7 +60,7 @@ void MotionPicture(Ui& ui, const authoring::ReliefSoFar& so_far, const Area& are
   Drawing(ui, PlanOf(so_far, PlanSide::kSide), {left + edge + gap, top, edge, edge},
           "From the side");
   ui.widgets.RecordText(words);
-  const std::string& shown = ui.In(words);
+  const std::string shown = ui.In(words);
   const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
   ImGui::GetWindowDrawList()->AddText(
       {area.x + 0.5f * (area.width - size.x), top + edge + ui.Px(10)}, kQuiet, shown.c_str());

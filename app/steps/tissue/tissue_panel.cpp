@@ -65,7 +65,7 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (change.released) EndDrag(state);
 
   double scale = tissue.pose.scale;
-  change = Slider(ui, "Scale", scale, 0.1, 5.0, "× %.2f");
+  change = Slider(ui, "Scale", scale, 0.1, 5.0, "× %.2f", "Size relative to the model's file.");
   if (change) {
     changed.pose.scale = scale;
     SetTissue(state, state.tissue, changed, "Scale");
