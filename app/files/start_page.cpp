@@ -10,8 +10,8 @@
 #include "app/platform/resource_folder.h"
 #include "app/state/command.h"
 #include "app/steps/tissue/tissue_library.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/input_file.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 
