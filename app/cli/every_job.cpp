@@ -28,6 +28,9 @@ void AddEveryJob(CLI::App& program) {
   AddRectifyJob(program);
   AddReliefJob(program);
   AddReplayJob(program);
+#ifdef ARTHRO_EDITOR
+  AddRunJob(program);
+#endif
   AddSolveJob(program);
   AddTetrahedralizeJob(program);
   AddViewJob(program);

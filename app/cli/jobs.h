@@ -35,6 +35,7 @@ void AddPractiseJob(CLI::App& program);
 void AddRectifyJob(CLI::App& program);
 void AddReliefJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);
+void AddRunJob(CLI::App& program);
 void AddSolveJob(CLI::App& program);
 void AddTetrahedralizeJob(CLI::App& program);
 void AddViewJob(CLI::App& program);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -20,8 +21,11 @@
 #include "app/editor/landmark_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/pictures.h"
+#include "app/editor/script_recorder.h"
+#include "app/editor/tab_walk.h"
 #include "app/files/recovery_copy.h"
 #include "app/files/scene_files.h"
+#include "app/files/start_page.h"
 #include "app/platform/ending_signals.h"
 #include "app/platform/picture_window.h"
 #include "app/platform/resource_folder.h"
@@ -44,6 +48,7 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
+#include "simulation/core/options_json.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -113,13 +118,28 @@ void RunShortcuts(EditorState& state) {
 void TakeNews(EditorState& state, const FrameNews& news) {
   if (news.close_requested && state.dialogs.empty()) Run(state, "quit");
   if (!news.dropped.empty() && state.dialogs.empty() && !state.practice && !state.practice_only)
-    Guarded(state, "Open", [&] { OpenDropped(state, news.dropped.front()); });
+    Guarded(state, "Open", [&] {
+      RecordFile(state.record, "drop", news.dropped.front());
+      OpenDropped(state, news.dropped.front());
+    });
 }
 
 std::string TitleOf(const EditorState& state) {
   const std::string& title = state.document().scene.title;
   return (state.history.IsSaved() || state.practice_only ? "" : "• ") +
          (title.empty() ? std::string("Untitled") : title) + " — Arthroscene";
+}
+
+ScriptActions ActionsOf(EditorState& state) {
+  return {[&state](const std::string& command, const std::filesystem::path& file) {
+            return RunByName(state, command, file);
+          },
+          [&state](const std::filesystem::path& file) { return ChooseFile(state, file); },
+          [&state](bool of_scope, const std::vector<double>& pose) -> std::string {
+            if (!InEditor(state)) return "the hands of a practice follow the mouse and the keys";
+            (of_scope ? state.scope : state.instrument) = {pose[1], pose[2], pose[3], pose[0]};
+            return "";
+          }};
 }
 
 class Editor {
@@ -143,12 +163,16 @@ class Editor {
         window_(WindowFrom(options)),
         pictures_(options.script.has_value()),
         state_(MakeEditorState(NewDocument(), Window::WakeUp,
-                               options.script ? std::filesystem::path() : RecentScenesFile())),
+                               options.recent   ? *options.recent
+                               : options.script ? std::filesystem::path()
+                                                : RecentScenesFile())),
         recovery_(FolderOfCopies(options), Window::WakeUp) {
     if (options.script) {
       script_.emplace(ParseScript(ReadWholeFile(*options.script), *options.script),
                       window_.scale());
       script_->SetCrawlKeys(KeysOfCrawl(state_));
+      script_->SetActions(ActionsOf(state_));
+      script_->SetJobLimit(std::chrono::minutes(options.job_minutes));
     }
     Begin();
   }
@@ -216,17 +240,74 @@ class Editor {
       std::fprintf(stderr, "warning: %s\n", state_.steps.practice->film_words.c_str());
   }
 
-  static std::filesystem::path FileOfViews(const EditorOptions& options) {
+  // A file beside that of the recent scenes; none for scripts and single frames.
+  static std::filesystem::path OwnFile(const EditorOptions& options, const char* name) {
     if (options.script || options.frames > 0 || RecentScenesFile().empty()) return {};
-    return RecentScenesFile().replace_filename("views.json");
+    return RecentScenesFile().replace_filename(name);
+  }
+  static std::filesystem::path FileOfViews(const EditorOptions& options) {
+    return OwnFile(options, "views.json");
+  }
+  static WindowSettings SettingsFrom(const EditorOptions& options) {
+    WindowSettings settings = ReadWindowSettings(OwnFile(options, "settings.json"));
+    ReadOptions(nlohmann::json(options.look), {}, settings);
+    return settings;
+  }
+
+  // Scale, colours and language as they are set; kept where they were changed in the window.
+  void FollowSettings() {
+    if (applied_settings_ == state_.settings) return;
+    if (applied_settings_) WriteWindowSettings(OwnFile(options_, "settings.json"), state_.settings);
+    const bool is_other_language =
+        !applied_settings_ || applied_settings_->language != state_.settings.language;
+    applied_settings_ = state_.settings;
+    window_.SetLook(ScaleFrom(options_, state_.settings, window_.monitor()),
+                    state_.settings.theme == ThemeChoice::kLight ? Theme::kLight : Theme::kDark);
+    if (is_other_language) translation_ = TranslationOf(LanguageCode(options_, state_.settings));
+    unsettled_ = std::max(unsettled_, 3);
+  }
+  static double ScaleFrom(const EditorOptions& options, const WindowSettings& settings,
+                          const MonitorSize& monitor) {
+    return options.scale && settings.interface_scale == UiScale::kAutomatic
+               ? *options.scale
+               : ScaleOf(settings.interface_scale, monitor);
+  }
+  // A script that names no language is in English, whatever the environment.
+  static std::string LanguageCode(const EditorOptions& options, const WindowSettings& settings) {
+    const bool is_free = settings.language == LanguageChoice::kAutomatic;
+    return options.script && is_free ? "en" : app::LanguageCode(settings.language);
+  }
+  static Translation TranslationOf(const std::string& language) {
+    const auto file = ResourceFolder() / "languages" / (language + ".po");
+    if (!std::filesystem::exists(file)) return {};
+    return Translation(ParsePo(ReadWholeFile(file), file));
+  }
+
+  // Notes the acts of this frame for the script that is recorded.
+  void FollowByRecord() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const FramePointer pointer{{io.MousePos.x, io.MousePos.y},
+                               {io.MouseDown[0], io.MouseDown[1], io.MouseDown[2]},
+                               io.MouseWheel,
+                               io.KeyShift,
+                               io.KeyCtrl,
+                               ImGui::IsKeyPressed(GLFW_KEY_ENTER, false),
+                               ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)};
+    const double scale = window_.scale();
+    recorder_.Follow(
+        state_, widgets_, pointer, scale, static_cast<int>(std::lround(window_.width() / scale)),
+        static_cast<int>(std::lround(window_.height() / scale)), Busy(), LaysOnRelief(state_));
   }
 
   void Begin() {
     state_.views = ReadViewLayout(FileOfViews(options_));
+    state_.settings = SettingsFrom(options_);
     state_.practice_only = options_.practice;
     if (options_.scene) {
       const SceneOnDisk on_disk = NoteOnDisk(*options_.scene);
       StartDocument(state_, OpenSceneDocument(*options_.scene), true, on_disk);
+    } else if (!options_.script && options_.frames == 0) {
+      ShowStartPage(state_);
     } else if (const auto demo = ResourceFolder() / "demo";
                std::filesystem::exists(demo / "scene.json")) {
       StartDocument(state_, OpenSceneDocument(demo), true);
@@ -285,18 +366,20 @@ class Editor {
   bool Busy() const {
     return state_.jobs.busy() || state_.steps.depth->preview_jobs.busy() ||
            state_.steps.panorama->frame_jobs.busy() || state_.steps.practice->pivot_jobs.busy() ||
-           state_.steps.portals->reach.jobs.busy() ||
+           state_.steps.portals->reach.jobs.busy() || (state_.start && state_.start->jobs.busy()) ||
            (state_.steps.practice->film && state_.steps.practice->film->is_ending());
   }
 
   void Frame() {
     const auto now = Clock::now();
+    FollowSettings();
     const FrameNews news = window_.BeginFrame();
     const double step = ImGui::GetIO().DeltaTime;
     TakeNews(state_, news);
     if (FinishWork(state_)) last_event_ = now;
     RunShortcuts(state_);
-    if (state_.dialogs.empty() && !ShowsFootage(state_) && !ShowsDepthBoard(state_))
+    if (state_.dialogs.empty() && !ShowsStartPage(state_) && !ShowsFootage(state_) &&
+        !ShowsDepthBoard(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.steps.practice->hands->Look()) last_event_ = now;
     if (state_.practice && state_.dialogs.empty())
@@ -311,8 +394,11 @@ class Editor {
     // A stream of events is worked off faster than it could be drawn.
     will_draw_ = window_.input().empty() || Seconds(now - last_draw_).count() > kDrawAtLeastEvery;
     widgets_.BeginFrame();
-    Ui ui{widgets_, window_.fonts(), static_cast<float>(window_.scale())};
+    Ui ui{widgets_, window_.fonts(), translation_, static_cast<float>(window_.scale())};
     Panels(ui);
+    FollowByRecord();
+    if (ImGui::IsKeyPressed(GLFW_KEY_TAB) && !state_.practice)
+      WalkByTab(widgets_, ImGui::GetIO().KeyShift);
 
     if (!will_draw_) {
       ImGui::EndFrame();
@@ -390,6 +476,12 @@ class Editor {
     } else {
       const Layout layout = EditorLayout(width, height, ui.scale, state_.views);
       TopBar(ui, state_, layout.top);
+      if (ShowsStartPage(state_)) {
+        Board(ui, layout, StartBoard);
+        StatusBar(ui, state_, layout.status, "");
+        Dialogs(ui, state_);
+        return;
+      }
       StepsPanel(ui, state_, layout.side);
       if (ShowsFootage(state_)) {
         Board(ui, layout, FootageBoardPage);
@@ -407,6 +499,12 @@ class Editor {
   static Area BoardArea(const Layout& layout) {
     return {layout.picture.x, layout.picture.y,
             layout.overview.x + layout.overview.width - layout.picture.x, layout.picture.height};
+  }
+
+  // The start page takes the room of the steps as well.
+  static void StartBoard(Ui& ui, EditorState& state, const Area& area,
+                         const PictureTextureOf& texture_of) {
+    StartPagePanel(ui, state, {0, area.y, area.x + area.width, area.height}, texture_of);
   }
 
   template <class Page>
@@ -504,6 +602,9 @@ class Editor {
   RecoveryCopy recovery_;  // ends before the state that it writes
   WidgetRegistry widgets_;
   std::optional<ScriptRunner> script_;
+  ScriptRecorder recorder_;
+  Translation translation_;
+  std::optional<WindowSettings> applied_settings_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
   std::map<std::string, std::vector<double>> frame_seconds_;  // s per drawn frame, by mark

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
 #include "app/recording/frame_shape.h"
+#include "app/state/window_settings.h"
 #include "simulation/practice/hands/hands.h"
 #include "simulation/practice/session_options.h"
 #include "simulation/scope/camera_head.h"
@@ -14,16 +16,21 @@
 namespace arthro::app {
 
 struct EditorOptions {
-  std::optional<std::filesystem::path> scene;  // none: the demo scene
-  bool practice = false;                       // the practise job: nothing but practice
-  simulation::HandsChoice hands;               // devices that hold them
-  simulation::SessionOptions session;          // options of every practice
-  std::optional<std::filesystem::path> film;   // film of a practice, from its beginning
+  // None: the start page; the demo scene for a script.
+  std::optional<std::filesystem::path> scene;
+  bool practice = false;                      // the practise job: nothing but practice
+  simulation::HandsChoice hands;              // devices that hold them
+  simulation::SessionOptions session;         // options of every practice
+  std::optional<std::filesystem::path> film;  // film of a practice, from its beginning
   FrameShape frame_shape = FrameShape::kSquare;
   simulation::CameraHead head;
   std::optional<int> trainee_screen;  // monitor, from 1; 0: another one
   std::string notice;                 // message for the start; empty: none
+  // Settings of the window by name, as flags give them; others are as the user has set them.
+  std::map<std::string, std::string> look;
+  int job_minutes = 2;  // longest work that a script waits for
   // For tests.
+  std::optional<std::filesystem::path> recent;    // file of the recent scenes; none: the user's
   std::optional<std::filesystem::path> recovery;  // folder of copies; none: the user's
   std::optional<std::filesystem::path> script;
   int width = 1280, height = 800;

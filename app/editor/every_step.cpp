@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 
 #include "app/files/scene_files.h"
+#include "app/files/start_page.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
@@ -22,6 +23,7 @@ using State = EditorState;
 template <Step step>
 void Open(State& state) {
   state.step = step;
+  HideStartPage(state);
 }
 
 constexpr Command kStepCommands[] = {
@@ -143,7 +145,7 @@ std::span<const Command> AllCommands() {
   static const std::vector<Command> all = [] {
     std::vector<Command> commands;
     for (const auto group :
-         {FileCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
+         {FileCommands(), StartCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
           std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
           DisturbanceCommands(), IncisionCommands(), std::span<const Command>(kViewCommands),
           std::span<const Command>(kWindowCommands)})
@@ -168,6 +170,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
 
 bool FinishWork(EditorState& state) {
   bool changed = FinishFootage(state);
+  changed = KeepStartPageFresh(state) || changed;
   if (state.jobs.busy()) {
     const std::string words = state.jobs.words();
     Guarded(state, words, [&] { changed = state.jobs.Finish(state); });

@@ -5,13 +5,35 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "simulation/core/atomic_file.h"
 
 namespace arthro::app {
 namespace {
 
 using State = EditorState;
 
+void BrowseForScript(State& state, const std::string& title, std::function<void(State&)> then) {
+  static const std::vector<FileFilter> filters = {{"Scripts", {".script"}}, {"All files", {}}};
+  Browse(
+      state, BrowseFor::kSaveFile, title, "Save", filters,
+      [then = std::move(then)](State& sure, const std::filesystem::path& file) {
+        std::string text;
+        for (const std::string& line : sure.record.lines) text += line + "\n";
+        WriteAtomically(file, text);
+        sure.record = {};
+        sure.message = "Script saved in " + file.string();
+        if (then) then(sure);
+      },
+      "session");
+}
+
 void Quit(State& state) {
+  if (state.record.is_on) {
+    BrowseForScript(state, "Save the script before the window closes", [](State& sure) {
+      GuardUnsaved(sure, "quit", [](State& really) { really.quit = true; });
+    });
+    return;
+  }
   GuardUnsaved(state, "quit", [](State& sure) { sure.quit = true; });
 }
 
@@ -64,6 +86,33 @@ constexpr Command kCommands[] = {
      {},
      [](const State& state) { return Idle(state) && state.document().panorama != nullptr; },
      [](State& state) { SaveSceneAs(state); }},
+    {"record-script",
+     "Record script",
+     "Write down what is done from now on as a script, which `arthroscene run` repeats.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && !state.record.is_on; },
+     [](State& state) {
+       BeginRecord(state);
+       state.message = "Recording a script. File, Save the script… ends it.";
+     }},
+    {"end-script",
+     "Save the script…",
+     "End the record of the session, and save it.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && state.record.is_on; },
+     [](State& state) { BrowseForScript(state, "Save the script", {}); }},
+    {"settings",
+     "Settings…",
+     "Size of text, colours and language of the window.",
+     "Window",
+     {GLFW_KEY_COMMA, true},
+     {},
+     Always,
+     [](State& state) { state.dialogs.push_back(SettingsDialog{}); }},
     {"quit", "Quit", "Close the window.", "Scene", {GLFW_KEY_Q, true}, {}, Always, Quit},
     {"undo",
      "Undo",

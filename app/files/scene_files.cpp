@@ -108,7 +108,7 @@ void OpenScene(EditorState& state, const fs::path& scene) {
         const SceneOnDisk on_disk = NoteOnDisk(scene);
         return [scene, on_disk, document = OpenSceneDocument(scene)](EditorState& now) {
           StartDocument(now, document, true, on_disk);
-          now.recent.Add(scene);
+          if (!IsInResourceFolder(scene)) now.recent.Add(scene);
           now.message = "Opened " + scene.string();
         };
       },

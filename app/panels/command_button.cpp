@@ -6,11 +6,10 @@ namespace arthro::app {
 
 bool CommandButton(Ui& ui, EditorState& state, std::string_view id, const ImVec2& size) {
   const Command& command = CommandOf(state, id);
-  std::string tip = command.help;
-  if (const std::string keys = WordsOf(command.shortcut); !keys.empty()) tip += " (" + keys + ")";
-  if (!Button(ui, command.words, command.enabled(state), size, tip.c_str())) return false;
-  Run(state, command);
-  return true;
+  const bool is_pressed = Button(ui, command.words, command.enabled(state), size);
+  Tooltip(ui, command.help, WordsOf(command.shortcut));
+  if (is_pressed) Run(state, command);
+  return is_pressed;
 }
 
 }  // namespace arthro::app

@@ -33,10 +33,15 @@ double WithoutMinusZero(const char* format, double value) {
   return is_zero && text.starts_with('-') ? 0.0 : value;
 }
 
+// "0.0 mm to 47.5 mm", for the tip of a slider.
+std::string RangeWords(const std::string& low, const std::string& high) {
+  return low + " to " + high;
+}
+
 void Label(Ui& ui, const std::string& name) {
   ui.widgets.RecordText(name);
-  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
-  ImGui::TextUnformatted(name.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, OnGround(kQuiet));
+  ImGui::TextUnformatted(ui.In(name).c_str());
   ImGui::PopStyleColor();
 }
 
@@ -61,6 +66,32 @@ class NumberHidden {
   bool hidden_;
 };
 
+// ImGui's last item was clicked, or changed and let go, by mouse or keyboard.
+void NoteUse(Ui& ui, WidgetKind kind) {
+  if (kind == WidgetKind::kSlider || kind == WidgetKind::kText) {
+    if (ImGui::IsItemDeactivatedAfterEdit()) ui.widgets.NoteAct(true);
+    return;
+  }
+  if (kind == WidgetKind::kCombo) return;  // noted with the entry that is chosen
+  const ImGuiID id = ImGui::GetItemID();
+  const bool is_clicked = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(0) &&
+                          ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByPopup);
+  if (is_clicked || (id != 0 && GImGui->NavActivateId == id)) ui.widgets.NoteAct(false);
+}
+
+// The keyboard acts on ImGui's last item from now on, without pressing it.
+void TakeFocus(Ui& ui, ImGuiID id) {
+  ImGuiWindow* const window = ImGui::GetCurrentWindow();
+  const ImRect rectangle = GImGui->LastItemData.Rect;
+  ui.widgets.AskFocus(0);
+  ImGui::ClearActiveID();
+  ImGui::FocusWindow(window);
+  ImGui::SetNavID(id, window->DC.NavLayerCurrent, 0, ImGui::WindowRectAbsToRel(window, rectangle));
+  GImGui->NavDisableHighlight = false;
+  GImGui->NavDisableMouseHover = true;
+  if (!window->ClipRect.Contains(rectangle)) ImGui::SetScrollHereY();
+}
+
 }  // namespace
 
 void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string& value,
@@ -80,22 +111,32 @@ void RecordItem(Ui& ui, const std::string& name, bool enabled, const std::string
   record.reachable =
       modal == nullptr ||
       ImGui::IsWindowWithinBeginStackOf(ImGui::GetCurrentWindow(), const_cast<ImGuiWindow*>(modal));
+  record.id = ImGui::GetItemID();
+  const ImGuiWindow* const window = ImGui::GetCurrentWindow();
+  if ((window->Flags & ImGuiWindowFlags_NoNavInputs) != 0) record.id = 0;
+  record.focused = record.id != 0 && GImGui->NavId == record.id && !GImGui->NavDisableHighlight;
+  if (record.id != 0 && ui.widgets.wanted_focus() == record.id) TakeFocus(ui, record.id);
+  const bool is_picture = kind == WidgetKind::kPicture || kind == WidgetKind::kShown;
   ui.widgets.Record(std::move(record));
+  if (ui.widgets.IsWanted(name)) ImGui::SetScrollHereY();
+  if (enabled && !is_picture) NoteUse(ui, kind);
 }
 
 bool HitArea(const char* id, const ImVec2& size, ImGuiButtonFlags flags) {
   return ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}, flags);
 }
 
-void Tooltip(Ui& ui, const char* text) {
-  if (text == nullptr || *text == '\0' ||
-      !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive())
+void Tooltip(Ui& ui, const char* text, const std::string& keys) {
+  if (text == nullptr || *text == '\0') return;
+  ui.widgets.NoteTip();
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive())
     return;
   // Only after the pointer has rested: tips must not flicker over a list that is swept.
   if (GImGui->HoveredIdTimer < 0.5f) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.Px(340));
-  ImGui::TextUnformatted(text);
+  const std::string shown = ui.In(text);
+  ImGui::TextUnformatted((keys.empty() ? shown : shown + " (" + ui.In(keys) + ")").c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
@@ -103,7 +144,7 @@ void Tooltip(Ui& ui, const char* text) {
 bool Button(Ui& ui, const std::string& name, bool enabled, const ImVec2& size,
             const char* tooltip) {
   ImGui::BeginDisabled(!enabled);
-  const bool pressed = ImGui::Button(name.c_str(), size);
+  const bool pressed = ImGui::Button(ui.translation.Label(name).c_str(), size);
   ImGui::EndDisabled();
   RecordItem(ui, name, enabled);
   Tooltip(ui, tooltip);
@@ -117,7 +158,7 @@ bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled, co
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   }
   ImGui::BeginDisabled(!enabled);
-  const bool pressed = ImGui::Button(name.c_str(), size);
+  const bool pressed = ImGui::Button(ui.translation.Label(name).c_str(), size);
   ImGui::EndDisabled();
   if (chosen) ImGui::PopStyleColor(2);
   RecordItem(ui, name, enabled, chosen ? "on" : "off");
@@ -125,8 +166,28 @@ bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled, co
   return pressed && enabled;
 }
 
+bool ListEntry(Ui& ui, const std::string& name, bool chosen, ImGuiSelectableFlags flags,
+               const ImVec2& size) {
+  const bool pressed = ImGui::Selectable(ui.translation.Label(name).c_str(), chosen, flags, size);
+  RecordItem(ui, name, true, chosen ? "on" : "off");
+  return pressed;
+}
+
+bool Section(Ui& ui, const std::string& name, bool is_open_at_first) {
+  const bool is_open = ImGui::CollapsingHeader(
+      ui.translation.Label(name).c_str(), is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  RecordItem(ui, name, true, is_open ? "on" : "off");
+  return is_open;
+}
+
+void TextInput(Ui& ui, const std::string& name, std::string& text, const std::string& hint,
+               ImGuiInputTextFlags flags) {
+  ImGui::InputTextWithHint(Hidden(name).c_str(), ui.In(hint).c_str(), &text, flags);
+  RecordItem(ui, name, true, text, WidgetKind::kText);
+}
+
 bool Checkbox(Ui& ui, const std::string& name, bool& value, const char* tooltip) {
-  const bool changed = ImGui::Checkbox(name.c_str(), &value);
+  const bool changed = ImGui::Checkbox(ui.translation.Label(name).c_str(), &value);
   RecordItem(ui, name, true, value ? "on" : "off");
   Tooltip(ui, tooltip);
   return changed;
@@ -147,7 +208,7 @@ Change Slider(Ui& ui, const std::string& name, double& value, double min, double
   const Change change = ChangeOfLastItem(changed && std::isfinite(shown) && shown != value);
   if (change.changed) value = shown;
   RecordItem(ui, name, true, Formatted(format, shown), WidgetKind::kSlider);
-  Tooltip(ui, tooltip);
+  Tooltip(ui, tooltip, RangeWords(Formatted(format, min), Formatted(format, max)));
   return change;
 }
 
@@ -173,7 +234,10 @@ Change SliderInt(Ui& ui, const std::string& name, int& value, int min, int max, 
   if (change.changed) value = shown;
   std::snprintf(text, sizeof text, format, shown);
   RecordItem(ui, name, true, text, WidgetKind::kSlider);
-  Tooltip(ui, tooltip);
+  char low[64], high[64];
+  std::snprintf(low, sizeof low, format, min);
+  std::snprintf(high, sizeof high, format, max);
+  Tooltip(ui, tooltip, RangeWords(low, high));
   return change;
 }
 
@@ -186,7 +250,7 @@ Change NumberField(Ui& ui, const std::string& name, double& value, double step, 
   const Change change = ChangeOfLastItem(changed && std::isfinite(shown) && shown != value);
   if (change.changed) value = shown;
   RecordItem(ui, name, true, Formatted(format, shown), WidgetKind::kSlider);
-  Tooltip(ui, tooltip);
+  Tooltip(ui, tooltip, RangeWords(Formatted(format, min), Formatted(format, max)));
   return change;
 }
 
@@ -195,9 +259,15 @@ bool TextField(Ui& ui, const std::string& name, std::string& value, const char* 
   ImGui::SetNextItemWidth(-FLT_MIN);
   // Taken over when the field is left, so that one rename is one step.
   std::string typed = value;
-  ImGui::InputTextWithHint(Hidden(name).c_str(), hint, &typed);
+  ImGui::InputTextWithHint(Hidden(name).c_str(), ui.In(hint).c_str(), &typed);
+  const unsigned id = ImGui::GetItemID();
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  if (ImGui::IsItemActive()) ui.widgets.KeepDraft(id, typed);
+  // The focus was taken away before the field could hand over its text.
+  if (const std::string* draft = ui.widgets.DraftOf(id); done && draft && typed == value)
+    typed = *draft;
   RecordItem(ui, name, true, typed, WidgetKind::kText);
+  Tooltip(ui, hint);
   if (done) value = typed;
   return done;
 }
@@ -210,17 +280,18 @@ bool Combo(Ui& ui, const std::string& name, int& chosen, const std::vector<std::
                                 ? words[static_cast<std::size_t>(chosen)]
                                 : "";
   bool changed = false;
-  const bool open = ImGui::BeginCombo(Hidden(name).c_str(), shown.c_str());
+  const bool open = ImGui::BeginCombo(Hidden(name).c_str(), ui.In(shown).c_str());
   RecordItem(ui, name, true, shown, WidgetKind::kCombo);
+  const std::size_t own = ui.widgets.widgets().size() - 1;
   Tooltip(ui, tooltip);
   if (open) {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
       const std::string& word = words[static_cast<std::size_t>(i)];
-      if (ImGui::Selectable(word.c_str(), i == chosen) && i != chosen) chosen = i, changed = true;
-      RecordItem(ui, word);
+      if (ListEntry(ui, word, i == chosen) && i != chosen) chosen = i, changed = true;
     }
     ImGui::EndCombo();
   }
+  if (changed) ui.widgets.NoteAct(false, own);
   return changed;
 }
 
@@ -242,7 +313,7 @@ void LargeText(Ui& ui, const std::string& text, unsigned colour) {
 
 void Text(Ui& ui, const std::string& text) {
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(ui.In(text).c_str());
   ImGui::PopTextWrapPos();
   if (ImGui::IsItemVisible()) ui.widgets.RecordText(text);
 }
@@ -259,9 +330,9 @@ void MarkedBar(Ui& ui, const std::string& name, double filled, unsigned colour, 
                       ImGui::GetColorU32(ImGuiCol_FrameBg), ui.Px(4));
   if (filled > 0)
     draw->AddRectFilled(corner, {std::max(at(filled), corner.x + ui.Px(3)), corner.y + height},
-                        colour, ui.Px(4));
+                        OnGround(colour), ui.Px(4));
   if (mark > 0)
-    draw->AddLine({at(mark), corner.y}, {at(mark), corner.y + height}, kBright, ui.Px(2));
+    draw->AddLine({at(mark), corner.y}, {at(mark), corner.y + height}, OnGround(kBright), ui.Px(2));
   ImGui::Dummy({width, height});
   RecordItem(ui, name, true, value, WidgetKind::kShown);
 }
@@ -269,35 +340,43 @@ void MarkedBar(Ui& ui, const std::string& name, double filled, unsigned colour, 
 void QuietText(Ui& ui, const std::string& text) { ColouredText(ui, text, kQuiet); }
 
 void ColouredText(Ui& ui, const std::string& text, unsigned colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushStyleColor(ImGuiCol_Text, OnGround(colour));
   Text(ui, text);
   ImGui::PopStyleColor();
 }
 
 void ShortenedText(Ui& ui, const std::string& text, const std::string& full, float room) {
   if (room <= 0) room = ImGui::GetContentRegionAvail().x;
-  std::string shown = text;
+  const std::string whole = ui.In(text);
+  std::string shown = whole;
   // Whole characters go from the middle: bytes that go on with one begin with binary 10.
   const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
-  std::size_t left = (text.size() + 1) / 2, right = left;
-  while (ImGui::CalcTextSize(shown.c_str()).x > room && (left > 0 || right < text.size())) {
-    if (left > 0 && left >= text.size() - right)
-      while (--left > 0 && goes_on(text[left])) {
+  std::size_t left = (whole.size() + 1) / 2;
+  while (left > 0 && left < whole.size() && goes_on(whole[left])) --left;
+  std::size_t right = left;
+  while (ImGui::CalcTextSize(shown.c_str()).x > room && (left > 0 || right < whole.size())) {
+    if (left > 0 && left >= whole.size() - right)
+      while (--left > 0 && goes_on(whole[left])) {
       }
     else
-      while (++right < text.size() && goes_on(text[right])) {
+      while (++right < whole.size() && goes_on(whole[right])) {
       }
-    shown = text.substr(0, left) + "…" + text.substr(right);
+    shown = whole.substr(0, left) + "…" + whole.substr(right);
   }
   ImGui::TextUnformatted(shown.c_str());
   ui.widgets.RecordText(text);
-  if (ImGui::IsItemHovered() && (shown != text || full != text)) {
+  if (ImGui::IsItemHovered() && (shown != whole || full != text)) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ui.Px(420));
-    ImGui::TextUnformatted(full.c_str());
+    ImGui::TextUnformatted(ui.In(full).c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
+}
+
+void DrawWords(Ui& ui, const ImVec2& corner, unsigned colour, const std::string& words) {
+  ui.widgets.RecordText(words);
+  ImGui::GetWindowDrawList()->AddText(corner, OnGround(colour), ui.In(words).c_str());
 }
 
 void Gap(Ui& ui, double pixels) { ImGui::Dummy({0, ui.Px(pixels)}); }

@@ -1,5 +1,6 @@
-// The widgets that panels are made of: Dear ImGui's, each recorded under the name that is written
-// on it, so that scripts and tests can find it. Sizes are in pixels at content scale 1.
+// The widgets that panels are made of: Dear ImGui's, each recorded under its English name, so that
+// scripts and tests can find it, and shown in the window's language. Sizes are in pixels at content
+// scale 1.
 #pragma once
 
 #include <string>
@@ -8,6 +9,7 @@
 #include <imgui.h>
 
 #include "app/platform/theme.h"
+#include "app/platform/translation.h"
 #include "app/platform/widget_registry.h"
 
 namespace arthro::app {
@@ -16,12 +18,19 @@ namespace arthro::app {
 struct Ui {
   WidgetRegistry& widgets;
   const Fonts& fonts;
+  Translation& translation;
   float scale = 1.0f;
 
   float Px(double pixels) const { return static_cast<float>(pixels) * scale; }
+  // The text in the window's language. Widgets look their own texts up; this is for texts that are
+  // measured or drawn by hand.
+  const std::string& In(const std::string& english) const { return translation.Of(english); }
+  float WidthOf(const std::string& english) const {
+    return ImGui::CalcTextSize(In(english).c_str()).x;
+  }
 };
 
-// Records ImGui's last item.
+// Records ImGui's last item, and that it was used in this frame.
 void RecordItem(Ui& ui, const std::string& name, bool enabled = true, const std::string& value = "",
                 WidgetKind kind = WidgetKind::kButton);
 
@@ -33,6 +42,14 @@ bool Button(Ui& ui, const std::string& name, bool enabled = true, const ImVec2& 
 // A button that stands for a state: lit while `chosen`.
 bool ToggleButton(Ui& ui, const std::string& name, bool chosen, bool enabled = true,
                   const ImVec2& size = {0, 0}, const char* tooltip = nullptr);
+// A row of a list.
+bool ListEntry(Ui& ui, const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0,
+               const ImVec2& size = {0, 0});
+// A heading that opens and closes what follows.
+bool Section(Ui& ui, const std::string& name, bool is_open_at_first = false);
+// One line that is typed into, without a label.
+void TextInput(Ui& ui, const std::string& name, std::string& text, const std::string& hint,
+               ImGuiInputTextFlags flags = 0);
 bool Checkbox(Ui& ui, const std::string& name, bool& value, const char* tooltip = nullptr);
 
 // Change of a slider or field in this frame.
@@ -72,7 +89,10 @@ void QuietText(Ui& ui, const std::string& text);  // wrapped, secondary
 // the window's edge.
 void ShortenedText(Ui& ui, const std::string& text, const std::string& full, float room = 0);
 void ColouredText(Ui& ui, const std::string& text, unsigned colour);
-void Tooltip(Ui& ui, const char* text);  // shown while the last item is pointed at
+// Shown while the last item is pointed at, with the keys that do the same.
+void Tooltip(Ui& ui, const char* text, const std::string& keys = "");
+// `words` drawn by hand, in the window's language, in a colour of the theme's ground.
+void DrawWords(Ui& ui, const ImVec2& corner, unsigned colour, const std::string& words);
 void Gap(Ui& ui, double pixels = 6);
 
 }  // namespace arthro::app

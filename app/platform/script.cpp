@@ -65,6 +65,22 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     if (!value) Refuse(number, fmt::format("\"{}\" is not a number", words[index]), file);
     return *value;
   };
+  // Numbers and the words for buttons and keys, in any order.
+  const auto read_tail = [&](std::size_t first, ScriptLine& into, const char* form) {
+    for (std::size_t i = first; i < words.size(); ++i) {
+      const std::string& word = words[i];
+      if (word == "right" || word == "middle")
+        into.button = word == "right" ? 1 : 2;
+      else if (word == "shift")
+        into.shift = true;
+      else if (word == "ctrl")
+        into.ctrl = true;
+      else if (const auto value = Number(word))
+        into.numbers.push_back(*value);
+      else
+        want(0, form);
+    }
+  };
   const std::map<std::string, ScriptVerb> of_item = {{"click", ScriptVerb::kClick},
                                                      {"double-click", ScriptVerb::kDoubleClick},
                                                      {"right-click", ScriptVerb::kRightClick},
@@ -73,9 +89,10 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
                                                      {"shot", ScriptVerb::kShot},
                                                      {"shot-trainee", ScriptVerb::kShotTrainee},
                                                      {"mark", ScriptVerb::kMark},
+                                                     {"choose", ScriptVerb::kChoose},
                                                      {"drop", ScriptVerb::kDrop}};
-  const std::map<std::string, ScriptVerb> alone = {{"close", ScriptVerb::kClose},
-                                                   {"quit", ScriptVerb::kQuit}};
+  const std::map<std::string, ScriptVerb> alone = {
+      {"close", ScriptVerb::kClose}, {"quit", ScriptVerb::kQuit}, {"walk", ScriptVerb::kWalk}};
   if (const auto item = of_item.find(verb); item != of_item.end()) {
     if (words.size() != 4) want(2, (verb + " NAME [DX DY]").c_str());
     line.verb = item->second;
@@ -95,10 +112,33 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     line.name = words[1];
     line.x = number_at(2), line.y = number_at(3);
   } else if (verb == "wheel") {
-    want(3, "wheel NAME NOTCHES");
+    constexpr const char* kForm = "wheel NAME NOTCHES [DX DY] [shift] [ctrl]";
+    if (words.size() < 3) want(3, kForm);
     line.verb = ScriptVerb::kWheel;
     line.name = words[1];
     line.y = number_at(2);
+    read_tail(3, line, kForm);
+    if (line.numbers.size() > 2 || line.numbers.size() == 1 || line.button != 0) want(0, kForm);
+  } else if (verb == "stroke") {
+    constexpr const char* kForm = "stroke NAME [right|middle] [shift] [ctrl] X Y X Y …";
+    if (words.size() < 4) want(0, kForm);
+    line.verb = ScriptVerb::kStroke;
+    line.name = words[1];
+    read_tail(2, line, kForm);
+    if (line.numbers.empty() || line.numbers.size() % 2 != 0) want(0, kForm);
+  } else if (verb == "do") {
+    if (words.size() != 3) want(2, "do COMMAND [FILE]");
+    line.verb = ScriptVerb::kDo;
+    line.name = words[1];
+    if (words.size() == 3) line.text = words[2];
+  } else if (verb == "pose") {
+    constexpr const char* kForm = "pose scope|instrument DEPTH LATITUDE LONGITUDE ROLL";
+    want(6, kForm);
+    line.verb = ScriptVerb::kPose;
+    line.name = words[1];
+    if (line.name != "scope" && line.name != "instrument") want(0, kForm);
+    read_tail(2, line, kForm);
+    if (line.numbers.size() != 4) want(0, kForm);
   } else if (verb == "resize" || verb == "crawl") {
     want(3, verb == "resize" ? "resize WIDTH HEIGHT" : "crawl SEED ACTIONS");
     line.verb = verb == "resize" ? ScriptVerb::kResize : ScriptVerb::kCrawl;
@@ -121,6 +161,8 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     want(3, "wait frames N, or wait job");
     line.verb = ScriptVerb::kWaitFrames;
     line.x = number_at(2);
+  } else if (verb == "expect" && words.size() == 2 && words[1] == "tips") {
+    line.verb = ScriptVerb::kExpectTips;
   } else if (verb == "expect" && words.size() == 2) {
     line.verb = ScriptVerb::kExpect;
     line.text = words[1];
@@ -128,6 +170,7 @@ ScriptLine LineFromWords(const std::vector<std::string>& words, int number,
     line.verb = words[1] == "not"        ? ScriptVerb::kExpectNot
                 : words[1] == "enabled"  ? ScriptVerb::kExpectEnabled
                 : words[1] == "disabled" ? ScriptVerb::kExpectDisabled
+                : words[1] == "focus"    ? ScriptVerb::kExpectFocus
                                          : ScriptVerb::kExpect;
     if (line.verb == ScriptVerb::kExpect)
       Refuse(number, "write it as: expect [not] TEXT, or expect enabled|disabled NAME", file);
@@ -156,6 +199,18 @@ std::vector<ScriptLine> ParseScript(std::string_view text, const std::filesystem
     if (!words->empty()) lines.push_back(LineFromWords(*words, number, file));
   }
   return lines;
+}
+
+std::string ScriptWord(std::string_view text) {
+  const bool is_plain =
+      !text.empty() && text.find_first_of(" \t\r\n\"\\#") == std::string_view::npos;
+  if (is_plain) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '\n' ? ' ' : c;
+  }
+  return quoted + "\"";
 }
 
 std::vector<int> KeysFromWords(std::string_view words) {

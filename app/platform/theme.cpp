@@ -37,48 +37,7 @@ ImVec4 Rgb(unsigned rgb, float alpha = 1.0f) {
           alpha};
 }
 
-}  // namespace
-
-Fonts BuildFonts(double scale) {
-  ImGui::GetIO().Fonts->Clear();
-  const auto regular = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
-                        "/usr/share/fonts/TTF/DejaVuSans.ttf"};
-  const auto bold = {"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
-                     "/usr/share/fonts/dejavu/DejaVuSans-Bold.ttf",
-                     "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};
-  Fonts fonts;
-  fonts.text = AddFont(regular, kTextSize * scale, kRanges);
-  fonts.has_signs = fonts.text != nullptr;
-  if (!fonts.text) fonts.text = AddOwnFont(kTextSize * scale);
-  fonts.heading = AddFont(bold, kHeadingSize * scale, kRanges);
-  if (!fonts.heading) fonts.heading = fonts.text;
-  fonts.large = AddFont(bold, kLargeSize * scale, kDigitRanges);
-  if (!fonts.large) fonts.large = AddOwnFont(kLargeSize * scale);
-  return fonts;
-}
-
-void ApplyTheme(double scale) {
-  ImGuiStyle style;
-  ImGui::StyleColorsDark(&style);
-  style.WindowPadding = {12, 10};
-  style.FramePadding = {9, 6};
-  style.ItemSpacing = {8, 7};
-  style.ItemInnerSpacing = {7, 5};
-  style.ScrollbarSize = 15;
-  style.GrabMinSize = 16;
-  style.FrameRounding = 4;
-  style.GrabRounding = 3;
-  style.PopupRounding = 4;
-  style.ChildRounding = 0;
-  style.WindowRounding = 5;
-  style.WindowBorderSize = 1;
-  style.ChildBorderSize = 0;
-  style.FrameBorderSize = 0;
-  style.DisabledAlpha = 0.45f;
-  style.ScaleAllSizes(static_cast<float>(scale));
-
-  ImVec4* c = style.Colors;
+void ColourDark(ImVec4* c) {
   c[ImGuiCol_Text] = Rgb(0xE9EBEE);
   c[ImGuiCol_TextDisabled] = Rgb(0xA2AAB4);
   c[ImGuiCol_WindowBg] = Rgb(0x1B1E23);
@@ -111,7 +70,116 @@ void ApplyTheme(double scale) {
   c[ImGuiCol_TableHeaderBg] = Rgb(0x2A3038);
   c[ImGuiCol_TableBorderLight] = c[ImGuiCol_TableBorderStrong] = Rgb(0x3A4049);
   c[ImGuiCol_TableRowBgAlt] = Rgb(0x20242A);
+}
+
+void ColourLight(ImVec4* c) {
+  c[ImGuiCol_Text] = Rgb(0x1A1D22);
+  c[ImGuiCol_TextDisabled] = Rgb(0x565E69);
+  c[ImGuiCol_WindowBg] = Rgb(0xF4F5F7);
+  c[ImGuiCol_ChildBg] = Rgb(0xF4F5F7, 0.0f);
+  c[ImGuiCol_PopupBg] = Rgb(0xE7E9ED);
+  c[ImGuiCol_Border] = Rgb(0xBFC5CE);
+  c[ImGuiCol_FrameBg] = Rgb(0xDADEE4);
+  c[ImGuiCol_FrameBgHovered] = Rgb(0xCBD2DB);
+  c[ImGuiCol_FrameBgActive] = Rgb(0xBCC6D2);
+  c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = Rgb(0xDADEE4);
+  c[ImGuiCol_MenuBarBg] = Rgb(0xE7E9ED);
+  c[ImGuiCol_ScrollbarBg] = Rgb(0xF4F5F7);
+  c[ImGuiCol_ScrollbarGrab] = Rgb(0xB3BAC4);
+  c[ImGuiCol_ScrollbarGrabHovered] = Rgb(0x99A2AE);
+  c[ImGuiCol_ScrollbarGrabActive] = Rgb(0x7F8A99);
+  c[ImGuiCol_CheckMark] = Rgb(0x0F6F93);
+  c[ImGuiCol_SliderGrab] = Rgb(0x0F6F93);
+  c[ImGuiCol_SliderGrabActive] = Rgb(0x0A5570);
+  c[ImGuiCol_Button] = Rgb(0xD3D9E0);
+  c[ImGuiCol_ButtonHovered] = Rgb(0xBFCBD8);
+  c[ImGuiCol_ButtonActive] = Rgb(0x8CC7DE);
+  c[ImGuiCol_PlotHistogram] = Rgb(0x2F8FB5);  // bars of progress
+  c[ImGuiCol_Header] = Rgb(0xBFDDE9);
+  c[ImGuiCol_HeaderHovered] = Rgb(0xA9D0E0);
+  c[ImGuiCol_HeaderActive] = Rgb(0x8CC7DE);
+  c[ImGuiCol_Separator] = Rgb(0xBFC5CE);
+  c[ImGuiCol_TextSelectedBg] = Rgb(0x8CC7DE);
+  c[ImGuiCol_NavHighlight] = Rgb(0x0F6F93);
+  c[ImGuiCol_ModalWindowDimBg] = Rgb(0x3A4049, 0.6f);
+  c[ImGuiCol_TableHeaderBg] = Rgb(0xDADEE4);
+  c[ImGuiCol_TableBorderLight] = c[ImGuiCol_TableBorderStrong] = Rgb(0xBFC5CE);
+  c[ImGuiCol_TableRowBgAlt] = Rgb(0xECEEF1);
+}
+
+}  // namespace
+
+Fonts BuildFonts(double scale) {
+  ImGui::GetIO().Fonts->Clear();
+  const auto regular = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                        "/usr/share/fonts/dejavu/DejaVuSans.ttf",
+                        "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+  const auto bold = {"/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
+                     "/usr/share/fonts/dejavu/DejaVuSans-Bold.ttf",
+                     "/usr/share/fonts/TTF/DejaVuSans-Bold.ttf"};
+  Fonts fonts;
+  fonts.text = AddFont(regular, kTextSize * scale, kRanges);
+  fonts.has_signs = fonts.text != nullptr;
+  if (!fonts.text) fonts.text = AddOwnFont(kTextSize * scale);
+  fonts.heading = AddFont(bold, kHeadingSize * scale, kRanges);
+  if (!fonts.heading) fonts.heading = fonts.text;
+  fonts.large = AddFont(bold, kLargeSize * scale, kDigitRanges);
+  if (!fonts.large) fonts.large = AddOwnFont(kLargeSize * scale);
+  return fonts;
+}
+
+void ApplyTheme(double scale, Theme theme) {
+  ImGuiStyle style;
+  if (theme == Theme::kDark)
+    ImGui::StyleColorsDark(&style);
+  else
+    ImGui::StyleColorsLight(&style);
+  style.WindowPadding = {12, 10};
+  style.FramePadding = {9, 6};
+  style.ItemSpacing = {8, 7};
+  style.ItemInnerSpacing = {7, 5};
+  style.ScrollbarSize = 15;
+  style.GrabMinSize = 16;
+  style.FrameRounding = 4;
+  style.GrabRounding = 3;
+  style.PopupRounding = 4;
+  style.ChildRounding = 0;
+  style.WindowRounding = 5;
+  style.WindowBorderSize = 1;
+  style.ChildBorderSize = 0;
+  style.FrameBorderSize = 0;
+  style.DisabledAlpha = 0.45f;
+  style.ScaleAllSizes(static_cast<float>(scale));
+
+  if (theme == Theme::kDark)
+    ColourDark(style.Colors);
+  else
+    ColourLight(style.Colors);
   ImGui::GetStyle() = style;
+}
+
+Theme CurrentTheme() {
+  return ImGui::GetStyleColorVec4(ImGuiCol_WindowBg).x < 0.5f ? Theme::kDark : Theme::kLight;
+}
+
+unsigned OnGround(unsigned colour) {
+  if (CurrentTheme() == Theme::kDark) return colour;
+  switch (colour) {  // contrast to the light ground at least 4.5:1, of text 7:1
+    case kAccent:
+      return 0xFF8A5F06;
+    case kGood:
+      return 0xFF2E6B1E;
+    case kWarning:
+      return 0xFF00518A;
+    case kBad:
+      return 0xFF1E1EB0;
+    case kQuiet:
+      return 0xFF554C44;
+    case kBright:
+      return 0xFF221D1A;
+    default:
+      return colour;
+  }
 }
 
 }  // namespace arthro::app

@@ -1,6 +1,6 @@
-// Fonts and colours: a calm dark theme, text at 15 px a unit of content scale, contrast of text to
-// ground at least 7:1. Fonts are the system's DejaVu Sans, which has Greek, arrows and the signs
-// that the panels use; without it ImGui's own font stands in and the signs show as "?".
+// Fonts and colours: a calm dark and a light theme, text at 15 px a unit of content scale, contrast
+// of text to ground at least 7:1. Fonts are the system's DejaVu Sans, which has Greek, arrows and
+// the signs that the panels use; without it ImGui's own font stands in and the signs show as "?".
 #pragma once
 
 struct ImFont;
@@ -17,8 +17,15 @@ struct Fonts {
 // Fills ImGui's font atlas anew; the caller gives the texture to OpenGL.
 Fonts BuildFonts(double scale);
 
+enum class Theme { kDark, kLight };
+
 // Colours, spacing and sizes of every widget.
-void ApplyTheme(double scale);
+void ApplyTheme(double scale, Theme theme);
+Theme CurrentTheme();  // the theme of ApplyTheme, read from ImGui's style
+
+// A colour below as it is drawn on the ground of the current theme; over a picture, which is dark
+// in either theme, they are drawn as they are. Other colours stay as they are.
+unsigned OnGround(unsigned colour);
 
 // Colours that carry a meaning, 0xAABBGGRR as ImDrawList takes them.
 inline constexpr unsigned kAccent = 0xFFD6B24A;   // teal blue: chosen, active

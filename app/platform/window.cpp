@@ -39,7 +39,8 @@ void SetClipboardText(void* window, const char* text) {
 }
 
 void MapKeys(ImGuiIO& io) {
-  io.KeyMap[ImGuiKey_Tab] = GLFW_KEY_TAB;
+  // Tab walks through all items (app/editor/tab_walk.h), ImGui's through fields only.
+  io.KeyMap[ImGuiKey_Tab] = -1;
   io.KeyMap[ImGuiKey_LeftArrow] = GLFW_KEY_LEFT;
   io.KeyMap[ImGuiKey_RightArrow] = GLFW_KEY_RIGHT;
   io.KeyMap[ImGuiKey_UpArrow] = GLFW_KEY_UP;
@@ -192,10 +193,12 @@ void Window::ReadSizes() {
 }
 
 void Window::ApplyScale() {
+  if (scale_ == applied_scale_ && options_.theme == applied_theme_) return;
+  ApplyTheme(scale_, options_.theme);
+  applied_theme_ = options_.theme;
   if (scale_ == applied_scale_) return;
   if (applied_scale_ > 0.0) ImGui_ImplOpenGL3_DestroyFontsTexture();
   fonts_ = BuildFonts(scale_);
-  ApplyTheme(scale_);
   if (applied_scale_ > 0.0) ImGui_ImplOpenGL3_CreateFontsTexture();
   applied_scale_ = scale_;
 }
@@ -275,7 +278,8 @@ void Window::EndFrame() {
   glDisable(GL_SCISSOR_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glViewport(0, 0, framebuffer_width_, framebuffer_height_);
-  glClearColor(0.106f, 0.118f, 0.137f, 1.0f);
+  const ImVec4 ground = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+  glClearColor(ground.x, ground.y, ground.z, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
@@ -307,6 +311,29 @@ void Window::SetTitle(const std::string& title) {
   if (title == options_.title) return;
   options_.title = title;
   glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::SetLook(std::optional<double> scale, Theme theme) {
+  options_.theme = theme;
+  options_.scale = scale;
+  scale_ = scale.value_or(monitor().content_scale);
+}
+
+MonitorSize Window::monitor() const {
+  MonitorSize size;
+  GLFWmonitor* monitor = window_ ? glfwGetWindowMonitor(window_) : nullptr;
+  if (monitor == nullptr) monitor = glfwGetPrimaryMonitor();
+  if (monitor == nullptr) return size;
+  float x = 1.0f, y = 1.0f;
+  if (window_)
+    glfwGetWindowContentScale(window_, &x, &y);
+  else
+    glfwGetMonitorContentScale(monitor, &x, &y);
+  size.content_scale = std::max(1.0f, x);
+  int height_mm = 0;
+  glfwGetMonitorPhysicalSize(monitor, &size.width_mm, &height_mm);
+  if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) size.width_px = mode->width;
+  return size;
 }
 
 void Window::SetFullScreen(bool full) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/platform/input_queue.h"
+#include "app/platform/monitor_size.h"
 #include "app/platform/theme.h"
 #include "simulation/scene/image.h"
 
@@ -24,7 +25,8 @@ struct WindowOptions {
   std::string title = "Arthroscene";
   int width = 1280, height = 800;  // at scale 1
   bool visible = true;
-  std::optional<double> scale;       // instead of the screen's
+  std::optional<double> scale;  // instead of the screen's
+  Theme theme = Theme::kDark;
   std::optional<double> fixed_step;  // s; frames then take this long for ImGui, whatever the clock
 };
 
@@ -62,6 +64,9 @@ class Window {
   GLFWwindow* handle() const { return window_; }  // for windows beside it
   const Fonts& fonts() const { return fonts_; }
   void SetTitle(const std::string& title);
+  // Takes effect with the next frame. Without a scale the monitor's.
+  void SetLook(std::optional<double> scale, Theme theme);
+  MonitorSize monitor() const;  // the monitor of the window, or the primary one
   void SetFullScreen(bool full);
 
  private:
@@ -76,6 +81,7 @@ class Window {
   Fonts fonts_;
   std::vector<GLFWcursor*> cursors_;
   double scale_ = 1.0, applied_scale_ = 0.0;
+  Theme applied_theme_ = Theme::kDark;
   int width_ = 0, height_ = 0, framebuffer_width_ = 0, framebuffer_height_ = 0;
   int restore_[4] = {0, 0, 0, 0};  // x, y, width, height before full screen
   double last_time_ = 0.0;

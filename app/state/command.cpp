@@ -64,6 +64,7 @@ void Guarded(EditorState& state, const std::string& title, const std::function<v
 
 void Run(EditorState& state, const Command& command) {
   if (!command.enabled(state)) return;
+  RecordCommand(state.record, command.id, command.words);
   Guarded(state, command.words, [&] { command.run(state); });
 }
 

@@ -55,6 +55,7 @@ struct UnitDialog {
   std::string unit;
 };
 struct HelpDialog {};
+struct SettingsDialog {};
 struct PracticeEndedDialog {
   double seconds = 0;
 };
@@ -68,8 +69,8 @@ struct RecoveryDialog {
   std::function<void(EditorState&)> restore, discard;
 };
 using Dialog = std::variant<ErrorDialog, GuardDialog, ChangedOnDiskDialog, BrowseDialog, UnitDialog,
-                            HelpDialog, PracticeEndedDialog, RecoveryDialog, OpenElsewhereDialog,
-                            HistoryDialog>;
+                            HelpDialog, SettingsDialog, PracticeEndedDialog, RecoveryDialog,
+                            OpenElsewhereDialog, HistoryDialog>;
 
 // Opens the file browser; `then` gets what was chosen.
 void Browse(EditorState& state, BrowseFor purpose, const std::string& title,

@@ -17,7 +17,9 @@
 #include "app/state/recent_scenes.h"
 #include "app/state/scene_lock.h"
 #include "app/state/scratch_folder.h"
+#include "app/state/script_record.h"
 #include "app/state/view_layout.h"
+#include "app/state/window_settings.h"
 #include "authoring/project/history.h"
 #include "simulation/scope/rod_pose.h"
 #include "simulation/tissue/body/tissue_preset.h"
@@ -33,6 +35,7 @@ struct DepthStep;
 struct PanoramaStep;
 struct PortalsStep;
 struct PracticeStep;
+struct StartPage;
 struct TissueStep;
 
 // The author's way through a scene, one page of controls each.
@@ -91,6 +94,9 @@ struct EditorState {
   Jobs jobs;                    // tetrahedra, reading pictures, footage to panorama
   ScratchFolder scratch;        // files of products until they are saved
   RecentScenes recent;
+  Owned<StartPage> start;      // the page before a scene is open (app/files/start_page.h)
+  WindowSettings settings;     // looks and language
+  ScriptRecord record;         // record of the session
   std::function<void()> wake;  // ends the window's sleep, from any thread
   bool quit = false, full_screen = false;
 };

@@ -11,6 +11,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/practice/window_flags.h"
 #include "app/editor/editor.h"
 #include "app/recording/live_film.h"
 #include "app/recording/unfinished_film.h"
@@ -35,6 +36,7 @@ void AddWindowFlags(CLI::App& job, EditorOptions& options) {
                   "Quit after so many frames",
                   [&options](double frames) { options.frames = static_cast<int>(frames); })
       ->group(kHidden);
+  job.add_option("--recent", options.recent, "File of the recent scenes.")->group(kHidden);
   job.add_option("--recovery", options.recovery, "Folder of the copies of unsaved work.")
       ->group(kHidden);
   job.add_flag("--hidden", options.hidden, "Never show the window.")->group(kHidden);
@@ -131,11 +133,12 @@ void AddEditJob(CLI::App& program) {
   files
       ->Input(
           job->add_option("scene", options->scene,
-                          "Scene folder, scene.json or .arthro archive. Default: the demo scene."),
+                          "Scene folder, scene.json or .arthro archive. Default: the start page."),
           kSceneInput)
       ->type_name("SCENE");
   const auto hands = std::make_shared<HandFlags>();
   AddHandFlags(*job, *hands, *files);
+  AddLookFlags(*job, *options);
   AddWindowFlags(*job, *options);
   files->Run([options, hands, files] { Open(*options, *hands, *files); });
 }
@@ -156,6 +159,7 @@ void AddPractiseJob(CLI::App& program) {
   AddHandFlags(*job, *hands, *files);
   const auto screens = std::make_shared<ScreenFlags>();
   AddScreenFlags(*job, *screens, *options, *files);
+  AddLookFlags(*job, *options);
   AddWindowFlags(*job, *options);
   AddOptions(*job, options->session);
   files->Run([options, hands, screens, files] { Open(*options, *hands, *files, *screens); });

@@ -70,23 +70,25 @@ Layout PracticeLayout(float width, float height, float scale) {
 
 void TopBar(Ui& ui, EditorState& state, const Area& area) {
   const FixedWindow window(ui, "top", area, kBarWindow);
-  for (const char* id : {"new", "open", "save", "save-as"}) {
+  FileMenu(ui, state);
+  ImGui::SameLine();
+  for (const char* id : {"start-page", "new", "open", "save", "save-as"}) {
     CommandButton(ui, state, id);
     ImGui::SameLine();
   }
-  ImGui::SameLine(0, ui.Px(22));
+  ImGui::SameLine(0, ui.Px(14));
   CommandButton(ui, state, "undo");
   ImGui::SameLine();
   CommandButton(ui, state, "redo");
   ImGui::SameLine();
   CommandButton(ui, state, "history");
-  ImGui::SameLine(0, ui.Px(22));
+  ImGui::SameLine(0, ui.Px(14));
   CommandButton(ui, state, "practise");
-  ImGui::SameLine(0, ui.Px(22));
+  ImGui::SameLine(0, ui.Px(14));
 
   // The scene's name, with a dot before it while there are changes that are not saved.
   const std::string title_of_scene = state.document().scene.title;
-  const std::string name = title_of_scene.empty() ? "Untitled" : title_of_scene;
+  const std::string name = title_of_scene.empty() ? ui.In("Untitled") : title_of_scene;
   const std::string title = (state.history.IsSaved() ? "" : "• ") + name;
   const float help = ImGui::GetFrameHeight() + ui.Px(12);
   ImGui::AlignTextToFramePadding();
@@ -100,7 +102,7 @@ void TopBar(Ui& ui, EditorState& state, const Area& area) {
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s", state.history.IsSaved()
                                 ? name.c_str()
-                                : (name + ": changed since it was saved").c_str());
+                                : (name + ": " + ui.In("changed since it was saved")).c_str());
   ImGui::SameLine(area.width - help - ui.Px(12));
   CommandButton(ui, state, "help", {help, 0});
 }
@@ -117,8 +119,8 @@ void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& 
   if (!notice.empty()) {
     ui.widgets.RecordText(notice);
     ImGui::SameLine(0, ui.Px(22));
-    ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
-    ImGui::TextUnformatted(notice.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, OnGround(kWarning));
+    ImGui::TextUnformatted(ui.In(notice).c_str());
     ImGui::PopStyleColor();
   }
 
@@ -127,7 +129,7 @@ void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& 
   const double done =
       state.jobs.busy() ? state.jobs.done() : state.steps.depth->preview_jobs.done();
   const float bar = ui.Px(160), stop = ui.Px(64), rest = bar + stop + ui.Px(44);
-  const float text = std::min(ImGui::CalcTextSize(words.c_str()).x, half - rest);
+  const float text = std::min(ui.WidthOf(words), half - rest);
   ImGui::SameLine(area.width - rest - text);
   ShortenedText(ui, words, words, text + 1);
   ImGui::SameLine();

@@ -80,8 +80,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   bool made_folder = false;
   if (dialog.asks_folder_name) {
     ImGui::SetNextItemWidth(ui.Px(300));
-    ImGui::InputTextWithHint("##new folder", "Name of the new folder", &dialog.new_folder);
-    RecordItem(ui, "New folder's name", true, dialog.new_folder, WidgetKind::kText);
+    TextInput(ui, "New folder's name", dialog.new_folder, "Name of the new folder");
     const bool typed = ImGui::IsItemDeactivated() && enter;
     ImGui::SameLine();
     if (Button(ui, "Make it") || typed) {
@@ -105,20 +104,17 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   const float filter = model.filters().size() > 1 ? ui.Px(150) : 0;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - filter - (filter > 0 ? ui.Px(8) : 0));
   if (!std::exchange(dialog.is_shown, true)) ImGui::SetKeyboardFocusHere();
-  ImGui::InputTextWithHint("##name", "Name", &model.file_name, ImGuiInputTextFlags_AutoSelectAll);
-  RecordItem(ui, "File name", true, model.file_name, WidgetKind::kText);
+  TextInput(ui, "File name", model.file_name, "Name", ImGuiInputTextFlags_AutoSelectAll);
   if (ImGui::IsItemDeactivated() && enter) accept = true;
   if (filter > 0) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(filter);
     const std::string& shown = model.filters()[model.filter()].words;
-    const bool open = ImGui::BeginCombo("##filter", shown.c_str());
+    const bool open = ImGui::BeginCombo("##filter", ui.In(shown).c_str());
     RecordItem(ui, "Kind of file", true, shown, WidgetKind::kCombo);
     if (open) {
       for (std::size_t i = 0; i < model.filters().size(); ++i) {
-        if (ImGui::Selectable(model.filters()[i].words.c_str(), i == model.filter()))
-          model.SetFilter(i);
-        RecordItem(ui, model.filters()[i].words);
+        if (ListEntry(ui, model.filters()[i].words, i == model.filter())) model.SetFilter(i);
       }
       ImGui::EndCombo();
     }
@@ -147,6 +143,10 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   // The dialog goes first, so that what follows may put up another one.
   const BrowseDialog taken = std::get<BrowseDialog>(std::move(state.dialogs.back()));
   state.dialogs.pop_back();
+  if (cancel && state.record.is_on)
+    state.record.pending.push_back("click Cancel");
+  else if (!cancel)
+    RecordFile(state.record, "choose", taken.model.accepted());
   if (!cancel) Guarded(state, taken.title, [&] { taken.then(state, taken.model.accepted()); });
 }
 

@@ -159,6 +159,10 @@ void Draw(Ui& ui, EditorState& state, HelpDialog&) {
     Take<HelpDialog>(state);
 }
 
+void Draw(Ui& ui, EditorState& state, SettingsDialog&) {
+  if (SettingsWindow(ui, state)) Take<SettingsDialog>(state);
+}
+
 void Draw(Ui& ui, EditorState& state, OpenElsewhereDialog& dialog) {
   Heading(ui, "This scene is open in another window");
   Gap(ui, 2);

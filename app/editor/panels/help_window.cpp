@@ -13,7 +13,7 @@
 namespace arthro::app {
 namespace {
 
-void Row(Ui& ui, const std::string& keys, const std::string& words) {
+void KeyRow(Ui& ui, const std::string& keys, const std::string& words) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ColouredText(ui, keys, kAccent);
@@ -36,51 +36,51 @@ void HelpWindow(Ui& ui, EditorState& state) {
   ImGui::BeginChild("help", {0, -foot});
   Heading(ui, "Over the picture");
   if (BeginRows(ui, "mouse")) {
-    Row(ui, "Drag", "Swing the scope");
-    Row(ui, "Wheel", "Scope deeper, or back");
-    Row(ui, "Shift+wheel", "Roll the scope");
-    Row(ui, "Right drag", "Swing the instrument");
-    Row(ui, "Ctrl+wheel", "Instrument deeper, or back");
-    Row(ui, "Ctrl+Shift+wheel", "Roll the instrument");
+    KeyRow(ui, "Drag", "Swing the scope");
+    KeyRow(ui, "Wheel", "Scope deeper, or back");
+    KeyRow(ui, "Shift+wheel", "Roll the scope");
+    KeyRow(ui, "Right drag", "Swing the instrument");
+    KeyRow(ui, "Ctrl+wheel", "Instrument deeper, or back");
+    KeyRow(ui, "Ctrl+Shift+wheel", "Roll the instrument");
     ImGui::EndTable();
   }
   Gap(ui);
   Heading(ui, "Over the overview");
   if (BeginRows(ui, "overview mouse")) {
-    Row(ui, "Drag", "Turn it");
-    Row(ui, "Wheel or right drag", "Nearer, or further");
-    Row(ui, "Middle drag", "Shift it");
-    Row(ui, "Drag the handle", "Move the chosen tissue");
-    Row(ui, "Shift+drag the handle", "Turn the chosen tissue");
-    Row(ui, "Right drag the handle", "Make it larger, or smaller");
-    Row(ui, "Drag the border", "Give one view more room");
-    Row(ui, "Esc", "End holding, cutting and naming by clicks");
+    KeyRow(ui, "Drag", "Turn it");
+    KeyRow(ui, "Wheel or right drag", "Nearer, or further");
+    KeyRow(ui, "Middle drag", "Shift it");
+    KeyRow(ui, "Drag the handle", "Move the chosen tissue");
+    KeyRow(ui, "Shift+drag the handle", "Turn the chosen tissue");
+    KeyRow(ui, "Right drag the handle", "Make it larger, or smaller");
+    KeyRow(ui, "Drag the border", "Give one view more room");
+    KeyRow(ui, "Esc", "End holding, cutting and naming by clicks");
     ImGui::EndTable();
   }
   Gap(ui);
   Heading(ui, "On the footage's board");
   if (BeginRows(ui, "footage")) {
-    Row(ui, "Left, Right", "Frame before, or next");
-    Row(ui, "Page up, Page down", "Ten frames back, or on");
-    Row(ui, "Space, double-click", "Use this frame, or leave it out");
-    Row(ui, "Escape", "Back to the panorama");
-    Row(ui, "Wheel, drag", "Look closer, shift; double-click shows all");
+    KeyRow(ui, "Left, Right", "Frame before, or next");
+    KeyRow(ui, "Page up, Page down", "Ten frames back, or on");
+    KeyRow(ui, "Space, double-click", "Use this frame, or leave it out");
+    KeyRow(ui, "Escape", "Back to the panorama");
+    KeyRow(ui, "Wheel, drag", "Look closer, shift; double-click shows all");
     ImGui::EndTable();
   }
   Gap(ui);
   Heading(ui, "On the map of the depth");
   if (BeginRows(ui, "depth map")) {
-    Row(ui, "Click", "Read a depth, set a point or paint, by the tool");
-    Row(ui, "Drag", "Draw the line of a profile or a length, or paint");
-    Row(ui, "Wheel, right drag", "Look closer, shift");
+    KeyRow(ui, "Click", "Read a depth, set a point or paint, by the tool");
+    KeyRow(ui, "Drag", "Draw the line of a profile or a length, or paint");
+    KeyRow(ui, "Wheel, right drag", "Look closer, shift");
     ImGui::EndTable();
   }
   Gap(ui);
   Heading(ui, "Hands, while a key is held");
   if (BeginRows(ui, "hands")) {
-    for (const HandMotion& motion : HandMotions()) Row(ui, motion.key_words, motion.words);
-    Row(ui, "C", "Close the jaws, run the shaver");
-    Row(ui, "V", "Dead-man switch: the devices may push");
+    for (const HandMotion& motion : HandMotions()) KeyRow(ui, motion.key_words, motion.words);
+    KeyRow(ui, "C", "Close the jaws, run the shaver");
+    KeyRow(ui, "V", "Dead-man switch: the devices may push");
     ImGui::EndTable();
   }
   QuietText(ui, "Arrow and page keys move the scope after a click on the picture.");
@@ -98,16 +98,16 @@ void HelpWindow(Ui& ui, EditorState& state) {
     for (const Command& command : state.commands) {
       const std::string keys = WordsOf(command.shortcut), other = WordsOf(command.other_shortcut);
       if (keys.empty() || group != command.group) continue;
-      Row(ui, other.empty() ? keys : fmt::format("{} or {}", keys, other), command.help);
+      KeyRow(ui, other.empty() ? keys : fmt::format("{} or {}", keys, other), command.help);
     }
     ImGui::EndTable();
     Gap(ui);
   }
   Heading(ui, "Anywhere");
   if (BeginRows(ui, "anywhere")) {
-    Row(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");
-    Row(ui, "Ctrl+click a slider", "Type its number");
-    Row(ui, "?", "This page");
+    KeyRow(ui, "Drop a file", "Open a scene or a video, import a panorama or a surface");
+    KeyRow(ui, "Ctrl+click a slider", "Type its number");
+    KeyRow(ui, "?", "This page");
     ImGui::EndTable();
   }
   ImGui::EndChild();

@@ -21,8 +21,10 @@ void Steps(Ui& ui, EditorState& state) {
   for (int step = static_cast<int>(names.size()) - 1; step >= 0; --step) {
     const std::string& name = names[static_cast<std::size_t>(step)];
     const std::string label = std::to_string(step) + "  " + name;
-    ImGui::PushStyleColor(ImGuiCol_Text, step > current ? kQuiet : kBright);
-    if (ImGui::Selectable(label.c_str(), step == current)) GoToStep(state, step);
+    ImGui::PushStyleColor(ImGuiCol_Text, OnGround(step > current ? kQuiet : kBright));
+    if (ImGui::Selectable((std::to_string(step) + "  " + ui.In(name) + "###" + label).c_str(),
+                          step == current))
+      GoToStep(state, step);
     ImGui::PopStyleColor();
     RecordItem(ui, label, true, step == current ? "on" : "off");
   }
@@ -56,8 +58,7 @@ void HistoryWindow(Ui& ui, EditorState& state, HistoryDialog& dialog) {
   const authoring::SceneVersion* version = Versions(ui, dialog);
   Gap(ui);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ui.Px(150));
-  ImGui::InputTextWithHint("##snapshot", "Name of a snapshot", &dialog.snapshot);
-  RecordItem(ui, "Snapshot's name", true, dialog.snapshot, WidgetKind::kText);
+  TextInput(ui, "Snapshot's name", dialog.snapshot, "Name of a snapshot");
   ImGui::SameLine();
   const bool has_name = !dialog.snapshot.empty() && state.document().panorama != nullptr;
   const bool keep = Button(ui, "Keep snapshot", has_name, {-FLT_MIN, 0},

@@ -2,6 +2,8 @@
 // commands and edits. They compute nothing.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,6 +12,7 @@
 
 #include "app/panels/fixed_window.h"
 #include "app/state/editor_state.h"
+#include "simulation/scene/image.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
@@ -28,6 +31,12 @@ void TopBar(Ui& ui, EditorState& state, const Area& area);
 void StatusBar(Ui& ui, EditorState& state, const Area& area, const std::string& notice);
 void StepsPanel(Ui& ui, EditorState& state, const Area& area);
 void Dialogs(Ui& ui, EditorState& state);
+// `texture_of` gives a picture's texture; 0 where it has none.
+using PictureTextureOf = std::function<unsigned(const std::shared_ptr<const ColourImage>&)>;
+void StartPagePanel(Ui& ui, EditorState& state, const Area& area,
+                    const PictureTextureOf& texture_of);
+void FileMenu(Ui& ui, EditorState& state);        // its button, and the menu while it is open
+bool SettingsWindow(Ui& ui, EditorState& state);  // true: it is closed
 
 // ---- Dialogs with much in them. ----
 void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog);  // may end the dialog

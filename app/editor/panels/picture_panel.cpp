@@ -42,6 +42,14 @@ float PictureEdge(const Ui& ui, bool practice, const Area& area) {
       std::max(16.0f, std::min(area.width - ui.Px(16), area.height - strip - ui.Px(16))));
 }
 
+// Pictures are black in every theme, so their words are bright.
+void WordsOverPicture(Ui& ui, const char* words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, kQuiet);
+  ImGui::TextUnformatted(ui.In(words).c_str());
+  ImGui::PopStyleColor();
+  ui.widgets.RecordText(words);
+}
+
 // Insertion, swing and roll of the author's scope as numbers that can be typed.
 void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_width) {
   const float width = (total_width - 3 * ui.Px(8)) / 4;
@@ -66,7 +74,7 @@ void PoseStrip(Ui& ui, EditorState& state, const ImVec2& corner, float total_wid
   float x = corner.x;
   for (const Field& field : fields) {
     ImGui::SetCursorScreenPos({x, corner.y});
-    QuietText(ui, field.name);
+    WordsOverPicture(ui, field.name);
     ImGui::SetCursorScreenPos({x, corner.y + ImGui::GetTextLineHeight() + ui.Px(4)});
     ImGui::SetNextItemWidth(width);
     changed = NumberField(ui, field.name, *field.value, field.step, field.low, field.high,
@@ -85,8 +93,7 @@ void CornerButtons(Ui& ui, EditorState& state, const Area& area,
                    std::initializer_list<const char*> ids) {
   const float gap = ui.Px(6), edge = ui.Px(8), padding = 2 * ImGui::GetStyle().FramePadding.x;
   float width = 0;
-  for (const char* id : ids)
-    width += ImGui::CalcTextSize(CommandOf(state, id).words).x + padding + gap;
+  for (const char* id : ids) width += ui.WidthOf(CommandOf(state, id).words) + padding + gap;
   float x = area.x + area.width - width - edge + gap;
   for (const char* id : ids) {
     ImGui::SetCursorScreenPos({x, area.y + edge});
@@ -123,7 +130,7 @@ OverviewInput OverviewArea(Ui& ui, const Area& area, unsigned texture, bool has_
   input.shift = io.KeyShift;
   input.ctrl = io.KeyCtrl;
   ImGui::SetCursorScreenPos({area.x + ui.Px(12), area.y + ui.Px(8)});
-  if (has_label) QuietText(ui, "Overview");
+  if (has_label) WordsOverPicture(ui, "Overview");
   return input;
 }
 
@@ -165,8 +172,10 @@ PictureInput ScopePicture(Ui& ui, EditorState& state, const Area& area, unsigned
   } else {
     const char* words = "Drop a panorama, a video or a scene here";
     ui.widgets.RecordText(words);
-    const ImVec2 size = ImGui::CalcTextSize(words);
-    draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet, words);
+    const std::string shown = ui.In(words);
+    const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
+    draw->AddText({low.x + 0.5f * (edge - size.x), low.y + 0.5f * (edge - size.y)}, kQuiet,
+                  shown.c_str());
   }
   if (!practice)
     CornerButtons(ui, state, area,

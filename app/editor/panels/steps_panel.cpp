@@ -36,13 +36,13 @@ void StepList(Ui& ui, EditorState& state) {
     if (ImGui::Selectable((std::string("##") + command.words).c_str(), chosen, 0, {0, height}))
       Run(state, command);
     RecordItem(ui, command.words, true, chosen ? "on" : "off");
-    Tooltip(ui, (std::string(command.help) + " (" + WordsOf(command.shortcut) + ")").c_str());
+    Tooltip(ui, command.help, WordsOf(command.shortcut));
     // Number and name over the row.
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const float y = corner.y + 0.5f * (height - ImGui::GetTextLineHeight());
-    draw->AddText({corner.x + ui.Px(8), y}, chosen ? kAccent : kQuiet, entry.number);
+    draw->AddText({corner.x + ui.Px(8), y}, OnGround(chosen ? kAccent : kQuiet), entry.number);
     draw->AddText(ui.fonts.text, ImGui::GetFontSize(), {corner.x + ui.Px(30), y},
-                  ImGui::GetColorU32(ImGuiCol_Text), command.words);
+                  ImGui::GetColorU32(ImGuiCol_Text), ui.In(command.words).c_str());
   }
   ImGui::PopStyleVar();
 }

@@ -48,7 +48,7 @@ void Cross(const Ui& ui, const ImVec2& at, unsigned colour) {
 // Words on a plate, kept inside the area.
 void Plate(Ui& ui, const Area& area, ImVec2 at, const std::string& words) {
   ui.widgets.RecordText(words);
-  const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+  const ImVec2 size = ImGui::CalcTextSize(ui.In(words).c_str());
   at.x = std::clamp(at.x, area.x + ui.Px(8),
                     std::max(area.x + ui.Px(8), area.x + area.width - size.x - ui.Px(8)));
   at.y = std::clamp(at.y, area.y + ui.Px(6),
@@ -56,7 +56,7 @@ void Plate(Ui& ui, const Area& area, ImVec2 at, const std::string& words) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({at.x - ui.Px(6), at.y - ui.Px(3)},
                       {at.x + size.x + ui.Px(6), at.y + size.y + ui.Px(4)}, kPlate, ui.Px(4));
-  draw->AddText(at, kBright, words.c_str());
+  draw->AddText(at, kBright, ui.In(words).c_str());
 }
 
 void Pair(Ui& ui, const Screen& screen, const PointPair& points, const std::string& words,
@@ -141,12 +141,12 @@ void Legend(Ui& ui, const Area& area, const MapLegend& legend) {
   const float ramp = ui.Px(180);
   float width = 0;
   for (const auto& entry : legend.entries)
-    width = std::max(width, box + ui.Px(8) + ImGui::CalcTextSize(entry.words.c_str()).x);
+    width = std::max(width, box + ui.Px(8) + ui.WidthOf(entry.words));
   int lines = static_cast<int>(legend.entries.size());
   const std::string ends = legend.low + legend.high;
   if (!legend.ramp.empty()) {
     lines += 3;
-    width = std::max({width, ramp, ImGui::CalcTextSize(legend.ramp_words.c_str()).x,
+    width = std::max({width, ramp, ui.WidthOf(legend.ramp_words),
                       ImGui::CalcTextSize(ends.c_str()).x + ui.Px(24)});
   }
   const ImVec2 low = {area.x + ui.Px(12), area.y + area.height - ui.Px(12) - 2 * pad -
@@ -158,7 +158,7 @@ void Legend(Ui& ui, const Area& area, const MapLegend& legend) {
   const float x = low.x + pad;
   const auto text = [&](float at, const std::string& words, unsigned colour) {
     ui.widgets.RecordText(words);
-    draw->AddText({at, y}, colour, words.c_str());
+    draw->AddText({at, y}, colour, ui.In(words).c_str());
   };
   if (!legend.ramp.empty()) {
     text(x, legend.ramp_words, kBright);
@@ -170,7 +170,7 @@ void Legend(Ui& ui, const Area& area, const MapLegend& legend) {
                                     legend.ramp[i + 1], legend.ramp[i + 1], legend.ramp[i]);
     y += line;
     text(x, legend.low, kQuiet);
-    text(x + width - ImGui::CalcTextSize(legend.high.c_str()).x, legend.high, kQuiet);
+    text(x + width - ui.WidthOf(legend.high), legend.high, kQuiet);
     y += line;
   }
   for (const auto& entry : legend.entries) {

@@ -92,9 +92,10 @@ void ProfileFigure(Ui& ui, const EditorState& state, const Area& area) {
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF231E1B);
   const auto note = [&](const char* words) {
     ui.widgets.RecordText(words);
-    const ImVec2 size = ImGui::CalcTextSize(words);
+    const std::string shown = ui.In(words);
+    const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
     draw->AddText({area.x + 0.5f * (area.width - size.x), area.y + 0.5f * (area.height - size.y)},
-                  kQuiet, words);
+                  kQuiet, shown.c_str());
   };
   if (!board.profile.is_complete()) return note("The profile of a line appears here.");
   const auto samples = authoring::SampleProfile(ReliefViewOf(state.document()), *board.profile.from,
@@ -113,7 +114,7 @@ void ProfileFigure(Ui& ui, const EditorState& state, const Area& area) {
   Curve(ui, axes, samples);
   const char* title = "Distance from the portal along the line, mm";
   ui.widgets.RecordText(title);
-  draw->AddText({area.x + ui.Px(12), area.y + ui.Px(7)}, kBright, title);
+  draw->AddText({area.x + ui.Px(12), area.y + ui.Px(7)}, kBright, ui.In(title).c_str());
 }
 
 }  // namespace arthro::app

@@ -56,8 +56,9 @@ struct Folded {
     if (is_open) panel(name, field, range, unit, help);
   }
   static bool Fold(Ui& ui, const char* words) {
-    const bool open = ImGui::TreeNodeEx(
-        words, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    const bool open =
+        ImGui::TreeNodeEx(ui.translation.Label(words).c_str(),
+                          ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
     RecordItem(ui, words, true, open ? "on" : "off");
     return open;
   }

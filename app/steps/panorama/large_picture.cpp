@@ -40,7 +40,7 @@ void Caption(Ui& ui, const Area& area, const std::vector<Line>& lines) {
   const float width = std::max(1.0f, area.width - ui.Px(40));
   ImVec2 size = {0, 0};
   for (const Line& line : lines) {
-    const ImVec2 of_line = ImGui::CalcTextSize(line.words.c_str(), nullptr, false, width);
+    const ImVec2 of_line = ImGui::CalcTextSize(ui.In(line.words).c_str(), nullptr, false, width);
     size = {std::max(size.x, of_line.x), size.y + of_line.y};
   }
   const ImVec2 low = {area.x + ui.Px(10), area.y + area.height - size.y - ui.Px(20)};
@@ -51,19 +51,20 @@ void Caption(Ui& ui, const Area& area, const std::vector<Line>& lines) {
   for (const Line& line : lines) {
     ui.widgets.RecordText(line.words);
     draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + ui.Px(8), y}, line.colour,
-                  line.words.c_str(), nullptr, width);
-    y += ImGui::CalcTextSize(line.words.c_str(), nullptr, false, width).y;
+                  ui.In(line.words).c_str(), nullptr, width);
+    y += ImGui::CalcTextSize(ui.In(line.words).c_str(), nullptr, false, width).y;
   }
 }
 
 void InTheMiddle(Ui& ui, const Area& area, const std::string& words) {
   ui.widgets.RecordText(words);
   const float width = std::min(area.width - ui.Px(40), ui.Px(420));
-  const ImVec2 size = ImGui::CalcTextSize(words.c_str(), nullptr, false, width);
+  const std::string shown = ui.In(words);
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str(), nullptr, false, width);
   ImGui::GetWindowDrawList()->AddText(
       ImGui::GetFont(), ImGui::GetFontSize(),
       {area.x + 0.5f * (area.width - size.x), area.y + 0.5f * (area.height - size.y)}, kQuiet,
-      words.c_str(), nullptr, width);
+      shown.c_str(), nullptr, width);
 }
 
 std::string WordsOfNothing(const EditorState& state) {

@@ -42,7 +42,7 @@ void Drawing(Ui& ui, const MotionPlan& plan, const Area& square, const char* tit
   if (plan.portal) draw->AddCircle(at(*plan.portal), ui.Px(6), kPortal, 0, ui.Px(2));
   ImGui::PopClipRect();
   ui.widgets.RecordText(title);
-  draw->AddText({square.x + ui.Px(4), square.y + ui.Px(4)}, kQuiet, title);
+  draw->AddText({square.x + ui.Px(4), square.y + ui.Px(4)}, kQuiet, ui.In(title).c_str());
 }
 
 }  // namespace
@@ -60,9 +60,10 @@ void MotionPicture(Ui& ui, const authoring::ReliefSoFar& so_far, const Area& are
   Drawing(ui, PlanOf(so_far, PlanSide::kSide), {left + edge + gap, top, edge, edge},
           "From the side");
   ui.widgets.RecordText(words);
-  const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+  const std::string shown = ui.In(words);
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
   ImGui::GetWindowDrawList()->AddText(
-      {area.x + 0.5f * (area.width - size.x), top + edge + ui.Px(10)}, kQuiet, words.c_str());
+      {area.x + 0.5f * (area.width - size.x), top + edge + ui.Px(10)}, kQuiet, shown.c_str());
 }
 
 }  // namespace arthro::app

@@ -51,8 +51,8 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
   QuietText(ui, fmt::format("{} × {} px", document.panorama->width, document.panorama->height));
 
   std::string title = document.scene.title, author = document.scene.author;
-  if (TextField(ui, "Title", title)) SetTitle(state, title);
-  if (TextField(ui, "Author", author)) SetAuthor(state, author);
+  if (TextField(ui, "Title", title, "name of the scene")) SetTitle(state, title);
+  if (TextField(ui, "Author", author, "who made the scene")) SetAuthor(state, author);
 
   Gap(ui);
   Heading(ui, "Position around the portal");

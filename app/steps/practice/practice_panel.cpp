@@ -108,18 +108,17 @@ void CommandRow(Ui& ui, EditorState& state,
                 std::initializer_list<std::pair<const char*, bool>> row) {
   const float gap = ui.Px(6), count = static_cast<float>(row.size());
   float spare = ImGui::GetContentRegionAvail().x - gap * (count - 1);
-  for (const auto& [id, is_on] : row) spare -= ImGui::CalcTextSize(CommandOf(state, id).words).x;
+  for (const auto& [id, is_on] : row) spare -= ui.WidthOf(CommandOf(state, id).words);
   bool is_first = true;
   for (const auto& [id, is_on] : row) {
     if (!is_first) ImGui::SameLine(0, gap);
     is_first = false;
     const Command& command = CommandOf(state, id);
-    const float width = ImGui::CalcTextSize(command.words).x + spare / count;
-    const std::string keys = WordsOf(command.shortcut);
-    const std::string tip = command.help + (keys.empty() ? keys : " (" + keys + ")");
-    if (ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)},
-                     tip.c_str()))
-      Run(state, command);
+    const float width = ui.WidthOf(command.words) + spare / count;
+    const bool is_pressed =
+        ToggleButton(ui, command.words, is_on, command.enabled(state), {width, ui.Px(kButton)});
+    Tooltip(ui, command.help, WordsOf(command.shortcut));
+    if (is_pressed) Run(state, command);
   }
 }
 

@@ -37,7 +37,7 @@ void Rows(Ui& ui, EditorState& state) {
     ImGui::PopStyleVar();
     ImGui::SameLine(0, ui.Px(6));
     if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
-    if (ImGui::Selectable(RowOf(mode, i).c_str(), mode.chosen == number))
+    if (ImGui::Selectable(ui.translation.Label(RowOf(mode, i)).c_str(), mode.chosen == number))
       ChooseLandmark(state, number);
     if (is_wrong) ImGui::PopStyleColor();
     RecordItem(ui, fmt::format("Landmark {}", i + 1), true, RowOf(mode, i));

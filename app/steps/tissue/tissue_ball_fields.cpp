@@ -34,7 +34,7 @@ void ListOf(Ui& ui, EditorState& state, const std::vector<Ball>& balls) {
     const glm::dvec3 mm = balls[static_cast<std::size_t>(i)].centre / kMetrePerMillimetre;
     const std::string name = fmt::format("Ball {}", i + 1);
     const std::string words = fmt::format("{}: {:.1f}, {:.1f}, {:.1f} mm", name, mm.x, mm.y, mm.z);
-    if (ImGui::Selectable(words.c_str(), state.steps.tissue->ball == i))
+    if (ImGui::Selectable(ui.translation.Label(words).c_str(), state.steps.tissue->ball == i))
       state.steps.tissue->ball = i;
     RecordItem(ui, name, true, state.steps.tissue->ball == i ? "on" : "off");
   }

@@ -38,7 +38,7 @@ void List(Ui& ui, const char* id, int count, int chosen,
                     true);
   for (int i = 0; i < count; ++i) {
     ImGui::PushID(i);
-    if (ImGui::Selectable((name(i) + ": " + words(i)).c_str(), chosen == i)) choose(i);
+    if (ImGui::Selectable((name(i) + ": " + ui.In(words(i))).c_str(), chosen == i)) choose(i);
     RecordItem(ui, name(i), true, chosen == i ? "on" : "off");
     ImGui::PopID();
   }
@@ -85,7 +85,7 @@ void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (const Region* region = ChosenRegion(state)) {
     radius = region->ball.radius * scale;
     std::string name = region->name;
-    if (TextField(ui, "Region name", name)) {
+    if (TextField(ui, "Region name", name, "name in the report")) {
       RenameRegion(state, name);
       EndDrag(state);
     }
@@ -130,8 +130,7 @@ void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
     RegionFields(ui, state, tissue);
   else
     Sizes(ui, state, tissue);
-  const bool shows_tears = ImGui::CollapsingHeader("Tears of a meniscus");
-  RecordItem(ui, "Tears of a meniscus", true, shows_tears ? "on" : "off");
+  const bool shows_tears = Section(ui, "Tears of a meniscus");
   if (ImGui::IsItemToggledOpen()) ImGui::SetScrollHereY(0.0f);
   if (shows_tears) TissueTearFields(ui, state);
 }

@@ -59,10 +59,10 @@ void ModelButton(Ui& ui, EditorState& state, const Command& command,
                       ui.Px(4));
   if (thumbnail != nullptr)
     DrawThumbnail(ui, *thumbnail, {low.x, low.y + ui.Px(4)}, {width, picture});
-  const float text = ImGui::CalcTextSize(command.words).x;
+  const float text = ui.WidthOf(command.words);
   list->PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
   list->AddText({low.x + std::max(ui.Px(3), 0.5f * (width - text)), low.y + picture + ui.Px(6)},
-                ImGui::GetColorU32(ImGuiCol_Text), command.words);
+                ImGui::GetColorU32(ImGuiCol_Text), ui.In(command.words).c_str());
   list->PopClipRect();
   if (is_pressed) Run(state, command);
 }
@@ -80,7 +80,8 @@ void TearSlider(Ui& ui, EditorState& state, const char* name, double& value, dou
 void TissueLibraryFields(Ui& ui, EditorState& state) {
   ModelShelf& shelf = *state.steps.tissue->shelf;
   int side = shelf.side == authoring::KneeSide::kLeft ? 0 : 1;
-  if (Combo(ui, "Knee", side, {"left knee", "right knee"}))
+  if (Combo(ui, "Knee", side, {"left knee", "right knee"},
+            "Side of the knee that the models are made for."))
     shelf.side = side == 0 ? authoring::KneeSide::kLeft : authoring::KneeSide::kRight;
   int size = static_cast<int>(shelf.size);
   if (Combo(ui, "Size", size, {"small", "average", "large"},

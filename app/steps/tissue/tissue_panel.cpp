@@ -65,7 +65,7 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (change.released) EndDrag(state);
 
   double scale = tissue.pose.scale;
-  change = Slider(ui, "Scale", scale, 0.1, 5.0, "× %.2f");
+  change = Slider(ui, "Scale", scale, 0.1, 5.0, "× %.2f", "Size relative to the model's file.");
   if (change) {
     changed.pose.scale = scale;
     SetTissue(state, state.tissue, changed, "Scale");
@@ -201,7 +201,7 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (PlacesLandmarks(state)) return;
   FitFields(ui, state);
   std::string name = tissue.name;
-  if (TextField(ui, "Name", name) && !name.empty()) {
+  if (TextField(ui, "Name", name, "name of the tissue") && !name.empty()) {
     Tissue changed = tissue;
     changed.name = name;
     SetTissue(state, state.tissue, changed, "Rename");
@@ -266,9 +266,9 @@ void TissuePanel(Ui& ui, EditorState& state) {
                                                            {TissuePage::kCut, "Cut"}};
   // Widths of the words, plus equal shares of the remaining space.
   float free = ImGui::GetContentRegionAvail().x - 4 * ui.Px(4);
-  for (const auto& [page, words] : kPages) free -= ImGui::CalcTextSize(words).x;
+  for (const auto& [page, words] : kPages) free -= ui.WidthOf(words);
   for (const auto& [page, words] : kPages) {
-    const float page_width = ImGui::CalcTextSize(words).x + free / 5;
+    const float page_width = ui.WidthOf(words) + free / 5;
     if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.steps.tissue->page == page, true, {page_width, 0})) {
       if (state.steps.tissue->page != page)

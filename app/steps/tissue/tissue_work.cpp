@@ -70,6 +70,7 @@ void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh
   tissue.pose.position = PlaceBeforeScope(state);
   AddTissue(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)));
   state.step = Step::kTissue;
+  state.steps.tissue->page = TissuePage::kPlace;  // it is placed before anything else
 }
 
 void TetrahedraliseTissue(EditorState& state) {

@@ -13,11 +13,11 @@ namespace {
 using test::ProgramResult;
 using test::RunProgram;
 
-constexpr std::array kJobs = {"demo",    "phantom", "depth",  "tetrahedralize", "pivot",
-                              "centres", "view",    "replay", "check",          "lens",
-                              "rectify", "relief",  "reach",  "assess",
+constexpr std::array kJobs = {"demo",    "phantom",  "depth",  "tetrahedralize", "pivot",
+                              "centres", "view",     "replay", "check",          "lens",
+                              "rectify", "relief",   "reach",  "assess",
 #ifdef ARTHRO_EDITOR  // jobs that open a window
-                              "edit",    "practise"
+                              "edit",    "practise", "run"
 #endif
 };
 

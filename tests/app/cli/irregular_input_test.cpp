@@ -46,6 +46,7 @@ constexpr std::array kJobs = {
     "solve {0} -o {1}/r.json",
     "practise {1} --hands {0}",
     "practise {1} --rig {0}",
+    "run {0}",
 };
 // These look for a display first.
 constexpr std::array kWindowJobs = {

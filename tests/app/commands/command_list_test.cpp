@@ -64,6 +64,14 @@ class Commands : public testing::Test {
   EditorState state = MakeEditorState(NewDocument());
 };
 
+TEST_F(Commands, AnImportedSurfaceIsPlacedFirst) {
+  Open();
+  state.steps.tissue->page = TissuePage::kCut;
+  ImportSurface(state, "cartilage", *state.document().surfaces.front(), "m");
+  EXPECT_EQ(state.step, Step::kTissue);
+  EXPECT_EQ(state.steps.tissue->page, TissuePage::kPlace);
+}
+
 TEST(CommandList, EveryCommandHasItsOwnIdWordsAndHelp) {
   const EditorState state = MakeEditorState(NewDocument());
   std::set<std::string> ids;

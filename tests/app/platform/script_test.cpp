@@ -41,6 +41,32 @@ TEST(Script, AMistakeIsToldWithItsLine) {
   }
 }
 
+TEST(Script, AWordThatIsWrittenIsReadAgain) {
+  for (const std::string word : {"Save", "Save as…", "a \"b\" \\ c", "x#2", "", " "}) {
+    const auto lines = ParseScript("set Title " + ScriptWord(word));
+    ASSERT_EQ(lines.size(), 1u) << word;
+    EXPECT_EQ(lines[0].text, word);
+  }
+}
+
+TEST(Script, StrokesPosesAndCommandsAreRead) {
+  const auto lines = ParseScript(
+      "stroke Overview right ctrl 1 2 -3.5 4\npose scope 0.02 0.1 0 -1e-3\n"
+      "do save-as \"my knee\"\nchoose a.png\nwheel Overview 2 10 -4 shift");
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0].numbers, (std::vector<double>{1, 2, -3.5, 4}));
+  EXPECT_EQ(lines[0].button, 1);
+  EXPECT_TRUE(lines[0].ctrl && !lines[0].shift);
+  EXPECT_EQ(lines[1].numbers, (std::vector<double>{0.02, 0.1, 0, -1e-3}));
+  EXPECT_EQ(lines[2].name, "save-as");
+  EXPECT_EQ(lines[2].text, "my knee");
+  EXPECT_EQ(lines[3].text, "a.png");
+  EXPECT_TRUE(lines[4].shift);
+  for (const char* wrong : {"stroke A", "stroke A 1", "stroke A 1 x", "pose hand 1 2 3 4",
+                            "pose scope 1 2 3", "do", "wheel A 1 2"})
+    EXPECT_THROW(ParseScript(wrong), Error) << wrong;
+}
+
 TEST(Script, KeysAreGlfwCodesModifiersFirst) {
   EXPECT_EQ(KeysFromWords("ctrl+shift+z"),
             (std::vector<int>{GLFW_KEY_LEFT_CONTROL, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_Z}));
@@ -90,6 +116,45 @@ TEST_F(RunScript, AnItemOutOfSightCannotBeClicked) {
   EXPECT_EQ(Run("click Save"), ScriptState::kFailed);
 }
 
+TEST_F(RunScript, OneOfSeveralItemsOfANameIsNumbered) {
+  widgets.Record({"Remove", 0, 0, 10, 10, true});
+  widgets.Record({"Remove", 0, 20, 10, 30, true});
+  widgets.Record({"Remove", 0, 40, 10, 50, true});
+  EXPECT_EQ(widgets.NameOf(widgets.widgets()[1]), "Remove#2");
+  EXPECT_EQ(widgets.NameOf(widgets.widgets()[2]), "Remove");
+  EXPECT_EQ(Run("click Remove#2"), ScriptState::kFinished);
+  EXPECT_DOUBLE_EQ(std::get<PointerMoved>(events[0]).y, 25);
+}
+
+TEST_F(RunScript, AStrokeGivesOnePointPerFrame) {
+  widgets.Record({"Overview", 0, 0, 100, 100, true});
+  ScriptRunner runner(ParseScript("stroke Overview 0 0 5 6 7 8"));
+  int frames_with_moves = 0;
+  for (int frame = 0; frame < 100 && runner.state() == ScriptState::kRunning; ++frame) {
+    runner.AfterFrame(widgets, false, input, {});
+    int moves = 0;
+    for (const auto& event : input.TakeFrame()) moves += event.index() == 0 ? 1 : 0;
+    EXPECT_LE(moves, 1);
+    frames_with_moves += moves;
+  }
+  EXPECT_EQ(frames_with_moves, 3);
+}
+
+TEST_F(RunScript, CommandsAreHandedToTheWindow) {
+  ScriptRunner runner(ParseScript("do save-as here"));
+  std::string done;
+  runner.SetActions({[&](const auto& id, const auto& file) {
+                       done = id + " " + file.string();
+                       return std::string();
+                     },
+                     {},
+                     {}});
+  for (int frame = 0; frame < 20 && runner.state() == ScriptState::kRunning; ++frame)
+    runner.AfterFrame(widgets, false, input, {});
+  EXPECT_EQ(runner.state(), ScriptState::kFinished);
+  EXPECT_EQ(done, "save-as here");
+}
+
 TEST_F(RunScript, ExpectationsThatDoNotHoldFail) {
   widgets.Record({"Spacing", 10, 20, 30, 40, true, false, "30.0 mm"});
   widgets.RecordText("All is well");
@@ -118,7 +183,7 @@ TEST_F(RunScript, TextIsTypedAsCodePoints) {
 
 TEST(Script, FramesAreMarkedFromTheLineOn) {
   ScriptRunner runner(ParseScript("mark \"at rest\"\nwait frames 5\nmark \"\"\n"));
-  const WidgetRegistry widgets;
+  WidgetRegistry widgets;
   InputQueue input;
   int marked = 0;
   for (int frame = 0; frame < 100 && runner.state() == ScriptState::kRunning; ++frame) {

@@ -1,0 +1,15 @@
+// Flags of the jobs that open a window: its looks and language.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace arthro::app {
+
+struct EditorOptions;
+
+// --interface-scale, --theme and --language, which win over what the user has set in the window.
+void AddLookFlags(CLI::App& job, EditorOptions& options);
+
+}  // namespace arthro::app

@@ -1,0 +1,90 @@
+#include "app/state/script_record.h"
+
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "app/platform/script.h"
+#include "app/state/command.h"
+#include "app/state/editor_state.h"
+
+namespace arthro::app {
+
+namespace fs = std::filesystem;
+
+void RecordCommand(ScriptRecord& record, const std::string& id, const std::string& words) {
+  if (!record.is_on || id.ends_with("-script")) return;  // the record's own
+  record.pending.push_back("do " + ScriptWord(id));
+  record.command_words.push_back(words);
+}
+
+void RecordFile(ScriptRecord& record, const char* verb, const fs::path& file) {
+  if (!record.is_on) return;
+  record.pending.push_back(std::string(verb) + " " + ScriptWord(file.string()));
+}
+
+void BeginRecord(EditorState& state) {
+  state.record = {};
+  state.record.is_on = true;
+  std::vector<std::string>& lines = state.record.lines;
+  lines.push_back("# Session of the editor. `arthroscene run FILE` repeats it.");
+  const auto& document = state.document();
+  if (!state.history.IsSaved())
+    lines.push_back("# The scene had changes that were not saved when the record began.");
+  if (!state.on_disk.place.empty()) {
+    lines.push_back("do open " + ScriptWord(fs::absolute(state.on_disk.place).string()));
+    lines.push_back("wait job");
+  } else if (document.panorama == nullptr) {
+    lines.push_back("do new");
+  } else {
+    lines.push_back("# It begins in the demo scene.");
+  }
+  state.step = Step::kPanorama;
+  state.views = {};
+  state.tissue = document.scene.tissues.empty() ? -1 : 0;
+}
+
+std::string ChooseFile(EditorState& state, const fs::path& file) {
+  if (state.dialogs.empty() || !std::holds_alternative<BrowseDialog>(state.dialogs.back()))
+    return "there is no file dialog to choose \"" + file.string() + "\" in";
+  auto& dialog = std::get<BrowseDialog>(state.dialogs.back());
+  FileBrowserModel& model = dialog.model;
+  std::error_code ignored;
+  const bool opens =
+      model.purpose() == BrowseFor::kOpenFile || model.purpose() == BrowseFor::kOpenFileOrFolder;
+  fs::path wanted = fs::absolute(file);
+  if (opens && fs::is_directory(wanted, ignored) && fs::exists(wanted / "scene.json", ignored))
+    wanted /= "scene.json";
+  Acceptance acceptance = Acceptance::kNothing;
+  if (model.purpose() == BrowseFor::kOpenFileOrFolder && fs::is_directory(wanted, ignored)) {
+    model.GoTo(wanted);
+    acceptance = model.AcceptFolder();
+  } else {
+    model.file_name = wanted.string();
+    acceptance = model.Accept();
+  }
+  if (acceptance == Acceptance::kOverwrite) acceptance = model.AcceptOverwrite();
+  if (acceptance != Acceptance::kDone)
+    return model.problem().empty() ? "\"" + file.string() + "\" is a folder; choose a file"
+                                   : model.problem();
+  const BrowseDialog taken = std::get<BrowseDialog>(std::move(state.dialogs.back()));
+  state.dialogs.pop_back();
+  RecordFile(state.record, "choose", taken.model.accepted());
+  Guarded(state, taken.title, [&] { taken.then(state, taken.model.accepted()); });
+  return "";
+}
+
+std::string RunByName(EditorState& state, const std::string& id, const fs::path& file) {
+  for (const Command& command : state.commands) {
+    if (id != command.id) continue;
+    if (!state.dialogs.empty()) return fmt::format("\"{}\" waits for the dialog that is open", id);
+    if (!command.enabled(state))
+      return fmt::format("\"{}\" cannot be called now: {}", id, command.help);
+    Run(state, command);
+    return file.empty() ? "" : ChooseFile(state, file);
+  }
+  return fmt::format("there is no command \"{}\"; `arthroscene run --list` names them", id);
+}
+
+}  // namespace arthro::app
