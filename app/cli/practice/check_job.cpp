@@ -19,6 +19,7 @@
 #include "simulation/scene/check_report.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/rig_io.h"
+#include "simulation/scene/solid_io.h"
 #include "simulation/scene/scene_check.h"
 #include "simulation/scene/scene_schema.h"
 #include "simulation/scope/window_lens.h"
@@ -107,6 +108,7 @@ void AddCheckJob(CLI::App& program) {
   for (const auto& [flag, text, kind] :
        {std::tuple{"--schema", &SceneSchemaText, "scene.json"},
         std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
+        std::tuple{"--solid-schema", &SolidSchemaText, "solids"},
         std::tuple{"--lens-schema", &LensSchemaText, "lens files"},
         std::tuple{"--pairs-schema", &authoring::PairsSchemaText, "pairs of landmarks"}})
     job->add_flag_callback(
