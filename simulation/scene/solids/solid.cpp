@@ -116,7 +116,7 @@ std::string FaultOfSolid(const Solid& solid) {
   if (!std::isfinite(largest))
     return "the solid is inside out or has no end; intersect the plane with a part that has a size";
   if (largest > kLargestSolid)
-    return fmt::format("the solid is {:.3g} mm large, more than a joint; are its sizes in metres?",
+    return fmt::format("the solid is {:.0f} mm large, more than a joint; are its sizes in metres?",
                        MmFromMetres(largest));
   return {};
 }
