@@ -11,6 +11,7 @@
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/tissue_poke.h"
+#include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
@@ -143,10 +144,10 @@ std::span<const Command> AllCommands() {
   static const std::vector<Command> all = [] {
     std::vector<Command> commands;
     for (const auto group :
-         {FileCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
+         {FileCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(), SolidCommands(),
           std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
-          DisturbanceCommands(), IncisionCommands(), std::span<const Command>(kViewCommands),
-          std::span<const Command>(kWindowCommands)})
+          DisturbanceCommands(), IncisionCommands(),
+          std::span<const Command>(kViewCommands), std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();
@@ -160,6 +161,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.depth.emplace(wake);
   steps.tissue.emplace();
   steps.tissue->shelf.emplace();
+  steps.tissue->solids.emplace();
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
