@@ -10,6 +10,7 @@
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
+#include "app/steps/practice/rig_edit.h"
 #include "app/steps/practice/tissue_poke.h"
 #include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/tissue_library.h"
@@ -146,7 +147,7 @@ std::span<const Command> AllCommands() {
     for (const auto group :
          {FileCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(), SolidCommands(),
           std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
-          DisturbanceCommands(), IncisionCommands(),
+          DisturbanceCommands(), RigCommands(), IncisionCommands(),
           std::span<const Command>(kViewCommands), std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
@@ -164,6 +165,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.tissue->solids.emplace();
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
+  steps.practice->rig.emplace();
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));
 }
