@@ -2,7 +2,7 @@
 // allocate nothing, so that the servo may make them.
 //
 // Each primitive gives its exact distance. A sharp joint takes the smaller or larger of two values,
-// a blended one the polynomial smooth minimum [Quilez 2013, "smooth minimum"]. Every value is then
+// a blended one the polynomial smooth minimum [Quilez 2013]. Every value is then
 // a function of slope 1 at most, so its size never exceeds the distance to the surface, and a ball
 // may advance by it. It is less than the distance beside cuts and blends [method.md, Solids].
 #pragma once

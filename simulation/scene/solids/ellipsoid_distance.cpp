@@ -20,8 +20,8 @@ constexpr int kMostSteps = 40;
 }  // namespace
 
 // The nearest point c of x satisfies c = r² x / (t + r²) per axis for the largest root t of
-// |p(t)| = 1 with p = r x / (t + r²) [Eberly 2013, "Distance from a point to an ellipse, an
-// ellipsoid, or a hyperellipsoid"]. Newton's method on 1 / |p(t)| − 1, which is nearly straight.
+// |p(t)| = 1 with p = r x / (t + r²) [Eberly 2013]. Newton's method on 1 / |p(t)| − 1, which is
+// nearly straight.
 EllipsoidDistance DistanceToEllipsoid(const glm::dvec3& radii, const glm::dvec3& x) noexcept {
   const glm::dvec3 r2 = radii * radii;
   const double least = std::min({radii.x, radii.y, radii.z});

@@ -1,6 +1,7 @@
 // Solids of the author, without a window.
 #include "app/steps/solids/solid_edit.h"
 
+#include <algorithm>
 #include <memory>
 
 #include <glm/geometric.hpp>
@@ -9,8 +10,10 @@
 #include "app/editor/every_step.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/tissue/tissue_cut.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
+#include "simulation/practice/cut_skin.h"
 #include "simulation/scene/scene_io.h"
 #include "simulation/scene/solid_io.h"
 #include "tests/support/plain_document.h"
@@ -107,6 +110,18 @@ TEST_F(SolidEdit, ItsFunctionIsSavedAndComesBack) {
   ASSERT_TRUE(IsSolidFile(loaded.scene.tissues.at(0).surface));
   EXPECT_EQ(ReadSolid(FileOf(loaded, loaded.scene.tissues[0].surface)), solid);
   EXPECT_EQ(loaded.surfaces[0]->vertices.size(), saved.surfaces[0]->vertices.size());
+}
+
+TEST_F(SolidEdit, TheCutPageTakesItWithoutTetrahedra) {
+  Do("add-solid");
+  state->steps.tissue->cut_brush.kind = CutBrush::Kind::kBite;
+  UseCutBrush(*state, 0, {0, 0, 6e-3});  // on top of the ball
+  ASSERT_EQ(Tissues()[0].cuts.size(), 1u) << state->message;
+  const simulation::BodySkin skin =
+      simulation::CutSkin(Tissues()[0], *state->document().surfaces[0]);
+  EXPECT_GT(std::count(skin.is_fresh.begin(), skin.is_fresh.end(), 1), 0);
+  Do("undo");
+  EXPECT_TRUE(Tissues()[0].cuts.empty());
 }
 
 TEST_F(SolidEdit, ADuplicateIsChangedOnItsOwn) {
