@@ -325,7 +325,8 @@ SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer)
     findings.hints.push_back("no tissues, so there is nothing that deforms");
   findings.found.push_back(
       fmt::format("instruments: {}, tasks: {}", scene.instruments.size(), scene.tasks.size()));
-  if (scene.instruments.empty()) findings.hints.push_back("no instruments; practice offers all of them");
+  if (scene.instruments.empty())
+    findings.hints.push_back("no instruments; practice offers all of them");
   if (scene.tasks.empty()) findings.hints.push_back("no tasks, so practice is free and unscored");
   return findings;
 }

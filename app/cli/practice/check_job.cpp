@@ -19,9 +19,9 @@
 #include "simulation/scene/check_report.h"
 #include "simulation/scene/lens_io.h"
 #include "simulation/scene/rig_io.h"
-#include "simulation/scene/solid_io.h"
 #include "simulation/scene/scene_check.h"
 #include "simulation/scene/scene_schema.h"
+#include "simulation/scene/solid_io.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {

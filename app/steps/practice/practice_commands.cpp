@@ -25,8 +25,8 @@ std::string SummaryOf(const simulation::Practice& practice) {
   if (const auto* world = practice.tissues())
     for (const auto& body : world->bodies) removed += body.cut.removed;
   const int seconds = static_cast<int>(practice.snapshot().t);
-  return fmt::format("It took {}:{:02} min; largest force {:.2f} N, {:.1f} mm³ removed", seconds / 60,
-                     seconds % 60, practice.peak_force(), removed * 1e9);
+  return fmt::format("It took {}:{:02} min; largest force {:.2f} N, {:.1f} mm³ removed",
+                     seconds / 60, seconds % 60, practice.peak_force(), removed * 1e9);
 }
 
 // A calibration first.

@@ -105,7 +105,6 @@ void FindDevices(EditorState& state) {
     return [survey](EditorState& now) {  // shared only because a std::function is copied
       RigEditing& editing = EditingOf(now);
       editing.devices = survey->devices;
-      editing.was_looked_for = true;
       Tell(now, editing.devices.empty()
                     ? "No known device is plugged in."
                     : fmt::format("{} known device{} plugged in.", editing.devices.size(),

@@ -24,7 +24,6 @@ struct RigEditing {
   bool is_fault = false;       // true where `outcome` names a fault
   // Devices that were found when they were last looked for.
   std::vector<simulation::SurveyedDevice> devices;
-  bool was_looked_for = false;
 };
 
 // A rig of one device that reaches the default mount, with a title.

@@ -119,8 +119,6 @@ void DeviceList(Ui& ui, EditorState& state) {
     else
       ColouredText(ui, found.sentence, kWarning);
   }
-  if (editing.was_looked_for && editing.devices.empty())
-    QuietText(ui, "No known device is plugged in.");
 }
 
 void InstrumentFields(Ui& ui, EditorState& state) {
