@@ -8,8 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "simulation/core/frames.h"
-#include "simulation/haptics/swept_surface.h"
-#include "simulation/scene/solid_function.h"
+#include "simulation/haptics/surface/swept_surface.h"
+#include "simulation/scene/solids/solid_function.h"
 #include "simulation/tissue/field/implicit_tissue.h"
 
 namespace arthro::simulation {

@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::simulation {
 namespace {

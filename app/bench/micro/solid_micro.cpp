@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/bench/micro/micro_bench.h"
-#include "simulation/scene/solid_function.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_function.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::app {
 namespace {

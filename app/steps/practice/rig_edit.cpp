@@ -12,7 +12,7 @@
 #include "simulation/core/error.h"
 #include "simulation/device/hid/hid_link.h"
 #include "simulation/practice/hands/offered_instruments.h"
-#include "simulation/scene/rig_io.h"
+#include "simulation/scene/json/rig_io.h"
 
 namespace arthro::app {
 namespace fs = std::filesystem;

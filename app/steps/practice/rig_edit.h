@@ -10,7 +10,7 @@
 
 #include "app/state/command.h"
 #include "simulation/device/live/device_survey.h"
-#include "simulation/scene/rig_file.h"
+#include "simulation/scene/json/rig_file.h"
 #include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::app {

@@ -10,7 +10,7 @@
 #include "authoring/models/model_in_scene.h"
 #include "simulation/core/error.h"
 #include "simulation/core/file_name.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_io.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {

@@ -1,6 +1,6 @@
-// The author's solids: tissues given by functions (simulation/scene/solid.h). Every change of the
-// chosen one is a named step of the history. It goes into a new file of the scratch folder, so that
-// earlier steps go on to name the earlier files.
+// The author's solids: tissues given by functions (simulation/scene/solids/solid.h). Every change
+// of the chosen one is a named step of the history. It goes into a new file of the scratch folder,
+// so that earlier steps go on to name the earlier files.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "app/state/command.h"
-#include "simulation/scene/solid.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/scene/solids/solid.h"
 
 namespace arthro::app {
 

@@ -21,7 +21,7 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/formats/polygon_soup.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/scene/solid.h"
+#include "simulation/scene/solids/solid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-// Axis-aligned box around a solid (simulation/scene/solid.h), not always the smallest. A solid
-// without end has infinite sides; one whose parts cannot meet has an empty box. m.
+// Axis-aligned box around a solid (simulation/scene/solids/solid.h), not always the smallest. A
+// solid without end has infinite sides; one whose parts cannot meet has an empty box. m.
 #pragma once
 
 #include "simulation/core/box3.h"
-#include "simulation/scene/solid.h"
+#include "simulation/scene/solids/solid.h"
 
 namespace arthro {
 

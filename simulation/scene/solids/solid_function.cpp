@@ -1,4 +1,4 @@
-#include "simulation/scene/solid_function.h"
+#include "simulation/scene/solids/solid_function.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,9 +15,9 @@
 #include <vtkPolyData.h>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/solid_function.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_function.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/scene/solid_function.h"
+#include "simulation/scene/solids/solid_function.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/body/tool_cut.h"

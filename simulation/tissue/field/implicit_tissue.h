@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/ball_sweep.h"
+#include "simulation/scene/mesh/ball_sweep.h"
 #include "simulation/tissue/field/polygonise.h"
 #include "simulation/tissue/field/solid_field.h"
 

@@ -14,8 +14,8 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/practice/cut_skin.h"
-#include "simulation/scene/scene_io.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/solids/solid_io.h"
 #include "tests/support/plain_document.h"
 #include "tests/support/temp_folder.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/practice/living_tissues.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_io.h"
 #include "tests/simulation/practice/hand.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/temp_folder.h"

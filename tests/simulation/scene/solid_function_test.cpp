@@ -1,4 +1,4 @@
-#include "simulation/scene/solid_function.h"
+#include "simulation/scene/solids/solid_function.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_io.h"
 #include "tests/support/allocation_counter.h"
 
 namespace arthro {

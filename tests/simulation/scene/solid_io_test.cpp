@@ -1,4 +1,4 @@
-#include "simulation/scene/solid_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 #include <cmath>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/temporary_folder.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/solid_function.h"
+#include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_function.h"
 
 namespace arthro {
 namespace {
