@@ -11,7 +11,9 @@
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
+#include "app/steps/practice/rig_edit.h"
 #include "app/steps/practice/tissue_poke.h"
+#include "app/steps/solids/solid_edit.h"
 #include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
@@ -146,9 +148,9 @@ std::span<const Command> AllCommands() {
     std::vector<Command> commands;
     for (const auto group :
          {FileCommands(), StartCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
-          std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
-          DisturbanceCommands(), IncisionCommands(), std::span<const Command>(kViewCommands),
-          std::span<const Command>(kWindowCommands)})
+          SolidCommands(), std::span<const Command>(kStepCommands), PracticeCommands(),
+          PortalsCommands(), DisturbanceCommands(), RigCommands(), IncisionCommands(),
+          std::span<const Command>(kViewCommands), std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();
@@ -162,8 +164,10 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.depth.emplace(wake);
   steps.tissue.emplace();
   steps.tissue->shelf.emplace();
+  steps.tissue->solids.emplace();
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
+  steps.practice->rig.emplace();
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));
 }

@@ -11,6 +11,7 @@
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
+#include "authoring/project/every_instrument.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
@@ -38,7 +39,7 @@ std::string LowerExtension(const fs::path& file) {
 Document NewDocument() {
   Document document;
   document.scene.title = kUntitled;
-  document.scene.instruments.push_back({});
+  document.scene.instruments = authoring::EveryInstrument();
   return document;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/state/footage_optics.h"
+#include "authoring/project/every_instrument.h"
 #include "authoring/relief/surface/enlarge_relief.h"
 
 namespace arthro::app {
@@ -62,7 +63,7 @@ authoring::Document DocumentFromRelief(const authoring::ReliefResult& result,
   authoring::Document document;
   PutMeasuredPanorama(document, BackdropOf(result), lens);
   document.scene.scope.view_angle = view_angle;
-  document.scene.instruments.push_back({});
+  document.scene.instruments = authoring::EveryInstrument();
   return document;
 }
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "authoring/project/every_instrument.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
@@ -238,10 +239,7 @@ Scene SceneOf(const Phantom& phantom) {
   // The layer continues the cartilage around it, in the light that the panorama holds.
   cartilage.colour = ModelColour(phantom.with_tissues, Surface::kCartilage);
   scene.tissues = {meniscus, cartilage};
-  scene.instruments = {{"probe", "probe"},
-                       {"basket forceps", "punch"},
-                       {"shaver", "shaver"},
-                       {"grasper", "grasper"}};
+  scene.instruments = EveryInstrument();
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "authoring/project/document_extensions.h"
+#include "authoring/project/every_instrument.h"
 #include "authoring/project/file_ending.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -34,7 +35,7 @@ Document DocumentFromPanorama(const fs::path& picture) {
   document.scene.backdrop.panorama = "panorama" + LowerExtension(picture);
   document.scene.backdrop.projection =
       GuessProjection(document.panorama->width, document.panorama->height);
-  document.scene.instruments.push_back({});
+  document.scene.instruments = EveryInstrument();
   document.files[document.scene.backdrop.panorama.generic_string()] = {
       fs::absolute(picture), document.panorama, {}};
   return document;

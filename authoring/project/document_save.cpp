@@ -21,6 +21,7 @@
 #include "simulation/scene/image_io.h"
 #include "simulation/scene/json/lens_io.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::authoring {
 namespace {
@@ -249,24 +250,28 @@ class Saving {
                                                "remove the tissue",
                                                tissue.name));
     const auto& surface = after_.surfaces[i];
-    SavePart(tissue.surface, surface, HoldsSurface, [&] {
-      fs::path fresh =
-          FreshName(tissue.surface, FileNameFrom(tissue.name, "tissue") + ".ply", surface);
-      // STL rounds to 32 bits and OFF and VTP are read only, so memory is written as PLY.
-      if (!IsOneOf(LowerExtension(fresh), {".ply", ".obj"})) fresh.replace_extension(".ply");
-      SourceOf(tissue.surface, surface);  // refuses a link that leaves the folder
-      return writer_.Write(fresh, [&](const fs::path& to) { WriteSurface(to, *surface); });
-    });
+    if (IsSolidFile(tissue.surface))
+      SaveFromFile(fmt::format("tissues[{}].surface", i), tissue.surface, surface, ReadSolid,
+                   WriteSolid);
+    else
+      SavePart(tissue.surface, surface, HoldsSurface, [&] {
+        fs::path fresh =
+            FreshName(tissue.surface, FileNameFrom(tissue.name, "tissue") + ".ply", surface);
+        // STL rounds to 32 bits and OFF and VTP are read only, so memory is written as PLY.
+        if (!IsOneOf(LowerExtension(fresh), {".ply", ".obj"})) fresh.replace_extension(".ply");
+        SourceOf(tissue.surface, surface);  // refuses a link that leaves the folder
+        return writer_.Write(fresh, [&](const fs::path& to) { WriteSurface(to, *surface); });
+      });
     if (!tissue.mesh.empty())
       SaveFromFile(
-          fmt::format("tissues[{}].mesh", i), tissue.mesh,
+          fmt::format("tissues[{}].mesh", i), tissue.mesh, nullptr,
           [](const fs::path& source) { return ReadTetMesh(source); }, WriteTetMesh);
   }
 
   void SaveLens() {
     fs::path& name = after_.scene.scope.lens;
     if (name.empty()) return;
-    if (!after_.lens) return SaveFromFile("scope.lens", name, ReadLens, WriteLens);
+    if (!after_.lens) return SaveFromFile("scope.lens", name, nullptr, ReadLens, WriteLens);
     if (!IsThere(name, nullptr)) {
       SourceOf(name, nullptr);  // refuses a link that leaves the folder
       const fs::path fresh = FreshName(name, "lens.json", nullptr);
@@ -275,12 +280,13 @@ class Saving {
     Note(name, nullptr);
   }
 
-  // Assets that are not in memory lie where `files` says, or in the folder of the document. A copy
+  // Assets that are not in memory lie where `files` says, or in the folder of the document. `part`
+  // is what was made of the file, such as the surface of a solid; null: nothing. A copy
   // is read and written anew, so that it holds what the asset is and nothing else.
   template <class Read, class WritePart>
-  void SaveFromFile(const std::string& key, fs::path& name, const Read& read,
-                    const WritePart& write) {
-    fs::path source = SourceOf(name, nullptr);
+  void SaveFromFile(const std::string& key, fs::path& name, const std::shared_ptr<const void>& part,
+                    const Read& read, const WritePart& write) {
+    fs::path source = SourceOf(name, part);
     std::error_code ignored;
     if (source.empty() && !before_.folder.empty()) {
       source = before_.folder / name;
@@ -292,10 +298,10 @@ class Saving {
                               "it again or remove it",
                               key, name.generic_string()));
     if (!IsSamePlace(source, folder_ / name)) {
-      const auto part = read(source);
-      name = writer_.Write(name, [&](const fs::path& to) { write(to, part); });
+      const auto held = read(source);
+      name = writer_.Write(name, [&](const fs::path& to) { write(to, held); });
     }
-    Note(name, nullptr);
+    Note(name, part);
   }
 
   // Puts into `written_` what this scene goes on to answer for; returns what may be removed.

@@ -10,7 +10,9 @@
 
 namespace arthro::simulation {
 
-bool HasCutsMade(const Tissue& tissue) { return !tissue.cuts.empty() && !tissue.mesh.empty(); }
+bool HasCutsMade(const Tissue& tissue) {
+  return !tissue.cuts.empty() && (!tissue.mesh.empty() || tissue.is_implicit);
+}
 
 SolidField WholeField(const Tissue& tissue, const SurfaceMesh& surface) {
   try {

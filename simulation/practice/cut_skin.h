@@ -9,7 +9,7 @@
 
 namespace arthro::simulation {
 
-// True where the tissue has cuts, and tetrahedra in which to make them.
+// True where the tissue has cuts, and tetrahedra or a field in which to make them.
 bool HasCutsMade(const Tissue& tissue);
 
 // Field of the uncut tissue, in the frame of its body. It takes most of the time of CutSkin, so

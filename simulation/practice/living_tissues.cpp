@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::simulation {
 namespace {
@@ -61,6 +63,18 @@ BodySpec BodyOf(const Tissue& tissue, int index, const SurfaceMesh& surface, Tet
   body.is_cuttable = tissue.is_cuttable;
   for (glm::dvec3& x : body.mesh.rest_positions) x *= tissue.pose.scale;
   return body;
+}
+
+// Function of a tissue whose surface is a solid's file, in the frame of its body; null: it has
+// none.
+std::shared_ptr<const SolidFunction> FunctionOf(const LoadedScene& loaded, const Tissue& tissue) {
+  if (!IsSolidFile(tissue.surface)) return nullptr;
+  const std::filesystem::path file = FileOf(loaded, tissue.surface);
+  try {
+    return std::make_shared<const SolidFunction>(Scaled(ReadSolid(file), tissue.pose.scale));
+  } catch (const Error& error) {
+    throw NamedByScene(error, loaded);
+  }
 }
 
 // Tissues that have a surface entry.
@@ -152,6 +166,7 @@ std::vector<ImplicitSpec> ImplicitOf(const LoadedScene& loaded) {
     body.tissue = static_cast<int>(i);
     BodyPlaces places = PlacesOf(tissue, surface);
     body.surface = std::move(places.surface);
+    body.function = FunctionOf(loaded, tissue);
     body.fixed = std::move(places.fixed);
     body.cuts = std::move(places.cuts);
     body.regions = std::move(places.regions);

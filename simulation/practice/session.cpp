@@ -118,7 +118,9 @@ Session::Session(const LoadedScene& loaded, const SessionOptions& options)
   for (ImplicitSpec& spec : implicit) {
     const auto i = static_cast<std::size_t>(spec.tissue);
     implicit_.emplace_back(std::move(spec), options.tissue);
-    PlaceField(i, std::make_unique<FieldSurface>(implicit_.back().solid()));
+    const ImplicitSpec& own = implicit_.back().spec();
+    PlaceField(i, std::make_unique<FieldSurface>(
+                      implicit_.back().solid(), PosedFunction{own.function, own.portal_from_body}));
   }
   scope_shape_ = ScopeShape();
   for (std::size_t kind = 0; kind < shapes_.size(); ++kind)

@@ -21,6 +21,7 @@
 #include "simulation/scene/json/lens_io.h"
 #include "simulation/scene/json/rig_io.h"
 #include "simulation/scene/json/scene_schema.h"
+#include "simulation/scene/solids/solid_io.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {
@@ -107,6 +108,7 @@ void AddCheckJob(CLI::App& program) {
   for (const auto& [flag, text, kind] :
        {std::tuple{"--schema", &SceneSchemaText, "scene.json"},
         std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
+        std::tuple{"--solid-schema", &SolidSchemaText, "solids"},
         std::tuple{"--lens-schema", &LensSchemaText, "lens files"},
         std::tuple{"--pairs-schema", &authoring::PairsSchemaText, "pairs of landmarks"}})
     job->add_flag_callback(

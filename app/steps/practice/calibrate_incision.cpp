@@ -1,10 +1,10 @@
 #include "app/steps/practice/calibrate_incision.h"
 
-#include <system_error>
 #include <utility>
 
 #include "app/state/command.h"
 #include "app/state/dialogs.h"
+#include "app/steps/practice/rig_edit.h"
 #include "app/steps/practice/start_practice.h"
 
 namespace arthro::app {
@@ -26,17 +26,9 @@ void Open(EditorState& state, DeviceRole role) {
   state.steps.practice->shows_devices = true;  // and there again, when it is closed
 }
 
-// The files that came with the program are everybody's.
-bool IsShipped(const EditorState& state, const fs::path& file) {
-  std::error_code ignored;
-  const fs::path folder = fs::weakly_canonical(file, ignored).parent_path();
-  return !state.steps.practice->rig_preset_folder.empty() &&
-         folder == fs::weakly_canonical(state.steps.practice->rig_preset_folder, ignored);
-}
-
 void SaveInto(EditorState& state, const fs::path& file) {
   PivotCalibrating& own = *state.steps.practice->calibrating;
-  if (IsShipped(state, file))
+  if (IsShippedRig(state, file))
     throw Error(Code::kFile, "came with the program and stays as it is; save the rig elsewhere",
                 file);
   state.steps.practice->hands->SaveRig(file);

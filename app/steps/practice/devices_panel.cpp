@@ -95,6 +95,7 @@ void DevicesPanel(Ui& ui, EditorState& state) {
   CommandButton(ui, state, "validation-plot", {half, ui.Px(44)});
   ImGui::SameLine(0, ui.Px(kBetween));
   if (Button(ui, "Hide devices", true, {half, ui.Px(44)})) Run(state, "devices");
+  if (state.practice) ForcePanel(ui, state);
   // In the editor the status bar says what was done.
   if (state.practice && !state.message.empty()) QuietText(ui, state.message);
 }

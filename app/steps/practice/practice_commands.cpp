@@ -2,6 +2,7 @@
 #include <string>
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/practice/calibrate_incision.h"
@@ -9,6 +10,7 @@
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
 #include "app/steps/practice/tissue_poke.h"
+#include "simulation/practice/hands/offered_instruments.h"
 
 namespace arthro::app {
 namespace {
@@ -17,13 +19,23 @@ using State = EditorState;
 
 bool Practising(const State& state) { return state.practice.has_value(); }
 
+// Measurements of a session that ends with them.
+std::string SummaryOf(const simulation::Practice& practice) {
+  double removed = 0;
+  if (const auto* world = practice.tissues())
+    for (const auto& body : world->bodies) removed += body.cut.removed;
+  const int seconds = static_cast<int>(practice.snapshot().t);
+  return fmt::format("It took {}:{:02} min; largest force {:.2f} N, {:.1f} mm³ removed",
+                     seconds / 60, seconds % 60, practice.peak_force(), removed * 1e9);
+}
+
 // A calibration first.
 void LeavePractice(State& state) {
   if (state.steps.practice->calibrating) return EndCalibration(state);
   const double seconds = state.practice->snapshot().t;
+  state.message = "Practice left. " + SummaryOf(*state.practice) + ".";
   state.practice.reset();
   state.full_screen = false;
-  state.message = "Practice left.";
   if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{seconds});
 }
 
@@ -51,6 +63,11 @@ void ToggleZeroForce(State& state) {
   state.message = state.steps.practice->hands->is_zero_force()
                       ? "Zero-force mode: forces are shown, but no device gets any."
                       : "Zero-force mode has ended.";
+}
+
+template <simulation::ToolKind kind>
+bool MayTake(const State& state) {
+  return Practising(state) && simulation::IsOffered(state.document().scene, kind);
 }
 
 template <simulation::ToolKind kind>
@@ -134,7 +151,7 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_5},
      {},
-     Practising,
+     MayTake<simulation::ToolKind::kProbe>,
      TakeInstrument<simulation::ToolKind::kProbe>},
     {"instrument-punch",
      "Punch",
@@ -142,7 +159,7 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_6},
      {},
-     Practising,
+     MayTake<simulation::ToolKind::kPunch>,
      TakeInstrument<simulation::ToolKind::kPunch>},
     {"instrument-shaver",
      "Shaver",
@@ -150,7 +167,7 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_7},
      {},
-     Practising,
+     MayTake<simulation::ToolKind::kShaver>,
      TakeInstrument<simulation::ToolKind::kShaver>},
     {"instrument-grasper",
      "Grasper",
@@ -158,7 +175,7 @@ constexpr Command kCommands[] = {
      "Practice",
      {GLFW_KEY_8},
      {},
-     Practising,
+     MayTake<simulation::ToolKind::kGrasper>,
      TakeInstrument<simulation::ToolKind::kGrasper>},
     {"reset-tissues",
      "Restore tissue",

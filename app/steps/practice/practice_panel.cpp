@@ -12,6 +12,7 @@
 #include "app/state/command.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/practice/rig_edit.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/shaft_notice.h"
 
@@ -208,10 +209,14 @@ bool MissingDevices(Ui& ui, const EditorState& state) {
 
 void PracticeStepPanel(Ui& ui, EditorState& state) {
   if (state.steps.practice->shows_devices) return DevicesPanel(ui, state);
+  if (state.steps.practice->rig->is_shown) return RigPanel(ui, state);
   Text(ui, "Practise in the scene as it stands. Esc brings you back to exactly this place.");
   Gap(ui);
   CommandButton(ui, state, "practise", {-FLT_MIN, ui.Px(48)});
-  CommandButton(ui, state, "devices", {-FLT_MIN, ui.Px(48)});
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
+  CommandButton(ui, state, "devices", {half, ui.Px(48)});
+  ImGui::SameLine(0, ui.Px(8));
+  CommandButton(ui, state, "rig", {half, ui.Px(48)});
   MissingDevices(ui, state);
   Gap(ui);
   QuietText(ui,

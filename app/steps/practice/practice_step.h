@@ -10,6 +10,7 @@
 
 #include "app/recording/live_film.h"
 #include "app/state/command.h"
+#include "app/state/owned.h"
 #include "app/view/drawing/disturbances.h"
 #include "simulation/practice/hands/pivot_work.h"
 #include "simulation/practice/hands/practice.h"
@@ -19,6 +20,7 @@
 namespace arthro::app {
 
 struct Area;
+struct RigEditing;
 struct Ui;
 
 // A hand's incision that is being found, in the practice that runs.
@@ -71,6 +73,7 @@ struct PracticeStep {
   std::optional<PivotCalibrating> calibrating;
   Jobs pivot_jobs;                             // pivot fits
   bool shows_devices = false;                  // their panel, instead of the practice's
+  Owned<RigEditing> rig;                       // rig that is edited (rig_edit.h)
   Disturbing disturbing;                       // disturbances of the picture
   simulation::CameraHead head;                 // camera head of the scope
   simulation::SessionOptions session_options;  // options of the practices to come
@@ -92,11 +95,13 @@ const simulation::Practice* LiveSession(const EditorState& state);
 
 std::span<const Command> PracticeCommands();
 std::span<const Command> DisturbanceCommands();  // disturbances of the picture
+std::span<const Command> RigCommands();          // rigs, and the instruments of the scene
 std::span<const Command> IncisionCommands();     // calibration of incisions
 
 void PracticeStepPanel(Ui& ui, EditorState& state);
 void DevicesPanel(Ui& ui, EditorState& state);
 void ForcePanel(Ui& ui, EditorState& state);
+void RigPanel(Ui& ui, EditorState& state);
 void PracticePanel(Ui& ui, EditorState& state, const Area& area);
 void DevicesPage(Ui& ui, EditorState& state, const Area& area);       // in the place of the last
 void DisturbancesPage(Ui& ui, EditorState& state, const Area& area);  // there too

@@ -7,9 +7,10 @@ namespace arthro::app {
 void StartPoke(EditorState& state) {
   WhenDepthIsReady(state, [](EditorState& ready) {
     ready.jobs.Start("Poke", [document = ready.document(), presets = ready.tissue_presets,
-                              pace = ready.steps.practice->pace](const Progress&) {
-      const auto session =
-          std::make_shared<simulation::Practice>(simulation::MakePractice(document, presets, pace));
+                              pace = ready.steps.practice->pace,
+                              options = ready.steps.practice->session_options](const Progress&) {
+      const auto session = std::make_shared<simulation::Practice>(
+          simulation::MakePractice(document, presets, pace, options));
       return [session](EditorState& now) {  // shared only because a std::function is copied
         if (now.practice || now.practice_only) return;
         session->SetViewAngle(now.document().scene.scope.view_angle);

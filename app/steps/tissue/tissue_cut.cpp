@@ -150,7 +150,7 @@ void ToggleCutBrush(EditorState& state, CutBrush::Kind kind) {
 void UseCutBrush(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) {
   const Tissue* clicked = TissueAt(state, tissue);
   if (clicked == nullptr || !state.document().surfaces.at(static_cast<std::size_t>(tissue))) return;
-  if (clicked->mesh.empty()) {
+  if (clicked->mesh.empty() && !clicked->is_implicit) {
     state.message = clicked->name + " has no tetrahedra yet; make them on its Mesh page first.";
     return;
   }

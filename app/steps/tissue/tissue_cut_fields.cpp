@@ -97,7 +97,7 @@ void RegionFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 }  // namespace
 
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue) {
-  if (tissue.mesh.empty()) {
+  if (tissue.mesh.empty() && !tissue.is_implicit) {
     ColouredText(ui, "Cuts need tetrahedra. Make them on the Mesh page first.", kWarning);
     return;
   }

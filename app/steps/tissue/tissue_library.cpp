@@ -73,7 +73,7 @@ void MakeChosenTear(EditorState& state) {
   const authoring::Document& document = state.document();
   const auto at = static_cast<std::size_t>(state.tissue);
   Tissue changed = document.scene.tissues.at(at);
-  if (changed.mesh.empty()) {
+  if (changed.mesh.empty() && !changed.is_implicit) {
     state.message = changed.name + " has no tetrahedra yet; make them on its Mesh page first.";
     return;
   }

@@ -14,40 +14,22 @@
 #include "app/state/command.h"
 #include "app/state/edits.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/axis_row.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_pose.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::app {
 namespace {
 
-constexpr const char* kAxes[] = {"right", "down", "in"};
-
-// Three numbers in a row, with the label above.
-Change Row(Ui& ui, const std::string& name, glm::dvec3& values, double step, double low,
-           double high, const char* format) {
-  Change row;
-  QuietText(ui, name);
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(6)) / 3;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis > 0) ImGui::SameLine(0, ui.Px(6));
-    ImGui::SetNextItemWidth(width);
-    const Change one = NumberField(ui, name + ", " + kAxes[axis], values[axis], step, low, high,
-                                   format, "Drag, or double-click to type.");
-    row.changed = row.changed || one.changed;
-    row.held = row.held || one.held;
-    row.released = row.released || one.released;
-  }
-  return row;
-}
-
 void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   Tissue changed = tissue;
   glm::dvec3 position_mm = tissue.pose.position / kMetrePerMillimetre;
-  Change change = Row(ui, "Position (right, down, in)", position_mm, 0.1, -200, 200, "%.1f mm");
+  Change change = AxisRow(ui, "Position (right, down, in)", position_mm, 0.1, -200, 200, "%.1f mm");
   if (change) {
     changed.pose.position = position_mm * kMetrePerMillimetre;
     SetTissue(state, state.tissue, changed, "Move");
@@ -56,7 +38,7 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   if (change.released) EndDrag(state);
 
   glm::dvec3 degrees = DegreesOf(tissue.pose.quaternion);
-  change = Row(ui, "Rotation (about right, down, in)", degrees, 0.5, -180, 180, "%.1f°");
+  change = AxisRow(ui, "Rotation (about right, down, in)", degrees, 0.5, -180, 180, "%.1f°");
   if (change) {
     changed.pose.quaternion = QuaternionOf(degrees);
     SetTissue(state, state.tissue, changed, "Turn");
@@ -194,6 +176,7 @@ void PokeFields(Ui& ui, EditorState& state) {
                            simulation::kSafeProbingForce),
                force < simulation::kSafeProbingForce ? kGood : kBad);
   QuietText(ui, "Right drag over the picture and Ctrl+wheel move the instrument.");
+  ForcePanel(ui, state);
 }
 
 void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
@@ -226,12 +209,20 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 void TissuePanel(Ui& ui, EditorState& state) {
   const authoring::Document document = state.document();  // a copy: edits below move it
-  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
-  CommandButton(ui, state, "import-surface", {half, 0});
-  ImGui::SameLine(0, ui.Px(8));
+  // Widths of the words, plus equal shares of the remaining space.
   const Command& library = CommandOf(state, "library");
+  const auto text = [&](const char* id) {
+    return ImGui::CalcTextSize(CommandOf(state, id).words).x;
+  };
+  const float share = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(6) - text("import-surface") -
+                       text("add-solid") - text("library")) /
+                      3;
+  CommandButton(ui, state, "import-surface", {text("import-surface") + share, 0});
+  ImGui::SameLine(0, ui.Px(6));
+  CommandButton(ui, state, "add-solid", {text("add-solid") + share, 0});
+  ImGui::SameLine(0, ui.Px(6));
   if (ToggleButton(ui, library.words, state.steps.tissue->shelf->is_open, library.enabled(state),
-                   {half, 0}, library.help))
+                   {text("library") + share, 0}, library.help))
     Run(state, library);
   if (state.steps.tissue->shelf->is_open && library.enabled(state))
     return TissueLibraryFields(ui, state);
@@ -259,17 +250,26 @@ void TissuePanel(Ui& ui, EditorState& state) {
 
   PokeFields(ui, state);
   Gap(ui);
-  constexpr std::pair<TissuePage, const char*> kPages[] = {{TissuePage::kPlace, "Place"},
+  const bool is_solid = IsSolidFile(tissue.surface);
+  std::vector<std::pair<TissuePage, const char*>> pages = {{TissuePage::kPlace, "Place"},
                                                            {TissuePage::kMaterial, "Material"},
                                                            {TissuePage::kMesh, "Mesh"},
                                                            {TissuePage::kHold, "Hold"},
                                                            {TissuePage::kCut, "Cut"}};
-  // Widths of the words, plus equal shares of the remaining space.
-  float free = ImGui::GetContentRegionAvail().x - 4 * ui.Px(4);
-  for (const auto& [page, words] : kPages) free -= ui.WidthOf(words);
-  for (const auto& [page, words] : kPages) {
-    const float page_width = ui.WidthOf(words) + free / 5;
-    if (page != TissuePage::kPlace) ImGui::SameLine(0, ui.Px(4));
+  if (is_solid)
+    pages.insert(pages.begin() + 1, {TissuePage::kSolid, "Solid"});
+  else if (state.steps.tissue->page == TissuePage::kSolid)
+    state.steps.tissue->page = TissuePage::kPlace;
+  // Widths of the words, plus equal shares of the remaining space; two rows of three for a solid.
+  const std::size_t in_row = is_solid ? 3 : pages.size();
+  const float room = ImGui::GetContentRegionAvail().x;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const auto [page, words] = pages[i];
+    const std::size_t first = i / in_row * in_row;
+    float free = room - static_cast<float>(in_row - 1) * ui.Px(4);
+    for (std::size_t k = first; k < first + in_row; ++k) free -= ui.WidthOf(pages[k].second);
+    const float page_width = ui.WidthOf(words) + free / static_cast<float>(in_row);
+    if (i != first) ImGui::SameLine(0, ui.Px(4));
     if (ToggleButton(ui, words, state.steps.tissue->page == page, true, {page_width, 0})) {
       if (state.steps.tissue->page != page)
         state.steps.tissue->ball = -1;  // it counts the balls of its page
@@ -282,6 +282,9 @@ void TissuePanel(Ui& ui, EditorState& state) {
   switch (state.steps.tissue->page) {
     case TissuePage::kPlace:
       PlaceFields(ui, state, tissue);
+      break;
+    case TissuePage::kSolid:
+      SolidFields(ui, state);
       break;
     case TissuePage::kMaterial:
       MaterialFields(ui, state, tissue);

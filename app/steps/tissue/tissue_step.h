@@ -19,9 +19,10 @@ namespace arthro::app {
 
 struct Ui;
 struct ModelShelf;
+struct SolidEditing;
 
 // Page of the chosen tissue.
-enum class TissuePage { kPlace, kMaterial, kMesh, kHold, kCut };
+enum class TissuePage { kPlace, kSolid, kMaterial, kMesh, kHold, kCut };
 // Meaning of a ball on a tissue: it is held there, or probed there.
 enum class BallKind { kHeld, kProbed };
 
@@ -50,6 +51,7 @@ struct TissueStep {
   LandmarkMode landmarks;
   HandPlacing placing;
   Owned<ModelShelf> shelf;     // library of models and tears (tissue_library.h)
+  Owned<SolidEditing> solids;  // the chosen solid and its part (app/steps/solids)
   int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
   bool shows_sources = false;  // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
@@ -60,6 +62,7 @@ void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void TissueLibraryFields(Ui& ui, EditorState& state);
 void TissueTearFields(Ui& ui, EditorState& state);  // kinds of tears, on the Cut page
+void SolidFields(Ui& ui, EditorState& state);       // parts of the chosen solid
 void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind);
 
 // Asks for the file, then for its unit.

@@ -8,6 +8,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/practice/hands/blade_speed.h"
+#include "simulation/practice/hands/offered_instruments.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
 
@@ -79,7 +80,8 @@ Practice::Practice(std::unique_ptr<Session> session, const LoadedScene& loaded)
                                ScopeLimits(loaded.scene)),
                 ScriptedDevice(session_->instrument_rig(), StartOfInstrument(loaded.scene),
                                InstrumentLimits(loaded.scene))},
-      eye_(loaded) {
+      eye_(loaded),
+      offered_(OfferedInstruments(loaded.scene)) {
   request_.options = session_->options();
   request_.incision_spacing = session_->incision_spacing();
   request_.view_angle = session_->view_angle();
@@ -89,6 +91,15 @@ Practice::Practice(std::unique_ptr<Session> session, const LoadedScene& loaded)
   snapshot_ = session_->snapshot();
   tissues_ = session_->tissues();
   MoveEye();
+}
+
+void Practice::SetOptions(const SessionOptions& options, const Hands* hands) {
+  const DepthFieldOptions depth = request_.options.depth;
+  const BodyOptions tissue = request_.options.tissue;
+  request_.options = options;
+  request_.options.depth = depth;
+  request_.options.tissue = tissue;
+  if (hands != nullptr) hands->LowerLimits(request_.options);
 }
 
 void Practice::MoveEye() {
@@ -157,9 +168,7 @@ void Practice::TakeReports() {
     episode = hand.episode;
   }
   if (std::exchange(next_presses_, report.next_presses) == report.next_presses) return;
-  const bool is_last = instrument_kind() == ToolKind::kGrasper;
-  SetInstrument(is_last ? ToolKind::kProbe
-                        : static_cast<ToolKind>(static_cast<int>(instrument_kind()) + 1));
+  SetInstrument(NextOffered(offered_, instrument_kind()));
 }
 
 void Practice::Advance(double seconds, Hands* hands) {

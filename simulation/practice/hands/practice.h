@@ -37,6 +37,11 @@ class Practice {
   // Pose of the rod to the eye from which the picture is drawn.
   const RodPose& seen_from() const { return seen_from_; }
   double incision_spacing() const { return request_.incision_spacing; }
+  // Moves the incision of the instrument for this session; the tool enters anew.
+  void SetIncisionSpacing(double spacing) { request_.incision_spacing = spacing; }
+  // Takes contact, lever, passivity, thermal and limiter at once; depth field and tissue stay as
+  // they are. A rig of `hands` lowers the limits; null: mouse and keys.
+  void SetOptions(const SessionOptions& options, const Hands* hands);
   double view_angle() const { return request_.view_angle; }
   void SetViewAngle(double view_angle) { request_.view_angle = view_angle; }
 
@@ -78,6 +83,7 @@ class Practice {
   std::array<int, 2> episodes_{};  // HandsReport::Hand::episode
   double t_ = 0, pending_ = 0, peak_force_ = 0, running_ = 0;
   int next_presses_ = 0;
+  std::vector<ToolKind> offered_;  // instruments that the scene offers
   bool has_thread_ = false;
   std::string servo_sentence_;
   const WorldPicture* tissues_ = nullptr;

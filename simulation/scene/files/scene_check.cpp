@@ -13,6 +13,7 @@
 #include "simulation/scene/backdrop/hidden_share.h"
 #include "simulation/scene/mesh/held_nodes.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro {
 namespace {
@@ -168,6 +169,8 @@ void LookAtKind(const Tissue& tissue, const std::string& what, const IsThinLayer
     findings.errors.push_back(what +
                               " is a solid that does not give way (\"implicit\") and has "
                               "tetrahedra; leave out one of the two");
+  else if (tissue.is_implicit && IsSolidFile(tissue.surface))
+    findings.found.push_back(what + ": a solid that does not give way, given by functions");
   else if (tissue.is_implicit)
     findings.found.push_back(what + ": a solid that does not give way");
   else if (tissue.mesh.empty() && is_layer && is_layer(tissue))
@@ -322,7 +325,8 @@ SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer)
     findings.hints.push_back("no tissues, so there is nothing that deforms");
   findings.found.push_back(
       fmt::format("instruments: {}, tasks: {}", scene.instruments.size(), scene.tasks.size()));
-  if (scene.instruments.empty()) findings.hints.push_back("no instruments; practice gives a probe");
+  if (scene.instruments.empty())
+    findings.hints.push_back("no instruments; practice offers all of them");
   if (scene.tasks.empty()) findings.hints.push_back("no tasks, so practice is free and unscored");
   return findings;
 }

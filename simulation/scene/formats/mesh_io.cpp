@@ -12,6 +12,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/scene/formats/polygon_soup.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro {
 namespace {
@@ -89,6 +90,13 @@ std::string StlBytes(const SurfaceMesh& surface) {
 }  // namespace
 
 SurfaceMesh ReadSurface(const fs::path& file, double metres_per_unit, SurfaceReadReport* report) {
+  if (IsSolidFile(file)) {
+    try {
+      return SurfaceOfSolid(Scaled(ReadSolid(file), metres_per_unit));
+    } catch (const Error& error) {
+      throw Error(Code::kBadMesh, error.sentence(), file);
+    }
+  }
   std::string bytes;
   try {
     bytes = ReadWholeFile(file);

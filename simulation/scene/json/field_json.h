@@ -260,6 +260,8 @@ class FieldWriter {
     } else if constexpr (std::is_same_v<T, std::vector<glm::dvec3>>) {
       json_[name] = Json::array();
       for (const glm::dvec3& point : field) json_[name].push_back(JsonFromPoint(point));
+    } else if constexpr (internal::IsOptional<T>::value) {
+      if (field) Write(name, *field, rule, unit, true);
     } else if constexpr (requires { field.emplace_back(); }) {
       for (auto& element : field) json_[name].push_back(JsonFromElement(element));
     } else {

@@ -177,6 +177,7 @@ struct SchemaVisitor {
       type["type"]["enum"] = {Kind::kType};
       type.update(own["properties"]);
       own["properties"] = type;
+      if (!own.contains("required")) own["required"] = Json::array();
       own["required"].insert(own["required"].begin(), "type");
       json["anyOf"].push_back(own);
     };

@@ -143,6 +143,20 @@ std::string RigSchemaText() {
   return PrettyJson(json);
 }
 
+std::string RigText(const RigFile& rig) {
+  nlohmann::ordered_json json;
+  json["schema"] = kSchema;
+  RigFile copy = rig;
+  copy.Visit(FieldWriter(json));
+  std::string text = PrettyJson(json);
+  ParseRig(text);
+  return text;
+}
+
+void WriteRig(const std::filesystem::path& file, const RigFile& rig) {
+  WriteAtomically(file, RigText(rig));
+}
+
 RigFile ReadRig(const std::filesystem::path& file) {
   return ParseRig(ReadWholeFile(file, kMostJsonBytes), file);
 }

@@ -15,6 +15,10 @@ namespace arthro {
 RigFile ParseRig(const std::string& text, const std::filesystem::path& file = {});
 RigFile ReadRig(const std::filesystem::path& file);
 
+// The rig as the text of a file. Throws Error(kBadData) where it could not be read again.
+std::string RigText(const RigFile& rig);
+void WriteRig(const std::filesystem::path& file, const RigFile& rig);
+
 std::string RigSchemaText();
 
 // Calibrated incisions in the frames of a rig's devices; m.

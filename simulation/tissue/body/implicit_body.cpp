@@ -15,7 +15,11 @@ namespace {
 
 ImplicitTissue Sampled(const ImplicitSpec& spec, double spacing) {
   try {
-    SolidField field = SolidField::FromSurface(spec.surface, spacing);
+    SolidField field = spec.function == nullptr
+                           ? SolidField::FromSurface(spec.surface, spacing)
+                           : SolidField::FromFunction(
+                                 spec.function->bounds(), spacing,
+                                 [&](const glm::dvec3& x) { return spec.function->Value(x); });
     MakeCuts(field, spec.cuts, spec.fixed);
     return {std::move(field),
             {spec.portal_from_body.translation, spec.portal_from_body.rotation, 1.0}};

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/scene/solids/solid_function.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/body/tool_cut.h"
@@ -19,6 +20,8 @@ struct ImplicitSpec {
   std::string name;
   int tissue = 0;       // index in the scene
   SurfaceMesh surface;  // own frame, closed
+  // Function that the surface was made of, own frame; null: the surface alone is known.
+  std::shared_ptr<const SolidFunction> function;
   Rigid3 portal_from_body;
   std::vector<Ball> fixed;      // pieces with a node in one of these stay; empty: the largest stays
   std::vector<Cut> cuts;        // author's cuts, made at the start

@@ -19,9 +19,6 @@ const double kSteepest = std::sqrt(3.0);
 constexpr double kTouch = 1e-6;
 // Advance of a ball that touches without approaching, in spacings.
 constexpr double kCreep = 0.05;
-// Limit below which a motion counts as parallel and does not approach (as in SurfaceBvh).
-constexpr double kParallel = 1e-9;
-constexpr int kMaxSteps = 1000;
 
 }  // namespace
 
@@ -54,34 +51,13 @@ glm::dvec3 PosedField::NormalInField(const glm::dvec3& at) const noexcept {
 
 bool PosedField::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius,
                        FieldHit& hit) const noexcept {
-  const glm::dvec3 motion = to - from;
-  const double length = glm::length(motion);
-  if (!(length > 0.0) || !std::isfinite(length) || field.values().empty()) return false;
-  const double spacing = portal_from_field.scale * field.spacing(), end = hit.fraction * length;
+  if (field.values().empty()) return false;
+  // A distance clamped to the band is still a lower bound.
+  const double spacing = portal_from_field.scale * field.spacing();
   const double band = portal_from_field.scale * field.band();
-  double way = 0.0;
-  for (int step = 0; step < kMaxSteps && way < end; ++step) {
-    const glm::dvec3 x = from + way / length * motion;
-    const double distance = Distance(x), gap = distance - radius;
-    if (gap > kTouch * spacing) {
-      // A distance clamped to the band is still a lower bound.
-      way += std::max(gap / kSteepest, 0.5 * kTouch * spacing);
-      continue;
-    }
-    const glm::dvec3 normal = Normal(x);
-    if (glm::dot(normal, motion) < -kParallel * length) {
-      hit.fraction = way / length;
-      hit.normal = normal;
-      hit.gap = way > 0.0 ? 0.0 : std::max(-band, std::min(0.0, gap));
-      return true;
-    }
-    way += std::max(kCreep * spacing, -0.5 * gap);
-  }
-  if (way >= end) return false;
-  hit.fraction = way / length;
-  hit.normal = Normal(from + way / length * motion);
-  hit.gap = 0.0;
-  return true;
+  return SweepBall([&](const glm::dvec3& x) { return Distance(x); },
+                   [&](const glm::dvec3& x) { return Normal(x); },
+                   {kTouch * spacing, kCreep * spacing, kSteepest, band}, from, to, radius, hit);
 }
 
 ImplicitTissue::ImplicitTissue(SolidField field, const Pose& portal_from_field)

@@ -8,17 +8,13 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
+#include "simulation/scene/mesh/ball_sweep.h"
 #include "simulation/tissue/field/polygonise.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {
 
-// Contact of a swept ball, as SweepHit of a mesh.
-struct FieldHit {
-  double fraction = 1;         // fraction of the path, 0..1, at which the ball touches
-  glm::dvec3 normal{0, 0, 1};  // unit, from the surface to the ball's centre
-  double gap = 0;              // m, negative if the ball penetrated the surface at the start
-};
+using FieldHit = BallHit;
 
 // Solid field at its pose in the portal frame, against which a ball is swept as against a mesh.
 // Noexcept, allocates nothing.

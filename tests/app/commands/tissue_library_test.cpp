@@ -9,23 +9,15 @@
 #include <gtest/gtest.h>
 
 #include "app/editor/every_step.h"
-#include "app/files/scene_files.h"
 #include "app/state/command.h"
+#include "tests/support/plain_document.h"
 
 namespace arthro::app {
 namespace {
 
 class TissueLibrary : public testing::Test {
  protected:
-  TissueLibrary() {
-    authoring::Document document = NewDocument();
-    document.panorama = Share(ColourImage(400, 300));
-    document.scene.backdrop.projection.type = ProjectionType::kEquirectangular;
-    document.scene.backdrop.projection.centre_px = {199.5, 149.5};
-    document.scene.backdrop.projection.px_per_deg = 2;
-    document.depth = Share(DepthMap(400, 300, 0.01f));
-    state.reset(new EditorState(MakeEditorState(std::move(document))));
-  }
+  TissueLibrary() { state.reset(new EditorState(MakeEditorState(test::PlainDocument()))); }
   void Finish() {
     while (state->jobs.busy())
       if (!state->jobs.Finish(*state)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
