@@ -60,8 +60,9 @@ std::string TimeText(double seconds) {
 MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progress) {
   MicroBench bench{options, {}, {}};
   std::string names;
-  for (MicroGroup (*const make)(bool) : {AlignmentMicro, ScopeMicro, LensMicro, DepthMicro,
-                                         PreviewMicro, ComposeMicro, SurfaceMicro, KernelMicro}) {
+  for (MicroGroup (*const make)(bool) :
+       {AlignmentMicro, ScopeMicro, LensMicro, DepthMicro, PreviewMicro, ComposeMicro, SurfaceMicro,
+        ReachMicro, KernelMicro}) {
     MicroGroup group = make(options.quick);
     names += (names.empty() ? "" : ", ") + group.name;
     if (group.name.starts_with(options.only)) bench.groups.push_back(std::move(group));

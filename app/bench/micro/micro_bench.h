@@ -68,6 +68,7 @@ MicroGroup LensMicro(bool quick);       // lens fit, rectifier
 MicroGroup DepthMicro(bool quick);      // depth from colour against known distances
 MicroGroup PreviewMicro(bool quick);    // preview of the depth against the whole result
 MicroGroup ComposeMicro(bool quick);    // composition of placed frames
+MicroGroup ReachMicro(bool quick);      // reach of scope and instrument
 MicroGroup SurfaceMicro(bool quick);    // checks and filling of surfaces
 MicroGroup KernelMicro(bool quick);     // assembly and matrix products of tissue
 
