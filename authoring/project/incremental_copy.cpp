@@ -96,7 +96,9 @@ void IncrementalCopy::Write(const Document& document) {
     return WriteScene(folder_ / "scene.json", next.scene);
   }
 
-  const Document saved = SaveDocument(next, folder_);
+  SaveOptions options;
+  options.packs_quickly = true;
+  const Document saved = SaveDocument(next, folder_, options);
   written_ = saved.files;
   std::erase_if(copied_, [&](const std::string& name) {
     std::error_code ignored;

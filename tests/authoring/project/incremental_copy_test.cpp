@@ -65,6 +65,19 @@ TEST_F(CopyOfDocument, PartsThatHaveNotChangedAreNotWrittenAgain) {
   EXPECT_EQ(maps, 1) << "maps that nothing names are removed";
 }
 
+// Packing a map of a real clip takes seconds on a busy machine, and all edits wait for it.
+TEST_F(CopyOfDocument, MapsArePackedForSpeedAndThoseOfASavedSceneForSize) {
+  document.depth = Share(DepthMap(400, 300, 0.002f));
+  document.is_depth_imported = true;
+  copy.Write(document);
+  const Document back = Written();
+  const std::uintmax_t bytes = 400 * 300 * sizeof(float);
+  EXPECT_GE(fs::file_size(temp / "copy" / back.scene.backdrop.depth), bytes);
+  EXPECT_EQ(back.depth->relief, document.depth->relief);
+  const Document saved = SaveDocument(back, temp / "saved");
+  EXPECT_LT(fs::file_size(temp / "saved" / saved.scene.backdrop.depth), bytes / 2);
+}
+
 // Two steps of the history name one file for different tetrahedra.
 TEST_F(CopyOfDocument, TetrahedraFollowTheFileThatTheDocumentNames) {
   WriteOneTetrahedron(temp / "coarse.vtu", 0.001);
