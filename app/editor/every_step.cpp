@@ -11,6 +11,8 @@
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/tissue_poke.h"
+#include "app/steps/tissue/fault_board.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
@@ -160,6 +162,8 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.depth.emplace(wake);
   steps.tissue.emplace();
   steps.tissue->shelf.emplace();
+  steps.tissue->faults.emplace(wake);
+  steps.tissue->imports.emplace();
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
@@ -178,6 +182,7 @@ bool FinishWork(EditorState& state) {
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
+  Guarded(state, "Check of the surface", [&] { changed = KeepFaultsFresh(state) || changed; });
   Guarded(state, "Reach", [&] { changed = KeepReachFresh(state) || changed; });
   return changed;
 }
