@@ -65,6 +65,26 @@ TEST_F(CopyOfDocument, PartsThatHaveNotChangedAreNotWrittenAgain) {
   EXPECT_EQ(maps, 1) << "maps that nothing names are removed";
 }
 
+// An imported surface and a model of the library have no file before the first save.
+TEST_F(CopyOfDocument, HoldsATissueThatWasAddedAfterTheFirstWrite) {
+  copy.Write(document);
+  Tissue added = document.scene.tissues[0];
+  added.name = "added";
+  added.surface.clear();
+  document.scene.tissues.push_back(added);
+  document.surfaces.push_back(Share(SurfaceMesh(*document.surfaces[0])));
+  copy.Write(document);
+  EXPECT_EQ(Written().scene.tissues.size(), 2u);
+  document.scene.tissues.back().pose.position.z += 0.001;
+  copy.Write(document);
+  const Document back = Written();
+  EXPECT_EQ(back.scene.tissues.at(1).pose, document.scene.tissues[1].pose);
+  EXPECT_EQ(back.surfaces.at(1)->vertices, document.surfaces[1]->vertices);
+  document.depth_sigma = Share(DepthMap(400, 300, 0.001f));
+  copy.Write(document);
+  EXPECT_TRUE(Written().depth_sigma) << "a standard error that was not there before";
+}
+
 // Packing a map of a real clip takes seconds on a busy machine, and all edits wait for it.
 TEST_F(CopyOfDocument, MapsArePackedForSpeedAndThoseOfASavedSceneForSize) {
   document.depth = Share(DepthMap(400, 300, 0.002f));
