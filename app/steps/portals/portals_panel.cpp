@@ -70,8 +70,8 @@ void PortalChooser(Ui& ui, EditorState& state, double spacing) {
   std::vector<std::string> titles;
   for (const simulation::NamedPortals& portals : named) titles.emplace_back(portals.title);
   int chosen = simulation::NamedPortalsAt(spacing, is_left).value_or(-1);
-  if (!Combo(ui, "Portals", chosen, titles,
-             "Sets the incision spacing. The distances are values to start from."))
+  if (!Combo(ui, "Scope, instrument", chosen, titles,
+             "Portals by name. Sets the incision spacing. The distances are values to start from."))
     return;
   SetIncisionSpacing(state,
                      simulation::SpacingOf(named[static_cast<std::size_t>(chosen)], is_left));

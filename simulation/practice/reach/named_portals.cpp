@@ -10,14 +10,12 @@ constexpr double kTendon = 0.030;     // m, width of the patellar tendon
 constexpr double kAccessory = 0.020;  // m, from a portal to the accessory one beyond it
 
 constexpr std::array<NamedPortals, 6> kPortals = {
-    {{"anterolateral-anteromedial", "Anterolateral scope, anteromedial instrument", kTendon},
-     {"anteromedial-anterolateral", "Anteromedial scope, anterolateral instrument", -kTendon},
-     {"anterolateral-central", "Anterolateral scope, transtendinous instrument", 0.5 * kTendon},
-     {"anteromedial-central", "Anteromedial scope, transtendinous instrument", -0.5 * kTendon},
-     {"anterolateral-accessory-medial", "Anterolateral scope, accessory medial instrument",
-      kTendon + kAccessory},
-     {"anteromedial-accessory-medial", "Anteromedial scope, accessory medial instrument",
-      kAccessory}}};
+    {{"anterolateral-anteromedial", "Anterolateral, anteromedial", kTendon},
+     {"anteromedial-anterolateral", "Anteromedial, anterolateral", -kTendon},
+     {"anterolateral-central", "Anterolateral, transtendinous", 0.5 * kTendon},
+     {"anteromedial-central", "Anteromedial, transtendinous", -0.5 * kTendon},
+     {"anterolateral-accessory-medial", "Anterolateral, accessory medial", kTendon + kAccessory},
+     {"anteromedial-accessory-medial", "Anteromedial, accessory medial", kAccessory}}};
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace arthro::simulation {
 
 struct NamedPortals {
   const char* word;   // on the command line
-  const char* title;  // "Anterolateral scope, anteromedial instrument"
+  const char* title;  // "Anterolateral, anteromedial": scope, instrument
   double medially;    // m, from the scope's portal to the instrument's, positive towards medial
 };
 std::span<const NamedPortals> EveryNamedPortals();
