@@ -9,8 +9,7 @@
 namespace arthro::simulation {
 namespace {
 
-// Nearest points of two segments, as shares of them [Ericson, Real-Time Collision Detection, 2005,
-// 5.1.9].
+// Nearest points of two segments, as shares of them, by clamping those of the two lines.
 struct NearestShares {
   double first = 0, second = 0;
 };
