@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "authoring/tissue/self_intersection.h"
-#include "authoring/tissue/surface_repair.h"
-#include "authoring/tissue/surface_thicken.h"
-#include "authoring/tissue/surface_topology.h"
+#include "authoring/tissue/surface/self_intersection.h"
+#include "authoring/tissue/surface/surface_repair.h"
+#include "authoring/tissue/surface/surface_thicken.h"
+#include "authoring/tissue/surface/surface_topology.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/progress.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::authoring {
 

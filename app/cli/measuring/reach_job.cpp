@@ -19,8 +19,8 @@
 #include "simulation/practice/reach/named_portals.h"
 #include "simulation/practice/reach/portal_reach.h"
 #include "simulation/practice/reach/reach_picture.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -12,11 +12,11 @@
 #include "authoring/alignment/place_by_hand.h"
 #include "authoring/models/model_in_scene.h"
 #include "authoring/tissue/likely_unit.h"
-#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/hidden_share.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/backdrop/hidden_share.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {

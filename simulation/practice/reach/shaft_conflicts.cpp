@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/haptics/surface_bvh.h"
+#include "simulation/haptics/surface/surface_bvh.h"
 
 namespace arthro::simulation {
 namespace {

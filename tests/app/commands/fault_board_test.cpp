@@ -12,7 +12,7 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/steps/tissue/tissue_step.h"
-#include "authoring/tissue/surface_check.h"
+#include "authoring/tissue/surface/surface_check.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {

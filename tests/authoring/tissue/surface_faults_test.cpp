@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/surface_check.h"
+#include "authoring/tissue/surface/surface_check.h"
 #include "simulation/core/error.h"
 #include "tests/support/shapes.h"
 
