@@ -20,6 +20,7 @@
 #include "app/editor/footage_textures.h"
 #include "app/editor/landmark_marks.h"
 #include "app/editor/panels/panels.h"
+#include "app/editor/panorama_clicks.h"
 #include "app/editor/pictures.h"
 #include "app/editor/script_recorder.h"
 #include "app/editor/tab_walk.h"
@@ -44,6 +45,7 @@
 #include "app/steps/practice/film.h"
 #include "app/steps/practice/hand_motion.h"
 #include "app/steps/practice/start_practice.h"
+#include "app/steps/tissue/fault_board.h"
 #include "app/steps/tissue/tissue_cut.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
@@ -367,6 +369,7 @@ class Editor {
     return state_.jobs.busy() || state_.steps.depth->preview_jobs.busy() ||
            state_.steps.panorama->frame_jobs.busy() || state_.steps.practice->pivot_jobs.busy() ||
            state_.steps.portals->reach.jobs.busy() || (state_.start && state_.start->jobs.busy()) ||
+           state_.steps.tissue->faults->jobs.busy() ||
            (state_.steps.practice->film && state_.steps.practice->film->is_ending());
   }
 
@@ -520,7 +523,13 @@ class Editor {
     DrawPictures(ui, layout);
     picture_focused_ = false;
     PictureInput input;
-    if (layout.shows_picture) {
+    if (layout.shows_picture && panorama_clicks_.is_shown && PlacesLandmarks(state_)) {
+      footage_textures_.BeginFrame();
+      PanoramaPicture(ui, state_, panorama_clicks_, layout.picture,
+                      footage_textures_.IdOf(state_.document().panorama));
+      footage_textures_.EndFrame();
+      input.area = layout.picture;
+    } else if (layout.shows_picture) {
       input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
       picture_focused_ = input.focused;
       Lay(input);
@@ -533,6 +542,7 @@ class Editor {
                                                pictures_.overview_texture(), pictures_.handle()),
                                ui.scale);
     Landmarks(ui, layout, input);
+    if (layout.shows_picture) PanoramaClicksButton(ui, state_, panorama_clicks_, layout.picture);
     ViewSplitter(ui, state_, layout);
   }
 
@@ -561,7 +571,11 @@ class Editor {
   void Landmarks(Ui& ui, const Layout& layout, const PictureInput& input) {
     if (input.clicked && PlacesLandmarks(state_))
       if (const auto sight = SightOf(input, *input.clicked)) TakeScenePoint(state_, *sight);
-    if (layout.shows_picture)
+    const bool shows_scope =
+        layout.shows_picture && !(panorama_clicks_.is_shown && PlacesLandmarks(state_));
+    if (shows_scope && pictures_.bare_texture() != 0)
+      FadeScope(ui, layout.picture, input.area, pictures_.bare_texture(), FadeOf(state_));
+    if (shows_scope)
       MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
     if (layout.shows_overview)
       MarkOverview(ui, state_, layout.overview,
@@ -598,6 +612,7 @@ class Editor {
   Pictures pictures_;
   std::optional<PictureWindow> trainee_screen_;
   FootageTextures footage_textures_;
+  PanoramaClicks panorama_clicks_;
   EditorState state_;
   RecoveryCopy recovery_;  // ends before the state that it writes
   WidgetRegistry widgets_;

@@ -14,6 +14,8 @@
 #include "app/steps/practice/rig_edit.h"
 #include "app/steps/practice/tissue_poke.h"
 #include "app/steps/solids/solid_edit.h"
+#include "app/steps/tissue/fault_board.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_step.h"
 
@@ -165,6 +167,8 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.tissue.emplace();
   steps.tissue->shelf.emplace();
   steps.tissue->solids.emplace();
+  steps.tissue->faults.emplace(wake);
+  steps.tissue->imports.emplace();
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   steps.practice->rig.emplace();
@@ -185,6 +189,7 @@ bool FinishWork(EditorState& state) {
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
+  Guarded(state, "Check of the surface", [&] { changed = KeepFaultsFresh(state) || changed; });
   Guarded(state, "Reach", [&] { changed = KeepReachFresh(state) || changed; });
   return changed;
 }

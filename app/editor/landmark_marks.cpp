@@ -1,5 +1,6 @@
 #include "app/editor/landmark_marks.h"
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -131,6 +132,19 @@ void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area&
   };
   if (IsOutlined(state)) DrawOutline(ui, state, picture, view.tip, to_window);
   if (PlacesLandmarks(state)) DrawLandmarks(ui, state, picture, to_window);
+}
+
+void MarkLandmarks(const Ui& ui, const EditorState& state, const Area& area,
+                   const ToWindow& to_window) {
+  DrawLandmarks(ui, state, area, to_window);
+}
+
+void FadeScope(Ui& ui, const Area& window, const Area& picture, unsigned texture, double fade) {
+  const FixedWindow same(ui, "picture", window, kPictureWindow);
+  ImGui::GetWindowDrawList()->AddImage(
+      reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)), {picture.x, picture.y},
+      {picture.x + picture.width, picture.y + picture.height}, {0, 0}, {1, 1},
+      IM_COL32(255, 255, 255, static_cast<int>(255 * fade)));
 }
 
 void MarkOverview(Ui& ui, const EditorState& state, const Area& window,

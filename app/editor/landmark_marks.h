@@ -19,6 +19,15 @@ namespace arthro::app {
 void MarkScope(Ui& ui, const EditorState& state, const Area& window, const Area& picture,
                const simulation::ScopeView& view, const simulation::ScopeOptics& optics);
 
+// Marks in the current ImGui window. `to_window`: window coordinates of a place; nothing for one
+// that the picture cannot show.
+void MarkLandmarks(const Ui& ui, const EditorState& state, const Area& area,
+                   const std::function<std::optional<glm::dvec2>(const glm::dvec3&)>& to_window);
+
+// Draws the picture without the chosen tissue over the one with it, `fade` of it; the texture's
+// first row is at the top.
+void FadeScope(Ui& ui, const Area& window, const Area& picture, unsigned texture, double fade);
+
 // `pixel_of`: pixel of the overview for a place, from its top left; nothing behind its camera.
 void MarkOverview(Ui& ui, const EditorState& state, const Area& window,
                   const std::function<std::optional<glm::dvec2>(const glm::dvec3&)>& pixel_of);

@@ -11,6 +11,8 @@
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/portals/reach_board.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/fault_board.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/landmark_mode.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
@@ -131,7 +133,9 @@ void Pictures::TakeBackdrop(const EditorState& state) {
 
 void Pictures::TakeTissues(const EditorState& state) {
   const authoring::Document& document = state.document();
-  const auto& tissues = document.scene.tissues;
+  std::vector<Tissue> tissues = document.scene.tissues;
+  if (const auto before = ShownBefore(state))
+    tissues[static_cast<std::size_t>(state.tissue)].pose = *before;
   std::vector<simulation::TissueLook> looks = simulation::LooksOf(tissues, state.tissue_presets);
   const auto same_look = [&] {
     if (surfaces_ != document.surfaces || tissues_.size() != tissues.size() || looks_ != looks)
@@ -144,7 +148,8 @@ void Pictures::TakeTissues(const EditorState& state) {
     scope_.SetTissues(tissues, document.surfaces, looks);
     overview_.SetTissues(tissues, document.surfaces);
     shown_cuts_.assign(tissues.size(), nullptr);
-    chosen_ = outlined_ = -1;
+    chosen_ = outlined_ = coloured_ = -1;
+    faults_ = nullptr;
     surfaces_ = document.surfaces;
     changed_ = true;
   } else {
@@ -165,15 +170,56 @@ void Pictures::HideOutlined(const EditorState& state) {
   const int wanted = IsOutlined(state) ? state.tissue : -1;
   if (wanted == outlined_) return;
   const int shown = std::exchange(outlined_, wanted);
-  if (shown >= 0 && shown < static_cast<int>(shown_cuts_.size())) {
-    const auto at = static_cast<std::size_t>(shown);
-    if (shown_cuts_[at])
-      scope_.SetTissueSurface(shown, shown_cuts_[at]->surface, shown_cuts_[at]->is_fresh);
-    else
-      scope_.SetTissueSurface(shown, OrEmpty(surfaces_[at]));
-  }
+  if (shown >= 0 && shown < static_cast<int>(shown_cuts_.size())) ShowInScope(shown);
   if (wanted >= 0) scope_.SetTissueSurface(wanted, {});
   changed_ = true;
+}
+
+void Pictures::ShowInScope(int tissue) {
+  const auto at = static_cast<std::size_t>(tissue);
+  if (shown_cuts_[at])
+    scope_.SetTissueSurface(tissue, shown_cuts_[at]->surface, shown_cuts_[at]->is_fresh);
+  else
+    scope_.SetTissueSurface(tissue, OrEmpty(surfaces_[at]));
+}
+
+void Pictures::DrawBare(const EditorState& state, int pixels) {
+  const bool is_faded = FadeOf(state) > 0 && outlined_ < 0 && !shown_cuts_.empty();
+  if (!is_faded) return bare_.reset();
+  scope_.SetTissueSurface(state.tissue, {});
+  scope_.Render(picture_, pixels);
+  bare_.emplace(scope_.ReadPixels());
+  ShowInScope(state.tissue);
+}
+
+void Pictures::ShowFaults(const EditorState& state) {
+  const auto found = ShownFaults(state);
+  if (found == faults_) return;
+  faults_ = found;
+  std::vector<SurfaceMark> marks;
+  for (std::size_t i = 0; found && i < found->faults.size(); ++i)
+    marks.push_back(
+        {found->faults[i].edges, found->faults[i].triangles, ColourOf(found->faults[i].kind)});
+  overview_.ShowMarks(state.tissue, marks);
+}
+
+void Pictures::ShowDistances(EditorState& state) {
+  const auto colours = ShownDistances(state);
+  const int wanted = colours ? state.tissue : -1;
+  if (wanted == coloured_ && colours == distances_) return;
+  if (coloured_ >= 0 && wanted != coloured_) {
+    const auto at = static_cast<std::size_t>(coloured_);
+    if (shown_cuts_[at])
+      overview_.SetTissueSurface(coloured_, shown_cuts_[at]->surface, shown_cuts_[at]->is_fresh);
+    else
+      overview_.SetTissueSurface(coloured_, OrEmpty(surfaces_[at]));
+  }
+  // The distances are those of the whole surface.
+  if (wanted >= 0 && wanted != coloured_)
+    overview_.SetTissueSurface(wanted, OrEmpty(surfaces_[static_cast<std::size_t>(wanted)]));
+  if (wanted >= 0) overview_.SetTissueColours(wanted, *colours);
+  coloured_ = wanted;
+  distances_ = colours;
 }
 
 // Tissues as their author's cuts leave them.
@@ -231,7 +277,9 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   Picture picture = ShownPicture(state, TakeOptics(state.document()));
   if (state.practice && picture.instrument)
     picture.instrument = live_tissues_.Settled(*picture.instrument);
-  const bool has_changed = changed_ || !Same(picture, picture_) || full_size_ != size;
+  const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
+  const bool has_changed =
+      changed_ || !Same(picture, picture_) || full_size_ != size || is_faded != bare_.has_value();
   picture_ = picture;
   full_size_ = size;
   has_picture_ = panorama_ != nullptr;
@@ -247,6 +295,7 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   picture_.rays = rays;
   if (rays == 2) picture_.samples = kStillSamples;
   const int pixels = static_cast<int>(std::lround(scale * size));
+  DrawBare(state, pixels);
   scope_.Render(picture_, pixels);
   is_timed_ = is_moving;
   drawn_size_ = pixels;
@@ -264,7 +313,7 @@ void Pictures::Record(LiveFilm& film, double t) {
   if (has_picture_ && film.IsDue(t)) film.Offer(t, scope_.ReadPixels());
 }
 
-bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
+bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   Take(state);
   has_overview_ = panorama_ != nullptr;
   if (!has_overview_) return false;
@@ -284,6 +333,11 @@ bool Pictures::DrawOverview(const EditorState& state, int width, int height) {
   const int chosen = IsTissueEdited(state) && !is_clicked ? state.tissue : -1;
   if (chosen != chosen_) overview_.ChooseTissue(chosen_ = chosen);
   ShowPlaces(state);
+  ShowFaults(state);
+  ShowDistances(state);
+  overview_.ShowArms(state.steps.tissue->placing.axes == authoring::NudgeAxes::kTissue
+                         ? Overview::Arms::kOwn
+                         : Overview::Arms::kPortal);
   // Draws the scope's picture before the overview on a slow machine.
   const auto now = std::chrono::steady_clock::now();
   if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
@@ -335,10 +389,8 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
   overview_.on_pose = [&state](int index, const Pose& pose, bool finished) {
     const auto& tissues = state.document().scene.tissues;
     if (index < 0 || index >= static_cast<int>(tissues.size())) return;
-    Tissue changed = tissues[static_cast<std::size_t>(index)];
-    changed.pose = pose;
     state.dragging = true;
-    SetTissue(state, index, changed, "Place");
+    PlaceTissue(state, index, pose, "Place");
     if (finished) EndDrag(state);
   };
   overview_held_ = input.owned || input.wheel != 0;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/editor/footage_textures.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/picture_rest.h"
 #include "app/editor/render_scale.h"
@@ -16,6 +17,7 @@
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
 #include "app/view/overview/overview.h"
+#include "authoring/tissue/surface_faults.h"
 
 namespace arthro::app {
 
@@ -32,7 +34,7 @@ class Pictures {
   void Record(LiveFilm& film, double t);
   // The author's view from outside. Draws only what changed; on a slow machine less often while the
   // user is busy elsewhere. True when it is not up to date yet.
-  bool DrawOverview(const EditorState& state, int width, int height);
+  bool DrawOverview(EditorState& state, int width, int height);
   unsigned overview_texture() const { return has_overview_ ? overview_.TextureId() : 0; }
   // Turns the overview or, on its handle, moves the chosen tissue. `scale`: of the window.
   void HandleOverview(EditorState& state, const OverviewInput& input, double scale = 1.0);
@@ -47,6 +49,8 @@ class Pictures {
   // back.
   void NoteFrame(double seconds);
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
+  // The last picture without the chosen tissue; 0 where that is not faded.
+  unsigned bare_texture() const { return bare_ ? bare_->id() : 0; }
   int scope_edge() const { return drawn_size_; }       // px of that texture
   long scope_version() const { return drawn_count_; }  // grows with each picture
   const simulation::ScopeView& view() const { return picture_.view; }
@@ -67,6 +71,12 @@ class Pictures {
   void TakeCuts(const authoring::Document& document);
   void ShowPlaces(const EditorState& state);
   void HideOutlined(const EditorState& state);
+  // The scope's picture shows a tissue of the document as its cuts leave it.
+  void ShowInScope(int tissue);
+  void ShowFaults(const EditorState& state);
+  void ShowDistances(EditorState& state);
+  // Keeps the picture without the chosen tissue while that is faded.
+  void DrawBare(const EditorState& state, int pixels);
   void TakeLiveTissues(const EditorState& state);
 
   ArthroscopicView scope_;
@@ -103,6 +113,10 @@ class Pictures {
   std::vector<std::shared_ptr<const simulation::BodySkin>>
       shown_cuts_;  // one per tissue; null: whole
   std::string cut_fault_;
+  std::optional<PictureTexture> bare_;
+  std::shared_ptr<const authoring::SurfaceFaults> faults_;    // those that the overview shows
+  std::shared_ptr<const std::vector<glm::dvec3>> distances_;  // colours of `coloured_`
+  int coloured_ = -1;  // tissue in the colours of its distances, -1 none
   int outlined_ = -1;  // tissue that the scope's picture leaves out, -1 none
   const simulation::Practice* live_ = nullptr;  // whose bodies are shown
   LiveTissues live_tissues_;

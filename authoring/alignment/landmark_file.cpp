@@ -6,7 +6,6 @@
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
-#include "simulation/core/units.h"
 #include "simulation/scene/json/field_json.h"
 #include "simulation/scene/json/field_schema.h"
 #include "simulation/scene/json/scene_json.h"
@@ -99,74 +98,6 @@ std::vector<LandmarkPair> PairsInScene(const PairsFile& pairs, const LoadedScene
     now.scene = *point;
   }
   return found;
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json JsonOf(const Pose& pose) {
-  const glm::dquat& q = pose.quaternion;
-  return {{"position", {pose.position.x, pose.position.y, pose.position.z}},
-          {"quaternion", {q.w, q.x, q.y, q.z}},
-          {"scale", pose.scale}};
-}
-
-Json JsonOf(const ReliefFit& fit) {
-  return {{"median", fit.median},
-          {"within_1mm", fit.within},
-          {"behind", fit.behind},
-          {"deepest", fit.deepest}};
-}
-
-void PutLandmarks(std::span<const LandmarkPair> pairs, const LandmarkAlignment& alignment,
-                  Json& json) {
-  json["verdict"] = ToString(alignment.verdict);
-  json["sentence"] = alignment.sentence;
-  if (alignment.is_aligned()) {
-    json["pose"] = JsonOf(alignment.portal_from_tissue);
-    json["rms"] = alignment.rms;
-    json["position_sigma"] = alignment.position_sigma;
-    json["rotation_sigma_deg"] = DegreesFromRadians(alignment.rotation_sigma);
-    json["worst_rotation_sigma_deg"] = DegreesFromRadians(alignment.worst_rotation_sigma);
-    json["scale_sigma"] = alignment.scale_sigma;
-  }
-  json["candidates"] = alignment.candidates;
-  json["iterations"] = alignment.iterations;
-  Json& landmarks = json["landmarks"] = Json::array();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const LandmarkResidual& residual = alignment.residuals[i];
-    Json one{{"name", pairs[i].name}, {"used", residual.is_used}, {"wrong", residual.is_wrong}};
-    if (alignment.is_aligned()) {
-      one["residual"] = residual.distance;
-      one["residual_px"] = residual.px ? Json(*residual.px) : Json();
-    }
-    one["range_guessed"] = pairs[i].scene.is_guessed;
-    landmarks.push_back(std::move(one));
-  }
-  json["warnings"] = alignment.warnings;
-}
-
-}  // namespace
-
-std::string AlignmentReport(const std::string& tissue, std::span<const LandmarkPair> pairs,
-                            const std::optional<LandmarkAlignment>& landmarks,
-                            const std::optional<SurfaceAlignment>& surface) {
-  Json json{{"schema", "arthroscene.align/1"}, {"tissue", tissue}};
-  if (landmarks) PutLandmarks(pairs, *landmarks, json);
-  if (surface) {
-    Json& own = json["surface"] = {{"aligned", surface->is_aligned},
-                                   {"sentence", surface->sentence},
-                                   {"steps", surface->steps},
-                                   {"points", surface->points}};
-    if (surface->is_aligned) {
-      own["pose"] = JsonOf(surface->portal_from_tissue);
-      own["rms"] = surface->kept_rms;
-      own["before"] = JsonOf(surface->before);
-      own["after"] = JsonOf(surface->after);
-    }
-  }
-  return json.dump(2) + "\n";
 }
 
 }  // namespace arthro::authoring

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "authoring/alignment/landmark_alignment.h"
-#include "authoring/alignment/surface_alignment.h"
 #include "simulation/scene/scene_limits.h"
 
 namespace arthro::authoring {
@@ -86,11 +85,5 @@ std::string PairsSchemaText();
 // was imaged, or outside its picture.
 std::vector<LandmarkPair> PairsInScene(const PairsFile& pairs, const LoadedScene& scene,
                                        const std::filesystem::path& file = {});
-
-// Result as JSON text, arthroscene.align/1: pose, standard errors, residuals and warnings of the
-// pairs; steps and distances of the surface. m.
-std::string AlignmentReport(const std::string& tissue, std::span<const LandmarkPair> pairs,
-                            const std::optional<LandmarkAlignment>& landmarks,
-                            const std::optional<SurfaceAlignment>& surface);
 
 }  // namespace arthro::authoring

@@ -112,6 +112,19 @@ glm::dvec3 MiddleOf(const SurfaceMesh& surface) {
   return box.empty() ? glm::dvec3(0.0) : 0.5 * (box.low + box.high);
 }
 
+glm::dvec3 FacingOf(const SurfaceMesh& surface) {
+  constexpr double kClosed = 1e-6;  // rounding of the sum over a closed surface
+  glm::dvec3 sum(0.0);
+  double area = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const auto at = [&](int i) { return surface.vertices[static_cast<std::size_t>(i)]; };
+    const glm::dvec3 normal = glm::cross(at(b) - at(a), at(c) - at(a));
+    sum += normal;
+    area += glm::length(normal);
+  }
+  return glm::length(sum) > kClosed * area ? sum / area : glm::dvec3(0.0);
+}
+
 SurfaceMesh Mirrored(SurfaceMesh surface, double at) {
   for (glm::dvec3& x : surface.vertices) x = MirroredPoint(x, at);
   for (auto& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);

@@ -20,6 +20,9 @@ Pose Turned(const Pose& pose, int axis, double angle, NudgeAxes axes, const glm:
 // Middle of the box around a surface; the origin for an empty one.
 glm::dvec3 MiddleOf(const SurfaceMesh& surface);
 
+// Mean direction in which an open sheet faces, as a share of its area; zero for a closed surface.
+glm::dvec3 FacingOf(const SurfaceMesh& surface);
+
 // Mirror image in the plane x = `at` of the own frame. Its triangles face outwards again; balls,
 // regions and cuts go with it.
 SurfaceMesh Mirrored(SurfaceMesh surface, double at);

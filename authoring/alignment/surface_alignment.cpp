@@ -24,19 +24,47 @@ constexpr double kDamping = 1e-4;
 
 // Vertices that take part, evenly chosen where there are many; tissue frame.
 std::vector<glm::dvec3> PointsOf(const SurfaceMesh& surface, const Pose& present,
-                                 const std::optional<Ball>& patch) {
+                                 const std::optional<Ball>& patch, AlignSide side) {
   const std::vector<glm::dvec3> normals = NormalsOf(surface);
   std::vector<glm::dvec3> all;
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     const glm::dvec3& x = surface.vertices[i];
+    const bool is_front = glm::dot(present.quaternion * normals[i], present * x) < 0;
     const bool takes_part = patch ? glm::distance(x, patch->centre) <= patch->radius
-                                  : glm::dot(present.quaternion * normals[i], present * x) < 0;
+                                  : is_front == (side == AlignSide::kFront);
     if (takes_part) all.push_back(x);
   }
   if (all.size() <= kMostPoints) return all;
   std::vector<glm::dvec3> some;
   for (std::size_t i = 0; i < kMostPoints; ++i) some.push_back(all[i * all.size() / kMostPoints]);
   return some;
+}
+
+// Median of the unsigned distances of points from the relief, m; nothing where most are out of
+// reach.
+std::optional<double> MedianDistance(const ReliefTarget& relief,
+                                     const std::vector<glm::dvec3>& points, const Pose& pose,
+                                     double reach) {
+  std::vector<glm::dvec3> places;
+  for (const glm::dvec3& x : points) places.push_back(pose * x);
+  std::vector<double> distances = DistancesFrom(relief, places, reach);
+  std::erase_if(distances, [](double d) { return std::isnan(d); });
+  if (distances.size() < std::max(kFewestPoints, points.size() / 2)) return std::nullopt;
+  for (double& d : distances) d = std::abs(d);
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+// The relief shows what lies behind the tissue where the tissue's back is the side that lies on it.
+// An open sheet has no back.
+AlignSide SideOnRelief(const ReliefTarget& relief, const SurfaceMesh& surface, const Pose& present,
+                       double reach) {
+  const auto median = [&](AlignSide side) {
+    return MedianDistance(relief, PointsOf(surface, present, {}, side), present, reach);
+  };
+  const std::optional<double> front = median(AlignSide::kFront), back = median(AlignSide::kBack);
+  return back && (!front || *back < *front) ? AlignSide::kBack : AlignSide::kFront;
 }
 
 struct Match {
@@ -67,6 +95,10 @@ std::vector<Match> MatchesOf(const ReliefTarget& relief, const std::vector<glm::
 
 }  // namespace
 
+const char* ToString(AlignSide side) {
+  return side == AlignSide::kAuto ? "auto" : side == AlignSide::kFront ? "front" : "back";
+}
+
 SurfaceAlignment AlignSurface(const ReliefTarget& relief, const SurfaceMesh& surface,
                               const Pose& present, const std::optional<Ball>& patch,
                               const SurfaceAlignOptions& options) {
@@ -77,13 +109,17 @@ SurfaceAlignment AlignSurface(const ReliefTarget& relief, const SurfaceMesh& sur
     return alignment;
   };
   if (relief.empty()) return refuse("The scene has no relief; make one first.");
-  const std::vector<glm::dvec3> points = PointsOf(surface, present, patch);
+  alignment.side = options.side == AlignSide::kAuto
+                       ? SideOnRelief(relief, surface, present, options.reach)
+                       : options.side;
+  const std::vector<glm::dvec3> points = PointsOf(surface, present, patch, alignment.side);
   alignment.points = static_cast<int>(points.size());
   if (points.size() < kFewestPoints)
     return refuse(patch
                       ? "The patch holds too few points of the surface; make it larger."
-                      : "Too little of the surface faces the portal; turn it, or choose a patch.");
+                      : "Too little of the surface lies on that side; turn it, or choose a patch.");
   alignment.before = FitOf(relief, surface, present);
+  alignment.has_front = alignment.before.is_known;
 
   glm::dvec3 middle(0.0);
   for (const glm::dvec3& x : points) middle += x / static_cast<double>(points.size());
@@ -134,11 +170,18 @@ SurfaceAlignment AlignSurface(const ReliefTarget& relief, const SurfaceMesh& sur
   alignment.portal_from_tissue = pose;
   alignment.after = FitOf(relief, surface, pose);
   alignment.is_aligned = true;
-  alignment.sentence = fmt::format(
-      "Median distance {:.2f} mm before, {:.2f} mm now; {:.0f} % of the side that faces the portal "
-      "is within 1 mm.",
-      MmFromMetres(alignment.before.median), MmFromMetres(alignment.after.median),
-      100 * alignment.after.within);
+  alignment.sentence =
+      alignment.side == AlignSide::kBack && !patch
+          ? fmt::format("{}, so its back was laid onto it, to {:.2f} mm rms.",
+                        alignment.has_front
+                            ? "The relief shows what lies behind this tissue"
+                            : "None of this tissue faces the portal near the relief",
+                        MmFromMetres(alignment.kept_rms))
+          : fmt::format(
+                "Median distance {:.2f} mm before, {:.2f} mm now; {:.0f} % of the side "
+                "that faces the portal is within 1 mm.",
+                MmFromMetres(alignment.before.median), MmFromMetres(alignment.after.median),
+                100 * alignment.after.within);
   return alignment;
 }
 

@@ -85,6 +85,24 @@ std::optional<ReliefPoint> FindOnRelief(const LoadedScene& scene, const glm::dve
   return ReliefPoint{*hit, normal};
 }
 
+Pose Uncovered(const SurfaceMesh& surface, const Pose& laid, const LoadedScene& scene,
+               const glm::dvec3& normal, const glm::dvec3& to) {
+  Pose pose = laid;
+  const auto hidden = [&] {
+    return HiddenShare(surface, pose, OrEmpty(scene.depth), scene.scene.backdrop);
+  };
+  constexpr double kMostHidden = 0.25, kLift = 5e-4, kMostLift = 6e-3;
+  for (double lift = 0; lift < kMostLift; lift += kLift) {
+    pose.position = laid.position + lift * normal;
+    if (hidden() <= kMostHidden) return pose;
+  }
+  // In a groove that is too narrow for it: towards the eye, out of the groove.
+  constexpr double kMostlyHidden = 0.5, kStep = 5e-4, kFarthest = 25e-3;
+  for (double back = 0; back < kFarthest && hidden() > kMostlyHidden; back += kStep)
+    pose.position -= kStep * to;
+  return pose;
+}
+
 Pose PoseOnRelief(const LibraryModel& model, const LoadedScene& scene, const glm::dvec3& from,
                   const glm::dvec3& direction) {
   double reach = 0;
@@ -100,19 +118,7 @@ Pose PoseOnRelief(const LibraryModel& model, const LoadedScene& scene, const glm
   Pose pose;
   pose.position = point.place;
   pose.quaternion = glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z)));
-  const auto hidden = [&] {
-    return HiddenShare(model.surface, pose, OrEmpty(scene.depth), scene.scene.backdrop);
-  };
-  constexpr double kMostHidden = 0.25, kLift = 5e-4, kMostLift = 6e-3;
-  for (double lift = 0; lift < kMostLift; lift += kLift) {
-    pose.position = point.place + lift * z;
-    if (hidden() <= kMostHidden) return pose;
-  }
-  // In a groove that is too narrow for it: towards the eye, out of the groove.
-  constexpr double kMostlyHidden = 0.5, kStep = 5e-4, kFarthest = 25e-3;
-  for (double back = 0; back < kFarthest && hidden() > kMostlyHidden; back += kStep)
-    pose.position -= kStep * to;
-  return pose;
+  return Uncovered(model.surface, pose, scene, z, to);
 }
 
 void AddModel(Document& document, const LibraryModel& model, const Pose& pose,

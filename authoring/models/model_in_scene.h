@@ -20,10 +20,15 @@ struct ReliefPoint {
 std::optional<ReliefPoint> FindOnRelief(const LoadedScene& scene, const glm::dvec3& from,
                                         const glm::dvec3& direction, double reach);
 
+// Lifts a surface that lies on the relief along `normal` until no more than a quarter of it is
+// hidden, by 6 mm at most; in a narrow groove it is drawn back against the direction `to` of the
+// view until no more than half of it is.
+Pose Uncovered(const SurfaceMesh& surface, const Pose& laid, const LoadedScene& scene,
+               const glm::dvec3& normal, const glm::dvec3& to);
+
 // Pose of a model whose base lies on the relief where a ray meets it. Its z follows the normal and
-// its y the direction into the joint. Where the relief is uneven it is lifted until no more than a
-// quarter of it is hidden, by 6 mm at most; in a narrow groove it is drawn back until no more than
-// half of it is. A ray that meets nothing places it on the sphere.
+// its y the direction into the joint. Where the relief is uneven it is uncovered. A ray that meets
+// nothing places it on the sphere.
 Pose PoseOnRelief(const LibraryModel& model, const LoadedScene& scene, const glm::dvec3& from,
                   const glm::dvec3& direction);
 

@@ -36,6 +36,8 @@ struct SaveOptions {
   bool keeps_all_files = false;
   // Keeps the scene that the save replaces as a backup (scene_versions.h).
   bool keeps_backup = false;
+  // Packs maps of depth for speed, not for size: for a copy that is replaced within seconds.
+  bool packs_quickly = false;
 };
 
 // Writes the document as a scene into `folder`, which is made if its parent is there. A name that

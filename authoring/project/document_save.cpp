@@ -214,11 +214,13 @@ class Saving {
       return;
     }
     RequireSameSize(*after_.panorama, *after_.depth, folder_ / backdrop.depth);
-    SaveMap(backdrop.depth, "depth.tiff", after_.depth, HoldsDepth, WriteDepthMap);
+    const auto write_depth = [this](const fs::path& to, const DepthMap& map) {
+      WriteDepthMap(to, map, options_.packs_quickly ? DepthPacking::kQuick : DepthPacking::kSmall);
+    };
+    SaveMap(backdrop.depth, "depth.tiff", after_.depth, HoldsDepth, write_depth);
     if (after_.depth_sigma)
       RequireSameSize(*after_.depth, *after_.depth_sigma, folder_ / backdrop.depth_sigma);
-    SaveMap(backdrop.depth_sigma, "depth-sigma.tiff", after_.depth_sigma, HoldsSigma,
-            WriteDepthMap);
+    SaveMap(backdrop.depth_sigma, "depth-sigma.tiff", after_.depth_sigma, HoldsSigma, write_depth);
     if (after_.depth_origin)
       RequireSameSize(*after_.depth, *after_.depth_origin, folder_ / backdrop.depth_origin);
     SaveMap(backdrop.depth_origin, "depth-origin.png", after_.depth_origin, HoldsOrigins,
@@ -226,10 +228,9 @@ class Saving {
   }
 
   // Writes a map of the backdrop as a file of the kind of `usual`; without a map there is no name.
-  template <class Map>
+  template <class Map, class WriteMap>
   void SaveMap(fs::path& name, const fs::path& usual, const std::shared_ptr<const Map>& map,
-               bool (*holds)(const fs::path&, const Map&),
-               void (*write)(const fs::path&, const Map&)) {
+               bool (*holds)(const fs::path&, const Map&), const WriteMap& write) {
     if (!map) {
       name.clear();
       return;

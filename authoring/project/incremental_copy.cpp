@@ -25,8 +25,8 @@ IncrementalCopy::Source IncrementalCopy::SourceOf(const fs::path& file) {
 void IncrementalCopy::NameAsWritten(const Document& document,
                                     const std::shared_ptr<const void>& part, fs::path& name,
                                     std::map<std::string, AssetFile>& files) {
-  if (name.empty()) return;
-  const fs::path source = FileOf(document, name);
+  if (name.empty() && !part) return;
+  const fs::path source = name.empty() ? fs::path() : FileOf(document, name);
   const auto is_kept = [&](const auto& entry) {
     if (part) return entry.second.part.lock() == part;
     const auto known = sources_.find(entry.first);
@@ -38,6 +38,7 @@ void IncrementalCopy::NameAsWritten(const Document& document,
     files[kept->first] = kept->second;
     return;
   }
+  if (name.empty()) return;  // the save will name it
   const auto known = document.files.find(name.generic_string());
   AssetFile asset = known != document.files.end() ? known->second : AssetFile{};
   asset.file = source;
@@ -70,8 +71,10 @@ void IncrementalCopy::Write(const Document& document) {
   Document next = document;
   next.folder = folder_;
   next.files.clear();
+  bool has_new_part = false;  // one that no file was named or written for
   const auto keep = [&](fs::path& name, const std::shared_ptr<const void>& part) {
     NameAsWritten(document, part, name, next.files);
+    has_new_part = has_new_part || (part && name.empty());
   };
   Backdrop& backdrop = next.scene.backdrop;
   keep(backdrop.panorama, next.panorama);
@@ -89,14 +92,16 @@ void IncrementalCopy::Write(const Document& document) {
     return next.files.contains(name.generic_string()) && written_.contains(name.generic_string());
   };
   const std::vector<fs::path> names = FilesNamedBy(next.scene);
-  if (!next.lens && next.panorama && next.depth &&
+  if (!has_new_part && !next.lens && next.panorama && next.depth &&
       std::all_of(names.begin(), names.end(), is_written)) {
     PutDocumentKeys(next);
     if (!listed_.empty()) next.scene.extensions[kWrittenFilesKey] = listed_;
     return WriteScene(folder_ / "scene.json", next.scene);
   }
 
-  const Document saved = SaveDocument(next, folder_);
+  SaveOptions options;
+  options.packs_quickly = true;
+  const Document saved = SaveDocument(next, folder_, options);
   written_ = saved.files;
   std::erase_if(copied_, [&](const std::string& name) {
     std::error_code ignored;

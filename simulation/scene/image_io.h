@@ -23,7 +23,10 @@ std::string PngFromColourImage(const ColourImage& image);
 // One-channel 32-bit float TIFF, metres. Throws Error(kBadImage) for anything else, and for depths
 // that are infinite or beyond 10 m.
 DepthMap ReadDepthMap(const std::filesystem::path& file);
-void WriteDepthMap(const std::filesystem::path& file, const DepthMap& depth);
+// kQuick leaves the file as large as the map: for a copy that must be on disk at once.
+enum class DepthPacking { kSmall, kQuick };
+void WriteDepthMap(const std::filesystem::path& file, const DepthMap& depth,
+                   DepthPacking packing = DepthPacking::kSmall);
 
 // Standard error of a depth map in the same form. Throws Error(kBadImage) for anything else, and
 // for values that are negative, infinite or beyond 10 m. Written by WriteDepthMap.

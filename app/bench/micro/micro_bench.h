@@ -69,6 +69,7 @@ MicroGroup DepthMicro(bool quick);      // depth from colour against known dista
 MicroGroup PreviewMicro(bool quick);    // preview of the depth against the whole result
 MicroGroup ComposeMicro(bool quick);    // composition of placed frames
 MicroGroup SolidMicro(bool quick);      // functions of solids
+MicroGroup ReachMicro(bool quick);      // reach of scope and instrument
 MicroGroup SurfaceMicro(bool quick);    // checks and filling of surfaces
 MicroGroup KernelMicro(bool quick);     // assembly and matrix products of tissue
 

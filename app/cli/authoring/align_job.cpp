@@ -15,6 +15,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/options_cli.h"
 #include "app/cli/output_check.h"
+#include "authoring/alignment/align_report.h"
 #include "authoring/alignment/landmark_file.h"
 #include "authoring/alignment/surface_alignment.h"
 #include "authoring/project/document_io.h"
@@ -88,7 +89,7 @@ void Run(const AlignJob& job) {
                                       OrEmpty(document.surfaces[index]), tissue.pose, job.patch,
                                       job.surface_options);
   if (!job.report.empty())
-    WriteAtomically(job.report, authoring::AlignmentReport(job.tissue, pairs, landmarks, surface));
+    WriteAtomically(job.report, authoring::AlignReportText(job.tissue, pairs, landmarks, surface));
   if (landmarks && !landmarks->is_aligned())
     throw Error(Code::kBadData, landmarks->sentence, job.pairs);
   if (surface && !surface->is_aligned) throw Error(Code::kBadData, surface->sentence, job.scene);

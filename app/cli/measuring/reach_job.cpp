@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "simulation/core/csv_field.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/reach/named_portals.h"
 #include "simulation/practice/reach/portal_reach.h"
 #include "simulation/practice/reach/reach_picture.h"
 #include "simulation/scene/files/scene_io.h"
@@ -29,7 +31,7 @@ using simulation::ReachShares;
 struct ReachArguments {
   std::filesystem::path scene, output, picture;
   std::optional<double> view_angle_deg, spacing_mm;
-  std::string target;
+  std::string target, portals, knee = "right";
 };
 
 std::string Row(const std::string& target, const ReachShares& shares) {
@@ -56,6 +58,9 @@ void RunReachJob(const ReachArguments& arguments) {
     loaded.scene.scope.view_angle = RadiansFromDegrees(*arguments.view_angle_deg);
   if (arguments.spacing_mm)
     loaded.scene.portals.incision_spacing = MetresFromMm(*arguments.spacing_mm);
+  if (!arguments.portals.empty())
+    loaded.scene.portals.incision_spacing = simulation::SpacingOf(
+        *simulation::FindNamedPortals(arguments.portals), arguments.knee == "left");
   const bool is_asked = !arguments.target.empty();
   const int target = is_asked ? TargetOf(loaded, arguments.target) : -1;
   const simulation::ScopeReach scope = simulation::ScopeReachOf(loaded);
@@ -93,6 +98,15 @@ void AddReachJob(CLI::App& program) {
             "Angle between rod and view. Default: the scene's own.");
   AddNumber(*job, "--spacing-mm", arguments->spacing_mm, {-1000.0, 1000.0}, "mm",
             "Incision spacing. Default: the scene's own.");
+  std::vector<std::string> named;
+  for (const simulation::NamedPortals& portals : simulation::EveryNamedPortals())
+    named.emplace_back(portals.word);
+  job->add_option("--portals", arguments->portals,
+                  "Portals by name, scope first, in place of a spacing.")
+      ->check(CLI::IsMember(named))
+      ->excludes("--spacing-mm");
+  job->add_option("--knee", arguments->knee, "Side of the knee for --portals. Default: right.")
+      ->check(CLI::IsMember({"right", "left"}));
   job->add_option("--suggest", arguments->target,
                   "Print the incision spacing that suits a tissue best, or the relief: the name of "
                   "a tissue, or relief.");

@@ -11,6 +11,7 @@
 #include "app/cli/job_files.h"
 #include "app/cli/jobs.h"
 #include "app/cli/practice/shipped_presets.h"
+#include "authoring/alignment/align_report.h"
 #include "authoring/alignment/landmark_file.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
@@ -110,7 +111,8 @@ void AddCheckJob(CLI::App& program) {
         std::tuple{"--rig-schema", &RigSchemaText, "rig files"},
         std::tuple{"--solid-schema", &SolidSchemaText, "solids"},
         std::tuple{"--lens-schema", &LensSchemaText, "lens files"},
-        std::tuple{"--pairs-schema", &authoring::PairsSchemaText, "pairs of landmarks"}})
+        std::tuple{"--pairs-schema", &authoring::PairsSchemaText, "pairs of landmarks"},
+        std::tuple{"--align-schema", &authoring::AlignReportSchemaText, "reports of `align`"}})
     job->add_flag_callback(
         flag,
         [text = text] {

@@ -9,6 +9,7 @@
 #include "app/files/scene_files.h"
 #include "app/state/command.h"
 #include "app/steps/practice/practice_step.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
 
@@ -95,6 +96,14 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   ImGui::NewLine();
   const double length = dialog.longest_side * MetresPerUnit(dialog.unit).value_or(1.0);
   Text(ui, fmt::format("The surface will be {} long.", ShownLength(length)));
+  if (const int partner = PartnerOfImport(state); partner >= 0)
+    Checkbox(
+        ui,
+        "Keep its place beside " +
+            state.document().scene.tissues[static_cast<std::size_t>(partner)].name,
+        state.steps.tissue->imports->keeps_place,
+        "For surfaces of one knee, whose files have the same frame. Otherwise it is laid onto the "
+        "relief in the middle of the view.");
   Gap(ui);
   const bool import = Button(ui, "Import", true, {ui.Px(120), 0}) || EnterPressed();
   ImGui::SameLine();
@@ -103,7 +112,7 @@ void Draw(Ui& ui, EditorState& state, UnitDialog& dialog) {
   const UnitDialog taken = Take<UnitDialog>(state);
   if (import)
     Guarded(state, "Import a surface",
-            [&] { ImportSurface(state, taken.file.stem().string(), *taken.surface, taken.unit); });
+            [&] { ImportSurface(state, taken.file, *taken.surface, taken.unit); });
 }
 
 void Draw(Ui& ui, EditorState& state, PracticeEndedDialog& dialog) {

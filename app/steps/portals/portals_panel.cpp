@@ -1,4 +1,7 @@
 // Step 4: where the instrument comes in, and which scope looks.
+#include <string>
+#include <vector>
+
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
@@ -10,6 +13,7 @@
 #include "app/steps/portals/reach_fields.h"
 #include "app/steps/portals/scope_lens.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/reach/named_portals.h"
 
 namespace arthro::app {
 namespace {
@@ -54,11 +58,32 @@ void MediumChooser(Ui& ui, EditorState& state, Medium medium) {
     SetMedium(state, Medium::kGas);
 }
 
+// Pairs of portals by name, for the side of the knee.
+void PortalChooser(Ui& ui, EditorState& state, double spacing) {
+  bool& is_left = state.steps.portals->is_left_knee;
+  const float width = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
+  constexpr const char* kHelp = "Side for which the portals below are named.";
+  if (ToggleButton(ui, "Right knee", !is_left, true, {width, 0}, kHelp)) is_left = false;
+  ImGui::SameLine(0, ui.Px(6));
+  if (ToggleButton(ui, "Left knee", is_left, true, {width, 0}, kHelp)) is_left = true;
+  const auto named = simulation::EveryNamedPortals();
+  std::vector<std::string> titles;
+  for (const simulation::NamedPortals& portals : named) titles.emplace_back(portals.title);
+  int chosen = simulation::NamedPortalsAt(spacing, is_left).value_or(-1);
+  if (!Combo(ui, "Scope, instrument", chosen, titles,
+             "Portals by name. Sets the incision spacing. The distances are values to start from."))
+    return;
+  SetIncisionSpacing(state,
+                     simulation::SpacingOf(named[static_cast<std::size_t>(chosen)], is_left));
+  EndDrag(state);
+}
+
 }  // namespace
 
 void PortalsPanel(Ui& ui, EditorState& state) {
   const Scene scene = state.document().scene;  // a copy: edits below move it
   Heading(ui, "Incisions");
+  PortalChooser(ui, state, scene.portals.incision_spacing);
   double spacing_mm = MmFromMetres(scene.portals.incision_spacing);
   Change change = Slider(ui, "Incision spacing", spacing_mm, -80, 80, "%.1f mm",
                          "From the scope's portal to the instrument's; negative when the "

@@ -10,6 +10,7 @@
 #include "app/steps/portals/portals_step.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/reach/reach_picture.h"
+#include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {
 namespace {
@@ -94,6 +95,33 @@ void SuggestSpacing(EditorState& state, int tissue) {
                                                  MmFromMetres(spacing), target);
                      };
                    });
+}
+
+std::vector<std::string> ShaftConflictWords(EditorState& state) {
+  ReachBoard& board = state.steps.portals->reach;
+  const Scene& scene = state.document().scene;
+  std::vector<Pose> poses;
+  for (const Tissue& tissue : scene.tissues) poses.push_back(tissue.pose);
+  if (!board.obstacles || board.obstacle_surfaces != state.document().surfaces ||
+      board.obstacle_poses != poses) {
+    board.obstacles = std::make_shared<const simulation::ShaftObstacles>(state.document());
+    board.obstacle_surfaces = state.document().surfaces;
+    board.obstacle_poses = std::move(poses);
+  }
+  const glm::dvec3 portal(scene.portals.incision_spacing, 0, 0);
+  std::vector<std::string> words;
+  using Kind = simulation::ShaftConflict::Kind;
+  for (const simulation::ShaftConflict& conflict :
+       board.obstacles->Find(simulation::ViewFromPose(state.scope, scene.scope.view_angle).tip,
+                             portal, portal + simulation::TipInOwnPortal(state.instrument)))
+    words.push_back(
+        conflict.kind == Kind::kShaftsTouch
+            ? fmt::format("The two shafts touch {:.0f} mm behind the scope's portal.",
+                          MmFromMetres(conflict.depth))
+            : fmt::format("The shaft of the {} passes through {}.",
+                          conflict.kind == Kind::kScopeInTissue ? "scope" : "instrument",
+                          scene.tissues[static_cast<std::size_t>(conflict.tissue)].name));
+  return words;
 }
 
 double AngleBetweenRods(const EditorState& state) {

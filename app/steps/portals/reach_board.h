@@ -4,10 +4,12 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/state/editor_state.h"
 #include "simulation/practice/reach/portal_reach.h"
+#include "simulation/practice/reach/shaft_conflicts.h"
 #include "simulation/scene/image.h"
 
 namespace arthro::app {
@@ -40,6 +42,10 @@ struct ReachBoard {
   std::shared_ptr<const MadeReach>
       made;  // null: none yet; of an earlier document while one is made
   Jobs jobs;
+  // Tissues in the way of the shafts, kept while they lie where they are.
+  std::shared_ptr<const simulation::ShaftObstacles> obstacles;
+  std::vector<SharedSurface> obstacle_surfaces;
+  std::vector<Pose> obstacle_poses;
 };
 
 // Starts the work that is wanted, if any, and takes over what ended. Once a frame; returns at once.
@@ -51,6 +57,9 @@ std::shared_ptr<const ColourImage> ReachPictureOf(const EditorState& state);
 
 // Sets the incision spacing that suits a tissue best; -1: the relief. Long work; undoable.
 void SuggestSpacing(EditorState& state, int tissue);
+
+// Conflicts of the shafts as the author holds them, one sentence each.
+std::vector<std::string> ShaftConflictWords(EditorState& state);
 
 // Angle between the author's rods as they are held, rad.
 double AngleBetweenRods(const EditorState& state);

@@ -54,6 +54,8 @@ void ReachFields(Ui& ui, EditorState& state) {
   QuietText(ui, fmt::format("The rods are held at {:.0f}° to each other. 45° to 75° is recommended "
                             "for two instruments.",
                             DegreesFromRadians(AngleBetweenRods(state))));
+  for (const std::string& conflict : ShaftConflictWords(state))
+    ColouredText(ui, conflict, kWarning);
   const bool has_panorama = state.document().panorama != nullptr;
   if (ToggleButton(ui, "Show reach", board.is_shown, has_panorama, {},
                    "Colour the overview by what scope and instrument reach through these portals."))

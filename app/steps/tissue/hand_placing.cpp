@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "app/state/edits.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/alignment/distance_colours.h"
 #include "authoring/alignment/surface_alignment.h"
 #include "simulation/core/units.h"
 
@@ -23,9 +25,7 @@ const SurfaceMesh& ChosenSurface(const EditorState& state) {
 }
 
 void SetPose(EditorState& state, const Pose& pose, const std::string& what) {
-  Tissue changed = ChosenTissue(state);
-  changed.pose = pose;
-  SetTissue(state, state.tissue, changed, what);
+  PlaceTissue(state, state.tissue, pose, what);
 }
 
 // True while the Place page of a tissue is open.
@@ -40,7 +40,10 @@ const authoring::ReliefTarget& ReliefOf(EditorState& state) {
   const authoring::Document& document = state.document();
   if (kept.depth != document.depth || kept.panorama != document.panorama ||
       !(kept.backdrop == document.scene.backdrop)) {
-    kept = {document.depth, document.panorama, document.scene.backdrop, {}, {}, {}, {}};
+    kept = {};
+    kept.depth = document.depth;
+    kept.panorama = document.panorama;
+    kept.backdrop = document.scene.backdrop;
     kept.relief = authoring::MakeReliefTarget(document);
   }
   return kept.relief;
@@ -58,7 +61,40 @@ const authoring::ReliefFit& FitOfChosen(EditorState& state) {
   kept.surface = surface;
   kept.pose = pose;
   kept.fit = authoring::FitOf(relief, OrEmpty(surface), pose);
+  kept.colours = nullptr;
   return kept.fit;
+}
+
+std::shared_ptr<const std::vector<glm::dvec3>> ShownDistances(EditorState& state) {
+  HandPlacing& placing = state.steps.tissue->placing;
+  if (!IsPlacePage(state) || !placing.shows_distances) return nullptr;
+  FitOfChosen(state);  // brings what is kept up to date
+  HandPlacing::Kept& kept = placing.kept;
+  if (!kept.colours)
+    kept.colours = std::make_shared<const std::vector<glm::dvec3>>(
+        authoring::DistanceColours(kept.relief, OrEmpty(kept.surface), kept.pose));
+  return kept.colours;
+}
+
+void NoteBefore(EditorState& state) {
+  HandPlacing& placing = state.steps.tissue->placing;
+  placing.before = ChosenTissue(state).pose;
+  placing.before_tissue = ChosenTissue(state).name;
+  placing.shows_before = false;
+}
+
+bool HasBefore(const EditorState& state) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  return IsPlacePage(state) && placing.before && placing.before_tissue == ChosenTissue(state).name;
+}
+
+std::optional<Pose> ShownBefore(const EditorState& state) {
+  const HandPlacing& placing = state.steps.tissue->placing;
+  return placing.shows_before && HasBefore(state) ? placing.before : std::nullopt;
+}
+
+double FadeOf(const EditorState& state) {
+  return IsPlacePage(state) ? state.steps.tissue->placing.fade : 0;
 }
 
 std::string FitWords(const authoring::ReliefFit& fit) {
@@ -108,6 +144,7 @@ void FitToRelief(EditorState& state) {
   const authoring::SurfaceAlignment found =
       authoring::AlignSurface(ReliefOf(state), ChosenSurface(state), ChosenTissue(state).pose);
   if (found.is_aligned) {
+    NoteBefore(state);
     SetPose(state, found.portal_from_tissue, "Fit");
     EndDrag(state);
   }
@@ -129,6 +166,7 @@ void ToggleLaying(EditorState& state) {
   HandPlacing& placing = state.steps.tissue->placing;
   placing.lays = !LaysOnRelief(state);
   placing.tissue = ChosenTissue(state).name;
+  if (placing.lays) NoteBefore(state);
   state.message = placing.lays ? "Drag over the scope's picture or the overview to lay it there."
                                : "Drags turn and move the views again.";
 }

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/state/editor_state.h"
 #include "authoring/alignment/place_by_hand.h"
@@ -17,11 +19,16 @@ struct Ui;
 
 struct HandPlacing {
   authoring::NudgeAxes axes = authoring::NudgeAxes::kPortal;
-  double step = 1e-3;          // m
-  double turn = 0.08726646;    // rad, 5 degrees
-  bool shows_outline = false;  // the tissue is an outline in the scope's picture
-  bool lays = false;           // a drag over a picture lays the tissue onto the relief
-  std::string tissue;          // name of the one that is laid
+  double step = 1e-3;            // m
+  double turn = 0.08726646;      // rad, 5 degrees
+  bool shows_outline = false;    // the tissue is an outline in the scope's picture
+  bool shows_distances = false;  // its distances from the relief are colours in the overview
+  bool shows_before = false;     // the tissue is shown where the last fit or alignment found it
+  double fade = 0;               // share by which it is faded out of the scope's picture
+  std::optional<Pose> before;    // pose to compare with
+  bool lays = false;             // a drag over a picture lays the tissue onto the relief
+  std::string tissue;            // name of the one that is laid
+  std::string before_tissue;     // name of the one that `before` is about
   // Relief and fit of the chosen tissue, kept while nothing of them changes.
   struct Kept {
     std::shared_ptr<const DepthMap> depth;
@@ -31,6 +38,8 @@ struct HandPlacing {
     SharedSurface surface;
     Pose pose;
     authoring::ReliefFit fit;
+    // Colours of its vertices; null until they are asked for.
+    std::shared_ptr<const std::vector<glm::dvec3>> colours;
   } kept;
 };
 
@@ -48,6 +57,17 @@ void NudgeTurn(EditorState& state, int axis, double sign);
 void MirrorTissue(EditorState& state);  // its tetrahedra are to be made anew
 // Refines the pose until the surface lies on the relief.
 void FitToRelief(EditorState& state);
+
+// Colours of the distances of the chosen tissue from the relief; null where they are not shown.
+std::shared_ptr<const std::vector<glm::dvec3>> ShownDistances(EditorState& state);
+
+// Keeps the present pose of the chosen tissue, to compare with.
+void NoteBefore(EditorState& state);
+bool HasBefore(const EditorState& state);
+// The pose from before while it is shown.
+std::optional<Pose> ShownBefore(const EditorState& state);
+// Share by which the chosen tissue is faded out of the scope's picture; 0: not at all.
+double FadeOf(const EditorState& state);
 
 // True while the chosen tissue is an outline in the scope's picture.
 bool IsOutlined(const EditorState& state);

@@ -1,15 +1,46 @@
 // Steps, mirror, fit and laying on the Place page.
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "app/panels/command_button.h"
 #include "app/panels/widgets.h"
 #include "app/state/command.h"
 #include "app/steps/tissue/hand_placing.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/alignment/distance_colours.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
+
+namespace {
+
+// Bar of the colours of distances, with its ends and its middle in words.
+void DistanceLegend(Ui& ui) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ui.Px(12);
+  constexpr int kParts = 48;
+  for (int i = 0; i < kParts; ++i) {
+    const double share = (i + 0.5) / kParts;
+    const glm::dvec3 colour = authoring::ColourOfDistance((2 * share - 1) * authoring::kFullColour);
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x + width * static_cast<float>(i) / kParts, at.y},
+        {at.x + width * static_cast<float>(i + 1) / kParts, at.y + height},
+        ImGui::GetColorU32({static_cast<float>(colour.r), static_cast<float>(colour.g),
+                            static_cast<float>(colour.b), 1.0f}));
+  }
+  ImGui::Dummy({width, height});
+  const std::string most = fmt::format("{:.0f} mm", MmFromMetres(authoring::kFullColour));
+  const std::string left = most + " behind", right = most + " before";
+  QuietText(ui, left);
+  ImGui::SameLine(0.5f * (width - ImGui::CalcTextSize("on it").x));
+  QuietText(ui, "on it");
+  ImGui::SameLine(width - ImGui::CalcTextSize(right.c_str()).x);
+  QuietText(ui, right);
+}
+
+}  // namespace
 
 void FitFields(Ui& ui, EditorState& state) {
   const float half = (ImGui::GetContentRegionAvail().x - ui.Px(8)) / 2;
@@ -25,8 +56,20 @@ void FitFields(Ui& ui, EditorState& state) {
   QuietText(ui, FitWords(fit));
   if (const std::string words = IntersectionWords(fit); !words.empty())
     ColouredText(ui, words, kWarning);
-  Checkbox(ui, "Only its outline", state.steps.tissue->placing.shows_outline,
+  HandPlacing& placing = state.steps.tissue->placing;
+  Checkbox(ui, "Distances in colour", placing.shows_distances,
+           "Colour the tissue in the overview by its distance from the relief.");
+  if (placing.shows_distances) DistanceLegend(ui);
+  Checkbox(ui, "Only its outline", placing.shows_outline,
            "The tissue is an outline in the scope's picture: compare it with what lies below.");
+  double faded = 100 * placing.fade;
+  if (Slider(ui, "Fade", faded, 0, 100, "%.0f %%",
+             "Fade the tissue out of the scope's picture, to compare it with what lies below."))
+    placing.fade = 0.01 * faded;
+  const Command& before = CommandOf(state, "show-before");
+  if (ToggleButton(ui, before.words, ShownBefore(state).has_value(), before.enabled(state),
+                   {-FLT_MIN, 0}, before.help))
+    Run(state, before);
 }
 
 void StepFields(Ui& ui, EditorState& state) {
@@ -48,6 +91,9 @@ void StepFields(Ui& ui, EditorState& state) {
   if (Checkbox(ui, "Along its own axes", own_axes,
                "Otherwise along right, down and in, as the fields above."))
     placing.axes = own_axes ? authoring::NudgeAxes::kTissue : authoring::NudgeAxes::kPortal;
+  if (!ImportedTogether(state, state.tissue).empty())
+    Checkbox(ui, "Move what was imported with it", state.steps.tissue->imports->moves_together,
+             "Surfaces that keep their places to one another are moved, turned and scaled as one.");
   CommandButton(ui, state, "mirror-tissue", {-FLT_MIN, 0});
 }
 

@@ -1,8 +1,12 @@
 #include "app/steps/tissue/landmark_mode.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "app/state/edits.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
 
@@ -44,6 +48,22 @@ void Complete(EditorState& state) {
   state.message = LandmarkPrompt(state);
 }
 
+// Puts the present pairs aside and takes up those of another tissue.
+void TakeLandmarksOf(LandmarkMode& mode, const std::string& tissue) {
+  std::vector<KeptLandmarks> kept = std::move(mode.kept);
+  if (!mode.pairs.empty()) kept.push_back({mode.tissue, std::move(mode.pairs), mode.solves_scale});
+  mode = {};
+  mode.tissue = tissue;
+  const auto own = std::find_if(kept.begin(), kept.end(),
+                                [&](const KeptLandmarks& one) { return one.tissue == tissue; });
+  if (own != kept.end()) {
+    mode.pairs = std::move(own->pairs);
+    mode.solves_scale = own->solves_scale;
+    kept.erase(own);
+  }
+  mode.kept = std::move(kept);
+}
+
 }  // namespace
 
 bool PlacesLandmarks(const EditorState& state) {
@@ -59,8 +79,7 @@ void ToggleLandmarks(EditorState& state) {
   const Tissue* tissue = ChosenTissue(state);
   if (tissue == nullptr) return;
   LandmarkMode& mode = ModeOf(state);
-  if (mode.tissue != tissue->name) mode = {};
-  mode.tissue = tissue->name;
+  if (mode.tissue != tissue->name) TakeLandmarksOf(mode, tissue->name);
   mode.is_on = true;
   state.steps.tissue->page = TissuePage::kPlace;
   SolveAnew(state);
@@ -72,7 +91,7 @@ void LeaveLandmarks(EditorState& state) {
   mode.is_on = false;
   mode.model.reset();
   mode.scene.reset();
-  state.message = "Landmarks are kept until another tissue is aligned.";
+  state.message = "The landmarks of " + mode.tissue + " are kept.";
 }
 
 void TakeModelPoint(EditorState& state, int tissue, const glm::dvec3& x_in_tissue) {
@@ -139,12 +158,12 @@ void AlignByLandmarks(EditorState& state) {
   LandmarkMode& mode = ModeOf(state);
   SolveAnew(state);  // the scale that is kept may have changed
   if (!PlacesLandmarks(state) || !mode.alignment.is_aligned()) return;
-  Tissue changed = *ChosenTissue(state);
-  changed.pose = mode.alignment.portal_from_tissue;
-  SetTissue(state, state.tissue, changed, "Align");
+  const std::string name = ChosenTissue(state)->name;
+  NoteBefore(state);
+  PlaceTissue(state, state.tissue, mode.alignment.portal_from_tissue, "Align");
   EndDrag(state);
   state.message =
-      fmt::format("Aligned {} to {:.2f} mm rms.", changed.name, MmFromMetres(mode.alignment.rms));
+      fmt::format("Aligned {} to {:.2f} mm rms.", name, MmFromMetres(mode.alignment.rms));
 }
 
 std::string LandmarkPrompt(const EditorState& state) {

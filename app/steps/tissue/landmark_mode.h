@@ -15,6 +15,13 @@ namespace arthro::app {
 
 struct Ui;
 
+// Pairs of a tissue whose landmarks are not at hand.
+struct KeptLandmarks {
+  std::string tissue;
+  std::vector<authoring::LandmarkPair> pairs;
+  bool solves_scale = false;
+};
+
 struct LandmarkMode {
   bool is_on = false;
   std::string tissue;  // whose landmarks these are
@@ -26,6 +33,7 @@ struct LandmarkMode {
   bool solves_scale = false;
   bool shows_outline = true;  // the tissue is an outline in the scope's picture
   authoring::LandmarkAlignment alignment;
+  std::vector<KeptLandmarks> kept;  // pairs of the other tissues
 };
 
 // True while clicks place landmarks of the chosen tissue.

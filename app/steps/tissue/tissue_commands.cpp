@@ -3,6 +3,7 @@
 
 #include "app/state/edits.h"
 #include "app/steps/panorama/panorama_step.h"
+#include "app/steps/tissue/fault_board.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_cut.h"
 #include "app/steps/tissue/tissue_library.h"
@@ -165,6 +166,22 @@ constexpr Command kCommands[] = {
      {},
      HasTissue,
      TetrahedraliseTissue},
+    {"mend-surface",
+     "Mend it",
+     "Weld, orient and tidy the triangles of the chosen tissue, and fill its small holes.",
+     "Edit",
+     {},
+     {},
+     CanMendTissue,
+     MendTissue},
+    {"make-layer",
+     "Make it a layer",
+     "Give the open sheet a back at the distance on the left, so that it can be filled.",
+     "Edit",
+     {},
+     {},
+     CanMakeLayer,
+     MakeTissueLayer},
     {"hold-brush",
      "Hold it here…",
      "Click on the tissue in either view. It is held there, in a ball of the radius above.",
@@ -452,6 +469,17 @@ constexpr Command kCommands[] = {
      {},
      IsPlaced,
      ToggleLaying},
+    {"show-before",
+     "Show it as it was before",
+     "Show the tissue where the last fit or alignment found it, to compare.",
+     "Place",
+     {},
+     {},
+     HasBefore,
+     [](State& state) {
+       bool& shows = state.steps.tissue->placing.shows_before;
+       shows = !shows;
+     }},
     {"mirror-tissue",
      "Mirror for the other knee",
      "Replace the tissue by its mirror image; balls, regions and cuts go with it.",

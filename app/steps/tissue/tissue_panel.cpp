@@ -15,6 +15,8 @@
 #include "app/state/edits.h"
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/tissue/axis_row.h"
+#include "app/steps/tissue/fault_board.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_library.h"
 #include "app/steps/tissue/tissue_pose.h"
@@ -27,12 +29,12 @@ namespace arthro::app {
 namespace {
 
 void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
-  Tissue changed = tissue;
+  Pose pose = tissue.pose;
   glm::dvec3 position_mm = tissue.pose.position / kMetrePerMillimetre;
   Change change = AxisRow(ui, "Position (right, down, in)", position_mm, 0.1, -200, 200, "%.1f mm");
   if (change) {
-    changed.pose.position = position_mm * kMetrePerMillimetre;
-    SetTissue(state, state.tissue, changed, "Move");
+    pose.position = position_mm * kMetrePerMillimetre;
+    PlaceTissue(state, state.tissue, pose, "Move");
   }
   if (change.held) state.dragging = true;
   if (change.released) EndDrag(state);
@@ -40,8 +42,8 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   glm::dvec3 degrees = DegreesOf(tissue.pose.quaternion);
   change = AxisRow(ui, "Rotation (about right, down, in)", degrees, 0.5, -180, 180, "%.1f°");
   if (change) {
-    changed.pose.quaternion = QuaternionOf(degrees);
-    SetTissue(state, state.tissue, changed, "Turn");
+    pose.quaternion = QuaternionOf(degrees);
+    PlaceTissue(state, state.tissue, pose, "Turn");
   }
   if (change.held) state.dragging = true;
   if (change.released) EndDrag(state);
@@ -49,8 +51,8 @@ void PoseFields(Ui& ui, EditorState& state, const Tissue& tissue) {
   double scale = tissue.pose.scale;
   change = Slider(ui, "Scale", scale, 0.1, 5.0, "× %.2f", "Size relative to the model's file.");
   if (change) {
-    changed.pose.scale = scale;
-    SetTissue(state, state.tissue, changed, "Scale");
+    pose.scale = scale;
+    PlaceTissue(state, state.tissue, pose, "Scale");
   }
   if (change.held) state.dragging = true;
   if (change.released) EndDrag(state);
@@ -129,6 +131,7 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
                        : tissue.mesh.empty() ? "no tetrahedra yet"
                                              : "filled with tetrahedra";
   QuietText(ui, fmt::format("{} triangles, {}", surface ? surface->triangles.size() : 0, filled));
+  FaultFields(ui, state);
   bool is_solid = tissue.is_implicit;
   if (Checkbox(ui, "A solid that does not give way", is_solid,
                "For a loose body or a synovial tuft: bitten and shaved, never deformed. Its "
@@ -150,8 +153,8 @@ void MeshFields(Ui& ui, EditorState& state, const Tissue& tissue, const SurfaceM
                     ? "Finer where it is free. Or mark where it will be probed:"
                     : fmt::format("Finest in {} probed {}:", tissue.probed.size(),
                                   tissue.probed.size() == 1 ? "place" : "places"));
-  BallFields(ui, state, tissue, BallKind::kProbed);
   CommandButton(ui, state, "tetrahedralise", {-FLT_MIN, 0});
+  BallFields(ui, state, tissue, BallKind::kProbed);
 }
 
 void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
@@ -190,6 +193,8 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
     SetTissue(state, state.tissue, changed, "Rename");
     EndDrag(state);
   }
+  if (const auto found = FaultsOfChosen(state); found && !found->faults.empty())
+    ColouredText(ui, "Its surface has faults; the Mesh page shows them.", kWarning);
   if (IsHidden(state, state.tissue)) {
     ColouredText(ui, "It lies behind the surface of the picture, where the scope cannot see it.",
                  kWarning);

@@ -18,6 +18,8 @@
 namespace arthro::app {
 
 struct Ui;
+struct FaultBoard;
+struct ImportFrames;
 struct ModelShelf;
 struct SolidEditing;
 
@@ -50,10 +52,12 @@ struct TissueStep {
   CutBrush cut_brush;
   LandmarkMode landmarks;
   HandPlacing placing;
-  Owned<ModelShelf> shelf;     // library of models and tears (tissue_library.h)
-  Owned<SolidEditing> solids;  // the chosen solid and its part (app/steps/solids)
-  int cut = -1, region = -1;   // chosen one of its `cuts` or `regions`, -1 none
-  bool shows_sources = false;  // sources of the material's values are listed
+  Owned<ModelShelf> shelf;      // library of models and tears (tissue_library.h)
+  Owned<SolidEditing> solids;   // the chosen solid and its part (app/steps/solids)
+  Owned<FaultBoard> faults;     // faults of its surface (fault_board.h)
+  Owned<ImportFrames> imports;  // frames of imported surfaces (import_frames.h)
+  int cut = -1, region = -1;    // chosen one of its `cuts` or `regions`, -1 none
+  bool shows_sources = false;   // sources of the material's values are listed
   authoring::MeshSize mesh_size = authoring::MeshSize::kDefault;
   std::filesystem::path preset_folder;
 };
@@ -69,8 +73,9 @@ void BallFields(Ui& ui, EditorState& state, const Tissue& tissue, BallKind kind)
 void BrowseForSurface(EditorState& state);
 // Reads the file beside the window, then asks for its unit; a likely one is chosen already.
 void AskForUnit(EditorState& state, const std::filesystem::path& file);
-// Adds a tissue of this name in the middle of the view. Vertices in `unit`: m, cm, mm, um or in.
-void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh,
+// Adds a tissue named after the file, on the relief in the middle of the view, or beside the tissue
+// with which it keeps its place. Vertices in `unit`: m, cm, mm, um or in.
+void ImportSurface(EditorState& state, const std::filesystem::path& file, SurfaceMesh mesh,
                    const std::string& unit);
 // True where the relief hides nearly all of it from the scope's portal.
 bool IsHidden(const EditorState& state, int tissue);

@@ -1,12 +1,18 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "app/state/edits.h"
+#include "app/steps/tissue/import_frames.h"
 #include "app/steps/tissue/tissue_step.h"
+#include "authoring/alignment/place_by_hand.h"
+#include "authoring/models/model_in_scene.h"
 #include "authoring/tissue/likely_unit.h"
 #include "authoring/tissue/tetrahedra/mesh_budget.h"
-#include "simulation/core/box3.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/backdrop/hidden_share.h"
@@ -23,6 +29,29 @@ glm::dvec3 PlaceBeforeScope(const EditorState& state) {
   const Scene& scene = state.document().scene;
   const auto view = simulation::ViewFromPose(state.scope, scene.scope.view_angle);
   return view.tip + 0.35 * scene.backdrop.radius * view.view;
+}
+
+// On the relief in the middle of the view; before the scope where nothing was imaged.
+Pose PoseOfImport(const EditorState& state, const SurfaceMesh& surface) {
+  const authoring::Document& document = state.document();
+  const auto view = simulation::ViewFromPose(state.scope, document.scene.scope.view_angle);
+  Pose pose;
+  pose.position = PlaceBeforeScope(state);
+  constexpr double kReach = 4e-3;  // m, over which the relief's normal is averaged
+  const auto point = authoring::FindOnRelief(document, view.tip, view.view, kReach);
+  if (!point) return pose;
+  // An open sheet is laid with the side to the portal that its triangles face; the mean normal of
+  // a closed surface is zero.
+  const glm::dvec3 facing = authoring::FacingOf(surface);
+  if (glm::dot(facing, view.view) > 0) {
+    const glm::dvec3 axis =
+        glm::cross(facing, std::abs(facing.x) < 0.7 * glm::length(facing) ? glm::dvec3(1, 0, 0)
+                                                                          : glm::dvec3(0, 1, 0));
+    pose.quaternion = glm::angleAxis(std::numbers::pi, glm::normalize(axis));
+  }
+  pose =
+      authoring::LaidOnRelief(authoring::MakeReliefTarget(document), surface, pose, point->place);
+  return authoring::Uncovered(surface, pose, document, point->normal, view.view);
 }
 
 }  // namespace
@@ -53,24 +82,46 @@ void AskForUnit(EditorState& state, const fs::path& file) {
     auto surface = std::make_shared<const SurfaceMesh>(ReadSurface(file, 1.0));
     const double longest_side = authoring::LongestSide(*surface);
     return [dialog = UnitDialog{file, surface, longest_side, authoring::LikelyUnit(longest_side)}](
-               EditorState& now) { now.dialogs.push_back(dialog); };
+               EditorState& now) {
+      now.steps.tissue->imports->keeps_place = IsLikelyPartner(
+          now, dialog.file, *dialog.surface, MetresPerUnit(dialog.unit).value_or(1.0));
+      now.dialogs.push_back(dialog);
+    };
   });
 }
 
-void ImportSurface(EditorState& state, const std::string& name, SurfaceMesh mesh,
+void ImportSurface(EditorState& state, const fs::path& file, SurfaceMesh mesh,
                    const std::string& unit) {
   const double metres_per_unit = MetresPerUnit(unit).value_or(1.0);
-  // Its own origin becomes its middle, so that turning turns it on the spot.
-  Box3 box = kEmptyBox;
-  for (const auto& x : mesh.vertices) box = Union(box, {x, x});
-  const glm::dvec3 middle = 0.5 * (box.low + box.high);
-  for (auto& x : mesh.vertices) x = metres_per_unit * (x - middle);
+  ImportFrames& imports = *state.steps.tissue->imports;
+  const int partner = imports.keeps_place ? PartnerOfImport(state) : -1;
+  ImportFrame frame;
+  frame.folder = file.parent_path();
   Tissue tissue;
-  tissue.name = name;
-  tissue.pose.position = PlaceBeforeScope(state);
-  AddTissue(state, std::move(tissue), std::make_shared<const SurfaceMesh>(std::move(mesh)));
+  tissue.name = file.stem().string();
+  if (partner >= 0) {
+    const ImportFrame& beside = *FrameOf(state, partner);
+    frame.origin = beside.origin;
+    frame.group = beside.group;
+    tissue.pose = state.document().scene.tissues[static_cast<std::size_t>(partner)].pose;
+  } else {
+    // Its own origin becomes its middle, so that turning turns it on the spot.
+    frame.origin = metres_per_unit * authoring::MiddleOf(mesh);
+    for (const ImportFrame& other : imports.frames)
+      frame.group = std::max(frame.group, other.group + 1);
+  }
+  for (auto& x : mesh.vertices) x = metres_per_unit * x - frame.origin;
+  if (partner < 0) tissue.pose = PoseOfImport(state, mesh);
+  const auto surface = std::make_shared<const SurfaceMesh>(std::move(mesh));
+  frame.surface = surface;
+  imports.frames.push_back(frame);
+  AddTissue(state, std::move(tissue), surface);
   state.step = Step::kTissue;
   state.steps.tissue->page = TissuePage::kPlace;  // it is placed before anything else
+  if (partner >= 0)
+    state.message +=
+        fmt::format(", in its place beside {}",
+                    state.document().scene.tissues[static_cast<std::size_t>(partner)].name);
 }
 
 void TetrahedraliseTissue(EditorState& state) {

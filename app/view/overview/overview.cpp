@@ -248,6 +248,10 @@ void Overview::Handle(const PointerEvent& event) {
   using Kind = PointerEvent::Kind;
   using Button = PointerEvent::Button;
   if (event.kind == Kind::kMove) {
+    if (p.dragged_arm >= 0) {
+      DragArm(event);
+      return;
+    }
     p.interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
     return;
   }
@@ -258,6 +262,7 @@ void Overview::Handle(const PointerEvent& event) {
     return;
   }
   const bool press = event.kind == Kind::kPress;
+  if (DragArm(event)) return;
   // Only a drag that begins on the handle is the box's; every other one is the view's.
   if (press) {
     const auto handle = HandlePlace();

@@ -4,10 +4,12 @@
 // something changed.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "app/view/drawing/picture.h"
 #include "simulation/scene/files/loaded_scene.h"
@@ -30,6 +32,13 @@ struct PointerEvent {
   Button button = Button::kLeft;
   double wheel = 0;  // steps away from the user
   bool shift = false, control = false;
+};
+
+// Faults of one kind on a tissue's surface, in its own frame, m; sRGB.
+struct SurfaceMark {
+  std::vector<std::array<glm::dvec3, 2>> edges;
+  std::vector<std::array<glm::dvec3, 3>> triangles;
+  glm::dvec3 colour{1.0};
 };
 
 class Overview {
@@ -57,12 +66,22 @@ class Overview {
   // middle of the box, moves it across the picture, with Shift or Control turns it; a right drag
   // from there scales it.
   void ChooseTissue(int index);
+  // Axes of the handle's arms: those of the portal frame, or the tissue's own. A left drag that
+  // begins on the end of an arm moves the tissue along it.
+  enum class Arms { kPortal, kOwn };
+  void ShowArms(Arms arms);
+  // Ends of the arms, px from the picture's top left; empty where no tissue is chosen.
+  std::vector<glm::dvec2> ArmPlaces() const;
   // The handle, px from the picture's top left; nothing where none is chosen or it is out of sight.
   std::optional<glm::dvec2> HandlePlace() const;
   static constexpr double kHandleRadius = 14.0;  // px at scale 1
   double handle_scale = 1.0;                     // pixels of the picture per pixel at scale 1
   // Balls of one tissue, in its own frame, the chosen one highlighted; -1: none are shown.
   void ShowBalls(int tissue, std::span<const Ball> balls, int chosen);
+  // Marks on one tissue; none: an empty list.
+  void ShowMarks(int tissue, std::span<const SurfaceMark> marks);
+  // sRGB per vertex of the surface at hand; SetTissueSurface gives it its own colour again.
+  void SetTissueColours(int index, std::span<const glm::dvec3> colours);
   // Place on a tissue's surface under a pixel, in the tissue's own frame.
   struct TissuePlace {
     int tissue = -1;
@@ -93,6 +112,8 @@ class Overview {
   ColourImage ReadPixels() const;
 
  private:
+  // True where the event belongs to a drag along an arm.
+  bool DragArm(const PointerEvent& event);
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

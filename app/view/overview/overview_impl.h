@@ -61,6 +61,16 @@ struct Overview::Parts {
   vtkSmartPointer<vtkActor> held = MakeActor({0.35, 0.65, 0.95});
   vtkSmartPointer<vtkActor> held_chosen = MakeActor({1.0, 0.85, 0.3});
 
+  // Marks on a surface, in the frame of the tissue `marked`.
+  std::vector<vtkSmartPointer<vtkActor>> marks;
+  int marked = -1;
+  // Arms of the handle, and the drag that began on one of them.
+  Arms arms = Arms::kPortal;
+  std::array<vtkSmartPointer<vtkActor>, 3> arm_actors;
+  int dragged_arm = -1;
+  glm::dvec2 drag_from{0.0};
+  Pose drag_pose;
+
   std::vector<Model> tissues;
   std::vector<Ball> balls;
   Pose balls_pose;
@@ -75,6 +85,9 @@ struct Overview::Parts {
 
   void BuildScene();
   void PlaceBox();
+  void PlaceArms();
+  glm::dvec3 MiddleOf(const Model& model) const;         // portal frame
+  glm::dvec3 ArmOf(const Model& model, int axis) const;  // from its middle to the arm's end
   void FitShorterSide();
 };
 

@@ -50,6 +50,7 @@ Pose PoseOf(const vtkMatrix4x4& matrix) {
 
 void Overview::Parts::PlaceBox() {
   const bool shown = chosen >= 0 && !tissues[std::size_t(chosen)].surface.triangles.empty();
+  PlaceArms();
   if (!shown) {
     box->Off();
     return;
@@ -69,6 +70,7 @@ void Overview::SetTissues(std::span<const Tissue> tissues,
                           std::span<const SharedSurface> surfaces) {
   Parts& p = *parts_;
   for (const auto& model : p.tissues) p.renderer->RemoveActor(model.actor);
+  ShowMarks(-1, {});
   p.tissues.clear();
   for (std::size_t i = 0; i < tissues.size(); ++i) {
     Parts::Model model;
@@ -98,6 +100,9 @@ void Overview::SetTissuePose(int index, const Pose& portal_from_tissue) {
   model.actor->SetUserMatrix(MatrixOf(model.pose));
   // The box under the pointer follows the pointer.
   if (index == p.chosen && !p.dragging) p.PlaceBox();
+  if (index == p.chosen) p.PlaceArms();
+  if (index == p.marked)
+    for (const auto& mark : p.marks) mark->SetUserMatrix(MatrixOf(model.pose));
   p.changed = true;
 }
 

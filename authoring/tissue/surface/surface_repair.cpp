@@ -130,41 +130,16 @@ int FlattenOnce(SurfaceMesh& surface, const Progress& progress) {
   return flattened;
 }
 
-// Returns loops of open sides, each followed against the direction of its triangles, so that
-// filling triangles face as they do. A corner with more than one continuation belongs to no simple
-// hole.
-std::vector<std::vector<int>> OpenLoops(const SurfaceMesh& surface) {
-  std::map<int, std::vector<int>> next;
-  ForEachEdge(SortedEdgeUses(surface), [&](auto first, auto last) {
-    if (last - first != 1) return;
-    next[first->forward ? first->b : first->a].push_back(first->forward ? first->a : first->b);
-  });
-  std::vector<std::vector<int>> loops;
-  std::set<int> visited;
-  for (const auto& [start, ways] : next) {
-    std::vector<int> loop;
-    int at = start;
-    while (visited.insert(at).second) {
-      const auto found = next.find(at);
-      if (found == next.end() || found->second.size() != 1) {
-        loop.clear();
-        break;
-      }
-      loop.push_back(at);
-      at = found->second[0];
-    }
-    if (loop.size() >= 3 && at == start) loops.push_back(std::move(loop));
-  }
-  return loops;
-}
-
 // Fills a loop by repeatedly cutting off the corner with the shortest cut.
-int FillHoles(RepairedSurface& mended, int most_sides, const Progress& progress) {
+int FillHoles(RepairedSurface& mended, const SurfaceRepairOptions& options,
+              const Progress& progress) {
   int filled = 0;
   StageSteps steps(progress, kRepairStage, 0);
+  const double most_area = options.most_hole_share * AreaOf(mended.surface);
   for (std::vector<int> loop : OpenLoops(mended.surface)) {
     steps.Next();
-    if (static_cast<int>(loop.size()) > most_sides) continue;
+    if (static_cast<int>(loop.size()) > options.fill_holes) continue;
+    if (options.most_hole_share < 1 && LoopArea(mended.surface, loop) > most_area) continue;
     while (loop.size() >= 3) {
       const std::size_t n = loop.size();
       std::size_t best = 0;
@@ -289,8 +264,7 @@ RepairedSurface RepairSurface(const SurfaceMesh& surface, const SurfaceRepairOpt
     repairs.flattened_triangles += flattened;
     if (flattened == 0) break;
   }
-  if (options.fill_holes > 0)
-    repairs.filled_holes = FillHoles(mended, options.fill_holes, progress);
+  if (options.fill_holes > 0) repairs.filled_holes = FillHoles(mended, options, progress);
   progress.Step(kRepairStage, 0.9);
   SettleComponents(mended, options.drop_below_share);
   // Welded vertices are unreferenced as well; they are counted once.

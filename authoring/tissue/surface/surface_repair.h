@@ -13,6 +13,7 @@ namespace arthro::authoring {
 struct SurfaceRepairOptions {
   int fill_holes = 0;             // sides; larger holes stay open
   double drop_below_share = 0.0;  // share of the whole volume; smaller components are dropped
+  double most_hole_share = 1.0;   // share of the surface's area; larger holes stay open
 };
 
 struct SurfaceRepairs {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -37,6 +40,50 @@ std::vector<int> ComponentOfTriangles(const SurfaceMesh& surface, const std::vec
     number[t] = root == t ? (*count)++ : number[root];
   }
   return number;
+}
+
+std::vector<std::vector<int>> OpenLoops(const SurfaceMesh& surface) {
+  std::map<int, std::vector<int>> next;
+  ForEachEdge(SortedEdgeUses(surface), [&](auto first, auto last) {
+    if (last - first != 1) return;
+    next[first->forward ? first->b : first->a].push_back(first->forward ? first->a : first->b);
+  });
+  std::vector<std::vector<int>> loops;
+  std::set<int> visited;
+  for (const auto& [start, ways] : next) {
+    std::vector<int> loop;
+    int at = start;
+    while (visited.insert(at).second) {
+      const auto found = next.find(at);
+      if (found == next.end() || found->second.size() != 1) {
+        loop.clear();
+        break;
+      }
+      loop.push_back(at);
+      at = found->second[0];
+    }
+    if (loop.size() >= 3 && at == start) loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+double LoopArea(const SurfaceMesh& surface, const std::vector<int>& loop) {
+  glm::dvec3 centre(0.0);
+  for (const int corner : loop) centre += surface.vertices[corner];
+  centre /= std::max<double>(1.0, static_cast<double>(loop.size()));
+  double area = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    area += 0.5 * glm::length(glm::cross(surface.vertices[loop[i]] - centre,
+                                         surface.vertices[loop[(i + 1) % loop.size()]] - centre));
+  return area;
+}
+
+double AreaOf(const SurfaceMesh& surface) {
+  double area = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    area += 0.5 * glm::length(glm::cross(surface.vertices[b] - surface.vertices[a],
+                                         surface.vertices[c] - surface.vertices[a]));
+  return area;
 }
 
 double SignedVolume(const std::vector<glm::dvec3>& vertices,

@@ -39,6 +39,14 @@ void ForEachEdge(const std::vector<EdgeUse>& uses, F&& visit) {
 std::vector<int> ComponentOfTriangles(const SurfaceMesh& surface, const std::vector<EdgeUse>& uses,
                                       int* count);
 
+// Returns loops of open sides, each followed against the direction of its triangles, so that
+// filling triangles face as they do. A corner with more than one continuation belongs to no simple
+// hole.
+std::vector<std::vector<int>> OpenLoops(const SurfaceMesh& surface);
+// Area of the triangles between a loop and its centroid, m².
+double LoopArea(const SurfaceMesh& surface, const std::vector<int>& loop);
+double AreaOf(const SurfaceMesh& surface);  // m²
+
 // Disjoint sets over 0 .. n-1; the smallest member represents its set.
 class DisjointSets {
  public:

@@ -192,7 +192,7 @@ DepthMap ReadDepthMap(const fs::path& file) {
   return depth;
 }
 
-void WriteDepthMap(const fs::path& file, const DepthMap& depth) {
+void WriteDepthMap(const fs::path& file, const DepthMap& depth, DepthPacking packing) {
   if (file != "-" && file.extension() != ".tiff" && file.extension() != ".tif")
     throw Error(Code::kBadArgument, "a depth map is written as a float TIFF; name it .tiff", file);
   if (depth.empty()) throw Error(Code::kBadArgument, "an empty depth map cannot be written", file);
@@ -209,8 +209,12 @@ void WriteDepthMap(const fs::path& file, const DepthMap& depth) {
   TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, 32);
   TIFFSetField(tiff.get(), TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
   TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
-  TIFFSetField(tiff.get(), TIFFTAG_PREDICTOR, PREDICTOR_FLOATINGPOINT);
+  if (packing == DepthPacking::kQuick) {
+    TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  } else {
+    TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+    TIFFSetField(tiff.get(), TIFFTAG_PREDICTOR, PREDICTOR_FLOATINGPOINT);
+  }
   constexpr int kRowsPerStrip = 64;
   TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, kRowsPerStrip);
   std::vector<float> row(static_cast<std::size_t>(depth.width));  // the predictor works in place

@@ -121,7 +121,7 @@ TEST_F(Landmarks, PairsAreLeftOutAndRemoved) {
   EXPECT_TRUE(Mode().pairs.empty());
 }
 
-TEST_F(Landmarks, LeavingKeepsThePairsUntilAnotherTissueIsAligned) {
+TEST_F(Landmarks, LeavingKeepsThePairsOfEachTissue) {
   app::Run(*state, "landmarks");
   MakePairs();
   app::Run(*state, "leave-landmarks");
@@ -134,6 +134,25 @@ TEST_F(Landmarks, LeavingKeepsThePairsUntilAnotherTissueIsAligned) {
   EXPECT_FALSE(PlacesLandmarks(*state));
   app::Run(*state, "landmarks");
   EXPECT_TRUE(Mode().pairs.empty());
+  app::Run(*state, "leave-landmarks");
+  state->tissue = 0;
+  app::Run(*state, "landmarks");
+  EXPECT_EQ(Mode().pairs.size(), 4u) << "those of the first tissue are still there";
+  EXPECT_TRUE(Mode().alignment.is_aligned());
+}
+
+TEST_F(Landmarks, TheTissueCanBeShownAsItWasBeforeTheAlignment) {
+  app::Run(*state, "landmarks");
+  MakePairs();
+  const Pose before = state->document().scene.tissues[0].pose;
+  EXPECT_FALSE(CommandOf(*state, "show-before").enabled(*state));
+  app::Run(*state, "align-landmarks");
+  EXPECT_FALSE(ShownBefore(*state));
+  app::Run(*state, "show-before");
+  EXPECT_EQ(ShownBefore(*state), before);
+  EXPECT_NE(state->document().scene.tissues[0].pose, before) << "only shown";
+  app::Run(*state, "show-before");
+  EXPECT_FALSE(ShownBefore(*state));
 }
 
 }  // namespace

@@ -121,6 +121,55 @@ TEST_F(OverviewTest, PickingAPixelReturnsAPlaceOnTheTissueSurface) {
   EXPECT_LT(nearest, 0.5e-3);  // its triangles are smaller than a millimetre
 }
 
+TEST_F(OverviewTest, ADragOnAnArmMovesAlongItsAxisAlone) {
+  overview_->ChooseTissue(0);
+  overview_->Render(kSize, kSize);
+  const Pose start = scene_.scene.tissues[0].pose;
+  for (const auto arms : {Overview::Arms::kPortal, Overview::Arms::kOwn}) {
+    Pose turned = start;
+    turned.quaternion = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)));
+    overview_->SetTissuePose(0, turned);
+    overview_->ShowArms(arms);
+    overview_->Render(kSize, kSize);
+    const auto ends = overview_->ArmPlaces();
+    ASSERT_EQ(ends.size(), 3u);
+    const glm::dvec2 way = ends[0] - *overview_->HandlePlace();
+    Drag(Button::kLeft, ends[0], ends[0] + way);
+    const glm::dvec3 axis = arms == Overview::Arms::kOwn ? turned.quaternion * glm::dvec3(1, 0, 0)
+                                                         : glm::dvec3(1, 0, 0);
+    const glm::dvec3 moved = pose_.position - turned.position;
+    EXPECT_GT(glm::dot(moved, axis), 2e-3);
+    EXPECT_LT(glm::length(moved - glm::dot(moved, axis) * axis), 1e-12);
+    EXPECT_EQ(pose_.quaternion, turned.quaternion);
+  }
+  overview_->ChooseTissue(-1);
+  EXPECT_TRUE(overview_->ArmPlaces().empty());
+}
+
+TEST_F(OverviewTest, MarksAndColoursAreDrawnOnATissueAndGoAgain) {
+  const auto drawn = [&] {
+    overview_->Render(kSize, kSize);
+    return overview_->ReadPixels().rgb;
+  };
+  const auto before = drawn();
+  const SurfaceMesh& surface = *scene_.surfaces[0];
+  const auto [a, b, c] = surface.triangles[0];
+  app::SurfaceMark mark;
+  mark.edges = {{surface.vertices[a], surface.vertices[b]}};
+  for (const auto& [i, j, k] : surface.triangles)
+    mark.triangles.push_back({surface.vertices[i], surface.vertices[j], surface.vertices[k]});
+  mark.colour = {1, 0, 0};
+  overview_->ShowMarks(0, std::vector{mark});
+  EXPECT_NE(drawn(), before);
+  overview_->ShowMarks(-1, {});
+  EXPECT_EQ(drawn(), before);
+  const std::vector<glm::dvec3> blue(surface.vertices.size(), glm::dvec3(0, 0, 1));
+  overview_->SetTissueColours(0, blue);
+  EXPECT_NE(drawn(), before);
+  overview_->SetTissueSurface(0, surface);
+  EXPECT_EQ(drawn(), before);
+}
+
 TEST_F(OverviewTest, BallsAreDrawnWhereATissueIsHeldWithTheChosenOneHighlighted) {
   const auto drawn = [&] {
     overview_->Render(kSize, kSize);

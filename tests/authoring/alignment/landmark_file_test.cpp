@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "authoring/alignment/align_report.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "tests/support/schema_fault.h"
@@ -131,6 +132,28 @@ TEST(LandmarkFile, SchemaInTheRepositoryIsTheProgramsOwn) {
   EXPECT_EQ(ReadWholeFile(copy), PairsSchemaText())
       << "a field of the pairs has changed; write the schema anew: arthroscene check "
          "--pairs-schema > resources/schemas/pairs-1.schema.json";
+}
+
+TEST(AlignReport, IsAsItsSchemaSaysAndTheSchemaIsTheProgramsOwn) {
+  std::vector<LandmarkPair> pairs(2);
+  pairs[0].name = "a";
+  LandmarkAlignment landmarks;
+  landmarks.verdict = AlignVerdict::kAligned;
+  landmarks.sentence = "Aligned.";
+  landmarks.residuals = {{1e-4, 0.5, true, false}, {2e-4, std::nullopt, true, false}};
+  landmarks.warnings = {"Nothing checks it."};
+  SurfaceAlignment surface;
+  surface.is_aligned = true;
+  surface.sentence = "Laid.";
+  const std::string text = AlignReportText("meniscus", pairs, landmarks, surface);
+  EXPECT_EQ(test::SchemaFault("align-1", text), "") << text;
+  EXPECT_NE(text.find("\"after\""), std::string::npos);
+  landmarks.verdict = AlignVerdict::kTooFew;
+  EXPECT_EQ(test::SchemaFault("align-1", AlignReportText("m", {}, landmarks, {})), "");
+  const fs::path copy = fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/align-1.schema.json";
+  EXPECT_EQ(ReadWholeFile(copy), AlignReportSchemaText())
+      << "a field of the report has changed; write the schema anew: arthroscene check "
+         "--align-schema > resources/schemas/align-1.schema.json";
 }
 
 }  // namespace

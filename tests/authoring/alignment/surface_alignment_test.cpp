@@ -81,6 +81,31 @@ TEST(SurfaceAlignment, BringsAMeniscusBackOntoItsPicture) {
   EXPECT_LT(found.after.median, 0.35 * kMm);
 }
 
+// The relief of a clip that never saw the meniscus shows the plateau under it. A front that was
+// laid onto that would carry the meniscus through the bone by its thickness.
+TEST(SurfaceAlignment, LaysTheBackOfATissueOntoTheBoneWhereTheReliefDoesNotShowIt) {
+  const std::vector<test::AlignmentCase> cases = test::MakeAlignmentCases(1, false);
+  LoadedScene scene = cases.front().scene;
+  scene.panorama = Share(ColourImage(scene.depth->width, scene.depth->height));
+  const ReliefTarget bone = MakeReliefTarget(scene);
+  const auto& tissue = cases.front().tissue;
+  const Pose start = Moved(tissue.portal_from_tissue, glm::dvec3(0.4, -0.5, 0.4) * kMm, 0.03);
+  const SurfaceAlignment found = AlignSurface(bone, tissue.surface, start);
+  ASSERT_TRUE(found.is_aligned) << found.sentence;
+  EXPECT_EQ(found.side, AlignSide::kBack) << found.sentence;
+  EXPECT_EQ(AlignSurface(Relief(), tissue.surface, start).side, AlignSide::kFront)
+      << "the relief that shows it";
+  const auto error = [&](const Pose& pose) {
+    return glm::distance(pose.position, tissue.portal_from_tissue.position);
+  };
+  SurfaceAlignOptions front;
+  front.side = AlignSide::kFront;
+  const SurfaceAlignment pulled = AlignSurface(bone, tissue.surface, start, {}, front);
+  std::printf("%.2f mm by its back, %.2f mm by its front\n", error(found.portal_from_tissue) / kMm,
+              error(pulled.portal_from_tissue) / kMm);
+  EXPECT_LT(error(found.portal_from_tissue), error(pulled.portal_from_tissue));
+}
+
 TEST(SurfaceAlignment, APatchAloneTakesPart) {
   const auto& tissue = Meniscus().tissue;
   const Ball patch{tissue.surface.vertices.front(), 8 * kMm};

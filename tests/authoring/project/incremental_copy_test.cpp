@@ -65,6 +65,39 @@ TEST_F(CopyOfDocument, PartsThatHaveNotChangedAreNotWrittenAgain) {
   EXPECT_EQ(maps, 1) << "maps that nothing names are removed";
 }
 
+// An imported surface and a model of the library have no file before the first save.
+TEST_F(CopyOfDocument, HoldsATissueThatWasAddedAfterTheFirstWrite) {
+  copy.Write(document);
+  Tissue added = document.scene.tissues[0];
+  added.name = "added";
+  added.surface.clear();
+  document.scene.tissues.push_back(added);
+  document.surfaces.push_back(Share(SurfaceMesh(*document.surfaces[0])));
+  copy.Write(document);
+  EXPECT_EQ(Written().scene.tissues.size(), 2u);
+  document.scene.tissues.back().pose.position.z += 0.001;
+  copy.Write(document);
+  const Document back = Written();
+  EXPECT_EQ(back.scene.tissues.at(1).pose, document.scene.tissues[1].pose);
+  EXPECT_EQ(back.surfaces.at(1)->vertices, document.surfaces[1]->vertices);
+  document.depth_sigma = Share(DepthMap(400, 300, 0.001f));
+  copy.Write(document);
+  EXPECT_TRUE(Written().depth_sigma) << "a standard error that was not there before";
+}
+
+// Packing a map of a real clip takes seconds on a busy machine, and all edits wait for it.
+TEST_F(CopyOfDocument, MapsArePackedForSpeedAndThoseOfASavedSceneForSize) {
+  document.depth = Share(DepthMap(400, 300, 0.002f));
+  document.is_depth_imported = true;
+  copy.Write(document);
+  const Document back = Written();
+  const std::uintmax_t bytes = 400 * 300 * sizeof(float);
+  EXPECT_GE(fs::file_size(temp / "copy" / back.scene.backdrop.depth), bytes);
+  EXPECT_EQ(back.depth->relief, document.depth->relief);
+  const Document saved = SaveDocument(back, temp / "saved");
+  EXPECT_LT(fs::file_size(temp / "saved" / saved.scene.backdrop.depth), bytes / 2);
+}
+
 // Two steps of the history name one file for different tetrahedra.
 TEST_F(CopyOfDocument, TetrahedraFollowTheFileThatTheDocumentNames) {
   WriteOneTetrahedron(temp / "coarse.vtu", 0.001);

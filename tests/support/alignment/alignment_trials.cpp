@@ -120,13 +120,14 @@ std::vector<glm::dvec3> Spread(const std::vector<glm::dvec3>& from, int count, R
 
 }  // namespace
 
-std::vector<AlignmentCase> MakeAlignmentCases(int phantoms) {
+std::vector<AlignmentCase> MakeAlignmentCases(int phantoms, bool shows_tissues) {
   std::vector<AlignmentCase> cases;
   for (int seed = 1; seed <= phantoms; ++seed) {
     const authoring::Cavity cavity = authoring::MakeCavity(static_cast<std::uint32_t>(seed));
     const std::vector<authoring::PhantomTissue> tissues{authoring::MakeMeniscus(cavity),
                                                         authoring::MakeCartilage(cavity)};
-    const LoadedScene scene = SceneWith(cavity, tissues);
+    const LoadedScene scene =
+        SceneWith(cavity, shows_tissues ? tissues : std::vector<authoring::PhantomTissue>{});
     for (const auto& tissue : tissues) cases.push_back({scene, tissue});
   }
   return cases;

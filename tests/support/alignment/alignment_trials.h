@@ -16,8 +16,8 @@ struct AlignmentCase {
   LoadedScene scene;
   authoring::PhantomTissue tissue;
 };
-// Meniscus and cartilage of phantoms 1 to `phantoms`.
-std::vector<AlignmentCase> MakeAlignmentCases(int phantoms);
+// Meniscus and cartilage of phantoms 1 to `phantoms`, in the relief or left out of it.
+std::vector<AlignmentCase> MakeAlignmentCases(int phantoms, bool shows_tissues = true);
 
 struct TrialOptions {
   int trials = 1000;
