@@ -178,6 +178,7 @@ bool FinishWork(EditorState& state) {
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
+  KeepTouchFresh(state);
   Guarded(state, "Reach", [&] { changed = KeepReachFresh(state) || changed; });
   return changed;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "authoring/depth/strokes/depth_strokes_io.h"
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/file_ending.h"
 #include "simulation/core/atomic_file.h"
@@ -58,6 +59,12 @@ Document OpenDocument(const fs::path& file) {
       ReadOptionsText(options->second, {}, document.depth_options);
     } catch (const Error&) {
       document.depth_options = {};
+    }
+  const auto strokes = document.scene.extensions.find(kDepthStrokesKey);
+  if (strokes != document.scene.extensions.end()) try {
+      document.depth_strokes = Share(StrokesFromText(strokes->second, {}));
+    } catch (const Error&) {
+      document.depth_strokes = nullptr;
     }
   return document;
 }

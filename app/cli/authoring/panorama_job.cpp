@@ -73,6 +73,7 @@ void WriteScene(const fs::path& folder, const fs::path& panorama, Medium medium,
   TakeFootageLens(document, report.lens, report.is_lens_guessed);
   try {
     SetEstimatedDepth(document, authoring::EstimateDepth(*document.panorama, document.depth_options,
+                                                        nullptr, document.scene.backdrop,
                                                          {{}, progress.stop}));
   } catch (const Error& error) {
     if (error.code() != Code::kCancelled) throw;

@@ -73,6 +73,8 @@ void HelpWindow(Ui& ui, EditorState& state) {
     Row(ui, "Click", "Read a depth, set a point or paint, by the tool");
     Row(ui, "Drag", "Draw the line of a profile or a length, or paint");
     Row(ui, "Wheel, right drag", "Look closer, shift");
+    Row(ui, "[, ]", "Smaller brush, larger brush");
+    Row(ui, "Escape", "Leave the brush");
     ImGui::EndTable();
   }
   Gap(ui);

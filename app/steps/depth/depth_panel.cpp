@@ -17,8 +17,6 @@ namespace arthro::app {
 
 namespace {
 
-constexpr double kMostRelief = 0.95;  // share of the backdrop's distance that a slider reaches
-
 // Switch between the scene through the scope and the map.
 void ScopeOrMap(Ui& ui, EditorState& state) {
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
@@ -59,7 +57,20 @@ void DepthPanel(Ui& ui, EditorState& state) {
     CommandButton(ui, state, "make-depth", {-FLT_MIN, 0});
     Gap(ui);
   }
-  authoring::DepthOptions options = document.depth_options;
+  ImportDepthFields(ui, state);
+  TouchFields(ui, state);
+  CommandButton(ui, state, "map-brush", {-FLT_MIN, 0});
+  if (PaintsDepth(state)) {
+    BrushFields(ui, state);
+    return;
+  }
+  Gap(ui);
+  if (!is_imported) {
+    ColourFilterField(ui, state);
+    DepthHistogramFigure(ui, state);
+    Gap(ui);
+  }
+  authoring::DepthOptions options = state.document().depth_options;
   // Relief stands out of the backdrop towards the incision and must not pass it.
   const double radius = document.scene.backdrop.radius;
   if (!is_imported && options.near_relief >= radius)

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <utility>
 
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
 #include "app/state/edits.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_noise.h"
 #include "authoring/depth/depth_preview.h"
+#include "authoring/depth/strokes/mend_depth.h"
 #include "simulation/core/same_options.h"
+#include "simulation/core/units.h"
 #include "simulation/haptics/relief_smoothing.h"
 
 namespace arthro::app {
@@ -33,13 +38,19 @@ DepthMap Stretched(const DepthMap& small, int width, int height, int factor) {
 Jobs::Work PreviewWork(const Document& document,
                        const std::shared_ptr<const authoring::DepthPreview>& pyramid) {
   return [panorama = document.panorama, options = document.depth_options,
-          backdrop = document.scene.backdrop, pyramid](const Progress&) -> Jobs::Apply {
+          strokes = document.depth_strokes, backdrop = document.scene.backdrop, pyramid](const Progress&) -> Jobs::Apply {
     const auto made =
         pyramid ? pyramid : std::make_shared<const authoring::DepthPreview>(*panorama);
-    DepthMap relief = made->Filter(options);
-    // Without its noise, as the picture draws the whole map; here this does not hold up the window.
+    const ColourImage& level = made->Picture();
     Backdrop small = backdrop;
     small.projection = Shrunk(backdrop.projection, made->Factor());
+    const authoring::DepthStrokes& drawn = OrEmpty(strokes);
+    authoring::MendedDepth mended;
+    mended.relief = made->Filter(options, nullptr, authoring::DepthPreview::kMostPixels,
+                                 authoring::MarksOf(drawn, level.width, level.height));
+    authoring::ReplayStrokes(drawn, {level, small.projection, small.radius}, mended);
+    DepthMap relief = std::move(mended.relief);
+    // Without its noise, as the picture draws the whole map; here this does not hold up the window.
     relief = simulation::WithoutNoise(
         relief, authoring::NoiseOfDepth(relief, options.texture_size / made->Factor()), small);
     std::shared_ptr<const ColourImage> picture = panorama;
@@ -56,6 +67,7 @@ Jobs::Work PreviewWork(const Document& document,
       cache.preview = depth;
       cache.preview_panorama = picture;
       cache.preview_options = options;
+      cache.preview_strokes = strokes;
     };
   };
 }
@@ -66,13 +78,17 @@ void TakeMadeBefore(const EditorState& state, Document& next) {
 }
 
 Jobs::Work FullWork(const Document& document) {
-  return [panorama = document.panorama,
-          options = document.depth_options](const Progress& progress) -> Jobs::Apply {
-    const authoring::EstimatedDepth depth = authoring::EstimateDepth(*panorama, options, progress);
+  return [panorama = document.panorama, options = document.depth_options,
+          strokes = document.depth_strokes,
+          backdrop = document.scene.backdrop](const Progress& progress) -> Jobs::Apply {
+    const authoring::EstimatedDepth depth =
+        authoring::EstimateDepth(*panorama, options, strokes, backdrop, progress);
     return [=](EditorState& state) {
       // The author may have gone on meanwhile; then this depth belongs to nothing.
       const Document& now = state.document();
-      if (now.panorama != panorama || !SameOptions(now.depth_options, options)) return;
+      if (now.panorama != panorama || now.depth_strokes != strokes ||
+          !SameOptions(now.depth_options, options))
+        return;
       Document next = now;
       SetEstimatedDepth(next, depth);
       state.history.Amend(std::move(next));
@@ -118,11 +134,13 @@ void KeepDepthFresh(EditorState& state) {
   }
   const auto has_preview = [&] {
     return cache.preview && cache.pyramid_of.lock() == document.panorama &&
+           cache.preview_strokes == document.depth_strokes &&
            SameOptions(cache.preview_options, document.depth_options);
   };
   if (state.steps.depth->preview_jobs.busy()) {
     // Full-size work for options that changed meanwhile is of no use.
-    if (!SameOptions(state.steps.depth->in_work, document.depth_options))
+    if (state.steps.depth->strokes_in_work != document.depth_strokes ||
+        !SameOptions(state.steps.depth->in_work, document.depth_options))
       state.steps.depth->preview_jobs.Stop();
     return;
   }
@@ -133,6 +151,7 @@ void KeepDepthFresh(EditorState& state) {
     return;
   }
   state.steps.depth->in_work = document.depth_options;
+  state.steps.depth->strokes_in_work = document.depth_strokes;
   if (!has_preview()) {
     const bool usable = cache.pyramid && cache.pyramid_of.lock() == document.panorama;
     state.steps.depth->preview_jobs.Start("Depth preview",
@@ -148,9 +167,53 @@ void WhenDepthIsReady(EditorState& state, std::function<void(EditorState&)> then
   state.steps.depth->when_ready = std::move(then);
 }
 
+const authoring::DepthPreview& PyramidOf(EditorState& state) {
+  DepthCache& cache = state.steps.depth->cache;
+  const auto& panorama = state.document().panorama;
+  if (!cache.pyramid || cache.pyramid_of.lock() != panorama) {
+    cache.pyramid = std::make_shared<const authoring::DepthPreview>(*panorama);
+    cache.pyramid_of = panorama;
+  }
+  return *cache.pyramid;
+}
+
+const std::optional<authoring::DepthHistogram>& DepthHistogramOf(EditorState& state) {
+  DepthStep& step = *state.steps.depth;
+  const Document& document = state.document();
+  if (step.histogram && step.histogram_of.lock() == document.panorama &&
+      SameOptions(step.histogram_options, document.depth_options))
+    return step.histogram;
+  constexpr int kPixels = 1 << 15;  // a few ms
+  authoring::DepthReport report;
+  step.histogram.reset();
+  try {
+    PyramidOf(state).Filter(document.depth_options, &report, kPixels);
+    step.histogram = report.histogram;
+    step.histogram_of = document.panorama;
+    step.histogram_options = document.depth_options;
+  } catch (const Error&) {
+    // The page says what is wrong with the options.
+  }
+  return step.histogram;
+}
+
 void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
                      const std::string& what) {
   if (SameOptions(options, state.document().depth_options)) return;
+  // Relief stands out of the backdrop towards the incision and must not reach it. An older scene
+  // may hold such a relief; its other options stay free.
+  const double radius = state.document().scene.backdrop.radius;
+  const double most = kMostRelief * radius;
+  const double before = std::max(state.document().depth_options.near_relief,
+                                 state.document().depth_options.far_relief);
+  if (const double relief = std::max(options.near_relief, options.far_relief);
+      relief > most && relief > before) {
+    state.message = fmt::format(
+        "A relief of {:.1f} mm was refused: the backdrop lies {:.1f} mm from the incision, so the "
+        "tissue may stand out by {:.1f} mm at most.",
+        MmFromMetres(relief), MmFromMetres(radius), MmFromMetres(most));
+    return;
+  }
   if (state.document().is_depth_imported) {
     state.message = "The imported depth map is kept. Make one from the picture to change it.";
     return;
@@ -174,6 +237,8 @@ void MakeDepth(EditorState& state) {
 namespace {
 
 using State = EditorState;
+
+constexpr double kBrushStep = 1.25;
 
 DepthBoard& BoardOf(State& state) { return state.steps.depth->board; }
 
@@ -245,6 +310,34 @@ constexpr Command kCommands[] = {
      {},
      HasBoard,
      ShowLayer<MapLayer::kPicture>},
+    {"map-shape",
+     "Shape",
+     "Show the relief as a grey surface in slanting light.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ShowLayer<MapLayer::kShape>},
+    {"map-masks",
+     "Masks",
+     "Colour what the depth ignores: glints that were found, and masks that were painted.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     ShowLayer<MapLayer::kMasks>},
+    {"map-compare",
+     "Side by side",
+     "Show grey, filtered grey and relief beside the panorama.",
+     "Depth",
+     {},
+     {},
+     HasBoard,
+     [](State& state) {
+       state.step = Step::kDepth;
+       BoardOf(state).is_shown = true;
+       BoardOf(state).compares = !BoardOf(state).compares;
+     }},
     {"map-read",
      "Read a depth",
      "Click on the map: the distance there with its standard error.",
@@ -270,13 +363,48 @@ constexpr Command kCommands[] = {
      HasBoard,
      TakeTool<MapTool::kProfile>},
     {"map-brush",
-     "Mark as wrong",
-     "Paint over depth that is wrong. It is interpolated from its surround instead.",
+     "Brush",
+     "Paint on the map, in the scope's picture or in the overview to mend the depth.",
      "Depth",
      {},
      {},
      HasBoard,
-     TakeTool<MapTool::kBrush>},
+     [](State& state) {
+       state.step = Step::kDepth;
+       BoardOf(state).tool = MapTool::kBrush;
+     }},
+    {"brush-smaller",
+     "Smaller brush",
+     "Make the brush smaller.",
+     "Depth",
+     {GLFW_KEY_LEFT_BRACKET},
+     {},
+     PaintsDepth,
+     [](State& state) { SetBrushRadius(state, BrushRadius(state) / kBrushStep); }},
+    {"brush-larger",
+     "Larger brush",
+     "Make the brush larger.",
+     "Depth",
+     {GLFW_KEY_RIGHT_BRACKET},
+     {},
+     PaintsDepth,
+     [](State& state) { SetBrushRadius(state, BrushRadius(state) * kBrushStep); }},
+    {"leave-depth-brush",
+     "Leave the brush",
+     "Drags turn and move the views again. Escape does the same.",
+     "Depth",
+     {},
+     {},
+     PaintsDepth,
+     LeaveDepthBrush},
+    {"remove-strokes",
+     "Remove all strokes",
+     "Show the depth map as it is made from the picture, without what was painted.",
+     "Depth",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && CanRemoveStrokes(state); },
+     RemoveStrokes},
     {"set-scale",
      "Set the scale",
      "Scale the scene so that the distance between the two points is the length that was given.",
@@ -293,6 +421,45 @@ constexpr Command kCommands[] = {
      {},
      HasBoard,
      ForgetLengths},
+    {"import-depth",
+     "Import a depth map…",
+     "Take the depth from a grey picture of 8 or 16 bits, or of floating point.",
+     "Scene",
+     {},
+     {},
+     HasBoard,
+     [](State& state) {
+       Browse(state, BrowseFor::kOpenFile, "Import a depth map", "Read",
+              {{"Depth maps", {".png", ".tif", ".tiff", ".exr"}}, {"All files", {}}},
+              ChooseDepthImport);
+     }},
+    {"take-depth-import",
+     "Use this depth map",
+     "Put the depth map of the file in the place of the present one. Undo brings it back.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return HasBoard(state) && state.steps.depth->import.has_value(); },
+     TakeDepthImport},
+    {"drop-depth-import",
+     "Do not import it",
+     "Keep the present depth map.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return state.steps.depth->import.has_value(); },
+     [](State& state) {
+       state.steps.depth->import.reset();
+       state.steps.depth->import_words.clear();
+     }},
+    {"touch-preview",
+     "Touch preview",
+     "Point at the tissue: its distance, its normal, its stiffness, and the force on the hand.",
+     "Depth",
+     {},
+     {},
+     [](const State& state) { return HasBoard(state) && state.document().depth != nullptr; },
+     ToggleTouch},
     {"make-depth",
      "Make depth from the picture",
      "Replace the imported depth map by one that is made from the picture. Undo brings it back.",
