@@ -15,9 +15,9 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include "app/editor/brush_marks.h"
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
-#include "app/editor/brush_marks.h"
 #include "app/editor/landmark_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/pictures.h"

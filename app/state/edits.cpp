@@ -66,7 +66,8 @@ void PutPanorama(authoring::Document& document, const std::shared_ptr<const Colo
         authoring::GuessProjection(panorama->width, panorama->height);
   // Strokes are shares of the picture, so they fit the same picture at another resolution only.
   const auto has_shape_of = [&](const ColourImage& other) {
-    return std::abs(double(panorama->width) * other.height - double(panorama->height) * other.width) <=
+    return std::abs(double(panorama->width) * other.height -
+                    double(panorama->height) * other.width) <=
            std::max(panorama->width, other.width);
   };
   if (!document.panorama || !has_shape_of(*document.panorama)) document.depth_strokes = nullptr;

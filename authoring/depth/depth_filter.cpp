@@ -78,8 +78,8 @@ DepthHistogram HistogramOfGreys(const Histogram& greys) {
   DepthHistogram coarse;
   double count = 0;
   for (std::size_t grey = 0; grey < greys.size(); ++grey) {
-    const std::size_t bin = std::min<std::size_t>(grey * DepthHistogram::kBins / kWhite,
-                                                  DepthHistogram::kBins - 1);
+    const std::size_t bin =
+        std::min<std::size_t>(grey * DepthHistogram::kBins / kWhite, DepthHistogram::kBins - 1);
     coarse.share[bin] += static_cast<double>(greys[grey]);
     count += static_cast<double>(greys[grey]);
   }

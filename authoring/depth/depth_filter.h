@@ -24,7 +24,7 @@ namespace arthro::authoring {
 
 // Mark of an author on a pixel of the panorama.
 enum class DepthMark : std::uint8_t {
-  kNone,    // as it was found
+  kNone,    // unmarked
   kMasked,  // glint or instrument: filled from its surroundings
   kKept,    // tissue, although it looks like a glint
 };
@@ -35,7 +35,7 @@ struct DepthReport {
   double low_grey = 0;          // 0 to 255, mapped to the far relief; the paper's estimator only
   double high_grey = 0;         // 0 to 255, mapped to the near relief; the paper's estimator only
   double distance_ratio = 0;    // furthest over nearest distance; the other estimators only
-  DepthHistogram histogram;     // of greys or nearness, before the percentiles
+  DepthHistogram histogram;     // greys or nearness, before the percentiles
   bool is_flat = false;         // one grey throughout: everything lies at the far relief
   bool is_overexposed = false;  // too much is saturated for highlights; it was not filled
 };

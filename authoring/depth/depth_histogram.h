@@ -12,7 +12,7 @@ namespace arthro::authoring {
 
 struct DepthHistogram {
   static constexpr int kBins = 128;
-  std::array<double, kBins> share{};  // of the imaged pixels; all 0 where nothing was imaged
+  std::array<double, kBins> share{};  // share of the imaged pixels; all 0 where nothing was imaged
 };
 
 // Bins of the values from 0 to `most`; values below 0 do not count.
@@ -24,9 +24,8 @@ DepthHistogram HistogramOfValues(const Values& values, double most) {
     const double share = static_cast<double>(value) / most;
     if (!(share >= 0 && share <= 1)) continue;
     const int bin = static_cast<int>(share * DepthHistogram::kBins);
-    histogram.share[static_cast<std::size_t>(bin < DepthHistogram::kBins
-                                                 ? bin
-                                                 : DepthHistogram::kBins - 1)] += 1;
+    histogram.share[static_cast<std::size_t>(
+        bin < DepthHistogram::kBins ? bin : DepthHistogram::kBins - 1)] += 1;
     ++count;
   }
   if (count > 0)

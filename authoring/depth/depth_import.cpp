@@ -27,9 +27,9 @@ GreyNumbers ReadGreyNumbers(const std::filesystem::path& file) {
   cv::Mat image;
   try {
     if (!bytes.empty())
-      image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8U,
-                                   const_cast<char*>(bytes.data())),
-                           cv::IMREAD_UNCHANGED);
+      image = cv::imdecode(
+          cv::Mat(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data())),
+          cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     image.release();
   }
@@ -72,9 +72,9 @@ DepthMap ReliefFromNumbers(const GreyNumbers& numbers, const DepthImportOptions&
       relief.relief[i] = std::numeric_limits<float>::quiet_NaN();
       continue;
     }
-    const double metres =
-        numbers.white > 0 ? options.low + value / numbers.white * (options.high - options.low)
-                          : value * options.unit;
+    const double metres = numbers.white > 0
+                              ? options.low + value / numbers.white * (options.high - options.low)
+                              : value * options.unit;
     const double range = options.meaning == DepthMeaning::kRange ? metres : radius - metres;
     nearest = std::min(nearest, range);
     furthest = std::max(furthest, range);
@@ -84,12 +84,13 @@ DepthMap ReliefFromNumbers(const GreyNumbers& numbers, const DepthImportOptions&
     throw Error(Code::kBadImage,
                 "no pixel of it has a depth; allow 0 as a depth, or take another file", file);
   if (!(nearest > 0) || furthest > 10 * radius)
-    throw Error(Code::kBadImage,
-                fmt::format("with this unit and range the tissue would lie {:.1f} to {:.1f} mm from "
-                            "the portal, and the backdrop lies at {:.1f} mm; correct the unit or "
-                            "the range",
-                            MmFromMetres(nearest), MmFromMetres(furthest), MmFromMetres(radius)),
-                file);
+    throw Error(
+        Code::kBadImage,
+        fmt::format("with this unit and range the tissue would lie {:.1f} to {:.1f} mm from "
+                    "the portal, and the backdrop lies at {:.1f} mm; correct the unit or "
+                    "the range",
+                    MmFromMetres(nearest), MmFromMetres(furthest), MmFromMetres(radius)),
+        file);
   return relief;
 }
 

@@ -28,9 +28,12 @@ struct DepthImportOptions {
       Choices<DepthMeaning>{{{DepthMeaning::kRange, "range"}, {DepthMeaning::kRelief, "relief"}}},
       "", "range: distance from the scope portal. relief: height over the backdrop.");
     v("import_low", low, Range{-0.5, 2}, "m", "Length of the value 0 of a map of whole numbers.");
-    v("import_high", high, Range{-0.5, 2}, "m", "Length of the largest value of a map of whole numbers.");
-    v("import_unit", unit, Range{1e-9, 10}, "", "Metres per unit of a map of floating-point numbers.");
-    v("import_zero_unknown", is_zero_unknown, Any{}, "", "The value 0 means that no depth is known.");
+    v("import_high", high, Range{-0.5, 2}, "m",
+      "Length of the largest value of a map of whole numbers.");
+    v("import_unit", unit, Range{1e-9, 10}, "",
+      "Metres per unit of a map of floating-point numbers.");
+    v("import_zero_unknown", is_zero_unknown, Any{}, "",
+      "The value 0 means that no depth is known.");
   }
 };
 
@@ -48,7 +51,6 @@ GreyNumbers ReadGreyNumbers(const std::filesystem::path& file);
 // where the size is not that of the panorama, or where the surface would lie behind the portal
 // because the unit or range is wrong, and says what the file would mean.
 DepthMap ReliefFromNumbers(const GreyNumbers& numbers, const DepthImportOptions& options,
-                           double radius, int width, int height,
-                           const std::filesystem::path& file);
+                           double radius, int width, int height, const std::filesystem::path& file);
 
 }  // namespace arthro::authoring

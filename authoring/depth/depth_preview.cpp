@@ -69,8 +69,8 @@ const DepthPreview::Level& DepthPreview::LevelOf(int most_pixels) const {
   return found == levels_.end() ? levels_.back() : *found;
 }
 
-DepthMap DepthPreview::Filter(const DepthOptions& options, DepthReport* report,
-                              int most_pixels, std::span<const DepthMark> marks) const {
+DepthMap DepthPreview::Filter(const DepthOptions& options, DepthReport* report, int most_pixels,
+                              std::span<const DepthMark> marks) const {
   CheckDepthOptions(options);
   const Level& level = LevelOf(most_pixels);
   DepthOptions scaled = options;

@@ -10,7 +10,7 @@ namespace arthro::authoring {
 
 struct Document : LoadedScene {
   DepthOptions depth_options;
-  // What mended the depth map, in order; null: nothing. They are in the map already.
+  // Strokes that mended the depth map, in order; null: none. The map holds their effect.
   SharedStrokes depth_strokes;
   bool is_depth_imported = false;  // the depth map was not made from panorama and depth_options
 };

@@ -72,9 +72,9 @@ void Run(const DepthJob& job) {
     return;
   }
   authoring::DepthReport report;
-  DepthMap depth = authoring::DepthFromColour(
-      panorama, job.options, &report, TerminalProgress(),
-      authoring::MarksOf(strokes, panorama.width, panorama.height));
+  DepthMap depth =
+      authoring::DepthFromColour(panorama, job.options, &report, TerminalProgress(),
+                                 authoring::MarksOf(strokes, panorama.width, panorama.height));
   if (report.imaged_share == 0.0)
     throw Error(Code::kBadImage,
                 "this picture is nothing but dark surround; lower --surround-threshold or take "

@@ -30,12 +30,12 @@ constexpr std::pair<StrokeKind, const char*> kKinds[] = {
     {StrokeKind::kKeep, "Paint over tissue that was taken for a glint."}};
 
 void Kinds(Ui& ui, DepthBrush& brush) {
-  const float half =
-      0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  constexpr int kColumns = 3;
+  const float part = ColumnWidth(kColumns);
   int place = 0;
   for (const auto& [kind, help] : kKinds) {
-    if (place++ % 2 == 1) ImGui::SameLine();
-    if (ToggleButton(ui, WordOf(kind), brush.stroke.kind == kind, true, {half, 0}, help))
+    if (place++ % kColumns != 0) ImGui::SameLine();
+    if (ToggleButton(ui, WordOf(kind), brush.stroke.kind == kind, true, {part, 0}, help))
       brush.stroke.kind = kind;
   }
 }
@@ -52,6 +52,11 @@ bool HasStrength(StrokeKind kind) {
 
 }  // namespace
 
+float ColumnWidth(int columns) {
+  const float gaps = static_cast<float>(columns - 1) * ImGui::GetStyle().ItemSpacing.x;
+  return std::floor((ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(columns));
+}
+
 void BrushFields(Ui& ui, EditorState& state) {
   DepthBrush& brush = state.steps.depth->board.brush;
   if (state.dialogs.empty() && !ImGui::GetIO().WantTextInput &&
@@ -62,17 +67,6 @@ void BrushFields(Ui& ui, EditorState& state) {
   double radius = BrushRadius(state);
   if (Slider(ui, "Size", radius, 2, 400, "%.0f px", "Radius in pixels of the panorama: [ and ]."))
     SetBrushRadius(state, radius);
-  const auto& projection = state.document().scene.backdrop.projection;
-  if (const auto metres = BrushRadiusOnTissue(state, projection.centre_px))
-    QuietText(ui, fmt::format("{:.1f} mm on the tissue in the middle.", MmFromMetres(*metres)));
-  double hardness = 100 * brush.stroke.hardness;
-  if (Slider(ui, "Hardness", hardness, 0, 100, "%.0f %%",
-             "Share of the radius within which the brush has its full effect."))
-    brush.stroke.hardness = hardness / 100;
-  int falloff = static_cast<int>(brush.stroke.falloff);
-  if (Combo(ui, "Falloff", falloff, {"smooth", "linear", "round"},
-            "Fall of the effect from the hard core to the rim."))
-    brush.stroke.falloff = static_cast<authoring::StrokeFalloff>(falloff);
   if (HasAmount(brush.stroke.kind)) {
     double amount = MmFromMetres(brush.stroke.amount);
     if (Slider(ui, "Amount", amount, 0.05, 10, "%.2f mm",
@@ -86,6 +80,17 @@ void BrushFields(Ui& ui, EditorState& state) {
     if (Slider(ui, "Strength", strength, 1, 100, "%.0f %%", "Share of the way to the new height."))
       brush.stroke.strength = strength / 100;
   }
+  double hardness = 100 * brush.stroke.hardness;
+  if (Slider(ui, "Hardness", hardness, 0, 100, "%.0f %%",
+             "Share of the radius within which the brush has its full effect."))
+    brush.stroke.hardness = hardness / 100;
+  int falloff = static_cast<int>(brush.stroke.falloff);
+  if (Combo(ui, "Falloff", falloff, {"smooth", "linear", "round"},
+            "Fall of the effect from the hard core to the rim."))
+    brush.stroke.falloff = static_cast<authoring::StrokeFalloff>(falloff);
+  const auto& projection = state.document().scene.backdrop.projection;
+  if (const auto metres = BrushRadiusOnTissue(state, projection.centre_px))
+    QuietText(ui, fmt::format("{:.1f} mm on the tissue in the middle.", MmFromMetres(*metres)));
   Gap(ui);
   const int count = StrokeCount(state);
   QuietText(ui, count == 0   ? "Nothing is painted yet."

@@ -31,9 +31,9 @@ void ComparedPictures(Ui& ui, EditorState& state, const Area& area, const DepthT
       const PicturePlace place = PlaceOf(board.zoom, {width, height}, size);
       const ImVec2 low = {pane.x + static_cast<float>(place.corner.x),
                           pane.y + static_cast<float>(place.corner.y)};
-      draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(id)), low,
-                     {low.x + static_cast<float>(place.size.x),
-                      low.y + static_cast<float>(place.size.y)});
+      draw->AddImage(
+          reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(id)), low,
+          {low.x + static_cast<float>(place.size.x), low.y + static_cast<float>(place.size.y)});
     }
     const ImVec2 words = ImGui::CalcTextSize(pane.words);
     const ImVec2 at = {pane.x + ui.Px(10), pane.y + ui.Px(8)};

@@ -182,9 +182,9 @@ void KeepPatchFresh(EditorState& state) {
   const authoring::PixelBox box =
       authoring::Grown(board.brush.changed, 1, coarse.depth.width, coarse.depth.height);
   patch.picture = Share(DrawCoarse(state.document(), board.layer, coarse, box));
-  const glm::dvec2 size = glm::dvec2(state.document().panorama->width,
-                                     state.document().panorama->height) /
-                          static_cast<double>(coarse.stride);
+  const glm::dvec2 size =
+      glm::dvec2(state.document().panorama->width, state.document().panorama->height) /
+      static_cast<double>(coarse.stride);
   patch.low = glm::dvec2(box.left, box.top) / size;
   patch.high = glm::dvec2(box.right, box.bottom) / size;
 }

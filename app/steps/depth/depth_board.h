@@ -81,7 +81,7 @@ struct DepthBoard {
   struct Patch {
     std::shared_ptr<const ColourImage> picture;
     glm::dvec2 low{0}, high{0};
-    long version = 0;  // of the brush
+    long version = 0;  // version of the brush
   } patch;
 
   // Pictures beside the panorama, smaller than it.

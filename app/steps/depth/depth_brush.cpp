@@ -17,7 +17,7 @@ namespace {
 using authoring::Document;
 using authoring::MendedDepth;
 
-constexpr int kLongestPreview = 1024;  // px of the coarse map
+constexpr int kLongestPreview = 1024;                  // px of the coarse map
 constexpr double kLeastRadius = 2, kMostRadius = 400;  // px
 // Points nearer to the last one than this share of the radius add nothing to the line.
 constexpr double kSpacing = 0.2;
@@ -35,7 +35,8 @@ void BeginPreview(const Document& document, DepthBrush& brush) {
   const DepthMap& depth = *document.depth;
   const ColourImage& panorama = *document.panorama;
   brush.stride = (std::max(depth.width, depth.height) + kLongestPreview - 1) / kLongestPreview;
-  DepthMap coarse(std::max(1, depth.width / brush.stride), std::max(1, depth.height / brush.stride));
+  DepthMap coarse(std::max(1, depth.width / brush.stride),
+                  std::max(1, depth.height / brush.stride));
   ColourImage picture(coarse.width, coarse.height);
   for (int y = 0; y < coarse.height; ++y)
     for (int x = 0; x < coarse.width; ++x) {
@@ -74,8 +75,7 @@ void EndPreview(DepthBrush& brush) {
 }
 
 bool Fits(const Document& document) {
-  return document.panorama && document.depth &&
-         document.depth->width == document.panorama->width &&
+  return document.panorama && document.depth && document.depth->width == document.panorama->width &&
          document.depth->height == document.panorama->height;
 }
 
@@ -103,8 +103,7 @@ void SetBrushRadius(EditorState& state, double pixels) {
 }
 
 std::optional<double> BrushRadiusOnTissue(const EditorState& state, const glm::dvec2& pixel) {
-  const authoring::ReliefReading at =
-      authoring::ReadRelief(ReliefViewOf(state.document()), pixel);
+  const authoring::ReliefReading at = authoring::ReadRelief(ReliefViewOf(state.document()), pixel);
   if (!std::isfinite(at.range)) return std::nullopt;
   const Projection& projection = state.document().scene.backdrop.projection;
   const glm::dvec3 from = DirectionFromPixel(projection, pixel - glm::dvec2(0.5, 0)),
@@ -217,15 +216,15 @@ const char* WordOf(authoring::StrokeKind kind) {
     case StrokeKind::kFlatten:
       return "Flatten";
     case StrokeKind::kBrightness:
-      return "From brightness";
+      return "Brightness";
     case StrokeKind::kUnknown:
       return "Unknown";
     case StrokeKind::kEdge:
-      return "Keep an edge";
+      return "Edge";
     case StrokeKind::kMask:
       return "Mask";
     case StrokeKind::kKeep:
-      return "Not a glint";
+      return "No glint";
   }
   return "";
 }

@@ -21,9 +21,9 @@ struct DepthBrush {
   // The coarse map with the stroke under way, and the one without it. Null: no stroke.
   std::shared_ptr<const DepthMap> before;
   std::shared_ptr<const DepthMap> live;
-  std::shared_ptr<const ColourImage> coarse_picture;  // of the size of these maps
+  std::shared_ptr<const ColourImage> coarse_picture;  // same size as these maps
   int stride = 1;                                     // pixels of the panorama per coarse pixel
-  authoring::PixelBox changed;                        // of the coarse map
+  authoring::PixelBox changed;                        // part of the coarse map
   long version = 0;                                   // grows with each change of the stroke
   std::optional<glm::dvec2> pointed;  // px of the panorama under the pointer in a picture
 };

@@ -29,8 +29,9 @@ void DepthCache::Note(const authoring::Document& document) {
     const auto panorama = made.panorama.lock();
     return !panorama || IsOf(made, document);
   });
-  made_.push_back({document.panorama, document.depth_options, document.depth_strokes, document.depth,
-                   document.depth_sigma, document.depth != nullptr, document.depth_sigma != nullptr});
+  made_.push_back({document.panorama, document.depth_options, document.depth_strokes,
+                   document.depth, document.depth_sigma, document.depth != nullptr,
+                   document.depth_sigma != nullptr});
   if (made_.size() > kMostKept) made_.erase(made_.begin());
 }
 

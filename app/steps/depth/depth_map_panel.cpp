@@ -16,20 +16,20 @@
 namespace arthro::app {
 namespace {
 
-float Half() { return 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x); }
+float Half() { return ColumnWidth(2); }
 
-// Rows of two buttons, of which one is lit.
+// Rows of buttons, of which one is lit.
 struct Entry {
   const char* command;
   bool is_chosen;
 };
-void Toggles(Ui& ui, EditorState& state, std::initializer_list<Entry> entries) {
-  const float half = Half();
+void Toggles(Ui& ui, EditorState& state, int columns, std::initializer_list<Entry> entries) {
+  const float part = ColumnWidth(columns);
   int place = 0;
   for (const Entry& entry : entries) {
-    if (place++ % 2 == 1) ImGui::SameLine();
+    if (place++ % columns != 0) ImGui::SameLine();
     const Command& command = CommandOf(state, entry.command);
-    if (ToggleButton(ui, command.words, entry.is_chosen, command.enabled(state), {half, 0},
+    if (ToggleButton(ui, command.words, entry.is_chosen, command.enabled(state), {part, 0},
                      command.help))
       Run(state, command);
   }
@@ -114,7 +114,7 @@ void Profile(Ui& ui, const EditorState& state) {
 void DepthMapPanel(Ui& ui, EditorState& state) {
   const DepthBoard& board = state.steps.depth->board;
   Heading(ui, "Colours");
-  Toggles(ui, state,
+  Toggles(ui, state, 3,
           {{"map-origin", board.layer == MapLayer::kOrigin},
            {"map-sigma", board.layer == MapLayer::kSigma},
            {"map-range", board.layer == MapLayer::kRange},
@@ -124,7 +124,7 @@ void DepthMapPanel(Ui& ui, EditorState& state) {
            {"map-compare", board.compares}});
   Gap(ui);
   Heading(ui, "Tool");
-  Toggles(ui, state,
+  Toggles(ui, state, 2,
           {{"map-read", board.tool == MapTool::kRead},
            {"map-length", board.tool == MapTool::kLength},
            {"map-profile", board.tool == MapTool::kProfile},

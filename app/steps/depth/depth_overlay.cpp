@@ -167,9 +167,8 @@ class Layer {
                                   ? projection.focal_px
                                   : DegreesFromRadians(1) * projection.px_per_deg;
     const double pixel = stride_ * document_.scene.backdrop.radius / per_radian;
-    const glm::dvec3 normal = glm::normalize(
-        glm::dvec3(kExaggeration * (height - right) / pixel,
-                   kExaggeration * (height - below) / pixel, 1.0));
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(
+        kExaggeration * (height - right) / pixel, kExaggeration * (height - below) / pixel, 1.0));
     const glm::dvec3 lamp = glm::normalize(glm::dvec3(-1, -1, 1.4));
     return std::clamp(glm::dot(normal, lamp), 0.0, 1.0);
   }
@@ -179,14 +178,18 @@ class Layer {
     marks_ = authoring::MarksOf(OrEmpty(document_.depth_strokes), panorama.width, panorama.height);
   }
   bool MaskColour(int x, int y, Rgb& colour) const {
-    const std::size_t at = static_cast<std::size_t>(y) *
-                               static_cast<std::size_t>(document_.panorama->width) +
-                           static_cast<std::size_t>(x);
+    const std::size_t at =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(document_.panorama->width) +
+        static_cast<std::size_t>(x);
     const auto mark = at < marks_.size() ? marks_[at] : authoring::DepthMark::kNone;
-    if (mark == authoring::DepthMark::kMasked) colour = kMasked;
-    else if (mark == authoring::DepthMark::kKept) colour = kKept;
-    else if (at < glints_.size() && glints_[at]) colour = kGlint;
-    else return false;
+    if (mark == authoring::DepthMark::kMasked)
+      colour = kMasked;
+    else if (mark == authoring::DepthMark::kKept)
+      colour = kKept;
+    else if (at < glints_.size() && glints_[at])
+      colour = kGlint;
+    else
+      return false;
     return true;
   }
   ReliefOrigin OriginAt(int x, int y, double height) const {
@@ -215,9 +218,9 @@ void DrawPixel(Layer& colours, MapLayer layer, int x, int y, const std::uint8_t*
   Rgb colour;
   const bool is_covered = colours.ColourOf(x, y, colour);
   for (int c = 0; c < 3; ++c)
-    to[c] = is_covered ? static_cast<std::uint8_t>(
-                             std::lround((1 - cover) * from[c] + cover * colour[c]))
-                       : from[c];
+    to[c] = is_covered
+                ? static_cast<std::uint8_t>(std::lround((1 - cover) * from[c] + cover * colour[c]))
+                : from[c];
 }
 
 }  // namespace

@@ -30,6 +30,20 @@ void ScopeOrMap(Ui& ui, EditorState& state) {
   Gap(ui, 2);
 }
 
+// Tool of a drag over the scope's picture and the overview.
+void TouchOrBrush(Ui& ui, EditorState& state) {
+  const float half = ColumnWidth(2);
+  const Command& touch = CommandOf(state, "touch-preview");
+  if (ToggleButton(ui, touch.words, TouchesRelief(state), touch.enabled(state), {half, 0},
+                   touch.help))
+    Run(state, touch);
+  ImGui::SameLine();
+  const bool paints = PaintsDepth(state);
+  const Command& brush = CommandOf(state, paints ? "leave-depth-brush" : "map-brush");
+  if (ToggleButton(ui, "Brush", paints, brush.enabled(state), {half, 0}, brush.help))
+    Run(state, brush);
+}
+
 }  // namespace
 
 void DepthPanel(Ui& ui, EditorState& state) {
@@ -58,12 +72,9 @@ void DepthPanel(Ui& ui, EditorState& state) {
     Gap(ui);
   }
   ImportDepthFields(ui, state);
+  TouchOrBrush(ui, state);
+  if (PaintsDepth(state)) return BrushFields(ui, state);
   TouchFields(ui, state);
-  CommandButton(ui, state, "map-brush", {-FLT_MIN, 0});
-  if (PaintsDepth(state)) {
-    BrushFields(ui, state);
-    return;
-  }
   Gap(ui);
   if (!is_imported) {
     ColourFilterField(ui, state);

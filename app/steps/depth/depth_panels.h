@@ -13,6 +13,9 @@ namespace arthro::app {
 
 using DepthTextureOf = std::function<unsigned(const std::shared_ptr<const ColourImage>&)>;
 
+// Width of one of so many buttons beside each other.
+float ColumnWidth(int columns);
+
 // Tools of the map, and what they read.
 void DepthMapPanel(Ui& ui, EditorState& state);
 

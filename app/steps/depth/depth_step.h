@@ -24,12 +24,12 @@ struct DepthStep {
 
   DepthCache cache;
   Jobs preview_jobs;
-  authoring::DepthOptions in_work;  // options of the map that preview_jobs computes
+  authoring::DepthOptions in_work;           // options of the map that preview_jobs computes
   authoring::SharedStrokes strokes_in_work;  // strokes of that map
   std::function<void(EditorState&)> when_ready;
   DepthBoard board;
   std::optional<DepthImport> import;
-  std::string import_words;  // what the file would mean; empty: to be read
+  std::string import_words;  // meaning of the file; empty: to be read
   TouchPreview touch;
   // Histogram of the map that the options make, and what it was made from.
   std::optional<authoring::DepthHistogram> histogram;

@@ -17,7 +17,7 @@
 namespace arthro::app {
 namespace {
 
-constexpr float kFigureHeight = 72;  // at scale 1
+constexpr float kFigureHeight = 72;    // at scale 1
 constexpr double kLeastBetween = 0.5;  // %, between the handles
 
 struct Handle {
@@ -33,8 +33,8 @@ void DepthHistogramFigure(Ui& ui, EditorState& state) {
   if (!histogram) return;
   authoring::DepthOptions options = state.document().depth_options;
   const bool is_grey = options.estimator == authoring::DepthEstimator::kPaper;
-  Text(ui, is_grey ? "Greys, with the percentiles of far and near"
-                   : "Nearness, with the percentiles of far and near");
+  QuietText(ui, is_grey ? "Greys, with the percentiles of far and near"
+                        : "Nearness, with the percentiles of far and near");
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float width = std::max(ui.Px(40), ImGui::GetContentRegionAvail().x),
               height = ui.Px(kFigureHeight), foot = ui.Px(12);
@@ -51,15 +51,14 @@ void DepthHistogramFigure(Ui& ui, EditorState& state) {
     draw->AddRectFilled({x, low.y + height - foot - part * (height - foot - ui.Px(4))},
                         {x + bin, low.y + height - foot}, kQuiet);
   }
-  const Handle handles[] = {
-      {"Handle of the low percentile", &options.low_percentile, 0,
-       options.high_percentile - kLeastBetween},
-      {"Handle of the high percentile", &options.high_percentile,
-       options.low_percentile + kLeastBetween, 100}};
+  const Handle handles[] = {{"Handle of the low percentile", &options.low_percentile, 0,
+                             options.high_percentile - kLeastBetween},
+                            {"Handle of the high percentile", &options.high_percentile,
+                             options.low_percentile + kLeastBetween, 100}};
   std::string changed;
   for (const Handle& handle : handles) {
-    const auto place = static_cast<float>(
-        authoring::PlaceOfPercentile(*histogram, *handle.percentile));
+    const auto place =
+        static_cast<float>(authoring::PlaceOfPercentile(*histogram, *handle.percentile));
     const float x = low.x + place * width, reach = ui.Px(6);
     ImGui::SetCursorScreenPos({std::clamp(x - reach, low.x, low.x + width - 2 * reach), low.y});
     HitArea(handle.name, {2 * reach, height});

@@ -56,10 +56,6 @@ void ImportDepthFields(Ui& ui, EditorState& state) {
 
 void TouchFields(Ui& ui, EditorState& state) {
   TouchPreview& touch = state.steps.depth->touch;
-  const Command& toggle = CommandOf(state, "touch-preview");
-  if (ToggleButton(ui, toggle.words, touch.is_on, toggle.enabled(state), {-FLT_MIN, 0},
-                   toggle.help))
-    Run(state, toggle);
   if (!touch.is_on) return;
   double press = MmFromMetres(touch.press);
   if (Slider(ui, "Press", press, 0.1, 5, "%.1f mm", "Depth of the probe's tip below the surface."))

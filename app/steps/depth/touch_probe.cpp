@@ -14,11 +14,11 @@
 namespace arthro::app {
 namespace {
 
-constexpr double kTick = 1e-3;         // s
-constexpr double kApproach = 3e-3;     // m, free way in front of the surface
+constexpr double kTick = 1e-3;      // s
+constexpr double kApproach = 3e-3;  // m, free way in front of the surface
 constexpr int kApproachTicks = 60;
 constexpr int kPressTicks = 60;
-constexpr double kReached = 3e-3;      // m, of the tip from the point before it presses
+constexpr double kReached = 3e-3;  // m, of the tip from the point before it presses
 
 }  // namespace
 
@@ -97,14 +97,15 @@ void KeepTouchFresh(EditorState& state) {
     return;
   touch.depth = depth;
   touch.probe.reset();
-  state.jobs.Start("Touch preview", [document = state.document(),
-                                     options = state.steps.practice->session_options](
-                                        const Progress&) -> Jobs::Apply {
-    auto probe = std::make_shared<TouchProbe>(document, options);
-    return [probe, depth = document.depth](EditorState& now) {
-      if (now.steps.depth->touch.depth == depth) now.steps.depth->touch.probe = probe;
-    };
-  });
+  state.jobs.Start("Touch preview",
+                   [document = state.document(), options = state.steps.practice->session_options](
+                       const Progress&) -> Jobs::Apply {
+                     auto probe = std::make_shared<TouchProbe>(document, options);
+                     return [probe, depth = document.depth](EditorState& now) {
+                       if (now.steps.depth->touch.depth == depth)
+                         now.steps.depth->touch.probe = probe;
+                     };
+                   });
 }
 
 void TouchAlong(EditorState& state, const authoring::Sight& sight) {
@@ -121,9 +122,9 @@ std::string WordsOfTouch(const TouchReading& reading) {
   // Tilt of the surface against the line from the portal.
   const double cosine =
       std::clamp(-glm::dot(reading.normal, glm::normalize(reading.point)), -1.0, 1.0);
-  words += fmt::format("; normal tilted by {:.0f}°; {:.2f} N/mm; {:.2f} N on the hand",
-                       DegreesFromRadians(std::acos(cosine)), 1e-3 * reading.stiffness,
-                       reading.force);
+  words +=
+      fmt::format("; normal tilted by {:.0f}°; {:.2f} N/mm; {:.2f} N on the hand",
+                  DegreesFromRadians(std::acos(cosine)), 1e-3 * reading.stiffness, reading.force);
   return reading.is_reached ? words : words + "; the rod meets something on its way";
 }
 

@@ -1,5 +1,5 @@
-// What a probe would feel on the relief: distance and normal of the surface, stiffness, and the
-// force that the session would give to the hand. A practice session computes it, with its contact
+// Touch of a probe on the relief: distance and normal of the surface, stiffness, and the force that
+// the session would give to the hand. A practice session computes it, with its contact
 // and its limiter, so that the preview is the practice. Portal frame; m, N.
 #pragma once
 
@@ -14,13 +14,13 @@
 namespace arthro::app {
 
 struct TouchReading {
-  double range = 0;          // m, from the portal
-  glm::dvec3 point{0.0};     // on the relief
-  glm::dvec3 normal{0.0};    // unit, into free space; zero: the probe feels nothing
-  double stiffness = 0;      // N/m, force on the tip over penetration
-  double force = 0;          // N, on the hand, after the lever and the limiter
-  double tip_force = 0;      // N, on the tip
-  bool is_reached = false;   // the probe comes to the point; false: its rod meets something first
+  double range = 0;         // m, from the portal
+  glm::dvec3 point{0.0};    // on the relief
+  glm::dvec3 normal{0.0};   // unit, into free space; zero: the probe feels nothing
+  double stiffness = 0;     // N/m, force on the tip over penetration
+  double force = 0;         // N, on the hand, after the lever and the limiter
+  double tip_force = 0;     // N, on the tip
+  bool is_reached = false;  // the probe comes to the point; false: its rod meets something first
 };
 
 // A session with the tissues as rigid surfaces, whose instrument is led by the preview.
@@ -47,7 +47,7 @@ struct TouchPreview {
   bool is_on = false;
   double press = 1e-3;  // m
   std::shared_ptr<TouchProbe> probe;
-  std::shared_ptr<const DepthMap> depth;  // of the probe
+  std::shared_ptr<const DepthMap> depth;  // depth map of the probe
   std::optional<TouchReading> reading;
 };
 

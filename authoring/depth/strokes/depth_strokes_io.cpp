@@ -19,8 +19,9 @@ std::vector<glm::dvec2> PointsFrom(const Json& json, const std::string& place,
                                    const std::filesystem::path& file) {
   const auto refuse = [&] {
     throw Error(Code::kBadData,
-                place + ".points must be a list of pairs of numbers, [[u, v], …], in shares of the "
-                        "panorama's width",
+                place +
+                    ".points must be a list of pairs of numbers, [[u, v], …], in shares of the "
+                    "panorama's width",
                 file);
   };
   if (!json.is_array()) refuse();

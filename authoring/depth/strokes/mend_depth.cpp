@@ -133,8 +133,7 @@ TargetOf FlatteningTarget(const StrokeFootprint& footprint, const MendedScene& s
   const auto plane = PlaneUnder(footprint, scene, relief);
   return [plane, &scene](int x, int y, double) {
     if (!plane) return std::numeric_limits<double>::quiet_NaN();
-    const double inverse =
-        glm::dot(*plane, DirectionFromPixel(scene.projection, glm::dvec2(x, y)));
+    const double inverse = glm::dot(*plane, DirectionFromPixel(scene.projection, glm::dvec2(x, y)));
     // A plane that passes behind the portal or the horizon says nothing.
     const double range = 1 / inverse;
     return inverse > 0 && range < 2 * scene.radius ? scene.radius - range
@@ -200,8 +199,8 @@ Map CutOut(const Map& map, const PixelBox& box, std::vector<Value> Map::*values)
   if (map.empty()) return part;
   part = Map(box.width(), box.height());
   for (int y = 0; y < box.height(); ++y) {
-    const auto from = (map.*values).begin() +
-                      static_cast<std::ptrdiff_t>(box.top + y) * map.width + box.left;
+    const auto from =
+        (map.*values).begin() + static_cast<std::ptrdiff_t>(box.top + y) * map.width + box.left;
     std::copy(from, from + box.width(),
               (part.*values).begin() + static_cast<std::ptrdiff_t>(y) * box.width());
   }
@@ -213,9 +212,9 @@ void PutBack(const Map& part, const PixelBox& box, std::vector<Value> Map::*valu
   if (map.empty()) return;
   for (int y = 0; y < box.height(); ++y) {
     const auto from = (part.*values).begin() + static_cast<std::ptrdiff_t>(y) * box.width();
-    std::copy(from, from + box.width(),
-              (map.*values).begin() + static_cast<std::ptrdiff_t>(box.top + y) * map.width +
-                  box.left);
+    std::copy(
+        from, from + box.width(),
+        (map.*values).begin() + static_cast<std::ptrdiff_t>(box.top + y) * map.width + box.left);
   }
 }
 
@@ -225,17 +224,16 @@ void CloseMasked(const StrokeFootprint& footprint, const MendedScene& scene, Men
   CellMarks marks(box.width(), box.height());
   for (const StrokeTile& tile : footprint.tiles)
     ForPixels(tile, [&](int x, int y, double) {
-      marks.is_marked[static_cast<std::size_t>(y - box.top) *
-                          static_cast<std::size_t>(box.width()) +
-                      static_cast<std::size_t>(x - box.left)] = 1;
+      marks
+          .is_marked[static_cast<std::size_t>(y - box.top) * static_cast<std::size_t>(box.width()) +
+                     static_cast<std::size_t>(x - box.left)] = 1;
     });
   Projection projection = scene.projection;
   projection.centre_px -= glm::dvec2(box.left, box.top);
   const DepthMap relief = CutOut(depth.relief, box, &DepthMap::relief),
                  sigma = CutOut(depth.sigma, box, &DepthMap::relief);
   const OriginMap origin = CutOut(depth.origin, box, &OriginMap::origin);
-  const ClosedRelief closed =
-      CloseMarked({relief, sigma, origin, projection, scene.radius}, marks);
+  const ClosedRelief closed = CloseMarked({relief, sigma, origin, projection, scene.radius}, marks);
   PutBack(closed.relief, box, &DepthMap::relief, depth.relief);
   PutBack(closed.sigma, box, &DepthMap::relief, depth.sigma);
   PutBack(closed.origin, box, &OriginMap::origin, depth.origin);
@@ -272,8 +270,8 @@ StrokeReport ApplyStroke(const DepthStroke& stroke, const MendedScene& scene, Me
   const int reach = static_cast<int>(std::ceil(footprint.radius)) + 2;
   const bool is_smooth = stroke.kind == StrokeKind::kSmooth;
   const bool is_edge = stroke.kind == StrokeKind::kEdge;
-  const Part before(relief, is_edge ? Grown(footprint.box, reach, relief.width, relief.height)
-                                    : PixelBox());
+  const Part before(
+      relief, is_edge ? Grown(footprint.box, reach, relief.width, relief.height) : PixelBox());
   TargetOf target;
   if (stroke.kind == StrokeKind::kFlatten) target = FlatteningTarget(footprint, scene, relief);
   if (stroke.kind == StrokeKind::kBrightness)
@@ -321,8 +319,7 @@ std::vector<DepthMark> MarksOf(std::span<const DepthStroke> strokes, int width, 
     if (!IsMask(stroke)) continue;
     marks.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                  DepthMark::kNone);
-    const DepthMark mark =
-        stroke.kind == StrokeKind::kMask ? DepthMark::kMasked : DepthMark::kKept;
+    const DepthMark mark = stroke.kind == StrokeKind::kMask ? DepthMark::kMasked : DepthMark::kKept;
     for (const StrokeTile& tile : FootprintOf(stroke, width, height).tiles)
       ForPixels(tile, [&](int x, int y, double) {
         marks[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -341,15 +338,16 @@ void CheckStrokes(std::span<const DepthStroke> strokes) {
     } catch (const Error& error) {
       throw Error(Code::kBadArgument, fmt::format("stroke {}: {}", number, error.what()));
     }
-    const bool is_finite =
-        std::all_of(stroke.points.begin(), stroke.points.end(), [](const glm::dvec2& point) {
-          return std::isfinite(point.x) && std::isfinite(point.y);
-        });
+    const bool is_finite = std::all_of(
+        stroke.points.begin(), stroke.points.end(),
+        [](const glm::dvec2& point) { return std::isfinite(point.x) && std::isfinite(point.y); });
     if (stroke.points.empty() || !is_finite)
-      throw Error(Code::kBadArgument,
-                  fmt::format("stroke {} has {}; give at least one point inside the picture",
-                              number, stroke.points.empty() ? "no points" : "a point that is no "
-                                                                            "number"));
+      throw Error(
+          Code::kBadArgument,
+          fmt::format("stroke {} has {}; give at least one point inside the picture", number,
+                      stroke.points.empty() ? "no points"
+                                            : "a point that is no "
+                                              "number"));
   }
 }
 

@@ -102,9 +102,9 @@ TEST_F(DepthBrushMode, GivesTheBytesOfAReplay) {
   Stroke(StrokeKind::kFlatten, 10, {30, 60}, {40, 60});
   Stroke(StrokeKind::kEdge, 5, {90, 10}, {90, 70});
   Stroke(StrokeKind::kBrightness, 10, {20, 20}, {30, 20});
-  const authoring::EstimatedDepth replayed = authoring::EstimateDepth(
-      *state.document().panorama, state.document().depth_options, state.document().depth_strokes,
-      state.document().scene.backdrop, {});
+  const authoring::EstimatedDepth replayed =
+      authoring::EstimateDepth(*state.document().panorama, state.document().depth_options,
+                               state.document().depth_strokes, state.document().scene.backdrop, {});
   EXPECT_TRUE(SameBytes(*state.document().depth, *replayed.depth));
   ASSERT_EQ(state.document().depth_sigma != nullptr, replayed.sigma != nullptr);
   if (replayed.sigma) {

@@ -54,8 +54,8 @@ TEST(DepthImport, ReadsFloatingPointInItsUnit) {
     ::setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
     const cv::Mat map(2, 4, CV_32F, cv::Scalar(42.5));  // mm
     ASSERT_TRUE(cv::imwrite((folder.path() / name).string(), map)) << name;
-    const DepthMap relief = ReliefFromNumbers(ReadGreyNumbers(folder.path() / name), {}, kRadius, 4,
-                                              2, name);
+    const DepthMap relief =
+        ReliefFromNumbers(ReadGreyNumbers(folder.path() / name), {}, kRadius, 4, 2, name);
     EXPECT_NEAR(relief.at(3, 1), 0.0075, 1e-8) << name;
   }
 }

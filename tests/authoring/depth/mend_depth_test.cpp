@@ -36,9 +36,7 @@ class MendDepth : public testing::Test {
     for (const glm::dvec2& pixel : pixels) stroke.points.push_back((pixel + 0.5) / double(kWidth));
     return stroke;
   }
-  MendedDepth Flat(float height) const {
-    return {DepthMap(kWidth, kHeight, height), {}, {}};
-  }
+  MendedDepth Flat(float height) const { return {DepthMap(kWidth, kHeight, height), {}, {}}; }
 
   ColourImage panorama{kWidth, kHeight};
   Projection projection;
@@ -254,7 +252,8 @@ TEST_F(MendDepth, MasksHoldTheEstimatorOffAGlintAndKeepsTakeThemAway) {
   // Tissue of one grey with a white square: an instrument, too large for a glint.
   std::fill(panorama.rgb.begin(), panorama.rgb.end(), std::uint8_t{100});
   for (int x = 0; x < kWidth; ++x)
-    for (int y = 0; y < 20; ++y) std::fill(panorama.at(x, y), panorama.at(x, y) + 3, std::uint8_t(60));
+    for (int y = 0; y < 20; ++y)
+      std::fill(panorama.at(x, y), panorama.at(x, y) + 3, std::uint8_t(60));
   for (int y = 100; y < 150; ++y)
     for (int x = 100; x < 160; ++x)
       std::fill(panorama.at(x, y), panorama.at(x, y) + 3, std::uint8_t{240});
@@ -266,14 +265,14 @@ TEST_F(MendDepth, MasksHoldTheEstimatorOffAGlintAndKeepsTakeThemAway) {
   EXPECT_NEAR(plain.at(130, 125), options.near_relief, 1e-6);
   EXPECT_LT(plain.at(300, 125), 0.5 * options.near_relief);
   DepthStrokes strokes = {Stroke(StrokeKind::kMask, 45, {{130, 125}})};
-  const DepthMap masked = DepthFromColour(panorama, options, nullptr, {},
-                                          MarksOf(strokes, kWidth, kHeight));
+  const DepthMap masked =
+      DepthFromColour(panorama, options, nullptr, {}, MarksOf(strokes, kWidth, kHeight));
   // Without the instrument the tissue itself spans the range.
   EXPECT_NEAR(masked.at(300, 125), options.near_relief, 1e-6);
   EXPECT_NEAR(masked.at(130, 125), options.near_relief, 1e-6);
   strokes.push_back(Stroke(StrokeKind::kKeep, 45, {{130, 125}}));
-  EXPECT_TRUE(SameBytes(plain, DepthFromColour(panorama, options, nullptr, {},
-                                               MarksOf(strokes, kWidth, kHeight))));
+  EXPECT_TRUE(SameBytes(
+      plain, DepthFromColour(panorama, options, nullptr, {}, MarksOf(strokes, kWidth, kHeight))));
 }
 
 TEST_F(MendDepth, StrokesSurviveTheirFile) {
