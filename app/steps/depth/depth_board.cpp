@@ -178,9 +178,9 @@ void KeepPatchFresh(EditorState& state) {
   patch.version = board.brush.version;
   if (!board.brush.live || board.brush.changed.is_empty()) return;
   const CoarseMap coarse{*board.brush.live, *board.brush.coarse_picture, board.brush.stride};
-  // A slope is drawn from the neighbours of a pixel.
-  const authoring::PixelBox box =
-      authoring::Grown(board.brush.changed, 1, coarse.depth.width, coarse.depth.height);
+  // A slope is drawn from pixels beside it.
+  const authoring::PixelBox box = authoring::Grown(board.brush.changed, kShapeReach + 1,
+                                                   coarse.depth.width, coarse.depth.height);
   patch.picture = Share(DrawCoarse(state.document(), board.layer, coarse, box));
   const glm::dvec2 size =
       glm::dvec2(state.document().panorama->width, state.document().panorama->height) /

@@ -77,7 +77,7 @@ class Layer {
     colour = kOriginColours[0];
     if (layer_ == MapLayer::kOrigin) colour = kOriginColours[static_cast<std::size_t>(origin)];
     if (std::isnan(height)) return true;
-    if (layer_ == MapLayer::kShape) colour = Rgb(255 * ShadeAt(x, y, height));
+    if (layer_ == MapLayer::kShape) colour = Rgb(255 * ShadeAt(x, y));
     if (layer_ == MapLayer::kRange)
       colour = RampColour((document_.scene.backdrop.radius - height - near_) / (far_ - near_));
     if (layer_ == MapLayer::kSigma && document_.depth_sigma)
@@ -155,20 +155,23 @@ class Layer {
                                            std::min(y / stride_, live_->height - 1)));
     return static_cast<double>(document_.depth->at(x, y));
   }
-  // Diffuse shade, 0 to 1, of a lamp at the upper left. Slopes are exaggerated.
-  double ShadeAt(int x, int y, double height) const {
-    constexpr double kExaggeration = 2;
-    const int width = document_.depth->width, rows = document_.depth->height;
-    const double right = HeightAt(std::min(x + stride_, width - 1), y),
-                 below = HeightAt(x, std::min(y + stride_, rows - 1));
+  // Diffuse shade, 0 to 1, of a lamp at the upper left. Slopes are taken over kShapeReach coarse
+  // pixels, so that texture does not hide the shape.
+  double ShadeAt(int x, int y) const {
+    const int reach = kShapeReach * stride_;
+    const auto along = [&](int dx, int dy) {
+      const int x0 = std::max(0, x - dx), x1 = std::min(document_.depth->width - 1, x + dx),
+                y0 = std::max(0, y - dy), y1 = std::min(document_.depth->height - 1, y + dy);
+      return (HeightAt(x0, y0) - HeightAt(x1, y1)) / (x1 - x0 + y1 - y0);
+    };
+    const double right = along(reach, 0), below = along(0, reach);
     if (std::isnan(right) || std::isnan(below)) return 0.5;
     const Projection& projection = document_.scene.backdrop.projection;
     const double per_radian = projection.type == ProjectionType::kGnomonic
                                   ? projection.focal_px
                                   : DegreesFromRadians(1) * projection.px_per_deg;
-    const double pixel = stride_ * document_.scene.backdrop.radius / per_radian;
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(
-        kExaggeration * (height - right) / pixel, kExaggeration * (height - below) / pixel, 1.0));
+    const double pixel = document_.scene.backdrop.radius / per_radian;
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(right / pixel, below / pixel, 1.0));
     const glm::dvec3 lamp = glm::normalize(glm::dvec3(-1, -1, 1.4));
     return std::clamp(glm::dot(normal, lamp), 0.0, 1.0);
   }

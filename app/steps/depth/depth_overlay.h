@@ -19,6 +19,8 @@ struct CoarseMap {
   const ColourImage& picture;
   int stride = 1;
 };
+// Coarse pixels to each side over which the shape takes its slopes.
+inline constexpr int kShapeReach = 4;
 // The layer on a box of the coarse map.
 ColourImage DrawCoarse(const authoring::Document& document, MapLayer layer, const CoarseMap& coarse,
                        const authoring::PixelBox& box);

@@ -17,6 +17,8 @@ namespace {
 constexpr double kTick = 1e-3;      // s
 constexpr double kApproach = 3e-3;  // m, free way in front of the surface
 constexpr int kApproachTicks = 60;
+constexpr double kSearch = 5e-3;  // m, behind the relief
+constexpr double kStep = 5e-5;    // m per tick
 constexpr int kPressTicks = 60;
 constexpr double kReached = 3e-3;  // m, of the tip from the point before it presses
 
@@ -65,14 +67,17 @@ TouchReading TouchProbe::Press(const glm::dvec3& point, double press) {
   Lead(before, kApproachTicks);
   const simulation::ToolState& tool = session_.snapshot().instrument;
   reading.is_reached = glm::distance(tool.proxy_in_portal, before) < kReached;
-  Lead(point + press * inwards, kPressTicks);
-  Lead(point + press * inwards, settled_);
+  // The felt surface is smoothed, so it lies a little before or behind the relief.
+  double depth = -kApproach;
+  while (tool.contact < 0 && depth < kSearch) Lead(point + (depth += kStep) * inwards, 1);
+  Lead(point + (depth + press) * inwards, kPressTicks);
+  Lead(point + (depth + press) * inwards, settled_);
   reading.tip_force = glm::length(tool.tip_force);
   reading.force = glm::length(tool.hand_force);
   if (reading.tip_force > 0) {
     reading.normal = tool.tip_force / reading.tip_force;
-    const double depth = glm::dot(tool.proxy_in_portal - tool.tip_in_portal, reading.normal);
-    reading.stiffness = depth > 0 ? reading.tip_force / depth : 0.0;
+    const double given = glm::dot(tool.proxy_in_portal - tool.tip_in_portal, reading.normal);
+    reading.stiffness = given > 0 ? reading.tip_force / given : 0.0;
   }
   return reading;
 }
