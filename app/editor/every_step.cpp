@@ -178,7 +178,7 @@ bool FinishWork(EditorState& state) {
   KeepPokeFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
-  KeepTouchFresh(state);
+  KeepTouchFresh(state, state.steps.practice->session_options);
   Guarded(state, "Reach", [&] { changed = KeepReachFresh(state) || changed; });
   return changed;
 }

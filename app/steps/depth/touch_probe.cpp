@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/practice/practice_step.h"
 #include "simulation/core/units.h"
 #include "simulation/scope/rod_pose.h"
 
@@ -95,7 +94,7 @@ bool TouchesRelief(const EditorState& state) {
          !state.practice && !state.practice_only;
 }
 
-void KeepTouchFresh(EditorState& state) {
+void KeepTouchFresh(EditorState& state, const simulation::SessionOptions& options) {
   TouchPreview& touch = state.steps.depth->touch;
   const auto& depth = state.document().depth;
   if (!TouchesRelief(state) || touch.depth == depth || state.jobs.busy() || DepthIsUnderWay(state))
@@ -103,8 +102,7 @@ void KeepTouchFresh(EditorState& state) {
   touch.depth = depth;
   touch.probe.reset();
   state.jobs.Start("Touch preview",
-                   [document = state.document(), options = state.steps.practice->session_options](
-                       const Progress&) -> Jobs::Apply {
+                   [document = state.document(), options](const Progress&) -> Jobs::Apply {
                      auto probe = std::make_shared<TouchProbe>(document, options);
                      return [probe, depth = document.depth](EditorState& now) {
                        if (now.steps.depth->touch.depth == depth)

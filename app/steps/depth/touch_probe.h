@@ -54,7 +54,7 @@ struct TouchPreview {
 void ToggleTouch(EditorState& state);
 bool TouchesRelief(const EditorState& state);
 // Makes the probe anew after a change of the depth map, in a job. Once a frame.
-void KeepTouchFresh(EditorState& state);
+void KeepTouchFresh(EditorState& state, const simulation::SessionOptions& options);
 // Reads the touch where a line of sight meets the relief.
 void TouchAlong(EditorState& state, const authoring::Sight& sight);
 std::string WordsOfTouch(const TouchReading& reading);
