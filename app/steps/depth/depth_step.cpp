@@ -12,7 +12,7 @@
 #include "authoring/depth/strokes/mend_depth.h"
 #include "simulation/core/same_options.h"
 #include "simulation/core/units.h"
-#include "simulation/haptics/relief_smoothing.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
 
 namespace arthro::app {
 namespace {
