@@ -16,6 +16,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include "app/editor/brush_marks.h"
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
 #include "app/editor/landmark_marks.h"
@@ -533,6 +534,7 @@ class Editor {
       input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
       picture_focused_ = input.focused;
       Lay(input);
+      Paint(input);
       TakePictureInput(input);
       if (input.clicked) pictures_.ClickScope(state_, PlaceInPicture(input, *input.clicked));
     }
@@ -543,6 +545,7 @@ class Editor {
                                ui.scale);
     Landmarks(ui, layout, input);
     if (layout.shows_picture) PanoramaClicksButton(ui, state_, panorama_clicks_, layout.picture);
+    BrushRings(ui, layout, input);
     ViewSplitter(ui, state_, layout);
   }
 
@@ -565,6 +568,30 @@ class Editor {
       if (const auto sight = SightOf(input, *input.held)) LayTissue(state_, *sight);
     if (input.held) input.scope_drag = glm::dvec2(0.0);
     if (input.released) EndDrag(state_);
+  }
+
+  // A drag over the scope's picture that paints does not swing the scope.
+  void Paint(PictureInput& input) {
+    const bool paints = PaintsDepth(state_);
+    if (!paints && !TouchesRelief(state_)) return;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const glm::dvec2 pointer(mouse.x - input.area.x - 0.5, mouse.y - input.area.y - 0.5);
+    const bool is_held = paints && input.held && !input.shift;
+    if (input.hovered || is_held)
+      if (const auto sight = SightOf(input, pointer)) PointAtRelief(state_, *sight, is_held);
+    if (is_held) input.scope_drag = glm::dvec2(0.0);
+    if (paints && input.released) EndStroke(state_);
+  }
+
+  // The brush or the touch over both pictures.
+  void BrushRings(Ui& ui, const Layout& layout, const PictureInput& input) {
+    if (layout.shows_picture)
+      MarkBrushInScope(ui, state_, layout.picture, input.area, pictures_.view(),
+                       pictures_.optics());
+    if (layout.shows_overview)
+      MarkBrushInOverview(ui, state_, layout.overview,
+                          [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
+    ForgetPointer(state_);
   }
 
   // Marks over both pictures, and clicks into the scope's.

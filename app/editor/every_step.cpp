@@ -190,6 +190,7 @@ bool FinishWork(EditorState& state) {
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
   Guarded(state, "Check of the surface", [&] { changed = KeepFaultsFresh(state) || changed; });
+  KeepTouchFresh(state, state.steps.practice->session_options);
   Guarded(state, "Reach", [&] { changed = KeepReachFresh(state) || changed; });
   return changed;
 }

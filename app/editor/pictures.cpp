@@ -413,6 +413,10 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
         is_laying_ = true;
         continue;
       }
+      if (button == 0 && PaintsDepth(state) && !input.shift) {
+        is_painting_ = true;
+        continue;
+      }
       if (button == 0 && HasBrush(state)) {
         const auto place = overview_.PickTissue(event.x, event.y);
         UseBrush(state, place);
@@ -433,6 +437,14 @@ void Pictures::HandleOverview(EditorState& state, const OverviewInput& input, do
       EndDrag(state);
       is_laying_ = false;
     }
+  }
+  if (input.hovered || is_painting_) {
+    const Overview::Line line = overview_.LineThrough(event.x, event.y);
+    PointAtRelief(state, {line.eye, line.direction, line.px_per_radian}, is_painting_);
+  }
+  if (is_painting_ && !input.owned) {
+    EndStroke(state);
+    is_painting_ = false;
   }
   if (input.clicked && PlacesLandmarks(state)) {
     const auto place = overview_.PickTissue(event.x, event.y);

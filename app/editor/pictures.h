@@ -98,7 +98,8 @@ class Pictures {
   RenderScale scale_;      // scale and features of moving pictures
   bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
-  bool is_laying_ = false;  // a drag over the overview lays a tissue onto the relief
+  bool is_laying_ = false;    // a drag over the overview lays a tissue onto the relief
+  bool is_painting_ = false;  // a drag over the overview paints on the depth map
   std::chrono::steady_clock::time_point overview_drawn_{};
   // Contents of the view.
   std::shared_ptr<const ColourImage> panorama_;

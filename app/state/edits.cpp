@@ -1,5 +1,6 @@
 #include "app/state/edits.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/state/footage_optics.h"
@@ -63,6 +64,13 @@ void PutPanorama(authoring::Document& document, const std::shared_ptr<const Colo
   else if (!same_size)
     document.scene.backdrop.projection =
         authoring::GuessProjection(panorama->width, panorama->height);
+  // Strokes are shares of the picture, so they fit the same picture at another resolution only.
+  const auto has_shape_of = [&](const ColourImage& other) {
+    return std::abs(double(panorama->width) * other.height -
+                    double(panorama->height) * other.width) <=
+           std::max(panorama->width, other.width);
+  };
+  if (!document.panorama || !has_shape_of(*document.panorama)) document.depth_strokes = nullptr;
   document.panorama = panorama;
   document.scene.backdrop.panorama = "panorama.png";
   if (keeps_depth) return;

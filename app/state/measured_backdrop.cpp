@@ -52,6 +52,7 @@ void PutMeasuredDepth(authoring::Document& document, const MeasuredBackdrop& mea
 void PutMeasuredPanorama(authoring::Document& document, const MeasuredBackdrop& measured,
                          const std::optional<Lens>& lens) {
   document.panorama = measured.panorama;
+  document.depth_strokes = nullptr;  // they mended the map that was there
   document.scene.backdrop.panorama = "panorama.png";
   document.scene.backdrop.projection = measured.projection;
   PutMeasuredDepth(document, measured);

@@ -50,6 +50,17 @@ std::vector<std::uint8_t> HighlightsOf(const GreyPlane& plane,
   return highlight;
 }
 
+// Adds the masked pixels to the highlights and removes the kept ones.
+void TakeMarks(std::span<const DepthMark> marks, const GreyPlane& plane,
+               std::vector<std::uint8_t>& highlight) {
+  if (marks.size() != plane.grey.size()) return;
+  if (highlight.empty()) highlight.assign(marks.size(), 0);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] == DepthMark::kMasked && plane.imaged[i]) highlight[i] = 1;
+    if (marks[i] == DepthMark::kKept) highlight[i] = 0;
+  }
+}
+
 Histogram HistogramOf(const GreyPlane& plane) {
   Histogram histogram(kWhite + 1, 0);
   std::mutex mutex;  // sums are integers, so the order of strips does not matter
@@ -61,6 +72,20 @@ Histogram HistogramOf(const GreyPlane& plane) {
     for (std::size_t grey = 0; grey < own.size(); ++grey) histogram[grey] += own[grey];
   });
   return histogram;
+}
+
+DepthHistogram HistogramOfGreys(const Histogram& greys) {
+  DepthHistogram coarse;
+  double count = 0;
+  for (std::size_t grey = 0; grey < greys.size(); ++grey) {
+    const std::size_t bin =
+        std::min<std::size_t>(grey * DepthHistogram::kBins / kWhite, DepthHistogram::kBins - 1);
+    coarse.share[bin] += static_cast<double>(greys[grey]);
+    count += static_cast<double>(greys[grey]);
+  }
+  if (count > 0)
+    for (double& share : coarse.share) share /= count;
+  return coarse;
 }
 
 // Smallest grey such that at least `percent` of the pixels do not exceed it.
@@ -125,6 +150,11 @@ DepthMap ReliefByDistance(const std::vector<float>& distance, const GreyPlane& p
     std::nth_element(known.begin(), known.begin() + rank, known.end());
     return known[static_cast<std::size_t>(rank)];
   };
+  std::vector<float> nearnesses;
+  nearnesses.reserve(known.size());
+  const float shortest = *std::min_element(known.begin(), known.end());
+  for (const float value : known) nearnesses.push_back(shortest / value);
+  report.histogram = HistogramOfValues(nearnesses, 1.0);
   float nearest = at(100.0 - options.high_percentile),
         furthest = at(100.0 - options.low_percentile);
   if (nearest == furthest) {
@@ -162,8 +192,20 @@ void CheckDepthOptions(const DepthOptions& options) {
                             1e3 * options.far_relief, 1e3 * options.near_relief));
 }
 
+std::vector<std::uint8_t> FoundHighlights(const ColourImage& panorama,
+                                          const DepthOptions& options) {
+  if (panorama.empty() || !options.fill_highlights) return {};
+  std::vector<std::uint8_t> flags;
+  GreyPlane plane = GreyFromColour(panorama, options, flags);
+  MaskSurround(plane, flags, options);
+  const std::size_t imaged = Count(plane.imaged);
+  DepthReport report;
+  return imaged > 0 ? HighlightsOf(plane, flags, imaged, report) : std::vector<std::uint8_t>();
+}
+
 DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& options,
-                         DepthReport* report, const Progress& progress) {
+                         DepthReport* report, const Progress& progress,
+                         std::span<const DepthMark> marks) {
   CheckDepthOptions(options);
   DepthReport own;
   DepthReport& told = report ? *report : own;
@@ -182,6 +224,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
   progress.Step("highlights", 0.2);
   std::vector<std::uint8_t> highlight;
   if (options.fill_highlights && imaged > 0) highlight = HighlightsOf(plane, flags, imaged, told);
+  TakeMarks(marks, plane, highlight);
   if (options.estimator != DepthEstimator::kPaper) {
     DepthMap depth =
         ReliefByDistance(DistanceFromLight(panorama, plane, highlight, options, progress), plane,
@@ -203,6 +246,7 @@ DepthMap DepthFromColour(const ColourImage& panorama, const DepthOptions& option
     low = Percentile(histogram, imaged, 0.0);
     high = Percentile(histogram, imaged, 100.0);
   }
+  told.histogram = HistogramOfGreys(histogram);
   told.is_flat = imaged > 0 && low == high;
   told.low_grey = low / 256.0;
   told.high_grey = high / 256.0;

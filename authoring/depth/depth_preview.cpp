@@ -69,14 +69,14 @@ const DepthPreview::Level& DepthPreview::LevelOf(int most_pixels) const {
   return found == levels_.end() ? levels_.back() : *found;
 }
 
-DepthMap DepthPreview::Filter(const DepthOptions& options, DepthReport* report,
-                              int most_pixels) const {
+DepthMap DepthPreview::Filter(const DepthOptions& options, DepthReport* report, int most_pixels,
+                              std::span<const DepthMark> marks) const {
   CheckDepthOptions(options);
   const Level& level = LevelOf(most_pixels);
   DepthOptions scaled = options;
   scaled.median_radius = (options.median_radius + level.factor / 2) / level.factor;
   scaled.border_margin = (options.border_margin + level.factor - 1) / level.factor;
-  return DepthFromColour(level.picture, scaled, report);
+  return DepthFromColour(level.picture, scaled, report, {}, marks);
 }
 
 int DepthPreview::Factor(int most_pixels) const { return LevelOf(most_pixels).factor; }

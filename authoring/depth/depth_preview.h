@@ -18,8 +18,9 @@ class DepthPreview {
   explicit DepthPreview(const ColourImage& panorama);
 
   // Relief on the largest level of at most `most_pixels` pixels, or on the smallest level.
+  // `marks`: one per pixel of that level, or none.
   DepthMap Filter(const DepthOptions& options, DepthReport* report = nullptr,
-                  int most_pixels = kMostPixels) const;
+                  int most_pixels = kMostPixels, std::span<const DepthMark> marks = {}) const;
 
   // Number of the panorama's pixels per pixel of that level, along a side; pixel (x, y) of the
   // level covers x*factor … x*factor + factor-1.

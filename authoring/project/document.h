@@ -3,12 +3,15 @@
 #pragma once
 
 #include "authoring/depth/depth_options.h"
+#include "authoring/depth/strokes/depth_stroke.h"
 #include "simulation/scene/files/loaded_scene.h"
 
 namespace arthro::authoring {
 
 struct Document : LoadedScene {
   DepthOptions depth_options;
+  // Strokes that mended the depth map, in order; null: none. The map holds their effect.
+  SharedStrokes depth_strokes;
   bool is_depth_imported = false;  // the depth map was not made from panorama and depth_options
 };
 

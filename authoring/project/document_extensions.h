@@ -9,11 +9,14 @@ namespace arthro::authoring {
 
 // How the depth map is made, for the next time the scene is opened here.
 inline constexpr const char* kDepthOptionsKey = "x-depth-options";
+// Strokes that mended the depth map (authoring/depth/strokes), to be applied again when it is made
+// anew.
+inline constexpr const char* kDepthStrokesKey = "x-depth-strokes";
 // Fingerprint of the depth map that was made with those options. A map that does not have it was
 // brought along by a person.
 inline constexpr const char* kDepthMadeKey = "x-depth-made";
 
-// Puts both keys as they are for this document.
+// Puts these keys as they are for this document.
 void PutDocumentKeys(Document& document);
 
 // Fingerprint as JSON text, over width, height and relief, however the file packs them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "authoring/depth/strokes/depth_strokes_io.h"
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/every_instrument.h"
 #include "authoring/project/file_ending.h"
@@ -59,6 +60,12 @@ Document OpenDocument(const fs::path& file) {
       ReadOptionsText(options->second, {}, document.depth_options);
     } catch (const Error&) {
       document.depth_options = {};
+    }
+  const auto strokes = document.scene.extensions.find(kDepthStrokesKey);
+  if (strokes != document.scene.extensions.end()) try {
+      document.depth_strokes = Share(StrokesFromText(strokes->second, {}));
+    } catch (const Error&) {
+      document.depth_strokes = nullptr;
     }
   return document;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "authoring/depth/strokes/depth_strokes_io.h"
 #include "authoring/project/asset_writer.h"
 #include "authoring/project/document_extensions.h"
 #include "authoring/project/document_io.h"
@@ -342,6 +343,8 @@ class Saving {
 void PutDocumentKeys(Document& document) {
   auto& extensions = document.scene.extensions;
   extensions[kDepthOptionsKey] = OptionsText(document.depth_options);
+  extensions.erase(kDepthStrokesKey);
+  if (document.depth_strokes) extensions[kDepthStrokesKey] = StrokesText(*document.depth_strokes);
   extensions.erase(kDepthMadeKey);
   if (document.depth && !document.depth->empty() && !document.is_depth_imported)
     extensions[kDepthMadeKey] = DepthFingerprint(*document.depth);

@@ -4,14 +4,21 @@
 
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_noise.h"
+#include "authoring/depth/strokes/mend_depth.h"
 
 namespace arthro::authoring {
 
 EstimatedDepth EstimateDepth(const ColourImage& panorama, const DepthOptions& options,
+                             const SharedStrokes& strokes, const Backdrop& backdrop,
                              const Progress& progress) {
-  EstimatedDepth estimated{Share(DepthFromColour(panorama, options, nullptr, progress)), nullptr};
-  DepthMap sigma = NoiseOfDepth(*estimated.depth, options.texture_size);
-  if (!sigma.empty()) estimated.sigma = Share(std::move(sigma));
+  const DepthStrokes& drawn = OrEmpty(strokes);
+  MendedDepth mended;
+  mended.relief = DepthFromColour(panorama, options, nullptr, progress,
+                                  MarksOf(drawn, panorama.width, panorama.height));
+  mended.sigma = NoiseOfDepth(mended.relief, options.texture_size);
+  ReplayStrokes(drawn, {panorama, backdrop.projection, backdrop.radius}, mended);
+  EstimatedDepth estimated{Share(std::move(mended.relief)), nullptr};
+  if (!mended.sigma.empty()) estimated.sigma = Share(std::move(mended.sigma));
   return estimated;
 }
 

@@ -13,7 +13,9 @@ struct EstimatedDepth {
   std::shared_ptr<const DepthMap> depth, sigma;  // sigma: null where no noise is stated
 };
 
+// The estimate mended by `strokes` (null: none). `backdrop` is the place of the panorama.
 EstimatedDepth EstimateDepth(const ColourImage& panorama, const DepthOptions& options,
+                             const SharedStrokes& strokes, const Backdrop& backdrop,
                              const Progress& progress);
 
 // Puts it in the place of the document's own depth, with names for the files that have none.

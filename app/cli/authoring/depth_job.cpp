@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,10 +10,16 @@
 #include "app/cli/job_files.h"
 #include "app/cli/job_progress.h"
 #include "app/cli/jobs.h"
+#include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
 #include "authoring/depth/depth_filter.h"
+#include "authoring/depth/depth_import.h"
 #include "authoring/depth/depth_noise.h"
+#include "authoring/depth/strokes/depth_strokes_io.h"
+#include "authoring/depth/strokes/mend_depth.h"
+#include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
+#include "simulation/core/input_file.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/image_io.h"
 
@@ -20,16 +27,54 @@ namespace arthro::app {
 namespace {
 
 struct DepthJob {
-  std::string panorama, output, noise;
+  std::string panorama, output, noise, strokes, import;
+  double backdrop_mm = 50;
   authoring::DepthOptions options;
+  authoring::DepthImportOptions numbers;
 };
+
+// The depth map of another program in place of the estimate.
+DepthMap Imported(const DepthJob& job, const ColourImage& panorama) {
+  return authoring::ReliefFromNumbers(authoring::ReadGreyNumbers(job.import), job.numbers,
+                                      MetresFromMm(job.backdrop_mm), panorama.width,
+                                      panorama.height, job.import);
+}
+
+// Mends the map by the strokes, as the editor would. Masks of an imported map are closed from their
+// surround; an estimate has been made around them.
+void Mend(const DepthJob& job, const authoring::DepthStrokes& strokes, const ColourImage& panorama,
+          DepthMap& depth) {
+  const Projection projection = authoring::GuessProjection(panorama.width, panorama.height);
+  const authoring::MendedScene scene{panorama, projection, MetresFromMm(job.backdrop_mm)};
+  authoring::MendedDepth mended{std::move(depth), {}, {}};
+  if (job.import.empty())
+    authoring::ReplayStrokes(strokes, scene, mended);
+  else
+    for (const authoring::DepthStroke& stroke : strokes)
+      authoring::ApplyStroke(stroke, scene, mended);
+  depth = std::move(mended.relief);
+}
 
 void Run(const DepthJob& job) {
   authoring::CheckDepthOptions(job.options);
   const ColourImage panorama = ReadColourImage(job.panorama);
+  const authoring::DepthStrokes strokes =
+      job.strokes.empty()
+          ? authoring::DepthStrokes()
+          : authoring::StrokesFromText(ReadWholeFile(job.strokes, kMostJsonBytes), job.strokes);
+  if (!job.import.empty()) {
+    DepthMap depth = Imported(job, panorama);
+    Mend(job, strokes, panorama, depth);
+    WriteDepthMap(job.output, depth);
+    if (job.output != "-")
+      fmt::print("{}: {} x {} px from {}, {} strokes\n", job.output, depth.width, depth.height,
+                 job.import, strokes.size());
+    return;
+  }
   authoring::DepthReport report;
-  const DepthMap depth =
-      authoring::DepthFromColour(panorama, job.options, &report, TerminalProgress());
+  DepthMap depth =
+      authoring::DepthFromColour(panorama, job.options, &report, TerminalProgress(),
+                                 authoring::MarksOf(strokes, panorama.width, panorama.height));
   if (report.imaged_share == 0.0)
     throw Error(Code::kBadImage,
                 "this picture is nothing but dark surround; lower --surround-threshold or take "
@@ -44,6 +89,7 @@ void Run(const DepthJob& job) {
                     : "the relief has no structure finer than --texture-size, so it states no "
                       "noise; leave out --noise",
                 job.panorama);
+  Mend(job, strokes, panorama, depth);
   if (!sigma.empty()) WriteDepthMap(job.noise, sigma);
   WriteDepthMap(job.output, depth);
   const auto warn = [&](const char* sentence) {
@@ -82,7 +128,17 @@ void AddDepthJob(CLI::App& program) {
                                 "Also write the noise of the depths, in metres, for "
                                 "backdrop.depth_sigma of a scene."),
                 kDepthMapFile);
-  AddOptions(*job, own->options);
+  files->Input(job->add_option("--strokes", own->strokes,
+                               "Mend the map by these strokes: a JSON file with \"schema\": "
+                               "\"arthroscene.depth-strokes/1\"."));
+  CLI::Option* import = files->Input(
+      job->add_option("--import", own->import,
+                      "Take the depth from this grey picture instead: PNG or TIFF of 8 or 16 bits, "
+                      "TIFF or EXR of floating point."));
+  import->excludes("--noise");
+  AddNumber(*job, "--backdrop-mm", own->backdrop_mm, {1, 2000}, "mm",
+            "Distance of the backdrop from the portal, for --import and for strokes that flatten.");
+  AddOptions(*job, own->options, own->numbers);
   files->Run([own] { Run(*own); });
 }
 

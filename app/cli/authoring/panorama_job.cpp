@@ -72,8 +72,9 @@ void WriteScene(const fs::path& folder, const fs::path& panorama, Medium medium,
   document.scene.backdrop.medium = medium;
   TakeFootageLens(document, report.lens, report.is_lens_guessed);
   try {
-    SetEstimatedDepth(document, authoring::EstimateDepth(*document.panorama, document.depth_options,
-                                                         {{}, progress.stop}));
+    SetEstimatedDepth(document,
+                      authoring::EstimateDepth(*document.panorama, document.depth_options, nullptr,
+                                               document.scene.backdrop, {{}, progress.stop}));
   } catch (const Error& error) {
     if (error.code() != Code::kCancelled) throw;
     throw Error(Code::kCancelled, "stopped; the panorama was written, and no scene", panorama);

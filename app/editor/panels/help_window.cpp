@@ -73,6 +73,8 @@ void HelpWindow(Ui& ui, EditorState& state) {
     KeyRow(ui, "Click", "Read a depth, set a point or paint, by the tool");
     KeyRow(ui, "Drag", "Draw the line of a profile or a length, or paint");
     KeyRow(ui, "Wheel, right drag", "Look closer, shift");
+    KeyRow(ui, "[, ]", "Smaller brush, larger brush");
+    KeyRow(ui, "Escape", "Leave the brush");
     ImGui::EndTable();
   }
   Gap(ui);

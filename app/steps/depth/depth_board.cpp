@@ -14,8 +14,8 @@
 #include "app/steps/depth/depth_overlay.h"
 #include "app/steps/depth/depth_step.h"
 #include "authoring/relief/editing/relief_scale.h"
-#include "authoring/relief/editing/wrong_cells.h"
 #include "simulation/core/error.h"
+#include "simulation/core/same_options.h"
 #include "simulation/core/units.h"
 
 namespace arthro::app {
@@ -39,14 +39,6 @@ authoring::ScalePart ScaleOf(const authoring::ReliefView& view, const LengthPick
       authoring::ScaleFromLength(view, {length.metres, *length.points.from, *length.points.to});
   part.source = source;
   return part;
-}
-
-// Origins of a depth that was made from brightness, which a document does not keep.
-OriginMap EstimatedOrigins(const DepthMap& depth) {
-  OriginMap origin(depth.width, depth.height);
-  for (std::size_t i = 0; i < origin.origin.size(); ++i)
-    if (!std::isnan(depth.relief[i])) origin.origin[i] = ReliefOrigin::kBrightness;
-  return origin;
 }
 
 }  // namespace
@@ -128,39 +120,9 @@ void ClickDepth(EditorState& state, const glm::dvec2& pixel) {
       board.profile.Add(pixel);
       break;
     case MapTool::kBrush:
-      BrushDepth(state, pixel);
+      PaintDepth(state, pixel);
       break;
   }
-}
-
-void BrushDepth(EditorState& state, const glm::dvec2& pixel) {
-  if (!state.document().depth) return;
-  std::vector<glm::dvec2>& stroke = state.steps.depth->board.stroke;
-  if (stroke.empty() || glm::distance(stroke.back(), pixel) >= 1) stroke.push_back(pixel);
-}
-
-void EndBrush(EditorState& state) {
-  DepthBoard& board = state.steps.depth->board;
-  const std::vector<glm::dvec2> stroke = std::exchange(board.stroke, {});
-  const Document& document = state.document();
-  if (stroke.empty() || !document.depth) return;
-  authoring::CellMarks marks(document.depth->width, document.depth->height);
-  int marked = authoring::MarkAlong(stroke.front(), stroke.front(), board.brush_radius, marks);
-  for (std::size_t i = 1; i < stroke.size(); ++i)
-    marked += authoring::MarkAlong(stroke[i - 1], stroke[i], board.brush_radius, marks);
-  if (marked == 0) return;
-  const bool is_estimated = !document.depth_origin && !document.is_depth_imported;
-  const OriginMap estimated = is_estimated ? EstimatedOrigins(*document.depth) : OriginMap();
-  const authoring::ReliefView now = ReliefViewOf(document);
-  authoring::ClosedRelief closed = authoring::CloseMarked(
-      {now.relief, now.sigma, is_estimated ? estimated : now.origin, now.projection, now.radius},
-      marks);
-  MeasuredBackdrop backdrop = BackdropOf(document);
-  backdrop.depth = Share(std::move(closed.relief));
-  backdrop.sigma = closed.sigma.empty() ? nullptr : Share(std::move(closed.sigma));
-  backdrop.origin = closed.origin.empty() ? nullptr : Share(std::move(closed.origin));
-  SetMeasuredDepth(state, "Mark wrong depth", backdrop);
-  state.message = fmt::format("{} cells were marked as wrong and are interpolated.", marked);
 }
 
 bool CanSetScale(const EditorState& state) {
@@ -205,6 +167,45 @@ void ForgetLengths(EditorState& state) {
   }
 }
 
+namespace {
+
+// Draws the part of the map that the stroke under way changes.
+void KeepPatchFresh(EditorState& state) {
+  DepthBoard& board = state.steps.depth->board;
+  DepthBoard::Patch& patch = board.patch;
+  if (patch.version == board.brush.version) return;
+  patch = {};
+  patch.version = board.brush.version;
+  if (!board.brush.live || board.brush.changed.is_empty()) return;
+  const CoarseMap coarse{*board.brush.live, *board.brush.coarse_picture, board.brush.stride};
+  // A slope is drawn from pixels beside it.
+  const authoring::PixelBox box = authoring::Grown(board.brush.changed, kShapeReach + 1,
+                                                   coarse.depth.width, coarse.depth.height);
+  patch.picture = Share(DrawCoarse(state.document(), board.layer, coarse, box));
+  const glm::dvec2 size =
+      glm::dvec2(state.document().panorama->width, state.document().panorama->height) /
+      static_cast<double>(coarse.stride);
+  patch.low = glm::dvec2(box.left, box.top) / size;
+  patch.high = glm::dvec2(box.right, box.bottom) / size;
+}
+
+void KeepComparedFresh(EditorState& state) {
+  const Document& document = state.document();
+  DepthBoard::Compared& compared = state.steps.depth->board.compared;
+  if (compared.relief && compared.panorama == document.panorama &&
+      compared.depth == document.depth && SameOptions(compared.options, document.depth_options))
+    return;
+  const authoring::DepthPreview& pyramid = PyramidOf(state);
+  compared.panorama = document.panorama;
+  compared.depth = document.depth;
+  compared.options = document.depth_options;
+  compared.grey = Share(GreyPicture(pyramid.Picture(), document.depth_options));
+  compared.filtered = Share(FilteredPicture(pyramid, document));
+  compared.relief = Share(DrawLayer(document, MapLayer::kShape).picture);
+}
+
+}  // namespace
+
 void KeepDepthBoardFresh(EditorState& state) {
   DepthBoard& board = state.steps.depth->board;
   const Document& document = state.document();
@@ -212,7 +213,7 @@ void KeepDepthBoardFresh(EditorState& state) {
   if (drawn.panorama != document.panorama) {
     board.read.reset();
     board.profile = {};
-    board.stroke.clear();
+    CancelStroke(state);
     board.zoom = {};
     ForgetLengths(state);
   }
@@ -225,17 +226,23 @@ void KeepDepthBoardFresh(EditorState& state) {
   const bool is_same = drawn.picture && drawn.panorama == document.panorama &&
                        drawn.depth == document.depth && drawn.sigma == document.depth_sigma &&
                        drawn.origin == document.depth_origin && drawn.layer == board.layer &&
-                       drawn.radius == radius;
-  if (is_same) return;
-  drawn.panorama = document.panorama;
-  drawn.depth = document.depth;
-  drawn.sigma = document.depth_sigma;
-  drawn.origin = document.depth_origin;
-  drawn.layer = board.layer;
-  drawn.radius = radius;
-  DrawnLayer layer = DrawLayer(document, board.layer);
-  drawn.picture = std::make_shared<const ColourImage>(std::move(layer.picture));
-  drawn.legend = std::move(layer.legend);
+                       drawn.radius == radius && drawn.strokes == document.depth_strokes &&
+                       SameOptions(drawn.options, document.depth_options);
+  if (!is_same) {
+    drawn.panorama = document.panorama;
+    drawn.depth = document.depth;
+    drawn.sigma = document.depth_sigma;
+    drawn.origin = document.depth_origin;
+    drawn.layer = board.layer;
+    drawn.radius = radius;
+    drawn.strokes = document.depth_strokes;
+    drawn.options = document.depth_options;
+    DrawnLayer layer = DrawLayer(document, board.layer);
+    drawn.picture = std::make_shared<const ColourImage>(std::move(layer.picture));
+    drawn.legend = std::move(layer.legend);
+  }
+  KeepPatchFresh(state);
+  if (board.compares) KeepComparedFresh(state);
 }
 
 }  // namespace arthro::app

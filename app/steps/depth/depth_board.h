@@ -12,13 +12,14 @@
 #include <glm/vec2.hpp>
 
 #include "app/state/editor_state.h"
+#include "app/steps/depth/depth_brush.h"
 #include "app/steps/panorama/picture_zoom.h"
 #include "authoring/relief/editing/relief_profile.h"
 #include "authoring/relief/editing/relief_view.h"
 
 namespace arthro::app {
 
-enum class MapLayer { kOrigin, kSigma, kRange, kPicture };
+enum class MapLayer { kOrigin, kSigma, kRange, kShape, kMasks, kPicture };
 enum class MapTool { kRead, kLength, kProfile, kBrush };
 // Lengths that set the scale.
 enum class LengthKind { kTissue, kInstrument };
@@ -56,8 +57,8 @@ struct DepthBoard {
   PointPair profile;
   LengthKind kind = LengthKind::kTissue;
   LengthPick tissue{{}, 0.011, false}, instrument{{}, 0.0045, false};
-  double brush_radius = 12;        // px
-  std::vector<glm::dvec2> stroke;  // while the brush is down
+  DepthBrush brush;
+  bool compares = false;  // grey, filtered grey and relief beside the panorama
 
   LengthPick& length() { return kind == LengthKind::kTissue ? tissue : instrument; }
   const LengthPick& length() const { return kind == LengthKind::kTissue ? tissue : instrument; }
@@ -71,7 +72,25 @@ struct DepthBoard {
     std::shared_ptr<const OriginMap> origin;
     MapLayer layer = MapLayer::kPicture;
     double radius = 0;
+    authoring::SharedStrokes strokes;
+    authoring::DepthOptions options;
   } drawn;
+
+  // The part of the picture that the stroke under way changes, and its place as shares of the
+  // panorama's width and height.
+  struct Patch {
+    std::shared_ptr<const ColourImage> picture;
+    glm::dvec2 low{0}, high{0};
+    long version = 0;  // version of the brush
+  } patch;
+
+  // Pictures beside the panorama, smaller than it.
+  struct Compared {
+    std::shared_ptr<const ColourImage> grey, filtered, relief;
+    std::shared_ptr<const ColourImage> panorama;
+    std::shared_ptr<const DepthMap> depth;
+    authoring::DepthOptions options;
+  } compared;
 };
 
 bool ShowsDepthBoard(const EditorState& state);
@@ -92,9 +111,6 @@ std::string WordsOfDistance(const authoring::Document& document, const PointPair
 
 // ---- What the author does. ----
 void ClickDepth(EditorState& state, const glm::dvec2& pixel);  // uses the tool
-void BrushDepth(EditorState& state, const glm::dvec2& pixel);
-// The brush is let go: what it marked is closed from its surround, in one step that is undone.
-void EndBrush(EditorState& state);
 bool CanSetScale(const EditorState& state);
 // Scales the backdrop and its relief so that the given lengths are true. Throws
 // Error(kBadArgument).

@@ -90,17 +90,15 @@ void Marks(Ui& ui, const EditorState& state, const Screen& screen) {
       Pair(ui, screen, length->points, WordsOfDistance(document, length->points),
            length == &board.length() ? kBright : kQuiet);
   if (board.tool == MapTool::kProfile) Pair(ui, screen, board.profile, "", kAccent);
-  if (board.tool != MapTool::kBrush) return;
+  if (board.tool != MapTool::kBrush || !(ImGui::IsItemHovered() || ImGui::IsItemActive())) return;
+  // The outer ring is the size, the inner one the hard core.
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  const float radius = std::max(1.0f, screen.Length(board.brush_radius));
-  for (std::size_t i = 0; i < board.stroke.size(); ++i) {
-    if (i > 0)
-      draw->AddLine(screen.At(board.stroke[i - 1]), screen.At(board.stroke[i]), 0xA06A6AF0,
-                    2 * radius);
-    draw->AddCircleFilled(screen.At(board.stroke[i]), radius, 0xA06A6AF0);
-  }
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive())
-    draw->AddCircle(ImGui::GetIO().MousePos, radius, kBright, 0, ui.Px(1.5));
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  const float radius = std::max(1.0f, screen.Length(BrushRadius(state)));
+  const float core = radius * static_cast<float>(board.brush.stroke.hardness);
+  draw->AddCircle(at, radius, kShadow, 64, ui.Px(3));
+  draw->AddCircle(at, radius, kBright, 64, ui.Px(1.5));
+  if (core >= ui.Px(3)) draw->AddCircle(at, core, 0x90FFFFFF, 48, ui.Px(1));
 }
 
 // Wheel, drags and clicks over the map, which is ImGui's last item.
@@ -120,11 +118,11 @@ void Take(EditorState& state, const Screen& screen) {
   if (is_hovered && is_inside && ImGui::IsMouseClicked(0)) {
     ClickDepth(state, pixel);
   } else if (ImGui::IsItemActive() && io.MouseDown[0] && is_inside) {
-    if (board.tool == MapTool::kBrush && !board.stroke.empty()) BrushDepth(state, pixel);
+    if (board.tool == MapTool::kBrush && board.brush.is_down()) PaintDepth(state, pixel);
     if (board.tool == MapTool::kRead) board.read = pixel;
   }
   if (!ImGui::IsMouseReleased(0)) return;
-  if (!board.stroke.empty()) EndBrush(state);
+  EndStroke(state);
   // A line that was dragged ends where the button was released.
   constexpr float kDrag = 6;  // px
   const bool is_pair = board.tool == MapTool::kLength || board.tool == MapTool::kProfile;
@@ -188,7 +186,13 @@ void DepthBoardPage(Ui& ui, EditorState& state, const Area& area, const DepthTex
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
   Area map = area;
-  if (board.tool == MapTool::kProfile)
+  if (board.compares) {
+    // The map keeps the upper left quarter, in which its tools work.
+    ComparedPictures(ui, state, area, texture);
+    map.width = std::floor(0.5f * area.width) - ui.Px(1);
+    map.height = std::floor(0.5f * area.height) - ui.Px(1);
+  }
+  if (board.tool == MapTool::kProfile && !board.compares)
     map.height = std::max(1.0f, area.height - ui.Px(kProfileHeight));
   ImGui::SetCursorScreenPos({map.x, map.y});
   HitArea("Depth map", {map.width, map.height},
@@ -207,12 +211,19 @@ void DepthBoardPage(Ui& ui, EditorState& state, const Area& area, const DepthTex
     draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(id)), low,
                    {low.x + static_cast<float>(screen.place.size.x),
                     low.y + static_cast<float>(screen.place.size.y)});
+    if (const unsigned patch = board.patch.picture ? texture(board.patch.picture) : 0; patch != 0) {
+      const glm::dvec2 from = board.patch.low * screen.place.size,
+                       to = board.patch.high * screen.place.size;
+      draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(patch)),
+                     {low.x + static_cast<float>(from.x), low.y + static_cast<float>(from.y)},
+                     {low.x + static_cast<float>(to.x), low.y + static_cast<float>(to.y)});
+    }
   }
   Marks(ui, state, screen);
   Take(state, screen);
   Legend(ui, map, board.drawn.legend);
   ImGui::PopClipRect();
-  if (board.tool == MapTool::kProfile)
+  if (board.tool == MapTool::kProfile && !board.compares)
     ProfileFigure(ui, state, {area.x, map.y + map.height, area.width, area.height - map.height});
 }
 

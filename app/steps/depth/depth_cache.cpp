@@ -18,15 +18,20 @@ Projection Shrunk(Projection projection, double factor) {
   return projection;
 }
 
+bool DepthCache::IsOf(const Made& made, const authoring::Document& document) {
+  return made.panorama.lock() == document.panorama && made.strokes == document.depth_strokes &&
+         SameOptions(made.options, document.depth_options);
+}
+
 void DepthCache::Note(const authoring::Document& document) {
   if (document.is_depth_imported) return;  // it was made from nothing that is known here
   std::erase_if(made_, [&](const Made& made) {
     const auto panorama = made.panorama.lock();
-    return !panorama ||
-           (panorama == document.panorama && SameOptions(made.options, document.depth_options));
+    return !panorama || IsOf(made, document);
   });
-  made_.push_back({document.panorama, document.depth_options, document.depth, document.depth_sigma,
-                   document.depth != nullptr, document.depth_sigma != nullptr});
+  made_.push_back({document.panorama, document.depth_options, document.depth_strokes,
+                   document.depth, document.depth_sigma, document.depth != nullptr,
+                   document.depth_sigma != nullptr});
   if (made_.size() > kMostKept) made_.erase(made_.begin());
 }
 
@@ -38,25 +43,22 @@ void DepthCache::Refuse(const authoring::Document& document, const std::string& 
 
 std::string DepthCache::ProblemOf(const authoring::Document& document) const {
   for (const Made& made : made_)
-    if (made.panorama.lock() == document.panorama &&
-        SameOptions(made.options, document.depth_options))
-      return made.problem;
+    if (IsOf(made, document)) return made.problem;
   return "";
 }
 
 bool DepthCache::IsStale(const authoring::Document& document) const {
   if (!document.panorama || document.is_depth_imported) return false;
   for (const Made& made : made_)
-    if (made.panorama.lock() == document.panorama && made.has_depth == bool(document.depth) &&
-        made.depth.lock() == document.depth && SameOptions(made.options, document.depth_options))
+    if (IsOf(made, document) && made.has_depth == bool(document.depth) &&
+        made.depth.lock() == document.depth)
       return false;
   return true;
 }
 
 authoring::EstimatedDepth DepthCache::Find(const authoring::Document& document) const {
   for (const Made& made : made_)
-    if (made.panorama.lock() == document.panorama &&
-        SameOptions(made.options, document.depth_options)) {
+    if (IsOf(made, document)) {
       authoring::EstimatedDepth found{made.depth.lock(), made.sigma.lock()};
       if (made.has_sigma && !found.sigma) return {};
       return found;

@@ -1,6 +1,7 @@
-// Pairs a depth map with the panorama and options that it was made from. Depth is made from the two
-// by work beside the window, so for a while a document may hold the depth of other options: it is
-// then stale. Also hands out again what was made before, so that undo does not compute twice.
+// Pairs a depth map with the panorama, options and strokes that it was made from. Depth is made
+// from them by work beside the window, so for a while a document may hold the depth of other
+// options: it is then stale. Also hands out again what was made before, so that undo does not
+// compute twice.
 #pragma once
 
 #include <memory>
@@ -31,6 +32,7 @@ class DepthCache {
   std::shared_ptr<const DepthMap> preview;
   std::shared_ptr<const ColourImage> preview_panorama;
   authoring::DepthOptions preview_options;
+  authoring::SharedStrokes preview_strokes;
   // Made in a job, for the panorama that it was made of; shared with the job that uses it.
   std::shared_ptr<const authoring::DepthPreview> pyramid;
   std::weak_ptr<const ColourImage> pyramid_of;
@@ -39,10 +41,13 @@ class DepthCache {
   struct Made {
     std::weak_ptr<const ColourImage> panorama;
     authoring::DepthOptions options;
+    authoring::SharedStrokes strokes;
     std::weak_ptr<const DepthMap> depth, sigma;
     bool has_depth = false, has_sigma = false;
     std::string problem = {};
   };
+  static bool IsOf(const Made& made, const authoring::Document& document);
+
   std::vector<Made> made_;
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <initializer_list>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -15,19 +16,20 @@
 namespace arthro::app {
 namespace {
 
-float Half() { return 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x); }
+float Half() { return ColumnWidth(2); }
 
-// Two rows of two buttons, of which one is lit.
+// Rows of buttons, of which one is lit.
 struct Entry {
   const char* command;
   bool is_chosen;
 };
-void Toggles(Ui& ui, EditorState& state, const Entry (&entries)[4]) {
-  const float half = Half();
-  for (int i = 0; i < 4; ++i) {
-    if (i % 2 == 1) ImGui::SameLine();
-    const Command& command = CommandOf(state, entries[i].command);
-    if (ToggleButton(ui, command.words, entries[i].is_chosen, command.enabled(state), {half, 0},
+void Toggles(Ui& ui, EditorState& state, int columns, std::initializer_list<Entry> entries) {
+  const float part = ColumnWidth(columns);
+  int place = 0;
+  for (const Entry& entry : entries) {
+    if (place++ % columns != 0) ImGui::SameLine();
+    const Command& command = CommandOf(state, entry.command);
+    if (ToggleButton(ui, command.words, entry.is_chosen, command.enabled(state), {part, 0},
                      command.help))
       Run(state, command);
   }
@@ -107,28 +109,22 @@ void Profile(Ui& ui, const EditorState& state) {
   QuietText(ui, "Solid: measured. Dashed: estimated or interpolated. Band: one standard error.");
 }
 
-void Brush(Ui& ui, EditorState& state) {
-  DepthBoard& board = state.steps.depth->board;
-  Slider(ui, "Radius of the brush", board.brush_radius, 2, 100, "%.0f px",
-         "In pixels of the panorama.");
-  QuietText(ui,
-            "Paint over depth that is wrong. When the mouse button is released, the marked part is "
-            "interpolated from its surround. Undo brings it back.");
-}
-
 }  // namespace
 
 void DepthMapPanel(Ui& ui, EditorState& state) {
   const DepthBoard& board = state.steps.depth->board;
   Heading(ui, "Colours");
-  Toggles(ui, state,
+  Toggles(ui, state, 3,
           {{"map-origin", board.layer == MapLayer::kOrigin},
            {"map-sigma", board.layer == MapLayer::kSigma},
            {"map-range", board.layer == MapLayer::kRange},
-           {"map-picture", board.layer == MapLayer::kPicture}});
+           {"map-shape", board.layer == MapLayer::kShape},
+           {"map-masks", board.layer == MapLayer::kMasks},
+           {"map-picture", board.layer == MapLayer::kPicture},
+           {"map-compare", board.compares}});
   Gap(ui);
   Heading(ui, "Tool");
-  Toggles(ui, state,
+  Toggles(ui, state, 2,
           {{"map-read", board.tool == MapTool::kRead},
            {"map-length", board.tool == MapTool::kLength},
            {"map-profile", board.tool == MapTool::kProfile},
@@ -142,7 +138,7 @@ void DepthMapPanel(Ui& ui, EditorState& state) {
     case MapTool::kProfile:
       return Profile(ui, state);
     case MapTool::kBrush:
-      return Brush(ui, state);
+      return BrushFields(ui, state);
   }
 }
 

@@ -17,8 +17,6 @@ namespace arthro::app {
 
 namespace {
 
-constexpr double kMostRelief = 0.95;  // share of the backdrop's distance that a slider reaches
-
 // Switch between the scene through the scope and the map.
 void ScopeOrMap(Ui& ui, EditorState& state) {
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
@@ -30,6 +28,20 @@ void ScopeOrMap(Ui& ui, EditorState& state) {
   const Command& map = CommandOf(state, "depth-map");
   if (ToggleButton(ui, map.words, is_map, map.enabled(state), {half, 0}, map.help)) Run(state, map);
   Gap(ui, 2);
+}
+
+// Tool of a drag over the scope's picture and the overview.
+void TouchOrBrush(Ui& ui, EditorState& state) {
+  const float half = ColumnWidth(2);
+  const Command& touch = CommandOf(state, "touch-preview");
+  if (ToggleButton(ui, touch.words, TouchesRelief(state), touch.enabled(state), {half, 0},
+                   touch.help))
+    Run(state, touch);
+  ImGui::SameLine();
+  const bool paints = PaintsDepth(state);
+  const Command& brush = CommandOf(state, paints ? "leave-depth-brush" : "map-brush");
+  if (ToggleButton(ui, "Brush", paints, brush.enabled(state), {half, 0}, brush.help))
+    Run(state, brush);
 }
 
 }  // namespace
@@ -59,7 +71,17 @@ void DepthPanel(Ui& ui, EditorState& state) {
     CommandButton(ui, state, "make-depth", {-FLT_MIN, 0});
     Gap(ui);
   }
-  authoring::DepthOptions options = document.depth_options;
+  ImportDepthFields(ui, state);
+  TouchOrBrush(ui, state);
+  if (PaintsDepth(state)) return BrushFields(ui, state);
+  TouchFields(ui, state);
+  Gap(ui);
+  if (!is_imported) {
+    ColourFilterField(ui, state);
+    DepthHistogramFigure(ui, state);
+    Gap(ui);
+  }
+  authoring::DepthOptions options = state.document().depth_options;
   // Relief stands out of the backdrop towards the incision and must not pass it.
   const double radius = document.scene.backdrop.radius;
   if (!is_imported && options.near_relief >= radius)

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "app/state/edits.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/depth/depth_noise.h"
 #include "authoring/depth/depth_preview.h"
+#include "authoring/depth/strokes/mend_depth.h"
 #include "simulation/core/same_options.h"
+#include "simulation/core/units.h"
 #include "simulation/haptics/relief/relief_smoothing.h"
 
 namespace arthro::app {
@@ -33,13 +37,20 @@ DepthMap Stretched(const DepthMap& small, int width, int height, int factor) {
 Jobs::Work PreviewWork(const Document& document,
                        const std::shared_ptr<const authoring::DepthPreview>& pyramid) {
   return [panorama = document.panorama, options = document.depth_options,
-          backdrop = document.scene.backdrop, pyramid](const Progress&) -> Jobs::Apply {
+          strokes = document.depth_strokes, backdrop = document.scene.backdrop,
+          pyramid](const Progress&) -> Jobs::Apply {
     const auto made =
         pyramid ? pyramid : std::make_shared<const authoring::DepthPreview>(*panorama);
-    DepthMap relief = made->Filter(options);
-    // Without its noise, as the picture draws the whole map; here this does not hold up the window.
+    const ColourImage& level = made->Picture();
     Backdrop small = backdrop;
     small.projection = Shrunk(backdrop.projection, made->Factor());
+    const authoring::DepthStrokes& drawn = OrEmpty(strokes);
+    authoring::MendedDepth mended;
+    mended.relief = made->Filter(options, nullptr, authoring::DepthPreview::kMostPixels,
+                                 authoring::MarksOf(drawn, level.width, level.height));
+    authoring::ReplayStrokes(drawn, {level, small.projection, small.radius}, mended);
+    DepthMap relief = std::move(mended.relief);
+    // Without its noise, as the picture draws the whole map; here this does not hold up the window.
     relief = simulation::WithoutNoise(
         relief, authoring::NoiseOfDepth(relief, options.texture_size / made->Factor()), small);
     std::shared_ptr<const ColourImage> picture = panorama;
@@ -56,6 +67,7 @@ Jobs::Work PreviewWork(const Document& document,
       cache.preview = depth;
       cache.preview_panorama = picture;
       cache.preview_options = options;
+      cache.preview_strokes = strokes;
     };
   };
 }
@@ -66,13 +78,17 @@ void TakeMadeBefore(const EditorState& state, Document& next) {
 }
 
 Jobs::Work FullWork(const Document& document) {
-  return [panorama = document.panorama,
-          options = document.depth_options](const Progress& progress) -> Jobs::Apply {
-    const authoring::EstimatedDepth depth = authoring::EstimateDepth(*panorama, options, progress);
+  return [panorama = document.panorama, options = document.depth_options,
+          strokes = document.depth_strokes,
+          backdrop = document.scene.backdrop](const Progress& progress) -> Jobs::Apply {
+    const authoring::EstimatedDepth depth =
+        authoring::EstimateDepth(*panorama, options, strokes, backdrop, progress);
     return [=](EditorState& state) {
       // The author may have gone on meanwhile; then this depth belongs to nothing.
       const Document& now = state.document();
-      if (now.panorama != panorama || !SameOptions(now.depth_options, options)) return;
+      if (now.panorama != panorama || now.depth_strokes != strokes ||
+          !SameOptions(now.depth_options, options))
+        return;
       Document next = now;
       SetEstimatedDepth(next, depth);
       state.history.Amend(std::move(next));
@@ -118,11 +134,13 @@ void KeepDepthFresh(EditorState& state) {
   }
   const auto has_preview = [&] {
     return cache.preview && cache.pyramid_of.lock() == document.panorama &&
+           cache.preview_strokes == document.depth_strokes &&
            SameOptions(cache.preview_options, document.depth_options);
   };
   if (state.steps.depth->preview_jobs.busy()) {
     // Full-size work for options that changed meanwhile is of no use.
-    if (!SameOptions(state.steps.depth->in_work, document.depth_options))
+    if (state.steps.depth->strokes_in_work != document.depth_strokes ||
+        !SameOptions(state.steps.depth->in_work, document.depth_options))
       state.steps.depth->preview_jobs.Stop();
     return;
   }
@@ -133,6 +151,7 @@ void KeepDepthFresh(EditorState& state) {
     return;
   }
   state.steps.depth->in_work = document.depth_options;
+  state.steps.depth->strokes_in_work = document.depth_strokes;
   if (!has_preview()) {
     const bool usable = cache.pyramid && cache.pyramid_of.lock() == document.panorama;
     state.steps.depth->preview_jobs.Start("Depth preview",
@@ -148,9 +167,53 @@ void WhenDepthIsReady(EditorState& state, std::function<void(EditorState&)> then
   state.steps.depth->when_ready = std::move(then);
 }
 
+const authoring::DepthPreview& PyramidOf(EditorState& state) {
+  DepthCache& cache = state.steps.depth->cache;
+  const auto& panorama = state.document().panorama;
+  if (!cache.pyramid || cache.pyramid_of.lock() != panorama) {
+    cache.pyramid = std::make_shared<const authoring::DepthPreview>(*panorama);
+    cache.pyramid_of = panorama;
+  }
+  return *cache.pyramid;
+}
+
+const std::optional<authoring::DepthHistogram>& DepthHistogramOf(EditorState& state) {
+  DepthStep& step = *state.steps.depth;
+  const Document& document = state.document();
+  if (step.histogram && step.histogram_of.lock() == document.panorama &&
+      SameOptions(step.histogram_options, document.depth_options))
+    return step.histogram;
+  constexpr int kPixels = 1 << 15;  // a few ms
+  authoring::DepthReport report;
+  step.histogram.reset();
+  try {
+    PyramidOf(state).Filter(document.depth_options, &report, kPixels);
+    step.histogram = report.histogram;
+    step.histogram_of = document.panorama;
+    step.histogram_options = document.depth_options;
+  } catch (const Error&) {
+    // The page says what is wrong with the options.
+  }
+  return step.histogram;
+}
+
 void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
                      const std::string& what) {
   if (SameOptions(options, state.document().depth_options)) return;
+  // Relief stands out of the backdrop towards the incision and must not reach it. An older scene
+  // may hold such a relief; its other options stay free.
+  const double radius = state.document().scene.backdrop.radius;
+  const double most = kMostRelief * radius;
+  const double before = std::max(state.document().depth_options.near_relief,
+                                 state.document().depth_options.far_relief);
+  if (const double relief = std::max(options.near_relief, options.far_relief);
+      relief > most && relief > before) {
+    state.message = fmt::format(
+        "A relief of {:.1f} mm was refused: the backdrop lies {:.1f} mm from the incision, so the "
+        "tissue may stand out by {:.1f} mm at most.",
+        MmFromMetres(relief), MmFromMetres(radius), MmFromMetres(most));
+    return;
+  }
   if (state.document().is_depth_imported) {
     state.message = "The imported depth map is kept. Make one from the picture to change it.";
     return;
@@ -170,143 +233,5 @@ void MakeDepth(EditorState& state) {
     TakeMadeBefore(state, next);
   });
 }
-
-namespace {
-
-using State = EditorState;
-
-DepthBoard& BoardOf(State& state) { return state.steps.depth->board; }
-
-bool HasBoard(const State& state) { return Idle(state) && HasPicture(state); }
-
-template <MapTool tool>
-void TakeTool(State& state) {
-  state.step = Step::kDepth;
-  BoardOf(state).is_shown = true;
-  BoardOf(state).tool = tool;
-}
-
-template <MapLayer layer>
-void ShowLayer(State& state) {
-  state.step = Step::kDepth;
-  BoardOf(state).is_shown = true;
-  BoardOf(state).layer = layer;
-}
-
-constexpr Command kCommands[] = {
-    {"depth-map",
-     "Map of the depth",
-     "Show the depth over the panorama: its origin, its uncertainty, distances and profiles.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     [](State& state) {
-       state.step = Step::kDepth;
-       BoardOf(state).is_shown = true;
-     }},
-    {"depth-scope",
-     "Scope view",
-     "Show the scene through the scope and from outside.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     [](State& state) { BoardOf(state).is_shown = false; }},
-    {"map-origin",
-     "Origin",
-     "Colour each depth by its origin: measured, estimated from brightness or interpolated.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     ShowLayer<MapLayer::kOrigin>},
-    {"map-sigma",
-     "Uncertainty",
-     "Colour each depth by its standard error.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     ShowLayer<MapLayer::kSigma>},
-    {"map-range",
-     "Distance",
-     "Colour each depth by the distance of the tissue from the portal.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     ShowLayer<MapLayer::kRange>},
-    {"map-picture",
-     "Picture only",
-     "Show the panorama without colours.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     ShowLayer<MapLayer::kPicture>},
-    {"map-read",
-     "Read a depth",
-     "Click on the map: the distance there with its standard error.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     TakeTool<MapTool::kRead>},
-    {"map-length",
-     "Give a length",
-     "Click on two points whose distance is known; it sets the scale of the scene.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     TakeTool<MapTool::kLength>},
-    {"map-profile",
-     "Profile",
-     "Draw a line on the map: the distance of the tissue along it.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     TakeTool<MapTool::kProfile>},
-    {"map-brush",
-     "Mark as wrong",
-     "Paint over depth that is wrong. It is interpolated from its surround instead.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     TakeTool<MapTool::kBrush>},
-    {"set-scale",
-     "Set the scale",
-     "Scale the scene so that the distance between the two points is the length that was given.",
-     "Depth",
-     {},
-     {},
-     [](const State& state) { return Idle(state) && CanSetScale(state); },
-     SetScale},
-    {"forget-lengths",
-     "Forget the lengths",
-     "Remove the points and the lengths. The scale stays as it is.",
-     "Depth",
-     {},
-     {},
-     HasBoard,
-     ForgetLengths},
-    {"make-depth",
-     "Make depth from the picture",
-     "Replace the imported depth map by one that is made from the picture. Undo brings it back.",
-     "Scene",
-     {},
-     {},
-     [](const State& state) {
-       return Idle(state) && HasPicture(state) && state.document().is_depth_imported;
-     },
-     MakeDepth},
-};
-
-}  // namespace
-
-std::span<const Command> DepthCommands() { return kCommands; }
 
 }  // namespace arthro::app

@@ -3,12 +3,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "app/state/command.h"
 #include "app/steps/depth/depth_board.h"
 #include "app/steps/depth/depth_cache.h"
+#include "app/steps/depth/import_depth.h"
+#include "app/steps/depth/touch_probe.h"
+#include "authoring/depth/depth_histogram.h"
 
 namespace arthro::app {
 
@@ -19,10 +24,21 @@ struct DepthStep {
 
   DepthCache cache;
   Jobs preview_jobs;
-  authoring::DepthOptions in_work;  // options of the map that preview_jobs computes
+  authoring::DepthOptions in_work;           // options of the map that preview_jobs computes
+  authoring::SharedStrokes strokes_in_work;  // strokes of that map
   std::function<void(EditorState&)> when_ready;
   DepthBoard board;
+  std::optional<DepthImport> import;
+  std::string import_words;  // meaning of the file; empty: to be read
+  TouchPreview touch;
+  // Histogram of the map that the options make, and what it was made from.
+  std::optional<authoring::DepthHistogram> histogram;
+  std::weak_ptr<const ColourImage> histogram_of;
+  authoring::DepthOptions histogram_options;
 };
+// Share of the backdrop's distance that a relief may reach.
+inline constexpr double kMostRelief = 0.95;
+
 std::span<const Command> DepthCommands();
 void DepthPanel(Ui& ui, EditorState& state);
 
@@ -31,6 +47,12 @@ void SetDepthOptions(EditorState& state, const authoring::DepthOptions& options,
                      const std::string& what);
 // Puts a depth map that is made from the picture in the place of the imported one.
 void MakeDepth(EditorState& state);
+
+// Smaller levels of the panorama, made when they are first wanted.
+const authoring::DepthPreview& PyramidOf(EditorState& state);
+
+// Histogram of the present options, from a small level; nothing where they contradict each other.
+const std::optional<authoring::DepthHistogram>& DepthHistogramOf(EditorState& state);
 
 // Starts the work that is wanted, if any. Once a frame; returns at once.
 void KeepDepthFresh(EditorState& state);

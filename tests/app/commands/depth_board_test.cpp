@@ -134,14 +134,15 @@ TEST_F(DepthMapBoard, ScalesNoDepthThatIsEstimated) {
   EXPECT_FALSE(CanSetScale(estimated));
 }
 
-TEST_F(DepthMapBoard, AStrokeMarksCellsAsInterpolatedAndIsUndone) {
+TEST_F(DepthMapBoard, AMaskMarksCellsAsInterpolatedAndIsUndone) {
   app::Run(state, "map-brush");
-  board().brush_radius = 22;
+  board().brush.stroke.kind = authoring::StrokeKind::kMask;
+  SetBrushRadius(state, 22);
   ClickDepth(state, {78, 40});
-  BrushDepth(state, {82, 40});
+  PaintDepth(state, {82, 40});
   EXPECT_FALSE(state.history.CanUndo()) << "not before the brush is let go";
-  EndBrush(state);
-  EXPECT_EQ(state.history.UndoName(), "Mark wrong depth");
+  EndStroke(state);
+  EXPECT_EQ(state.history.UndoName(), "Mend depth: Mask");
   EXPECT_EQ(state.document().depth_origin->at(80, 40), ReliefOrigin::kInterpolated);
   EXPECT_EQ(state.document().depth_origin->at(110, 40), ReliefOrigin::kMeasured);
   // The bump of 10 mm is gone: its foot at the brush's edge is 10 mm · exp(-(22/16)²) = 1.5 mm.
@@ -149,7 +150,7 @@ TEST_F(DepthMapBoard, AStrokeMarksCellsAsInterpolatedAndIsUndone) {
   EXPECT_GT(state.document().depth_sigma->at(80, 40), 1e-3f);
   app::Run(state, "undo");
   EXPECT_NEAR(state.document().depth->at(80, 40), 0.01, 1e-6);
-  EndBrush(state);
+  EndStroke(state);
   EXPECT_FALSE(state.history.CanUndo()) << "no stroke, no step";
 }
 
@@ -158,7 +159,7 @@ TEST_F(DepthMapBoard, KeepsScaleAndMarksInTheSavedScene) {
   GiveLength(LengthKind::kTissue, 20);
   app::Run(state, "map-brush");
   ClickDepth(state, {80, 40});
-  EndBrush(state);
+  EndStroke(state);
   authoring::SaveDocument(state.document(), temp / "scene");
   const authoring::Document saved = authoring::OpenDocument(temp / "scene");
   EXPECT_TRUE(saved.is_depth_imported);

@@ -97,9 +97,11 @@ expect "Distance from the portal along the line, mm"
 }
 
 TEST_F(DepthMapWindow, AStrokeOfTheBrushIsOneStepThatIsUndone) {
-  Drive(R"(click "Mark as wrong"
+  Drive(R"(click Brush
+click Mask
+set Size 12
 drag "Depth map" 150 0
-expect "cells were marked as wrong and are interpolated."
+expect "Mend depth: Mask"
 click Undo
 expect disabled Undo
 click Redo

@@ -1,0 +1,232 @@
+#include "app/steps/depth/depth_brush.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
+#include "authoring/relief/editing/relief_view.h"
+
+namespace arthro::app {
+namespace {
+
+using authoring::Document;
+using authoring::MendedDepth;
+
+constexpr int kLongestPreview = 1024;                  // px of the coarse map
+constexpr double kLeastRadius = 2, kMostRadius = 400;  // px
+// Points nearer to the last one than this share of the radius add nothing to the line.
+constexpr double kSpacing = 0.2;
+
+DepthBrush& BrushOf(EditorState& state) { return state.steps.depth->board.brush; }
+const DepthBrush& BrushOf(const EditorState& state) { return state.steps.depth->board.brush; }
+
+// Strokes that mask are seen by the estimator, so the map is made anew.
+bool IsMadeAnew(const EditorState& state, const authoring::DepthStroke& stroke) {
+  return !state.document().is_depth_imported &&
+         (authoring::IsMask(stroke) || state.steps.depth->cache.IsStale(state.document()));
+}
+
+void BeginPreview(const Document& document, DepthBrush& brush) {
+  const DepthMap& depth = *document.depth;
+  const ColourImage& panorama = *document.panorama;
+  brush.stride = (std::max(depth.width, depth.height) + kLongestPreview - 1) / kLongestPreview;
+  DepthMap coarse(std::max(1, depth.width / brush.stride),
+                  std::max(1, depth.height / brush.stride));
+  ColourImage picture(coarse.width, coarse.height);
+  for (int y = 0; y < coarse.height; ++y)
+    for (int x = 0; x < coarse.width; ++x) {
+      const int column = std::min(x * brush.stride + brush.stride / 2, depth.width - 1),
+                row = std::min(y * brush.stride + brush.stride / 2, depth.height - 1);
+      coarse.at(x, y) = depth.at(column, row);
+      std::copy_n(panorama.at(column, row), 3, picture.at(x, y));
+    }
+  brush.before = Share(std::move(coarse));
+  brush.live = brush.before;
+  brush.coarse_picture = Share(std::move(picture));
+  brush.changed = {};
+}
+
+// The stroke's points are shares of the panorama's width, so it fits the coarse map as it is.
+void UpdatePreview(const EditorState& state, DepthBrush& brush) {
+  if (!brush.before) return;
+  const Backdrop& backdrop = state.document().scene.backdrop;
+  const double factor = static_cast<double>(state.document().panorama->width) / brush.before->width;
+  const Projection projection = Shrunk(backdrop.projection, factor);
+  MendedDepth mended{*brush.before, {}, {}};
+  const authoring::StrokeReport report = authoring::ApplyStroke(
+      brush.stroke, {*brush.coarse_picture, projection, backdrop.radius}, mended);
+  brush.live = Share(std::move(mended.relief));
+  brush.changed = authoring::Joined(brush.changed, report.box);
+  ++brush.version;
+}
+
+void EndPreview(DepthBrush& brush) {
+  brush.stroke.points.clear();
+  brush.before.reset();
+  brush.live.reset();
+  brush.coarse_picture.reset();
+  brush.changed = {};
+  ++brush.version;
+}
+
+bool Fits(const Document& document) {
+  return document.panorama && document.depth && document.depth->width == document.panorama->width &&
+         document.depth->height == document.panorama->height;
+}
+
+}  // namespace
+
+bool PaintsDepth(const EditorState& state) {
+  return state.step == Step::kDepth && state.steps.depth->board.tool == MapTool::kBrush &&
+         Fits(state.document()) && !state.practice && !state.practice_only;
+}
+
+void LeaveDepthBrush(EditorState& state) {
+  CancelStroke(state);
+  state.steps.depth->board.tool = MapTool::kRead;
+}
+
+double BrushRadius(const EditorState& state) {
+  const auto& panorama = state.document().panorama;
+  return panorama ? BrushOf(state).stroke.radius * panorama->width : 0.0;
+}
+
+void SetBrushRadius(EditorState& state, double pixels) {
+  if (const auto& panorama = state.document().panorama)
+    BrushOf(state).stroke.radius =
+        std::min(1.0, std::clamp(pixels, kLeastRadius, kMostRadius) / panorama->width);
+}
+
+std::optional<double> BrushRadiusOnTissue(const EditorState& state, const glm::dvec2& pixel) {
+  const authoring::ReliefReading at = authoring::ReadRelief(ReliefViewOf(state.document()), pixel);
+  if (!std::isfinite(at.range)) return std::nullopt;
+  const Projection& projection = state.document().scene.backdrop.projection;
+  const glm::dvec3 from = DirectionFromPixel(projection, pixel - glm::dvec2(0.5, 0)),
+                   to = DirectionFromPixel(projection, pixel + glm::dvec2(0.5, 0));
+  return at.range * BrushRadius(state) * glm::distance(from, to);
+}
+
+void PointAtRelief(EditorState& state, const authoring::Sight& sight, bool paints) {
+  if (TouchesRelief(state)) TouchAlong(state, sight);
+  if (!PaintsDepth(state)) return;
+  const auto point = authoring::PointOnRelief(state.document(), sight);
+  if (!point) return;
+  const auto pixel =
+      PixelFromDirection(state.document().scene.backdrop.projection, point->x_in_portal);
+  if (!pixel) return;
+  BrushOf(state).pointed = pixel;
+  if (paints) PaintDepth(state, *pixel);
+}
+
+void ForgetPointer(EditorState& state) { BrushOf(state).pointed.reset(); }
+
+std::vector<std::optional<glm::dvec3>> RingOnRelief(const EditorState& state, double share) {
+  constexpr int kPoints = 48;
+  std::vector<std::optional<glm::dvec3>> ring;
+  const auto& middle = BrushOf(state).pointed;
+  if (!middle || !PaintsDepth(state)) return ring;
+  const authoring::ReliefView view = ReliefViewOf(state.document());
+  for (int i = 0; i <= kPoints; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kPoints;
+    const authoring::ReliefReading at = authoring::ReadRelief(
+        view, *middle + share * BrushRadius(state) * glm::dvec2(std::cos(angle), std::sin(angle)));
+    ring.push_back(std::isfinite(at.range) ? std::optional(at.point) : std::nullopt);
+  }
+  return ring;
+}
+
+void PaintDepth(EditorState& state, const glm::dvec2& pixel) {
+  const Document& document = state.document();
+  if (!Fits(document)) return;
+  DepthBrush& brush = BrushOf(state);
+  const double width = document.panorama->width;
+  const glm::dvec2 point = (pixel + 0.5) / width;
+  if (!brush.is_down()) {
+    BeginPreview(document, brush);
+  } else if (glm::distance(brush.stroke.points.back(), point) <
+             std::max(kSpacing * brush.stroke.radius, 1 / width)) {
+    return;
+  }
+  brush.stroke.points.push_back(point);
+  UpdatePreview(state, brush);
+}
+
+void EndStroke(EditorState& state) {
+  DepthBrush& brush = BrushOf(state);
+  if (!brush.is_down()) return;
+  const authoring::DepthStroke stroke = brush.stroke;
+  EndPreview(brush);
+  const Document& document = state.document();
+  if (!Fits(document)) return;
+  const std::string name = std::string("Mend depth: ") + WordOf(stroke.kind);
+  const auto add = [&](Document& next) {
+    next.depth_strokes = authoring::WithStroke(next.depth_strokes, stroke);
+  };
+  if (IsMadeAnew(state, stroke)) {
+    Edit(state, name, "", add);
+    return;
+  }
+  MendedDepth mended{*document.depth, OrEmpty(document.depth_sigma),
+                     OrEmpty(document.depth_origin)};
+  const Backdrop& backdrop = document.scene.backdrop;
+  const authoring::StrokeReport report = authoring::ApplyStroke(
+      stroke, {*document.panorama, backdrop.projection, backdrop.radius}, mended);
+  if (report.touched == 0) return;
+  Edit(state, name, "", [&](Document& next) {
+    add(next);
+    next.depth = Share(std::move(mended.relief));
+    if (next.depth_sigma) next.depth_sigma = Share(std::move(mended.sigma));
+    if (next.depth_origin) next.depth_origin = Share(std::move(mended.origin));
+  });
+  state.steps.depth->cache.Note(state.document());
+}
+
+void CancelStroke(EditorState& state) {
+  if (BrushOf(state).is_down()) EndPreview(BrushOf(state));
+}
+
+int StrokeCount(const EditorState& state) {
+  return static_cast<int>(OrEmpty(state.document().depth_strokes).size());
+}
+
+bool CanRemoveStrokes(const EditorState& state) {
+  return StrokeCount(state) > 0 && !state.document().is_depth_imported;
+}
+
+void RemoveStrokes(EditorState& state) {
+  if (!CanRemoveStrokes(state)) return;
+  Edit(state, "Remove the strokes from the depth map", "",
+       [](Document& next) { next.depth_strokes = nullptr; });
+}
+
+const char* WordOf(authoring::StrokeKind kind) {
+  using authoring::StrokeKind;
+  switch (kind) {
+    case StrokeKind::kRaise:
+      return "Raise";
+    case StrokeKind::kLower:
+      return "Lower";
+    case StrokeKind::kSmooth:
+      return "Smooth";
+    case StrokeKind::kFlatten:
+      return "Flatten";
+    case StrokeKind::kBrightness:
+      return "Brightness";
+    case StrokeKind::kUnknown:
+      return "Unknown";
+    case StrokeKind::kEdge:
+      return "Edge";
+    case StrokeKind::kMask:
+      return "Mask";
+    case StrokeKind::kKeep:
+      return "No glint";
+  }
+  return "";
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,64 @@
+// The brush that mends the depth map: its settings and the stroke under way. A stroke is one step
+// of the history. While the button is down its effect is shown on a coarse copy of the map. Points
+// are pixels of the panorama.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/state/editor_state.h"
+#include "authoring/alignment/scene_point.h"
+#include "authoring/depth/strokes/mend_depth.h"
+
+namespace arthro::app {
+
+struct DepthBrush {
+  authoring::DepthStroke stroke;  // kind and size; its points while the button is down
+  bool is_down() const { return !stroke.points.empty(); }
+
+  // The coarse map with the stroke under way, and the one without it. Null: no stroke.
+  std::shared_ptr<const DepthMap> before;
+  std::shared_ptr<const DepthMap> live;
+  std::shared_ptr<const ColourImage> coarse_picture;  // same size as these maps
+  int stride = 1;                                     // pixels of the panorama per coarse pixel
+  authoring::PixelBox changed;                        // part of the coarse map
+  long version = 0;                                   // grows with each change of the stroke
+  std::optional<glm::dvec2> pointed;  // px of the panorama under the pointer in a picture
+};
+
+// True while drags over the map, the scope's picture and the overview paint.
+bool PaintsDepth(const EditorState& state);
+void LeaveDepthBrush(EditorState& state);
+
+double BrushRadius(const EditorState& state);  // px of the panorama
+void SetBrushRadius(EditorState& state, double pixels);
+// Radius on the tissue at a pixel, m; nothing where no depth is known.
+std::optional<double> BrushRadiusOnTissue(const EditorState& state, const glm::dvec2& pixel);
+
+// Takes the place where a line of sight of the scope's picture or the overview meets the relief:
+// the brush's ring or the touch preview lies there, and a held button paints.
+void PointAtRelief(EditorState& state, const authoring::Sight& sight, bool paints);
+// The ring lasts for one frame.
+void ForgetPointer(EditorState& state);
+// Circle on the relief about the pointed place, with this share of the brush's radius. Portal
+// frame, m; gaps where no depth is known.
+std::vector<std::optional<glm::dvec3>> RingOnRelief(const EditorState& state, double share);
+
+// Begins or continues the stroke.
+void PaintDepth(EditorState& state, const glm::dvec2& pixel);
+// Applies the stroke to the document in one step that is undone.
+void EndStroke(EditorState& state);
+void CancelStroke(EditorState& state);
+
+// Strokes that the document holds.
+int StrokeCount(const EditorState& state);
+// Removes all strokes of a map that is made from the picture; an imported map holds them for good.
+bool CanRemoveStrokes(const EditorState& state);
+void RemoveStrokes(EditorState& state);
+
+// "Raise".
+const char* WordOf(authoring::StrokeKind kind);
+
+}  // namespace arthro::app

@@ -1,0 +1,248 @@
+// The brush that mends the depth map, in the command layer, without a window.
+#include "app/steps/depth/depth_brush.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/editor/every_step.h"
+#include "app/state/command.h"
+#include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
+#include "authoring/project/document_io.h"
+#include "tests/support/measured_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace arthro::app {
+namespace {
+
+using authoring::StrokeKind;
+
+void Settle(EditorState& state) {
+  for (int i = 0; i < 60000; ++i) {
+    FinishWork(state);
+    if (!DepthIsUnderWay(state) && !state.jobs.busy()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  FAIL() << "the work did not end";
+}
+
+class DepthBrushMode : public testing::Test {
+ protected:
+  explicit DepthBrushMode(bool is_estimated = true)
+      : state(MakeEditorState([&] {
+          authoring::Document document = test::MeasuredDocument();
+          if (is_estimated) {
+            document.depth = document.depth_sigma = nullptr;
+            document.depth_origin = nullptr;
+            document.is_depth_imported = false;
+          }
+          return document;
+        }())) {
+    Settle(state);
+    app::Run(state, "map-brush");
+  }
+  void Stroke(StrokeKind kind, double radius, const glm::dvec2& from, const glm::dvec2& to) {
+    state.steps.depth->board.brush.stroke.kind = kind;
+    SetBrushRadius(state, radius);
+    PaintDepth(state, from);
+    PaintDepth(state, to);
+    EndStroke(state);
+  }
+  double At(int x, int y) const { return static_cast<double>(state.document().depth->at(x, y)); }
+  static bool SameBytes(const DepthMap& a, const DepthMap& b) {
+    return a.relief.size() == b.relief.size() &&
+           std::memcmp(a.relief.data(), b.relief.data(), a.relief.size() * sizeof(float)) == 0;
+  }
+  EditorState state;
+};
+
+class DepthBrushOnMeasuredMap : public DepthBrushMode {
+ protected:
+  DepthBrushOnMeasuredMap() : DepthBrushMode(false) {}
+};
+
+TEST_F(DepthBrushMode, AStrokeIsOneStepAndNeedsNoNewEstimate) {
+  const auto before = state.document().depth;
+  Stroke(StrokeKind::kRaise, 6, {60, 40}, {66, 40});
+  EXPECT_FALSE(DepthIsUnderWay(state));
+  EXPECT_FALSE(state.document().is_depth_imported);
+  EXPECT_NEAR(At(63, 40) - static_cast<double>(before->at(63, 40)), 1e-3, 1e-8);
+  EXPECT_EQ(StrokeCount(state), 1);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, before);
+  EXPECT_FALSE(state.history.CanUndo());
+  app::Run(state, "redo");
+  EXPECT_EQ(StrokeCount(state), 1);
+  EXPECT_FALSE(DepthIsUnderWay(state)) << "nothing is computed twice";
+}
+
+TEST_F(DepthBrushMode, AppliesItsStrokesAgainWhenTheMapIsMadeAnew) {
+  Stroke(StrokeKind::kUnknown, 6, {60, 40}, {66, 40});
+  Stroke(StrokeKind::kLower, 6, {30, 40}, {36, 40});
+  authoring::DepthOptions options = state.document().depth_options;
+  options.estimator = authoring::DepthEstimator::kShading;
+  SetDepthOptions(state, options, "Estimator");
+  EndDrag(state);
+  Settle(state);
+  EXPECT_TRUE(std::isnan(At(63, 40)));
+  const authoring::EstimatedDepth bare = authoring::EstimateDepth(
+      *state.document().panorama, options, nullptr, state.document().scene.backdrop, {});
+  EXPECT_NEAR(At(33, 40) - static_cast<double>(bare.depth->at(33, 40)), -1e-3, 1e-8);
+}
+
+TEST_F(DepthBrushMode, GivesTheBytesOfAReplay) {
+  Stroke(StrokeKind::kRaise, 9, {60, 40}, {80, 60});
+  Stroke(StrokeKind::kSmooth, 8, {50, 20}, {80, 60});
+  Stroke(StrokeKind::kFlatten, 10, {30, 60}, {40, 60});
+  Stroke(StrokeKind::kEdge, 5, {90, 10}, {90, 70});
+  Stroke(StrokeKind::kBrightness, 10, {20, 20}, {30, 20});
+  const authoring::EstimatedDepth replayed =
+      authoring::EstimateDepth(*state.document().panorama, state.document().depth_options,
+                               state.document().depth_strokes, state.document().scene.backdrop, {});
+  EXPECT_TRUE(SameBytes(*state.document().depth, *replayed.depth));
+  ASSERT_EQ(state.document().depth_sigma != nullptr, replayed.sigma != nullptr);
+  if (replayed.sigma) {
+    EXPECT_TRUE(SameBytes(*state.document().depth_sigma, *replayed.sigma));
+  }
+}
+
+TEST_F(DepthBrushMode, AMaskMakesTheEstimateAnewAndIsUndone) {
+  const auto before = state.document().depth;
+  Stroke(StrokeKind::kMask, 8, {60, 40}, {66, 40});
+  EXPECT_TRUE(DepthIsUnderWay(state));
+  Settle(state);
+  EXPECT_NE(state.document().depth, before);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, before);
+}
+
+TEST_F(DepthBrushMode, RemovesAllStrokesInOneStep) {
+  const DepthMap before = *state.document().depth;
+  Stroke(StrokeKind::kRaise, 6, {60, 40}, {66, 40});
+  Stroke(StrokeKind::kLower, 6, {30, 40}, {36, 40});
+  app::Run(state, "remove-strokes");
+  Settle(state);
+  EXPECT_EQ(StrokeCount(state), 0);
+  EXPECT_TRUE(SameBytes(*state.document().depth, before));
+  app::Run(state, "undo");
+  EXPECT_EQ(StrokeCount(state), 2);
+}
+
+TEST_F(DepthBrushMode, KeysChangeItsSizeAndEscapeLeavesIt) {
+  SetBrushRadius(state, 20);
+  app::Run(state, "brush-larger");
+  EXPECT_NEAR(BrushRadius(state), 25, 1e-9);
+  app::Run(state, "brush-smaller");
+  app::Run(state, "brush-smaller");
+  EXPECT_NEAR(BrushRadius(state), 16, 1e-9);
+  PaintDepth(state, {60, 40});
+  app::Run(state, "leave-depth-brush");
+  EXPECT_FALSE(PaintsDepth(state));
+  EndStroke(state);
+  EXPECT_FALSE(state.history.CanUndo()) << "a stroke that was left is none";
+}
+
+TEST_F(DepthBrushMode, ShowsTheStrokeWhileTheButtonIsDown) {
+  state.steps.depth->board.is_shown = true;
+  state.steps.depth->board.layer = MapLayer::kShape;
+  SetBrushRadius(state, 8);
+  PaintDepth(state, {60, 40});
+  KeepDepthBoardFresh(state);
+  EXPECT_TRUE(state.steps.depth->board.patch.picture);
+  const auto& brush = state.steps.depth->board.brush;
+  EXPECT_NEAR(brush.live->at(60, 40) - brush.before->at(60, 40), 1e-3, 1e-8);
+  EndStroke(state);
+  KeepDepthBoardFresh(state);
+  EXPECT_FALSE(state.steps.depth->board.patch.picture);
+}
+
+TEST_F(DepthBrushMode, StrokesAreKeptInTheSavedScene) {
+  const test::TempFolder temp;
+  Stroke(StrokeKind::kRaise, 6, {60, 40}, {66, 40});
+  authoring::SaveDocument(state.document(), temp / "scene");
+  const authoring::Document saved = authoring::OpenDocument(temp / "scene");
+  EXPECT_FALSE(saved.is_depth_imported);
+  ASSERT_TRUE(saved.depth_strokes);
+  EXPECT_EQ(*saved.depth_strokes, *state.document().depth_strokes);
+  EXPECT_TRUE(SameBytes(*saved.depth, *state.document().depth));
+}
+
+TEST_F(DepthBrushMode, APanoramaOfAnotherShapeDropsTheStrokes) {
+  Stroke(StrokeKind::kRaise, 6, {60, 40}, {66, 40});
+  SetPanorama(state, "Larger", Share(ColourImage(242, 162)));
+  EXPECT_EQ(StrokeCount(state), 1);
+  SetPanorama(state, "Other", Share(ColourImage(242, 100)));
+  EXPECT_EQ(StrokeCount(state), 0);
+}
+
+TEST_F(DepthBrushMode, AReliefBeyondTheBackdropIsRefusedInASentence) {
+  const authoring::DepthOptions before = state.document().depth_options;
+  authoring::DepthOptions options = before;
+  options.near_relief = 0.131;  // the backdrop lies at 40 mm
+  SetDepthOptions(state, options, "Near relief");
+  EXPECT_EQ(state.document().depth_options.near_relief, before.near_relief);
+  EXPECT_NE(state.message.find("131.0 mm was refused"), std::string::npos) << state.message;
+  EXPECT_NE(state.message.find("38.0 mm at most"), std::string::npos) << state.message;
+  options.near_relief = 0.037;
+  SetDepthOptions(state, options, "Near relief");
+  EXPECT_EQ(state.document().depth_options.near_relief, 0.037);
+}
+
+TEST_F(DepthBrushOnMeasuredMap, KeepsTheMapAnImportedOne) {
+  Stroke(StrokeKind::kRaise, 6, {100, 60}, {104, 60});
+  EXPECT_TRUE(state.document().is_depth_imported);
+  EXPECT_EQ(state.document().depth_origin->at(102, 60), ReliefOrigin::kInterpolated);
+  EXPECT_FALSE(CanRemoveStrokes(state)) << "an imported map holds its strokes for good";
+  authoring::DepthOptions options = state.document().depth_options;
+  options.gamma = 1.5;
+  const auto mended = state.document().depth;
+  SetDepthOptions(state, options, "Gamma");
+  EXPECT_EQ(state.document().depth, mended) << "a slider never replaces an imported map";
+}
+
+TEST_F(DepthBrushOnMeasuredMap, TouchPreviewGivesTheForceOfASession) {
+  // On the bare sphere beside the bump: the normal points to the portal.
+  TouchProbe probe(state.document(), {});
+  const glm::dvec3 point =
+      test::kMeasuredRadius *
+      DirectionFromPixel(state.document().scene.backdrop.projection, glm::dvec2(45, 40));
+  const TouchReading soft = probe.Press(point, 1e-3), hard = probe.Press(point, 3e-3);
+  EXPECT_TRUE(soft.is_reached);
+  EXPECT_GT(soft.tip_force, 0.1);
+  EXPECT_GT(hard.tip_force, 2 * soft.tip_force);
+  EXPECT_GT(-glm::dot(soft.normal, glm::normalize(point)), 0.98);
+  // The stiffness of the coupling, softened by the uncertainty of the map, never more.
+  EXPECT_LE(soft.stiffness, simulation::ContactOptions().stiffness * 1.02);
+  EXPECT_GT(soft.stiffness, 0.2 * simulation::ContactOptions().stiffness);
+  // Pressed far too deep, the limiter of the session holds the force.
+  const TouchReading deep = probe.Press(point, 20e-3);
+  EXPECT_LE(deep.force, simulation::LimiterOptions().max_force + 1e-9);
+}
+
+TEST_F(DepthBrushOnMeasuredMap, AnImportedFileReplacesTheMapAfterItsMeaningWasGiven) {
+  const test::TempFolder temp;
+  cv::Mat map(test::kMeasuredHeight, test::kMeasuredWidth, CV_16U, cv::Scalar(32768));
+  cv::imwrite((temp / "d.png").string(), map);
+  const auto before = state.document().depth;
+  ChooseDepthImport(state, temp / "d.png");
+  Settle(state);
+  EXPECT_EQ(state.document().depth, before) << "asked first";
+  ASSERT_TRUE(state.steps.depth->import);
+  state.steps.depth->import->options.low = 0.02;
+  state.steps.depth->import->options.high = 0.04;
+  EXPECT_EQ(WordsOfImport(state), "The tissue will lie 30.0 to 30.0 mm from the portal.");
+  app::Run(state, "take-depth-import");
+  EXPECT_NEAR(At(60, 40), 0.01, 1e-6);
+  EXPECT_TRUE(state.document().is_depth_imported);
+  app::Run(state, "undo");
+  EXPECT_EQ(state.document().depth, before);
+}
+
+}  // namespace
+}  // namespace arthro::app
