@@ -262,6 +262,8 @@ class FieldWriter {
       for (const glm::dvec3& point : field) json_[name].push_back(JsonFromPoint(point));
     } else if constexpr (requires { field.emplace_back(); }) {
       for (auto& element : field) json_[name].push_back(JsonFromElement(element));
+    } else if constexpr (internal::IsOptional<T>::value) {
+      if (field) json_[name] = JsonFromElement(*field);
     } else {
       Json own = Json::object();
       field.Visit(FieldWriter(own));
