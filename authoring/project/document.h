@@ -3,6 +3,7 @@
 #pragma once
 
 #include "authoring/depth/depth_options.h"
+#include "authoring/project/footage_record.h"
 #include "simulation/scene/loaded_scene.h"
 
 namespace arthro::authoring {
@@ -10,6 +11,7 @@ namespace arthro::authoring {
 struct Document : LoadedScene {
   DepthOptions depth_options;
   bool is_depth_imported = false;  // the depth map was not made from panorama and depth_options
+  std::shared_ptr<const FootageRecord> footage;  // how the panorama was made; null: not known
 };
 
 }  // namespace arthro::authoring
