@@ -296,7 +296,7 @@ class Editor {
     TakeNews(state_, news);
     if (FinishWork(state_)) last_event_ = now;
     RunShortcuts(state_);
-    if (state_.dialogs.empty() && !ShowsFootage(state_) && !ShowsDepthBoard(state_))
+    if (state_.dialogs.empty() && !ShowsPanoramaBoard(state_) && !ShowsDepthBoard(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.steps.practice->hands->Look()) last_event_ = now;
     if (state_.practice && state_.dialogs.empty())
@@ -391,7 +391,7 @@ class Editor {
       const Layout layout = EditorLayout(width, height, ui.scale, state_.views);
       TopBar(ui, state_, layout.top);
       StepsPanel(ui, state_, layout.side);
-      if (ShowsFootage(state_)) {
+      if (ShowsPanoramaBoard(state_)) {
         Board(ui, layout, FootageBoardPage);
       } else if (ShowsDepthBoard(state_)) {
         Board(ui, layout, DepthBoardPage);

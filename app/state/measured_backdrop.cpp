@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/state/footage_optics.h"
+#include "app/state/footage_source.h"
 #include "authoring/relief/enlarge_relief.h"
 
 namespace arthro::app {
@@ -51,6 +52,7 @@ void PutMeasuredDepth(authoring::Document& document, const MeasuredBackdrop& mea
 void PutMeasuredPanorama(authoring::Document& document, const MeasuredBackdrop& measured,
                          const std::optional<Lens>& lens) {
   document.panorama = measured.panorama;
+  PutFootage(document, nullptr);  // it tells of the panorama before
   document.scene.backdrop.panorama = "panorama.png";
   document.scene.backdrop.projection = measured.projection;
   PutMeasuredDepth(document, measured);
