@@ -13,7 +13,7 @@ namespace arthro::authoring {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-constexpr double kMostSkew = RadiansFromDegrees(30);  // of two arrows drawn by hand
+constexpr double kMostSkew = RadiansFromDegrees(30);  // angle that two arrows drawn by hand miss
 
 double Wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 

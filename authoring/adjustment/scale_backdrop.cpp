@@ -25,8 +25,9 @@ double ScaleBackdrop(Document& document, const KnownLength& length) {
                                             : std::shared_ptr<const DepthMap>();
     document.depth = Share(ScaledMap(*document.depth, factor));
     document.depth_sigma = sigma;
-    // Depth options give millimetres: a map that was made with them is kept as it is from now on.
-    document.is_depth_imported = true;
+    // The same map, were it made anew.
+    document.depth_options.near_relief *= factor;
+    document.depth_options.far_relief *= factor;
   }
   for (Tissue& tissue : document.scene.tissues) tissue.pose.position *= factor;
   return factor;

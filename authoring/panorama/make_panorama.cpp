@@ -106,7 +106,7 @@ std::vector<StageCost> RegisterCosts(const RegisterReport& report, double whole_
   return costs;
 }
 
-// As frames are drawn.
+// Rectifier by which frames are drawn.
 Rectifier DrawnRectifier(const PanoramaRequest& request, const PreparedClip& clip) {
   Rectifier rectifier(clip.lens.lens, request.options.rectify, 1.0);
   rectifier.Exclude(BoxesIn(request.masked, clip.lens.part));

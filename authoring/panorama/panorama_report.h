@@ -25,7 +25,7 @@ struct PinholeView {
 struct FrameReport {
   int index = 0;       // in the footage
   std::string source;  // name of the file, or the video and the frame's number
-  int clip = 0;        // of several clips that are joined
+  int clip = 0;        // index of its clip, of several
   bool is_placed = false;
   bool is_usable = false;  // it was tried: readable, of the right size, not blank, not left out
   std::string reason;      // why it is not placed; "" for a placed frame

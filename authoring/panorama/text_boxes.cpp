@@ -8,8 +8,8 @@
 namespace arthro::authoring {
 namespace {
 
-constexpr double kJoined = 0.025;       // of the picture's width: letters of one line are nearer
-constexpr double kLeastSide = 0.006;    // of the picture's width: smaller is dirt or noise
+constexpr double kJoined = 0.025;  // share of the picture's width: letters of one line are nearer
+constexpr double kLeastSide = 0.006;    // share of the picture's width: smaller is dirt or noise
 constexpr std::size_t kMostBoxes = 12;  // more are no text
 
 // The raw pixels of one connected area.

@@ -39,9 +39,9 @@ struct ClipFile {
 struct FootageRecord {
   std::vector<ClipFile> clips;
   std::vector<double> left_out;  // frames, by their number in the report
-  std::vector<PixelBox> masked;  // of the raw pictures
+  std::vector<PixelBox> masked;  // px of the raw pictures
   std::vector<FrameTie> ties;
-  std::optional<PixelBox> crop;  // of the panorama that the report describes; none: all of it
+  std::optional<PixelBox> crop;  // part of the report's panorama; none: all of it
   bool is_mirrored = false;      // the scene shows the mirror image
   std::string report;            // JSON text, arthroscene.panorama/1
   friend bool operator==(const FootageRecord&, const FootageRecord&) = default;
@@ -71,7 +71,7 @@ FootageRecord WithoutNames(FootageRecord record);
 // Fingerprint of a video, or of all pictures of a folder. Throws Error(kFile).
 std::string ClipFingerprint(const std::filesystem::path& clip);
 
-// Where a clip lies now: beside the scene or where it was; "" where neither is there.
+// Place of a clip now: beside the scene or where it was; "" where neither is there.
 std::filesystem::path FindClip(const ClipFile& clip, const std::filesystem::path& scene_folder);
 // A sentence for a clip that is gone, with what to do.
 std::string WordsOfMissingClip(const ClipFile& clip);

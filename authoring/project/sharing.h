@@ -1,6 +1,6 @@
-// What an author should state before a scene is shared, over all that the scene holds: beside the
-// scene's own assets (simulation/scene/scene_check.h) the clips that its panorama was made from and
-// a depth map that was brought along.
+// Statements that an author owes before a scene is shared, over all that the scene holds: beside
+// the scene's own assets (simulation/scene/scene_check.h) the clips that its panorama was made from
+// and a depth map that was brought along.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace arthro::authoring {
 struct Asset {
   enum class Kind { kPanorama, kTissue, kDepth, kClip };
   Kind kind = Kind::kPanorama;
-  std::size_t index = 0;  // of the tissue or the clip
+  std::size_t index = 0;  // index of the tissue or the clip
   std::string name;
 };
 std::vector<Asset> AssetsOf(const Document& document);

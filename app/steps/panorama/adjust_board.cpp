@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/state/edits.h"
+#include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "authoring/adjustment/crop_backdrop.h"
@@ -30,6 +31,13 @@ authoring::PixelBox BoxBetween(const glm::dvec2& a, const glm::dvec2& b, const C
             top = pixel(std::min(a.y, b.y), whole.height),
             bottom = pixel(std::max(a.y, b.y), whole.height);
   return {left, top, right - left + 1, bottom - top + 1};
+}
+
+// The depth map goes with the panorama, and is not estimated anew from it.
+void Replace(EditorState& state, const std::string& name, Document next) {
+  const bool is_stale = state.steps.depth->cache.IsStale(state.document());
+  Edit(state, name, "", [&](Document& document) { document = std::move(next); });
+  if (!is_stale) state.steps.depth->cache.Note(state.document());
 }
 
 }  // namespace
@@ -100,7 +108,7 @@ void ApplyAdjustment(EditorState& state) {
       break;
     }
   }
-  Edit(state, name, "", [&](Document& document) { document = std::move(next); });
+  Replace(state, name, std::move(next));
   state.message = result;
   SetAdjustTool(state, AdjustTool::kNone);
 }
@@ -108,8 +116,7 @@ void ApplyAdjustment(EditorState& state) {
 void MirrorForOtherKnee(EditorState& state) {
   Document next = state.document();
   MirrorScene(next, [&](const auto& file) { return state.scratch.NewFile(file); });
-  Edit(state, "Mirror for the other knee", "",
-       [&](Document& document) { document = std::move(next); });
+  Replace(state, "Mirror for the other knee", std::move(next));
   SetAdjustTool(state, AdjustTool::kNone);
 }
 

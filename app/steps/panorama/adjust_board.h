@@ -28,7 +28,7 @@ bool ShowsPanoramaBoard(const EditorState& state);
 
 void SetAdjustTool(EditorState& state, AdjustTool tool);  // the same one again: none
 void KeepAdjustPicture(EditorState& state);  // draws the panorama for the board where it is another
-// What the two points say, by the tool. Throws Error for what cannot be done.
+// Does as the two points say, by the tool. Throws Error for what cannot be done.
 void ApplyAdjustment(EditorState& state);
 void MirrorForOtherKnee(EditorState& state);
 

@@ -75,7 +75,7 @@ struct FootageBoard {
   Owned<authoring::PanoramaOptions> options;  // never empty
   std::set<int> excluded;
   std::vector<authoring::FrameTie> ties;
-  std::vector<authoring::PixelBox> masked;  // of the raw pictures
+  std::vector<authoring::PixelBox> masked;  // px of the raw pictures
   bool measures_relief = true;              // before the panorama, where the lens is known
   double view_angle = 0;                    // rad, of the scene's scope
   std::string next_stage;  // first stage of the next run; empty when it would change nothing

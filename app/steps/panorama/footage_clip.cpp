@@ -55,7 +55,7 @@ void RequireSameClips(const authoring::Clips& files, const authoring::FootageRec
   }
 }
 
-// Where the clips were found becomes part of the document, if it is news.
+// The places of the clips become part of the document, if it is news.
 void KeepPlaces(EditorState& state, const authoring::Clips& files) {
   authoring::FootageRecord record = *state.steps.panorama->footage->record;
   bool is_news = false;
@@ -215,10 +215,11 @@ void BrowseForMissing(EditorState& state) {
 void FindFootage(EditorState& state, const fs::path& chosen) {
   if (!state.steps.panorama->footage) return;
   FootageBoard& board = *state.steps.panorama->footage;
+  // The first clip that is not there, else the only one.
   std::error_code ignored;
   fs::path* place = &board.file;
   for (fs::path& file : board.joined)
-    if (!fs::exists(*place, ignored) == false) place = &file;
+    if (fs::exists(*place, ignored)) place = &file;
   *place = ClipOf(chosen);
   board.missing.clear();
   board.wants_thumbs = true;

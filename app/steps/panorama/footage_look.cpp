@@ -122,6 +122,7 @@ void SelectFrame(EditorState& state, int frame) {
   state.steps.panorama->footage->selected =
       std::clamp(frame, -1, state.steps.panorama->footage->frames() - 1);
   state.steps.panorama->footage->scroll_to_selected = true;
+  state.steps.panorama->footage->picked.reset();  // it was a point of another frame
 }
 
 void StepFrame(EditorState& state, int by) {

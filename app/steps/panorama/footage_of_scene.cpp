@@ -43,7 +43,7 @@ void TakeLens(FootageBoard& board, const authoring::PanoramaReport& report) {
   board.lens = static_cast<int>(board.lenses.size()) - 1;
 }
 
-// Where the clips lie now; the sentence about the first that is gone.
+// Places of the clips now; the sentence about the first that is gone.
 void TakePlaces(FootageBoard& board, const FootageRecord& record, const fs::path& scene) {
   for (std::size_t i = 0; i < record.clips.size(); ++i) {
     const fs::path file = FindClip(record.clips[i], scene);

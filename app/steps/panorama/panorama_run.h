@@ -32,7 +32,7 @@ struct MadePanorama {
   Projection projection;  // projection of `picture`
   authoring::PanoramaReport report;
   std::set<int> excluded;                                  // when it was made
-  std::shared_ptr<const authoring::FootageRecord> record;  // what a scene keeps of it
+  std::shared_ptr<const authoring::FootageRecord> record;  // part that a scene keeps
   std::shared_ptr<const MadeRelief> relief;  // result of the measurement; null: none was tried
   bool is_measured() const { return relief && relief->is_measured(); }
 };

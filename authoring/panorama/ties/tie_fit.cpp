@@ -15,8 +15,8 @@ namespace {
 using Complex = std::complex<double>;
 using Points = std::vector<cv::Point2d>;
 
-constexpr double kLeastSpread = 0.05;  // of the window's diameter
-constexpr double kMostError = 0.05;    // of the window's diameter, at its rim
+constexpr double kLeastSpread = 0.05;  // share of the window's diameter
+constexpr double kMostError = 0.05;    // share of the window's diameter, at its rim
 constexpr double kMostZoom = 3;        // a scope that moves in changes the size of tissue less
 // Residual of a right pair: the error of two clicks, three deviations of it, and what a similarity
 // misses of the perspective between two frames, as a share of the spread of the points.

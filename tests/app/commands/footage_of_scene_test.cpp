@@ -94,11 +94,10 @@ class FootageOfScene : public testing::Test {
     ASSERT_TRUE(state.document().footage);
     authoring::SaveDocument(state.document(), temp / "scene");
   }
-  EditorState Reopened() {
-    EditorState state = MakeEditorState(authoring::OpenDocument(temp / "scene"));
+  fs::path scene() const { return temp / "scene"; }
+  static void Begin(EditorState& state) {
     state.steps.panorama->makers->run = MadeUpRun;
     FinishWork(state);
-    return state;
   }
   static FootageBoard& BoardOf(EditorState& state) { return *state.steps.panorama->footage; }
 
@@ -107,7 +106,8 @@ class FootageOfScene : public testing::Test {
 
 TEST_F(FootageOfScene, AReopenedSceneHasItsBoardReportAndChoice) {
   MakeScene();
-  EditorState state = Reopened();
+  EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
+  Begin(state);
   ASSERT_TRUE(state.steps.panorama->footage);
   EXPECT_FALSE(ShowsFootage(state)) << "the scene comes first";
   const FootageBoard& board = BoardOf(state);
@@ -127,7 +127,8 @@ TEST_F(FootageOfScene, AReopenedSceneHasItsBoardReportAndChoice) {
 
 TEST_F(FootageOfScene, LeavingAFrameOutTomorrowIsAStepThatIsUndoneAndSaved) {
   MakeScene();
-  EditorState state = Reopened();
+  EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
+  Begin(state);
   SetFrameIncluded(state, 4, false);
   EXPECT_EQ(state.history.StepName(), "Leave out frame 4");
   EXPECT_EQ(state.document().footage->left_out, (std::vector<double>{1, 4}));
@@ -149,7 +150,8 @@ TEST_F(FootageOfScene, LeavingAFrameOutTomorrowIsAStepThatIsUndoneAndSaved) {
 TEST_F(FootageOfScene, AClipThatIsGoneIsOneSentenceAndIsFoundAnew) {
   MakeScene();
   fs::rename(temp / "clip", temp / "elsewhere");
-  EditorState state = Reopened();
+  EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
+  Begin(state);
   EXPECT_NE(BoardOf(state).missing.find("is no longer at"), std::string::npos);
   EXPECT_FALSE(CanRun(state));
   state.steps.panorama->shows_footage = true;
@@ -171,7 +173,8 @@ TEST_F(FootageOfScene, AClipThatIsGoneIsOneSentenceAndIsFoundAnew) {
 
 TEST_F(FootageOfScene, TiesAndMasksAreStepsAndReachTheRun) {
   MakeScene();
-  EditorState state = Reopened();
+  EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
+  Begin(state);
   FootageBoard& board = BoardOf(state);
   state.steps.panorama->shows_footage = true;
   Settle(state);
@@ -202,7 +205,8 @@ TEST_F(FootageOfScene, TiesAndMasksAreStepsAndReachTheRun) {
 
 TEST_F(FootageOfScene, ANewSceneHasNoBoardOfTheOldOne) {
   MakeScene();
-  EditorState state = Reopened();
+  EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
+  Begin(state);
   ASSERT_TRUE(state.steps.panorama->footage);
   ++state.document_number;
   state.history = authoring::History(NewDocument());
@@ -212,7 +216,8 @@ TEST_F(FootageOfScene, ANewSceneHasNoBoardOfTheOldOne) {
 
 TEST_F(FootageOfScene, AnotherPictureHasNoRecord) {
   MakeScene();
-  EditorState state = Reopened();
+  EditorState state = MakeEditorState(authoring::OpenDocument(scene()));
+  Begin(state);
   WriteColourImage(temp / "other.png", ColourImage(kWidth, kHeight));
   ImportPanorama(state, temp / "other.png");
   Settle(state);

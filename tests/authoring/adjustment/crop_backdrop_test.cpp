@@ -27,7 +27,7 @@ TEST(CropBackdrop, KeepsTheDirectionAndTheDepthOfEveryPixelThatIsLeft) {
     EXPECT_EQ(DirectionFromPixel(part.scene.backdrop.projection, {x, y}),
               DirectionFromPixel(whole.scene.backdrop.projection, {x + 120, y + 40}));
   }
-  // What is saved is opened as it was.
+  // The saved part is opened as it was.
   SaveDocument(part, folder / "part");
   EXPECT_EQ(OpenDocument(folder / "part").panorama->rgb, part.panorama->rgb);
 }

@@ -71,7 +71,7 @@ TEST(OrientBackdrop, RefusesInOneSentence) {
     EXPECT_EQ(document.scene.backdrop.projection.roll, 0);
   };
   refuses(BodySide::kUnknown, {});
-  refuses(BodySide::kUnknown, {{}, Arrow(0)});                       // of which knee?
+  refuses(BodySide::kUnknown, {{}, Arrow(0)});                       // unknown side
   refuses(BodySide::kUnknown, {Arrow(-90), Arrow(-60)});             // no right angle
   refuses(BodySide::kLeft, {Arrow(-90), Arrow(0)});                  // a right knee
   refuses(BodySide::kUnknown, {PanoramaArrow{{1, 1}, {1, 1}}, {}});  // no length
