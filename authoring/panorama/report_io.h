@@ -11,7 +11,7 @@ namespace arthro::authoring {
 
 std::string JsonFromReport(const PanoramaReport& report);
 
-// Throws Error(kBadData) for what is no such report. Costs keep their names, options their text.
+// Throws Error(kBadData) for what is no such report. Costs come in the order of their names.
 PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file = {});
 
 // Writes the whole file or none; "-" is standard output.

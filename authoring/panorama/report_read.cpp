@@ -88,10 +88,10 @@ PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
   for (std::size_t i = 0; i < report.clips.size(); ++i)
     for (FrameReport& frame : report.frames)
       if (frame.index >= report.clips[i].first_frame) frame.clip = static_cast<int>(i);
-  for (const auto& [name, cost] : json.value("stages_ms", Json::object()).items())
+  const Json stages = json.value("stages_ms", Json::object());
+  for (const auto& [name, cost] : stages.items())
     report.stages.push_back({name, cost.get<double>()});
   report.peak_memory_mb = NumberOr0(json, "peak_memory_mb");
-  if (json.contains("options")) report.options = json.at("options").dump();
   return report;
 }
 
@@ -100,7 +100,11 @@ PanoramaReport Read(const Json& json, const std::filesystem::path& file) {
 PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file) {
   const Json json = ParseJson(text, Code::kBadData, file);
   try {
-    return Read(json, file);
+    PanoramaReport report = Read(json, file);
+    // Options keep their order.
+    const auto ordered = ParseOrderedJson(text, Code::kBadData);
+    if (ordered.contains("options")) report.options = ordered["options"].dump();
+    return report;
   } catch (const Json::exception& fault) {
     throw Error(Code::kBadData,
                 fmt::format("this is no report of a panorama ({}); choose the one that "

@@ -203,6 +203,7 @@ void ShowMade(FootageBoard& board) {
       if (frame.index >= 0 && frame.index < board.frames())
         board.notes[static_cast<std::size_t>(frame.index)] =
             NoteOf(frame, board.made->excluded.contains(frame.index));
+  if (board.made->is_measured()) return;  // the report has the same frames without their poses
   for (const FrameReport& row : board.made->report.frames)
     if (row.index >= 0 && row.index < board.frames())
       board.notes[static_cast<std::size_t>(row.index)] =
