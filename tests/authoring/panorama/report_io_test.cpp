@@ -226,7 +226,7 @@ TEST(StageClock, StagesAreSharesOfOneJob) {
 TEST(PanoramaReport, WhatIsReadIsWrittenAgainByteByByte) {
   PanoramaReport plane = SampleReport();
   plane.lens.field_of_view = FieldOfViewOf(plane.lens).value();  // a reader works it out
-  plane.stages = {{"compose", 99}, {"read", 12.346}};  // by name, as they are read
+  plane.stages = {{"compose", 99}, {"read", 12.346}};            // sorted by name, as they are read
   const std::string text = JsonFromReport(plane);
   EXPECT_EQ(JsonFromReport(ReportFromJson(text)), text);
   PanoramaReport over = plane;
