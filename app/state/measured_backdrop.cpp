@@ -4,7 +4,7 @@
 
 #include "app/state/footage_optics.h"
 #include "app/state/footage_source.h"
-#include "authoring/relief/enlarge_relief.h"
+#include "authoring/relief/surface/enlarge_relief.h"
 
 namespace arthro::app {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "authoring/alignment/place_by_hand.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 namespace arthro::authoring {
 namespace {

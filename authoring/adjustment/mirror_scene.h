@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "authoring/project/document.h"
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 
 namespace arthro::authoring {
 

@@ -5,7 +5,7 @@
 #include "authoring/panorama/report_io.h"
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::authoring {
 namespace {

@@ -10,10 +10,10 @@
 #include "simulation/core/fingerprint.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
-#include "simulation/scene/archive_io.h"
-#include "simulation/scene/field_json.h"
-#include "simulation/scene/field_schema.h"
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/json/field_json.h"
+#include "simulation/scene/json/field_schema.h"
+#include "simulation/scene/json/scene_json.h"
 
 namespace arthro::authoring {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "simulation/scene/archive_io.h"
-#include "simulation/scene/scene_check.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_check.h"
 
 namespace arthro::authoring {
 

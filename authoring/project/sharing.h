@@ -1,6 +1,6 @@
 // Statements that an author owes before a scene is shared, over all that the scene holds: beside
-// the scene's own assets (simulation/scene/scene_check.h) the clips that its panorama was made from
-// and a depth map that was brought along.
+// the scene's own assets (simulation/scene/files/scene_check.h) the clips that its panorama was
+// made from and a depth map that was brought along.
 #pragma once
 
 #include <string>

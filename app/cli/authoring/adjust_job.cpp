@@ -22,7 +22,7 @@
 #include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -13,8 +13,8 @@
 #include "app/steps/panorama/panorama_run.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "authoring/project/document_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {
