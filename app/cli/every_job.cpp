@@ -5,6 +5,7 @@
 namespace arthro::app {
 
 void AddEveryJob(CLI::App& program) {
+  AddAdjustJob(program);
   AddAlignJob(program);
   AddAssessJob(program);
   AddBenchJob(program);

@@ -11,6 +11,7 @@ namespace arthro::app {
 // Adds all of the jobs below, in the order in which the help lists them.
 void AddEveryJob(CLI::App& program);
 
+void AddAdjustJob(CLI::App& program);
 void AddAlignJob(CLI::App& program);
 // Lists `bench` in the help. RunBenchProgram runs it.
 void AddAssessJob(CLI::App& program);

@@ -382,7 +382,7 @@ class Editor {
     TakeNews(state_, news);
     if (FinishWork(state_)) last_event_ = now;
     RunShortcuts(state_);
-    if (state_.dialogs.empty() && !ShowsStartPage(state_) && !ShowsFootage(state_) &&
+    if (state_.dialogs.empty() && !ShowsStartPage(state_) && !ShowsPanoramaBoard(state_) &&
         !ShowsDepthBoard(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.steps.practice->hands->Look()) last_event_ = now;
@@ -487,7 +487,7 @@ class Editor {
         return;
       }
       StepsPanel(ui, state_, layout.side);
-      if (ShowsFootage(state_)) {
+      if (ShowsPanoramaBoard(state_)) {
         Board(ui, layout, FootageBoardPage);
       } else if (ShowsDepthBoard(state_)) {
         Board(ui, layout, DepthBoardPage);

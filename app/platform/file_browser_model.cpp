@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <system_error>
 
@@ -77,6 +78,11 @@ void FileBrowserModel::Refresh() {
     if (!show_hidden_ && name.starts_with(".")) continue;
     std::error_code ignored;
     entry.is_folder = it->is_directory(ignored);
+    if (const auto changed = it->last_write_time(ignored); !ignored)
+      entry.changed = std::chrono::system_clock::to_time_t(
+          std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+              std::chrono::file_clock::to_sys(changed)));
+    if (entry.is_folder) entry.is_scene = fs::exists(it->path() / "scene.json", ignored);
     if (!entry.is_folder) {
       if (!Matches(entry.path)) continue;
       entry.bytes = it->file_size(ignored);
@@ -106,6 +112,20 @@ void FileBrowserModel::ShowHidden(bool show) {
 void FileBrowserModel::Select(const FileEntry& entry) {
   problem_.clear();
   if (!entry.is_folder || purpose_ != BrowseFor::kSaveFile) file_name = entry.name();
+}
+
+bool FileBrowserModel::Type(char letter, double time) {
+  constexpr double kPause = 1.0;  // s
+  if (time - typed_at_ > kPause) typed_.clear();
+  typed_at_ = time;
+  typed_ += letter;
+  const std::string wanted = Lower(typed_);
+  for (const FileEntry& entry : entries_)
+    if (Lower(entry.name()).starts_with(wanted)) {
+      Select(entry);
+      return true;
+    }
+  return false;
 }
 
 bool FileBrowserModel::CreateFolder(const std::string& name) {
@@ -184,6 +204,13 @@ Acceptance FileBrowserModel::AcceptFolder() {
 Acceptance FileBrowserModel::Finish(const fs::path& path) {
   accepted_ = path;
   return Acceptance::kDone;
+}
+
+std::string WordsForTime(std::time_t time) {
+  std::tm local{};
+  if (time == 0 || localtime_r(&time, &local) == nullptr) return "";
+  char words[32];
+  return std::string(words, std::strftime(words, sizeof words, "%Y-%m-%d %H:%M", &local));
 }
 
 std::string WordsForBytes(std::uintmax_t bytes) {

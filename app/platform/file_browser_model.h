@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,7 +24,9 @@ enum class BrowseFor { kOpenFile, kOpenFileOrFolder, kSaveFile, kSaveFolder };
 struct FileEntry {
   std::filesystem::path path;
   bool is_folder = false;
+  bool is_scene = false;  // a folder with a scene.json
   std::uintmax_t bytes = 0;
+  std::time_t changed = 0;  // when it was last written; 0: not known
   std::string name() const { return path.filename().string(); }
 };
 
@@ -50,6 +53,9 @@ class FileBrowserModel {
   void SetFilter(std::size_t index);
   void ShowHidden(bool show);
   void Select(const FileEntry& entry);
+  // A letter typed over the list at a time in s: selects the first entry whose name begins with the
+  // letters typed since the last pause, whatever their case. False where there is none.
+  bool Type(char letter, double time);
   bool CreateFolder(const std::string& name);  // and opens it
   Acceptance Accept();
   Acceptance AcceptOverwrite();
@@ -77,7 +83,12 @@ class FileBrowserModel {
   std::filesystem::path folder_, accepted_;
   std::vector<FileEntry> entries_;
   std::string problem_;
+  std::string typed_;
+  double typed_at_ = 0;
 };
+
+// "2026-11-23 16:45", local time; "" where it is not known.
+std::string WordsForTime(std::time_t time);
 
 // "812 B", "3.4 MB".
 std::string WordsForBytes(std::uintmax_t bytes);

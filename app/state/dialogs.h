@@ -45,7 +45,8 @@ struct BrowseDialog {
   std::function<void(EditorState&, const std::filesystem::path&)> then;
   bool asks_overwrite = false, asks_folder_name = false;
   bool is_shown = false;  // in an earlier frame
-  std::string new_folder;
+  std::string new_folder = {}, typed_folder = {};
+  bool is_typing_folder = false;
 };
 // A mesh file says nothing of its unit. The surface has been read; its vertices are in that unit.
 struct UnitDialog {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/state/footage_optics.h"
+#include "app/state/footage_source.h"
 #include "authoring/project/document_io.h"
 #include "authoring/project/free_tissue_name.h"
 
@@ -37,13 +38,10 @@ void SetAuthor(EditorState& state, const std::string& author) {
   Edit(state, "Change the author", "author", [&](auto& next) { next.scene.author = author; });
 }
 
-void SetRights(EditorState& state, int asset, const AssetRights& rights, const std::string& what) {
-  const auto rights_of = [asset](auto& document) -> auto& {
-    return asset < 0 ? document.scene.backdrop.rights
-                     : document.scene.tissues[static_cast<std::size_t>(asset)].rights;
-  };
-  if (rights == rights_of(state.document())) return;
-  Edit(state, "Change the " + what, "", [&](auto& next) { rights_of(next) = rights; });
+void SetRights(EditorState& state, const authoring::Asset& asset, const AssetRights& rights,
+               const std::string& what) {
+  if (rights == RightsOf(state.document(), asset)) return;
+  Edit(state, "Change the " + what, "", [&](auto& next) { PutRights(next, asset, rights); });
 }
 
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what) {
@@ -73,6 +71,7 @@ void PutPanorama(authoring::Document& document, const std::shared_ptr<const Colo
   if (!document.panorama || !has_shape_of(*document.panorama)) document.depth_strokes = nullptr;
   document.panorama = panorama;
   document.scene.backdrop.panorama = "panorama.png";
+  PutFootage(document, nullptr);  // it tells of the panorama before
   if (keeps_depth) return;
   document.scene.backdrop.depth = "depth.tiff";
   SetDepth(document, nullptr);

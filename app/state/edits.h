@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/state/editor_state.h"
+#include "authoring/project/sharing.h"
 
 namespace arthro::app {
 
@@ -19,8 +20,8 @@ void Edit(EditorState& state, const std::string& name, const std::string& merge_
 
 void SetTitle(EditorState& state, const std::string& title);
 void SetAuthor(EditorState& state, const std::string& author);
-// Rights in the tissue of that index; -1: in the panorama.
-void SetRights(EditorState& state, int asset, const AssetRights& rights, const std::string& what);
+void SetRights(EditorState& state, const authoring::Asset& asset, const AssetRights& rights,
+               const std::string& what);
 void SetBackdrop(EditorState& state, const Backdrop& backdrop, const std::string& what);
 // Another picture as the backdrop, its depth to be made anew. No projection: the one there is stays
 // when the size is the same, else it is guessed; an imported depth map of that size stays, too.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/state/footage_optics.h"
+#include "app/state/footage_source.h"
 #include "authoring/project/every_instrument.h"
 #include "authoring/relief/surface/enlarge_relief.h"
 
@@ -53,6 +54,7 @@ void PutMeasuredPanorama(authoring::Document& document, const MeasuredBackdrop& 
                          const std::optional<Lens>& lens) {
   document.panorama = measured.panorama;
   document.depth_strokes = nullptr;  // they mended the map that was there
+  PutFootage(document, nullptr);     // it tells of the panorama before
   document.scene.backdrop.panorama = "panorama.png";
   document.scene.backdrop.projection = measured.projection;
   PutMeasuredDepth(document, measured);

@@ -95,6 +95,24 @@ struct Footage::Source {
     return true;
   }
 
+  std::string NameOf(int frame) const {
+    if (!info.is_video && frame >= 0 && frame < static_cast<int>(pictures.size()))
+      return pictures[static_cast<std::size_t>(frame)].filename().string();
+    return fmt::format("{}#{}", info.name, frame);
+  }
+
+  std::string CutShort() const {
+    if (!info.is_video || !has_ended || info.frames < 0) return "";
+    // Frame counts that a container derives from its duration may be a few frames off in a sound
+    // file.
+    constexpr int kTolerated = 3;
+    constexpr double kToleratedShare = 0.02;
+    const int read = index + 1;
+    if (read + kTolerated + static_cast<int>(kToleratedShare * info.frames) >= info.frames)
+      return "";
+    return fmt::format("the video ends after {} of {} frames; it was cut off", read, info.frames);
+  }
+
   void Rewind() {
     if (info.is_video) video = OpenVideo(path);  // seeking is not exact in every container
     index = -1;
@@ -159,29 +177,84 @@ Footage Footage::Open(const fs::path& path) {
   return Footage(std::move(source));
 }
 
-const FootageInfo& Footage::info() const { return source_->info; }
-bool Footage::Next(cv::Mat& rgb) { return source_->Read(rgb); }
-bool Footage::Skip() { return source_->Grab(); }
-void Footage::Rewind() { source_->Rewind(); }
-int Footage::index() const { return source_->index; }
+// Clips after the first one are opened when the one before has ended.
+struct Footage::Joined {
+  Clips clips;
+  FootageInfo info;
+  std::vector<std::string> names;
+  std::vector<int> first;  // index of the first frame of each clip that was begun
+  std::vector<std::string> cut_short;
+};
+
+Footage Footage::Open(const Clips& clips) {
+  if (clips.empty()) throw Error(Code::kBadArgument, "no footage was named; name a clip");
+  Footage footage = Open(clips.front());
+  if (clips.size() == 1) return footage;
+  auto own = std::make_unique<Joined>();
+  Joined& joined = *own;
+  joined.clips = clips;
+  joined.info = footage.info();
+  joined.first = {0};
+  joined.names = {joined.info.name};
+  for (std::size_t i = 1; i < clips.size(); ++i) {
+    const FootageInfo info = Open(clips[i]).info();
+    joined.names.push_back(info.name);
+    joined.info.name += " + " + info.name;
+    joined.info.frames =
+        joined.info.frames < 0 || info.frames < 0 ? -1 : joined.info.frames + info.frames;
+  }
+  footage.joined_ = std::move(own);
+  return footage;
+}
+
+template <class Pass>
+bool Footage::PassFrame(const Pass& pass) {
+  while (!pass(*source_)) {
+    if (!joined_ || joined_->first.size() >= joined_->clips.size()) return false;
+    joined_->cut_short.push_back(source_->CutShort());
+    joined_->first.push_back(joined_->first.back() + source_->index + 1);
+    source_ = std::move(Open(joined_->clips[joined_->first.size() - 1]).source_);
+  }
+  return true;
+}
+
+const FootageInfo& Footage::info() const { return joined_ ? joined_->info : source_->info; }
+bool Footage::Next(cv::Mat& rgb) {
+  return PassFrame([&](Source& source) { return source.Read(rgb); });
+}
+bool Footage::Skip() {
+  return PassFrame([](Source& source) { return source.Grab(); });
+}
+
+void Footage::Rewind() {
+  if (!joined_ || joined_->first.size() == 1) return source_->Rewind();
+  joined_->first = {0};
+  joined_->cut_short.clear();
+  source_ = std::move(Open(joined_->clips.front()).source_);
+}
+
+int Footage::index() const {
+  return joined_ ? joined_->first.back() + source_->index : source_->index;
+}
+int Footage::clip() const { return joined_ ? static_cast<int>(joined_->first.size()) - 1 : 0; }
 const std::string& Footage::fault() const { return source_->fault; }
 
 std::string Footage::NameOf(int index) const {
-  if (!source_->info.is_video && index >= 0 && index < static_cast<int>(source_->pictures.size()))
-    return source_->pictures[static_cast<std::size_t>(index)].filename().string();
-  return fmt::format("{}#{}", source_->info.name, index);
+  if (!joined_) return source_->NameOf(index);
+  std::size_t clip = joined_->first.size() - 1;
+  while (clip > 0 && joined_->first[clip] > index) --clip;
+  return fmt::format("{}:{}", joined_->names[clip], index - joined_->first[clip]);
 }
 
 std::string Footage::CutShort() const {
-  const FootageInfo& info = source_->info;
-  if (!info.is_video || !source_->has_ended || info.frames < 0) return "";
-  // Frame counts that a container derives from its duration may be a few frames off in a sound
-  // file.
-  constexpr int kTolerated = 3;
-  constexpr double kToleratedShare = 0.02;
-  const int read = source_->index + 1;
-  if (read + kTolerated + static_cast<int>(kToleratedShare * info.frames) >= info.frames) return "";
-  return fmt::format("the video ends after {} of {} frames; it was cut off", read, info.frames);
+  if (!joined_) return source_->CutShort();
+  std::vector<std::string> faults = joined_->cut_short;
+  faults.push_back(source_->CutShort());
+  std::string words;
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    if (!faults[i].empty())
+      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", joined_->names[i], faults[i]);
+  return words;
 }
 
 }  // namespace arthro::authoring

@@ -169,6 +169,26 @@ Rectifier::Rectifier(const Lens& lens, const RectifyOptions& options, double sca
   cv::convertMaps(map, cv::noArray(), map_xy_, map_fraction_, CV_16SC2);
 }
 
+void Rectifier::Exclude(const std::vector<cv::Rect>& raw) {
+  // Bilinear sampling reads the next pixel too.
+  std::vector<cv::Rect> read;
+  for (const cv::Rect& box : raw)
+    if (box.area() > 0) read.emplace_back(box.x - 1, box.y - 1, box.width + 1, box.height + 1);
+  if (read.empty()) return;
+  const auto is_excluded = [&](const cv::Vec2s& pixel) {
+    return std::any_of(read.begin(), read.end(), [&](const cv::Rect& box) {
+      return box.contains(cv::Point(pixel[0], pixel[1]));
+    });
+  };
+  for (int y = 0; y < map_xy_.rows; ++y)
+    for (int x = 0; x < map_xy_.cols; ++x)
+      if (is_excluded(map_xy_.at<cv::Vec2s>(y, x))) mask_.at<uchar>(y / samples_, x / samples_) = 0;
+  for (int y = 0; y < map_xy_.rows; ++y)
+    for (int x = 0; x < map_xy_.cols; ++x)
+      if (!mask_.at<uchar>(y / samples_, x / samples_))
+        map_xy_.at<cv::Vec2s>(y, x) = cv::Vec2s(kNowhere, kNowhere);
+}
+
 void Rectifier::Rectify(const cv::Mat& raw, cv::Mat& rectified) const {
   if (raw.cols != raw_width_ || raw.rows != raw_height_)
     throw Error(

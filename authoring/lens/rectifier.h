@@ -6,6 +6,8 @@
 // A working picture is the same view at a smaller scale s: x_work = (x + 0.5) s - 0.5, likewise y.
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "authoring/lens/rectify_options.h"
@@ -32,6 +34,9 @@ class Rectifier {
   cv::Size size() const { return mask_.size(); }  // size of the pictures at this scale
   // CV_8UC1, 255 where the lens shows something.
   const cv::Mat& mask() const { return mask_; }
+
+  // Takes raw pixels that show no tissue, such as burned-in text, out of the mask and the pictures.
+  void Exclude(const std::vector<cv::Rect>& raw);
 
   // 8-bit, one or three channels; black outside the mask. Below scale 1 the raw pixels are
   // averaged, not skipped. Throws Error(kBadImage) when the size of `raw` is not the lens's.

@@ -51,6 +51,7 @@ PanoramaReport AssembleReport(const PreparedClip& clip, const std::vector<FrameR
   report.wanders_px = lens.wanders;
   report.rectified = PlainView(clip.view);
   report.drift_px = registration.drift_px;
+  report.text_boxes = clip.text_boxes;
   // With a guessed pinhole the rectified picture is the whole raw picture, not the part inside the
   // round window.
   cv::Matx33d view_from_rectified = cv::Matx33d::eye();

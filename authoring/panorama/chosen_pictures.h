@@ -1,7 +1,6 @@
 // Raw pictures of chosen frames of a footage, in order; begins again after the last.
 #pragma once
 
-#include <filesystem>
 #include <set>
 
 #include <opencv2/core.hpp>
@@ -12,8 +11,8 @@ namespace arthro::authoring {
 
 class ChosenPictures {
  public:
-  ChosenPictures(const std::filesystem::path& path, std::set<int> wanted)
-      : footage_(Footage::Open(path)), wanted_(std::move(wanted)) {}
+  ChosenPictures(const Clips& clips, std::set<int> wanted)
+      : footage_(Footage::Open(clips)), wanted_(std::move(wanted)) {}
 
   // Reads the next one, like FrameSource of compose.h.
   bool operator()(int& index, cv::Mat& rgb);

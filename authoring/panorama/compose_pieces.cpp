@@ -1,10 +1,10 @@
 #include "authoring/panorama/compose_pieces.h"
 
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "authoring/panorama/chosen_pictures.h"
+#include "authoring/panorama/compose/part_progress.h"
 
 namespace arthro::authoring {
 namespace {
@@ -39,7 +39,7 @@ std::map<int, int> FramesByComponent(const std::vector<FrameResult>& frames) {
   return counts;
 }
 
-std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, const cv::Rect& part,
+std::vector<ComposedPiece> ComposePieces(const Clips& footage, const cv::Rect& part,
                                          const Rectifier& rectifier,
                                          const std::vector<FrameResult>& frames, int least_piece,
                                          const ComposeOptions& options, const Progress& progress,
@@ -53,11 +53,7 @@ std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, c
   for (const auto& [component, count] : counts) {
     if (component > 0 && count < least_piece) continue;
     const auto placed = AsPanorama(frames, component);
-    Progress of_piece;
-    of_piece.stop = progress.stop;
-    of_piece.report = [&, share = count / all](std::string_view words, double done) {
-      progress.Step(words, before + share * done);
-    };
+    const Progress of_piece = PartOf(progress, before, before + count / all);
     ComposedPiece piece;
     piece.component = component;
     ChosenPictures pictures(footage, PlacedIndices(placed));

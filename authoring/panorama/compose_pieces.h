@@ -2,10 +2,10 @@
 // not joined to it.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <vector>
 
+#include "authoring/footage/footage.h"
 #include "authoring/panorama/compose/compose.h"
 #include "authoring/panorama/frames/placed_frame.h"
 #include "simulation/core/progress.h"
@@ -24,7 +24,7 @@ std::map<int, int> FramesByComponent(const std::vector<FrameResult>& frames);
 // Composes component 0 first, then every other component with `least_piece` frames. Reads the
 // footage again for each. `part` of a raw picture goes to `rectifier`, which must have scale 1.
 // Throws Error(kCancelled) and the errors of reading.
-std::vector<ComposedPiece> ComposePieces(const std::filesystem::path& footage, const cv::Rect& part,
+std::vector<ComposedPiece> ComposePieces(const Clips& footage, const cv::Rect& part,
                                          const Rectifier& rectifier,
                                          const std::vector<FrameResult>& frames, int least_piece,
                                          const ComposeOptions& options, const Progress& progress,

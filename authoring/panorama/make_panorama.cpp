@@ -8,10 +8,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "authoring/panorama/assemble_report.h"
+#include "authoring/panorama/clip_reports.h"
+#include "authoring/panorama/compose/layout.h"
 #include "authoring/panorama/compose_pieces.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/plain_picture.h"
 #include "authoring/panorama/prepared_clip.h"
+#include "authoring/panorama/text_boxes.h"
+#include "authoring/panorama/ties/place_ties.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
 #include "simulation/core/process_cost.h"
@@ -48,6 +52,22 @@ std::string KeyOf(const fs::path& footage) {
   return fmt::format("{}@{}", footage.string(), changed);
 }
 
+std::string KeyOf(const PanoramaRequest& request) {
+  std::string key;
+  for (const fs::path& clip : ClipsOf(request)) key += KeyOf(clip) + " ";
+  for (const PixelBox& box : request.masked)
+    key += fmt::format("[{} {} {} {}]", box.x, box.y, box.width, box.height);
+  return key;
+}
+
+std::string KeyOf(const FrameTie& tie) {
+  std::string key = fmt::format(" tie {} {} {}", tie.frame, tie.pixel.x, tie.pixel.y);
+  if (tie.other)
+    key += fmt::format(" f {} {} {}", tie.other->frame, tie.other->pixel.x, tie.other->pixel.y);
+  if (tie.panorama) key += fmt::format(" p {} {}", tie.panorama->pixel.x, tie.panorama->pixel.y);
+  return key;
+}
+
 std::string KeyOf(const std::optional<Lens>& lens) {
   if (!lens) return "none";
   const Lens& l = *lens;
@@ -58,18 +78,21 @@ std::string KeyOf(const std::optional<Lens>& lens) {
 
 // A product is valid as long as its key is unchanged.
 struct Keys {
-  std::string clip, places, pieces;
+  std::string clip, places, tied, pieces;
 };
 
 Keys KeysOf(const PanoramaRequest& request) {
   const PanoramaOptions& options = request.options;
   Keys keys;
-  keys.clip = KeyOf(request.footage) + KeyOf(request.lens) + KeyOf(options.choose) +
+  keys.clip = KeyOf(request) + KeyOf(request.lens) + KeyOf(options.choose) +
               KeyOf(options.rectify) + KeyOf(options.prepare) +
               fmt::format("{}", options.working_scale);
   keys.places = keys.clip + KeyOf(options.registration);
   for (const int index : request.excluded) keys.places += fmt::format(" -{}", index);
-  keys.pieces = keys.places + KeyOf(options.compose) + fmt::format("{}", options.least_piece);
+  keys.tied = keys.places;
+  for (const FrameTie& tie : request.ties) keys.tied += KeyOf(tie);
+  keys.tied += fmt::format(" {}", options.mask_text);
+  keys.pieces = keys.tied + KeyOf(options.compose) + fmt::format("{}", options.least_piece);
   return keys;
 }
 
@@ -83,6 +106,15 @@ std::vector<StageCost> RegisterCosts(const RegisterReport& report, double whole_
   return costs;
 }
 
+// Rectifier by which frames are drawn.
+Rectifier DrawnRectifier(const PanoramaRequest& request, const PreparedClip& clip) {
+  Rectifier rectifier(clip.lens.lens, request.options.rectify, 1.0);
+  rectifier.Exclude(BoxesIn(request.masked, clip.lens.part));
+  // Matching leaves these marks out already (clip_look.h).
+  if (request.options.mask_text) rectifier.Exclude(BoxesIn(clip.text_boxes, clip.lens.part));
+  return rectifier;
+}
+
 std::string FirstReason(const std::vector<FrameResult>& frames) {
   for (const FrameResult& frame : frames)
     if (!frame.reason.empty()) return fmt::format(" (frame {}: {})", frame.index, frame.reason);
@@ -91,12 +123,19 @@ std::string FirstReason(const std::vector<FrameResult>& frames) {
 
 }  // namespace
 
+Clips ClipsOf(const PanoramaRequest& request) {
+  Clips clips = {request.footage};
+  clips.insert(clips.end(), request.joined.begin(), request.joined.end());
+  return clips;
+}
+
 struct PanoramaSession::Products {
   PanoramaRequest request;  // the last request
-  std::string clip_key, register_key, compose_key;
+  std::string clip_key, register_key, tie_key, compose_key;
   PreparedClip clip;
   std::vector<StageCost> clip_costs, register_costs, compose_costs;
-  std::vector<FrameResult> placed;
+  std::vector<FrameResult> registered, placed;  // without and with the frames of tie points
+  std::vector<TiedFrame> tied;
   RegisterReport registration;
   std::vector<ComposedPiece> pieces;  // the panorama first
 };
@@ -131,7 +170,8 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   const Keys keys = KeysOf(request);
   const bool has_clip = made.clip_key == keys.clip,
              has_places = has_clip && made.register_key == keys.places,
-             has_pieces = has_places && made.compose_key == keys.pieces;
+             has_tied = has_places && made.tie_key == keys.tied,
+             has_pieces = has_tied && made.compose_key == keys.pieces;
   // Processor ms per frame, approximate; only the ratios matter.
   StageClock clock(progress, {{"read", has_clip ? 0 : 20},
                               {"prepare", has_clip ? 0 : 10},
@@ -139,8 +179,9 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
                               {"compose", has_pieces ? 0 : 80}});
 
   if (!has_clip) {
-    made.clip_key = made.register_key = made.compose_key = "";
+    made.clip_key = made.register_key = made.tie_key = made.compose_key = "";
     made.clip = {};
+    made.registered.clear();
     made.placed.clear();
     made.pieces.clear();
     FrameObserver on_frame;
@@ -148,14 +189,15 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
       on_frame = [&](const FrameReport& row, const cv::Mat& small) {
         observer.frame(row, PlainColour(small));
       };
-    made.clip = PrepareClip(request.footage, request.lens, options, on_frame, clock);
+    made.clip =
+        PrepareClip(ClipsOf(request), request.lens, request.masked, options, on_frame, clock);
     made.clip_costs = clock.costs();
     made.clip_key = keys.clip;
   }
   const PreparedClip& clip = made.clip;
 
   if (!has_places) {
-    made.register_key = made.compose_key = "";
+    made.register_key = made.tie_key = made.compose_key = "";
     made.pieces.clear();
     std::vector<WorkingFrame> frames;  // shares the pictures
     for (const WorkingFrame& frame : clip.frames)
@@ -169,7 +211,7 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
     // A guessed focal length gives no constraint on the views of a plane.
     RegisterOptions registration = options.registration;
     if (clip.lens.is_guessed) registration.refine.camera_deviation = 0;
-    made.placed =
+    made.registered =
         Register(frames, clip.view, clip.mask, registration, &made.registration,
                  clock.Begin("register"), clip.lens.is_guessed ? nullptr : &clip.lens.lens);
     clock.End();
@@ -186,13 +228,28 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
     if (const auto field_of_view = FieldOfViewOf(lens)) lens.field_of_view = *field_of_view;
     return RunOnce(corrected, observer, progress, corrections_left - 1);
   }
-  const auto counts = FramesByComponent(made.placed);
+  const auto counts = FramesByComponent(made.registered);
   if (const auto main = counts.find(0); main == counts.end() || main->second < 2)
     throw Error(Code::kBadImage,
                 fmt::format("no two of its {} usable frames could be aligned{}; take footage that "
                             "moves slowly over tissue with some texture",
-                            made.placed.size(), FirstReason(made.placed)),
+                            made.registered.size(), FirstReason(made.registered)),
                 request.footage);
+
+  if (!has_tied) {
+    made.tie_key = made.compose_key = "";
+    made.pieces.clear();
+    made.placed = made.registered;
+    made.tied.clear();
+    if (!request.ties.empty()) {
+      const cv::Matx33d composed_from_plane =
+          LayOut(DrawnRectifier(request, clip).mask(), clip.view, made.registered, options.compose)
+              .composed_from_panorama;
+      made.tied = PlaceTies(clip, request.ties, request.excluded, composed_from_plane,
+                            options.registration, made.placed, progress);
+    }
+    made.tie_key = keys.tied;
+  }
 
   // Reports the position of every frame before the panorama is drawn.
   if (observer.frame && !has_pieces)
@@ -203,12 +260,12 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   if (!has_pieces) {
     made.compose_key = "";
     made.pieces.clear();
-    const Rectifier rectifier(clip.lens.lens, options.rectify, 1.0);
+    const Rectifier rectifier = DrawnRectifier(request, clip);
     ComposeObserver on_mosaic;
     if (observer.mosaic)
       on_mosaic = [&](const cv::Mat& small, double) { observer.mosaic(PlainPicture(small)); };
     made.pieces =
-        ComposePieces(request.footage, clip.lens.part, rectifier, made.placed, options.least_piece,
+        ComposePieces(ClipsOf(request), clip.lens.part, rectifier, made.placed, options.least_piece,
                       options.compose, clock.Begin("compose"), on_mosaic);
     if (made.pieces.front().composed.rgba.empty())
       throw Error(Code::kBadImage,
@@ -223,6 +280,10 @@ PanoramaResult PanoramaSession::RunOnce(const PanoramaRequest& request,
   PanoramaReport& report = result.report;
   report = AssembleReport(clip, made.placed, made.registration, made.pieces, request.excluded);
   report.footage = request.footage.string();
+  report.tied = made.tied;
+  report.clips = ClipReports(ClipsOf(request), report.frames);
+  for (const std::string& sentence : ClipWarnings(report.clips))
+    report.warnings.push_back(sentence);
   const auto chosen = JsonFromOptions(options);
   report.options = chosen.dump();
   const std::string method = chosen.value("method", "");
@@ -248,6 +309,7 @@ std::string PanoramaSession::NextStage(const PanoramaRequest& request) const {
   const Keys keys = KeysOf(request);
   if (products_->clip_key != keys.clip) return "read";
   if (products_->register_key != keys.places) return "register";
+  if (products_->tie_key != keys.tied) return "tie";
   return products_->compose_key != keys.pieces ? "compose" : "";
 }
 
@@ -259,7 +321,7 @@ std::optional<ColourImage> PanoramaSession::PictureOf(int index, FrameStage stag
     return std::nullopt;
   }
   if (index < 0 || index >= static_cast<int>(clip.reports.size())) return std::nullopt;
-  Footage footage = Footage::Open(products_->request.footage);
+  Footage footage = Footage::Open(ClipsOf(products_->request));
   for (int i = 0; i < index; ++i)
     if (!footage.Skip()) return std::nullopt;
   cv::Mat rgb, rectified;

@@ -13,8 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "authoring/footage/footage.h"
+#include "authoring/footage/pixel_box.h"
 #include "authoring/panorama/panorama_options.h"
 #include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/ties/frame_tie.h"
 #include "simulation/core/progress.h"
 #include "simulation/scene/image.h"
 #include "simulation/scene/lens.h"
@@ -23,11 +26,20 @@ namespace arthro::authoring {
 
 struct PanoramaRequest {
   std::filesystem::path footage;
+  // Further clips of the same joint through the same lens. Their frames follow those of `footage`
+  // and are counted on.
+  std::vector<std::filesystem::path> joined;
   std::optional<Lens>
       lens;  // none: the pictures are unchanged, as from a pinhole with a guessed focal length
   PanoramaOptions options;
   std::set<int> excluded;  // frames that a person excludes, by index in the footage
+  // Rectangles of the raw pictures that show no tissue, such as text: neither matched nor drawn.
+  std::vector<PixelBox> masked;
+  // Places of frames that did not register, by hand. The places of all other frames stay.
+  std::vector<FrameTie> ties;
 };
+
+Clips ClipsOf(const PanoramaRequest& request);
 
 struct PanoramaResult {
   RgbaPicture picture;              // component 0
@@ -60,7 +72,8 @@ class PanoramaSession {
   PanoramaResult Run(const PanoramaRequest& request, const PanoramaObserver& observer,
                      const Progress& progress);
 
-  // First stage that Run would repeat for this request: "read", "register", "compose"; "" for none.
+  // First stage that Run would repeat for this request: "read", "register", "tie", "compose"; ""
+  // for none.
   std::string NextStage(const PanoramaRequest& request) const;
 
   // Picture of a frame of the last request after the stage "prepare"; kEvenLight of usable frames

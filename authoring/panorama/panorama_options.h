@@ -16,6 +16,7 @@ struct PanoramaOptions {
   double working_scale = 0;
   int least_piece = 3;
   bool self_calibrate = false;
+  bool mask_text = false;
   ChooseOptions choose;
   RectifyOptions rectify;
   PrepareOptions prepare;
@@ -32,6 +33,8 @@ struct PanoramaOptions {
     v("self_calibrate", self_calibrate, Any{}, "",
       "Repeat with the focal length of the frames when it differs from the lens file's by more "
       "than 1 %.");
+    v("mask_text", mask_text, Any{}, "",
+      "Draw the panorama without areas that never change while the picture moves, such as text.");
     choose.Visit(v);
     registration.Visit(v);
     rectify.Visit(PartVisitor<V>{v, "rectify_"});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "authoring/footage/pixel_box.h"
 #include "authoring/panorama/stage_clock.h"
 #include "simulation/scene/lens.h"
 #include "simulation/scene/projection.h"
@@ -24,6 +25,7 @@ struct PinholeView {
 struct FrameReport {
   int index = 0;       // in the footage
   std::string source;  // name of the file, or the video and the frame's number
+  int clip = 0;        // index of its clip, of several
   bool is_placed = false;
   bool is_usable = false;  // it was tried: readable, of the right size, not blank, not left out
   std::string reason;      // why it is not placed; "" for a placed frame
@@ -31,6 +33,21 @@ struct FrameReport {
   std::array<double, 9> panorama_from_rectified{1, 0, 0, 0, 1, 0, 0, 0, 1};  // in its component
   int inliers = 0;
   double rms_px = 0, expected_error_px = 0;
+};
+
+// Clip of several that are joined.
+struct ClipReport {
+  std::string file;
+  int first_frame = 0, frames = 0, usable = 0, placed = 0;
+};
+
+// A frame that was placed by hand.
+struct TiedFrame {
+  int index = 0;  // in the footage
+  int pairs = 0;
+  double rms_px = 0;             // residual of the pairs, px of the frame they were joined to
+  double expected_error_px = 0;  // worst of nine points of the frame
+  bool is_refined = false;       // the frame's own pixels agree, and refined the place
 };
 
 // Frames that are connected with each other but not with the panorama.
@@ -53,6 +70,9 @@ struct PanoramaReport {
   std::optional<Projection> over_relief;
   double relief_radius = 0;  // m, of the sphere that the relief is given over
   std::vector<FrameReport> frames;
+  std::vector<ClipReport> clips;     // one per clip
+  std::vector<TiedFrame> tied;       // in the order of their index
+  std::vector<PixelBox> text_boxes;  // areas of the raw pictures that never change; a proposal
   double mean_error_px = 0, max_error_px = 0;  // expected errors of the placed frames
   double drift_px = 0;
   double wanders_px = 0;  // range of the round window's centre over the clip

@@ -9,6 +9,7 @@
 
 #include "authoring/footage/frame_look.h"
 #include "authoring/panorama/preparation/prepare.h"
+#include "authoring/panorama/text_boxes.h"
 #include "simulation/core/error.h"
 
 namespace arthro::authoring {
@@ -111,6 +112,7 @@ std::vector<FrameLook> ReadAll(Footage& footage, const Rectifier& rectifier,
       }
     }
     row.source = footage.NameOf(i);
+    row.clip = footage.clip();
     if (observer) observer(row, working.empty() ? cv::Mat() : SmallOf(working));
     looks.push_back(look);
     clip.reports.push_back(std::move(row));
@@ -163,18 +165,22 @@ double WorkingScaleOf(const RectifiedView& view) {
   return side <= kLarge ? 0.5 : std::max(0.1, 0.5 * kLarge / side);
 }
 
-PreparedClip PrepareClip(const std::filesystem::path& path, const std::optional<Lens>& lens,
-                         const PanoramaOptions& options, const FrameObserver& observer,
-                         StageClock& clock) {
+PreparedClip PrepareClip(const Clips& clips, const std::optional<Lens>& lens,
+                         const std::vector<PixelBox>& masked, const PanoramaOptions& options,
+                         const FrameObserver& observer, StageClock& clock) {
   PreparedClip clip;
   const Progress reading = clock.Begin("read");
-  Footage footage = Footage::Open(path);
+  Footage footage = Footage::Open(clips);
   clip.info = footage.info();
   clip.lens = LensOf(footage, lens, reading);
   clip.warnings = clip.lens.warnings;
   clip.view = ViewOf(clip.lens.lens, options.rectify);
   clip.scale = options.working_scale > 0 ? options.working_scale : WorkingScaleOf(clip.view);
-  const Rectifier rectifier(clip.lens.lens, options.rectify, clip.scale);
+  Rectifier rectifier(clip.lens.lens, options.rectify, clip.scale);
+  rectifier.Exclude(BoxesIn(masked, clip.lens.part));
+  if (cv::countNonZero(rectifier.mask()) == 0)
+    throw Error(Code::kBadArgument,
+                "the masked rectangles cover the whole picture; remove one of them", clips.front());
   clip.mask = rectifier.mask();
   WorkingPictures pictures(footage, clip.lens.part, rectifier);
   auto looks = ReadAll(footage, rectifier, options, observer, reading, clip, pictures);
@@ -187,7 +193,7 @@ PreparedClip PrepareClip(const std::filesystem::path& path, const std::optional<
                     "other footage",
                     chosen.empty() ? "none" : "only one", clip.reports.size(),
                     clip.reports.size() == 1 ? "" : "s", why.empty() ? "" : " (" + why + ")"),
-        path);
+        clips.front());
   }
 
   const Progress preparing = clock.Begin("prepare");
@@ -201,6 +207,7 @@ PreparedClip PrepareClip(const std::filesystem::path& path, const std::optional<
     builder.Add(working, rectifier.mask());
   }
   const ClipLook look = builder.Finish();
+  clip.text_boxes = TextBoxes(look.static_marks, clip);
 
   // A few at a time, in parallel.
   constexpr std::size_t kBatch = 4;

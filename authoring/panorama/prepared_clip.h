@@ -28,6 +28,7 @@ struct PreparedClip {
   cv::Mat mask;                      // CV_8UC1, visible area of the lens at the working scale
   std::vector<WorkingFrame> frames;  // usable frames, in order
   std::vector<FrameReport> reports;  // all frames, in order; the usable ones are not placed yet
+  std::vector<PixelBox> text_boxes;  // a proposal of what to mask (text_boxes.h)
   std::vector<std::string> warnings;
 };
 
@@ -40,8 +41,9 @@ double WorkingScaleOf(const RectifiedView& view);
 
 // Runs the stages "read" and "prepare" of the clock. Throws Error when no frame is usable; see
 // footage.h and footage_lens.h for other errors.
-PreparedClip PrepareClip(const std::filesystem::path& footage, const std::optional<Lens>& lens,
-                         const PanoramaOptions& options, const FrameObserver& observer,
-                         StageClock& clock);
+// `masked`: of the raw pictures.
+PreparedClip PrepareClip(const Clips& clips, const std::optional<Lens>& lens,
+                         const std::vector<PixelBox>& masked, const PanoramaOptions& options,
+                         const FrameObserver& observer, StageClock& clock);
 
 }  // namespace arthro::authoring

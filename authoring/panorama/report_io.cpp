@@ -86,6 +86,24 @@ std::string JsonFromReport(const PanoramaReport& report) {
     if (piece.panorama.width > 0) row["panorama"] = JsonFromView(piece.panorama);
     json["components"].push_back(std::move(row));
   }
+  json["clips"] = Json::array();
+  for (const ClipReport& clip : report.clips)
+    json["clips"].push_back({{"file", clip.file},
+                             {"first_frame", clip.first_frame},
+                             {"frames", clip.frames},
+                             {"usable", clip.usable},
+                             {"placed", clip.placed}});
+  json["tied"] = Json::array();
+  for (const TiedFrame& tied : report.tied)
+    json["tied"].push_back({{"index", tied.index},
+                            {"pairs", tied.pairs},
+                            {"rms_px", Rounded(tied.rms_px)},
+                            {"expected_error_px", Rounded(tied.expected_error_px)},
+                            {"refined", tied.is_refined}});
+  json["text_boxes"] = Json::array();
+  for (const PixelBox& box : report.text_boxes)
+    json["text_boxes"].push_back(
+        {{"x", box.x}, {"y", box.y}, {"width", box.width}, {"height", box.height}});
   json["frames"] = Json::array();
   for (const FrameReport& frame : report.frames)
     json["frames"].push_back(JsonFromFrame(frame, report.over_relief.has_value()));

@@ -11,6 +11,9 @@ namespace arthro::authoring {
 
 std::string JsonFromReport(const PanoramaReport& report);
 
+// Throws Error(kBadData) for what is no such report. Costs come in the order of their names.
+PanoramaReport ReportFromJson(const std::string& text, const std::filesystem::path& file = {});
+
 // Writes the whole file or none; "-" is standard output.
 void WriteReport(const std::filesystem::path& file, const PanoramaReport& report);
 

@@ -4,6 +4,7 @@
 
 #include "authoring/depth/depth_options.h"
 #include "authoring/depth/strokes/depth_stroke.h"
+#include "authoring/project/footage_record.h"
 #include "simulation/scene/files/loaded_scene.h"
 
 namespace arthro::authoring {
@@ -13,6 +14,7 @@ struct Document : LoadedScene {
   // Strokes that mended the depth map, in order; null: none. The map holds their effect.
   SharedStrokes depth_strokes;
   bool is_depth_imported = false;  // the depth map was not made from panorama and depth_options
+  std::shared_ptr<const FootageRecord> footage;  // how the panorama was made; null: not known
 };
 
 }  // namespace arthro::authoring

@@ -54,6 +54,10 @@ Document OpenDocument(const fs::path& file) {
   document.is_depth_imported =
       document.depth && (made == document.scene.extensions.end() ||
                          made->second != DepthFingerprint(*document.depth));
+  if (const fs::path& name = document.scene.backdrop.footage; !name.empty()) {
+    document.footage = std::make_shared<const FootageRecord>(ReadFootage(FileOf(document, name)));
+    document.files[name.generic_string()].part = document.footage;
+  }
   // Options of another version are no reason not to open a scene; they are a convenience.
   const auto options = document.scene.extensions.find(kDepthOptionsKey);
   if (options != document.scene.extensions.end()) try {

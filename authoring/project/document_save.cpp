@@ -1,6 +1,7 @@
 // Writing a document as a scene (document_io.h).
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -110,6 +111,7 @@ class Saving {
         options_(options),
         is_in_place_(IsSamePlace(document.folder, folder)),
         is_copy_(!IsSamePlace(document.folder, place)),
+        is_handed_on_(IsArchive(place) || (is_copy_ && !document.folder.empty())),
         writer_(folder, KnownFiles()) {}
 
   Document Run() {
@@ -118,6 +120,7 @@ class Saving {
     SavePanorama();
     SaveDepth();
     for (std::size_t i = 0; i < after_.scene.tissues.size(); ++i) SaveTissue(i);
+    SaveFootage();
     SaveLens();
     // Before the sort, so that the files of the backup are kept.
     if (options_.keeps_backup) KeepBackup(folder_);
@@ -282,6 +285,22 @@ class Saving {
     Note(name, nullptr);
   }
 
+  void SaveFootage() {
+    fs::path& name = after_.scene.backdrop.footage;
+    if (!after_.footage) return name.clear();
+    const FootageRecord record =
+        is_handed_on_ ? WithoutNames(*after_.footage) : BesideScene(*after_.footage, folder_);
+    const auto holds = [&](const fs::path& file, const FootageRecord&) {
+      return Holds(file, record, ReadFootage, std::equal_to<>());
+    };
+    SavePart(name, after_.footage, holds, [&] {
+      const fs::path fresh = FreshName(name, "footage.json", after_.footage);
+      SourceOf(name, after_.footage);  // refuses a link that leaves the folder
+      return writer_.Write(
+          fresh, [&](const fs::path& to) { WriteAtomically(to, JsonFromFootage(record)); });
+    });
+  }
+
   // Assets that are not in memory lie where `files` says, or in the folder of the document. `part`
   // is what was made of the file, such as the surface of a solid; null: nothing. A copy
   // is read and written anew, so that it holds what the asset is and nothing else.
@@ -334,6 +353,7 @@ class Saving {
   fs::path folder_;
   const SaveOptions& options_;
   bool is_in_place_, is_copy_;
+  bool is_handed_on_;  // to where names of clips do not belong
   AssetWriter writer_;
   WrittenFiles written_;
 };

@@ -16,6 +16,7 @@ std::size_t BytesOfNewParts(const Document& document, std::set<const void*>& see
   if (is_new(document.depth_sigma.get()))
     bytes += document.depth_sigma->relief.capacity() * sizeof(float);
   if (is_new(document.depth_origin.get())) bytes += document.depth_origin->origin.capacity();
+  if (is_new(document.footage.get())) bytes += document.footage->report.capacity();
   for (const auto& surface : document.surfaces)
     if (is_new(surface.get()))
       bytes += surface->vertices.capacity() * sizeof(surface->vertices[0]) +

@@ -81,6 +81,7 @@ void IncrementalCopy::Write(const Document& document) {
   keep(backdrop.depth, next.depth);
   keep(backdrop.depth_sigma, next.depth_sigma);
   keep(backdrop.depth_origin, next.depth_origin);
+  keep(backdrop.footage, next.footage);
   if (!next.lens) keep(next.scene.scope.lens, nullptr);  // else it is written from memory
   for (std::size_t i = 0; i < next.scene.tissues.size(); ++i) {
     keep(next.scene.tissues[i].surface, i < next.surfaces.size() ? next.surfaces[i] : nullptr);

@@ -4,8 +4,11 @@
 // top-left pixel, x right, y down.
 //   gnomonic         u = c_x + f x/z,  v = c_y + f y/z            (what a homography mosaic is)
 //   equirectangular  u = c_x + k λ,    v = c_y - k φ,  degrees;   λ = atan2(x, z),  φ = -asin(y)
+// The direction (x, y, z) of these formulas is the one in the portal frame, turned back about +z by
+// `roll`: a picture whose top is not up in the joint is turned, and its pixels stay as they are.
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include <glm/mat2x3.hpp>
@@ -23,6 +26,7 @@ struct Projection {
   glm::dvec2 centre_px{0.0};
   double focal_px = 1000.0;  // gnomonic
   double px_per_deg = 10.0;  // equirectangular
+  double roll = 0.0;         // rad, clockwise as seen from the portal
   friend bool operator==(const Projection&, const Projection&) = default;
 
   template <class V>
@@ -39,6 +43,8 @@ struct Projection {
     v("px_per_deg", px_per_deg,
       OnlyIf{type == ProjectionType::kEquirectangular, Required{Range{0, 1e5, true}}}, "px/deg",
       "Pixels per degree of longitude and latitude.");
+    v("roll", roll, LeftOutAt{0.0, Range{-std::numbers::pi, std::numbers::pi}}, "rad",
+      "Turn of the picture about the direction straight ahead, clockwise as seen from the portal.");
   }
 };
 

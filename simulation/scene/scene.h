@@ -35,6 +35,9 @@ struct AssetRights {
   }
 };
 
+// Side of the body. The mirror image of a right knee is a left one.
+enum class BodySide { kUnknown, kLeft, kRight };
+
 // Filling of the joint. It decides how much light a wet surface mirrors
 // (simulation/scene/medium.h).
 enum class Medium { kSaline, kGas };
@@ -42,9 +45,10 @@ enum class Medium { kSaline, kGas };
 struct Backdrop {
   std::filesystem::path panorama, depth;  // no depth: a bare sphere
   std::filesystem::path depth_sigma, depth_origin;
-  double radius = 0.05;  // D, of the sphere about the scope portal
+  std::filesystem::path footage;  // how the panorama was made; empty: not known
+  double radius = 0.05;           // D, of the sphere about the scope portal
   Projection projection;
-  AssetRights rights;
+  AssetRights rights, depth_rights;
   double relight = 0;
   Medium medium = Medium::kSaline;
   friend bool operator==(const Backdrop&, const Backdrop&) = default;
@@ -72,6 +76,11 @@ struct Backdrop {
       "saline.");
     v("projection", projection, Required{Any{}}, "", "Pixel of the panorama for a direction.");
     v("rights", rights, Any{}, "", "Rights in the panorama.");
+    v("depth_rights", depth_rights, Any{}, "",
+      "Rights in a depth map that was not made from the panorama.");
+    v("footage", footage, Any{}, "",
+      "JSON: the clips that the panorama was made from, the choice of their frames, and the report "
+      "of each frame (footage-1.schema.json).");
   }
 };
 
@@ -221,6 +230,7 @@ struct Task {
 
 struct Scene {
   std::string title, author;
+  BodySide side = BodySide::kUnknown;
   Backdrop backdrop;
   ScopeSpec scope;
   Portals portals;
@@ -235,6 +245,11 @@ struct Scene {
   void Visit(V&& v) {
     v("title", title, Any{}, "", "Title of the scene.");
     v("author", author, Any{}, "", "Author of the scene.");
+    v("side", side,
+      LeftOutAt{BodySide::kUnknown, Choices<BodySide>{{{BodySide::kUnknown, "unknown"},
+                                                       {BodySide::kLeft, "left"},
+                                                       {BodySide::kRight, "right"}}}},
+      "", "Side of the body that the joint belongs to.");
     v("backdrop", backdrop, Required{Any{}}, "", "Panorama and its place.");
     ScopeInFile scope_in_file{scope, rig.scope.rod_length};
     v("scope", scope_in_file, Any{}, "", "Arthroscope.");

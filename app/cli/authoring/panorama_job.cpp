@@ -17,10 +17,15 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/pixel_flags.h"
 #include "app/state/footage_optics.h"
+#include "app/state/footage_source.h"
 #include "app/state/measured_backdrop.h"
+#include "authoring/adjustment/crop_backdrop.h"
+#include "authoring/panorama/crop_panorama.h"
 #include "authoring/panorama/make_panorama.h"
 #include "authoring/panorama/report_io.h"
+#include "authoring/panorama/ties/tie_file.h"
 #include "authoring/project/document_io.h"
 #include "authoring/project/estimated_depth.h"
 #include "authoring/relief/make/relief_panorama.h"
@@ -34,7 +39,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PanoramaJob {
-  std::string lens, output, report, scene;
+  std::string lens, output, report, scene, ties;
+  std::vector<std::string> joined;
+  std::optional<authoring::PixelBox> crop;
   // Whether the panorama lies over a measured relief; auto: where frames fit no plane, the clip
   // determines depth, and the expected error is smaller.
   std::string relief = "auto";
@@ -62,14 +69,14 @@ fs::path PieceName(const fs::path& output, std::size_t number) {
 }
 
 // A scene that can be practised in at once: the panorama with the paper's depth map and its noise.
-void WriteScene(const fs::path& folder, const fs::path& panorama, Medium medium,
-                const authoring::PanoramaReport& report, const Progress& progress) {
+void WriteScene(const PanoramaJob& job, const authoring::PanoramaReport& report,
+                const Progress& progress) {
+  const fs::path panorama = job.output;
   authoring::Document document = authoring::DocumentFromPanorama(panorama);
   document.scene.title = panorama.stem().string();
-  const authoring::PinholeView& view = report.panorama;
-  document.scene.backdrop.projection = {
-      ProjectionType::kGnomonic, {view.cx, view.cy}, view.focal_px, {}};
-  document.scene.backdrop.medium = medium;
+  document.scene.backdrop.projection = ProjectionOf(report.panorama);
+  document.scene.backdrop.medium = job.backdrop.medium;
+  PutFootage(document, Share(RecordOf(job.request, report)));
   TakeFootageLens(document, report.lens, report.is_lens_guessed);
   try {
     SetEstimatedDepth(document,
@@ -79,7 +86,7 @@ void WriteScene(const fs::path& folder, const fs::path& panorama, Medium medium,
     if (error.code() != Code::kCancelled) throw;
     throw Error(Code::kCancelled, "stopped; the panorama was written, and no scene", panorama);
   }
-  authoring::SaveDocument(document, folder);
+  authoring::SaveDocument(document, job.scene);
 }
 
 authoring::ReliefResult MeasureRelief(const PanoramaJob& job, const Progress& progress) {
@@ -112,7 +119,10 @@ MadePanorama BestPanorama(const PanoramaJob& job, const Progress& progress) {
   if (job.relief == "yes") return OverMeasuredRelief(job, progress);
   MadePanorama made{authoring::MakePanorama(job.request, progress), {}};
   constexpr double kFitsPlane = 2.0;  // px of the rectified picture
-  if (job.relief == "no" || !job.request.lens || made.panorama.report.mean_error_px < kFitsPlane)
+  // A relief is measured from one clip, and knows no tie points.
+  const bool is_one_clip = job.request.joined.empty() && job.request.ties.empty();
+  if (job.relief == "no" || !is_one_clip || !job.request.lens ||
+      made.panorama.report.mean_error_px < kFitsPlane)
     return made;
   auto& warnings = made.panorama.report.warnings;
   try {
@@ -147,9 +157,12 @@ void Run(PanoramaJob job) {
                 "only one of the panorama and its report can go to standard output");
   if (!job.lens.empty()) job.request.lens = ReadLens(job.lens);
   job.request.excluded = {job.excluded.begin(), job.excluded.end()};
+  job.request.joined = {job.joined.begin(), job.joined.end()};
+  if (!job.ties.empty()) job.request.ties = authoring::ReadTies(job.ties);
   const Progress progress = TerminalProgress();
   MadePanorama made = BestPanorama(job, progress);
   authoring::PanoramaResult& result = made.panorama;
+  if (job.crop) authoring::CropPanorama(result, *job.crop);
 
   // The panorama last: where it is, all of it is.
   progress.Step("writing", 0.99);
@@ -168,9 +181,11 @@ void Run(PanoramaJob job) {
         DocumentFromRelief(*made.relief, report.lens, authoring::ReliefOptions().view_angle);
     document.scene.title = fs::path(job.output).stem().string();
     document.scene.backdrop.medium = job.backdrop.medium;
+    PutFootage(document, Share(RecordOf(job.request, report)));
+    if (job.crop) authoring::CropBackdrop(document, *job.crop);
     authoring::SaveDocument(document, job.scene);
   } else if (!job.scene.empty()) {
-    WriteScene(job.scene, job.output, job.backdrop.medium, report, progress);
+    WriteScene(job, report, progress);
   }
   progress.Step("done", 1.0);
 
@@ -218,6 +233,27 @@ void AddPanoramaJob(CLI::App& program) {
                   "no plane and --lens is given.")
       ->check(CLI::IsMember({"auto", "yes", "no"}))
       ->capture_default_str();
+  files->Input(job->add_option("--join", own->joined,
+                               "A further clip of the same joint through the same lens; may be "
+                               "given several times. Its frames are counted on."),
+               kFootageInput);
+  files->Input(job->add_option("--ties", own->ties,
+                               "JSON: two or more pairs of points for each frame that did not "
+                               "register; `check --ties-schema` describes it."));
+  job->add_option_function<std::vector<std::string>>(
+         "--mask",
+         [own](const std::vector<std::string>& boxes) {
+           own->request.masked.clear();
+           for (const std::string& words : boxes)
+             own->request.masked.push_back(BoxFromWords("--mask", words));
+         },
+         "Rectangle of every raw picture that shows no tissue, such as text; may be given several "
+         "times.")
+      ->type_name("X,Y,W,H");
+  job->add_option_function<std::string>(
+         "--crop", [own](const std::string& words) { own->crop = BoxFromWords("--crop", words); },
+         "Part of the panorama to write, in its pixels; the report describes that part.")
+      ->type_name("X,Y,W,H");
   own->backdrop.Visit(MediumFlag{*job});
   AddNumbers(*job, "--leave-out", own->excluded, {0, kAnyWholeNumber.max}, "",
              "Numbers of frames to leave out, separated by commas.");
@@ -228,6 +264,11 @@ void AddPanoramaJob(CLI::App& program) {
       own->request.options.registration.method = authoring::PairMethod::kFeaturesThenDirect;
     if (job->count("--medium") > 0 && own->scene.empty())
       throw CLI::ValidationError("--medium", "is kept in a scene; name its folder with --scene");
+    if (own->relief == "yes" && !(own->joined.empty() && own->ties.empty()))
+      throw CLI::ValidationError(
+          "--relief",
+          "a relief is measured from one clip without tie points; leave out --join and "
+          "--ties, or say --relief no");
     if (own->relief == "yes" && own->lens.empty())
       throw CLI::ValidationError("--relief", "yes needs --lens; calibrate one with `lens`");
     Run(*own);

@@ -16,6 +16,7 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
+#include "app/cli/pixel_flags.h"
 #include "app/state/measured_backdrop.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
@@ -38,19 +39,6 @@ struct ReliefJob {
   bool is_partial = false;
   authoring::ReliefRequest request;
 };
-
-// "x,y:x,y": two pixels.
-std::pair<glm::dvec2, glm::dvec2> PixelsFromWord(const char* flag, std::string_view word,
-                                                 const char* sentence) {
-  const auto colon = word.find(':');
-  const auto pixel = [&](std::string_view part) {
-    const std::vector<double> numbers = NumbersFromWord(flag, part, {{0.0, 65535.0}, "px", false});
-    if (numbers.size() != 2) throw CLI::ValidationError(flag, sentence);
-    return glm::dvec2(numbers[0], numbers[1]);
-  };
-  if (colon == std::string_view::npos) throw CLI::ValidationError(flag, sentence);
-  return {pixel(word.substr(0, colon)), pixel(word.substr(colon + 1))};
-}
 
 authoring::KnownLength LengthOf(double millimetres, const std::string& between) {
   const auto [from, to] =

@@ -13,6 +13,10 @@
 #include "app/cli/practice/shipped_presets.h"
 #include "authoring/alignment/align_report.h"
 #include "authoring/alignment/landmark_file.h"
+#include "authoring/panorama/ties/tie_file.h"
+#include "authoring/project/document_io.h"
+#include "authoring/project/footage_record.h"
+#include "authoring/project/sharing.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
@@ -44,8 +48,9 @@ void LookAtLens(const LoadedScene& loaded, SceneFindings& findings) {
   }
 }
 
-void CheckForSharing(const std::string& scene, const LoadedScene& loaded) {
-  const std::vector<std::string> missing = MissingForSharing(loaded.scene);
+void CheckForSharing(const std::string& scene) {
+  const std::vector<std::string> missing =
+      authoring::MissingForSharing(authoring::OpenDocument(scene));
   Print(stderr, "missing: ", missing);
   if (missing.empty()) {
     fmt::print("this scene states its title, its author and the rights in each asset\n");
@@ -73,7 +78,7 @@ void Check(const std::string& scene, const std::string& report, bool is_for_shar
     throw Error(Code::kBadScene,
                 fmt::format("this scene has {} error{}", count, count == 1 ? "" : "s"), scene);
   }
-  if (is_for_sharing) return CheckForSharing(scene, loaded);
+  if (is_for_sharing) return CheckForSharing(scene);
   if (report == "-") return;  // standard output holds the report
   Print(stdout, "", findings.found);
   Print(stdout, "warning: ", findings.warnings);
@@ -112,7 +117,9 @@ void AddCheckJob(CLI::App& program) {
         std::tuple{"--solid-schema", &SolidSchemaText, "solids"},
         std::tuple{"--lens-schema", &LensSchemaText, "lens files"},
         std::tuple{"--pairs-schema", &authoring::PairsSchemaText, "pairs of landmarks"},
-        std::tuple{"--align-schema", &authoring::AlignReportSchemaText, "reports of `align`"}})
+        std::tuple{"--align-schema", &authoring::AlignReportSchemaText, "reports of `align`"},
+        std::tuple{"--ties-schema", &authoring::TiesSchemaText, "tie points of a panorama"},
+        std::tuple{"--footage-schema", &authoring::FootageSchemaText, "footage records"}})
     job->add_flag_callback(
         flag,
         [text = text] {

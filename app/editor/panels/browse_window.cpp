@@ -24,12 +24,25 @@ Answer AskOverwrite(Ui& ui, const BrowseDialog& dialog) {
   return yes ? Answer::kYes : no ? Answer::kNo : Answer::kNone;
 }
 
+// Letters typed over the list choose the entry that begins with them.
+bool TypeAhead(FileBrowserModel& model) {
+  const ImGuiIO& io = ImGui::GetIO();
+  bool has_chosen = false;
+  if (!io.WantTextInput && ImGui::IsWindowFocused())
+    for (const ImWchar letter : io.InputQueueCharacters)
+      if (letter >= 32 && letter < 127)
+        has_chosen = model.Type(static_cast<char>(letter), ImGui::GetTime());
+  return has_chosen;
+}
+
 // Rows of what is in the folder. True when a double-click chose one.
 bool Entries(Ui& ui, FileBrowserModel& model) {
   bool accepted = false;
+  const bool is_new_choice = TypeAhead(model);
   std::optional<std::filesystem::path> enter;
-  if (ImGui::BeginTable("entries", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
+  if (ImGui::BeginTable("entries", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY)) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("changed", ImGuiTableColumnFlags_WidthFixed, ui.Px(140));
     ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, ui.Px(90));
     for (const FileEntry& entry : model.entries()) {
       ImGui::TableNextRow();
@@ -48,8 +61,11 @@ bool Entries(Ui& ui, FileBrowserModel& model) {
         }
       }
       RecordItem(ui, name);
+      if (chosen && is_new_choice) ImGui::SetScrollHereY();
       ImGui::TableNextColumn();
-      if (!entry.is_folder) QuietText(ui, WordsForBytes(entry.bytes));
+      QuietText(ui, WordsForTime(entry.changed));
+      ImGui::TableNextColumn();
+      QuietText(ui, entry.is_scene ? "scene" : entry.is_folder ? "" : WordsForBytes(entry.bytes));
     }
     ImGui::EndTable();
   }
@@ -58,6 +74,22 @@ bool Entries(Ui& ui, FileBrowserModel& model) {
     model.file_name.clear();
   }
   return accepted;
+}
+
+// The folder's path, which can be typed over.
+void FolderField(Ui& ui, BrowseDialog& dialog, bool enter) {
+  FileBrowserModel& model = dialog.model;
+  std::string& path = dialog.typed_folder;
+  if (!dialog.is_typing_folder) path = model.folder().string();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputText("##folder", &path);
+  RecordItem(ui, "Folder", true, path, WidgetKind::kText);
+  const bool was_typing = dialog.is_typing_folder;
+  dialog.is_typing_folder = ImGui::IsItemActive();
+  if (was_typing && ImGui::IsItemDeactivated() && enter) {
+    model.GoTo(path);
+    model.file_name.clear();
+  }
 }
 
 }  // namespace
@@ -77,7 +109,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
   ImGui::SameLine();
   bool hidden = model.shows_hidden();
   if (Checkbox(ui, "Hidden files", hidden)) model.ShowHidden(hidden);
-  bool made_folder = false;
+  bool made_folder = dialog.is_typing_folder;  // the key belongs to the field
   if (dialog.asks_folder_name) {
     ImGui::SetNextItemWidth(ui.Px(300));
     TextInput(ui, "New folder's name", dialog.new_folder, "Name of the new folder");
@@ -91,7 +123,7 @@ void BrowseWindow(Ui& ui, EditorState& state, BrowseDialog& dialog) {
       }
     }
   }
-  QuietText(ui, model.folder().string());
+  FolderField(ui, dialog, enter);
 
   // The list takes what the lines below it leave.
   const float line = ImGui::GetFrameHeightWithSpacing();

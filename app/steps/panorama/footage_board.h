@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,9 +14,12 @@
 #include "app/state/owned.h"
 #include "app/steps/panorama/lens_choice.h"
 #include "app/steps/panorama/picture_zoom.h"
+#include "authoring/footage/pixel_box.h"
+#include "authoring/panorama/ties/frame_tie.h"
 #include "simulation/scene/image.h"
 
 namespace arthro::authoring {
+struct FootageRecord;
 struct PanoramaOptions;
 struct ReliefSoFar;
 }  // namespace arthro::authoring
@@ -49,9 +53,17 @@ struct LargeFrame {
   std::string problem;  // why one is missing
 };
 
+// Meaning of a click on the large picture.
+enum class BoardTool { kLook, kTie, kMask };
+
 struct FootageBoard {
-  // The clip.
+  // The clip, and further ones that are joined to it.
   std::filesystem::path file;
+  std::vector<std::filesystem::path> joined;
+  std::string missing;  // a clip that is gone, in a sentence; empty: all are there
+  // How the scene's panorama was made, where the board shows that; null: another clip.
+  std::shared_ptr<const authoring::FootageRecord> record;
+  bool wants_thumbs = false;  // the clip of a reopened scene, which was not read yet
   std::string name;
   int width = 0, height = 0;  // size of a frame, px
   double frames_per_second = 0;
@@ -62,9 +74,11 @@ struct FootageBoard {
   int lens = 0;
   Owned<authoring::PanoramaOptions> options;  // never empty
   std::set<int> excluded;
-  bool measures_relief = true;  // before the panorama, where the lens is known
-  double view_angle = 0;        // rad, of the scene's scope
-  std::string next_stage;       // first stage of the next run; empty when it would change nothing
+  std::vector<authoring::FrameTie> ties;
+  std::vector<authoring::PixelBox> masked;  // px of the raw pictures
+  bool measures_relief = true;              // before the panorama, where the lens is known
+  double view_angle = 0;                    // rad, of the scene's scope
+  std::string next_stage;  // first stage of the next run; empty when it would change nothing
 
   // Report of the last run, or of the one under way.
   std::vector<FrameNote> notes;                          // one per frame
@@ -78,6 +92,8 @@ struct FootageBoard {
   FrameView view = FrameView::kRaw;
   bool compares = false;  // beside it, what it was before
   PictureZoom zoom;
+  BoardTool tool = BoardTool::kLook;
+  std::optional<glm::dvec2> picked;  // raw pixel of the first point of a pair, or corner of a box
   LargeFrame large;
   bool wants_focus = true;  // so that keys walk through the frames at once
   bool scroll_to_selected = false;

@@ -144,6 +144,7 @@ const char* ToString(FrameStatus status) {
 }
 
 void FootageBoardPage(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture) {
+  if (ShowsAdjustBoard(state)) return AdjustBoardPage(ui, state, area, texture);
   if (std::exchange(state.steps.panorama->footage->wants_focus, false)) ImGui::SetNextWindowFocus();
   const FixedWindow window(ui, "board", area, kPictureWindow);
   const float bar = ui.Px(kBarHeight), line = ui.Px(kLineHeight), strip = FrameStripHeight(ui);

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "app/state/edits.h"
+#include "app/state/footage_source.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
 #include "app/steps/panorama/footage_work.h"
@@ -30,6 +34,42 @@ bool IsVideoName(const fs::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::find(kVideos.begin(), kVideos.end(), extension) != kVideos.end();
+}
+
+std::vector<std::string> FootageEndings() {
+  std::vector<std::string> endings(kVideos.begin(), kVideos.end());
+  for (const char* picture : {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp"})
+    endings.emplace_back(picture);
+  return endings;
+}
+
+// Throws Error(kBadData) for a clip that is another one than the scene's panorama was made from.
+void RequireSameClips(const authoring::Clips& files, const authoring::FootageRecord& record) {
+  for (std::size_t i = 0; i < files.size() && i < record.clips.size(); ++i) {
+    const std::string& known = record.clips[i].fingerprint;
+    if (known != kUnknownClip && authoring::ClipFingerprint(files[i]) != known)
+      throw Error(Code::kBadData,
+                  "this is not the clip that the panorama was made from: its content differs; "
+                  "choose that clip, or make a new panorama from this one",
+                  files[i]);
+  }
+}
+
+// The places of the clips become part of the document, if it is news.
+void KeepPlaces(EditorState& state, const authoring::Clips& files) {
+  authoring::FootageRecord record = *state.steps.panorama->footage->record;
+  bool is_news = false;
+  for (std::size_t i = 0; i < files.size() && i < record.clips.size(); ++i) {
+    authoring::ClipFile& clip = record.clips[i];
+    const fs::path file = fs::absolute(files[i]).lexically_normal();
+    is_news = is_news || clip.file != file.string();
+    clip.file = file.string();
+    clip.name = file.filename().string();
+  }
+  if (!is_news || state.document().footage != state.steps.panorama->footage->record) return;
+  const auto found = std::make_shared<const authoring::FootageRecord>(std::move(record));
+  state.steps.panorama->footage->record = state.steps.panorama->seen = found;
+  Edit(state, "Find the clip", "", [&](auto& next) { next.footage = found; });
 }
 
 bool HasPictures(const fs::path& folder) {
@@ -73,10 +113,11 @@ void ReadClip(authoring::Footage& footage, FootageMail& mail, const Progress& pr
   put_circle();
 }
 
-FootageBoard NewBoard(const fs::path& file, const authoring::FootageInfo& info) {
+FootageBoard NewBoard(const authoring::Clips& files, const authoring::FootageInfo& info) {
   FootageBoard board;
   board.options.emplace();
-  board.file = file;
+  board.file = files.front();
+  board.joined.assign(files.begin() + 1, files.end());
   board.name = info.name;
   board.width = info.width, board.height = info.height;
   board.frames_per_second = info.frames_per_second;
@@ -95,20 +136,19 @@ bool LooksLikeFootage(const fs::path& file) {
 }
 
 void BrowseForFootage(EditorState& state) {
-  std::vector<std::string> extensions(kVideos.begin(), kVideos.end());
-  for (const char* picture : {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp"})
-    extensions.emplace_back(picture);
   Browse(state, BrowseFor::kOpenFileOrFolder, "A video, or a folder of its frames", "Open",
-         {{"Footage", extensions}, {"All files", {}}}, OpenFootage);
+         {{"Footage", FootageEndings()}, {"All files", {}}}, OpenFootage);
 }
 
-void OpenFootage(EditorState& state, const fs::path& chosen) {
-  const fs::path file = ClipOf(chosen);
+namespace {
+
+void OpenClips(EditorState& state, const authoring::Clips& files) {
   auto mail = std::make_shared<FootageMail>();
-  state.jobs.Start("Read " + file.filename().string(), [file, mail](const Progress& progress) {
+  const std::string name = "Read " + files.back().filename().string();
+  state.jobs.Start(name, [files, mail](const Progress& progress) {
     // A clip that cannot be opened ends here; the board only changes once there is a clip.
-    auto footage = authoring::Footage::Open(file);
-    mail->PutClip({file, footage.info()});
+    auto footage = authoring::Footage::Open(files);
+    mail->PutClip({files, footage.info()});
     ReadClip(footage, *mail, progress);
     return [count = footage.index() + 1](EditorState& now) {
       TakeFootageMail(now);
@@ -121,8 +161,72 @@ void OpenFootage(EditorState& state, const fs::path& chosen) {
   state.steps.panorama->footage_job = {std::move(mail), false};
 }
 
+}  // namespace
+
+void OpenFootage(EditorState& state, const fs::path& chosen) { OpenClips(state, {ClipOf(chosen)}); }
+
+void BrowseForJoined(EditorState& state) {
+  Browse(state, BrowseFor::kOpenFileOrFolder, "A further clip of the same joint", "Add",
+         {{"Footage", FootageEndings()}, {"All files", {}}}, JoinFootage);
+}
+
+void JoinFootage(EditorState& state, const fs::path& chosen) {
+  if (!state.steps.panorama->footage) return;
+  authoring::Clips files = ClipsOf(RequestOf(*state.steps.panorama->footage));
+  files.push_back(ClipOf(chosen));
+  OpenClips(state, files);
+}
+
+void ReadFootageAgain(EditorState& state) {
+  FootageBoard& board = *state.steps.panorama->footage;
+  board.wants_thumbs = false;
+  auto mail = std::make_shared<FootageMail>();
+  const authoring::Clips files = ClipsOf(RequestOf(board));
+  state.jobs.Start("Read " + board.name,
+                   [files, mail, record = board.record](const Progress& progress) {
+                     std::string problem;
+                     try {
+                       RequireSameClips(files, *record);
+                       auto footage = authoring::Footage::Open(files);
+                       ReadClip(footage, *mail, progress);
+                     } catch (const Error& error) {
+                       if (error.code() == Code::kCancelled) throw;
+                       problem = error.what();
+                     }
+                     return [problem, files, record](EditorState& now) {
+                       TakeFootageMail(now);
+                       auto& footage = now.steps.panorama->footage;
+                       if (!footage || footage->record != record) return;
+                       footage->missing = problem;
+                       if (problem.empty())
+                         KeepPlaces(now, files);
+                       else
+                         footage->file.clear();
+                     };
+                   });
+  state.steps.panorama->footage_job = {std::move(mail), false};
+}
+
+void BrowseForMissing(EditorState& state) {
+  Browse(state, BrowseFor::kOpenFileOrFolder, "Where the clip lies now", "Choose",
+         {{"Footage", FootageEndings()}, {"All files", {}}}, FindFootage);
+}
+
+void FindFootage(EditorState& state, const fs::path& chosen) {
+  if (!state.steps.panorama->footage) return;
+  FootageBoard& board = *state.steps.panorama->footage;
+  // The first clip that is not there, else the only one.
+  std::error_code ignored;
+  fs::path* place = &board.file;
+  for (fs::path& file : board.joined)
+    if (fs::exists(*place, ignored)) place = &file;
+  *place = ClipOf(chosen);
+  board.missing.clear();
+  board.wants_thumbs = true;
+}
+
 void BeginBoard(EditorState& state, const FootageClip& clip) {
-  FootageBoard board = NewBoard(clip.file, clip.info);
+  FootageBoard board = NewBoard(clip.files, clip.info);
   // Lens and options are those of the clip before: most clips of a day are from one scope.
   board.lenses = state.steps.panorama->footage ? state.steps.panorama->footage->lenses
                                                : LensChoices(state.steps.panorama->lens_folder);
@@ -132,6 +236,12 @@ void BeginBoard(EditorState& state, const FootageClip& clip) {
       if (lens.preset) lens.lens.reset();  // its round window is to be found
     *board.options = *state.steps.panorama->footage->options;
     board.measures_relief = state.steps.panorama->footage->measures_relief;
+    // A clip was added to those that were there: their frames keep their numbers.
+    if (!board.joined.empty() && state.steps.panorama->footage->file == board.file) {
+      board.excluded = state.steps.panorama->footage->excluded;
+      board.ties = state.steps.panorama->footage->ties;
+      board.masked = state.steps.panorama->footage->masked;
+    }
   }
   board.view_angle = state.document().scene.scope.view_angle;
   NoteNextRun(board);
@@ -183,6 +293,7 @@ void SetFrameIncluded(EditorState& state, int frame, bool included) {
     state.steps.panorama->footage->excluded.erase(frame);
   else
     state.steps.panorama->footage->excluded.insert(frame);
+  KeepChoices(state, fmt::format("{} frame {}", included ? "Use" : "Leave out", frame));
   NoteNextRun(*state.steps.panorama->footage);
 }
 

@@ -54,7 +54,7 @@ namespace {
 // The frame at full size, as it was filmed and without the lens's bend.
 void ReadFrame(const authoring::PanoramaRequest& request, LargeFrame& large,
                const Progress& progress) {
-  authoring::Footage footage = authoring::Footage::Open(request.footage);
+  authoring::Footage footage = authoring::Footage::Open(ClipsOf(request));
   for (int i = 0; i < large.frame; ++i) {
     progress.Step("frame", 0);
     if (!footage.Skip()) return;
@@ -122,6 +122,7 @@ void SelectFrame(EditorState& state, int frame) {
   state.steps.panorama->footage->selected =
       std::clamp(frame, -1, state.steps.panorama->footage->frames() - 1);
   state.steps.panorama->footage->scroll_to_selected = true;
+  state.steps.panorama->footage->picked.reset();  // it was a point of another frame
 }
 
 void StepFrame(EditorState& state, int by) {
@@ -137,6 +138,7 @@ void SetFrameView(EditorState& state, FrameView view) {
 
 bool FinishFootage(EditorState& state) {
   bool changed = false;
+  KeepBoardOfScene(state);
   TakeFootageMail(state);
   if (state.steps.panorama->footage_job.mail && !state.jobs.busy()) {
     state.steps.panorama->footage_job = {};
@@ -155,7 +157,9 @@ bool FinishFootage(EditorState& state) {
     footage->view_angle = state.document().scene.scope.view_angle;
     if (!FootageIsUnderWay(state)) NoteNextRun(*footage);
   }
-  if (ShowsFootage(state)) ReadLarge(state);
+  if (ShowsFootage(state) && state.steps.panorama->footage->wants_thumbs && !state.jobs.busy())
+    ReadFootageAgain(state);
+  if (ShowsFootage(state) && !state.steps.panorama->footage->file.empty()) ReadLarge(state);
   return changed;
 }
 

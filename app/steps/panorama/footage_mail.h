@@ -14,7 +14,7 @@
 namespace arthro::app {
 
 struct FootageClip {
-  std::filesystem::path file;
+  authoring::Clips files;
   authoring::FootageInfo info;
 };
 

@@ -76,7 +76,17 @@ void Clip(Ui& ui, EditorState& state) {
   ImGui::SameLine();
   if (Button(ui, "Close it", !FootageIsUnderWay(state), {half, 0},
              "Close the clip. The scene stays as it is."))
-    CloseFootage(state);
+    return CloseFootage(state);
+  if (board.missing.empty()) {
+    if (Button(ui, "Add a clip…", CommandOf(state, "make-panorama").enabled(state), {-FLT_MIN, 0},
+               "Join a further clip of the same joint, filmed through the same lens."))
+      BrowseForJoined(state);
+  } else {
+    ColouredText(ui, board.missing, kWarning);
+    if (Button(ui, "Find the clip…", !FootageIsUnderWay(state), {-FLT_MIN, 0},
+               "Choose where the clip lies now. It must be the same clip."))
+      BrowseForMissing(state);
+  }
 }
 
 void LensChooser(Ui& ui, EditorState& state) {
@@ -180,6 +190,7 @@ void FootagePanel(Ui& ui, EditorState& state) {
   RunAndStop(ui, state);
   if (!state.steps.panorama->footage) return;
   Result(ui, state);
+  MendFields(ui, state);
 
   Gap(ui, 2);
   if (Folded::Fold(ui, "More options")) {

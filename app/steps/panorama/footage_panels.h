@@ -18,10 +18,19 @@ void FootagePanel(Ui& ui, EditorState& state);
 using TextureOf = std::function<unsigned(const SharedPicture&)>;
 void FootageBoardPage(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
 
+// The panorama of the scene while it is cropped, scaled or turned, and the fields beside it.
+void AdjustFields(Ui& ui, EditorState& state);
+void AdjustBoardPage(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
+
 // ---- Parts of the board. ----
 unsigned ColourOf(FrameStatus status);   // 0xAABBGGRR
 const char* SignOf(FrameStatus status);  // so that colour is not all there is
 const char* ToString(FrameStatus status);
+
+// Tie points and masks; on the controls' side, and in the place of the large picture.
+void MendFields(Ui& ui, EditorState& state);
+bool ShowsMendPicture(const FootageBoard& board);
+void MendPicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
 
 void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf& texture);
 // Camera poses and tissue points, from above and from the side.

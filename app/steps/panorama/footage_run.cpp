@@ -5,6 +5,7 @@
 
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/state/footage_source.h"
 #include "app/state/measured_depth.h"
 #include "app/steps/panorama/board_picture.h"
 #include "app/steps/panorama/footage_mail.h"
@@ -35,25 +36,47 @@ std::shared_ptr<MadePanorama> MadeOf(authoring::PanoramaResult result,
   auto made = std::make_shared<MadePanorama>();
   made->picture = PictureFromRgba(result.picture);
   made->shown = PictureFromRgba(result.picture, kBoardEdge);
-  const auto& view = result.report.panorama;
-  made->projection.type = ProjectionType::kGnomonic;
-  made->projection.focal_px = view.focal_px;
-  made->projection.centre_px = {view.cx, view.cy};
+  made->projection = ProjectionOf(result.report.panorama);
   made->report = std::move(result.report);
   made->excluded = excluded;
   return made;
 }
 
-std::shared_ptr<const MadePanorama> MadeFrom(const std::shared_ptr<const MadeRelief>& relief,
-                                             const ReliefSettings& settings) {
+// Rows of a measurement as those of a panorama, for the record that a scene keeps.
+FrameReport RowOf(const authoring::PosedFrame& frame) {
+  FrameReport row;
+  row.index = frame.index;
+  row.is_placed = frame.is_posed;
+  row.is_usable = frame.is_posed || frame.tracks > 0;
+  row.component = frame.is_posed ? 0 : -1;
+  row.reason = frame.reason;
+  row.rms_px = frame.rms_px;
+  return row;
+}
+
+std::shared_ptr<MadePanorama> MadeFrom(const std::shared_ptr<const MadeRelief>& relief,
+                                       const ReliefSettings& settings) {
   auto made = std::make_shared<MadePanorama>();
   made->picture = relief->backdrop.panorama;
   made->shown = relief->shown;
   made->projection = relief->backdrop.projection;
   made->report.lens = settings.lens;
   made->report.warnings = relief->report.warnings;
+  made->report.summary = WordsOfRelief(*relief).front();
+  made->report.over_relief = relief->backdrop.projection;
+  made->report.relief_radius = relief->backdrop.radius;
+  made->report.panorama.width = made->picture->width;
+  made->report.panorama.height = made->picture->height;
+  for (const authoring::PosedFrame& frame : relief->report.frames)
+    made->report.frames.push_back(RowOf(frame));
   made->excluded = settings.excluded;
   made->relief = relief;
+  return made;
+}
+
+std::shared_ptr<MadePanorama> WithRecord(std::shared_ptr<MadePanorama> made,
+                                         const authoring::PanoramaRequest& request) {
+  made->record = Share(RecordOf(request, made->report));
   return made;
 }
 
@@ -77,6 +100,9 @@ authoring::PanoramaRequest RequestOf(const FootageBoard& board) {
   if (lens < board.lenses.size()) request.lens = board.lenses[lens].lens;
   request.options = *board.options;
   request.excluded = board.excluded;
+  request.joined = board.joined;
+  request.masked = board.masked;
+  request.ties = board.ties;
   return request;
 }
 
@@ -104,9 +130,10 @@ void SetMeasuresRelief(EditorState& state, bool measures) {
 }
 
 bool CanRun(const EditorState& state) {
-  return state.steps.panorama->footage && !state.jobs.busy() && !state.practice &&
-         (!state.steps.panorama->footage->made ||
-          !state.steps.panorama->footage->next_stage.empty());
+  const auto& board = state.steps.panorama->footage;
+  if (!board || !board->missing.empty() || state.jobs.busy() || state.practice) return false;
+  // The panorama of a reopened scene was made in another session.
+  return !board->made || !board->session || !board->next_stage.empty();
 }
 
 bool FootageIsUnderWay(const EditorState& state) {
@@ -133,14 +160,14 @@ void RunFootage(EditorState& state) {
             relief =
                 MeasureOnce(*session, makers.relief, request.footage, *settings, mail, progress);
           if (relief && relief->is_measured()) {
-            made = MadeFrom(relief, *settings);
+            made = WithRecord(MadeFrom(relief, *settings), request);
           } else {
             // The clip does not determine depth: frames are placed on a plane, as without a lens.
             const auto placed = MadeOf(
                 makers.run(session->session, request, ObserverOf(mail, request.excluded), progress),
                 request.excluded);
             placed->relief = relief;
-            made = placed;
+            made = WithRecord(placed, request);
           }
         } catch (const cv::Exception& error) {
           // Not said by us, so hardly fit to be shown; but it must not take the window with it.
@@ -176,6 +203,7 @@ void ShowMade(FootageBoard& board) {
       if (frame.index >= 0 && frame.index < board.frames())
         board.notes[static_cast<std::size_t>(frame.index)] =
             NoteOf(frame, board.made->excluded.contains(frame.index));
+  if (board.made->is_measured()) return;  // the report has the same frames without their poses
   for (const FrameReport& row : board.made->report.frames)
     if (row.index >= 0 && row.index < board.frames())
       board.notes[static_cast<std::size_t>(row.index)] =
@@ -184,13 +212,24 @@ void ShowMade(FootageBoard& board) {
 
 namespace {
 
+// The record of the board's panorama, in the step that has just made that the backdrop.
+void AmendRecord(EditorState& state) {
+  FootageBoard& board = *state.steps.panorama->footage;
+  authoring::Document document = state.document();
+  PutFootage(document, board.made->record);
+  board.record = state.steps.panorama->seen = board.made->record;
+  state.history.Amend(std::move(document));
+}
+
 // The picture, its relief, and what is known of it, as the backdrop.
 void UseRelief(EditorState& state, const MadeRelief& relief) {
   const FootageBoard& board = *state.steps.panorama->footage;
   const bool is_backdrop = state.document().panorama == relief.backdrop.panorama;
-  if (!is_backdrop)
+  if (!is_backdrop) {
     SetMeasuredPanorama(state, "Use the measured relief of " + board.name, relief.backdrop,
                         board.lenses.at(static_cast<std::size_t>(board.lens)).lens);
+    AmendRecord(state);
+  }
   Run(state, "depth-map");
 }
 
@@ -215,6 +254,7 @@ void UseMadePanorama(EditorState& state) {
   if (state.document().panorama == made.picture) return;  // it is the backdrop already
   SetPanorama(state, "Use the panorama of " + state.steps.panorama->footage->name, made.picture,
               made.projection, made.report.lens, made.report.is_lens_guessed);
+  AmendRecord(state);
 }
 
 }  // namespace arthro::app

@@ -109,6 +109,8 @@ std::string WordsOfNextRun(const FootageBoard& board) {
     return "The next run measures the relief from the motion of the scope.";
   if (board.next_stage == "register")
     return "The next run begins with placing the frames; earlier stages are kept.";
+  if (board.next_stage == "tie")
+    return "The next run places the tied frames and draws the panorama; all other places are kept.";
   if (board.next_stage == "compose")
     return "The next run begins with drawing the panorama; earlier stages are kept.";
   return "The next run begins with reading the frames.";

@@ -21,6 +21,14 @@ void BrowseForFootage(EditorState& state);
 // Reads the clip's frames as small pictures. A picture stands for the folder that it lies in.
 // Until the first frame was read, what was on the board stays.
 void OpenFootage(EditorState& state, const std::filesystem::path& file);
+// The same with all of the board's clips and one more.
+void BrowseForJoined(EditorState& state);
+void JoinFootage(EditorState& state, const std::filesystem::path& file);
+// Reads the clip of a reopened scene, which must be the one that its panorama was made from.
+void ReadFootageAgain(EditorState& state);
+// Asks where the clip of a reopened scene lies now.
+void BrowseForMissing(EditorState& state);
+void FindFootage(EditorState& state, const std::filesystem::path& file);
 void CloseFootage(EditorState& state);
 // True for the name of a video, or for a folder with pictures that is not a scene.
 bool LooksLikeFootage(const std::filesystem::path& file);
@@ -32,6 +40,20 @@ void SetPanoramaOptions(EditorState& state, const authoring::PanoramaOptions& op
 // Whether the next run tries to measure the relief from the motion of the scope.
 void SetMeasuresRelief(EditorState& state, bool measures);
 void SetFrameIncluded(EditorState& state, int frame, bool included);
+
+// ---- Mending by hand. Each is a step of the history where the board shows the scene's own clip.
+// ----
+void SetTool(EditorState& state, BoardTool tool);
+// A pair from a raw pixel of the selected frame to a pixel of the panorama on the board.
+void AddTie(EditorState& state, const glm::dvec2& raw, const glm::dvec2& panorama);
+void RemoveTie(EditorState& state, std::size_t tie);
+// Pixel of the board's panorama, which may be a part or the mirror image, for one of its report.
+glm::dvec2 ShownPixel(const MadePanorama& made, glm::dvec2 in_report);
+void AddMask(EditorState& state, const glm::dvec2& corner, const glm::dvec2& opposite);
+void RemoveMask(EditorState& state, std::size_t mask);
+// Takes over what the last run found never to change.
+bool CanProposeMasks(const EditorState& state);
+void ProposeMasks(EditorState& state);
 
 // ---- The run. ----
 bool CanRun(const EditorState& state);
@@ -54,6 +76,10 @@ void SetFrameView(EditorState& state, FrameView view);
 bool FinishFootage(EditorState& state);
 
 // ---- Among the files of this folder. ----
+// Holds the board against the document: a scene that was opened, undo and redo.
+void KeepBoardOfScene(EditorState& state);
+// Makes left out frames, ties and masks of the board those of the document.
+void KeepChoices(EditorState& state, const std::string& name);
 void TakeFootageMail(EditorState& state);
 void BeginBoard(EditorState& state, const FootageClip& clip);
 authoring::PanoramaRequest RequestOf(const FootageBoard& board);  // request of the next run

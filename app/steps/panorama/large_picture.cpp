@@ -98,6 +98,7 @@ void LargePicture(Ui& ui, EditorState& state, const Area& area, const TextureOf&
   const Showing showing = ShowingOf(board);
   ImGui::GetWindowDrawList()->AddRectFilled(
       {area.x, area.y}, {area.x + area.width, area.y + area.height}, 0xFF000000);
+  if (ShowsMendPicture(board)) return MendPicture(ui, state, area, texture);
   ImGui::SetCursorScreenPos({area.x, area.y});
   HitArea("Large picture", {area.width, area.height});
   RecordItem(

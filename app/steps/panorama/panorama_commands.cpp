@@ -72,6 +72,14 @@ constexpr Command kCommands[] = {
      [](State& state) {
        SetMeasuresRelief(state, !state.steps.panorama->footage->measures_relief);
      }},
+    {"mirror-scene",
+     "Mirror for the other knee",
+     "Mirror picture, depth, tissues, cuts, incisions and side: the same scene of the other knee.",
+     "Scene",
+     {},
+     {},
+     [](const State& state) { return Idle(state) && HasPicture(state); },
+     MirrorForOtherKnee},
     {"read-report",
      "Read its report…",
      "Read the middle and focal length of the panorama from its report.",

@@ -90,6 +90,7 @@ void PanoramaPanel(Ui& ui, EditorState& state) {
     SetBackdrop(state, backdrop, "the distance of the backdrop");
   }
   Drag(state, change);
+  AdjustFields(ui, state);
   RightsFields(ui, state);
 }
 

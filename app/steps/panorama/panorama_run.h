@@ -31,7 +31,8 @@ struct MadePanorama {
   SharedPicture shown;    // the same, small enough for the board
   Projection projection;  // projection of `picture`
   authoring::PanoramaReport report;
-  std::set<int> excluded;                    // when it was made
+  std::set<int> excluded;                                  // when it was made
+  std::shared_ptr<const authoring::FootageRecord> record;  // part that a scene keeps
   std::shared_ptr<const MadeRelief> relief;  // result of the measurement; null: none was tried
   bool is_measured() const { return relief && relief->is_measured(); }
 };

@@ -35,6 +35,8 @@ std::string Capital(std::string words) {
 
 std::optional<ReliefSettings> ReliefSettingsOf(const FootageBoard& board) {
   const auto chosen = static_cast<std::size_t>(board.lens);
+  // A relief is measured from one clip, and knows no tie points.
+  if (!board.joined.empty() || !board.ties.empty()) return std::nullopt;
   if (!board.measures_relief || chosen >= board.lenses.size() || !board.lenses[chosen].lens)
     return std::nullopt;
   return ReliefSettings{*board.lenses[chosen].lens, board.excluded, board.view_angle};

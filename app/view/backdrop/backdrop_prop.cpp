@@ -62,6 +62,15 @@ double SmoothingPx(const DepthMap& depth, const DepthMap& sigma, const Backdrop&
   return smoothing * px_per_rad / backdrop.radius;
 }
 
+// The view in the frame of the projection's formulas, which the portal's is turned into about +z
+// (Projection::roll). The sphere is the same in both.
+simulation::ScopeView InPictureFrame(const simulation::ScopeView& view,
+                                     const Projection& projection) {
+  if (projection.roll == 0) return view;
+  const glm::dquat turn = glm::angleAxis(-projection.roll, glm::dvec3(0, 0, 1));
+  return {turn * view.tip, turn * view.view, turn * view.up, turn * view.right};
+}
+
 void SetUniform(vtkShaderProgram& program, const char* name, const glm::dvec3& value) {
   const float v[3] = {static_cast<float>(value.x), static_cast<float>(value.y),
                       static_cast<float>(value.z)};
@@ -265,7 +274,7 @@ ReliefContact BackdropProp::BeginContact() {
   if (!relief_->GetHandle() || picture_.relief.steps == 0 || picture_.plain) return contact;
   relief_->Activate();
   contact.texture_unit = relief_->GetTextureUnit();
-  const simulation::ScopeView& view = picture_.view;
+  const simulation::ScopeView view = InPictureFrame(picture_.view, backdrop_.projection);
   contact.tip = view.tip;
   contact.right = view.right;
   contact.up = glm::cross(view.right, view.view);
@@ -283,7 +292,7 @@ void BackdropProp::EndContact() {
 }
 
 void BackdropProp::SetUniforms(vtkShaderProgram& program) const {
-  const simulation::ScopeView& view = picture_.view;
+  const simulation::ScopeView view = InPictureFrame(picture_.view, backdrop_.projection);
   // Double precision until here: 1 - |tip|² is a small difference when the tip nears the sphere.
   const glm::dvec3 tip = view.tip / backdrop_.radius;
   program.SetUniformi("panorama", panorama_->GetTextureUnit());

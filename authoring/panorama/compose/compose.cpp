@@ -10,6 +10,7 @@
 #include "authoring/panorama/compose/detail_blend.h"
 #include "authoring/panorama/compose/layout.h"
 #include "authoring/panorama/compose/light_model.h"
+#include "authoring/panorama/compose/part_progress.h"
 #include "authoring/panorama/compose/shares.h"
 #include "simulation/core/option_fields.h"
 #include "simulation/core/process_cost.h"
@@ -133,7 +134,11 @@ class Composer {
         layout_(layout),
         options_(options),
         report_(report),
-        progress_(progress),
+        looking_(PartOf(progress, 0, kLooked)),
+        lighting_(PartOf(progress, kLooked, kLit)),
+        choosing_(PartOf(progress, kLit, kChosen)),
+        drawing_(PartOf(progress, kChosen, kDrawn)),
+        finishing_(PartOf(progress, kDrawn, 1)),
         cells_(layout.frames.size()),
         is_seen_(layout.frames.size(), 0) {
     for (const LaidFrame& frame : layout.frames)
@@ -146,7 +151,7 @@ class Composer {
     cv::Mat raw, rectified;
     for (int index = 0; source_(index, raw);) {
       const int f = PositionOf(layout_, index);
-      progress_.Step("look at frames", f < 0 ? 0.0 : Share(f));
+      looking_.Step("look at frames", f < 0 ? 0.0 : Share(f));
       if (f < 0 || is_seen_[f]) continue;
       try {
         picture_.draw(raw, rectified);
@@ -164,13 +169,13 @@ class Composer {
 
   void TakeLightOut() {
     const CpuTimer timer(report_.light_ms);
-    light_ = EstimateLight(cells_, rays_, layout_, options_, progress_);
+    light_ = EstimateLight(cells_, rays_, layout_, options_, lighting_);
     const ToneCurve tone(light_);
     double least = 0, most = 0;
     bool is_first = true;
     for (std::size_t f = 0; f < cells_.size(); ++f) {
       if (!is_seen_[f]) continue;
-      progress_.Step("even light", Share(f));
+      lighting_.Step("even light", Share(f));
       EvenLight(cells_[f], rays_[f], layout_.frames[f].cells, light_, static_cast<int>(f), tone);
       const double gain = light_.frames[f].gain;
       least = is_first ? gain : std::min(least, gain);
@@ -183,14 +188,14 @@ class Composer {
   // Chooses the frames of each cell and computes the low frequencies.
   void Decide(Preview& preview) {
     const CpuTimer timer(report_.seams_ms);
-    consensus_ = FindConsensus(cells_, rays_, layout_, options_, progress_);
+    consensus_ = FindConsensus(cells_, rays_, layout_, options_, choosing_);
     report_.outlier_share = consensus_.outlier_share;
     report_.light_residue = consensus_.residue;
     const double known = cv::countNonZero(consensus_.is_known);
     const double glaring = cv::countNonZero(consensus_.is_known == 128);
     report_.hole_share = known > 0 ? glaring / known : 0;
-    shares_ = ShareCells(cells_, rays_, layout_, options_, progress_);
-    slow_ = BlendCells(cells_, shares_, consensus_, layout_, progress_);
+    shares_ = ShareCells(cells_, rays_, layout_, options_, choosing_);
+    slow_ = BlendCells(cells_, shares_, consensus_, layout_, choosing_);
     preview.Show(slow_, consensus_.is_known, 0.5);
   }
 
@@ -202,7 +207,7 @@ class Composer {
     cv::Mat raw, rectified;
     for (int index = 0; source_(index, raw);) {
       const int f = PositionOf(layout_, index);
-      progress_.Step("blend", f < 0 ? 0.0 : Share(f));
+      drawing_.Step("blend", f < 0 ? 0.0 : Share(f));
       if (f < 0 || shares_[f].empty() || cv::countNonZero(shares_[f]) == 0) continue;
       picture_.draw(raw, rectified);
       const LaidFrame& frame = layout_.frames[f];
@@ -213,13 +218,13 @@ class Composer {
         for (int x = 0; x < frame.cells.width; ++x)
           drawn.gain.at<float>(y, x) = static_cast<float>(
               std::exp(-light_.Excess(f, rays_[f].At(frame.cells.x + x, frame.cells.y + y))));
-      detail.Add(drawn, frame, tone, progress_, Share(f));
+      detail.Add(drawn, frame, tone, drawing_, Share(f));
       shares_[f].release();
       cells_[f] = {};
       ++report_.frames_contributing;
     }
     cv::Mat rgba(layout_.size, CV_8UC4, cv::Scalar::all(0));
-    detail.Finish(slow_, rgba, progress_);
+    detail.Finish(slow_, rgba, finishing_);
     report_.covered_share = WriteAlpha(layout_, is_seen_, options_.feather, rgba);
     return rgba;
   }
@@ -234,7 +239,10 @@ class Composer {
   const Layout& layout_;
   const ComposeOptions& options_;
   ComposeReport& report_;
-  const Progress& progress_;
+  // Ends of the parts as shares of the whole: two passes over the footage, and the work on cells
+  // between them. A part that is done over and over, such as the light, goes forward only once.
+  static constexpr double kLooked = 0.35, kLit = 0.43, kChosen = 0.52, kDrawn = 0.95;
+  Progress looking_, lighting_, choosing_, drawing_, finishing_;
   std::vector<FrameCells> cells_;
   std::vector<char> is_seen_;
   std::vector<CellRays> rays_;

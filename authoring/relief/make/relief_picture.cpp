@@ -171,7 +171,7 @@ ReliefPicture DrawOverRelief(const std::filesystem::path& footage, const Measure
   progress.Step("placing the frames", 0.0);
   const Layout layout = LayOverRelief(finished.views, made.lens, finished.cells, finished.closed,
                                       finished.visible, request);
-  ChosenPictures pictures(footage, wanted);
+  ChosenPictures pictures(Clips{footage}, wanted);
   FramePicture picture;
   picture.draw = [](const cv::Mat& raw, cv::Mat& as_is) { as_is = raw; };
   const Footage raw = Footage::Open(footage);

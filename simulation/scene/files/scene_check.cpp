@@ -20,16 +20,6 @@ namespace {
 
 double Mm(double metres) { return MmFromMetres(metres); }
 
-// The parts of an asset's rights that are not given, as a list of words; empty: all are.
-std::string MissingRights(const AssetRights& rights) {
-  std::string missing;
-  for (const auto& [text, word] :
-       {std::pair{&rights.source, "source"}, std::pair{&rights.licence, "licence"},
-        std::pair{&rights.consent, "consent"}})
-    if (text->empty()) missing += (missing.empty() ? "" : ", ") + std::string(word);
-  return missing;
-}
-
 void LookAtRights(const std::string& what, const AssetRights& rights, SceneFindings& findings) {
   if (const std::string missing = MissingRights(rights); !missing.empty())
     findings.warnings.push_back(
@@ -294,6 +284,15 @@ void LookAtScope(const Scene& scene, SceneFindings& findings) {
 }
 
 }  // namespace
+
+std::string MissingRights(const AssetRights& rights) {
+  std::string missing;
+  for (const auto& [text, word] :
+       {std::pair{&rights.source, "source"}, std::pair{&rights.licence, "licence"},
+        std::pair{&rights.consent, "consent"}})
+    if (text->empty()) missing += (missing.empty() ? "" : ", ") + std::string(word);
+  return missing;
+}
 
 std::vector<std::string> MissingForSharing(const Scene& scene) {
   std::vector<std::string> missing;

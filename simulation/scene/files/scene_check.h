@@ -32,6 +32,9 @@ SceneFindings CheckScene(const std::filesystem::path& scene, LoadedScene* loaded
 // The same for a scene in memory, as an editor shows it while the author works.
 SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer = {});
 
+// Parts of the rights that are not given, "source, licence"; empty: all are given.
+std::string MissingRights(const AssetRights& rights);
+
 // Lacks of a scene that is to be shared: title, author, and the source, licence and consent of each
 // asset. One line each.
 std::vector<std::string> MissingForSharing(const Scene& scene);

@@ -4,9 +4,9 @@ namespace arthro {
 
 std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
   const Backdrop& backdrop = scene.backdrop;
-  std::vector<std::filesystem::path> files = {backdrop.panorama, backdrop.depth,
+  std::vector<std::filesystem::path> files = {backdrop.panorama,    backdrop.depth,
                                               backdrop.depth_sigma, backdrop.depth_origin,
-                                              scene.scope.lens};
+                                              backdrop.footage,     scene.scope.lens};
   for (const Tissue& tissue : scene.tissues) {
     files.push_back(tissue.surface);
     files.push_back(tissue.mesh);

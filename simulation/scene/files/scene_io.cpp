@@ -159,6 +159,7 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
     if (loaded.depth) RequireSameSize(*loaded.depth, *loaded.depth_origin, path);
     return loaded.depth_origin;
   });
+  named("backdrop.footage", backdrop.footage, [](const fs::path&) -> Part { return nullptr; });
   named("scope.lens", loaded.scene.scope.lens, [&](const fs::path& path) -> Part {
     loaded.lens = ReadLens(path);
     return nullptr;

@@ -264,6 +264,8 @@ class FieldWriter {
       if (field) Write(name, *field, rule, unit, true);
     } else if constexpr (requires { field.emplace_back(); }) {
       for (auto& element : field) json_[name].push_back(JsonFromElement(element));
+    } else if constexpr (internal::IsOptional<T>::value) {
+      if (field) json_[name] = JsonFromElement(*field);
     } else {
       Json own = Json::object();
       field.Visit(FieldWriter(own));

@@ -377,14 +377,15 @@ TEST_F(Commands, SavingASceneThatWasOnlyTouchedOrWasRemovedAsksNothing) {
 
 TEST_F(Commands, RightsOfPanoramaAndTissueAreStepsThatCanBeUndone) {
   Open();
-  SetRights(state, -1, {"ward 3", "CC BY 4.0", ""}, "licence");
-  SetRights(state, 0, {"made in code", "", ""}, "source");
+  const authoring::Asset kPanorama, kTissue{authoring::Asset::Kind::kTissue, 0, ""};
+  SetRights(state, kPanorama, {"ward 3", "CC BY 4.0", ""}, "licence");
+  SetRights(state, kTissue, {"made in code", "", ""}, "source");
   EXPECT_EQ(state.document().scene.backdrop.rights.licence, "CC BY 4.0");
   EXPECT_EQ(state.document().scene.tissues[0].rights.source, "made in code");
   state.history.Undo();
   EXPECT_EQ(state.document().scene.tissues[0].rights.source, "");
   EXPECT_EQ(state.document().scene.backdrop.rights.licence, "CC BY 4.0");
-  SetRights(state, -1, {"ward 3", "CC BY 4.0", ""}, "licence");
+  SetRights(state, kPanorama, {"ward 3", "CC BY 4.0", ""}, "licence");
   state.history.Undo();
   EXPECT_EQ(state.document().scene.backdrop.rights.licence, "") << "no step without a change";
 }

@@ -151,6 +151,19 @@ TEST_F(FileBrowser, AFolderThatCannotBeOpenedLeavesTheUserWhereTheyWere) {
   EXPECT_EQ(model.entries().size(), 3u);
 }
 
+TEST_F(FileBrowser, LettersChooseTheEntryThatBeginsWithThemUntilAPause) {
+  FileBrowserModel model(BrowseFor::kOpenFile, kPictures, temp.path());
+  const auto& entries = model.entries();
+  ASSERT_GE(entries.size(), 2u);
+  const std::string last = entries.back().name();
+  double time = 10;
+  for (const char letter : last) EXPECT_TRUE(model.Type(letter, time += 0.1));
+  EXPECT_EQ(model.file_name, last);
+  EXPECT_FALSE(model.Type('\x7e', time + 0.1)) << "no name goes on so";
+  EXPECT_TRUE(model.Type(entries.front().name()[0], time + 5)) << "a pause begins anew";
+  EXPECT_GT(entries.front().changed, 0);
+}
+
 TEST(WordsForBytes, AreShortAndRounded) {
   EXPECT_EQ(WordsForBytes(812), "812 B");
   EXPECT_EQ(WordsForBytes(3'400'000), "3.4 MB");

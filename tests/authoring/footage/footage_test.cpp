@@ -239,6 +239,32 @@ TEST(Footage, DecodersKeepQuiet) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(Footage, SeveralClipsAreReadAsOneAndNameTheirFrames) {
+  const test::TempFolder folder;
+  fs::create_directory(folder / "b");
+  WriteVideo(folder / "a.avi", 3);
+  for (int i = 0; i < 2; ++i)
+    WritePicture(folder / "b" / fmt::format("{}.png", i), 60 + i, CV_8UC3, {64, 48});
+  Footage footage = Footage::Open(Clips{folder / "a.avi", folder / "b"});
+  EXPECT_EQ(footage.info().frames, 5);
+  EXPECT_EQ(footage.info().name, "a.avi + b");
+  for (int pass = 0; pass < 2; ++pass) {
+    cv::Mat rgb;
+    for (int i = 0; i < 5; ++i) {
+      ASSERT_TRUE(i == 1 ? footage.Skip() : footage.Next(rgb));
+      EXPECT_EQ(footage.index(), i);
+      EXPECT_EQ(footage.clip(), i < 3 ? 0 : 1);
+    }
+    EXPECT_EQ(rgb.at<cv::Vec3b>(1, 1)[1], 61);
+    EXPECT_EQ(footage.NameOf(2), "a.avi:2");
+    EXPECT_EQ(footage.NameOf(3), "b:0");
+    EXPECT_FALSE(footage.Next(rgb));
+    EXPECT_EQ(footage.CutShort(), "");
+    footage.Rewind();
+  }
+  EXPECT_THROW(Footage::Open(Clips{folder / "a.avi", folder / "gone.avi"}), Error);
+}
+
 TEST(Footage, RealClipHasAllItsFrames) {
   ARTHRO_REQUIRE_SHARED(clip, "data/laparoscopy_rvim/endo.mp4");
   Footage footage = Footage::Open(clip);

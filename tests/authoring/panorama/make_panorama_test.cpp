@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -339,6 +340,22 @@ TEST(MakePanorama, SameInputSameBytesAtAnyNumberOfThreads) {
   cv::setNumThreads(-1);
   EXPECT_EQ(one.first, three.first);
   EXPECT_EQ(one.second, three.second);
+}
+
+// The drawing is nearly half of the work: a bar that stood at its end before it told nothing.
+TEST(MakePanorama, TheEndIsNotReportedBeforeThePanoramaIsDrawn) {
+  const test::TempFolder folder;
+  TinyClip().WriteAll(folder / "clip", TinyClip::Arc(4));
+  std::map<std::string, double> first;  // share done when a stage begins
+  Progress progress;
+  progress.report = [&](std::string_view words, double done) {
+    first.emplace(words.substr(0, words.find(',')), done);
+  };
+  MakePanorama(RequestFor(folder / "clip"), progress);
+  ASSERT_TRUE(first.contains("blend detail") && first.contains("finish"));
+  EXPECT_LT(first.at("even light"), first.at("blend detail"));
+  EXPECT_LT(first.at("blend detail"), 0.85);
+  EXPECT_LT(first.at("finish"), 0.985) << "0.99 is the last that is shown";
 }
 
 TEST(MakePanorama, ProgressOnlyGoesForward) {

@@ -75,6 +75,9 @@ PanoramaReport SampleReport() {
   report.peak_memory_mb = 123.4;
   report.warnings = {"no lens was given"};
   report.options = JsonFromOptions(PanoramaOptions()).dump();
+  report.clips = {{"clip", 0, 3, 2, 1}};
+  report.tied = {{1, 2, 0.75, 3.5, true}};
+  report.text_boxes = {{10, 20, 30, 8}};
   return report;
 }
 
@@ -218,6 +221,21 @@ TEST(StageClock, StagesAreSharesOfOneJob) {
   ASSERT_EQ(clock.costs().size(), 2u);
   EXPECT_EQ(clock.costs()[1].name, "b");
   EXPECT_GE(clock.costs()[0].cpu_ms, 0);
+}
+
+TEST(PanoramaReport, WhatIsReadIsWrittenAgainByteByByte) {
+  PanoramaReport plane = SampleReport();
+  plane.lens.field_of_view = FieldOfViewOf(plane.lens).value();  // a reader works it out
+  plane.stages = {{"compose", 99}, {"read", 12.346}};            // sorted by name, as they are read
+  const std::string text = JsonFromReport(plane);
+  EXPECT_EQ(JsonFromReport(ReportFromJson(text)), text);
+  PanoramaReport over = plane;
+  over.over_relief = Projection{ProjectionType::kEquirectangular, {100.5, 80}, 0, 9.5};
+  over.relief_radius = 0.05;
+  const std::string relief = JsonFromReport(over);
+  EXPECT_EQ(JsonFromReport(ReportFromJson(relief)), relief);
+  EXPECT_THROW(ReportFromJson("{}"), Error);
+  EXPECT_THROW(ReportFromJson("[1"), Error);
 }
 
 }  // namespace

@@ -26,6 +26,36 @@ TEST(Projection, EquirectangularIsLatitudeAndLongitude) {
   EXPECT_NEAR(pixel->y, 700 - 200, 1e-9);
 }
 
+// A turned picture is the picture of turned directions, and its gradients are those of its pixels.
+TEST(Projection, RollTurnsThePictureAboutTheDirectionStraightAhead) {
+  for (Projection projection : {Gnomonic(), Equirectangular()}) {
+    const glm::dvec3 ahead = DirectionFromPixel(projection, projection.centre_px);
+    const glm::dvec2 right = projection.centre_px + glm::dvec2(80, 0);
+    projection.roll = RadiansFromDegrees(90);
+    EXPECT_LT(glm::distance(DirectionFromPixel(projection, projection.centre_px), ahead), 1e-15);
+    const glm::dvec3 below = DirectionFromPixel(projection, right);
+    EXPECT_NEAR(below.x, 0, 1e-12) << "clockwise: what was right is below";
+    EXPECT_GT(below.y, 0);
+    projection.roll = 0.7;
+    const glm::dvec3 d = glm::normalize(glm::dvec3(0.2, -0.3, 0.9));
+    const auto pixel = PixelFromDirection(projection, d);
+    ASSERT_TRUE(pixel);
+    EXPECT_LT(glm::distance(DirectionFromPixel(projection, *pixel), d), 1e-12);
+    constexpr double kStep = 1e-6;
+    const glm::dmat2x3 gradients = PixelGradients(projection, d);
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 step(0.0);
+      step[axis] = kStep;
+      const glm::dvec2 change =
+          (*PixelFromDirection(projection, d + step) - *PixelFromDirection(projection, d - step)) /
+          (2 * kStep);
+      // Central differences: error of the third derivative, some 1e4 px times kStep².
+      EXPECT_NEAR(change.x, gradients[0][axis], 1e-4);
+      EXPECT_NEAR(change.y, gradients[1][axis], 1e-4);
+    }
+  }
+}
+
 TEST(Projection, GnomonicIsThePinhole) {
   const auto pixel = PixelFromDirection(Gnomonic(), {0.02, -0.01, 0.1});
   ASSERT_TRUE(pixel);

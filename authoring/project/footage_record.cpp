@@ -1,0 +1,152 @@
+#include "authoring/project/footage_record.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "simulation/core/atomic_file.h"
+#include "simulation/core/error.h"
+#include "simulation/core/fingerprint.h"
+#include "simulation/core/input_file.h"
+#include "simulation/core/json_text.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/json/field_json.h"
+#include "simulation/scene/json/field_schema.h"
+#include "simulation/scene/json/scene_json.h"
+
+namespace arthro::authoring {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSchema = "arthroscene.footage/1";
+constexpr const char* kReport = "report";
+
+void ReplaceAll(std::string& text, const std::string& from, const std::string& to) {
+  if (from.empty()) return;
+  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+FootageRecord FootageFromJson(const std::string& text, const fs::path& file) {
+  const nlohmann::json json = ParseJson(text, Code::kBadData, file);
+  if (!json.is_object())
+    throw Error(Code::kBadData, "a record of footage must be a JSON object {…}", file);
+  std::vector<JsonFault> faults;
+  JsonObjectReader reader(json, "", faults);
+  std::string schema;
+  reader.Text("schema", schema, JsonObjectReader::kRequired);
+  if (schema != kSchema && !schema.empty())
+    throw Error(Code::kBadData,
+                fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kSchema),
+                file);
+  FootageRecord record;
+  record.Visit(FieldReader(reader));
+  if (record.clips.empty() && faults.empty())
+    reader.Fault("clips", "must list the clips of the panorama");
+  reader.Know(kReport);
+  if (const auto report = json.find(kReport); report != json.end()) {
+    if (report->is_object())
+      record.report = ParseOrderedJson(text, Code::kBadData)[kReport].dump(1) + "\n";
+    else
+      reader.Fault(kReport, "must be the report of a panorama");
+  }
+  reader.RefuseOtherKeys(true);
+  if (!faults.empty()) throw Error(Code::kBadData, faults.front().sentence, file);
+  return record;
+}
+
+FootageRecord ReadFootage(const fs::path& file) {
+  return FootageFromJson(ReadWholeFile(file, kMostJsonBytes), file);
+}
+
+std::string JsonFromFootage(const FootageRecord& record) {
+  nlohmann::ordered_json json;
+  json["schema"] = kSchema;
+  FootageRecord copy = record;
+  copy.Visit(FieldWriter(json));
+  if (!record.report.empty()) json[kReport] = ParseOrderedJson(record.report, Code::kBadData);
+  return PrettyJson(json);
+}
+
+std::string FootageSchemaText() {
+  auto fields = SchemaOfFields(FootageRecord());
+  fields["properties"][kReport] = {
+      {"type", "object"}, {"description", "Report of the panorama, by panorama-1.schema.json."}};
+  return PrettyJson(FileSchema(kSchema, "Arthroscene record of footage, version 1",
+                               "How the panorama of a scene was made: clips, choices and report.",
+                               std::move(fields)));
+}
+
+FootageRecord BesideScene(FootageRecord record, const fs::path& folder) {
+  for (ClipFile& clip : record.clips)
+    if (!clip.file.empty())
+      clip.beside = fs::path(clip.file).lexically_relative(fs::absolute(folder)).generic_string();
+  return record;
+}
+
+FootageRecord WithoutNames(FootageRecord record) {
+  nlohmann::ordered_json report;
+  if (!record.report.empty()) report = ParseOrderedJson(record.report, Code::kBadData);
+  if (!report.is_object()) report = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < record.clips.size(); ++i) {
+    ClipFile& clip = record.clips[i];
+    const std::string name = fmt::format("clip {}", i + 1);
+    // Sentences may name the clip.
+    if (report.contains("warnings"))
+      for (auto& warning : report["warnings"]) {
+        std::string words = warning.get<std::string>();
+        for (const std::string& old : {clip.file, clip.name}) ReplaceAll(words, old, name);
+        warning = words;
+      }
+    if (report.contains("clips") && i < report["clips"].size()) report["clips"][i]["file"] = name;
+    clip.name = name;
+    clip.file.clear();
+    clip.beside.clear();
+  }
+  if (report.contains("footage")) report["footage"] = "";
+  if (report.contains("frames"))
+    for (auto& frame : report["frames"]) frame["source"] = "";
+  if (!record.report.empty()) record.report = report.dump(1) + "\n";
+  return record;
+}
+
+std::string ClipFingerprint(const fs::path& clip) {
+  std::error_code ignored;
+  if (!fs::is_directory(clip, ignored)) return FingerprintOf(ReadWholeFile(clip));
+  std::vector<std::string> lines;
+  for (const auto& entry : fs::directory_iterator(clip, ignored))
+    if (entry.is_regular_file(ignored))
+      lines.push_back(entry.path().filename().string() + " " +
+                      FingerprintOf(ReadWholeFile(entry.path())) + "\n");
+  std::sort(lines.begin(), lines.end());
+  std::string all;
+  for (const std::string& line : lines) all += line;
+  return FingerprintOf(all);
+}
+
+fs::path FindClip(const ClipFile& clip, const fs::path& scene_folder) {
+  std::error_code ignored;
+  if (!clip.beside.empty() && !scene_folder.empty() && !IsArchive(scene_folder))
+    if (const fs::path file = (fs::absolute(scene_folder) / clip.beside).lexically_normal();
+        fs::exists(file, ignored))
+      return file;
+  return !clip.file.empty() && fs::exists(clip.file, ignored) ? fs::path(clip.file) : fs::path();
+}
+
+std::string WordsOfMissingClip(const ClipFile& clip) {
+  if (clip.file.empty())
+    return fmt::format(
+        "this scene was handed on without the place of its clip ({} frames); choose "
+        "the clip to change its panorama",
+        clip.frames);
+  return fmt::format(
+      "the clip {} is no longer at {}; choose where it lies now to change its "
+      "panorama",
+      clip.name, clip.file);
+}
+
+}  // namespace arthro::authoring
