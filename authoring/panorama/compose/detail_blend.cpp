@@ -5,13 +5,15 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "authoring/panorama/compose/frame_choice.h"
+
 namespace arthro::authoring {
 namespace {
 
 constexpr float kDetailSteps = 96;   // steps per grey level: +-341 grey levels fit into 16 bits
 constexpr int kTile = 384;           // px; a multiple of every cell width
 constexpr int kHalo = 16;            // px around a tile, for the bands at its border
-constexpr double kTakenAlone = 0.5;  // trust below which a cell takes one frame for the most part
+constexpr double kTakenAlone = 0.5;  // share of the mean below which a frame is mostly drawn alone
 
 // Part of a picture on cells that a box of panorama px covers, at 2^-band of their scale. The
 // cells' picture starts at `origin`, the box at `at`; all are multiples of a cell.
@@ -66,7 +68,7 @@ void DetailBlend::Add(const DetailSource& source, const LaidFrame& frame, const 
   const int step = kTile / cell_;
   // Linear interpolation lowers the gradient of a frame by a tenth. In a mean that lowers noise
   // too.
-  const int interpolation = frame.trust < kTakenAlone ? cv::INTER_CUBIC : cv::INTER_LINEAR;
+  const int interpolation = ShareOfMean(frame) < kTakenAlone ? cv::INTER_CUBIC : cv::INTER_LINEAR;
   for (int row = cells.y; row < cells.br().y; row += step)
     for (int column = cells.x; column < cells.br().x; column += step) {
       progress.Step("blend detail", done);

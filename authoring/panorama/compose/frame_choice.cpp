@@ -9,6 +9,7 @@
 namespace arthro::authoring {
 namespace {
 
+constexpr double kDoubt = 8;          // px: with this expected error half is taken from the mean
 constexpr int kDetailReach = 7;       // cells; coarser structure is no detail
 constexpr int kSweeps = 12;           // borders move by a cell per sweep
 constexpr double kSeamCost = 0.02;    // loss of log score per grey level and pair of cells
@@ -29,6 +30,10 @@ cv::Mat DetailOf(const FrameCells& cells) {
 }
 
 }  // namespace
+
+double ShareOfMean(const LaidFrame& frame) {
+  return 1 / (1 + std::pow(frame.expected_error_px / kDoubt, 4));
+}
 
 std::vector<double> SharpnessOf(const std::vector<FrameCells>& cells, const Layout& layout,
                                 const Progress& progress) {

@@ -12,6 +12,11 @@
 
 namespace arthro::authoring {
 
+// Share of a mean of several frames in cells that this frame shows; the rest is one frame's. The
+// neighbours of a frame share most of its expected error, so that a mean loses detail at errors of
+// several px only.
+double ShareOfMean(const LaidFrame& frame);
+
 // Root mean square detail of each frame over that of all frames at its cells: a frame that moved
 // fast, or is out of focus, has less than 1. 1 for frames that were not read.
 std::vector<double> SharpnessOf(const std::vector<FrameCells>& cells, const Layout& layout,

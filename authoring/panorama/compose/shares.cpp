@@ -65,10 +65,10 @@ std::vector<cv::Mat> ShareCells(const std::vector<FrameCells>& cells,
       };
       for (const int f : views) most = std::max(most, at(f));
       for (const int f : views) sum += std::pow(at(f) / most, kSharing);
-      // Frames whose places are in doubt by pixels have no common detail.
-      double trust = 0;
-      for (const int f : views) trust += layout.frames[f].trust;
-      const double averaged = options.averaging * trust / static_cast<double>(views.size());
+      // Frames whose places are in doubt by many pixels have no common detail.
+      double together = 0;
+      for (const int f : views) together += ShareOfMean(layout.frames[f]);
+      const double averaged = options.averaging * together / static_cast<double>(views.size());
       const int one = chosen.at<short>(y, x);
       for (const int f : views) {
         const cv::Rect& box = layout.frames[f].cells;
