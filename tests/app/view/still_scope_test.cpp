@@ -16,7 +16,7 @@ using app::Picture;
 
 constexpr int kSize = 256;
 constexpr int kFrames = 24;
-constexpr int kMostChange = 2;                  // of 255, between two frames of a still scope
+constexpr int kMostChange = 2;                  // levels of 255 between two frames
 constexpr double kTremble = 0.4 * app::kStill;  // m; the cycle is shorter than kStill
 constexpr double kFrameTime = 0.04;             // s
 
