@@ -6,9 +6,9 @@
 
 #include "authoring/footage/picture_list.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/archive_io.h"
-#include "simulation/scene/scene_files.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_files.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::app {
 

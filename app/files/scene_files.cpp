@@ -14,9 +14,9 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "app/platform/file_browser_model.h"
 #include "authoring/project/scene_versions.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::app {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/state/footage_optics.h"
-#include "authoring/relief/enlarge_relief.h"
+#include "authoring/relief/surface/enlarge_relief.h"
 
 namespace arthro::app {
 

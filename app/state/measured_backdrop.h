@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "authoring/project/document.h"
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "simulation/scene/image.h"
 #include "simulation/scene/lens.h"
 #include "simulation/scene/projection.h"

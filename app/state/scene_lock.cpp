@@ -13,7 +13,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
 
 namespace arthro::app {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "app/view/drawing/picture.h"
 #include "app/view/exposure/camera_exposure.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/tissue_look.h"
 
 namespace arthro::app {

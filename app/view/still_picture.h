@@ -9,7 +9,7 @@
 #include "app/view/offscreen_context.h"
 #include "simulation/practice/scope_eye.h"
 #include "simulation/practice/snapshot.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/scope/camera_head.h"
 #include "simulation/scope/rod_pose.h"
 

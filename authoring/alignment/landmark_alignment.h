@@ -12,7 +12,7 @@
 #include "authoring/alignment/scene_point.h"
 #include "simulation/core/frames.h"
 #include "simulation/core/options.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::authoring {
 

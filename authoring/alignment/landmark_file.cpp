@@ -7,9 +7,9 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/field_json.h"
-#include "simulation/scene/field_schema.h"
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/json/field_json.h"
+#include "simulation/scene/json/field_schema.h"
+#include "simulation/scene/json/scene_json.h"
 
 namespace arthro::authoring {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/scene/relief_surface.h"
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/backdrop/relief_surface.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::authoring {
 namespace {

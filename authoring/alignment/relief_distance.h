@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/loaded_scene.h"
-#include "simulation/scene/surface_finder.h"
+#include "simulation/scene/files/loaded_scene.h"
+#include "simulation/scene/mesh/surface_finder.h"
 
 namespace arthro::authoring {
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/units.h"
+#include "simulation/scene/backdrop/relief_range.h"
 #include "simulation/scene/projection.h"
-#include "simulation/scene/relief_range.h"
 
 namespace arthro::authoring {
 namespace {

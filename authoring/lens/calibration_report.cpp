@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/units.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::authoring {
 

@@ -9,8 +9,8 @@
 #include "simulation/core/error.h"
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
-#include "simulation/scene/json_object_reader.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/json_object_reader.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::authoring {
 

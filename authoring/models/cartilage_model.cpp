@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "authoring/phantom/disc_layer.h"
-#include "authoring/tissue/surface_topology.h"
+#include "authoring/phantom/shape/disc_layer.h"
+#include "authoring/tissue/surface/surface_topology.h"
 #include "simulation/core/option_fields.h"
 
 namespace arthro::authoring {

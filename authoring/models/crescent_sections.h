@@ -3,7 +3,7 @@
 #pragma once
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::authoring {
 

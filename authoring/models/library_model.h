@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "authoring/models/published_size.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 
 namespace arthro::authoring {
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "authoring/models/crescent_sections.h"
-#include "authoring/phantom/crescent_skin.h"
+#include "authoring/phantom/shape/crescent_skin.h"
 #include "simulation/core/option_fields.h"
 
 namespace arthro::authoring {

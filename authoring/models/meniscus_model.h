@@ -3,7 +3,7 @@
 #pragma once
 
 #include "authoring/models/library_model.h"
-#include "authoring/phantom/crescent.h"
+#include "authoring/phantom/shape/crescent.h"
 #include "simulation/core/options.h"
 
 namespace arthro::authoring {

@@ -15,7 +15,7 @@
 #include "authoring/models/crescent_sections.h"
 #include "simulation/core/error.h"
 #include "simulation/core/option_fields.h"
-#include "simulation/scene/crescent_fit.h"
+#include "simulation/scene/mesh/crescent_fit.h"
 
 namespace arthro::authoring {
 namespace {

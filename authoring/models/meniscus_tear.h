@@ -10,7 +10,7 @@
 
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/tissue_parts.h"
 
 namespace arthro::authoring {

@@ -11,8 +11,8 @@
 
 #include "authoring/project/free_tissue_name.h"
 #include "simulation/core/file_name.h"
-#include "simulation/scene/hidden_share.h"
-#include "simulation/scene/relief_range.h"
+#include "simulation/scene/backdrop/hidden_share.h"
+#include "simulation/scene/backdrop/relief_range.h"
 
 namespace arthro::authoring {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "authoring/tissue/surface_check.h"
+#include "authoring/tissue/surface/surface_check.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
 

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "authoring/tissue/surface_simplify.h"
+#include "authoring/tissue/surface/surface_simplify.h"
 
 namespace arthro::authoring {
 

@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/tissue_parts.h"
 
 namespace arthro::authoring {

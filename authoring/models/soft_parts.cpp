@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "authoring/phantom/disc_layer.h"
-#include "authoring/phantom/noise.h"
+#include "authoring/phantom/shape/disc_layer.h"
+#include "authoring/phantom/shape/noise.h"
 #include "simulation/core/option_fields.h"
 
 namespace arthro::authoring {

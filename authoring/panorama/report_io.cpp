@@ -11,7 +11,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::authoring {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "authoring/phantom/appearance.h"
-#include "authoring/phantom/cavity.h"
-#include "authoring/phantom/panorama_renderer.h"
-#include "authoring/phantom/phantom_tissue.h"
+#include "authoring/phantom/look/appearance.h"
+#include "authoring/phantom/look/panorama_renderer.h"
 #include "authoring/phantom/phantom_trace.h"
+#include "authoring/phantom/shape/cavity.h"
+#include "authoring/phantom/shape/phantom_tissue.h"
 #include "simulation/core/options.h"
 #include "simulation/core/progress.h"
 #include "simulation/scene/projection.h"

@@ -14,9 +14,9 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 namespace arthro::authoring {
 namespace {

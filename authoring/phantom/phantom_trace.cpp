@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "authoring/phantom/crescent.h"
+#include "authoring/phantom/shape/crescent.h"
 #include "simulation/core/units.h"
 #include "simulation/scope/rod_pose.h"
 

@@ -9,8 +9,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "authoring/phantom/cavity.h"
-#include "authoring/phantom/phantom_tissue.h"
+#include "authoring/phantom/shape/cavity.h"
+#include "authoring/phantom/shape/phantom_tissue.h"
 
 namespace arthro::authoring {
 

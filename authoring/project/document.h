@@ -1,9 +1,9 @@
 // An author's scene with the options that its parts were made with. A copy is cheap, since heavy
-// parts are shared (simulation/scene/loaded_scene.h).
+// parts are shared (simulation/scene/files/loaded_scene.h).
 #pragma once
 
 #include "authoring/depth/depth_options.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 
 namespace arthro::authoring {
 

@@ -10,9 +10,9 @@
 #include "simulation/core/fingerprint.h"
 #include "simulation/core/option_fields.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::authoring {
 

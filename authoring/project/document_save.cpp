@@ -15,12 +15,12 @@
 #include "simulation/core/file_name.h"
 #include "simulation/core/fingerprint.h"
 #include "simulation/core/option_fields.h"
-#include "simulation/scene/archive_io.h"
-#include "simulation/scene/clean_picture.h"
+#include "simulation/scene/backdrop/clean_picture.h"
+#include "simulation/scene/files/archive_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/json/lens_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 namespace arthro::authoring {
 namespace {

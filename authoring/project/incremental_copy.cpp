@@ -9,8 +9,8 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/scene/scene_files.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_files.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::authoring {
 

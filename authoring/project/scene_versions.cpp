@@ -11,7 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/json_text.h"
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
 
 namespace arthro::authoring {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::authoring {
 

@@ -2,9 +2,9 @@
 //   v(name, field, rule, unit, help)
 // JSON, command line, panels and schema all read that list. Fields of options are double, int,
 // bool, std::string or an enum; a scene also has paths, points, rotations, nested structs and lists
-// (simulation/scene/field_json.h). In memory lengths are metres ("m") and angles radians ("rad").
-// A visitor converts at its border: JSON writes "rad" fields in degrees under a key that ends in
-// _deg; command line and panels show "m" as millimetres (--name-mm) and "rad" as degrees
+// (simulation/scene/json/field_json.h). In memory lengths are metres ("m") and angles radians
+// ("rad"). A visitor converts at its border: JSON writes "rad" fields in degrees under a key that
+// ends in _deg; command line and panels show "m" as millimetres (--name-mm) and "rad" as degrees
 // (--name-deg).
 #pragma once
 

@@ -9,10 +9,10 @@
 
 #include <span>
 
-#include "simulation/haptics/depth_field.h"
 #include "simulation/haptics/planes.h"
-#include "simulation/haptics/surface_bvh.h"
-#include "simulation/haptics/swept_surface.h"
+#include "simulation/haptics/relief/depth_field.h"
+#include "simulation/haptics/surface/surface_bvh.h"
+#include "simulation/haptics/surface/swept_surface.h"
 
 namespace arthro::simulation {
 

@@ -3,8 +3,8 @@
 // cuts and regions cost nothing.
 #pragma once
 
-#include "simulation/scene/scene_check.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_check.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::simulation {
 

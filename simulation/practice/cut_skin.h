@@ -2,8 +2,8 @@
 // with the same skin.
 #pragma once
 
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/field/solid_field.h"
 

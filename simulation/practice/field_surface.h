@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "simulation/haptics/swept_surface.h"
+#include "simulation/haptics/surface/swept_surface.h"
 #include "simulation/tissue/field/implicit_tissue.h"
 
 namespace arthro::simulation {

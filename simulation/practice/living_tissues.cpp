@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 namespace arthro::simulation {
 namespace {

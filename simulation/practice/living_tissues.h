@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulation/practice/session.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/body/implicit_body.h"
 #include "simulation/tissue/body/layer_skin.h"

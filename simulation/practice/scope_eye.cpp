@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/practice/cut_skin.h"
-#include "simulation/scene/relief_surface.h"
+#include "simulation/scene/backdrop/relief_surface.h"
 
 namespace arthro::simulation {
 namespace {

@@ -12,11 +12,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/haptics/depth_field.h"
-#include "simulation/haptics/moving_skin.h"
 #include "simulation/haptics/proxy.h"
+#include "simulation/haptics/relief/depth_field.h"
+#include "simulation/haptics/surface/moving_skin.h"
 #include "simulation/practice/snapshot.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/tissue_world.h"
 
 namespace arthro::simulation {

@@ -10,7 +10,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/finite.h"
 #include "simulation/device/device_state.h"
-#include "simulation/haptics/shaft_hold.h"
+#include "simulation/haptics/relief/shaft_hold.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/scope/arthroscope.h"
 

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "simulation/device/device_sample.h"
-#include "simulation/haptics/output_chain.h"
-#include "simulation/haptics/surface_bvh.h"
+#include "simulation/haptics/output/output_chain.h"
+#include "simulation/haptics/surface/surface_bvh.h"
 #include "simulation/practice/field_surface.h"
 #include "simulation/practice/session_options.h"
 #include "simulation/practice/snapshot.h"
 #include "simulation/practice/tissue_loop.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/tool_on_layers.h"
 #include "simulation/tissue/contact/coupling.h"
 

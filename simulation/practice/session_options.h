@@ -2,11 +2,11 @@
 #pragma once
 
 #include "simulation/haptics/contact.h"
-#include "simulation/haptics/depth_field.h"
-#include "simulation/haptics/force_limiter.h"
-#include "simulation/haptics/lever.h"
-#include "simulation/haptics/passivity.h"
-#include "simulation/haptics/thermal.h"
+#include "simulation/haptics/output/force_limiter.h"
+#include "simulation/haptics/output/lever.h"
+#include "simulation/haptics/output/passivity.h"
+#include "simulation/haptics/output/thermal.h"
+#include "simulation/haptics/relief/depth_field.h"
 #include "simulation/tissue/body/body_options.h"
 
 namespace arthro::simulation {

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/device/device_sample.h"
-#include "simulation/haptics/fault.h"
+#include "simulation/haptics/output/fault.h"
 #include "simulation/scope/rod_pose.h"
 
 namespace arthro::simulation {

@@ -16,10 +16,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/process_cost.h"
-#include "simulation/scene/held_nodes.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/mesh/held_nodes.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/body/tissue_preset.h"
 #include "simulation/tissue/contact/embedded_skin.h"

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
 #include "tests/hostile/child_run.h"
 #include "tests/hostile/refusal.h"
 #include "tests/hostile/tet_block.h"

@@ -11,7 +11,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_format.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/authoring/panorama/tiny_clip.h"
 #include "tests/hostile/tet_block.h"
 #include "tests/support/small_scene.h"

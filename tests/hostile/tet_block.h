@@ -1,7 +1,7 @@
 // A block of cubes of 5 mm, of six tetrahedra each; its sets "fixed" and "end" are its ends.
 #pragma once
 
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 
 namespace arthro::test {
 

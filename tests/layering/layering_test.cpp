@@ -62,9 +62,9 @@ const std::vector<std::string> kNotInAuthoring = {"vtk",  "imgui", "backends/img
 // beside one another.
 const std::string kReferences[] = {"tests/support/view/reference_tracer.",
                                    "tests/support/view/grid_picture."};
-const Names kReferencesMayInclude = {"simulation/scene/image.h", "simulation/scene/lens.h",
-                                     "simulation/scene/scene.h", "simulation/scene/surface_mesh.h",
-                                     "simulation/scope/arthroscope.h"};
+const Names kReferencesMayInclude = {
+    "simulation/scene/image.h", "simulation/scene/lens.h", "simulation/scene/scene.h",
+    "simulation/scene/mesh/surface_mesh.h", "simulation/scope/arthroscope.h"};
 const std::vector<std::string> kNotInReferences = {"vtk", "GL/", "GLFW", "EGL/", "opencv2"};
 
 struct Include {

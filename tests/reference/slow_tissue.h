@@ -14,7 +14,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "simulation/tissue/fem/material.h"
 
 namespace arthro::test {

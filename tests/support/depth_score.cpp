@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "authoring/phantom/noise.h"
+#include "authoring/phantom/shape/noise.h"
 
 namespace arthro::test {
 namespace {

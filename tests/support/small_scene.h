@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/knee_picture.h"
 
 namespace arthro::test {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "app/bench/micro/micro_bench.h"
-#include "authoring/tissue/self_intersection.h"
-#include "authoring/tissue/surface_check.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/surface/self_intersection.h"
+#include "authoring/tissue/surface/surface_check.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/units.h"
 #include "tests/support/shapes.h"
 

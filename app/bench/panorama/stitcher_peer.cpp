@@ -13,8 +13,8 @@
 #include <opencv2/stitching.hpp>
 
 #include "app/state/scratch_folder.h"
-#include "authoring/tissue/child_process.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/tetrahedra/child_process.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/error.h"
 
 namespace arthro::app {

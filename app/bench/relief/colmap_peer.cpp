@@ -11,7 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/tissue/child_process.h"
+#include "authoring/tissue/tetrahedra/child_process.h"
 #include "simulation/core/process_cost.h"
 #include "tests/support/temp_folder.h"
 

@@ -12,7 +12,7 @@
 #include "app/state/measured_backdrop.h"
 #include "authoring/depth/depth_filter.h"
 #include "authoring/panorama/make_panorama.h"
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
 #include "simulation/core/units.h"

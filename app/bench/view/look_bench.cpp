@@ -14,7 +14,7 @@
 #include "authoring/footage/footage.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {

@@ -10,7 +10,7 @@
 
 #include "app/view/exposure/picture_statistics.h"
 #include "simulation/core/progress.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/scope/rod_pose.h"
 
 namespace arthro::app {

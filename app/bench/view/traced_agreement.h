@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/view/arthroscopic_view.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/view/reference_tracer.h"
 
 namespace arthro::app {

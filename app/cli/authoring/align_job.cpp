@@ -21,7 +21,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -23,10 +23,10 @@
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
 #include "authoring/project/estimated_depth.h"
-#include "authoring/relief/relief_panorama.h"
+#include "authoring/relief/make/relief_panorama.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
 namespace {

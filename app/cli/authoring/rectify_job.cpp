@@ -19,7 +19,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/partial_folder.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
 namespace {

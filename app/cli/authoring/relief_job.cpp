@@ -19,14 +19,14 @@
 #include "app/state/measured_backdrop.h"
 #include "authoring/panorama/report_io.h"
 #include "authoring/project/document_io.h"
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "authoring/relief/relief_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
 namespace {

@@ -18,13 +18,13 @@
 #include "app/cli/jobs.h"
 #include "app/cli/number_flags.h"
 #include "app/cli/options_cli.h"
-#include "authoring/tissue/mesh_budget.h"
-#include "authoring/tissue/tetgen_worker.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/tetgen_worker.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 namespace arthro::app {
 namespace {

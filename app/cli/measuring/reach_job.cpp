@@ -17,8 +17,8 @@
 #include "simulation/core/units.h"
 #include "simulation/practice/reach/portal_reach.h"
 #include "simulation/practice/reach/reach_picture.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/cli/jobs.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/tissue/cases/case_io.h"
 #include "simulation/tissue/cases/case_run.h"
 

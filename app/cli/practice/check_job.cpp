@@ -16,11 +16,11 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/practice/cut_check.h"
-#include "simulation/scene/check_report.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/rig_io.h"
-#include "simulation/scene/scene_check.h"
-#include "simulation/scene/scene_schema.h"
+#include "simulation/scene/files/check_report.h"
+#include "simulation/scene/files/scene_check.h"
+#include "simulation/scene/json/lens_io.h"
+#include "simulation/scene/json/rig_io.h"
+#include "simulation/scene/json/scene_schema.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {

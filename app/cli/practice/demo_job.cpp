@@ -25,8 +25,8 @@
 #include "simulation/core/json_text.h"
 #include "simulation/core/partial_folder.h"
 #include "simulation/practice/replay.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -23,7 +23,7 @@
 #include "simulation/core/partial_folder.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/practice/replay.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::app {
 namespace {

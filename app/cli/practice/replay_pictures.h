@@ -12,7 +12,7 @@
 #include "app/view/live_tissues.h"
 #include "app/view/still_picture.h"
 #include "simulation/practice/replay.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scope/camera_head.h"
 
 namespace arthro::app {

@@ -15,8 +15,8 @@
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 
 namespace arthro::app {
 namespace {

@@ -8,7 +8,7 @@
 #include "authoring/depth/depth_noise.h"
 #include "authoring/depth/depth_preview.h"
 #include "simulation/core/same_options.h"
-#include "simulation/haptics/relief_smoothing.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
 
 namespace arthro::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 
 namespace arthro::app {
 namespace {

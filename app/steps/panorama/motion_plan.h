@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 
 namespace arthro::app {
 

@@ -9,7 +9,7 @@
 
 #include "app/state/measured_backdrop.h"
 #include "app/steps/panorama/footage_board.h"
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 
 namespace arthro::app {
 

@@ -9,7 +9,7 @@
 #include "app/panels/widgets.h"
 #include "app/state/edits.h"
 #include "app/steps/panorama/panorama_step.h"
-#include "simulation/scene/scene_check.h"
+#include "simulation/scene/files/scene_check.h"
 
 namespace arthro::app {
 

@@ -7,7 +7,7 @@
 #include "app/state/edits.h"
 #include "app/state/footage_optics.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::app {
 namespace {

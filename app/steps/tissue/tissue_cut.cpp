@@ -8,7 +8,7 @@
 
 #include "app/state/edits.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/surface_finder.h"
+#include "simulation/scene/mesh/surface_finder.h"
 
 namespace arthro::app {
 namespace {

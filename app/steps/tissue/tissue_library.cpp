@@ -4,9 +4,9 @@
 
 #include "app/state/edits.h"
 #include "authoring/models/model_in_scene.h"
-#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {

@@ -12,8 +12,8 @@
 #include "app/state/owned.h"
 #include "app/steps/tissue/hand_placing.h"
 #include "app/steps/tissue/landmark_mode.h"
-#include "authoring/tissue/mesh_budget.h"
-#include "simulation/scene/surface_mesh.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::app {
 

@@ -5,12 +5,12 @@
 #include "app/state/edits.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/tissue/likely_unit.h"
-#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/box3.h"
 #include "simulation/core/file_name.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/hidden_share.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/backdrop/hidden_share.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {

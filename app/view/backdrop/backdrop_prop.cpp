@@ -20,9 +20,9 @@
 #include "app/view/drawing/shader_text.h"
 #include "app/view/exposure/automatic_gain.h"
 #include "simulation/core/units.h"
-#include "simulation/haptics/relief_smoothing.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
+#include "simulation/scene/backdrop/relief_shares.h"
 #include "simulation/scene/medium.h"
-#include "simulation/scene/relief_shares.h"
 
 namespace arthro::app {
 

@@ -21,7 +21,7 @@
 #include "app/view/drawing/shader_text.h"
 #include "app/view/drawing/srgb.h"
 #include "app/view/drawing/steady_inputs.h"
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::app {
 namespace {

@@ -23,7 +23,7 @@
 #include "app/view/drawing/tissue_grain.h"
 #include "app/view/shaders/constants.h"
 #include "simulation/core/frames.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scope/window_lens.h"
 
 namespace arthro::app {

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::app {
 namespace {

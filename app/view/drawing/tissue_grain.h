@@ -13,8 +13,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/scene/crescent_fit.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/crescent_fit.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/tissue/body/tissue_look.h"
 
 namespace arthro::app {

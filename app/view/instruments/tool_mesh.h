@@ -9,7 +9,7 @@
 // with a toothed window, here of 4.5 mm [Gu et al. 2022]. The lower jaw of the grasper is fixed.
 #pragma once
 
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::app {

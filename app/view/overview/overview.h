@@ -10,8 +10,8 @@
 #include <span>
 
 #include "app/view/drawing/picture.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/scene/image.h"
-#include "simulation/scene/loaded_scene.h"
 #include "simulation/scene/scene.h"
 
 namespace arthro::app {

@@ -18,8 +18,8 @@
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "simulation/scene/relief_surface.h"
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/backdrop/relief_surface.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 
 namespace arthro::app {
 

@@ -14,8 +14,8 @@
 #include <vtkTexture.h>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::app {

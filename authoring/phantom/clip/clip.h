@@ -16,7 +16,7 @@
 #include "authoring/phantom/clip/clip_overlays.h"
 #include "authoring/phantom/clip/clip_path.h"
 #include "authoring/phantom/clip/plane_texture.h"
-#include "authoring/phantom/noise.h"
+#include "authoring/phantom/shape/noise.h"
 #include "simulation/scene/lens.h"
 
 namespace arthro::authoring {

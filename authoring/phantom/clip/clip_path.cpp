@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "authoring/phantom/noise.h"
+#include "authoring/phantom/shape/noise.h"
 
 namespace arthro::authoring {
 namespace {

@@ -10,7 +10,7 @@
 #include "authoring/phantom/phantom_io.h"
 #include "simulation/core/option_fields.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::authoring {
 namespace {

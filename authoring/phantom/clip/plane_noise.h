@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "authoring/phantom/noise.h"
+#include "authoring/phantom/shape/noise.h"
 
 namespace arthro::authoring {
 

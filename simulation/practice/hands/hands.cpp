@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/rig_io.h"
+#include "simulation/scene/json/rig_io.h"
 
 namespace arthro::simulation {
 

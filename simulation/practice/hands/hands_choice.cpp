@@ -6,7 +6,7 @@
 #include "simulation/device/driver/drivers.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/device/openhaptics/openhaptics_devices.h"
-#include "simulation/scene/rig_io.h"
+#include "simulation/scene/json/rig_io.h"
 
 namespace arthro::simulation {
 namespace {

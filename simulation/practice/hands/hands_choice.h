@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "simulation/device/trace_io.h"
-#include "simulation/scene/rig_file.h"
+#include "simulation/scene/json/rig_file.h"
 
 namespace arthro::simulation {
 

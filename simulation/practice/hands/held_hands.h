@@ -20,7 +20,7 @@
 #include "simulation/practice/hands/why_no_force.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
-#include "simulation/scene/rig_file.h"
+#include "simulation/scene/json/rig_file.h"
 
 namespace arthro::simulation {
 

@@ -14,7 +14,7 @@
 #include "simulation/practice/scope_eye.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
-#include "simulation/scene/loaded_scene.h"
+#include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/tissue_preset.h"
 
 namespace arthro::simulation {

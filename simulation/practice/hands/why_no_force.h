@@ -4,7 +4,7 @@
 
 #include "simulation/device/device_caps.h"
 #include "simulation/device/device_state.h"
-#include "simulation/haptics/fault.h"
+#include "simulation/haptics/output/fault.h"
 
 namespace arthro::simulation {
 

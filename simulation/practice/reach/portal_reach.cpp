@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/haptics/surface_bvh.h"
+#include "simulation/haptics/surface/surface_bvh.h"
+#include "simulation/scene/backdrop/relief_range.h"
 #include "simulation/scene/projection.h"
-#include "simulation/scene/relief_range.h"
 
 namespace arthro::simulation {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro {
 

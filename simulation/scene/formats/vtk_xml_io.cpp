@@ -32,8 +32,8 @@
 #include "simulation/core/error.h"
 #include "simulation/scene/formats/polygon_soup.h"
 #include "simulation/scene/formats/vtk_xml_file.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/tet_check.h"
+#include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/mesh/tet_check.h"
 
 namespace arthro {
 namespace {

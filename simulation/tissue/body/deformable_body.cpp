@@ -10,7 +10,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/finite.h"
-#include "simulation/scene/held_nodes.h"
+#include "simulation/scene/mesh/held_nodes.h"
 #include "simulation/tissue/body/deformable_body_impl.h"
 #include "simulation/tissue/body/tool_cut.h"
 

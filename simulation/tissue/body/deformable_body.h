@@ -15,9 +15,9 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
+#include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
-#include "simulation/scene/tet_mesh.h"
 #include "simulation/tissue/body/body_options.h"
 #include "simulation/tissue/contact/coupling.h"
 #include "simulation/tissue/contact/obstacle_contact.h"

@@ -13,7 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "simulation/tissue/body/elastic_layer.h"
 #include "simulation/tissue/contact/tool_shape.h"

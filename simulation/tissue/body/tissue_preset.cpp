@@ -10,7 +10,7 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
-#include "simulation/scene/field_json.h"
+#include "simulation/scene/json/field_json.h"
 
 namespace arthro::simulation {
 namespace {

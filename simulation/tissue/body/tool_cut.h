@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 #include "simulation/tissue/contact/tool_shape.h"
 #include "simulation/tissue/field/pieces.h"
 #include "simulation/tissue/field/solid_field.h"

@@ -14,8 +14,8 @@
 #include "simulation/core/input_file.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/options_json.h"
-#include "simulation/scene/json_object_reader.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/json/json_object_reader.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 namespace arthro::simulation {
 namespace {

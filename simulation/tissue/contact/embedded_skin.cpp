@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 #include "simulation/tissue/contact/closest_points.h"
 #include "simulation/tissue/fem/tet_shape.h"
 

@@ -11,8 +11,8 @@
 #include <glm/vec4.hpp>
 
 #include "simulation/core/box_tree.h"
-#include "simulation/scene/surface_mesh.h"
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 
 namespace arthro::simulation {
 

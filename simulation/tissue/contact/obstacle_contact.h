@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "simulation/tissue/contact/contact_point.h"
 
 namespace arthro::simulation {

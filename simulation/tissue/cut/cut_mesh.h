@@ -18,7 +18,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/options.h"
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "simulation/tissue/cut/tet_lattice.h"
 #include "simulation/tissue/fem/tet_shape.h"
 #include "simulation/tissue/field/solid_field.h"

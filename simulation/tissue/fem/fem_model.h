@@ -14,7 +14,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "simulation/tissue/fem/block_matrix.h"
 #include "simulation/tissue/fem/element_batches.h"
 #include "simulation/tissue/fem/material.h"

@@ -10,7 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 #include "simulation/tissue/field/grid_cell.h"
 #include "simulation/tissue/field/polygonise.h"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulation/scene/surface_finder.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_finder.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {

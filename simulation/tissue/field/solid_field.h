@@ -22,7 +22,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/box3.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::simulation {
 

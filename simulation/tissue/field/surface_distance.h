@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/tissue/field/solid_field.h"
 
 namespace arthro::simulation {

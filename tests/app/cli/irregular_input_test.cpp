@@ -15,7 +15,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 

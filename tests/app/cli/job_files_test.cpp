@@ -17,7 +17,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/device/log/log_format.h"
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/support/run_program.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/authoring/panorama/tiny_clip.h"
 #include "tests/support/run_program.h"

@@ -21,7 +21,7 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/rig_io.h"
+#include "simulation/scene/json/rig_io.h"
 #include "tests/support/fake_hidapi.h"
 #include "tests/support/moved_rig.h"
 #include "tests/support/small_scene.h"

@@ -21,7 +21,7 @@
 #include "app/steps/tissue/tissue_balls.h"
 #include "app/steps/tissue/tissue_step.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/json/scene_json.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

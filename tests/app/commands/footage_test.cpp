@@ -22,9 +22,9 @@
 #include "app/steps/practice/practice_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::app {

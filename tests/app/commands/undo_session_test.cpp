@@ -22,8 +22,8 @@
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/fingerprint.h"
-#include "simulation/scene/scene_files.h"
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/files/scene_files.h"
+#include "simulation/scene/json/scene_json.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "authoring/project/document_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/measured_scene.h"
 #include "tests/support/run_window.h"
 

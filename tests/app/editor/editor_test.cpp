@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 

@@ -5,9 +5,9 @@
 #include <opencv2/core.hpp>
 
 #include "authoring/phantom/clip/clip.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 

@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/run_window.h"
 #include "tests/support/small_scene.h"
 

@@ -11,7 +11,7 @@
 #include "app/view/instruments/tool_shade.h"
 #include "app/view/shaders/constants.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/compare_pictures.h"
 #include "tests/support/view/reference_tracer.h"

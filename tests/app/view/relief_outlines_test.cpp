@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "simulation/haptics/relief_smoothing.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
 #include "simulation/scene/image.h"
 #include "tests/support/view/reference_tracer.h"
 

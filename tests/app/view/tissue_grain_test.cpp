@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::app {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/app/view/view_scene.h"
 #include "tests/support/run_program.h"
 

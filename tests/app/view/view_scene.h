@@ -10,7 +10,7 @@
 
 #include "app/view/still_picture.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/view/view_cases.h"
 
 namespace arthro::test {

@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "authoring/models/model_library.h"
-#include "authoring/tissue/mesh_budget.h"
-#include "authoring/tissue/surface_check.h"
+#include "authoring/tissue/surface/surface_check.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/error.h"
 #include "simulation/tissue/body/tissue_preset.h"
 

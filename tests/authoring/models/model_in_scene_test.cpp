@@ -8,7 +8,7 @@
 
 #include "authoring/models/model_library.h"
 #include "authoring/models/model_thumbnail.h"
-#include "simulation/scene/hidden_share.h"
+#include "simulation/scene/backdrop/hidden_share.h"
 
 namespace arthro::authoring {
 namespace {

@@ -1,6 +1,6 @@
 // Rays meet the cavity's surfaces at points that satisfy the surfaces' formulas, and the cavity
 // leaves room for the tools.
-#include "authoring/phantom/cavity.h"
+#include "authoring/phantom/shape/cavity.h"
 
 #include <cmath>
 #include <cstdio>
@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/phantom/crescent.h"
-#include "authoring/phantom/noise.h"
+#include "authoring/phantom/shape/crescent.h"
+#include "authoring/phantom/shape/noise.h"
 
 namespace arthro::authoring {
 namespace {

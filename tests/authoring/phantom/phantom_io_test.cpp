@@ -11,9 +11,9 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 

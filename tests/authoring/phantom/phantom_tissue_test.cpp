@@ -1,6 +1,6 @@
 // The deformable models are valid surfaces in the anatomical positions of a meniscus and a layer of
 // cartilage.
-#include "authoring/phantom/phantom_tissue.h"
+#include "authoring/phantom/shape/phantom_tissue.h"
 
 #include <cstdio>
 #include <map>
@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/phantom/tissue_caster.h"
-#include "authoring/tissue/tet_quality.h"
-#include "simulation/scene/held_nodes.h"
+#include "authoring/phantom/look/tissue_caster.h"
+#include "authoring/tissue/tetrahedra/tet_quality.h"
+#include "simulation/scene/mesh/held_nodes.h"
 
 namespace arthro::authoring {
 namespace {

@@ -11,10 +11,10 @@
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/json/scene_json.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/knee_picture.h"
 #include "tests/support/temp_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/json/scene_json.h"
 
 namespace arthro::authoring {
 namespace {

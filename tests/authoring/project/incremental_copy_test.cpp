@@ -7,8 +7,8 @@
 
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

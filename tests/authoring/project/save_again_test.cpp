@@ -13,9 +13,9 @@
 #include "authoring/project/written_files.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/knee_picture.h"
 #include "tests/support/temp_folder.h"
 

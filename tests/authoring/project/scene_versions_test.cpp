@@ -7,7 +7,7 @@
 
 #include "authoring/project/document_io.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 

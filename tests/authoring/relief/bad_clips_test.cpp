@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "authoring/relief/relief_clip.h"
 #include "simulation/core/error.h"
 #include "tests/support/relief/cavity_clip.h"

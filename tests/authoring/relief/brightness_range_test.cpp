@@ -1,5 +1,5 @@
 // Range from brightness in a Lambertian cavity that is lit from the tip.
-#include "authoring/relief/brightness_range.h"
+#include "authoring/relief/surface/brightness_range.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Closing on surfaces with a closed form. Cells are half a degree wide.
-#include "authoring/relief/close_surface.h"
+#include "authoring/relief/surface/close_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "simulation/core/units.h"
 #include "tests/authoring/relief/relief_truth.h"
 #include "tests/support/relief/cavity_clip.h"

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/relief/growth.h"
-#include "authoring/relief/motion.h"
-#include "authoring/relief/portal.h"
-#include "authoring/relief/self_calibration.h"
-#include "authoring/relief/verdict.h"
+#include "authoring/relief/make/verdict.h"
+#include "authoring/relief/motion/growth.h"
+#include "authoring/relief/motion/motion.h"
+#include "authoring/relief/motion/portal.h"
+#include "authoring/relief/motion/self_calibration.h"
 #include "simulation/core/units.h"
 #include "tests/support/relief/cavity_clip.h"
 

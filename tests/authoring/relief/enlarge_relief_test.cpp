@@ -1,4 +1,4 @@
-#include "authoring/relief/enlarge_relief.h"
+#include "authoring/relief/surface/enlarge_relief.h"
 
 #include <cmath>
 #include <limits>

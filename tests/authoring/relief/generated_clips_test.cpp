@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "simulation/core/units.h"
 #include "tests/support/relief/generated_clip.h"
 #include "tests/support/relief/surface_score.h"

@@ -1,5 +1,5 @@
 // RELIEF-14. The scale of a relief from lengths that the author knows.
-#include "authoring/relief/known_scale.h"
+#include "authoring/relief/make/known_scale.h"
 
 #include <cmath>
 

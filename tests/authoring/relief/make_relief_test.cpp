@@ -1,5 +1,5 @@
 // The whole way from pictures to relief, on small clips with known truth.
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 
 #include <algorithm>
 #include <cmath>

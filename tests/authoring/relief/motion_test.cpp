@@ -1,14 +1,14 @@
 // Poses, portal and verdicts from tracks with known truth, without pictures.
-#include "authoring/relief/motion.h"
+#include "authoring/relief/motion/motion.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "authoring/relief/lens_profile.h"
-#include "authoring/relief/portal.h"
-#include "authoring/relief/verdict.h"
+#include "authoring/relief/make/verdict.h"
+#include "authoring/relief/motion/lens_profile.h"
+#include "authoring/relief/motion/portal.h"
 #include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::authoring {

@@ -1,5 +1,5 @@
 // Standard deviations of poses against the scatter of poses from tracks with new noise each time.
-#include "authoring/relief/pose_covariance.h"
+#include "authoring/relief/motion/pose_covariance.h"
 
 #include <cmath>
 #include <random>
@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "authoring/relief/growth.h"
-#include "authoring/relief/motion.h"
+#include "authoring/relief/motion/growth.h"
+#include "authoring/relief/motion/motion.h"
 #include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::authoring {

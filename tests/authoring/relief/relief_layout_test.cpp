@@ -1,5 +1,5 @@
 // Light over a closed surface, on surfaces with a closed form. Cells are half a degree wide.
-#include "authoring/relief/relief_layout.h"
+#include "authoring/relief/surface/relief_layout.h"
 
 #include <cmath>
 #include <numbers>

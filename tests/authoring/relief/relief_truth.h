@@ -1,7 +1,7 @@
 // Error of a relief against the small cavity that it was made from.
 #pragma once
 
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "tests/support/relief/cavity_clip.h"
 
 namespace arthro::test {

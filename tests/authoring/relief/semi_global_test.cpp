@@ -1,4 +1,4 @@
-#include "authoring/relief/semi_global.h"
+#include "authoring/relief/surface/semi_global.h"
 
 #include <cmath>
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::test {

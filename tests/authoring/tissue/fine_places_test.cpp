@@ -1,4 +1,4 @@
-#include "authoring/tissue/fine_places.h"
+#include "authoring/tissue/surface/fine_places.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 #include "simulation/core/error.h"
 #include "tests/support/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "authoring/tissue/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
 
 #include <cmath>
 #include <cstdio>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/surface_simplify.h"
+#include "authoring/tissue/surface/surface_simplify.h"
 #include "simulation/core/error.h"
 #include "tests/support/shapes.h"
 

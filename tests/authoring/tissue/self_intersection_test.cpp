@@ -1,4 +1,4 @@
-#include "authoring/tissue/self_intersection.h"
+#include "authoring/tissue/surface/self_intersection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "authoring/tissue/surface_check.h"
+#include "authoring/tissue/surface/surface_check.h"
 
 #include <cmath>
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/surface_repair.h"
+#include "authoring/tissue/surface/surface_repair.h"
 #include "simulation/core/error.h"
 #include "tests/support/shapes.h"
 

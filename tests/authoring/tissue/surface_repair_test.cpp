@@ -1,9 +1,9 @@
-#include "authoring/tissue/surface_repair.h"
+#include "authoring/tissue/surface/surface_repair.h"
 
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/surface_check.h"
-#include "authoring/tissue/surface_topology.h"
+#include "authoring/tissue/surface/surface_check.h"
+#include "authoring/tissue/surface/surface_topology.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {

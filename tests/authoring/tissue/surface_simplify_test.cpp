@@ -1,4 +1,4 @@
-#include "authoring/tissue/surface_simplify.h"
+#include "authoring/tissue/surface/surface_simplify.h"
 
 #include <cmath>
 #include <cstdio>
@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/surface_check.h"
-#include "authoring/tissue/surface_repair.h"
+#include "authoring/tissue/surface/surface_check.h"
+#include "authoring/tissue/surface/surface_repair.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {

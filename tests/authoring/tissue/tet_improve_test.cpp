@@ -1,4 +1,4 @@
-#include "authoring/tissue/tet_improve.h"
+#include "authoring/tissue/tetrahedra/tet_improve.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/surface_check.h"
-#include "authoring/tissue/surface_simplify.h"
-#include "authoring/tissue/tet_quality.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/surface/surface_check.h"
+#include "authoring/tissue/surface/surface_simplify.h"
+#include "authoring/tissue/tetrahedra/tet_quality.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "tests/support/shapes.h"
 
 namespace arthro::authoring {

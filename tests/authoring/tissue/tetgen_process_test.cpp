@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/child_process.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/tetrahedra/child_process.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
 #include "tests/support/shapes.h"

@@ -1,4 +1,4 @@
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 
 #include <array>
 #include <cmath>
@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "authoring/tissue/surface_topology.h"
+#include "authoring/tissue/surface/surface_topology.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/shapes.h"
 #include "tests/support/shared_data.h"
 

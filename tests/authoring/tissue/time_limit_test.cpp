@@ -1,5 +1,5 @@
 // The time limit covers the stages before and after the mesher as well.
-#include "authoring/tissue/time_limit.h"
+#include "authoring/tissue/surface/time_limit.h"
 
 #include <atomic>
 #include <chrono>
@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "authoring/tissue/mesh_budget.h"
-#include "authoring/tissue/tetrahedralize.h"
+#include "authoring/tissue/tetrahedra/mesh_budget.h"
+#include "authoring/tissue/tetrahedra/tetrahedralize.h"
 #include "simulation/core/error.h"
 #include "tests/support/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "simulation/haptics/depth_field.h"
+#include "simulation/haptics/relief/depth_field.h"
 
 #include <algorithm>
 #include <cmath>

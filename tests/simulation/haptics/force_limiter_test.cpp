@@ -1,4 +1,4 @@
-#include "simulation/haptics/force_limiter.h"
+#include "simulation/haptics/output/force_limiter.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "simulation/haptics/lever.h"
+#include "simulation/haptics/output/lever.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // The whole output chain: its stages and their order. Hard cases: HAP in
 // resources/doc/hard-cases.md.
-#include "simulation/haptics/output_chain.h"
+#include "simulation/haptics/output/output_chain.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // Guard on a wall with a delay of one tick, touched by a simulated device with and without a hand.
-#include "simulation/haptics/passivity.h"
+#include "simulation/haptics/output/passivity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Touch of a relief whose error is known: noise of known standard deviation and correlation length
 // on surfaces in closed form [method.md, Backdrop force].
-#include "simulation/haptics/relief_smoothing.h"
+#include "simulation/haptics/relief/relief_smoothing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/haptics/contact.h"
-#include "simulation/haptics/depth_field.h"
+#include "simulation/haptics/relief/depth_field.h"
 #include "tests/support/haptics/analytic_relief.h"
 
 namespace arthro::simulation {

@@ -1,5 +1,5 @@
 // Steps of a noisy relief: connected lines that are large against the noise.
-#include "simulation/haptics/relief_steps.h"
+#include "simulation/haptics/relief/relief_steps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Shaft of an instrument beside and behind a ridge of the relief.
-#include "simulation/haptics/shaft_hold.h"
+#include "simulation/haptics/relief/shaft_hold.h"
 
 #include <algorithm>
 #include <cmath>

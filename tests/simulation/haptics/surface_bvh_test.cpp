@@ -1,4 +1,4 @@
-#include "simulation/haptics/surface_bvh.h"
+#include "simulation/haptics/surface/surface_bvh.h"
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-#include "simulation/haptics/thermal.h"
+#include "simulation/haptics/output/thermal.h"
 
 #include <algorithm>
 #include <cmath>

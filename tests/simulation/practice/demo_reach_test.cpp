@@ -15,7 +15,7 @@
 #include "simulation/practice/living_tissues.h"
 #include "simulation/practice/replay.h"
 #include "simulation/practice/scripted_device.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::simulation {
 namespace {

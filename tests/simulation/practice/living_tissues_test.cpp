@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro::simulation {

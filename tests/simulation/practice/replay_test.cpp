@@ -9,8 +9,8 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/practice/scripted_device.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/scene_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"
 

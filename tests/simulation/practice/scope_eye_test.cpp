@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/practice/session.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/simulation/practice/hand.h"
 #include "tests/support/shapes.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/practice/shaft_notice.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/simulation/practice/hand.h"
 
 namespace arthro::simulation {

@@ -11,7 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/practice/living_tissues.h"
 #include "simulation/practice/session.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/tissue/cut/cutters.h"
 #include "tests/simulation/practice/hand.h"
 #include "tests/support/allocation_counter.h"

@@ -1,4 +1,4 @@
-#include "simulation/scene/archive_io.h"
+#include "simulation/scene/files/archive_io.h"
 
 #include <map>
 #include <sys/stat.h>
@@ -9,9 +9,9 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro {

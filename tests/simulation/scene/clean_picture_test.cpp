@@ -1,4 +1,4 @@
-#include "simulation/scene/clean_picture.h"
+#include "simulation/scene/backdrop/clean_picture.h"
 
 #include <random>
 #include <vector>

@@ -1,5 +1,5 @@
 // Tissue behind the relief.
-#include "simulation/scene/hidden_share.h"
+#include "simulation/scene/backdrop/hidden_share.h"
 
 #include <cmath>
 #include <limits>

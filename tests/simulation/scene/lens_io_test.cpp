@@ -1,4 +1,4 @@
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 
 #include <algorithm>
 #include <cmath>

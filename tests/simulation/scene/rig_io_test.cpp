@@ -1,4 +1,4 @@
-#include "simulation/scene/rig_io.h"
+#include "simulation/scene/json/rig_io.h"
 
 #include <functional>
 #include <limits>

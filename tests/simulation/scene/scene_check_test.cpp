@@ -1,13 +1,13 @@
-#include "simulation/scene/scene_check.h"
+#include "simulation/scene/files/scene_check.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "simulation/scene/check_report.h"
-#include "simulation/scene/held_nodes.h"
+#include "simulation/scene/files/check_report.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/held_nodes.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/schema_fault.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"

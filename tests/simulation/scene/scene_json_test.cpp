@@ -1,4 +1,4 @@
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/json/scene_json.h"
 
 #include <functional>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "simulation/scene/scene_migration.h"
+#include "simulation/scene/json/scene_migration.h"
 
 #include <gtest/gtest.h>
 

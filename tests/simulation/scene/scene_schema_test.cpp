@@ -1,6 +1,6 @@
 // The JSON Schema that other tools use against the reader of this program, held by a validator that
 // is not ours.
-#include "simulation/scene/scene_schema.h"
+#include "simulation/scene/json/scene_schema.h"
 
 #include <filesystem>
 #include <optional>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
-#include "simulation/scene/scene_json.h"
+#include "simulation/scene/json/scene_json.h"
 #include "tests/support/example_scene.h"
 
 namespace arthro {

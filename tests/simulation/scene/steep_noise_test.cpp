@@ -1,4 +1,4 @@
-#include "simulation/scene/steep_noise.h"
+#include "simulation/scene/backdrop/steep_noise.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "simulation/scene/surface_finder.h"
+#include "simulation/scene/mesh/surface_finder.h"
 
 #include <algorithm>
 #include <cmath>

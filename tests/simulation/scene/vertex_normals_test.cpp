@@ -1,4 +1,4 @@
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 
 #include <vector>
 

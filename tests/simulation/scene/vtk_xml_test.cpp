@@ -25,7 +25,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/temp_folder.h"
 
 namespace arthro {

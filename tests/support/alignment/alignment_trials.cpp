@@ -7,9 +7,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "authoring/phantom/cavity.h"
+#include "authoring/phantom/look/tissue_caster.h"
 #include "authoring/phantom/phantom.h"
-#include "authoring/phantom/tissue_caster.h"
+#include "authoring/phantom/shape/cavity.h"
 #include "simulation/core/box3.h"
 #include "simulation/core/random.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "authoring/alignment/landmark_alignment.h"
-#include "authoring/phantom/phantom_tissue.h"
+#include "authoring/phantom/shape/phantom_tissue.h"
 
 namespace arthro::test {
 

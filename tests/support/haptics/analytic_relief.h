@@ -10,8 +10,8 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/scene/image.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 
 namespace arthro::test {
 

@@ -9,7 +9,7 @@
 
 #include "simulation/core/progress.h"
 #include "simulation/practice/session.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
 
 namespace arthro::test {
 

@@ -3,7 +3,7 @@
 // normal. The depth is not smoothed. Portal frame, m.
 #pragma once
 
-#include "simulation/haptics/depth_field.h"
+#include "simulation/haptics/relief/depth_field.h"
 
 namespace arthro::test {
 

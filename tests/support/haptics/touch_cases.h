@@ -8,7 +8,7 @@
 
 #include "simulation/device/hand_plant.h"
 #include "simulation/haptics/contact.h"
-#include "simulation/haptics/output_chain.h"
+#include "simulation/haptics/output/output_chain.h"
 
 namespace arthro::test {
 

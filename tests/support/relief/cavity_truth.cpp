@@ -13,7 +13,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/json_text.h"
 #include "simulation/core/units.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 
 namespace arthro::test {
 namespace {

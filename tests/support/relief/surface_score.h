@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "authoring/panorama/panorama_report.h"
-#include "authoring/relief/make_relief.h"
+#include "authoring/relief/make/make_relief.h"
 #include "simulation/scene/image.h"
 #include "tests/support/relief/cavity_truth.h"
 #include "tests/support/relief/pose_score.h"

@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 
 namespace arthro::test {
 

@@ -18,8 +18,8 @@
 
 #include "simulation/scene/image.h"
 #include "simulation/scene/lens.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 #include "simulation/scene/scene.h"
-#include "simulation/scene/surface_mesh.h"
 #include "simulation/scope/arthroscope.h"
 
 namespace arthro::test {

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "app/view/arthroscopic_view.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image.h"
-#include "simulation/scene/scene_io.h"
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::test {
 

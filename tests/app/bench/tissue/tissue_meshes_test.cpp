@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/tet_check.h"
+#include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/mesh/tet_check.h"
 #include "tests/support/shared_data.h"
 
 namespace arthro::test {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
-#include "simulation/scene/loaded_scene.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/loaded_scene.h"
+#include "simulation/scene/files/scene_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"

@@ -6,7 +6,7 @@
 
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
+#include "simulation/scene/json/lens_io.h"
 #include "tests/support/knee_picture.h"
 #include "tests/support/run_program.h"
 

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/files/scene_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/app/cli/job_inputs.h"
 #include "tests/support/run_program.h"
 

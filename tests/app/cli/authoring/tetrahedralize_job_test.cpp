@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/atomic_file.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shapes.h"
 

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
+#include "simulation/scene/files/scene_io.h"
 #include "simulation/scene/image_io.h"
-#include "simulation/scene/lens_io.h"
-#include "simulation/scene/mesh_io.h"
-#include "simulation/scene/scene_io.h"
+#include "simulation/scene/json/lens_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/run_program.h"
 #include "tests/support/schema_fault.h"
 

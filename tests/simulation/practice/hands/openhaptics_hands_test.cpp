@@ -13,7 +13,7 @@
 #include "simulation/device/log/log_replay.h"
 #include "simulation/practice/hands/hands.h"
 #include "simulation/practice/hands/practice.h"
-#include "simulation/scene/rig_io.h"
+#include "simulation/scene/json/rig_io.h"
 #include "simulation/scope/rod_pose.h"
 #include "tests/support/fake_openhaptics.h"
 #include "tests/support/small_scene.h"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "simulation/scene/vertex_normals.h"
+#include "simulation/scene/mesh/vertex_normals.h"
 #include "simulation/tissue/body/deformable_body.h"
 #include "tests/simulation/tissue/body/meniscus_body.h"
 #include "tests/simulation/tissue/body/plateau.h"

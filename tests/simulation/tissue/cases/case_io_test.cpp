@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/core/error.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/tissue/tissue_meshes.h"
 

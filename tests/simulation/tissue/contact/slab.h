@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "simulation/scene/surface_mesh.h"
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "tests/support/tissue/tissue_meshes.h"
 
 namespace arthro::test {

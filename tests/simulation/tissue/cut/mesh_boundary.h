@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/scene/surface_mesh.h"
-#include "simulation/scene/tet_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
+#include "simulation/scene/mesh/tet_mesh.h"
 #include "simulation/tissue/fem/tet_shape.h"
 
 namespace arthro::test {

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "simulation/scene/surface_mesh.h"
+#include "simulation/scene/mesh/surface_mesh.h"
 
 namespace arthro::test {
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/process_cost.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/tissue/field/cell_patches.h"
 #include "tests/simulation/tissue/field/closed_manifold.h"
 

@@ -11,7 +11,7 @@
 
 #include "simulation/core/error.h"
 #include "simulation/core/process_cost.h"
-#include "simulation/scene/mesh_io.h"
+#include "simulation/scene/mesh/mesh_io.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/shapes.h"
 
