@@ -35,7 +35,9 @@ struct ComposeOptions {
       "Cells whose brightness or colour differs from the consensus by more than this share (tool, "
       "debris, highlight) get no weight.");
     v("averaging", averaging, Range{0, 1}, "",
-      "1 averages frames that agree, which lowers noise; 0 takes each place from one frame.");
+      "1 averages frames whose places are certain to a pixel, which lowers noise; 0 takes each "
+      "place "
+      "from one frame.");
     v("feather", feather, Range{0, 64}, "px", "Width of the soft border of the imaged region.");
     v("preview_every", preview_every, Range{1, 1000}, "frames",
       "Interval between two previews of the growing panorama.");

@@ -112,7 +112,10 @@ Layout LayOut(const cv::Mat& mask, const RectifiedView& view,
     }
     for (cv::Point2d& p : laid.outline) p = Map(laid.composed_from_rectified, p);
     const double error = frame.expected_error_px / kUsualError;
-    if (std::isfinite(error)) laid.trust = 1 / (1 + error * error);
+    if (std::isfinite(error)) {
+      laid.trust = 1 / (1 + error * error);
+      laid.expected_error_px = frame.expected_error_px;
+    }
     areas.push_back(std::abs(Area(laid.outline)));
     layout.frames.push_back(std::move(laid));
   }

@@ -29,7 +29,8 @@ struct LaidFrame {
   cv::Matx33d composed_from_rectified;  // panorama px; its last row is positive on the frame
   std::vector<cv::Point2d> outline;     // outline of the lens's visible area, panorama px
   cv::Rect cells;                       // box in cells that holds the outline
-  double trust = 1;        // weight, which falls with the expected error of the position
+  double trust = 1;  // weight, which falls with the expected error of the position
+  double expected_error_px = 0;
   SurfacePlace surface{};  // takes the place of homography and outline; empty: a plane
 };
 

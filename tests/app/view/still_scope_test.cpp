@@ -1,0 +1,84 @@
+// Steadiness of the picture of a scope that is held still, while what it shows trembles at rest.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "app/view/live_tissues.h"
+#include "app/view/settling.h"
+#include "tests/app/view/view_scene.h"
+
+namespace arthro::test {
+namespace {
+
+using app::InstrumentView;
+using app::Picture;
+
+constexpr int kSize = 256;
+constexpr int kFrames = 24;
+constexpr int kMostChange = 2;                  // levels of 255 between two frames
+constexpr double kTremble = 0.4 * app::kStill;  // m; the cycle is shorter than kStill
+constexpr double kFrameTime = 0.04;             // s
+
+int LargestChange(const ColourImage& before, const ColourImage& now) {
+  int most = 0;
+  for (std::size_t i = 0; i < now.rgb.size(); ++i)
+    most = std::max(most, std::abs(int(now.rgb[i]) - int(before.rgb[i])));
+  return most;
+}
+
+class StillScope : public ViewTest {
+ protected:
+  // Largest change between neighbouring frames of a film. Ring and probe tremble in a cycle of two
+  // frames, as a contact at rest does; `settles`: they are drawn as practice draws them.
+  int LargestChangeOfFilm(bool settles) {
+    LoadedScene loaded = MakeViewScene();
+    loaded.scene.backdrop.relight = 1;
+    view_->SetBackdrop(*loaded.panorama, *loaded.depth, loaded.scene.backdrop);
+    std::vector<simulation::TissueLook> looks(1);
+    looks[0].structure = simulation::TissueStructure::kFibres;
+    looks[0].fibres = looks[0].vessels = 1;
+    view_->SetTissues(loaded.scene.tissues, loaded.surfaces, looks);
+    Picture picture = app::PictureFromPose({-0.1, 0.1, 0.2, 0.01}, 0.5, std::numbers::pi / 2);
+    picture.camera = LensCamera();
+    picture.relief = app::kUsualRelief;
+    picture.samples = 2;
+    const InstrumentView held = ProbeInFront();
+    const std::vector<glm::dvec3>& rest = loaded.surfaces[0]->vertices;
+    std::vector<glm::dvec3> drawn = rest;
+    app::LiveTissues live;
+    ColourImage before;
+    int most = 0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      const glm::dvec3 off(frame % 2 == 0 ? kTremble : -kTremble, 0.5 * kTremble, 0);
+      InstrumentView tool = held;
+      tool.proxy += off;
+      std::vector<glm::dvec3> now = rest;
+      for (glm::dvec3& place : now) place += off;
+      if (settles) {
+        tool = live.Settled(tool);
+        for (std::size_t v = 0; v < now.size(); ++v) app::Settle(now[v], drawn[v]);
+        now = drawn;
+      }
+      picture.instrument = tool;
+      view_->SetTissueShape(0, now);
+      picture.disturbances.time = kFrameTime * frame;
+      view_->Render(picture, kSize);
+      ColourImage shown = view_->ReadPixels();
+      if (frame > 0) most = std::max(most, LargestChange(before, shown));
+      before = std::move(shown);
+    }
+    return most;
+  }
+};
+
+TEST_F(StillScope, ChangesByTwoLevelsAtMostWhileContactsTremble) {
+  EXPECT_LE(LargestChangeOfFilm(true), kMostChange);
+}
+
+TEST_F(StillScope, WouldTrembleIfPlacesWereDrawnAsSimulated) {
+  EXPECT_GT(LargestChangeOfFilm(false), kMostChange);
+}
+
+}  // namespace
+}  // namespace arthro::test
