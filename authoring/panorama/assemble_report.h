@@ -4,10 +4,10 @@
 #include <set>
 #include <vector>
 
+#include "authoring/panorama/clip/panorama_report.h"
+#include "authoring/panorama/clip/prepared_clip.h"
 #include "authoring/panorama/compose_pieces.h"
 #include "authoring/panorama/graph/register.h"
-#include "authoring/panorama/panorama_report.h"
-#include "authoring/panorama/prepared_clip.h"
 
 namespace arthro::authoring {
 

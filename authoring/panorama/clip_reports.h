@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "authoring/footage/footage.h"
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 
 namespace arthro::authoring {
 

@@ -8,13 +8,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "authoring/panorama/assemble_report.h"
+#include "authoring/panorama/clip/prepared_clip.h"
+#include "authoring/panorama/clip/text_boxes.h"
 #include "authoring/panorama/clip_reports.h"
 #include "authoring/panorama/compose/layout.h"
 #include "authoring/panorama/compose_pieces.h"
 #include "authoring/panorama/graph/register.h"
 #include "authoring/panorama/plain_picture.h"
-#include "authoring/panorama/prepared_clip.h"
-#include "authoring/panorama/text_boxes.h"
 #include "authoring/panorama/ties/place_ties.h"
 #include "simulation/core/error.h"
 #include "simulation/core/options_json.h"

@@ -15,8 +15,8 @@
 
 #include "authoring/footage/footage.h"
 #include "authoring/footage/pixel_box.h"
-#include "authoring/panorama/panorama_options.h"
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_options.h"
+#include "authoring/panorama/clip/panorama_report.h"
 #include "authoring/panorama/ties/frame_tie.h"
 #include "simulation/core/progress.h"
 #include "simulation/scene/image.h"

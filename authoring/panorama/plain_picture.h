@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 
 namespace arthro::authoring {
 

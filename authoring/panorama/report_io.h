@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 
 namespace arthro::authoring {
 

@@ -9,7 +9,7 @@
 
 #include "authoring/footage/footage.h"
 #include "authoring/footage/frame_look.h"
-#include "authoring/panorama/footage_lens.h"
+#include "authoring/panorama/clip/footage_lens.h"
 #include "authoring/panorama/graph/parallel.h"
 #include "authoring/panorama/preparation/clip_look.h"
 #include "authoring/panorama/preparation/frame_masks.h"

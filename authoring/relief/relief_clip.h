@@ -9,8 +9,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "authoring/panorama/clip/stage_clock.h"
 #include "authoring/panorama/frames/working_frame.h"
-#include "authoring/panorama/stage_clock.h"
 #include "authoring/relief/relief_options.h"
 #include "simulation/scene/lens.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "authoring/panorama/stage_clock.h"
+#include "authoring/panorama/clip/stage_clock.h"
 #include "authoring/relief/joined_scale.h"
 #include "simulation/scene/projection.h"
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "app/steps/panorama/footage_board.h"
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 
 namespace arthro::app {
 

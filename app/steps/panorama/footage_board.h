@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/state/owned.h"
+#include "app/state/picture_zoom.h"
 #include "app/steps/panorama/lens_choice.h"
-#include "app/steps/panorama/picture_zoom.h"
 #include "authoring/footage/pixel_box.h"
 #include "authoring/panorama/ties/frame_tie.h"
 #include "simulation/scene/image.h"

@@ -10,7 +10,7 @@
 #include "app/steps/panorama/footage_words.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/panorama/panorama_run.h"
-#include "authoring/panorama/panorama_options.h"
+#include "authoring/panorama/clip/panorama_options.h"
 
 namespace arthro::app {
 namespace {

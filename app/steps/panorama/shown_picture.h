@@ -6,8 +6,8 @@
 
 #include <imgui.h>
 
+#include "app/state/picture_zoom.h"
 #include "app/steps/panorama/footage_panels.h"
-#include "app/steps/panorama/picture_zoom.h"
 
 namespace arthro::app {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 #include "authoring/panorama/ties/frame_tie.h"
 
 namespace arthro::authoring {

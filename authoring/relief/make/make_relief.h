@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 #include "authoring/relief/known_length.h"
 #include "authoring/relief/relief_options.h"
 #include "authoring/relief/relief_report.h"

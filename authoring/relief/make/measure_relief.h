@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "authoring/panorama/stage_clock.h"
+#include "authoring/panorama/clip/stage_clock.h"
 #include "authoring/relief/motion/motion.h"
 #include "authoring/relief/motion/portal.h"
 #include "authoring/relief/relief_clip.h"

@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "authoring/panorama/panorama_report.h"
+#include "authoring/panorama/clip/panorama_report.h"
 #include "authoring/relief/make/make_relief.h"
 #include "simulation/scene/image.h"
 #include "tests/support/relief/cavity_truth.h"

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "authoring/footage/footage.h"
-#include "authoring/panorama/footage_lens.h"
+#include "authoring/panorama/clip/footage_lens.h"
 #include "authoring/panorama/graph/place_frames.h"
 #include "tests/authoring/panorama/cases/case_run.h"
 #include "tests/authoring/panorama/graph/simulated_clip.h"

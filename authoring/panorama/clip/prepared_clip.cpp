@@ -1,4 +1,4 @@
-#include "authoring/panorama/prepared_clip.h"
+#include "authoring/panorama/clip/prepared_clip.h"
 
 #include <algorithm>
 #include <map>
@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "authoring/footage/frame_look.h"
+#include "authoring/panorama/clip/text_boxes.h"
 #include "authoring/panorama/preparation/prepare.h"
-#include "authoring/panorama/text_boxes.h"
 #include "simulation/core/error.h"
 
 namespace arthro::authoring {

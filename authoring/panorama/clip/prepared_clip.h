@@ -12,11 +12,11 @@
 
 #include "authoring/footage/footage.h"
 #include "authoring/lens/rectifier.h"
-#include "authoring/panorama/footage_lens.h"
+#include "authoring/panorama/clip/footage_lens.h"
+#include "authoring/panorama/clip/panorama_options.h"
+#include "authoring/panorama/clip/panorama_report.h"
+#include "authoring/panorama/clip/stage_clock.h"
 #include "authoring/panorama/frames/working_frame.h"
-#include "authoring/panorama/panorama_options.h"
-#include "authoring/panorama/panorama_report.h"
-#include "authoring/panorama/stage_clock.h"
 
 namespace arthro::authoring {
 

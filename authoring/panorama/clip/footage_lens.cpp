@@ -1,4 +1,4 @@
-#include "authoring/panorama/footage_lens.h"
+#include "authoring/panorama/clip/footage_lens.h"
 
 #include <algorithm>
 #include <cmath>

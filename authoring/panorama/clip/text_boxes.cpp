@@ -1,4 +1,4 @@
-#include "authoring/panorama/text_boxes.h"
+#include "authoring/panorama/clip/text_boxes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "authoring/footage/pixel_box.h"
-#include "authoring/panorama/stage_clock.h"
+#include "authoring/panorama/clip/stage_clock.h"
 #include "simulation/scene/lens.h"
 #include "simulation/scene/projection.h"
 

@@ -1,4 +1,4 @@
-#include "app/steps/panorama/picture_zoom.h"
+#include "app/state/picture_zoom.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "authoring/panorama/stage_clock.h"
+#include "authoring/panorama/clip/stage_clock.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "authoring/footage/pixel_box.h"
-#include "authoring/panorama/prepared_clip.h"
+#include "authoring/panorama/clip/prepared_clip.h"
 
 namespace arthro::authoring {
 
