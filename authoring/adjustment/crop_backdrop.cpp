@@ -33,6 +33,19 @@ std::shared_ptr<const DepthMap> Part(const std::shared_ptr<const DepthMap>& map,
   return Share(std::move(part));
 }
 
+// Points and radius of a stroke are shares of the picture's width.
+SharedStrokes Part(const SharedStrokes& strokes, int width, const PixelBox& box) {
+  if (!strokes) return nullptr;
+  DepthStrokes moved = *strokes;
+  const double zoom = static_cast<double>(width) / box.width;
+  const glm::dvec2 corner(static_cast<double>(box.x) / width, static_cast<double>(box.y) / width);
+  for (DepthStroke& stroke : moved) {
+    stroke.radius = std::min(1.0, zoom * stroke.radius);
+    for (glm::dvec2& point : stroke.points) point = zoom * (point - corner);
+  }
+  return Share(std::move(moved));
+}
+
 }  // namespace
 
 void CropBackdrop(Document& document, const PixelBox& box) {
@@ -61,6 +74,7 @@ void CropBackdrop(Document& document, const PixelBox& box) {
   document.depth_sigma = sigma;
   document.depth_origin = origin;
   document.scene.backdrop.projection.centre_px -= glm::dvec2(box.x, box.y);
+  document.depth_strokes = Part(document.depth_strokes, width, box);
   if (!document.footage) return;
   // The report goes on to describe the whole panorama.
   FootageRecord record = *document.footage;

@@ -7,6 +7,7 @@
 
 #include "authoring/alignment/place_by_hand.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::authoring {
 namespace {
@@ -53,6 +54,26 @@ void MirrorTissueMesh(Document& document, Tissue& tissue, const NewFile& new_fil
   document.files[tissue.mesh.generic_string()] = {fs::absolute(file), {}, {}};
 }
 
+// The function of a solid; its surface is mirrored already.
+void MirrorFunction(Document& document, std::size_t index, const NewFile& new_file) {
+  const Tissue& tissue = document.scene.tissues[index];
+  const Solid solid = Mirrored(ReadSolid(FileOf(document, tissue.surface)), 0);
+  const fs::path file = new_file(tissue.surface.filename());
+  WriteSolid(file, solid);
+  document.files[tissue.surface.generic_string()] = {
+      fs::absolute(file),
+      index < document.surfaces.size() ? document.surfaces[index] : nullptr,
+      {}};
+}
+
+std::shared_ptr<const DepthStrokes> MirrorStrokes(const SharedStrokes& strokes) {
+  if (!strokes) return nullptr;
+  DepthStrokes mirrored = *strokes;
+  for (DepthStroke& stroke : mirrored)
+    for (glm::dvec2& point : stroke.points) point.x = 1.0 - point.x;
+  return Share(std::move(mirrored));
+}
+
 }  // namespace
 
 TetMesh Mirrored(TetMesh mesh) {
@@ -80,12 +101,14 @@ void MirrorScene(Document& document, const NewFile& new_file) {
     tissue.pose.position.x = Negated(tissue.pose.position.x);
     if (i < document.surfaces.size() && document.surfaces[i])
       document.surfaces[i] = Share(Mirrored(*document.surfaces[i], 0));
+    if (IsSolidFile(tissue.surface)) MirrorFunction(document, i, new_file);
   }
   const int width = OrEmpty(document.panorama).width;
   document.panorama = MirrorRows(document.panorama);
   document.depth = MirrorRows(document.depth);
   document.depth_sigma = MirrorRows(document.depth_sigma);
   document.depth_origin = MirrorRows(document.depth_origin);
+  document.depth_strokes = MirrorStrokes(document.depth_strokes);
   Projection& projection = scene.backdrop.projection;
   const double centre = std::nearbyint(projection.centre_px.x / kCentreStep) * kCentreStep;
   projection.centre_px.x = (width - 1) - centre;

@@ -1,5 +1,8 @@
 #include "authoring/adjustment/scale_backdrop.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "authoring/relief/editing/relief_scale.h"
 #include "simulation/core/error.h"
 
@@ -28,6 +31,12 @@ double ScaleBackdrop(Document& document, const KnownLength& length) {
     // The same map, were it made anew.
     document.depth_options.near_relief *= factor;
     document.depth_options.far_relief *= factor;
+    if (document.depth_strokes) {
+      DepthStrokes strokes = *document.depth_strokes;
+      for (DepthStroke& stroke : strokes)
+        stroke.amount = std::min(kHighestStroke, factor * stroke.amount);
+      document.depth_strokes = Share(std::move(strokes));
+    }
   }
   for (Tissue& tissue : document.scene.tissues) tissue.pose.position *= factor;
   return factor;

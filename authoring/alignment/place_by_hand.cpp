@@ -139,6 +139,17 @@ Tissue Mirrored(Tissue tissue, double at) {
   return tissue;
 }
 
+// Every kind of part is its own mirror image in its own plane x = 0.
+Solid Mirrored(Solid solid, double at) {
+  for (SolidPart& part : solid.parts) {
+    Rigid3& place = PlaceOf(part).solid_from_part;
+    place.translation = MirroredPoint(place.translation, at);
+    glm::dquat& q = place.rotation;
+    q = glm::dquat(q.w, q.x, 0.0 - q.y, 0.0 - q.z);
+  }
+  return solid;
+}
+
 Pose LaidOnRelief(const ReliefTarget& relief, const SurfaceMesh& surface, const Pose& present,
                   const glm::dvec3& place) {
   if (relief.empty() || surface.vertices.empty()) return present;

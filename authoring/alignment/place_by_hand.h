@@ -7,6 +7,7 @@
 
 #include "authoring/alignment/relief_distance.h"
 #include "simulation/scene/scene.h"
+#include "simulation/scene/solids/solid.h"
 
 namespace arthro::authoring {
 
@@ -27,6 +28,7 @@ glm::dvec3 FacingOf(const SurfaceMesh& surface);
 // regions and cuts go with it.
 SurfaceMesh Mirrored(SurfaceMesh surface, double at);
 Tissue Mirrored(Tissue tissue, double at);
+Solid Mirrored(Solid solid, double at);
 
 // Pose whose base lies at `place` of the relief: a flat side touches it, and has the normal of the
 // relief there, averaged over 2 mm. The turn is the smallest that does so.

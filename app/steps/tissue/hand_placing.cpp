@@ -8,8 +8,10 @@
 #include "authoring/alignment/distance_colours.h"
 #include "authoring/alignment/surface_alignment.h"
 #include "simulation/core/units.h"
+#include "simulation/scene/solids/solid_io.h"
 
 namespace arthro::app {
+namespace fs = std::filesystem;
 namespace {
 
 // Share of the front behind the relief that is worth a word: less is a horn
@@ -133,9 +135,19 @@ void MirrorTissue(EditorState& state) {
   const bool had_mesh = !changed.mesh.empty();
   changed.mesh.clear();
   const auto index = static_cast<std::size_t>(state.tissue);
+  const auto mirrored = Share(authoring::Mirrored(surface, at));
+  // A solid is its function, which is mirrored into a file of its own.
+  std::optional<fs::path> function;
+  if (IsSolidFile(changed.surface)) {
+    function = state.scratch.NewFile(changed.surface.filename());
+    WriteSolid(*function,
+               authoring::Mirrored(ReadSolid(FileOf(state.document(), changed.surface)), at));
+    changed.surface = fs::path("tissues") / function->filename();
+  }
   Edit(state, "Mirror " + changed.name, "", [&](authoring::Document& next) {
-    next.surfaces[index] = Share(authoring::Mirrored(surface, at));
+    next.surfaces[index] = mirrored;
     next.scene.tissues[index] = changed;
+    if (function) next.files[changed.surface.generic_string()] = {*function, mirrored, {}};
   });
   if (had_mesh) state.message += "; make its tetrahedra anew.";
 }

@@ -29,6 +29,8 @@ enum class StrokeKind {
 // Fall of the weight from the hard core to the rim.
 enum class StrokeFalloff { kSmooth, kLinear, kRound };
 
+inline constexpr double kHighestStroke = 0.05;  // m
+
 struct DepthStroke {
   StrokeKind kind = StrokeKind::kRaise;
   double radius = 0.01;
@@ -61,7 +63,7 @@ struct DepthStroke {
                               {StrokeFalloff::kLinear, "linear"},
                               {StrokeFalloff::kRound, "round"}}},
       "", "Fall of the weight from the hard core to the rim.");
-    v("amount", amount, Range{0, 0.05}, "m",
+    v("amount", amount, Range{0, kHighestStroke}, "m",
       "Height by which the stroke raises or lowers, or from black to white for brightness.");
     v("strength", strength, Range{0, 1}, "",
       "Share of the way to the new height, for smooth, flatten, brightness and edge.");

@@ -43,6 +43,18 @@ TEST(CropBackdrop, TwoCropsAreOneOfTheRecord) {
   EXPECT_EQ(document.footage->crop, (PixelBox{130, 60, 100, 100}));
 }
 
+TEST(CropBackdrop, StrokesStayOnTheirTissue) {
+  const test::TempFolder folder;
+  Document document = OpenDocument(test::WriteSmallScene(folder / "scene"));
+  // Pixel (200, 100) of 400, with a radius of 12 px.
+  document.depth_strokes = Share(DepthStrokes{{.radius = 0.03, .points = {{0.5, 0.25}}}});
+  CropBackdrop(document, {120, 40, 200, 150});
+  const DepthStroke& stroke = document.depth_strokes->at(0);
+  EXPECT_NEAR(stroke.points[0].x, 80.0 / 200, 1e-12);
+  EXPECT_NEAR(stroke.points[0].y, 60.0 / 200, 1e-12);
+  EXPECT_NEAR(stroke.radius, 12.0 / 200, 1e-12);
+}
+
 TEST(CropBackdrop, RefusesAPartThatIsNotOne) {
   const test::TempFolder folder;
   Document document = OpenDocument(test::WriteSmallScene(folder / "scene"));

@@ -8,6 +8,8 @@
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
 #include "simulation/scene/mesh/mesh_io.h"
+#include "simulation/scene/solids/solid_function.h"
+#include "simulation/scene/solids/solid_io.h"
 #include "tests/support/small_scene.h"
 #include "tests/support/temp_folder.h"
 
@@ -15,6 +17,24 @@ namespace arthro::authoring {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A solid whose only part lies to one side and is turned.
+void AddSolid(const test::TempFolder& folder, Document& document) {
+  EllipsoidPart part;
+  part.radii = {0.001, 0.002, 0.003};
+  part.place.solid_from_part = {glm::normalize(glm::dquat(0.9, 0.1, 0.3, -0.2)), {0.004, 0, 0.001}};
+  const Solid solid{{part}};
+  WriteSolid(folder / "egg.solid", solid);
+  Tissue tissue;
+  tissue.name = "egg";
+  tissue.surface = "tissues/egg.solid";
+  tissue.is_implicit = true;
+  tissue.pose.position = {0.002, 0, 0.03};
+  document.scene.tissues.push_back(tissue);
+  const auto surface = Share(SurfaceOfSolid(solid));
+  document.surfaces.push_back(surface);
+  document.files["tissues/egg.solid"] = {folder / "egg.solid", surface, {}};
+}
 
 // A scene with everything that has a side.
 Document SidedScene(const test::TempFolder& folder) {
@@ -37,6 +57,9 @@ Document SidedScene(const test::TempFolder& folder) {
   WriteTetMesh(folder / "made.vtu", mesh);
   tissue.mesh = "octahedron.vtu";
   document.files["octahedron.vtu"].file = folder / "made.vtu";
+  AddSolid(folder, document);
+  document.depth_strokes =
+      Share(DepthStrokes{{.radius = 0.03, .points = {{0.25, 0.125}, {0.75, 0.5}}}});
   return document;
 }
 
@@ -94,6 +117,12 @@ TEST(MirrorScene, EveryPointLiesWhereTheMirrorShowsIt) {
                             mirrored(DirectionFromPixel(before.scene.backdrop.projection, {x, y}))),
               1e-12);
   }
+  const Solid egg = ReadSolid(FileOf(before, before.scene.tissues[1].surface)),
+              other = ReadSolid(FileOf(after, after.scene.tissues[1].surface));
+  const SolidFunction function(egg), mirrored_function(other);
+  for (const glm::dvec3& x : {glm::dvec3(0.005, 0.001, 0), {-0.002, 0.003, 0.004}, {0.004, 0, 0}})
+    EXPECT_NEAR(mirrored_function.Value(mirrored(x)), function.Value(x), 1e-12);
+  EXPECT_EQ(after.depth_strokes->at(0).points.at(0), glm::dvec2(0.75, 0.125));
   EXPECT_EQ(after.scene.portals.incision_spacing, -0.028);
   EXPECT_EQ(after.scene.side, BodySide::kLeft);
 }
