@@ -47,7 +47,7 @@ void AddRunJob(CLI::App& program) {
       ->type_name("SCENE");
   job->add_flag("--show", *shows, "Show the window. Default: it is hidden.");
   job->add_flag("--list", *lists, "List the commands that `do` takes, and do nothing else.");
-  AddLookFlags(*job, *options);
+  AddLookFlags(*job, *options, "A script begins with the usual look, in English.");
   files->Run([options, shows, script, lists, input] {
     if (*lists) return ListCommands();
     if (input->count() == 0) throw CLI::RequiredError("SCRIPT");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/editor/editor.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct LookVisitor {
   CLI::App& job;
   EditorOptions& options;
+  const char* otherwise;
 
   template <class T>
   void operator()(const char* name, T&, const Choices<T>& choices, const char*, const char* help) {
@@ -28,7 +30,7 @@ struct LookVisitor {
            [target, field = std::string(name)](const std::string& word) {
              target->look[field] = word;
            },
-           std::string(help) + " Default: as set in the window.")
+           fmt::format("{} {}", help, otherwise))
         ->check(CLI::IsMember(words))
         ->group("Window");
   }
@@ -36,8 +38,8 @@ struct LookVisitor {
 
 }  // namespace
 
-void AddLookFlags(CLI::App& job, EditorOptions& options) {
-  WindowSettings().Visit(LookVisitor{job, options});
+void AddLookFlags(CLI::App& job, EditorOptions& options, const char* otherwise) {
+  WindowSettings().Visit(LookVisitor{job, options, otherwise});
 }
 
 }  // namespace arthro::app

@@ -10,6 +10,8 @@ namespace arthro::app {
 struct EditorOptions;
 
 // --interface-scale, --theme and --language, which win over what the user has set in the window.
-void AddLookFlags(CLI::App& job, EditorOptions& options);
+// `otherwise`: a sentence on what holds without a flag.
+void AddLookFlags(CLI::App& job, EditorOptions& options,
+                  const char* otherwise = "Default: as set in the window.");
 
 }  // namespace arthro::app
