@@ -14,15 +14,14 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
-#include "app/editor/brush_marks.h"
+#include "app/editor/editor_input.h"
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
-#include "app/editor/landmark_marks.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/panorama_clicks.h"
 #include "app/editor/pictures.h"
+#include "app/editor/scene_views.h"
 #include "app/editor/script_recorder.h"
 #include "app/editor/tab_walk.h"
 #include "app/files/recovery_copy.h"
@@ -76,73 +75,6 @@ double ProcessAge() {
   double now = 0;
   uptime >> now;
   return now - std::stod(field) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-}
-
-// Every command's keys but those that end the program, and the keys of lists and fields.
-std::vector<CrawlKeys> KeysOfCrawl(const EditorState& state) {
-  std::vector<CrawlKeys> all;
-  for (const Command& command : state.commands)
-    for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
-      if (shortcut.key == 0 || command.id == std::string_view("quit")) continue;
-      std::vector<int> keys;
-      if (shortcut.ctrl) keys.push_back(GLFW_KEY_LEFT_CONTROL);
-      if (shortcut.shift) keys.push_back(GLFW_KEY_LEFT_SHIFT);
-      keys.push_back(shortcut.key);
-      all.push_back({WordsOf(shortcut), std::move(keys)});
-    }
-  for (const char* name : {"escape", "escape", "enter", "tab", "space", "left", "right", "up",
-                           "down", "pageup", "pagedown", "home", "end", "delete", "backspace"})
-    all.push_back({name, KeysFromWords(name)});
-  return all;
-}
-
-// Keys that call a command. None while text is typed (but function keys) or a dialog is open.
-void RunShortcuts(EditorState& state) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (!state.dialogs.empty()) return;
-  if (InEditor(state) && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false) && !io.WantTextInput)
-    LeaveBrush(state);
-  for (const Command& command : state.commands)
-    for (const Shortcut& shortcut : {command.shortcut, command.other_shortcut}) {
-      if (shortcut.key == 0 || !ImGui::IsKeyPressed(shortcut.key, false)) continue;
-      if (io.KeyCtrl != shortcut.ctrl || io.KeyShift != shortcut.shift || io.KeyAlt) continue;
-      const bool function_key = shortcut.key >= GLFW_KEY_F1 && shortcut.key <= GLFW_KEY_F12;
-      if (io.WantTextInput && !function_key) continue;
-      ImGui::NavMoveRequestCancel();  // an arrow that is a command does not walk the panels
-      Run(state, command);
-      return;  // one key, one command
-    }
-  // "?" by what it types, since its key is another one on every keyboard.
-  if (!io.WantTextInput)
-    for (const ImWchar character : io.InputQueueCharacters)
-      if (character == '?') return Run(state, "help");
-}
-
-void TakeNews(EditorState& state, const FrameNews& news) {
-  if (news.close_requested && state.dialogs.empty()) Run(state, "quit");
-  if (!news.dropped.empty() && state.dialogs.empty() && !state.practice && !state.practice_only)
-    Guarded(state, "Open", [&] {
-      RecordFile(state.record, "drop", news.dropped.front());
-      OpenDropped(state, news.dropped.front());
-    });
-}
-
-std::string TitleOf(const EditorState& state) {
-  const std::string& title = state.document().scene.title;
-  return (state.history.IsSaved() || state.practice_only ? "" : "• ") +
-         (title.empty() ? std::string("Untitled") : title) + " — Arthroscene";
-}
-
-ScriptActions ActionsOf(EditorState& state) {
-  return {[&state](const std::string& command, const std::filesystem::path& file) {
-            return RunByName(state, command, file);
-          },
-          [&state](const std::filesystem::path& file) { return ChooseFile(state, file); },
-          [&state](bool of_scope, const std::vector<double>& pose) -> std::string {
-            if (!InEditor(state)) return "the hands of a practice follow the mouse and the keys";
-            (of_scope ? state.scope : state.instrument) = {pose[1], pose[2], pose[3], pose[0]};
-            return "";
-          }};
 }
 
 class Editor {
@@ -465,7 +397,8 @@ class Editor {
       const Layout layout = PracticeLayout(width, height, ui.scale);
       picture_focused_ = true;
       DrawPictures(ui, layout);
-      TakePictureInput(ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()));
+      ApplyPictureInput(state_, ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()),
+                        pictures_.view(), state_.document().scene.scope.field_of_view);
       if (state_.steps.practice->shows_outside)
         pictures_.HandleOverview(state_,
                                  InsetOverview(ui, layout.overview, pictures_.overview_texture()));
@@ -522,95 +455,8 @@ class Editor {
 
   void Scene(Ui& ui, const Layout& layout) {
     DrawPictures(ui, layout);
-    picture_focused_ = false;
-    PictureInput input;
-    if (layout.shows_picture && panorama_clicks_.is_shown && PlacesLandmarks(state_)) {
-      footage_textures_.BeginFrame();
-      PanoramaPicture(ui, state_, panorama_clicks_, layout.picture,
-                      footage_textures_.IdOf(state_.document().panorama));
-      footage_textures_.EndFrame();
-      input.area = layout.picture;
-    } else if (layout.shows_picture) {
-      input = ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
-      picture_focused_ = input.focused;
-      Lay(input);
-      Paint(input);
-      TakePictureInput(input);
-      if (input.clicked) pictures_.ClickScope(state_, PlaceInPicture(input, *input.clicked));
-    }
-    if (layout.shows_overview)
-      pictures_.HandleOverview(state_,
-                               OverviewPicture(ui, state_, layout.overview,
-                                               pictures_.overview_texture(), pictures_.handle()),
-                               ui.scale);
-    Landmarks(ui, layout, input);
-    if (layout.shows_picture) PanoramaClicksButton(ui, state_, panorama_clicks_, layout.picture);
-    BrushRings(ui, layout, input);
-    ViewSplitter(ui, state_, layout);
-  }
-
-  // Right and up from the middle of the scope's picture, in units of its radius.
-  static glm::dvec2 PlaceInPicture(const PictureInput& input, const glm::dvec2& pixel) {
-    const double edge = input.area.width;
-    return {2.0 * (pixel.x + 0.5) / edge - 1.0, 1.0 - 2.0 * (pixel.y + 0.5) / edge};
-  }
-
-  std::optional<authoring::Sight> SightOf(const PictureInput& input,
-                                          const glm::dvec2& pixel) const {
-    return authoring::SightOfScope(pictures_.optics(), pictures_.view(),
-                                   static_cast<int>(input.area.width), pixel);
-  }
-
-  // A drag over the scope's picture that lays a tissue does not swing the scope.
-  void Lay(PictureInput& input) {
-    if (!LaysOnRelief(state_)) return;
-    if (input.held)
-      if (const auto sight = SightOf(input, *input.held)) LayTissue(state_, *sight);
-    if (input.held) input.scope_drag = glm::dvec2(0.0);
-    if (input.released) EndDrag(state_);
-  }
-
-  // A drag over the scope's picture that paints does not swing the scope.
-  void Paint(PictureInput& input) {
-    const bool paints = PaintsDepth(state_);
-    if (!paints && !TouchesRelief(state_)) return;
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const glm::dvec2 pointer(mouse.x - input.area.x - 0.5, mouse.y - input.area.y - 0.5);
-    const bool is_held = paints && input.held && !input.shift;
-    if (input.hovered || is_held)
-      if (const auto sight = SightOf(input, pointer)) PointAtRelief(state_, *sight, is_held);
-    if (is_held) input.scope_drag = glm::dvec2(0.0);
-    if (paints && input.released) EndStroke(state_);
-  }
-
-  // The brush or the touch over both pictures.
-  void BrushRings(Ui& ui, const Layout& layout, const PictureInput& input) {
-    if (layout.shows_picture)
-      MarkBrushInScope(ui, state_, layout.picture, input.area, pictures_.view(),
-                       pictures_.optics());
-    if (layout.shows_overview)
-      MarkBrushInOverview(ui, state_, layout.overview,
-                          [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
-    ForgetPointer(state_);
-  }
-
-  // Marks over both pictures, and clicks into the scope's.
-  void Landmarks(Ui& ui, const Layout& layout, const PictureInput& input) {
-    if (input.clicked && PlacesLandmarks(state_))
-      if (const auto sight = SightOf(input, *input.clicked)) TakeScenePoint(state_, *sight);
-    const bool shows_scope =
-        layout.shows_picture && !(panorama_clicks_.is_shown && PlacesLandmarks(state_));
-    if (shows_scope && pictures_.bare_texture() != 0)
-      FadeScope(ui, layout.picture, input.area, pictures_.bare_texture(), FadeOf(state_));
-    if (shows_scope)
-      MarkScope(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
-    if (layout.shows_overview)
-      MarkOverview(ui, state_, layout.overview,
-                   [&](const glm::dvec3& x) { return pictures_.OverviewPixelOf(x); });
-  }
-
-  void TakePictureInput(const PictureInput& input) {
-    ApplyPictureInput(state_, input, pictures_.view(), state_.document().scene.scope.field_of_view);
+    picture_focused_ =
+        ShowSceneViews(ui, layout, {state_, pictures_, panorama_clicks_, footage_textures_});
   }
 
   void DrawPictures(const Ui& ui, const Layout& layout) {

@@ -179,8 +179,8 @@ void KeepPatchFresh(EditorState& state) {
   if (!board.brush.live || board.brush.changed.is_empty()) return;
   const CoarseMap coarse{*board.brush.live, *board.brush.coarse_picture, board.brush.stride};
   // A slope is drawn from pixels beside it.
-  const authoring::PixelBox box = authoring::Grown(board.brush.changed, kShapeReach + 1,
-                                                   coarse.depth.width, coarse.depth.height);
+  const authoring::PixelBounds box = authoring::Grown(board.brush.changed, kShapeReach + 1,
+                                                      coarse.depth.width, coarse.depth.height);
   patch.picture = Share(DrawCoarse(state.document(), board.layer, coarse, box));
   const glm::dvec2 size =
       glm::dvec2(state.document().panorama->width, state.document().panorama->height) /

@@ -23,7 +23,7 @@ struct DepthBrush {
   std::shared_ptr<const DepthMap> live;
   std::shared_ptr<const ColourImage> coarse_picture;  // same size as these maps
   int stride = 1;                                     // pixels of the panorama per coarse pixel
-  authoring::PixelBox changed;                        // part of the coarse map
+  authoring::PixelBounds changed;                     // part of the coarse map
   long version = 0;                                   // grows with each change of the stroke
   std::optional<glm::dvec2> pointed;  // px of the panorama under the pointer in a picture
 };

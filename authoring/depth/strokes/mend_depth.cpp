@@ -27,10 +27,10 @@ using TargetOf = std::function<double(int x, int y, double height)>;
 
 // A copy of the part of the relief that a stroke reads.
 struct Part {
-  PixelBox box;
+  PixelBounds box;
   std::vector<float> height;
 
-  Part(const DepthMap& relief, const PixelBox& from) : box(from) {
+  Part(const DepthMap& relief, const PixelBounds& from) : box(from) {
     height.reserve(static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()));
     for (int y = box.top; y < box.bottom; ++y)
       for (int x = box.left; x < box.right; ++x) height.push_back(relief.at(x, y));
@@ -63,7 +63,7 @@ void ForPixels(const StrokeTile& tile, Use&& use) {
 class WindowMeans {
  public:
   WindowMeans(const DepthMap& relief, const StrokeTile& tile, int reach) : reach_(reach) {
-    const PixelBox own{tile.x, tile.y, tile.x + tile.width, tile.y + tile.height};
+    const PixelBounds own{tile.x, tile.y, tile.x + tile.width, tile.y + tile.height};
     box_ = Grown(own, reach, relief.width, relief.height);
     stride_ = box_.width() + 1;
     const auto size = static_cast<std::size_t>(stride_ * (box_.height() + 1));
@@ -96,7 +96,7 @@ class WindowMeans {
   }
 
   int reach_, stride_ = 0;
-  PixelBox box_;
+  PixelBounds box_;
   std::vector<double> sum_, count_;
 };
 
@@ -194,7 +194,7 @@ void Forget(MendedDepth& depth, const StrokeTile& tile) {
 }
 
 template <class Map, class Value>
-Map CutOut(const Map& map, const PixelBox& box, std::vector<Value> Map::*values) {
+Map CutOut(const Map& map, const PixelBounds& box, std::vector<Value> Map::*values) {
   Map part;
   if (map.empty()) return part;
   part = Map(box.width(), box.height());
@@ -208,7 +208,7 @@ Map CutOut(const Map& map, const PixelBox& box, std::vector<Value> Map::*values)
 }
 
 template <class Map, class Value>
-void PutBack(const Map& part, const PixelBox& box, std::vector<Value> Map::*values, Map& map) {
+void PutBack(const Map& part, const PixelBounds& box, std::vector<Value> Map::*values, Map& map) {
   if (map.empty()) return;
   for (int y = 0; y < box.height(); ++y) {
     const auto from = (part.*values).begin() + static_cast<std::ptrdiff_t>(y) * box.width();
@@ -220,7 +220,7 @@ void PutBack(const Map& part, const PixelBox& box, std::vector<Value> Map::*valu
 
 // Closes the surface over the footprint, within its box and a rim of one pixel.
 void CloseMasked(const StrokeFootprint& footprint, const MendedScene& scene, MendedDepth& depth) {
-  const PixelBox box = Grown(footprint.box, 1, depth.relief.width, depth.relief.height);
+  const PixelBounds box = Grown(footprint.box, 1, depth.relief.width, depth.relief.height);
   CellMarks marks(box.width(), box.height());
   for (const StrokeTile& tile : footprint.tiles)
     ForPixels(tile, [&](int x, int y, double) {
@@ -271,7 +271,7 @@ StrokeReport ApplyStroke(const DepthStroke& stroke, const MendedScene& scene, Me
   const bool is_smooth = stroke.kind == StrokeKind::kSmooth;
   const bool is_edge = stroke.kind == StrokeKind::kEdge;
   const Part before(
-      relief, is_edge ? Grown(footprint.box, reach, relief.width, relief.height) : PixelBox());
+      relief, is_edge ? Grown(footprint.box, reach, relief.width, relief.height) : PixelBounds());
   TargetOf target;
   if (stroke.kind == StrokeKind::kFlatten) target = FlatteningTarget(footprint, scene, relief);
   if (stroke.kind == StrokeKind::kBrightness)

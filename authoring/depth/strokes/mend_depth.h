@@ -39,7 +39,7 @@ struct MendedScene {
 struct StrokeReport {
   int touched = 0;  // pixels with a weight
   int read = 0;     // pixels of the tiles that were computed
-  PixelBox box;     // around the touched pixels
+  PixelBounds box;  // around the touched pixels
 };
 
 // Applies one stroke. A measured map states which pixels are no longer measured, and their standard

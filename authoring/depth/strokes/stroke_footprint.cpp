@@ -48,14 +48,14 @@ SegmentsByTile SegmentsOf(const std::vector<glm::dvec2>& points, double radius, 
 
 }  // namespace
 
-PixelBox Joined(const PixelBox& a, const PixelBox& b) {
+PixelBounds Joined(const PixelBounds& a, const PixelBounds& b) {
   if (a.is_empty()) return b;
   if (b.is_empty()) return a;
   return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
           std::max(a.bottom, b.bottom)};
 }
 
-PixelBox Grown(const PixelBox& box, int margin, int width, int height) {
+PixelBounds Grown(const PixelBounds& box, int margin, int width, int height) {
   return {std::max(0, box.left - margin), std::max(0, box.top - margin),
           std::min(width, box.right + margin), std::min(height, box.bottom + margin)};
 }
@@ -71,7 +71,7 @@ StrokeFootprint FootprintOf(const DepthStroke& stroke, int width, int height) {
   std::vector<const SegmentsByTile::value_type*> entries;
   for (const auto& entry : segments) entries.push_back(&entry);
   std::vector<StrokeTile> tiles(entries.size());
-  std::vector<PixelBox> boxes(entries.size());
+  std::vector<PixelBounds> boxes(entries.size());
   std::vector<int> touched(entries.size(), 0);
   ForStripsOfRows(static_cast<int>(entries.size()), [&](int first, int last) {
     for (int t = first; t < last; ++t) {

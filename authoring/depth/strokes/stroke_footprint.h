@@ -21,22 +21,22 @@ struct StrokeTile {
 };
 
 // Half-open rectangle of pixels; empty: nothing.
-struct PixelBox {
+struct PixelBounds {
   int left = 0, top = 0, right = 0, bottom = 0;
   bool is_empty() const { return left >= right || top >= bottom; }
   int width() const { return right - left; }
   int height() const { return bottom - top; }
 };
 // Smallest box around both.
-PixelBox Joined(const PixelBox& a, const PixelBox& b);
+PixelBounds Joined(const PixelBounds& a, const PixelBounds& b);
 // `margin` px larger on each side, within a map of that size.
-PixelBox Grown(const PixelBox& box, int margin, int width, int height);
+PixelBounds Grown(const PixelBounds& box, int margin, int width, int height);
 
 struct StrokeFootprint {
   double radius = 0;               // px
   std::vector<glm::dvec2> points;  // px, centre of the top left pixel at the origin
   std::vector<StrokeTile> tiles;   // those with a weight above 0, in row order
-  PixelBox box;                    // around the pixels with a weight
+  PixelBounds box;                 // around the pixels with a weight
   int touched = 0;                 // number of these pixels
 };
 
