@@ -299,10 +299,7 @@ class Editor {
   static double Now() { return Seconds(Clock::now().time_since_epoch()).count(); }
 
   bool Busy() const {
-    return state_.jobs.busy() || state_.steps.depth->preview_jobs.busy() ||
-           state_.steps.panorama->frame_jobs.busy() || state_.steps.practice->pivot_jobs.busy() ||
-           state_.steps.portals->reach.jobs.busy() || (state_.start && state_.start->jobs.busy()) ||
-           state_.steps.tissue->faults->jobs.busy() ||
+    return HasWork(state_) ||
            (state_.steps.practice->film && state_.steps.practice->film->is_ending());
   }
 

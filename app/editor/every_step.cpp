@@ -176,6 +176,14 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
                      std::move(recent_file));
 }
 
+bool HasWork(const EditorState& state) {
+  const StepStates& steps = state.steps;
+  return state.jobs.busy() || steps.depth->preview_jobs.busy() ||
+         steps.panorama->frame_jobs.busy() || steps.practice->pivot_jobs.busy() ||
+         steps.portals->reach.jobs.busy() || (state.start && state.start->jobs.busy()) ||
+         steps.tissue->faults->jobs.busy();
+}
+
 bool FinishWork(EditorState& state) {
   bool changed = FinishFootage(state);
   changed = KeepStartPageFresh(state) || changed;

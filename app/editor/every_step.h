@@ -20,4 +20,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
 // Takes over ended work, keeps the depth map fresh. Once a frame. True when something changed.
 bool FinishWork(EditorState& state);
 
+// True while a job of any step is under way.
+bool HasWork(const EditorState& state);
+
 }  // namespace arthro::app

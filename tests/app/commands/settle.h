@@ -10,17 +10,8 @@
 #include "app/editor/every_step.h"
 #include "app/state/editor_state.h"
 #include "app/steps/depth/depth_step.h"
-#include "app/steps/panorama/panorama_step.h"
-#include "app/steps/portals/portals_step.h"
-#include "app/steps/practice/practice_step.h"
 
 namespace arthro::app {
-
-inline bool HasWork(const EditorState& state) {
-  return state.jobs.busy() || state.steps.depth->preview_jobs.busy() || DepthIsUnderWay(state) ||
-         state.steps.panorama->frame_jobs.busy() || state.steps.practice->pivot_jobs.busy() ||
-         state.steps.portals->reach.jobs.busy();
-}
 
 // Repeats `frame`, what the window does between two frames, until no job is under way. The test
 // fails after ten minutes.
@@ -30,7 +21,7 @@ inline void SettleBy(const EditorState& state, const std::function<void()>& fram
     frame();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_LT(std::chrono::steady_clock::now(), limit) << "work does not end";
-  } while (HasWork(state));
+  } while (HasWork(state) || DepthIsUnderWay(state));
   frame();
 }
 
