@@ -24,7 +24,8 @@ TEST_F(AdjustJob, MirroredTwiceIsTheSameScene) {
   ASSERT_EQ(Adjust("once", "twice", "--mirror").exit_code, 0);
   EXPECT_EQ(LoadScene(At("once")).scene.side, BodySide::kLeft);
   for (const char* file : {"scene.json", "panorama.png", "depth.tiff"})
-    EXPECT_EQ(ReadWholeFile(At("twice") / file), ReadWholeFile(At("first") / file)) << file;
+    EXPECT_EQ(ReadWholeFile(At("twice") + "/" + file), ReadWholeFile(At("first") + "/" + file))
+        << file;
 }
 
 TEST_F(AdjustJob, CropsScalesAndTurns) {
