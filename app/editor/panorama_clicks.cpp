@@ -15,9 +15,9 @@ void PanoramaClicksButton(Ui& ui, const EditorState& state, PanoramaClicks& clic
   if (!PlacesLandmarks(state)) return;
   const char* words = clicks.is_shown ? "Show the scope" : "Show the panorama";
   // A window of its own, so that a click on it is no click into the picture.
-  const ImVec2 text = ImGui::CalcTextSize(words), padding = ImGui::GetStyle().FramePadding;
-  const Area own{area.x + ui.Px(8), area.y + ui.Px(8), text.x + 2 * padding.x,
-                 text.y + 2 * padding.y};
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const Area own{area.x + ui.Px(8), area.y + ui.Px(8), ui.WidthOf(words) + 2 * padding.x,
+                 ImGui::GetTextLineHeight() + 2 * padding.y};
   const FixedWindow window(ui, "change picture", own, kInsetWindow);
   if (Button(ui, words, true, {0, 0},
              "Landmarks can be clicked in the scope's picture or in the whole panorama."))

@@ -35,12 +35,13 @@ void ComparedPictures(Ui& ui, EditorState& state, const Area& area, const DepthT
           reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(id)), low,
           {low.x + static_cast<float>(place.size.x), low.y + static_cast<float>(place.size.y)});
     }
-    const ImVec2 words = ImGui::CalcTextSize(pane.words);
+    const std::string shown = ui.In(pane.words);
+    const ImVec2 words = ImGui::CalcTextSize(shown.c_str());
     const ImVec2 at = {pane.x + ui.Px(10), pane.y + ui.Px(8)};
     draw->AddRectFilled({at.x - ui.Px(6), at.y - ui.Px(3)},
                         {at.x + words.x + ui.Px(6), at.y + words.y + ui.Px(4)}, 0xD0231E1B,
                         ui.Px(4));
-    draw->AddText(at, kBright, pane.words);
+    draw->AddText(at, kBright, shown.c_str());
     ui.widgets.RecordText(pane.words);
     ImGui::PopClipRect();
   }

@@ -52,12 +52,13 @@ void MarkPoint(Ui& ui, const ImVec2& at, const std::string& words) {
 
 void HintOver(Ui& ui, const Area& area, const std::string& words) {
   ui.widgets.RecordText(words);
-  const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+  const std::string shown = ui.In(words);
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
   const ImVec2 low = {area.x + ui.Px(10), area.y + ui.Px(8)};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(low, {low.x + size.x + ui.Px(16), low.y + size.y + ui.Px(8)}, 0xD0231E1B,
                       ui.Px(4));
-  draw->AddText({low.x + ui.Px(8), low.y + ui.Px(4)}, kBright, words.c_str());
+  draw->AddText({low.x + ui.Px(8), low.y + ui.Px(4)}, kBright, shown.c_str());
 }
 
 bool HitPart(Ui& ui, const char* name, const Area& area) {

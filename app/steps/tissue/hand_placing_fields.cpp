@@ -34,9 +34,9 @@ void DistanceLegend(Ui& ui) {
   const std::string most = fmt::format("{:.0f} mm", MmFromMetres(authoring::kFullColour));
   const std::string left = most + " behind", right = most + " before";
   QuietText(ui, left);
-  ImGui::SameLine(0.5f * (width - ImGui::CalcTextSize("on it").x));
+  ImGui::SameLine(0.5f * (width - ui.WidthOf("on it")));
   QuietText(ui, "on it");
-  ImGui::SameLine(width - ImGui::CalcTextSize(right.c_str()).x);
+  ImGui::SameLine(width - ui.WidthOf(right));
   QuietText(ui, right);
 }
 

@@ -216,9 +216,7 @@ void TissuePanel(Ui& ui, EditorState& state) {
   const authoring::Document document = state.document();  // a copy: edits below move it
   // Widths of the words, plus equal shares of the remaining space.
   const Command& library = CommandOf(state, "library");
-  const auto text = [&](const char* id) {
-    return ImGui::CalcTextSize(CommandOf(state, id).words).x;
-  };
+  const auto text = [&](const char* id) { return ui.WidthOf(CommandOf(state, id).words); };
   const float share = (ImGui::GetContentRegionAvail().x - 2 * ui.Px(6) - text("import-surface") -
                        text("add-solid") - text("library")) /
                       3;
