@@ -6,7 +6,6 @@
 #include <random>
 #include <vector>
 
-#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
 #include "authoring/panorama/pairs/pair_estimate.h"
@@ -65,10 +64,22 @@ inline FourPoints ControlPoints() {
           cv::Point2d(kCentre + d, kCentre + d), cv::Point2d(kCentre - d, kCentre + d)};
 }
 
-// Homography that maps four points to four others, by OpenCV: not by the code under test.
+// Homography that maps four points to four others, exact to a double; OpenCV computes it from
+// points of single precision.
 inline cv::Matx33d FromFourPoints(const FourPoints& from, const FourPoints& to) {
-  return cv::findHomography(std::vector<cv::Point2d>(from.begin(), from.end()),
-                            std::vector<cv::Point2d>(to.begin(), to.end()));
+  cv::Matx<double, 8, 8> m = cv::Matx<double, 8, 8>::zeros();
+  cv::Matx<double, 8, 1> right;
+  for (int k = 0; k < 4; ++k) {
+    const cv::Point2d &p = from[static_cast<std::size_t>(k)], &q = to[static_cast<std::size_t>(k)];
+    const double rows[2][8] = {{p.x, p.y, 1, 0, 0, 0, -p.x * q.x, -p.y * q.x},
+                               {0, 0, 0, p.x, p.y, 1, -p.x * q.y, -p.y * q.y}};
+    for (int r = 0; r < 2; ++r)
+      for (int c = 0; c < 8; ++c) m(2 * k + r, c) = rows[r][c];
+    right(2 * k) = q.x;
+    right(2 * k + 1) = q.y;
+  }
+  const cv::Matx<double, 8, 1> h = m.solve(right, cv::DECOMP_LU);
+  return {h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1};
 }
 
 // The true pair with noise of `sigma` px on every coordinate of the control points.
