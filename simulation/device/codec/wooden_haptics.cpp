@@ -42,7 +42,7 @@ bool TakePolhemButton(WoodenReport& report) noexcept {
 WoodenOutput WoodenCurrentReport(const glm::dvec3& amperes) noexcept {
   WoodenOutput report{};
   for (int i = 0; i < 3; ++i)
-    PutSigned(report, static_cast<std::size_t>(1 + 2 * i), Saturated(kMilli * amperes[i]));
+    PutSigned(report, 1 + 2 * static_cast<std::size_t>(i), Saturated(kMilli * amperes[i]));
   PutSigned(report, 7, static_cast<std::int16_t>(WoodenCommand::kCurrents));
   return report;
 }

@@ -18,7 +18,8 @@ namespace {
 std::string Utf8(const wchar_t* text) {
   std::string utf8;
   for (; text && *text; ++text) {
-    const auto code = static_cast<std::uint32_t>(*text);
+    // A whole code point, also where wchar_t has a sign.
+    const auto code = static_cast<std::uint32_t>(static_cast<char32_t>(*text));
     const auto put = [&](std::uint32_t byte) { utf8 += static_cast<char>(byte); };
     if (code < 0x20) continue;
     if (code < 0x80) {

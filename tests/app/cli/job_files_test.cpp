@@ -141,6 +141,7 @@ TEST_F(JobFiles, APieceOrPictureThatIsAnInputIsRefused) {
 // Flags that help shows as OUTPUT, with a command for each, in which a foreign file stands where
 // the job would write. A job that is missing here fails the next test.
 const std::map<std::string, std::string> kOutputs = {
+    {"adjust --output", "adjust @S.arthro --mirror -o @S"},
     {"align --output", "align @S.arthro --tissue octahedron --pairs @pairs.json -o @S"},
     {"align --report", "align @S --tissue octahedron --pairs @pairs.json -o @new.demo --report @X"},
     {"bench all --output", "bench all -o @X.demo"},
@@ -263,11 +264,13 @@ TEST_F(JobFiles, AForeignFileWantsOverwriteInEveryJob) {
   for (const char* name : {"report.json", "frame_00000.png", "000001.png"})
     WriteAtomically(At("X.demo") + "/" + name, kForeign);
   for (const auto& [name, arguments] : kOutputs)
-    ExpectRefused(arguments,
-                  name.ends_with(" --save-scene")                          ? "Z/scene.json"
-                  : name.ends_with(" --scene") || name == "align --output" ? "S/scene.json"
-                                                                           : "X",
-                  name == "phantom --output" ? "nothing is overwritten" : "--overwrite");
+    ExpectRefused(
+        arguments,
+        name.ends_with(" --save-scene") ? "Z/scene.json"
+        : name.ends_with(" --scene") || name == "align --output" || name == "adjust --output"
+            ? "S/scene.json"
+            : "X",
+        name == "phantom --output" ? "nothing is overwritten" : "--overwrite");
 }
 
 TEST_F(JobFiles, AFileOfAnotherJobIsForeign) {

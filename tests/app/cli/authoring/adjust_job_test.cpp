@@ -1,4 +1,5 @@
 // The adjust job on the small scene: what its flags say is what the scene becomes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "simulation/core/atomic_file.h"
@@ -30,9 +31,12 @@ TEST_F(AdjustJob, MirroredTwiceIsTheSameScene) {
 
 TEST_F(AdjustJob, CropsScalesAndTurns) {
   const LoadedScene before = LoadScene(At("S"));
+  // Right of the middle of the projection, exactly.
+  const glm::dvec2 middle = before.scene.backdrop.projection.centre_px;
+  const std::string up =
+      fmt::format("--up {},{}:{},{}", middle.x, middle.y, middle.x + 60, middle.y);
   const ProgramResult run =
-      Adjust("S", "A",
-             "--crop 100,50,200,150 --length-mm 30 --between 150,150:250,150 --up 200,150:260,150");
+      Adjust("S", "A", "--crop 100,50,200,150 --length-mm 30 --between 150,150:250,150 " + up);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const LoadedScene after = LoadScene(At("A"));
   EXPECT_EQ(after.panorama->width, 200);
