@@ -52,7 +52,7 @@ TEST_F(AlignJob, WritesTheSceneWithTheTissueInItsPlace) {
   const auto report = nlohmann::json::parse(ReadWholeFile(At("r.json")));
   EXPECT_EQ(report.at("schema"), "arthroscene.align/1");
   EXPECT_EQ(report.at("landmarks").at("pairs").size(), 6u);
-  EXPECT_GT(report.at("position_sigma"), 0.0);
+  EXPECT_GT(report.at("landmarks").at("position_sigma"), 0.0);
 }
 
 TEST_F(AlignJob, NamesAWrongPairAndGoesOn) {

@@ -30,6 +30,7 @@ Scene WriteGoodScene(const fs::path& folder) {
   scene.backdrop.panorama = "p.png";
   scene.backdrop.depth = "d.tiff";
   scene.backdrop.rights = rights;
+  scene.backdrop.depth_rights = scene.backdrop.rights;
   scene.backdrop.projection = {ProjectionType::kGnomonic, {31.5, 15.5}, 30, 10};
   Tissue tissue;
   tissue.name = "meniscus";
