@@ -70,18 +70,24 @@ void Clip(Ui& ui, EditorState& state) {
   ShortenedText(ui, board.name, board.file.c_str());
   ImGui::PopFont();
   QuietText(ui, WordsOfClip(board));
-  const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (Button(ui, "Another video…", CommandOf(state, "make-panorama").enabled(state), {half, 0}))
+  // Widths of the words, plus equal shares of the remaining space.
+  constexpr const char* kWords[] = {"Another video…", "Add a clip…", "Close it"};
+  const float gap = ui.Px(6);
+  float share = ImGui::GetContentRegionAvail().x - 2 * gap;
+  for (const char* words : kWords) share -= ui.WidthOf(words);
+  const auto width = [&](int i) { return ui.WidthOf(kWords[i]) + share / 3; };
+  if (Button(ui, kWords[0], CommandOf(state, "make-panorama").enabled(state), {width(0), 0}))
     Run(state, "make-panorama");
-  ImGui::SameLine();
-  if (Button(ui, "Close it", !FootageIsUnderWay(state), {half, 0},
+  ImGui::SameLine(0, gap);
+  const bool joins = CommandOf(state, "make-panorama").enabled(state) && board.missing.empty();
+  if (Button(ui, kWords[1], joins, {width(1), 0},
+             "Join a further clip of the same joint, filmed through the same lens."))
+    BrowseForJoined(state);
+  ImGui::SameLine(0, gap);
+  if (Button(ui, kWords[2], !FootageIsUnderWay(state), {width(2), 0},
              "Close the clip. The scene stays as it is."))
     return CloseFootage(state);
-  if (board.missing.empty()) {
-    if (Button(ui, "Add a clip…", CommandOf(state, "make-panorama").enabled(state), {-FLT_MIN, 0},
-               "Join a further clip of the same joint, filmed through the same lens."))
-      BrowseForJoined(state);
-  } else {
+  if (!board.missing.empty()) {
     ColouredText(ui, board.missing, kWarning);
     if (Button(ui, "Find the clip…", !FootageIsUnderWay(state), {-FLT_MIN, 0},
                "Choose where the clip lies now. It must be the same clip."))

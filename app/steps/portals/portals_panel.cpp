@@ -69,9 +69,13 @@ void PortalChooser(Ui& ui, EditorState& state, double spacing) {
   const auto named = simulation::EveryNamedPortals();
   std::vector<std::string> titles;
   for (const simulation::NamedPortals& portals : named) titles.emplace_back(portals.title);
-  int chosen = simulation::NamedPortalsAt(spacing, is_left).value_or(-1);
-  if (!Combo(ui, "Scope, instrument", chosen, titles,
-             "Portals by name. Sets the incision spacing. The distances are values to start from."))
+  const int none = static_cast<int>(titles.size());
+  titles.emplace_back("none of these by name");
+  int chosen = simulation::NamedPortalsAt(spacing, is_left).value_or(none);
+  if (!Combo(
+          ui, "Scope, instrument", chosen, titles,
+          "Portals by name. Sets the incision spacing. The distances are values to start from.") ||
+      chosen == none)
     return;
   SetIncisionSpacing(state,
                      simulation::SpacingOf(named[static_cast<std::size_t>(chosen)], is_left));

@@ -113,6 +113,7 @@ click Panorama
 set "Distance of the backdrop" 20
 wait job
 click Depth
+wheel "Near relief" 40
 expect "behind the incision"
 )");
 }
