@@ -46,6 +46,7 @@ std::optional<double> MedianDistance(const ReliefTarget& relief,
                                      const std::vector<glm::dvec3>& points, const Pose& pose,
                                      double reach) {
   std::vector<glm::dvec3> places;
+  places.reserve(points.size());
   for (const glm::dvec3& x : points) places.push_back(pose * x);
   std::vector<double> distances = DistancesFrom(relief, places, reach);
   std::erase_if(distances, [](double d) { return std::isnan(d); });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <mutex>
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
@@ -18,12 +19,20 @@ namespace {
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30;  // 16k x 16k floats
 
+// OpenCV reads EXR only where the environment allows it.
+void AllowExr() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): only OpenCV reads it
+    ::setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  });
+}
+
 }  // namespace
 
 GreyNumbers ReadGreyNumbers(const std::filesystem::path& file) {
   const std::string bytes = ReadWholeFile(file, kMostBytes);
-  // OpenCV reads EXR only where the environment allows it.
-  ::setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  AllowExr();
   cv::Mat image;
   try {
     if (!bytes.empty())

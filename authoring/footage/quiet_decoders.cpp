@@ -11,8 +11,8 @@ void QuietDecoders() {
   static std::once_flag once;
   std::call_once(once, [] {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8",
-             0);  // NOLINT(concurrency-mt-unsafe): only FFmpeg reads it
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): only FFmpeg reads it
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   });
 }
 

@@ -93,7 +93,7 @@ class Parser {
     if (!role) Refuse(fmt::format("device is \"{}\"; it must be scope or instrument", field[1]));
     row.device = *role;
     for (int i = 0; i < 3; ++i) {
-      const auto column = static_cast<std::size_t>(2 + i);
+      const auto column = 2 + static_cast<std::size_t>(i);
       row.sample.hip_in_device[i] = Number(field[column], column);
     }
     glm::dquat& q = row.sample.handle_in_device;

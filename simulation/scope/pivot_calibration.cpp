@@ -269,7 +269,7 @@ double EndNoiseFactor(const Lines& lines, const Vector3d& pivot) {
 
 double SigmaOf(const Matrix3d& information) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(information, Eigen::EigenvaluesOnly);
-  const Vector3d values = solver.eigenvalues();
+  const Vector3d& values = solver.eigenvalues();
   if (!(values[0] > 1e-12 * values[2])) return INFINITY;
   return std::sqrt(values.cwiseInverse().sum());
 }
@@ -279,7 +279,7 @@ double ConditionOf(const Lines& lines) {
   for (const Line& line : lines)
     a += Matrix3d::Identity() - line.direction * line.direction.transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(a, Eigen::EigenvaluesOnly);
-  const Vector3d values = solver.eigenvalues();
+  const Vector3d& values = solver.eigenvalues();
   return values[0] > 1e-15 * values[2] ? values[2] / values[0] : INFINITY;
 }
 

@@ -66,7 +66,8 @@ class WindowMeans {
     const PixelBounds own{tile.x, tile.y, tile.x + tile.width, tile.y + tile.height};
     box_ = Grown(own, reach, relief.width, relief.height);
     stride_ = box_.width() + 1;
-    const auto size = static_cast<std::size_t>(stride_ * (box_.height() + 1));
+    const auto size =
+        static_cast<std::size_t>(stride_) * static_cast<std::size_t>(box_.height() + 1);
     sum_.assign(size, 0);
     count_.assign(size, 0);
     for (int y = box_.top; y < box_.bottom; ++y)
@@ -200,7 +201,7 @@ Map CutOut(const Map& map, const PixelBounds& box, std::vector<Value> Map::*valu
   part = Map(box.width(), box.height());
   for (int y = 0; y < box.height(); ++y) {
     const auto from =
-        (map.*values).begin() + static_cast<std::ptrdiff_t>(box.top + y) * map.width + box.left;
+        (map.*values).begin() + (static_cast<std::ptrdiff_t>(box.top) + y) * map.width + box.left;
     std::copy(from, from + box.width(),
               (part.*values).begin() + static_cast<std::ptrdiff_t>(y) * box.width());
   }
@@ -214,7 +215,7 @@ void PutBack(const Map& part, const PixelBounds& box, std::vector<Value> Map::*v
     const auto from = (part.*values).begin() + static_cast<std::ptrdiff_t>(y) * box.width();
     std::copy(
         from, from + box.width(),
-        (map.*values).begin() + static_cast<std::ptrdiff_t>(box.top + y) * map.width + box.left);
+        (map.*values).begin() + (static_cast<std::ptrdiff_t>(box.top) + y) * map.width + box.left);
   }
 }
 

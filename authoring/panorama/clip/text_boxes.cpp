@@ -63,6 +63,7 @@ std::vector<PixelBox> TextBoxes(const cv::Mat& marks, const PreparedClip& clip) 
                    [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
   boxes.resize(std::min(boxes.size(), kMostBoxes));
   std::vector<PixelBox> found;
+  found.reserve(boxes.size());
   for (const cv::Rect& box : boxes) found.push_back({box.x, box.y, box.width, box.height});
   return found;
 }

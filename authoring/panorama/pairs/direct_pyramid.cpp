@@ -172,6 +172,7 @@ cv::Mat ApodisedBand(const DirectBand& source, cv::Size canvas) {
   cv::Mat out = cv::Mat::zeros(canvas, CV_32FC1);
   for (int y = 0; y < band.rows; ++y)
     for (int x = 0; x < band.cols; ++x) {
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number of eight bits, no character
       const auto v = static_cast<int>(band.at<std::int8_t>(y, x));
       const float s = 2.0f * soft.at<float>(y, x) - 1.0f;
       if (v != kNoBand && s > 0) out.at<float>(y, x) = s * static_cast<float>(v) / kBandUnit;

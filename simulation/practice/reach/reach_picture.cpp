@@ -24,6 +24,7 @@ class CellGrid {
  public:
   CellGrid(const ColourImage& panorama, const ScopeReach& scope, const PortalReach& reach)
       : step_(scope.pixel_step),
+        half_(step_ / 2),
         columns_(panorama.width / step_ + 1),
         rows_(panorama.height / step_ + 1),
         cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
@@ -37,8 +38,8 @@ class CellGrid {
   // Mixed from the four cells around; none where the pixel's own cell has none.
   std::optional<std::array<int, 3>> ColourAt(int x, int y) const {
     if (cells_[IndexOf(x / step_, y / step_)] == nullptr) return {};
-    const double u = (x - step_ / 2) / static_cast<double>(step_),
-                 v = (y - step_ / 2) / static_cast<double>(step_);
+    const double u = (x - half_) / static_cast<double>(step_),
+                 v = (y - half_) / static_cast<double>(step_);
     const int left = static_cast<int>(std::floor(u)), top = static_cast<int>(std::floor(v));
     std::array<double, 3> sum{};
     double whole = 0;
@@ -62,7 +63,7 @@ class CellGrid {
            static_cast<std::size_t>(column);
   }
 
-  int step_, columns_, rows_;
+  int step_, half_, columns_, rows_;
   std::vector<const ReachColour*> cells_;
 };
 

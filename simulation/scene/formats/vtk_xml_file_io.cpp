@@ -318,6 +318,7 @@ std::vector<Value> VtkXmlFile::ValuesStoredAs(const VtkXmlArray& array, std::siz
   ReadBinary(array, count * sizeof(Stored), reinterpret_cast<char*>(raw.get()));
   std::vector<Value> values(count);
   for (std::size_t i = 0; i < count; ++i)
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse): numbers of eight bits, no characters
     values[i] = static_cast<Value>(is_big_endian_ ? Swapped(raw[i]) : raw[i]);
   return values;
 }

@@ -146,7 +146,7 @@ SolidSample SolidFunction::Evaluate(const glm::dvec3& x) const noexcept {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     const auto its_level = static_cast<std::size_t>(part.level);
-    while (its_level < level) close();
+    while (its_level < level) close();  // NOLINT(bugprone-infinite-loop): it lowers the level
     const SolidSample own = OfPart<has_gradient>(part, x);
     if (its_level > level || i == 0) {
       level = its_level;
@@ -156,7 +156,7 @@ SolidSample SolidFunction::Evaluate(const glm::dvec3& x) const noexcept {
       sample = Joined<has_gradient>(sample, own, part.join, part.blend);
     }
   }
-  while (level > 0) close();
+  while (level > 0) close();  // NOLINT(bugprone-infinite-loop): it lowers the level
   return group[0].sample;
 }
 

@@ -31,7 +31,8 @@ FixedAxes FixedBy(const std::vector<Ball>& balls, const TetMesh& mesh) {
 double MeanEdge(const TetMesh& mesh) {
   double sum = 0;
   for (int e = 0; e < mesh.ElementCount(); ++e) {
-    const int* node = &mesh.elements[static_cast<std::size_t>(e * mesh.NodesPerElement())];
+    const int* node = &mesh.elements[static_cast<std::size_t>(e) *
+                                     static_cast<std::size_t>(mesh.NodesPerElement())];
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j)
         sum += glm::distance(mesh.rest_positions[static_cast<std::size_t>(node[i])],

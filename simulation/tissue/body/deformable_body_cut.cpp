@@ -32,7 +32,8 @@ std::vector<int> PreviousNodes(const CutMesh& cut) {
   std::vector<int> previous = cut.previous_node;
   const int nodes = cut.mesh.NodesPerElement();
   for (int e = 0; e < cut.mesh.ElementCount(); ++e) {
-    const int* of_element = &cut.mesh.elements[static_cast<std::size_t>(e * nodes)];
+    const int* of_element =
+        &cut.mesh.elements[static_cast<std::size_t>(e) * static_cast<std::size_t>(nodes)];
     int known = -1;
     for (int i = 0; i < nodes && known < 0; ++i)
       known = cut.previous_node[static_cast<std::size_t>(of_element[i])];
@@ -46,7 +47,8 @@ std::vector<int> PreviousNodes(const CutMesh& cut) {
 
 // Returns the smallest barycentric coordinate in the element's corner tetrahedron.
 double Inside(const TetMesh& mesh, int element, const glm::dvec3& x) {
-  const int* node = &mesh.elements[static_cast<std::size_t>(element * mesh.NodesPerElement())];
+  const int* node = &mesh.elements[static_cast<std::size_t>(element) *
+                                   static_cast<std::size_t>(mesh.NodesPerElement())];
   const auto at = [&](int i) { return mesh.rest_positions[static_cast<std::size_t>(node[i])]; };
   const glm::dvec4 l = BarycentricIn({at(0), at(1), at(2), at(3)}, x);
   return std::min({l.x, l.y, l.z, l.w});
@@ -63,7 +65,9 @@ std::vector<int> ElementsOfNodes(const TetMesh& mesh, const FieldGrid& grid) {
     Box3 box = kEmptyBox;
     for (int i = 0; i < mesh.NodesPerElement(); ++i) {
       const glm::dvec3& x = mesh.rest_positions[static_cast<std::size_t>(
-          mesh.elements[static_cast<std::size_t>(e * mesh.NodesPerElement() + i)])];
+          mesh.elements[static_cast<std::size_t>(e) *
+                            static_cast<std::size_t>(mesh.NodesPerElement()) +
+                        static_cast<std::size_t>(i)])];
       box = Union(box, {x, x});
     }
     const glm::dvec3 last(grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1);
@@ -172,8 +176,9 @@ Box3 DeformableBody::Impl::RestBoxOf(const Capsule& tool) {
   for (int e = 0; e < shape->mesh.ElementCount(); ++e) {
     Box3 now = kEmptyBox, then = kEmptyBox;
     for (int i = 0; i < nodes; ++i) {
-      const auto node =
-          static_cast<std::size_t>(shape->mesh.elements[static_cast<std::size_t>(e * nodes + i)]);
+      const auto node = static_cast<std::size_t>(
+          shape->mesh.elements[static_cast<std::size_t>(e) * static_cast<std::size_t>(nodes) +
+                               static_cast<std::size_t>(i)]);
       now = Union(now, {state.x[node], state.x[node]});
       then = Union(then, {shape->mesh.rest_positions[node], shape->mesh.rest_positions[node]});
     }
@@ -232,9 +237,12 @@ bool DeformableBody::Impl::PlaceOfNode(const glm::dvec3& rest, glm::dvec3& place
   const int nodes = shape->mesh.NodesPerElement();
   place = glm::dvec3(0.0);
   for (int i = 0; i < nodes; ++i)
-    place += copy.weight[static_cast<std::size_t>(i)] *
-             state.x[static_cast<std::size_t>(
-                 shape->mesh.elements[static_cast<std::size_t>(copy.element * nodes + i)])];
+    place +=
+        copy.weight[static_cast<std::size_t>(i)] *
+        state.x[static_cast<std::size_t>(
+            shape->mesh
+                .elements[static_cast<std::size_t>(copy.element) * static_cast<std::size_t>(nodes) +
+                          static_cast<std::size_t>(i)])];
   return true;
 }
 

@@ -68,9 +68,9 @@ Contact Solve(const LayerKernel& kernel, double x) {
     weight[j] = step / 3 * (j == 0 || j == kCells ? 1 : j % 2 == 1 ? 4 : 2);
   for (int i = 0; i <= kCells; ++i) {
     for (int j = 0; j <= kCells; ++j)
-      a(i, j) -=
-          weight[j] / kPi *
-          (h[static_cast<std::size_t>(std::abs(i - j))] + h[static_cast<std::size_t>(i + j)]);
+      a(i, j) -= weight[j] / kPi *
+                 (h[static_cast<std::size_t>(std::abs(i - j))] +
+                  h[static_cast<std::size_t>(i) + static_cast<std::size_t>(j)]);
     g(i, 0) = 1;
     g(i, 1) = i * step * i * step;
   }

@@ -27,7 +27,9 @@ std::vector<int> SurfaceNodes(const TetMesh& mesh) {
   std::vector<Face> faces;
   faces.reserve(static_cast<std::size_t>(mesh.ElementCount()) * 4);
   const auto node = [&](int element, int local) {
-    return mesh.elements[static_cast<std::size_t>(element * mesh.NodesPerElement() + local)];
+    return mesh.elements[static_cast<std::size_t>(element) *
+                             static_cast<std::size_t>(mesh.NodesPerElement()) +
+                         static_cast<std::size_t>(local)];
   };
   for (int e = 0; e < mesh.ElementCount(); ++e)
     for (int f = 0; f < 4; ++f) {

@@ -32,6 +32,7 @@ bool Meet(const Box3& a, const Box3& b) {
 
 std::vector<TetLattice> AllLattices() {
   std::vector<TetLattice> lattices;
+  lattices.reserve(std::size(kLevels));
   for (const int n : kLevels) lattices.push_back(MakeTetLattice(n));
   return lattices;
 }

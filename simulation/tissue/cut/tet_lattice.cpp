@@ -15,7 +15,7 @@ using Step = std::array<int, 3>;
 TetLattice MakeTetLattice(int n) {
   TetLattice lattice;
   lattice.n = n;
-  const auto m = static_cast<std::size_t>(n + 1);
+  const auto m = static_cast<std::size_t>(n) + 1;
   lattice.index_.assign(m * m * m, -1);
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j + k <= n; ++j)

@@ -33,7 +33,7 @@ struct TetLattice {
   std::vector<std::int16_t> neighbour;        // points that share a part with it
 
   int PointAt(int l1, int l2, int l3) const {  // l0 is the rest of n
-    const auto m = static_cast<std::size_t>(n + 1);
+    const auto m = static_cast<std::size_t>(n) + 1;
     return index_[(static_cast<std::size_t>(l3) * m + static_cast<std::size_t>(l2)) * m +
                   static_cast<std::size_t>(l1)];
   }

@@ -11,11 +11,13 @@ typedef double Doubles __attribute__((vector_size(64)));
 typedef float Floats __attribute__((vector_size(64)));
 #define ARTHRO_INLINE __attribute__((always_inline)) inline
 
+// NOLINTBEGIN(bugprone-macro-parentheses): names and attributes take no parentheses
 // Loads and stores memory that is aligned only to its numbers.
 #define ARTHRO_LOAD(V, name, from) \
   V name;                          \
   std::memcpy(&name, from, sizeof name)
 #define ARTHRO_STORE(name, to) std::memcpy(to, &name, sizeof name)
+// NOLINTEND(bugprone-macro-parentheses)
 
 // Computes 16 rows of kColumns columns of c at once, in registers.
 template <int kColumns>
@@ -162,6 +164,7 @@ struct Kernels {
   void (*panel_transposed)(const Panel&, int, const float*, int, float*, int) noexcept;
 };
 
+// NOLINTBEGIN(bugprone-macro-parentheses): names and attributes take no parentheses
 #define ARTHRO_KERNELS(NAME, ATTRIBUTE)                                                            \
   struct NAME {                                                                                    \
     ATTRIBUTE static void Multiply(int m, int n, int k, const double* a, int lda, const double* b, \
@@ -180,6 +183,7 @@ struct Kernels {
     }                                                                                              \
     static constexpr Kernels kAll{Multiply, Forward, Backward};                                    \
   };
+// NOLINTEND(bugprone-macro-parentheses)
 #if defined(__x86_64__)
 ARTHRO_KERNELS(Wide, __attribute__((target("avx512f,avx512dq"))))
 ARTHRO_KERNELS(Middle, __attribute__((target("avx2"))))

@@ -55,7 +55,9 @@ bool SparseFactor::TryFactor(const BlockMatrix& a, std::span<const double> added
   for (const FactorPlan::Supernode& s : p.supernode_)
     for (int j = 0; j < s.columns; ++j) {
       double& diagonal = work_[s.value + static_cast<std::int64_t>(j) * s.stride + j];
-      if (!added.empty()) diagonal += added[p.axis_[static_cast<std::size_t>(s.first + j)] / 3];
+      if (!added.empty())
+        diagonal +=
+            added[p.axis_[static_cast<std::size_t>(s.first) + static_cast<std::size_t>(j)] / 3];
       diagonal += shift * std::abs(diagonal);
       largest = std::max(largest, diagonal);
     }

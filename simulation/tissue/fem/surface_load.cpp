@@ -55,6 +55,7 @@ std::vector<Face> BoundaryFaces(const TetMesh& mesh) {
   std::sort(single.begin(), single.end(),
             [](const Entry& a, const Entry& b) { return a.index < b.index; });
   std::vector<Face> faces;
+  faces.reserve(single.size());
   for (const Entry& entry : single) faces.push_back(entry.face);
   return faces;
 }

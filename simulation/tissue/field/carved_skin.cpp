@@ -99,8 +99,8 @@ class RemovedVolume {
         }
   }
   std::size_t SumIndex(int i, int j, int k) const {
-    const auto nx = static_cast<std::size_t>(grid_.count[0] + 1),
-               ny = static_cast<std::size_t>(grid_.count[1] + 1);
+    const auto nx = static_cast<std::size_t>(grid_.count[0]) + 1,
+               ny = static_cast<std::size_t>(grid_.count[1]) + 1;
     return (static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
            static_cast<std::size_t>(i);
   }

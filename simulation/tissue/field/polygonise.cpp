@@ -110,8 +110,8 @@ class FieldSkin::Cells {
     return (c[2] / kBrick * bricks_[1] + c[1] / kBrick) * bricks_[0] + c[0] / kBrick;
   }
   static std::size_t InBrick(const Cell& c) {
-    return static_cast<std::size_t>((c[2] % kBrick * kBrick + c[1] % kBrick) * kBrick +
-                                    c[0] % kBrick);
+    const int index = (c[2] % kBrick * kBrick + c[1] % kBrick) * kBrick + c[0] % kBrick;
+    return static_cast<std::size_t>(index);
   }
   // Calls visit(cell) for the cells of brick (i, j, k).
   template <class Visit>
@@ -200,11 +200,15 @@ SkinUpdate FieldSkin::UpdateFrom(const SolidField& field, std::span<const float>
                       grid.spacing != grid_.spacing || grid.count != grid_.count ||
                       field.version() < version_;
   if (is_new) {
-    bricks_.assign(static_cast<std::size_t>(brick_count[0] * brick_count[1] * brick_count[2]), {});
+    bricks_.assign(static_cast<std::size_t>(brick_count[0]) *
+                       static_cast<std::size_t>(brick_count[1]) *
+                       static_cast<std::size_t>(brick_count[2]),
+                   {});
     grid_ = grid;
   }
   const auto index = [&](const Cell& b) {
-    return static_cast<std::size_t>((b[2] * brick_count[1] + b[1]) * brick_count[0] + b[0]);
+    const int at = (b[2] * brick_count[1] + b[1]) * brick_count[0] + b[0];
+    return static_cast<std::size_t>(at);
   };
   const auto for_each_brick = [&](auto&& visit) {
     for (int k = 0; k < brick_count[2]; ++k)

@@ -136,7 +136,7 @@ FieldEdit SolidField::Erode(const Box3& box,
   for (std::size_t a = 0; a < 3; ++a)
     if (nodes.low[a] > nodes.high[a]) return {};
   const auto length = [&](std::size_t a) {
-    return static_cast<std::size_t>(nodes.high[a] - nodes.low[a] + 1);
+    return static_cast<std::size_t>(nodes.high[a] - nodes.low[a]) + 1;
   };
   const auto local = [&](int i, int j, int k) {
     return (static_cast<std::size_t>(k - nodes.low[2]) * length(1) +
