@@ -1,6 +1,9 @@
 #include "authoring/project/footage_record.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,6 +25,30 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSchema = "arthroscene.footage/1";
 constexpr const char* kReport = "report";
+
+// Videos of operations have gigabytes. Of a larger file its size and 64 pieces count, from its
+// first byte to its last.
+constexpr std::uintmax_t kWhole = std::uintmax_t{64} << 20;  // bytes
+constexpr std::uintmax_t kPiece = std::uintmax_t{1} << 20;   // bytes
+constexpr std::uintmax_t kPieces = 64;
+
+std::string SampleOf(const fs::path& file) {
+  std::error_code fault;
+  const std::uintmax_t size = fs::file_size(file, fault);
+  if (fault || size <= kWhole) return ReadWholeFile(file);
+  std::ifstream stream(file, std::ios::binary);
+  std::string sample = std::to_string(size);
+  std::string piece(kPiece, '\0');
+  for (std::uintmax_t i = 0; i < kPieces; ++i) {
+    const std::uintmax_t at = (size - kPiece) / (kPieces - 1) * i;
+    stream.seekg(static_cast<std::streamoff>(i + 1 == kPieces ? size - kPiece : at));
+    stream.read(piece.data(), static_cast<std::streamsize>(kPiece));
+    if (!stream)
+      throw Error(Code::kFile, "could not be read to its end; copy it to another disk", file);
+    sample += piece;
+  }
+  return sample;
+}
 
 void ReplaceAll(std::string& text, const std::string& from, const std::string& to) {
   if (from.empty()) return;
@@ -78,7 +105,7 @@ std::string FootageSchemaText() {
       {"type", "object"}, {"description", "Report of the panorama, by panorama-1.schema.json."}};
   return PrettyJson(FileSchema(kSchema, "Arthroscene record of footage, version 1",
                                "How the panorama of a scene was made: clips, choices and report.",
-                               std::move(fields)));
+                               fields));
 }
 
 FootageRecord BesideScene(FootageRecord record, const fs::path& folder) {
@@ -116,7 +143,7 @@ FootageRecord WithoutNames(FootageRecord record) {
 
 std::string ClipFingerprint(const fs::path& clip) {
   std::error_code ignored;
-  if (!fs::is_directory(clip, ignored)) return FingerprintOf(ReadWholeFile(clip));
+  if (!fs::is_directory(clip, ignored)) return FingerprintOf(SampleOf(clip));
   std::vector<std::string> lines;
   for (const auto& entry : fs::directory_iterator(clip, ignored))
     if (entry.is_regular_file(ignored))
@@ -131,7 +158,7 @@ std::string ClipFingerprint(const fs::path& clip) {
 fs::path FindClip(const ClipFile& clip, const fs::path& scene_folder) {
   std::error_code ignored;
   if (!clip.beside.empty() && !scene_folder.empty() && !IsArchive(scene_folder))
-    if (const fs::path file = (fs::absolute(scene_folder) / clip.beside).lexically_normal();
+    if (fs::path file = (fs::absolute(scene_folder) / clip.beside).lexically_normal();
         fs::exists(file, ignored))
       return file;
   return !clip.file.empty() && fs::exists(clip.file, ignored) ? fs::path(clip.file) : fs::path();

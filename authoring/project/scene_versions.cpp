@@ -36,7 +36,7 @@ std::time_t TimeOf(const fs::path& file) {
 // The text of a version: the scene without its list of written files, which is about the folder.
 // A text that cannot be read is kept as it is.
 std::string VersionText(const fs::path& scene_json, const std::string& snapshot) {
-  const std::string text = ReadWholeFile(scene_json);
+  std::string text = ReadWholeFile(scene_json);
   try {
     auto json = ParseOrderedJson(text, Code::kBadScene, scene_json);
     json.erase(kWrittenFilesKey);

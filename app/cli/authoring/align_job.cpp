@@ -60,7 +60,7 @@ void PrintPair(FILE* stream, const authoring::LandmarkPair& pair,
 authoring::LandmarkAlignment ByPairs(const AlignJob& job, const authoring::Document& document,
                                      std::size_t index,
                                      const std::vector<authoring::LandmarkPair>& pairs) {
-  const authoring::LandmarkAlignment alignment = authoring::AlignLandmarks(
+  authoring::LandmarkAlignment alignment = authoring::AlignLandmarks(
       pairs, document.scene.tissues[index].pose, OrEmpty(document.surfaces[index]), job.options);
   for (const std::string& warning : alignment.warnings)
     fmt::print(stderr, "warning: {}\n", PrintableLine(warning));

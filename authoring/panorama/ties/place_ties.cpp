@@ -46,6 +46,7 @@ class TiePlacer {
     const FrameResult& other = Nearest(in_plane);
     const cv::Matx33d other_from_plane = other.panorama_from_rectified.inv();
     std::vector<cv::Point2d> in_other;
+    in_other.reserve(in_plane.size());
     for (const cv::Point2d& p : in_plane) in_other.push_back(Apply(other_from_plane, p));
     TieFit fit;
     try {

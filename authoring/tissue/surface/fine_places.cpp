@@ -53,7 +53,8 @@ void RequireTouching(std::span<const Ball> balls, const SurfaceMesh& surface,
 double LongestEdgeIn(const Ball& ball, const TetMesh& mesh) {
   double longest = 0;
   for (int e = 0; e < mesh.ElementCount(); ++e) {
-    const int* node = &mesh.elements[static_cast<std::size_t>(e * mesh.NodesPerElement())];
+    const int* node = &mesh.elements[static_cast<std::size_t>(e) *
+                                     static_cast<std::size_t>(mesh.NodesPerElement())];
     const auto at = [&](int i) { return mesh.rest_positions[static_cast<std::size_t>(node[i])]; };
     bool is_in = false;
     for (int i = 0; i < 4; ++i) is_in |= glm::distance(at(i), ball.centre) <= ball.radius;

@@ -1,6 +1,8 @@
 // The record of how a panorama was made stays with its scene, and not with copies of it.
 #include "authoring/project/footage_record.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -128,6 +130,32 @@ TEST(FootageRecord, ABrokenRecordIsOneSentence) {
       EXPECT_NE(std::string(error.what()).find("footage.json"), std::string::npos);
     }
   }
+}
+
+// A sparse file of 3 GB takes no room; its fingerprint takes neither its memory nor its time.
+TEST(FootageRecord, LargeVideoIsToldByItsSizeItsBeginningAndItsEnd) {
+  const test::TempFolder folder;
+  const fs::path file = folder / "long.mp4";
+  constexpr std::uintmax_t kSize = std::uintmax_t{3} << 30;
+  const auto put = [&](std::uintmax_t at, char byte) {
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekp(static_cast<std::streamoff>(at));
+    stream.put(byte);
+  };
+  WriteAtomically(file, "video");
+  fs::resize_file(file, kSize);
+  const std::string first = ClipFingerprint(file);
+  EXPECT_EQ(ClipFingerprint(file), first);
+  put(kSize - 1, 'x');
+  const std::string other_end = ClipFingerprint(file);
+  EXPECT_NE(other_end, first);
+  put(0, 'x');
+  EXPECT_NE(ClipFingerprint(file), other_end);
+  put(0, 'v');
+  put(kSize - 1, '\0');
+  EXPECT_EQ(ClipFingerprint(file), first);
+  fs::resize_file(file, kSize + 1);
+  EXPECT_NE(ClipFingerprint(file), first);
 }
 
 TEST(FootageRecord, SchemaThatIsShippedIsTheOneThatTheProgramPrints) {
