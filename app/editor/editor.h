@@ -16,7 +16,7 @@
 namespace arthro::app {
 
 struct EditorOptions {
-  // None: the start page; the demo scene for a script.
+  // Absent: the start page is shown, or the demo scene for a script.
   std::optional<std::filesystem::path> scene;
   bool practice = false;                      // the practise job: nothing but practice
   simulation::HandsChoice hands;              // devices that hold them

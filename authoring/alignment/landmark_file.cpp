@@ -8,6 +8,7 @@
 #include "simulation/core/json_text.h"
 #include "simulation/scene/json/field_json.h"
 #include "simulation/scene/json/field_schema.h"
+#include "simulation/scene/json/file_schema.h"
 #include "simulation/scene/json/scene_json.h"
 
 namespace arthro::authoring {
@@ -33,17 +34,10 @@ bool IsInPanorama(const glm::dvec2& pixel, const LoadedScene& scene) {
 
 PairsFile ParsePairs(const std::string& text, const std::filesystem::path& file) {
   const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  if (!json.is_object())
-    throw Error(Code::kBadData, "pairs of landmarks must be a JSON object {…}; mend the file",
-                file);
+  RequireObject(json, "pairs of landmarks", file);
   std::vector<JsonFault> faults;
   JsonObjectReader reader(json, "", faults);
-  std::string schema;
-  reader.Text("schema", schema, JsonObjectReader::kRequired);
-  if (schema != kSchema && !schema.empty())
-    throw Error(Code::kBadData,
-                fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kSchema),
-                file);
+  RequireSchema(reader, kSchema, file);
   PairsFile pairs;
   pairs.Visit(FieldReader(reader));
   reader.RefuseOtherKeys(true);

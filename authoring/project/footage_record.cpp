@@ -16,6 +16,7 @@
 #include "simulation/scene/files/archive_io.h"
 #include "simulation/scene/json/field_json.h"
 #include "simulation/scene/json/field_schema.h"
+#include "simulation/scene/json/file_schema.h"
 #include "simulation/scene/json/scene_json.h"
 
 namespace arthro::authoring {
@@ -60,16 +61,10 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
 
 FootageRecord FootageFromJson(const std::string& text, const fs::path& file) {
   const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  if (!json.is_object())
-    throw Error(Code::kBadData, "a record of footage must be a JSON object {…}", file);
+  RequireObject(json, "a record of footage", file);
   std::vector<JsonFault> faults;
   JsonObjectReader reader(json, "", faults);
-  std::string schema;
-  reader.Text("schema", schema, JsonObjectReader::kRequired);
-  if (schema != kSchema && !schema.empty())
-    throw Error(Code::kBadData,
-                fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kSchema),
-                file);
+  RequireSchema(reader, kSchema, file);
   FootageRecord record;
   record.Visit(FieldReader(reader));
   if (record.clips.empty() && faults.empty())

@@ -8,6 +8,7 @@
 #include "simulation/core/json_text.h"
 #include "simulation/scene/json/field_json.h"
 #include "simulation/scene/json/field_schema.h"
+#include "simulation/scene/json/file_schema.h"
 #include "simulation/scene/json/scene_json.h"
 
 namespace arthro::authoring {
@@ -19,16 +20,10 @@ constexpr const char* kSchema = "arthroscene.ties/1";
 
 std::vector<FrameTie> ParseTies(const std::string& text, const std::filesystem::path& file) {
   const nlohmann::json json = ParseJson(text, Code::kBadData, file);
-  if (!json.is_object())
-    throw Error(Code::kBadData, "tie points must be a JSON object {…}; mend the file", file);
+  RequireObject(json, "tie points", file);
   std::vector<JsonFault> faults;
   JsonObjectReader reader(json, "", faults);
-  std::string schema;
-  reader.Text("schema", schema, JsonObjectReader::kRequired);
-  if (schema != kSchema && !schema.empty())
-    throw Error(Code::kBadData,
-                fmt::format("its schema is \"{}\"; this program reads \"{}\"", schema, kSchema),
-                file);
+  RequireSchema(reader, kSchema, file);
   TiesFile ties;
   ties.Visit(FieldReader(reader));
   reader.RefuseOtherKeys(true);
