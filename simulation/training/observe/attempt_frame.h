@@ -9,6 +9,8 @@
 
 #include "simulation/device/device_sample.h"
 #include "simulation/practice/snapshot.h"
+#include "simulation/tissue/contact/tool_shape.h"
+#include "simulation/training/observe/observation.h"
 
 namespace arthro::simulation {
 
@@ -31,6 +33,12 @@ struct ToolFrame {
 struct AttemptFrame {
   std::array<ToolFrame, 2> tool;  // indexed by DeviceRole
   bool is_paused = false;
+  // In the last tick.
+  ToolKind instrument = ToolKind::kProbe;
+  float opening = 1;     // of the jaws; 0 closed
+  float view_angle = 0;  // rad
+  float taken = 0;       // m³ of tissue removed in the frame
+  Observation sight;     // of the targets of the exercise
 };
 
 }  // namespace arthro::simulation

@@ -1,0 +1,33 @@
+// Sight of the targets of an exercise in one frame of an attempt, by the exact scope model
+// [method.md, Oblique view] and with everything that stands between. Portal frame, m, rad; numbers
+// are rounded to 32 bits, then used and written, so that a recorded attempt and a live one give the
+// same bits.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include <glm/vec3.hpp>
+
+namespace arthro::simulation {
+
+inline constexpr int kMostTargets = 16;  // of an exercise
+
+// Sight of one point.
+struct PointSight {
+  glm::vec3 place{0.0F};  // of the target in this frame; it moves with its tissue
+  // Distance of its image from the centre of the picture; 1 is the rim.
+  float centre = std::numeric_limits<float>::infinity();
+  float distance = 0;     // m, from the lens
+  float incidence = 0;    // rad, between the surface's normal and the line to the lens
+  bool is_clear = false;  // in the picture, and nothing hides it
+  bool is_gone = false;   // its tissue was cut away
+};
+
+struct Observation {
+  int targets = 0;                              // used of `target`
+  std::array<PointSight, kMostTargets> target;  // in the order of the exercise
+  bool is_tip_visible = false;  // two of three points at 0, 1, 2 mm behind the tip are clear
+};
+
+}  // namespace arthro::simulation
