@@ -71,6 +71,7 @@ OwnDisplay::OwnDisplay(int width, int height) {
                 "there is no display, and Xvfb could not be started to make one; install the "
                 "package xvfb, or run the script where there is a display");
   }
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): before any thread of the window begins
   ::setenv("DISPLAY", (":" + number).c_str(), 1);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/panels/plot.h"
 #include "app/steps/depth/depth_panels.h"
 #include "app/steps/depth/depth_step.h"
 #include "simulation/core/units.h"
@@ -13,15 +14,6 @@ namespace arthro::app {
 namespace {
 
 constexpr unsigned kBand = 0x50D6B24A, kGrid = 0x40B4AAA2;
-
-// A step of 1, 2 or 5 times a power of ten that divides the span into few parts.
-double StepOf(double span, int most) {
-  const double rough = std::max(span / most, 1e-9);
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10 * power;
-}
 
 // Coordinates of the curve in the window.
 struct Axes {
@@ -41,7 +33,7 @@ void Grid(Ui& ui, const Axes& axes) {
     draw->AddText(at, kQuiet, words.c_str());
   };
   const double low = MmFromMetres(axes.low), high = MmFromMetres(axes.high);
-  const double step = StepOf(high - low, std::max(2, static_cast<int>(area.height / ui.Px(28))));
+  const double step = RoundStep(high - low, std::max(2, static_cast<int>(area.height / ui.Px(28))));
   for (double mm = std::ceil(low / step) * step; mm <= high; mm += step) {
     const float y = axes.At(0, MetresFromMm(mm)).y;
     draw->AddLine({area.x, y}, {area.x + area.width, y}, kGrid);
@@ -51,7 +43,7 @@ void Grid(Ui& ui, const Axes& axes) {
           words);
   }
   const double degrees = DegreesFromRadians(axes.last_angle);
-  const double across = StepOf(degrees, std::max(2, static_cast<int>(area.width / ui.Px(90))));
+  const double across = RoundStep(degrees, std::max(2, static_cast<int>(area.width / ui.Px(90))));
   for (double at = 0; at <= degrees; at += across) {
     const float x = axes.At(RadiansFromDegrees(at), axes.low).x;
     draw->AddLine({x, area.y}, {x, area.y + area.height}, kGrid);
