@@ -9,15 +9,21 @@
 
 namespace arthro::app {
 
-int RunCommandLine(int argc, char** argv) {
-  // Everything behind `bench` belongs to the sibling program, `--help` too.
-  if (argc > 1 && std::string_view(argv[1]) == "bench") return RunBenchProgram(argv + 2);
-  CLI::App program("Arthroscene: arthroscopy training made from surgical video.", "arthroscene");
+void DescribeProgram(CLI::App& program) {
+  program.name("arthroscene");
+  program.description("Arthroscene: arthroscopy training made from surgical video.");
   program.set_version_flag("--version", "arthroscene " ARTHRO_VERSION);
   program.set_help_all_flag("--help-all", "Help of every job.");
   program.footer("`arthroscene JOB --help` says what a job takes.");
   program.require_subcommand(1);
   AddEveryJob(program);
+}
+
+int RunCommandLine(int argc, char** argv) {
+  // Everything behind `bench` belongs to the sibling program, `--help` too.
+  if (argc > 1 && std::string_view(argv[1]) == "bench") return RunBenchProgram(argv + 2);
+  CLI::App program;
+  DescribeProgram(program);
   return RunJobs(program, argc, argv, {});
 }
 
