@@ -4,11 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -16,8 +12,10 @@
 #include <imgui.h>
 
 #include "app/editor/editor_input.h"
+#include "app/editor/editor_settings.h"
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
+#include "app/editor/frame_times.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/panorama_clicks.h"
 #include "app/editor/pictures.h"
@@ -50,7 +48,6 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
-#include "simulation/core/options_json.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -63,39 +60,12 @@ constexpr double kFrame = 1.0 / 60.0;       // s, shortest time between two fram
 constexpr double kLivelyAfter = 0.8;        // s after the last event: tips and hover settle
 constexpr double kDrawAtLeastEvery = 0.05;  // s, while events stream in
 
-// Seconds since the program was started, loading included; to a hundredth.
-double ProcessAge() {
-  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
-  std::string text;
-  std::getline(stat, text);
-  // The 22nd field, counted from after the name in brackets, which may hold blanks.
-  std::istringstream fields(text.substr(text.rfind(')') + 2));
-  std::string field;
-  for (int number = 3; number <= 22; ++number) fields >> field;
-  double now = 0;
-  uptime >> now;
-  return now - std::stod(field) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-}
-
 class Editor {
  public:
-  ~Editor() {
-    for (auto& [mark, seconds] : frame_seconds_) {
-      std::sort(seconds.begin(), seconds.end());
-      const auto at = [&seconds = seconds](double share) {
-        return 1e3 *
-               seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
-      };
-      std::fprintf(stderr, "%s%s%zu frames, median %.1f ms, p99 %.1f ms, longest %.1f ms\n",
-                   mark.c_str(), mark.empty() ? "" : ": ", seconds.size(), at(0.5), at(0.99),
-                   at(1.0));
-    }
-  }
-
   Editor(const EditorOptions& options, const EndingSignals& signals)
       : options_(options),
         signals_(signals),
-        window_(WindowFrom(options)),
+        window_(WindowFrom(options, kFrame)),
         pictures_(options.script.has_value()),
         state_(MakeEditorState(NewDocument(), Window::WakeUp,
                                options.recent   ? *options.recent
@@ -151,22 +121,6 @@ class Editor {
   }
 
  private:
-  static WindowOptions WindowFrom(const EditorOptions& options) {
-    WindowOptions window;
-    window.width = options.width, window.height = options.height;
-    window.visible = !options.hidden;
-    window.scale = options.scale;
-    if (options.script) window.fixed_step = kFrame;  // the same frames whatever the machine's speed
-    return window;
-  }
-
-  // Scripts and single frames leave nothing behind, unless they are told where.
-  static std::filesystem::path FolderOfCopies(const EditorOptions& options) {
-    if (options.practice) return {};
-    if (options.recovery) return *options.recovery;
-    return options.script || options.frames > 0 ? std::filesystem::path() : RecoveryFolder();
-  }
-
   // Waits until it is written.
   void EndFilm() {
     while (state_.steps.practice->film)
@@ -175,49 +129,18 @@ class Editor {
       std::fprintf(stderr, "warning: %s\n", state_.steps.practice->film_words.c_str());
   }
 
-  // A file beside that of the recent scenes; none for scripts and single frames.
-  static std::filesystem::path OwnFile(const EditorOptions& options, const char* name) {
-    if (options.script || options.frames > 0 || RecentScenesFile().empty()) return {};
-    return RecentScenesFile().replace_filename(name);
-  }
-  static std::filesystem::path FileOfViews(const EditorOptions& options) {
-    return OwnFile(options, "views.json");
-  }
-  static WindowSettings SettingsFrom(const EditorOptions& options) {
-    WindowSettings settings = ReadWindowSettings(OwnFile(options, "settings.json"));
-    ReadOptions(nlohmann::json(options.look), {}, settings);
-    return settings;
-  }
-
   // Scale, colours and language as they are set; kept where they were changed in the window.
   void FollowSettings() {
     if (applied_settings_ == state_.settings) return;
-    if (applied_settings_) WriteWindowSettings(OwnFile(options_, "settings.json"), state_.settings);
+    if (applied_settings_) WriteWindowSettings(FileOfSettings(options_), state_.settings);
     const bool is_other_language =
         !applied_settings_ || applied_settings_->language != state_.settings.language;
     applied_settings_ = state_.settings;
     window_.SetLook(ScaleFrom(options_, state_.settings, window_.monitor()),
                     state_.settings.theme == ThemeChoice::kLight ? Theme::kLight : Theme::kDark);
-    if (is_other_language) translation_ = TranslationOf(LanguageCode(options_, state_.settings));
+    if (is_other_language) translation_ = TranslationFrom(options_, state_.settings);
     unsettled_ = std::max(unsettled_, 3);
   }
-  static double ScaleFrom(const EditorOptions& options, const WindowSettings& settings,
-                          const MonitorSize& monitor) {
-    return options.scale && settings.interface_scale == UiScale::kAutomatic
-               ? *options.scale
-               : ScaleOf(settings.interface_scale, monitor);
-  }
-  // A script that names no language is in English, whatever the environment.
-  static std::string LanguageCode(const EditorOptions& options, const WindowSettings& settings) {
-    const bool is_free = settings.language == LanguageChoice::kAutomatic;
-    return options.script && is_free ? "en" : app::LanguageCode(settings.language);
-  }
-  static Translation TranslationOf(const std::string& language) {
-    const auto file = ResourceFolder() / "languages" / (language + ".po");
-    if (!std::filesystem::exists(file)) return {};
-    return Translation(ParsePo(ReadWholeFile(file), file));
-  }
-
   // Notes the acts of this frame for the script that is recorded.
   void FollowByRecord() {
     const ImGuiIO& io = ImGui::GetIO();
@@ -349,11 +272,8 @@ class Editor {
     ShowTraineeScreen();
     last_draw_ = Clock::now();
     pictures_.NoteFrame(Seconds(last_draw_ - now).count());
-    if (options_.timing) {
-      if (frames_ == 0) std::fprintf(stderr, "first picture after %.0f ms\n", 1e3 * ProcessAge());
-      const std::string mark = script_ ? script_->mark() : "";
-      frame_seconds_[mark].push_back(Seconds(last_draw_ - now).count());
-    }
+    if (options_.timing)
+      frame_times_.Note(script_ ? script_->mark() : "", Seconds(last_draw_ - now).count());
     ++frames_;
     if (unsettled_ > 0) --unsettled_;
   }
@@ -492,7 +412,7 @@ class Editor {
   std::optional<WindowSettings> applied_settings_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
-  std::map<std::string, std::vector<double>> frame_seconds_;  // s per drawn frame, by mark
+  FrameTimes frame_times_;
   bool picture_focused_ = true, will_draw_ = true;
   const LiveFilm* noted_film_ = nullptr;  // the folder of which is remembered
 };

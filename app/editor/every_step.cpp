@@ -1,10 +1,9 @@
-#include "app/editor/every_step.h"
-
 #include <utility>
 #include <vector>
 
 #include <GLFW/glfw3.h>
 
+#include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/files/start_page.h"
 #include "app/steps/depth/depth_step.h"
@@ -150,8 +149,9 @@ std::span<const Command> AllCommands() {
     std::vector<Command> commands;
     for (const auto group :
          {FileCommands(), StartCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
-          SolidCommands(), std::span<const Command>(kStepCommands), PracticeCommands(),
-          PortalsCommands(), DisturbanceCommands(), RigCommands(), IncisionCommands(),
+          LibraryCommands(), CutCommands(), PlacingCommands(), SolidCommands(),
+          std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
+          DisturbanceCommands(), RigCommands(), IncisionCommands(),
           std::span<const Command>(kViewCommands), std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;

@@ -62,6 +62,11 @@ struct TissueStep {
   std::filesystem::path preset_folder;
 };
 std::span<const Command> TissueCommands();
+std::span<const Command> LibraryCommands();
+std::span<const Command> CutCommands();
+std::span<const Command> PlacingCommands();
+// True where commands may change a tissue that is chosen.
+bool IsTissueChosen(const EditorState& state);
 void TissuePanel(Ui& ui, EditorState& state);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void TissueLibraryFields(Ui& ui, EditorState& state);
