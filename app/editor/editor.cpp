@@ -34,6 +34,7 @@
 #include "app/recording/unfinished_film.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_panels.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_panels.h"
@@ -272,6 +273,10 @@ class Editor {
     ShowTraineeScreen();
     last_draw_ = Clock::now();
     pictures_.NoteFrame(Seconds(last_draw_ - now).count());
+    if (auto cost = pictures_.TakeCost()) {
+      cost->whole = Seconds(last_draw_ - now).count();
+      NoteFrame(*state_.steps.practice->budget, *cost);
+    }
     if (options_.timing)
       frame_times_.Note(script_ ? script_->mark() : "", Seconds(last_draw_ - now).count());
     ++frames_;
@@ -325,6 +330,8 @@ class Editor {
         DevicesPage(ui, state_, layout.side);
       else if (state_.steps.practice->disturbing.shows_panel)
         DisturbancesPage(ui, state_, layout.side);
+      else if (state_.steps.practice->budget->is_shown)
+        BudgetPage(ui, state_, layout.side);
       else
         PracticePanel(ui, state_, layout.side);
     } else {

@@ -1,11 +1,13 @@
+#include "app/editor/every_step.h"
+
 #include <utility>
 #include <vector>
 
 #include <GLFW/glfw3.h>
 
-#include "app/editor/every_step.h"
 #include "app/files/scene_files.h"
 #include "app/files/start_page.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
@@ -151,7 +153,7 @@ std::span<const Command> AllCommands() {
          {FileCommands(), StartCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
           LibraryCommands(), CutCommands(), PlacingCommands(), SolidCommands(),
           std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
-          DisturbanceCommands(), RigCommands(), IncisionCommands(),
+          DisturbanceCommands(), RigCommands(), IncisionCommands(), BudgetCommands(),
           std::span<const Command>(kViewCommands), std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
@@ -172,6 +174,7 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   steps.practice->rig.emplace();
+  steps.practice->budget.emplace();
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));
 }
@@ -195,6 +198,7 @@ bool FinishWork(EditorState& state) {
   changed = FinishFilm(state) || changed;
   changed = FinishDepth(state) || changed;
   KeepPokeFresh(state);
+  KeepBudgetFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
   Guarded(state, "Check of the surface", [&] { changed = KeepFaultsFresh(state) || changed; });

@@ -1,5 +1,6 @@
 #include "app/editor/pictures.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -290,13 +291,21 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
 
   // A machine that is slow at full size draws coarser while things move, and full when they rest.
   const bool is_moving = rays == 1 && !steady_;
-  const double scale = is_moving ? scale_.value() : 1.0;
+  double scale = is_moving ? scale_.value() : 1.0;
   picture_.features = is_moving ? scale_.features() : CameraFeatures::kOcclusion;
+  if (rays == 1 && state.settings.moving_picture != MovingPicture::kAutomatic)
+    picture_.features = std::min(picture_.features, CameraFeatures::kEdges);
+  if (rays == 1 && state.settings.moving_picture == MovingPicture::kSmall)
+    scale = std::min(scale, kSmallScale);
   picture_.rays = rays;
   if (rays == 2) picture_.samples = kStillSamples;
   const int pixels = static_cast<int>(std::lround(scale * size));
   DrawBare(state, pixels);
+  const bool is_measured = rays == 1 && state.steps.practice->budget->is_shown;
+  scope_.SetTimed(is_measured);
   scope_.Render(picture_, pixels);
+  cost_.reset();
+  if (is_measured) cost_ = FrameCost{scope_.cost()};
   is_timed_ = is_moving;
   drawn_size_ = pixels;
   ++drawn_count_;
@@ -343,6 +352,10 @@ bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
     return true;
   if (overview_.Render(width, height)) overview_drawn_ = now;
+  if (cost_) {
+    scope_.Finish();
+    cost_->overview = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
+  }
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/editor/footage_textures.h"
@@ -13,6 +14,7 @@
 #include "app/editor/render_scale.h"
 #include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/tissue/cut_skins.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
@@ -48,6 +50,9 @@ class Pictures {
   // How long the whole frame took, handing over included, s: graphics in software draw behind our
   // back.
   void NoteFrame(double seconds);
+  // Costs of the frame at hand while the budget is shown and a moving picture was drawn, but for
+  // the whole; takes them.
+  std::optional<FrameCost> TakeCost() { return std::exchange(cost_, std::nullopt); }
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   // The last picture without the chosen tissue; 0 where that is not faded.
   unsigned bare_texture() const { return bare_ ? bare_->id() : 0; }
@@ -97,6 +102,7 @@ class Pictures {
   PictureRest rest_;
   RenderScale scale_;      // scale and features of moving pictures
   bool is_timed_ = false;  // the frame at hand drew one at that scale
+  std::optional<FrameCost> cost_;
   bool overview_held_ = false;
   bool is_laying_ = false;    // a drag over the overview lays a tissue onto the relief
   bool is_painting_ = false;  // a drag over the overview paints on the depth map

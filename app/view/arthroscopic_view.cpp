@@ -1,6 +1,7 @@
 #include "app/view/arthroscopic_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -80,8 +81,18 @@ struct ArthroscopicView::Parts {
   bool is_disturbed = false;  // the last frame passed through lens_pass
   bool has_camera = false;    // and through camera_pass
   std::string notice;
+  bool is_timed = false;
+  PictureCost cost;        // while it is timed
   int size = 0, rays = 0;  // px of the last frame; rays per side that were drawn
 
+  // Adds the time since `begin` to a stage, and begins the next one.
+  void EndStage(double PictureCost::*stage, std::chrono::steady_clock::time_point& begin) {
+    if (!is_timed) return;
+    glFinish();
+    const auto now = std::chrono::steady_clock::now();
+    cost.*stage = std::chrono::duration<double>(now - begin).count();
+    begin = now;
+  }
   void TakeTool(simulation::ToolKind kind);
   void ShowTool(const Picture& picture, const LensFrame& frame);
   const FootageLight& LightAbout(std::size_t tissue);
@@ -269,6 +280,9 @@ void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) 
 void ArthroscopicView::Render(const Picture& picture, int size) {
   Parts& p = *parts_;
   CheckDisturbances(picture.disturbances);
+  if (p.is_timed) glFinish();
+  auto begin = std::chrono::steady_clock::now();
+  p.cost = {};
   p.has_camera = picture.camera && !picture.plain;
   p.size = size;
   p.rays = size * (p.has_camera ? picture.rays : 1);
@@ -309,17 +323,25 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
   }
   p.window->Render();
   p.backdrop->EndContact();
+  p.EndStage(&PictureCost::scene, begin);
   // An error of the depth map that is as high as the occlusion reaches would be drawn as shade.
   if (p.has_camera && picture.features >= CameraFeatures::kOcclusion &&
       p.backdrop->least_side() < kOcclusionReach)
     p.occlusion_pass.Draw(p.window, picture, p.rays);
+  p.EndStage(&PictureCost::occlusion, begin);
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
+  p.EndStage(&PictureCost::disturbances, begin);
   if (p.has_camera)
     p.camera_pass.Draw(p.window, picture, frame.shade,
                        *p.drawn().GetColorAttachmentAsTextureObject(0),
                        *p.finished().GetColorAttachmentAsTextureObject(0), size);
+  p.EndStage(&PictureCost::camera, begin);
 }
+
+void ArthroscopicView::SetTimed(bool is_timed) { parts_->is_timed = is_timed; }
+
+const PictureCost& ArthroscopicView::cost() const { return parts_->cost; }
 
 void ArthroscopicView::Finish() const { glFinish(); }
 

@@ -6,6 +6,7 @@
 #include "app/files/scene_files.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
@@ -99,14 +100,17 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
       DepthPanel(ui, state);
       break;
     case Step::kTissue:
-      TissuePanel(ui, state);
+      TissuePanel(ui, state, [&] { BudgetFields(ui, state); });
       break;
     case Step::kPortals:
       PortalsPanel(ui, state);
       break;
     case Step::kPractice:
       PracticeStepPanel(ui, state);
-      if (!state.steps.practice->shows_devices) Checklist(ui, state);
+      if (state.steps.practice->shows_devices) break;
+      Gap(ui, 2);
+      if (state.document().panorama) BudgetFields(ui, state);
+      Checklist(ui, state);
       break;
   }
   ImGui::EndChild();

@@ -20,6 +20,7 @@
 namespace arthro::app {
 
 struct Area;
+struct FrameBudget;
 struct RigEditing;
 struct Ui;
 
@@ -74,6 +75,7 @@ struct PracticeStep {
   Jobs pivot_jobs;                             // pivot fits
   bool shows_devices = false;                  // their panel, instead of the practice's
   Owned<RigEditing> rig;                       // rig that is edited (rig_edit.h)
+  Owned<FrameBudget> budget;                   // costs on this machine (app/steps/budget)
   Disturbing disturbing;                       // disturbances of the picture
   simulation::CameraHead head;                 // camera head of the scope
   simulation::SessionOptions session_options;  // options of the practices to come

@@ -59,6 +59,9 @@ class Practice {
   double peak_force() const { return peak_force_; }  // N, largest on the instrument's tip so far
   // Trouble of the servo thread, for the user; empty: none.
   const std::string& servo_sentence() const { return servo_sentence_; }
+  // Newest report of the force loop, for the thread that calls Advance; nullptr before its first
+  // call.
+  const ServoReport* servo_report() const { return servo_ ? &servo_->ReadReport() : nullptr; }
 
   // Hands as mouse and keys lead them.
   ScriptedDevice& scope() { return by_mouse_[0]; }
