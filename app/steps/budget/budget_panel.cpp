@@ -75,7 +75,8 @@ void Costs(Ui& ui, EditorState& state) {
   Heading(ui, "Force");
   Judgement(ui, verdicts[1]);
   if (budget.force)
-    Item(ui, "One tick of the force loop", budget.force->median, budget.force->period);
+    Item(ui, "One tick of the force loop", budget.force->median, budget.force->period,
+         fmt::format("99 of 100 ticks take at most {:.2f} ms", 1e3 * budget.force->p99));
   Heading(ui, "Picture");
   Judgement(ui, verdicts[2]);
   PictureItems(ui, budget);
