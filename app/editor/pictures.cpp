@@ -278,8 +278,12 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   if (state.practice && picture.instrument)
     picture.instrument = live_tissues_.Settled(*picture.instrument);
   const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
+  // The fluid flows while something moves: villi sway then, and a picture at rest stays as it is.
+  const bool flows = state.practice && !picture.disturbances.is_moving();
+  if (flows) picture.disturbances.time = flow_.time;
   const bool has_changed =
       changed_ || !Same(picture, picture_) || full_size_ != size || is_faded != bare_.has_value();
+  if (flows) picture.disturbances.time = flow_.Advance(state.practice->snapshot().t, has_changed);
   picture_ = picture;
   full_size_ = size;
   has_picture_ = panorama_ != nullptr;

@@ -2,6 +2,7 @@
 // Needs the window's OpenGL context.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -95,7 +96,18 @@ class Pictures {
   int drawn_size_ = 0, full_size_ = 0;  // px
   long drawn_count_ = 0;
   PictureRest rest_;
-  RenderScale scale_;      // scale and features of moving pictures
+  RenderScale scale_;  // scale and features of moving pictures
+  // Time of the fluid, which stands still while nothing moves, s.
+  struct Flow {
+    double time = 0, seen = 0;
+    double Advance(double now, bool moves) {
+      if (moves) time += std::clamp(now - seen, 0.0, kMostFlow);
+      seen = now;
+      return time;
+    }
+    static constexpr double kMostFlow = 0.1;  // s per frame
+  };
+  Flow flow_;
   bool is_timed_ = false;  // the frame at hand drew one at that scale
   bool overview_held_ = false;
   bool is_laying_ = false;    // a drag over the overview lays a tissue onto the relief

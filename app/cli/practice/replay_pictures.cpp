@@ -28,7 +28,7 @@ void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
           RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind, optics_, head_);
       if (picture.instrument) picture.instrument = tissues_.Settled(*picture.instrument);
       picture.disturbances = disturbances_;
-      if (disturbances_.is_moving()) picture.disturbances.time = disturbances_.time + t - begin_;
+      picture.disturbances.time = disturbances_.time + t - begin_;
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }

@@ -26,7 +26,8 @@ class ReplayPictures {
     double rate = 30.0;  // a second
   };
 
-  // Trace from `begin` to `end`, s. Disturbances that move do so by the time of the trace.
+  // Trace from `begin` to `end`, s. Villi and disturbances that move do so by the time of the
+  // trace.
   ReplayPictures(const LoadedScene& loaded, double begin, double end,
                  const simulation::CameraHead& head, const Disturbances& disturbances,
                  std::span<const simulation::TissueLook> looks)

@@ -20,7 +20,7 @@ struct Disturbances {
   double far_blur = 0;      // focused on near parts: far ones are blurred
   double overexposure = 0;  // too much light for the camera
   int seed = 0;
-  double time = 0;  // s
+  double time = 0;  // s; villi of tissues sway by it as well
 
   // Visits the strengths alone, since seed and time are no choice of a person.
   template <class V>
