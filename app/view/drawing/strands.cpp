@@ -65,29 +65,38 @@ Random NumbersOf(const glm::dvec3& place, std::uint64_t kind) {
   return Random(seed);
 }
 
-// Grows strands on the triangles for which `density` (1/m^2) is positive. `shape` completes one.
+// Grows strands on the triangles for which `density` (1/m^2) is positive, and fewer everywhere
+// where that would be too many. `shape` completes one.
 template <class Density, class Shape>
 std::vector<Strand> Grow(const SurfaceMesh& surface, std::uint64_t kind, const Density& density,
                          const Shape& shape) {
-  std::vector<Strand> strands;
+  const auto corner = [&](const std::array<int, 3>& t, std::size_t i) {
+    return surface.vertices[static_cast<std::size_t>(t[i])];
+  };
+  std::vector<double> expected;  // strands per triangle
+  double all = 0;
   for (const auto& t : surface.triangles) {
-    const glm::dvec3 &a = surface.vertices[static_cast<std::size_t>(t[0])],
-                     &b = surface.vertices[static_cast<std::size_t>(t[1])],
-                     &c = surface.vertices[static_cast<std::size_t>(t[2])];
+    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
     const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-    const glm::dmat3 frame = FrameOf(a, b, c);
-    const double expected = area > 0.0 ? area * density(t, frame) : 0.0;
-    if (!(expected > 0.0)) continue;
+    expected.push_back(area > 0.0 ? area * density(t, FrameOf(a, b, c)) : 0.0);
+    all += expected.back();
+  }
+  const double share = std::min(1.0, static_cast<double>(kMostStrands) / std::max(all, 1.0));
+  std::vector<Strand> strands;
+  for (std::size_t at = 0; at < expected.size(); ++at) {
+    if (!(expected[at] > 0.0)) continue;
+    const auto& t = surface.triangles[at];
+    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
     Random own = NumbersOf((a + b + c) / 3.0, kind);
-    const auto count = static_cast<std::size_t>(expected + own.Uniform(0.0, 1.0));
-    for (std::size_t i = 0; i < count && strands.size() < kMostStrands; ++i) {
+    const auto count = static_cast<std::size_t>(share * expected[at] + own.Uniform(0.0, 1.0));
+    for (std::size_t i = 0; i < count; ++i) {
       Strand strand;
       strand.corners = t;
       const double u = std::sqrt(own.Uniform(0.0, 1.0)), v = own.Uniform(0.0, 1.0);
       strand.root = {1.0 - u, u * (1.0 - v), u * v};
       strand.phase = own.Uniform(0.0, kTurn);
       strand.rate = kTurn * own.Uniform(kSlowest, kFastest);
-      shape(frame, own, strand);
+      shape(t, FrameOf(a, b, c), own, strand);
       strands.push_back(strand);
     }
   }
@@ -104,17 +113,19 @@ glm::dvec3 Aside(Random& own) {
 std::vector<Strand> FrayedFibres(const SurfaceMesh& surface, std::span<const std::uint8_t> fresh,
                                  const TissueGrain& grain, const simulation::TissueLook& look) {
   if (fresh.empty() || !(look.fraying > 0.0)) return {};
-  glm::dvec3 along(0.0);  // of the triangle at hand
+  const auto along = [&](const std::array<int, 3>& t) {
+    return grain.Along(surface.vertices[static_cast<std::size_t>(t[0])]);
+  };
   const auto density = [&](const std::array<int, 3>& t, const glm::dmat3& frame) {
     for (const int v : t)
       if (fresh[static_cast<std::size_t>(v)] == 0) return 0.0;
-    along = grain.Along(surface.vertices[static_cast<std::size_t>(t[0])]);
-    const double across = std::abs(glm::dot(along, frame[2]));
+    const double across = std::abs(glm::dot(along(t), frame[2]));
     return look.fraying * kFrayed * (kAlongFibres + (1.0 - kAlongFibres) * across);
   };
-  const auto shape = [&](const glm::dmat3& frame, Random& own, Strand& strand) {
+  const auto shape = [&](const std::array<int, 3>& t, const glm::dmat3& frame, Random& own,
+                         Strand& strand) {
     // A bundle leaves the face along the fibres, on the side where the cut has opened it.
-    const glm::dvec3 fibre = glm::transpose(frame) * along;
+    const glm::dvec3 fibre = glm::transpose(frame) * along(t);
     const double side = std::abs(fibre.z) > kMeetsFibres
                             ? (fibre.z < 0.0 ? -1.0 : 1.0)
                             : (own.Uniform(0.0, 1.0) < 0.5 ? -1.0 : 1.0);
@@ -133,7 +144,8 @@ std::vector<Strand> Villi(const SurfaceMesh& surface, const simulation::TissueLo
   const auto density = [&](const std::array<int, 3>&, const glm::dmat3&) {
     return look.villi * kVilli;
   };
-  const auto shape = [&](const glm::dmat3&, Random& own, Strand& strand) {
+  const auto shape = [&](const std::array<int, 3>&, const glm::dmat3&, Random& own,
+                         Strand& strand) {
     strand.way = glm::normalize(glm::dvec3(0, 0, 1) + 0.5 * Aside(own));
     strand.bend = own.Uniform(0.2, 1.0) * kVillusBend * Aside(own);
     strand.length = kVillusLength * own.Near(1.0, 0.5);

@@ -27,7 +27,7 @@ struct Strand {
   double phase = 0, rate = 0;                // rad, rad/s
 };
 
-inline constexpr std::size_t kMostStrands = 1500;  // per tissue
+inline constexpr std::size_t kMostStrands = 3000;  // per tissue, of each kind, on average
 
 // `fresh` is 1 for a vertex of a cut face; without one there is nothing frayed. Bundles that the
 // cut meets across stand out the most.

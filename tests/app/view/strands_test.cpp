@@ -1,6 +1,7 @@
 #include "app/view/drawing/strands.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -49,6 +50,19 @@ TEST(Strands, OnlyFacesOfCutsAreFrayed) {
   for (const Strand& strand : strands)
     for (const int corner : strand.corners) EXPECT_EQ(fresh[static_cast<std::size_t>(corner)], 1);
   EXPECT_TRUE(FrayedFibres(ball, fresh, grain, TissueLook{}).empty());
+}
+
+// A large surface has fewer strands everywhere, and no bare part.
+TEST(Strands, AreSpreadEvenlyWhereTheyAreTooMany) {
+  const SurfaceMesh ball = test::Ellipsoid({0.02, 0.02, 0.02});
+  const std::vector<Strand> villi = Villi(ball, Villous());
+  // Each triangle rounds its number by chance, with a deviation of half a strand at most.
+  EXPECT_NEAR(static_cast<double>(villi.size()), static_cast<double>(kMostStrands),
+              5 * 0.5 * std::sqrt(static_cast<double>(ball.triangles.size())));
+  std::array<double, 2> half{};
+  for (const Strand& strand : villi)
+    ++half[ball.vertices[static_cast<std::size_t>(strand.corners[0])].z > 0 ? 1 : 0];
+  EXPECT_NEAR(half[0], half[1], 0.1 * static_cast<double>(kMostStrands));
 }
 
 // A second bite elsewhere must not change what the first one frayed.
