@@ -19,7 +19,7 @@ using simulation::DeviceRole;
 using simulation::ToolFrame;
 
 constexpr double kWidth = 720;             // px
-constexpr std::size_t kMostPoints = 1600;  // of a curve; more than the plot has px
+constexpr std::size_t kMostPoints = 1600;  // per curve; more than the plot has px
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 double TimeOf(std::size_t frame) { return simulation::kFrameTime * static_cast<double>(frame + 1); }
@@ -37,7 +37,7 @@ const ToolFrame& ToolOf(const AttemptFrame& frame, DeviceRole role) {
 }  // namespace
 
 std::string StepsSvg(const AttemptReport& report) {
-  constexpr double kLeft = 170, kRight = 20, kRow = 24, kTop = 26;
+  constexpr double kLeft = 170, kRight = 20, kRow = 24, kTop = 8;
   const AttemptRecord& attempt = report.attempt;
   double end = attempt.duration.value_or(0);
   for (const StepRow& step : attempt.steps) end = std::max(end, step.ended.value_or(step.began));
@@ -124,7 +124,7 @@ std::string CentringSvg(const AttemptReport& report) {
 }
 
 std::string PathSvg(const AttemptReport& report, bool from_above) {
-  LinePlot plot{from_above ? "Ways of the tips, from above" : "Ways of the tips, along the view",
+  LinePlot plot{from_above ? "Paths of the tips, from above" : "Paths of the tips, along the view",
                 "Right, mm", from_above ? "Into the joint, mm" : "Up, mm"};
   plot.has_equal_scales = true;
   plot.width = kWidth / 2 - 8;

@@ -16,7 +16,7 @@ struct AttemptReport {
   ExerciseRow exercise;
   std::string goal;          // brief of the exercise; may be empty
   std::string trainee;       // code
-  std::string station, rig;  // of the session
+  std::string station, rig;  // from the session
   std::string program;       // version
   // Frames of the attempt, 10 ms apart; empty where its file is not at hand.
   std::vector<simulation::AttemptFrame> frames;

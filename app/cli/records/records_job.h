@@ -17,7 +17,7 @@ struct RecordsPlace {
 };
 std::shared_ptr<RecordsPlace> AddPlace(CLI::App& job);
 
-// Who does it, for the audit: the name of the user.
+// Name of the user, for the audit.
 std::string UserWords();
 
 void AddListRecords(CLI::App& records);

@@ -10,22 +10,22 @@ namespace {
 
 // Counts by trainee and exercise, from the index alone; names are joined to the few groups.
 constexpr const char* kStandings =
-    "SELECT trainees.code, cohorts.name, counts.exercise, exercises.id, exercises.title, "
-    "exercises.version, counts.tries, counts.passes, counts.best, counts.last, attempts.outcome, "
-    "gates.opened "
-    "FROM (SELECT trainee, exercise, CAST(count(*) AS BIGINT) AS tries, "
-    "CAST(sum(CASE outcome WHEN 'passed' THEN 1 ELSE 0 END) AS BIGINT) AS passes, "
-    "min(CASE outcome WHEN 'passed' THEN duration END) AS best, max(started) AS last "
-    "FROM attempts WHERE mode <> 'robot' AND outcome <> 'running' {} GROUP BY trainee, exercise) "
-    "AS counts "
-    "JOIN trainees ON trainees.id = counts.trainee "
-    "LEFT JOIN cohorts ON cohorts.id = trainees.cohort "
-    "JOIN exercises ON exercises.hash = counts.exercise "
-    "JOIN attempts ON attempts.trainee = counts.trainee AND attempts.exercise = counts.exercise "
-    "AND attempts.started = counts.last AND attempts.mode <> 'robot' "
-    "AND attempts.outcome <> 'running' "
-    "LEFT JOIN gates ON gates.trainee = counts.trainee AND gates.exercise = counts.exercise {} "
-    "ORDER BY trainees.code, exercises.id, exercises.version";
+    R"(SELECT trainees.code, cohorts.name, counts.exercise, exercises.id, exercises.title,
+    exercises.version, counts.tries, counts.passes, counts.best, counts.last, attempts.outcome,
+    gates.opened
+    FROM (SELECT trainee, exercise, CAST(count(*) AS BIGINT) AS tries,
+    CAST(sum(CASE outcome WHEN 'passed' THEN 1 ELSE 0 END) AS BIGINT) AS passes,
+    min(CASE outcome WHEN 'passed' THEN duration END) AS best, max(started) AS last
+    FROM attempts WHERE mode <> 'robot' AND outcome <> 'running' {} GROUP BY trainee, exercise)
+    AS counts
+    JOIN trainees ON trainees.id = counts.trainee
+    LEFT JOIN cohorts ON cohorts.id = trainees.cohort
+    JOIN exercises ON exercises.hash = counts.exercise
+    JOIN attempts ON attempts.trainee = counts.trainee AND attempts.exercise = counts.exercise
+    AND attempts.started = counts.last AND attempts.mode <> 'robot'
+    AND attempts.outcome <> 'running'
+    LEFT JOIN gates ON gates.trainee = counts.trainee AND gates.exercise = counts.exercise {}
+    ORDER BY trainees.code, exercises.id, exercises.version)";
 
 std::vector<Standing> Ask(Records& records, const std::string& inner, const std::string& outer,
                           const Row& values) {
@@ -60,11 +60,11 @@ std::vector<Standing> Ask(Records& records, const std::string& inner, const std:
 std::vector<Standing> StandingsOf(Records& records, const std::string& trainee_code) {
   auto standings = Ask(records, "AND trainee = (SELECT id FROM trainees WHERE code = :code)", "",
                        {trainee_code});
-  std::map<std::string, std::string> outcomes;  // of each exercise
+  std::map<std::string, std::string> outcomes;  // exercise -> outcomes
   for (const Row& row : records.database().Ask(
-           "SELECT exercise, outcome FROM attempts WHERE trainee = (SELECT id FROM trainees WHERE "
-           "code = :code) AND mode = 'test' AND outcome IN ('passed', 'failed') "
-           "ORDER BY started, id",
+           R"(SELECT exercise, outcome FROM attempts WHERE trainee = (SELECT id FROM trainees WHERE
+    code = :code) AND mode = 'test' AND outcome IN ('passed', 'failed')
+    ORDER BY started, id)",
            {trainee_code}))
     outcomes[TextOf(row[0])] += TextOf(row[1]) == "passed" ? 'P' : 'F';
   for (Standing& standing : standings) standing.test_outcomes = outcomes[standing.exercise];

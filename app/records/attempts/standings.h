@@ -1,4 +1,4 @@
-// What a trainee has reached at each exercise: the rows of the start page and of the cohort's page.
+// Standing of a trainee at each exercise: the rows of the start page and of the cohort's page.
 // The database counts; no attempt is read whole.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Standing {
   std::optional<double> best_time;  // s, of the attempts that passed
   std::string last_started, last_outcome;
   std::string test_outcomes;    // "PFP": finished attempts in mode test, oldest first
-  bool is_gate_opened = false;  // by an instructor
+  bool is_gate_opened = false;  // an instructor did it
 };
 
 // One row per exercise that the trainee has tried. Robots do not count.

@@ -63,16 +63,16 @@ struct Counted {
 Counted AttemptsThatCount(Records& records, const std::string& exercise,
                           const ReferenceRule& rule) {
   Counted counted;
-  std::map<std::string, std::string> last;  // of each trainee
+  std::map<std::string, std::string> last;  // trainee -> attempt
   for (const std::string& code : rule.trainees)
     for (const Row& row :
-         records.database().Ask("SELECT attempts.id, attempts.metrics_version FROM attempts "
-                                "JOIN trainees ON trainees.id = attempts.trainee "
-                                "JOIN sessions ON sessions.id = attempts.session "
-                                "WHERE trainees.code = :code AND attempts.exercise = :exercise "
-                                "AND attempts.mode = :mode AND sessions.rig = :rig "
-                                "AND attempts.outcome IN ('passed', 'failed') "
-                                "ORDER BY attempts.started, attempts.id",
+         records.database().Ask(R"(SELECT attempts.id, attempts.metrics_version FROM attempts
+    JOIN trainees ON trainees.id = attempts.trainee
+    JOIN sessions ON sessions.id = attempts.session
+    WHERE trainees.code = :code AND attempts.exercise = :exercise
+    AND attempts.mode = :mode AND sessions.rig = :rig
+    AND attempts.outcome IN ('passed', 'failed')
+    ORDER BY attempts.started, attempts.id)",
                                 {code, exercise, rule.mode, rule.rig})) {
       const int version = static_cast<int>(WholeOf(row[1]));
       if (counted.metrics_version >= 0 && counted.metrics_version != version)

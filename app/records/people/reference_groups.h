@@ -50,7 +50,7 @@ struct ReferenceGroup {
 struct ReferenceRule {
   std::vector<std::string> trainees;  // codes
   std::string mode = "test";
-  std::string rig;  // of the session; mouse, zero-force and force rigs never share a group
+  std::string rig;  // words of its session; mouse, zero-force and force rigs never share a group
   bool is_last_only = true;
 };
 

@@ -181,6 +181,10 @@ Error ServerFault(const soci::soci_error& fault, const std::string& words) {
   std::string text = fault.get_error_message();
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  // Only the server's own words are of use to a reader.
+  if (const auto own = text.find("ERROR:"); own != text.npos)
+    text = text.substr(text.find_first_not_of(' ', own + 6));
+  while (text.ends_with(' ')) text.pop_back();
   // SOCI gives no category to a connection that cannot be made.
   if (text.starts_with("Cannot establish connection")) {
     if (text.find("FATAL") != std::string::npos)

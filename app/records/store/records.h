@@ -16,7 +16,7 @@ namespace arthro::app {
 struct RecordsOptions {
   std::string station;                // name of this machine; empty: the system's
   double timeout = 10;                // s, for another writer or a server
-  std::optional<std::uint64_t> seed;  // of the ids, so that tests repeat; none: random
+  std::optional<std::uint64_t> seed;  // start of the ids, so that tests repeat; none: random
   std::function<std::string()> now;   // UTC; empty: the system's clock
   // Files of attempts and the outbox; empty: RecordsFolder(connection).
   std::filesystem::path folder;

@@ -1,4 +1,4 @@
-// What leaves the records: tables, statements of the Experience API, studies, backups, and forms.
+// Exports of the records: tables, statements of the Experience API, studies, backups, and forms.
 #include <regex>
 #include <set>
 #include <sys/stat.h>

@@ -29,7 +29,7 @@ using test::SampleExercise;
 using test::SampleResult;
 using test::TempFolder;
 
-// Where to keep records, fresh for each check.
+// Place of records, fresh for each check.
 struct Place {
   std::string connection;
   fs::path folder;
