@@ -315,8 +315,11 @@ class Editor {
         !ShowsDepthBoard(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.steps.practice->hands->Look()) last_event_ = now;
-    if (state_.practice && state_.dialogs.empty())
+    if (state_.practice && state_.dialogs.empty()) {
+      state_.practice->SetCameraHead(state_.steps.practice->head);
+      state_.practice->SetDisturbances(state_.steps.practice->disturbing.now);
       state_.practice->Advance(step, state_.steps.practice->hands.get());
+    }
     KeepPivotFresh(state_);
     recovery_.Follow(state_, Now());
     if (state_.steps.practice->poke && state_.dialogs.empty())

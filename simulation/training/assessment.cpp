@@ -23,10 +23,9 @@ Assessment Assess(const LoadedScene& loaded, const Recording& recording,
   if (recording.rows.empty()) return assessment;
   FrameBuilder builder(recording.rows.front().sample.t);
   ReplayReport replay;
-  Replay(loaded, recording, options, progress, &replay, presets,
-         [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture*) {
-           builder.Add(t, snapshot);
-         });
+  Replay(
+      loaded, recording, options, progress, &replay, presets,
+      [&](double t, const Snapshot& snapshot, const WorldPicture*) { builder.Add(t, snapshot); });
   builder.Finish();
   if (messages != nullptr) *messages = replay.messages;
   std::vector<std::string> surfaces;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulation/practice/hands/hands.h"
+#include "simulation/practice/option_numbers.h"
 #include "simulation/practice/scope_eye.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
@@ -36,6 +37,8 @@ class Practice {
   const Snapshot& snapshot() const { return snapshot_; }
   // Pose of the rod to the eye from which the picture is drawn.
   const RodPose& seen_from() const { return seen_from_; }
+  const ScopeEye& eye() const { return eye_; }
+  const DepthField& relief() const { return session_->relief(); }
   double incision_spacing() const { return request_.incision_spacing; }
   // Moves the incision of the instrument for this session; the tool enters anew.
   void SetIncisionSpacing(double spacing) { request_.incision_spacing = spacing; }
@@ -44,6 +47,9 @@ class Practice {
   void SetOptions(const SessionOptions& options, const Hands* hands);
   double view_angle() const { return request_.view_angle; }
   void SetViewAngle(double view_angle) { request_.view_angle = view_angle; }
+  // Camera head and disturbances of the picture.
+  void SetCameraHead(const CameraHead& head) { request_.head = head; }
+  void SetDisturbances(const Disturbances& disturbances) { request_.disturbances = disturbances; }
 
   // Deformable tissues after the last Advance; nullptr: there are none.
   const WorldPicture* tissues() const { return tissues_; }
@@ -74,7 +80,10 @@ class Practice {
   std::unique_ptr<Session> session_;
   std::array<ScriptedDevice, 2> by_mouse_;  // indexed by DeviceRole
   ServoRequest request_;
+  void Log(Hands& hands) noexcept;
   std::optional<LoggedWish> logged_;  // last wish in the log
+  std::array<DeviceRig, 2> mount_;    // indexed by DeviceRole; at the beginning
+  OptionNumbers logged_options_;      // last options in the log
   std::uint32_t resets_ = 0;
   Snapshot snapshot_;
   ScopeEye eye_;

@@ -278,7 +278,7 @@ TEST(ServoLoop, CallsItsObserverAfterEachTickWithTheTimeStep) {
     double time = 0, newest = 0;
   } watch;
   ServoOptions options;
-  options.watch = &watch;
+  options.watches = {&watch};
   Servo servo(options);
   servo.Tick(100);
   servo.Tick(1, 5 * kTick);
