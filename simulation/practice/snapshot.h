@@ -45,7 +45,7 @@ struct Snapshot {
   double view_angle = 0, incision_spacing = 0;  // rad, m
   CameraHead head;
   Disturbances disturbances;
-  ToolKind kind = ToolKind::kProbe;  // of the instrument
+  ToolKind kind = ToolKind::kProbe;  // kind of the instrument
   ToolState scope, instrument;
 };
 

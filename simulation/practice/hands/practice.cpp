@@ -124,6 +124,7 @@ void Practice::Begin(Hands* hands) {
   }
   ServoOptions options;
   options.watches = {held_.get()};
+  options.watches.insert(options.watches.end(), watches_.begin(), watches_.end());
   if (has_thread_)
     options.request_lasts = kWindowHangs;
   else
@@ -222,6 +223,20 @@ void Practice::ResetTissues() {
   if (has_thread_) servo_->Stop();  // the next Advance starts it again
   session_->ResetTissues();
   ++resets_;
+}
+
+void Practice::AddWatch(ServoWatch& watch) {
+  watches_.push_back(&watch);
+  if (!servo_) return;
+  if (has_thread_) servo_->Stop();  // the next Advance starts it again
+  servo_->AddWatch(&watch);
+}
+
+void Practice::RemoveWatch(ServoWatch& watch) {
+  std::erase(watches_, &watch);
+  if (!servo_) return;
+  if (has_thread_) servo_->Stop();
+  servo_->RemoveWatch(&watch);
 }
 
 double Practice::blade_turn() const { return kBladeSpeed * running_; }

@@ -62,6 +62,10 @@ class Practice {
   void Press(bool is_pressed) { buttons_ = is_pressed ? 1u : 0u; }
   double blade_turn() const;  // rad, turn of the shaver's blade as drawn
 
+  // Adds a watch of the ticks, such as the frames of an attempt, and removes it before it ends.
+  void AddWatch(ServoWatch& watch);
+  void RemoveWatch(ServoWatch& watch);
+
   double peak_force() const { return peak_force_; }  // N, largest on the instrument's tip so far
   // Trouble of the servo thread, for the user; empty: none.
   const std::string& servo_sentence() const { return servo_sentence_; }
@@ -96,6 +100,7 @@ class Practice {
   bool has_thread_ = false;
   std::string servo_sentence_;
   const WorldPicture* tissues_ = nullptr;
+  std::vector<ServoWatch*> watches_;  // beside the hands
   std::shared_ptr<HeldHands> held_;   // see Hands::MakeHeldHands
   std::unique_ptr<ServoLoop> servo_;  // last member: it uses the others, and ends without force
 };

@@ -201,6 +201,21 @@ TEST_F(LoggedWishes, GapOfMinutesBetweenTwoAttemptsIsPlayed) {
   EXPECT_LT(report.ticks, 62000) << "ticks of a minute of the gap, not of all of it";
 }
 
+TEST_F(LoggedWishes, WatchesAreCalledWhileTheyAreAdded) {
+  struct Count final : ServoWatch {
+    long ticks = 0;
+    void AfterTick(const Snapshot&, double) noexcept override { ++ticks; }
+  } early, late;
+  practice->AddWatch(early);
+  Frames(6);
+  EXPECT_EQ(early.ticks, 100);
+  practice->AddWatch(late);
+  practice->RemoveWatch(early);
+  Frames(6);
+  EXPECT_EQ(early.ticks, 100);
+  EXPECT_EQ(late.ticks, 100);
+}
+
 TEST_F(LoggedWishes, NothingIsLoggedWhileNothingChanges) {
   Frames(120);
   const Recording recording = End();

@@ -1,0 +1,150 @@
+#include "simulation/training/observe/frame_code.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kWholeEvery = 100;  // frames
+constexpr std::size_t kMask = (kFrameWords + 7) / 8;
+
+// Visits the values of a frame in the order of the words, except the flags of the targets.
+template <class Frame, class V>
+void VisitFrame(Frame& frame, V&& v) {
+  const auto vector = [&](auto& x) {
+    for (int i = 0; i < 3; ++i) v(x[i]);
+  };
+  for (auto& tool : frame.tool) {
+    vector(tool.tip);
+    vector(tool.drawn_tip);
+    vector(tool.axis);
+    v(tool.mean_force);
+    v(tool.peak_force);
+    v(tool.roll);
+    v(tool.depth);
+    v(tool.contact);
+    v(tool.contact_share);
+    v(tool.is_valid);
+  }
+  v(frame.is_paused);
+  v(frame.instrument);
+  v(frame.opening);
+  v(frame.view_angle);
+  v(frame.head_roll);
+  v(frame.incision_spacing);
+  v(frame.haze);
+  v(frame.fog);
+  v(frame.taken);
+  vector(frame.lens);
+  v(frame.sight.targets);
+  v(frame.sight.is_tip_visible);
+  for (auto& target : frame.sight.target) {
+    vector(target.place);
+    v(target.centre);
+    v(target.distance);
+    v(target.incidence);
+  }
+}
+
+struct Packer {
+  FrameWords& words;
+  std::size_t next = 0;
+  void operator()(float value) { words[next++] = std::bit_cast<std::uint32_t>(value); }
+  void operator()(int value) { words[next++] = std::bit_cast<std::uint32_t>(value); }
+  void operator()(bool value) { words[next++] = value ? 1 : 0; }
+  void operator()(ToolKind value) { words[next++] = static_cast<std::uint32_t>(value); }
+};
+
+struct Unpacker {
+  const FrameWords& words;
+  std::size_t next = 0;
+  bool is_good = true;
+  void operator()(float& value) {
+    value = std::bit_cast<float>(words[next++]);
+    is_good = is_good && !std::isnan(value);
+  }
+  void operator()(int& value) { value = std::bit_cast<int>(words[next++]); }
+  void operator()(bool& value) {
+    is_good = is_good && words[next] <= 1;
+    value = words[next++] == 1;
+  }
+  void operator()(ToolKind& value) {
+    is_good = is_good && words[next] <= static_cast<std::uint32_t>(ToolKind::kGrasper);
+    value = is_good ? static_cast<ToolKind>(words[next]) : ToolKind::kProbe;
+    ++next;
+  }
+};
+
+// Flags of the targets, one bit per target, in the last two words.
+constexpr std::size_t kClear = kFrameWords - 2, kGone = kFrameWords - 1;
+static_assert(kMostTargets < 32);
+
+// Words of a frame that mostly equal others: the drawn tip is the tip while nothing is touched, the
+// lens is the drawn tip of the scope, and the camera head turns with the scope.
+constexpr std::size_t kTool = 16, kDrawn = 3, kRoll = 11, kHeadRoll = 36, kLens = 41;
+
+void TakeFrom(FrameWords& words, std::size_t to, std::size_t from, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) words[to + i] ^= words[from + i];
+}
+// Replaces these words by their difference, and back.
+void ToDifferences(FrameWords& words) {
+  TakeFrom(words, kHeadRoll, kRoll, 1);
+  TakeFrom(words, kLens, kDrawn, 3);
+  for (const std::size_t tool : {std::size_t{0}, kTool}) TakeFrom(words, tool + kDrawn, tool, 3);
+}
+void FromDifferences(FrameWords& words) {
+  for (const std::size_t tool : {std::size_t{0}, kTool}) TakeFrom(words, tool + kDrawn, tool, 3);
+  TakeFrom(words, kLens, kDrawn, 3);
+  TakeFrom(words, kHeadRoll, kRoll, 1);
+}
+
+}  // namespace
+
+void FrameEncoder::Encode(const AttemptFrame& frame, std::string& bytes) {
+  FrameWords words{};
+  VisitFrame(frame, Packer{words});
+  for (std::size_t i = 0; i < frame.sight.target.size(); ++i) {
+    words[kClear] |= (frame.sight.target[i].is_clear ? 1u : 0u) << i;
+    words[kGone] |= (frame.sight.target[i].is_gone ? 1u : 0u) << i;
+  }
+  ToDifferences(words);
+  const bool is_whole = since_whole_ == 0;
+  since_whole_ = (since_whole_ + 1) % kWholeEvery;
+  if (is_whole) before_ = {};
+  bytes.assign(1 + kMask, '\0');
+  bytes[0] = is_whole ? 1 : 0;
+  for (std::size_t i = 0; i < kFrameWords; ++i) {
+    if (words[i] == before_[i]) continue;
+    bytes[1 + i / 8] =
+        static_cast<char>(static_cast<unsigned char>(bytes[1 + i / 8]) | 1u << i % 8);
+    bytes.append(reinterpret_cast<const char*>(&words[i]), sizeof words[i]);
+  }
+  before_ = words;
+}
+
+bool FrameDecoder::Decode(std::string_view bytes, AttemptFrame& frame) {
+  if (bytes.size() < 1 + kMask || static_cast<unsigned char>(bytes[0]) > 1) return false;
+  if (bytes[0] == 1) before_ = {};
+  std::string_view values = bytes.substr(1 + kMask);
+  for (std::size_t i = 0; i < kFrameWords; ++i) {
+    if ((static_cast<unsigned char>(bytes[1 + i / 8]) >> i % 8 & 1u) == 0) continue;
+    if (values.size() < sizeof before_[i]) return false;
+    std::memcpy(&before_[i], values.data(), sizeof before_[i]);
+    values.remove_prefix(sizeof before_[i]);
+  }
+  FrameWords words = before_;
+  FromDifferences(words);
+  Unpacker unpacker{words};
+  VisitFrame(frame, unpacker);
+  for (std::size_t i = 0; i < frame.sight.target.size(); ++i) {
+    frame.sight.target[i].is_clear = (words[kClear] >> i & 1u) != 0;
+    frame.sight.target[i].is_gone = (words[kGone] >> i & 1u) != 0;
+  }
+  return values.empty() && unpacker.is_good &&
+         (words[kClear] | words[kGone]) >> kMostTargets == 0 && frame.sight.targets >= 0 &&
+         frame.sight.targets <= kMostTargets;
+}
+
+}  // namespace arthro::simulation
