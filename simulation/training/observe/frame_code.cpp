@@ -7,7 +7,7 @@
 namespace arthro::simulation {
 namespace {
 
-constexpr int kWholeEvery = 100;  // frames
+constexpr int kWholeEvery = 1000;  // frames
 constexpr std::size_t kMask = (kFrameWords + 7) / 8;
 
 // Visits the values of a frame in the order of the words, except the flags of the targets.

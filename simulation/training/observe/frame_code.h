@@ -1,5 +1,5 @@
 // Frames of an attempt as bytes of its log: the 32-bit words that changed since the frame before,
-// after a mask of them. Every hundredth frame is whole. Values that mostly equal others are kept as
+// after a mask of them. Every thousandth frame is whole. Values that mostly equal others are kept as
 // their difference.
 #pragma once
 
