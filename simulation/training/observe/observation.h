@@ -9,9 +9,9 @@
 
 #include <glm/vec3.hpp>
 
-namespace arthro::simulation {
+#include "simulation/scene/exercise/exercise.h"
 
-inline constexpr int kMostTargets = 16;  // of an exercise
+namespace arthro::simulation {
 
 // Sight of one point.
 struct PointSight {
@@ -22,12 +22,15 @@ struct PointSight {
   float incidence = 0;    // rad, between the surface's normal and the line to the lens
   bool is_clear = false;  // in the picture, and nothing hides it
   bool is_gone = false;   // its tissue was cut away
+  float taken_share = 0;  // of the volume of its regions at the start, removed up to this frame
+  friend bool operator==(const PointSight&, const PointSight&) = default;
 };
 
 struct Observation {
   int targets = 0;                              // used of `target`
   std::array<PointSight, kMostTargets> target;  // in the order of the exercise
   bool is_tip_visible = false;  // two of three points at 0, 1, 2 mm behind the tip are clear
+  friend bool operator==(const Observation&, const Observation&) = default;
 };
 
 }  // namespace arthro::simulation
