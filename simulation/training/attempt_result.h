@@ -26,7 +26,7 @@ struct CriterionResult {
   std::optional<double> low, high;  // limits
   std::optional<double> value;      // nothing: it was not measured, so the criterion is not met
   bool is_met = false;
-  std::string source;           // of the limit
+  std::string source;           // publication or person behind the limit
   bool is_start_value = false;  // the group it should come from is still too small
 };
 

@@ -15,7 +15,7 @@
 
 namespace arthro {
 
-inline constexpr int kMostTargets = 16;  // of an exercise
+inline constexpr int kMostTargets = 16;  // per exercise
 
 enum class StepOrder { kFixed, kFree };
 enum class HeadChoice { kAny, kScope, kUpright };   // how the camera head is turned

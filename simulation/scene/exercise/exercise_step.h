@@ -17,10 +17,7 @@
 namespace arthro {
 
 enum class CueKind { kNone, kName, kArrow, kOutline, kGhost };
-enum class StepBy {
-  kView,
-  kTip
-};  // what is guided: the centre of the view or the instrument's tip
+enum class StepBy { kView, kTip };  // guided part: the centre of the view or the instrument's tip
 
 inline constexpr const char* kEndOfExercise = "end";  // in StepNext; no step has this id
 inline constexpr Range kStepTime{0, 3600};

@@ -23,7 +23,7 @@ struct ExerciseTarget {
   std::string on;                     // tissue
   std::optional<glm::dvec3> point;
   std::optional<glm::dvec3> ball;    // centre
-  std::vector<std::string> regions;  // of the tissue `on`
+  std::vector<std::string> regions;  // names in the tissue `on`
   double radius = 0.002;
   bool is_loose = false;
   friend bool operator==(const ExerciseTarget&, const ExerciseTarget&) = default;

@@ -36,7 +36,7 @@ struct AttemptFrame {
   bool is_paused = false;
   // In the last tick.
   ToolKind instrument = ToolKind::kProbe;
-  float opening = 1;     // of the jaws; 0 closed
+  float opening = 1;     // opening of the jaws; 0 closed
   float view_angle = 0;  // rad
   float head_roll = 0;   // rad, of the camera head from upright (scope/camera_head.h)
   float incision_spacing = 0;
@@ -44,7 +44,7 @@ struct AttemptFrame {
   float taken = 0;          // m³ of tissue removed in the frame
   float taken_outside = 0;  // m³ of it that no region of a target holds
   glm::vec3 lens{0.0F};     // from which the picture was drawn
-  Observation sight;        // of the targets of the exercise
+  Observation sight;        // sight of the exercise's targets
   friend bool operator==(const AttemptFrame&, const AttemptFrame&) = default;
 };
 

@@ -15,14 +15,14 @@ namespace arthro::simulation {
 
 // Sight of one point.
 struct PointSight {
-  glm::vec3 place{0.0F};  // of the target in this frame; it moves with its tissue
+  glm::vec3 place{0.0F};  // target in this frame; it moves with its tissue
   // Distance of its image from the centre of the picture; 1 is the rim.
   float centre = std::numeric_limits<float>::infinity();
   float distance = 0;     // m, from the lens
   float incidence = 0;    // rad, between the surface's normal and the line to the lens
   bool is_clear = false;  // in the picture, and nothing hides it
   bool is_gone = false;   // its tissue was cut away
-  float taken_share = 0;  // of the volume of its regions at the start, removed up to this frame
+  float taken_share = 0;  // share of its regions' first volume that is removed
   friend bool operator==(const PointSight&, const PointSight&) = default;
 };
 
