@@ -241,8 +241,9 @@ struct Rule {
     const int frontier = static_cast<int>(state.at);
     int nearest = frontier;
     double error = kFarAway;
-    for (int i = std::max(0, frontier - kFurthestPiece);
-         i < std::min(count, frontier + kFurthestPiece); ++i) {
+    const int ahead = state.has_departed ? kFurthestPiece : 1;  // the first piece begins the path
+    for (int i = std::max(0, frontier - kFurthestPiece); i < std::min(count, frontier + ahead);
+         ++i) {
       const double d = distance(i);
       if (!(d < error)) continue;
       error = d;
