@@ -1,7 +1,6 @@
 #include "app/bench/speed_error_plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -9,32 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "app/plot/svg_text.h"
+
 namespace arthro::app {
 namespace {
 
 constexpr double kWidth = 1120, kHeight = 720;
 constexpr double kLeft = 84, kRight = 24, kBottom = 64;
 constexpr double kMarkRadius = 6;
-// Width of a character per px of its font: the mean of DejaVu Sans, with a reserve.
-constexpr double kGlyph = 0.64;
 constexpr double kLabelFont = 11, kLegendFont = 12;
-
-double TextWidth(const std::string& text, double font) {
-  const auto glyphs = std::count_if(text.begin(), text.end(), [](char c) {
-    return (c & 0xC0) != 0x80;
-  });  // counts UTF-8 characters
-  return kGlyph * font * static_cast<double>(glyphs);
-}
-
-// Colours that people with any common colour blindness tell apart [Okabe & Ito 2008].
-constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    c == '&' ? out += "&amp;" : c == '<' ? out += "&lt;" : c == '>' ? out += "&gt;" : out += c;
-  return out;
-}
 
 // A logarithmic axis whose ends are 1, 2 or 5 times a power of ten.
 struct Axis {
@@ -115,13 +97,11 @@ class Plot {
   }
   void Text(double x, double y, double font, const char* anchor, const char* colour,
             const std::string& text) {
-    Put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\">"
-        "{}</text>\n",
-        x, y, font, anchor, colour, Escaped(text));
+    svg_ += SvgText(x, y, font, anchor, colour, text);
   }
   const char* ColourOf(const std::string& series) const {
     const auto at = std::find(series_.begin(), series_.end(), series) - series_.begin();
-    return kColours[static_cast<std::size_t>(at) % kColours.size()];
+    return kSeriesColours[static_cast<std::size_t>(at) % kSeriesColours.size()];
   }
   std::pair<double, double> PlaceOf(const PlotMark& mark) const {
     return {x_.At(mark.milliseconds),
@@ -151,10 +131,7 @@ class Plot {
 
 // Title, reference, meaning of the filling, legend: one line each, the legend as many as it needs.
 void Plot::DrawHead() {
-  Put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
-      "height=\"{1:g}\" font-family=\"DejaVu Sans, sans-serif\">\n"
-      "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n",
-      kWidth, kHeight);
+  svg_ += SvgHead(kWidth, kHeight);
   double y = 28;
   Text(kLeft, y, 17, "start", "#111111", words_.title);
   for (const std::string& line :
@@ -199,7 +176,7 @@ void Plot::DrawAxes() {
   Text((kLeft + kWidth - kRight) / 2, kHeight - 18, kLegendFont, "middle", "#111111", words_.x);
   Put("<text transform=\"translate(20 {:.1f}) rotate(-90)\" font-size=\"{:g}\" "
       "text-anchor=\"middle\" fill=\"#111111\">{}</text>\n",
-      (top_ + kHeight - kBottom) / 2, kLegendFont, Escaped(words_.y));
+      (top_ + kHeight - kBottom) / 2, kLegendFont, XmlText(words_.y));
 }
 
 void Plot::DrawMarks() {
@@ -247,7 +224,7 @@ void Plot::DrawLabel(const PlotMark& mark) {
           side > kBeside    ? "start"
           : side < -kBeside ? "end"
                             : "middle",
-          ColourOf(mark.series), Escaped(mark.words));
+          ColourOf(mark.series), XmlText(mark.words));
       return;
     }
   ++unlabelled_;

@@ -26,6 +26,7 @@ void AddEveryJob(CLI::App& program) {
 #ifdef ARTHRO_EDITOR
   AddPractiseJob(program);
 #endif
+  AddRecordsJob(program);
   AddRectifyJob(program);
   AddReliefJob(program);
   AddReplayJob(program);

@@ -33,6 +33,7 @@ void AddPanoramaJob(CLI::App& program);
 void AddPhantomJob(CLI::App& program);
 void AddPivotJob(CLI::App& program);
 void AddPractiseJob(CLI::App& program);
+void AddRecordsJob(CLI::App& program);
 void AddRectifyJob(CLI::App& program);
 void AddReliefJob(CLI::App& program);
 void AddReplayJob(CLI::App& program);

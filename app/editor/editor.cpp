@@ -4,20 +4,19 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/editor/cue_marks.h"
 #include "app/editor/editor_input.h"
+#include "app/editor/editor_settings.h"
 #include "app/editor/every_step.h"
 #include "app/editor/footage_textures.h"
+#include "app/editor/frame_times.h"
 #include "app/editor/panels/panels.h"
 #include "app/editor/panorama_clicks.h"
 #include "app/editor/pictures.h"
@@ -36,8 +35,10 @@
 #include "app/recording/unfinished_film.h"
 #include "app/state/command.h"
 #include "app/state/edits.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_panels.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/lessons_step.h"
 #include "app/steps/panorama/footage_panels.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
@@ -50,7 +51,6 @@
 #include "app/steps/tissue/tissue_step.h"
 #include "authoring/project/document_io.h"
 #include "simulation/core/atomic_file.h"
-#include "simulation/core/options_json.h"
 #include "simulation/scene/image_io.h"
 
 namespace arthro::app {
@@ -63,39 +63,12 @@ constexpr double kFrame = 1.0 / 60.0;       // s, shortest time between two fram
 constexpr double kLivelyAfter = 0.8;        // s after the last event: tips and hover settle
 constexpr double kDrawAtLeastEvery = 0.05;  // s, while events stream in
 
-// Seconds since the program was started, loading included; to a hundredth.
-double ProcessAge() {
-  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
-  std::string text;
-  std::getline(stat, text);
-  // The 22nd field, counted from after the name in brackets, which may hold blanks.
-  std::istringstream fields(text.substr(text.rfind(')') + 2));
-  std::string field;
-  for (int number = 3; number <= 22; ++number) fields >> field;
-  double now = 0;
-  uptime >> now;
-  return now - std::stod(field) / static_cast<double>(::sysconf(_SC_CLK_TCK));
-}
-
 class Editor {
  public:
-  ~Editor() {
-    for (auto& [mark, seconds] : frame_seconds_) {
-      std::sort(seconds.begin(), seconds.end());
-      const auto at = [&seconds = seconds](double share) {
-        return 1e3 *
-               seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
-      };
-      std::fprintf(stderr, "%s%s%zu frames, median %.1f ms, p99 %.1f ms, longest %.1f ms\n",
-                   mark.c_str(), mark.empty() ? "" : ": ", seconds.size(), at(0.5), at(0.99),
-                   at(1.0));
-    }
-  }
-
   Editor(const EditorOptions& options, const EndingSignals& signals)
       : options_(options),
         signals_(signals),
-        window_(WindowFrom(options)),
+        window_(WindowFrom(options, kFrame)),
         pictures_(options.script.has_value()),
         state_(MakeEditorState(NewDocument(), Window::WakeUp,
                                options.recent   ? *options.recent
@@ -151,22 +124,6 @@ class Editor {
   }
 
  private:
-  static WindowOptions WindowFrom(const EditorOptions& options) {
-    WindowOptions window;
-    window.width = options.width, window.height = options.height;
-    window.visible = !options.hidden;
-    window.scale = options.scale;
-    if (options.script) window.fixed_step = kFrame;  // the same frames whatever the machine's speed
-    return window;
-  }
-
-  // Scripts and single frames leave nothing behind, unless they are told where.
-  static std::filesystem::path FolderOfCopies(const EditorOptions& options) {
-    if (options.practice) return {};
-    if (options.recovery) return *options.recovery;
-    return options.script || options.frames > 0 ? std::filesystem::path() : RecoveryFolder();
-  }
-
   // Waits until it is written.
   void EndFilm() {
     while (state_.steps.practice->film)
@@ -175,49 +132,18 @@ class Editor {
       std::fprintf(stderr, "warning: %s\n", state_.steps.practice->film_words.c_str());
   }
 
-  // A file beside that of the recent scenes; none for scripts and single frames.
-  static std::filesystem::path OwnFile(const EditorOptions& options, const char* name) {
-    if (options.script || options.frames > 0 || RecentScenesFile().empty()) return {};
-    return RecentScenesFile().replace_filename(name);
-  }
-  static std::filesystem::path FileOfViews(const EditorOptions& options) {
-    return OwnFile(options, "views.json");
-  }
-  static WindowSettings SettingsFrom(const EditorOptions& options) {
-    WindowSettings settings = ReadWindowSettings(OwnFile(options, "settings.json"));
-    ReadOptions(nlohmann::json(options.look), {}, settings);
-    return settings;
-  }
-
   // Scale, colours and language as they are set; kept where they were changed in the window.
   void FollowSettings() {
     if (applied_settings_ == state_.settings) return;
-    if (applied_settings_) WriteWindowSettings(OwnFile(options_, "settings.json"), state_.settings);
+    if (applied_settings_) WriteWindowSettings(FileOfSettings(options_), state_.settings);
     const bool is_other_language =
         !applied_settings_ || applied_settings_->language != state_.settings.language;
     applied_settings_ = state_.settings;
     window_.SetLook(ScaleFrom(options_, state_.settings, window_.monitor()),
                     state_.settings.theme == ThemeChoice::kLight ? Theme::kLight : Theme::kDark);
-    if (is_other_language) translation_ = TranslationOf(LanguageCode(options_, state_.settings));
+    if (is_other_language) translation_ = TranslationFrom(options_, state_.settings);
     unsettled_ = std::max(unsettled_, 3);
   }
-  static double ScaleFrom(const EditorOptions& options, const WindowSettings& settings,
-                          const MonitorSize& monitor) {
-    return options.scale && settings.interface_scale == UiScale::kAutomatic
-               ? *options.scale
-               : ScaleOf(settings.interface_scale, monitor);
-  }
-  // A script that names no language is in English, whatever the environment.
-  static std::string LanguageCode(const EditorOptions& options, const WindowSettings& settings) {
-    const bool is_free = settings.language == LanguageChoice::kAutomatic;
-    return options.script && is_free ? "en" : app::LanguageCode(settings.language);
-  }
-  static Translation TranslationOf(const std::string& language) {
-    const auto file = ResourceFolder() / "languages" / (language + ".po");
-    if (!std::filesystem::exists(file)) return {};
-    return Translation(ParsePo(ReadWholeFile(file), file));
-  }
-
   // Notes the acts of this frame for the script that is recorded.
   void FollowByRecord() {
     const ImGuiIO& io = ImGui::GetIO();
@@ -315,8 +241,15 @@ class Editor {
         !ShowsDepthBoard(state_))
       ApplyHeldKeys(state_, picture_focused_, step);
     if (state_.steps.practice->hands->Look()) last_event_ = now;
-    if (state_.practice && state_.dialogs.empty())
+    if (state_.practice && state_.dialogs.empty()) {
+      state_.practice->SetCameraHead(state_.steps.practice->head);
+      state_.practice->SetDisturbances(state_.steps.practice->disturbing.now);
       state_.practice->Advance(step, state_.steps.practice->hands.get());
+    }
+    Guarded(state_, "Attempt", [&] {
+      if (FollowAttempt(state_)) last_event_ = now;
+    });
+    PlayDebrief(state_, step);
     KeepPivotFresh(state_);
     recovery_.Follow(state_, Now());
     if (state_.steps.practice->poke && state_.dialogs.empty())
@@ -349,11 +282,12 @@ class Editor {
     ShowTraineeScreen();
     last_draw_ = Clock::now();
     pictures_.NoteFrame(Seconds(last_draw_ - now).count());
-    if (options_.timing) {
-      if (frames_ == 0) std::fprintf(stderr, "first picture after %.0f ms\n", 1e3 * ProcessAge());
-      const std::string mark = script_ ? script_->mark() : "";
-      frame_seconds_[mark].push_back(Seconds(last_draw_ - now).count());
+    if (auto cost = pictures_.TakeCost()) {
+      cost->whole = Seconds(last_draw_ - now).count();
+      NoteFrame(*state_.steps.practice->budget, *cost);
     }
+    if (options_.timing)
+      frame_times_.Note(script_ ? script_->mark() : "", Seconds(last_draw_ - now).count());
     ++frames_;
     if (unsettled_ > 0) --unsettled_;
   }
@@ -394,8 +328,11 @@ class Editor {
       const Layout layout = PracticeLayout(width, height, ui.scale);
       picture_focused_ = true;
       DrawPictures(ui, layout);
-      ApplyPictureInput(state_, ScopePicture(ui, state_, layout.picture, pictures_.scope_texture()),
-                        pictures_.view(), state_.document().scene.scope.field_of_view);
+      const PictureInput input =
+          ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+      MarkTargets(ui, state_, layout.picture, input.area, pictures_.view(), pictures_.optics());
+      ApplyPictureInput(state_, input, pictures_.view(),
+                        state_.document().scene.scope.field_of_view);
       if (state_.steps.practice->shows_outside)
         pictures_.HandleOverview(state_,
                                  InsetOverview(ui, layout.overview, pictures_.overview_texture()));
@@ -405,6 +342,10 @@ class Editor {
         DevicesPage(ui, state_, layout.side);
       else if (state_.steps.practice->disturbing.shows_panel)
         DisturbancesPage(ui, state_, layout.side);
+      else if (state_.steps.lessons->running)
+        LessonPagePanel(ui, state_, layout.side);
+      else if (state_.steps.practice->budget->is_shown)
+        BudgetPage(ui, state_, layout.side);
       else
         PracticePanel(ui, state_, layout.side);
     } else {
@@ -413,6 +354,12 @@ class Editor {
       if (ShowsStartPage(state_)) {
         Board(ui, layout, StartBoard);
         StatusBar(ui, state_, layout.status, "");
+        Dialogs(ui, state_);
+        return;
+      }
+      if (state_.steps.lessons->page != LessonPage::kNone) {
+        Lesson(ui);
+        StatusBar(ui, state_, layout.status, pictures_.notice());
         Dialogs(ui, state_);
         return;
       }
@@ -448,6 +395,21 @@ class Editor {
     page(ui, state_, BoardArea(layout),
          [&](const SharedPicture& picture) { return footage_textures_.IdOf(picture); });
     footage_textures_.EndFrame();
+  }
+
+  // Briefing and result take the whole page; the look back stands about the scope's picture.
+  void Lesson(Ui& ui) {
+    const Layout layout = EditorLayout(static_cast<float>(window_.width()),
+                                       static_cast<float>(window_.height()), ui.scale);
+    picture_focused_ = false;
+    if (state_.steps.lessons->page != LessonPage::kDebrief)
+      return LessonPagePanel(
+          ui, state_,
+          {0, layout.picture.y, layout.overview.x + layout.overview.width, layout.picture.height});
+    DrawPictures(ui, layout);
+    ScopePicture(ui, state_, layout.picture, pictures_.scope_texture());
+    DebriefSide(ui, state_, layout.side);
+    DebriefPlots(ui, state_, layout.overview);
   }
 
   void Scene(Ui& ui, const Layout& layout) {
@@ -492,7 +454,7 @@ class Editor {
   std::optional<WindowSettings> applied_settings_;
   Clock::time_point last_draw_{}, last_event_ = Clock::now();
   int frames_ = 0, unsettled_ = 3;
-  std::map<std::string, std::vector<double>> frame_seconds_;  // s per drawn frame, by mark
+  FrameTimes frame_times_;
   bool picture_focused_ = true, will_draw_ = true;
   const LiveFilm* noted_film_ = nullptr;  // the folder of which is remembered
 };

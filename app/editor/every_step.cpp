@@ -7,7 +7,10 @@
 
 #include "app/files/scene_files.h"
 #include "app/files/start_page.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/lessons_step.h"
+#include "app/steps/lessons/running_attempt.h"
 #include "app/steps/panorama/footage_work.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/film.h"
@@ -71,6 +74,14 @@ constexpr Command kStepCommands[] = {
      {},
      InEditor,
      Open<Step::kPractice>},
+    {"step-exercises",
+     "Exercises",
+     "What trainees are asked to do in this scene, and how it is judged.",
+     "Steps",
+     {GLFW_KEY_F5, true},
+     {},
+     InEditor,
+     Open<Step::kExercises>},
 };
 
 using Shown = ViewLayout::Shown;
@@ -150,9 +161,11 @@ std::span<const Command> AllCommands() {
     std::vector<Command> commands;
     for (const auto group :
          {FileCommands(), StartCommands(), PanoramaCommands(), DepthCommands(), TissueCommands(),
-          SolidCommands(), std::span<const Command>(kStepCommands), PracticeCommands(),
-          PortalsCommands(), DisturbanceCommands(), RigCommands(), IncisionCommands(),
-          std::span<const Command>(kViewCommands), std::span<const Command>(kWindowCommands)})
+          LibraryCommands(), CutCommands(), PlacingCommands(), SolidCommands(),
+          std::span<const Command>(kStepCommands), PracticeCommands(), PortalsCommands(),
+          LessonCommands(), DisturbanceCommands(), RigCommands(), IncisionCommands(),
+          BudgetCommands(), std::span<const Command>(kViewCommands),
+          std::span<const Command>(kWindowCommands)})
       commands.insert(commands.end(), group.begin(), group.end());
     return commands;
   }();
@@ -172,6 +185,8 @@ EditorState MakeEditorState(authoring::Document document, std::function<void()> 
   steps.portals.emplace(wake);
   steps.practice.emplace(wake);
   steps.practice->rig.emplace();
+  steps.lessons.emplace();
+  steps.practice->budget.emplace();
   return EditorState(std::move(document), std::move(steps), AllCommands(), std::move(wake),
                      std::move(recent_file));
 }
@@ -195,6 +210,7 @@ bool FinishWork(EditorState& state) {
   changed = FinishFilm(state) || changed;
   changed = FinishDepth(state) || changed;
   KeepPokeFresh(state);
+  KeepBudgetFresh(state);
   Guarded(state, "Depth", [&] { KeepDepthFresh(state); });
   KeepDepthBoardFresh(state);
   Guarded(state, "Check of the surface", [&] { changed = KeepFaultsFresh(state) || changed; });

@@ -1,5 +1,6 @@
 #include "app/editor/pictures.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -8,6 +9,8 @@
 
 #include "app/state/edits.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/exercise_edit.h"
+#include "app/steps/lessons/lessons_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/portals/reach_board.h"
 #include "app/steps/practice/practice_step.h"
@@ -69,9 +72,34 @@ Picture AuthorsPicture(const EditorState& state, const simulation::ScopeOptics& 
   return picture;
 }
 
+// Picture of an attempt that is looked back at, from the lens as it was.
+Picture AttemptPicture(const simulation::AttemptFrame& frame,
+                       const simulation::ScopeOptics& optics) {
+  const simulation::ToolFrame& scope = frame.tool[0];
+  const simulation::ToolFrame& instrument = frame.tool[1];
+  const glm::dvec3 axis(scope.axis);
+  const simulation::RodPose pose{std::atan2(-axis.y, std::hypot(axis.x, axis.z)),
+                                 std::atan2(axis.x, axis.z), scope.roll, scope.depth};
+  Picture picture = PictureFromPose(pose, frame.view_angle, optics.field_of_view, frame.head_roll);
+  picture.view.tip = glm::dvec3(frame.lens);
+  picture.lens = optics.lens;
+  picture.camera = optics.camera;
+  picture.relief = kUsualRelief;
+  picture.instrument = InstrumentView{{frame.incision_spacing, 0, 0},
+                                      glm::dvec3(instrument.drawn_tip),
+                                      instrument.roll,
+                                      frame.instrument,
+                                      frame.opening};
+  picture.disturbances.haze = frame.haze;
+  picture.disturbances.fog = frame.fog;
+  return picture;
+}
+
 Picture ShownPicture(const EditorState& state, const simulation::ScopeOptics& optics) {
   Picture picture;
-  if (const auto& practice = state.practice) {
+  if (const simulation::AttemptFrame* frame = DebriefFrame(state)) {
+    picture = AttemptPicture(*frame, optics);
+  } else if (const auto& practice = state.practice) {
     const simulation::Snapshot& snapshot = practice->snapshot();
     picture = PictureOf(snapshot, practice->seen_from(), practice->instrument_kind(), optics,
                         state.steps.practice->head);
@@ -278,8 +306,12 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
   if (state.practice && picture.instrument)
     picture.instrument = live_tissues_.Settled(*picture.instrument);
   const bool is_faded = FadeOf(state) > 0 && outlined_ < 0;
+  // The fluid flows while something moves: villi sway then, and a picture at rest stays as it is.
+  const bool flows = state.practice && !picture.disturbances.is_moving();
+  if (flows) picture.disturbances.time = flow_.time;
   const bool has_changed =
       changed_ || !Same(picture, picture_) || full_size_ != size || is_faded != bare_.has_value();
+  if (flows) picture.disturbances.time = flow_.Advance(state.practice->snapshot().t, has_changed);
   picture_ = picture;
   full_size_ = size;
   has_picture_ = panorama_ != nullptr;
@@ -290,13 +322,21 @@ bool Pictures::DrawScope(const EditorState& state, int size, double seconds) {
 
   // A machine that is slow at full size draws coarser while things move, and full when they rest.
   const bool is_moving = rays == 1 && !steady_;
-  const double scale = is_moving ? scale_.value() : 1.0;
+  double scale = is_moving ? scale_.value() : 1.0;
   picture_.features = is_moving ? scale_.features() : CameraFeatures::kOcclusion;
+  if (rays == 1 && state.settings.moving_picture != MovingPicture::kAutomatic)
+    picture_.features = std::min(picture_.features, CameraFeatures::kEdges);
+  if (rays == 1 && state.settings.moving_picture == MovingPicture::kSmall)
+    scale = std::min(scale, kSmallScale);
   picture_.rays = rays;
   if (rays == 2) picture_.samples = kStillSamples;
   const int pixels = static_cast<int>(std::lround(scale * size));
   DrawBare(state, pixels);
+  const bool is_measured = rays == 1 && state.steps.practice->budget->is_shown;
+  scope_.SetTimed(is_measured);
   scope_.Render(picture_, pixels);
+  cost_.reset();
+  if (is_measured) cost_ = FrameCost{scope_.cost()};
   is_timed_ = is_moving;
   drawn_size_ = pixels;
   ++drawn_count_;
@@ -343,6 +383,10 @@ bool Pictures::DrawOverview(EditorState& state, int width, int height) {
   if (!steady_ && scale_.is_slow() && !overview_held_ && now - overview_drawn_ < kOverviewPause)
     return true;
   if (overview_.Render(width, height)) overview_drawn_ = now;
+  if (cost_) {
+    scope_.Finish();
+    cost_->overview = std::chrono::duration<double>(std::chrono::steady_clock::now() - now).count();
+  }
   return false;
 }
 
@@ -372,14 +416,19 @@ void Pictures::ShowPlaces(const EditorState& state) {
 }
 
 void Pictures::ClickScope(EditorState& state, const glm::dvec2& place) {
-  if (!HasBrush(state) || !has_picture_) return;
+  if ((!HasBrush(state) && !TakesTarget(state)) || !has_picture_) return;
   std::optional<Overview::TissuePlace> hit;
   if (glm::length(place) <= 1.0) {
     const glm::dvec3 ray =
         simulation::RayThrough(TakeOptics(state.document()), picture_.view, place);
     hit =
         overview_.PickAlong(picture_.view.tip, 4.0 * state.document().scene.backdrop.radius * ray);
+    if (TakesTarget(state))
+      return PlaceTarget(
+          state, {picture_.view.tip, ray},
+          hit ? std::optional(TissueHit{hit->tissue, hit->x_in_tissue}) : std::nullopt);
   }
+  if (!HasBrush(state)) return;
   UseBrush(state, hit);
 }
 

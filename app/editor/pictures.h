@@ -2,9 +2,11 @@
 // Needs the window's OpenGL context.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/editor/footage_textures.h"
@@ -13,6 +15,7 @@
 #include "app/editor/render_scale.h"
 #include "app/recording/live_film.h"
 #include "app/state/editor_state.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/tissue/cut_skins.h"
 #include "app/view/arthroscopic_view.h"
 #include "app/view/live_tissues.h"
@@ -48,6 +51,9 @@ class Pictures {
   // How long the whole frame took, handing over included, s: graphics in software draw behind our
   // back.
   void NoteFrame(double seconds);
+  // Costs of the frame at hand while the budget is shown and a moving picture was drawn, but for
+  // the whole; takes them.
+  std::optional<FrameCost> TakeCost() { return std::exchange(cost_, std::nullopt); }
   unsigned scope_texture() const { return has_picture_ ? scope_.TextureId() : 0; }
   // The last picture without the chosen tissue; 0 where that is not faded.
   unsigned bare_texture() const { return bare_ ? bare_->id() : 0; }
@@ -95,8 +101,20 @@ class Pictures {
   int drawn_size_ = 0, full_size_ = 0;  // px
   long drawn_count_ = 0;
   PictureRest rest_;
-  RenderScale scale_;      // scale and features of moving pictures
+  RenderScale scale_;  // scale and features of moving pictures
+  // Time of the fluid, which stands still while nothing moves, s.
+  struct Flow {
+    double time = 0, seen = 0;
+    double Advance(double now, bool moves) {
+      if (moves) time += std::clamp(now - seen, 0.0, kMostFlow);
+      seen = now;
+      return time;
+    }
+    static constexpr double kMostFlow = 0.1;  // s per frame
+  };
+  Flow flow_;
   bool is_timed_ = false;  // the frame at hand drew one at that scale
+  std::optional<FrameCost> cost_;
   bool overview_held_ = false;
   bool is_laying_ = false;    // a drag over the overview lays a tissue onto the relief
   bool is_painting_ = false;  // a drag over the overview paints on the depth map

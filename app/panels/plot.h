@@ -22,8 +22,8 @@ struct PlotCurve {
 
 struct Plot {
   std::string title;             // above it, with the unit
-  double left = 0, right = 1;    // of the x axis
-  double low = 0, high = 1;      // of the y axis
+  double left = 0, right = 1;    // x axis
+  double low = 0, high = 1;      // y axis
   std::string x_unit;            // behind the numbers of the x axis
   bool is_equal = false;         // one scale for both axes
   bool has_whole_steps = false;  // the x axis counts

@@ -32,6 +32,7 @@ namespace arthro::app {
 
 struct Command;
 struct DepthStep;
+struct LessonsStep;
 struct PanoramaStep;
 struct PortalsStep;
 struct PracticeStep;
@@ -39,7 +40,7 @@ struct StartPage;
 struct TissueStep;
 
 // The author's way through a scene, one page of controls each.
-enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice };
+enum class Step { kPanorama, kDepth, kTissue, kPortals, kPractice, kExercises };
 
 // State of each step beside the document.
 struct StepStates {
@@ -48,6 +49,7 @@ struct StepStates {
   Owned<TissueStep> tissue;
   Owned<PortalsStep> portals;
   Owned<PracticeStep> practice;
+  Owned<LessonsStep> lessons;
 };
 
 // The scene as this window has last read or written it.

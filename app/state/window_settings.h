@@ -12,11 +12,16 @@ namespace arthro::app {
 enum class UiScale { kAutomatic, k100, k125, k150, k200 };
 enum class ThemeChoice { kDark, kLight };
 enum class LanguageChoice { kAutomatic, kEnglish, kGerman };
+// Fineness of the scope's picture while it moves: by the speed of the machine, at most without its
+// soft shade, at most kSmallScale of its edge. A still picture is always complete.
+enum class MovingPicture { kAutomatic, kPlain, kSmall };
+inline constexpr double kSmallScale = 0.7;
 
 struct WindowSettings {
   UiScale interface_scale = UiScale::kAutomatic;
   ThemeChoice theme = ThemeChoice::kDark;
   LanguageChoice language = LanguageChoice::kAutomatic;
+  MovingPicture moving_picture = MovingPicture::kAutomatic;
 
   template <class V>
   void Visit(V&& v) {
@@ -35,6 +40,13 @@ struct WindowSettings {
                                {LanguageChoice::kEnglish, "english"},
                                {LanguageChoice::kGerman, "german"}}},
       "", "Language of the window; auto follows LANGUAGE, LC_ALL, LC_MESSAGES and LANG.");
+    v("moving_picture", moving_picture,
+      Choices<MovingPicture>{{{MovingPicture::kAutomatic, "auto"},
+                              {MovingPicture::kPlain, "plain"},
+                              {MovingPicture::kSmall, "small"}}},
+      "",
+      "Fineness of the scope's picture while it moves: auto follows the machine's speed, plain "
+      "leaves out the soft shade, small halves the pixels too.");
   }
   friend bool operator==(const WindowSettings&, const WindowSettings&) = default;
 };

@@ -1,6 +1,7 @@
 #include "app/view/arthroscopic_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -20,6 +21,7 @@
 #include "app/view/drawing/lens_model.h"
 #include "app/view/drawing/occlusion_pass.h"
 #include "app/view/drawing/srgb.h"
+#include "app/view/drawing/strand_model.h"
 #include "app/view/exposure/camera_pass.h"
 #include "app/view/instruments/probe_mesh.h"
 #include "app/view/instruments/tool_mesh.h"
@@ -64,6 +66,7 @@ struct ArthroscopicView::Parts {
   ToolMesh tool_mesh;
   simulation::ToolShape tool_shape;
   std::vector<std::unique_ptr<LensModel>> tissues;
+  std::vector<std::unique_ptr<StrandModel>> strands;  // one per tissue
   std::vector<std::size_t> vertex_counts;
   // Place of each tissue, and the light around it, computed on demand.
   struct Place {
@@ -80,8 +83,18 @@ struct ArthroscopicView::Parts {
   bool is_disturbed = false;  // the last frame passed through lens_pass
   bool has_camera = false;    // and through camera_pass
   std::string notice;
+  bool is_timed = false;
+  PictureCost cost;        // while it is timed
   int size = 0, rays = 0;  // px of the last frame; rays per side that were drawn
 
+  // Adds the time since `begin` to a stage, and begins the next one.
+  void EndStage(double PictureCost::*stage, std::chrono::steady_clock::time_point& begin) {
+    if (!is_timed) return;
+    glFinish();
+    const auto now = std::chrono::steady_clock::now();
+    cost.*stage = std::chrono::duration<double>(now - begin).count();
+    begin = now;
+  }
   void TakeTool(simulation::ToolKind kind);
   void ShowTool(const Picture& picture, const LensFrame& frame);
   const FootageLight& LightAbout(std::size_t tissue);
@@ -221,7 +234,9 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
                                   std::span<const simulation::TissueLook> looks) {
   Parts& p = *parts_;
   for (const auto& model : p.tissues) p.renderer->RemoveViewProp(model->actor());
+  for (const auto& strands : p.strands) p.renderer->RemoveViewProp(strands->model().actor());
   p.tissues.clear();
+  p.strands.clear();
   p.vertex_counts.clear();
   p.places.clear();
   for (std::size_t i = 0; i < tissues.size(); ++i) {
@@ -235,6 +250,11 @@ void ArthroscopicView::SetTissues(std::span<const Tissue> tissues,
     p.places.push_back({MiddleOf(surface.vertices), tissues[i].pose, {}});
     p.renderer->AddViewProp(model->actor());
     p.tissues.push_back(std::move(model));
+    p.strands.push_back(std::make_unique<StrandModel>(
+        i < looks.size() ? looks[i] : simulation::TissueLook{}, surface));
+    p.strands.back()->model().SetColour(tissues[i].colour);
+    p.strands.back()->model().SetPose(tissues[i].pose);
+    p.renderer->AddViewProp(p.strands.back()->model().actor());
   }
   // Instruments come last, since they are drawn over what is behind them when close to the lens.
   for (LensModel* model : {&p.tool, &p.moving}) {
@@ -251,17 +271,20 @@ bool ArthroscopicView::SetTissueShape(int index, std::span<const glm::dvec3> pos
     throw Error(Code::kBadArgument, "tissue " + std::to_string(index) + " was given " +
                                         std::to_string(positions.size()) +
                                         " vertices to draw; its surface has another number");
+  parts_->strands[i]->SetShape(positions);
   return parts_->tissues[i]->SetShape(positions, normals);
 }
 
 void ArthroscopicView::SetTissueSurface(int index, const SurfaceMesh& surface,
                                         std::span<const std::uint8_t> fresh) {
   parts_->tissues.at(static_cast<std::size_t>(index))->SetSurface(surface, fresh);
+  parts_->strands[static_cast<std::size_t>(index)]->SetSurface(surface, fresh);
   parts_->vertex_counts[static_cast<std::size_t>(index)] = surface.vertices.size();
 }
 
 void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) {
   parts_->tissues.at(static_cast<std::size_t>(index))->SetPose(portal_from_tissue);
+  parts_->strands[static_cast<std::size_t>(index)]->model().SetPose(portal_from_tissue);
   parts_->places[static_cast<std::size_t>(index)].pose = portal_from_tissue;
   parts_->places[static_cast<std::size_t>(index)].about.reset();
 }
@@ -269,6 +292,9 @@ void ArthroscopicView::SetTissuePose(int index, const Pose& portal_from_tissue) 
 void ArthroscopicView::Render(const Picture& picture, int size) {
   Parts& p = *parts_;
   CheckDisturbances(picture.disturbances);
+  if (p.is_timed) glFinish();
+  auto begin = std::chrono::steady_clock::now();
+  p.cost = {};
   p.has_camera = picture.camera && !picture.plain;
   p.size = size;
   p.rays = size * (p.has_camera ? picture.rays : 1);
@@ -306,20 +332,32 @@ void ArthroscopicView::Render(const Picture& picture, int size) {
     frame.surround = p.LightAbout(i).mean;
     p.tissues[i]->SetFrame(frame);
     p.tissues[i]->Show(!picture.plain);
+    p.strands[i]->model().Show(!picture.plain);
+    if (p.strands[i]->empty()) continue;
+    p.strands[i]->Place(picture.disturbances.time);
+    p.strands[i]->model().SetFrame(frame);
   }
   p.window->Render();
   p.backdrop->EndContact();
+  p.EndStage(&PictureCost::scene, begin);
   // An error of the depth map that is as high as the occlusion reaches would be drawn as shade.
   if (p.has_camera && picture.features >= CameraFeatures::kOcclusion &&
       p.backdrop->least_side() < kOcclusionReach)
     p.occlusion_pass.Draw(p.window, picture, p.rays);
+  p.EndStage(&PictureCost::occlusion, begin);
   p.is_disturbed = picture.disturbances.is_any() && !picture.plain;
   if (p.is_disturbed) p.lens_pass.Draw(p.window, picture, frame.light_reach, p.rays);
+  p.EndStage(&PictureCost::disturbances, begin);
   if (p.has_camera)
     p.camera_pass.Draw(p.window, picture, frame.shade,
                        *p.drawn().GetColorAttachmentAsTextureObject(0),
                        *p.finished().GetColorAttachmentAsTextureObject(0), size);
+  p.EndStage(&PictureCost::camera, begin);
 }
+
+void ArthroscopicView::SetTimed(bool is_timed) { parts_->is_timed = is_timed; }
+
+const PictureCost& ArthroscopicView::cost() const { return parts_->cost; }
 
 void ArthroscopicView::Finish() const { glFinish(); }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/view/drawing/picture.h"
+#include "app/view/drawing/picture_cost.h"
 #include "app/view/exposure/camera_exposure.h"
 #include "simulation/scene/files/loaded_scene.h"
 #include "simulation/tissue/body/tissue_look.h"
@@ -59,6 +60,11 @@ class ArthroscopicView {
   // The caller binds its own framebuffer, viewport and program afterwards. Throws
   // Error(kBadArgument) for disturbances out of range.
   void Render(const Picture& picture, int size);
+
+  // Measures the stages of the next frames, which waits for OpenGL after each stage.
+  void SetTimed(bool is_timed);
+  // Cost of the last frame that was measured.
+  const PictureCost& cost() const;
 
   // Waits until the last frame is drawn; OpenGL draws on after Render returns.
   void Finish() const;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "authoring/alignment/place_by_hand.h"
+#include "simulation/scene/exercise/mirrored_exercise.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scene/solids/solid_io.h"
 
@@ -114,6 +115,7 @@ void MirrorScene(Document& document, const NewFile& new_file) {
   projection.centre_px.x = (width - 1) - centre;
   projection.roll = Negated(projection.roll);
   scene.portals.incision_spacing = Negated(scene.portals.incision_spacing);
+  for (Exercise& exercise : scene.exercises) exercise = Mirrored(std::move(exercise));
   if (scene.side != BodySide::kUnknown)
     scene.side = scene.side == BodySide::kLeft ? BodySide::kRight : BodySide::kLeft;
   if (!document.footage) return;

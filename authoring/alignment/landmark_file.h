@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "authoring/alignment/landmark_alignment.h"
-#include "simulation/scene/scene_limits.h"
+#include "simulation/scene/limits/scene_limits.h"
 
 namespace arthro::authoring {
 

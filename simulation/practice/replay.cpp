@@ -11,6 +11,7 @@
 #include "simulation/core/csv_field.h"
 #include "simulation/device/recorded_device.h"
 #include "simulation/practice/living_tissues.h"
+#include "simulation/practice/option_numbers.h"
 #include "simulation/practice/servo_loop.h"
 
 namespace arthro::simulation {
@@ -28,30 +29,65 @@ void Count(const ToolState& state, double dt, HandReport& hand) {
   hand.deepest = std::max(hand.deepest, state.penetration);
 }
 
-// Gives the session what was wished before a tick.
+constexpr double kSameTime = 1e-6;  // s; times of the log are rounded
+
+// An instrument that this program does not know is taken as the probe.
+ToolKind KindOf(std::uint8_t number) {
+  const auto kind = static_cast<ToolKind>(number);
+  return number <= static_cast<std::uint8_t>(ToolKind::kGrasper) ? kind : ToolKind::kProbe;
+}
+
+// Gives the session the wishes and options that were in force before a tick.
 class Wishes {
  public:
-  explicit Wishes(const std::vector<TimedWish>& wishes) : wishes_(wishes) {}
+  // `chosen`: options of the caller, which take precedence where they are not at their default.
+  Wishes(const Recording& recording, const SessionOptions& chosen)
+      : recording_(recording), chosen_(NumbersOf(chosen)), options_(chosen) {
+    // Relief and tissue are made once, so their options are taken from the begin.
+    for (const TimedOption& timed : recording_.options)
+      if (timed.t <= recording_.rows.front().sample.t + kServoPeriod)
+        ++next_option_, Take(timed.option);
+  }
+  const SessionOptions& options() const { return options_; }
+
   void Apply(double t, Session& session) {
-    for (; next_ < wishes_.size() && wishes_[next_].t < t - kSameTime; ++next_) {
-      const LoggedWish& wish = wishes_[next_].wish;
-      session.SetViewAngle(wish.view_angle);
-      session.SetIncisionSpacing(wish.incision_spacing);
-      session.SetInstrument(KindOf(wish.instrument));
-      if (wish.resets != resets_) session.ResetTissues();
-      resets_ = wish.resets;
-    }
+    for (; next_ < recording_.wishes.size() && recording_.wishes[next_].t < t - kSameTime; ++next_)
+      Apply(recording_.wishes[next_].wish, session);
+    const std::vector<TimedOption>& options = recording_.options;
+    if (next_option_ == options.size() || !(options[next_option_].t < t - kSameTime)) return;
+    for (; next_option_ < options.size() && options[next_option_].t < t - kSameTime; ++next_option_)
+      Take(options[next_option_].option);
+    session.SetOptions(options_);
   }
 
  private:
-  static constexpr double kSameTime = 1e-6;  // s; times of the log are rounded
-  // An instrument that this program does not know is taken as the probe.
-  static ToolKind KindOf(std::uint8_t number) {
-    const auto kind = static_cast<ToolKind>(number);
-    return number <= static_cast<std::uint8_t>(ToolKind::kGrasper) ? kind : ToolKind::kProbe;
+  void Apply(const LoggedWish& wish, Session& session) {
+    session.SetViewAngle(wish.view_angle);
+    session.SetIncisionSpacing(wish.incision_spacing);
+    session.SetInstrument(KindOf(wish.instrument));
+    if (wish.resets != resets_) session.ResetTissues();
+    resets_ = wish.resets;
+    if (!wish.is_complete) return;
+    session.SetCameraHead({wish.is_head_upright, wish.head_turn});
+    session.SetDisturbances(DisturbancesOf(wish.disturbance, wish.disturbance_seed));
+    for (const DeviceRole role : kDeviceRoles) {
+      const LoggedMount& mount = wish.mount[Index(role)];
+      session.SetMount(role, {mount.pivot, mount.portal_from_device, mount.rod_length});
+    }
   }
-  const std::vector<TimedWish>& wishes_;
-  std::size_t next_ = 0;
+  void Take(const LoggedOption& option) {
+    static const OptionNumbers kDefaults = NumbersOf({});
+    for (int i = 0; i < chosen_.count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (chosen_.option[at].name == option.name && chosen_.option[at] == kDefaults.option[at])
+        SetOption(option, options_);
+    }
+  }
+
+  const Recording& recording_;
+  const OptionNumbers chosen_;
+  SessionOptions options_;
+  std::size_t next_ = 0, next_option_ = 0;
   std::uint32_t resets_ = 0;
 };
 
@@ -100,7 +136,8 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recordi
   std::vector<ForceRow> forces;
   if (trace.empty()) return forces;
   forces.reserve(trace.size());
-  Session session(loaded, options);
+  Wishes wishes(recording, options);
+  Session session(loaded, wishes.options());
   ReplayReport counts;
   EnlivenTissues(session, loaded, presets, TissuePace::kInline, &counts.messages);
   RecordedDevice scope(trace, DeviceRole::kScope), instrument(trace, DeviceRole::kInstrument);
@@ -108,7 +145,6 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recordi
   servo_options.period_without_force = kServoPeriod;
   ServoLoop servo(session, &scope, &instrument, servo_options);
   const WorldPicture* world = session.tissues();
-  Wishes wishes(recording.wishes);
   const auto tick = [&](double t, double dt) {
     wishes.Apply(t, session);
     servo.TickOnce(t, dt);
@@ -119,7 +155,7 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recordi
       const ToolState& state = ToolOf(snapshot, role);
       if (state.fault != Fault::kNoSample) Count(state, dt, counts.hand[Index(role)]);
     }
-    if (watch) watch(t, snapshot, session.instrument(), world);
+    if (watch) watch(t, snapshot, world);
   };
 
   const double begin = trace.front().sample.t, end = trace.back().sample.t;
@@ -128,6 +164,10 @@ std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recordi
   for (std::size_t row = 0; row < trace.size();) {
     // Divides the time since the last row into equal ticks, the last of them on this row.
     const double next = trace[row].sample.t;
+    const bool is_long = next - now > kLongestGap;
+    for (long i = 0; is_long && i < std::lround(kLongestGap / kServoPeriod); ++i)
+      tick(now += kServoPeriod, kServoPeriod);
+    if (is_long) now = std::max(now, next - kServoPeriod);
     if (next > now) {
       const double gap = next - now;
       const long steps = std::max(1L, static_cast<long>(std::ceil(gap / kServoPeriod - 1e-6)));

@@ -59,12 +59,13 @@ struct ReplayReport {
 std::string ContactName(int contact, const Scene& scene);
 
 // Called after each tick, which is at `t` in s. `world` is null where no tissue deforms.
-using ReplayWatch =
-    std::function<void(double t, const Snapshot&, ToolKind, const WorldPicture* world)>;
+using ReplayWatch = std::function<void(double t, const Snapshot&, const WorldPicture* world)>;
 
 // Tissues deform by their `presets` and step inline; without presets all of them are rigid. View
-// angle, incision spacing, instrument and resets of the tissue follow the wishes of the recording;
-// without wishes they stay as the scene has them.
+// angle, incision spacing, instrument, resets of the tissue, camera head, disturbances and mounts
+// follow the wishes of the recording; without wishes they stay as the scene has them. Options
+// follow the recording, except those of `options` that are not at their default. A gap without any
+// hand is ticked for its first minute; nothing moves in the rest of it, which is left out.
 std::vector<ForceRow> Replay(const LoadedScene& loaded, const Recording& recording,
                              const SessionOptions& options = {}, const Progress& progress = {},
                              ReplayReport* report = nullptr,

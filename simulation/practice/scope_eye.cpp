@@ -27,10 +27,12 @@ constexpr int kReliefCells = 192;
 // A rod this short has no direction; the hand's is kept.
 constexpr double kShortest = 1e-3;  // m
 
-RodPose PoseThrough(const RodPose& pose, const glm::dvec3& tip, const glm::dvec3& eye) noexcept {
+}  // namespace
+
+RodPose PoseThrough(const RodPose& pose, const glm::dvec3& eye) noexcept {
   RodPose through = pose;
   const double length = glm::length(eye);
-  if (eye == tip && glm::distance(TipInOwnPortal(pose), tip) == 0.0) return through;
+  if (TipInOwnPortal(pose) == eye) return through;
   if (length < kShortest || pose.depth < kShortest) {
     through.depth = pose.depth < 0.0 ? pose.depth : length;
     return through;
@@ -40,8 +42,6 @@ RodPose PoseThrough(const RodPose& pose, const glm::dvec3& tip, const glm::dvec3
   through.longitude = std::atan2(eye.x, eye.z);
   return through;
 }
-
-}  // namespace
 
 ScopeEye::ScopeEye(const LoadedScene& loaded) {
   const ColourImage& panorama = OrEmpty(loaded.panorama);
@@ -108,7 +108,13 @@ RodPose ScopeEye::MoveTo(const RodPose& pose, const glm::dvec3& tip) {
     reach -= moved;
   }
   last_goal_ = tip;
-  return PoseThrough(pose, tip, proxy_.position);
+  return PoseThrough(pose, proxy_.position);
+}
+
+bool ScopeEye::IsHiddenByTissue(const Segment3& between) const noexcept {
+  return std::ranges::any_of(bodies_, [&](const Body& body) {
+    return body.skin != nullptr && !body.skin->empty() && body.skin->IsCrossed(between);
+  });
 }
 
 }  // namespace arthro::simulation

@@ -21,6 +21,9 @@
 
 namespace arthro::simulation {
 
+// Pose of the rod that leads from its portal to `eye`, for a hand that holds it at `pose`.
+RodPose PoseThrough(const RodPose& pose, const glm::dvec3& eye) noexcept;
+
 class ScopeEye {
  public:
   // Half the diameter of the tube, which is 4 mm.
@@ -38,6 +41,11 @@ class ScopeEye {
   void Leave() { last_goal_.reset(); }
 
   const glm::dvec3& position() const { return proxy_.position; }
+  // Way from the tip of the last MoveTo to the eye; 0 before.
+  glm::dvec3 beside() const { return last_goal_ ? proxy_.position - *last_goal_ : glm::dvec3(0.0); }
+
+  // Returns true where a tissue lies between two points. The relief is left out.
+  bool IsHiddenByTissue(const Segment3& between) const noexcept;
 
  private:
   struct Body {

@@ -70,11 +70,13 @@ ServoLoop::ServoLoop(Session& session, Device* scope, Device* instrument,
   request_ = {session.options(),
               session.incision_spacing(),
               session.view_angle(),
+              session.camera_head(),
+              session.disturbances(),
               session.instrument(),
               {},
               false,
               {}};
-  ApplyOptions();
+  ApplyOptions(0.0);
   for (const DeviceRole role : kDeviceRoles)
     if (const Device* device = devices_[Index(role)])
       session.SetFreshFor(role, FreshFor(device->caps(), period_));
@@ -99,8 +101,8 @@ void ServoLoop::Stop() {
 void ServoLoop::Run() noexcept {
   const CrashStack crash_stack;
   report_.has_priority = options_.wants_priority && TakePriority();
-  ApplyOptions();
   double due = SteadyNow();
+  ApplyOptions(due);
   while (!stop_.load(std::memory_order_relaxed)) {
     const double now = SteadyNow();
     report_.lateness.Add(now - due);
@@ -113,7 +115,7 @@ void ServoLoop::Run() noexcept {
 }
 
 // Without priority, the delay of the rendered spring grows by the 99th percentile of the lateness.
-void ServoLoop::ApplyOptions() noexcept {
+void ServoLoop::ApplyOptions(double now) noexcept {
   if (!report_.has_priority) {
     const double late = report_.lateness.count() < kKnownAfter ? kUnknownLateness * period_
                                                                : report_.lateness.Quantile(0.99);
@@ -128,6 +130,7 @@ void ServoLoop::ApplyOptions() noexcept {
   }
   if (has_force) options.lever.max_stiffness *= period_ / report_.true_period;
   session_.SetOptions(options);
+  in_force_.Write({options, now - 0.5 * period_});
 }
 
 void ServoLoop::TakeRequest(double now) noexcept {
@@ -136,9 +139,11 @@ void ServoLoop::TakeRequest(double now) noexcept {
   is_watched_ = true;
   requested_at_ = now;
   request_ = requests_.Read();
-  ApplyOptions();
+  ApplyOptions(now);
   session_.SetIncisionSpacing(request_.incision_spacing);
   session_.SetViewAngle(request_.view_angle);
+  session_.SetCameraHead(request_.head);
+  session_.SetDisturbances(request_.disturbances);
   session_.SetInstrument(request_.instrument);
   for (const DeviceRole role : kDeviceRoles)
     if (const auto& mount = request_.mount[Index(role)]) session_.SetMount(role, *mount);
@@ -200,10 +205,10 @@ void ServoLoop::TickOnce(double now, double dt) noexcept {
   session_.TickTissues(dt);
   was_zero_force_ = request_.is_zero_force;
   snapshots_.Write(session_.snapshot());
-  if (options_.watch != nullptr) options_.watch->AfterTick(session_.snapshot(), dt);
+  for (ServoWatch* watch : options_.watches) watch->AfterTick(session_.snapshot(), dt);
 
   if (report_.ticks % std::max(1L, std::lround(kReportEvery / period_)) != 0) return;
-  if (!report_.has_priority) ApplyOptions();
+  if (!report_.has_priority) ApplyOptions(now);
   reports_.Write(report_);
 }
 

@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "simulation/core/latest_value.h"
 #include "simulation/device/device.h"
@@ -45,13 +46,15 @@ struct ServoOptions {
   std::uint32_t dead_man_buttons = 2;  // bit field; the first button of a handle closes the jaws
   // s; a window without a newer request may hang, so no dead-man counts any more.
   double request_lasts = std::numeric_limits<double>::infinity();
-  ServoWatch* watch = nullptr;  // must outlive the loop
+  std::vector<ServoWatch*> watches = {};  // called in this order; they must outlive the loop
 };
 
 // State that the window requests of the session and the devices.
 struct ServoRequest {
   SessionOptions options;  // before the limits of the devices are applied
   double incision_spacing = 0, view_angle = 0;
+  CameraHead head;
+  Disturbances disturbances;
   ToolKind instrument = ToolKind::kProbe;
   std::array<bool, 2> is_dead_man_held{};  // indexed by DeviceRole; by a key or a pedal
   bool is_zero_force = false;
@@ -69,6 +72,13 @@ struct ServoReport {
   TimeHistogram compute;  // s, from reading the devices to commanding them, without tissue
   std::array<TimeHistogram, 2> sample_age;  // indexed by DeviceRole
 };
+
+// Options of the session within the limits of its devices.
+struct OptionsInForce {
+  SessionOptions options;
+  double since = 0;  // s, just before the first tick with them
+};
+
 // A sentence for the user about missing priority; empty where there is none to report.
 std::string DescribeTrouble(const ServoReport& report);
 
@@ -92,13 +102,18 @@ class ServoLoop {
   void SetRequest(const ServoRequest& request) noexcept { requests_.Write(request); }
   const Snapshot& ReadSnapshot() noexcept { return snapshots_.Read(); }
   const ServoReport& ReadReport() noexcept { return reports_.Read(); }
+  const OptionsInForce& ReadOptions() noexcept { return in_force_.Read(); }
+
+  // Adds and removes a watch, which must outlive the loop or be removed; not while the thread runs.
+  void AddWatch(ServoWatch* watch) { options_.watches.push_back(watch); }
+  void RemoveWatch(ServoWatch* watch) { std::erase(options_.watches, watch); }
 
   double period() const noexcept { return period_; }
 
  private:
   void Run() noexcept;
   void TakeRequest(double now) noexcept;
-  void ApplyOptions() noexcept;
+  void ApplyOptions(double now) noexcept;
   DeviceSample ReadDevice(DeviceRole role, double now, HandPush push) noexcept;
   void CommandDevice(DeviceRole role, const glm::dvec3& force_in_portal) noexcept;
   void CommandNothing() noexcept;
@@ -115,6 +130,7 @@ class ServoLoop {
   LatestValue<ServoRequest> requests_;
   LatestValue<Snapshot> snapshots_;
   LatestValue<ServoReport> reports_;
+  LatestValue<OptionsInForce> in_force_;
   std::atomic<bool> stop_{false};
   std::thread thread_;  // last member: it uses the others
 };

@@ -424,6 +424,9 @@ void Session::Tick(const DeviceSample& scope, const DeviceSample& instrument, do
   snapshot_.t += step;
   snapshot_.view_angle = view_angle_;
   snapshot_.incision_spacing = spacing_;
+  snapshot_.head = head_;
+  snapshot_.disturbances = disturbances_;
+  snapshot_.kind = kind_;
   TickTool(scope_, scope, glm::dvec3(0.0), step, snapshot_.scope);
   TickTool(instrument_, instrument, {spacing_, 0.0, 0.0}, step, snapshot_.instrument);
   snapshot_.scope.pixel =

@@ -41,6 +41,11 @@ class Session {
   double incision_spacing() const noexcept { return spacing_; }
   void SetViewAngle(double view_angle) noexcept { view_angle_ = view_angle; }
   double view_angle() const noexcept { return view_angle_; }
+  // Camera head and disturbances change the picture alone, and are part of what is recorded.
+  void SetCameraHead(const CameraHead& head) noexcept { head_ = head; }
+  const CameraHead& camera_head() const noexcept { return head_; }
+  void SetDisturbances(const Disturbances& disturbances) noexcept { disturbances_ = disturbances; }
+  const Disturbances& disturbances() const noexcept { return disturbances_; }
   // Applies contact, lever and limiter at once; options of the depth field need a new session.
   void SetOptions(const SessionOptions& options) noexcept { options_ = options; }
   const SessionOptions& options() const noexcept { return options_; }
@@ -89,6 +94,7 @@ class Session {
   // Sets the mount of a hand's device after a calibration, between ticks. The tool changes place at
   // once, so it enters anew and its force ramps up.
   void SetMount(DeviceRole role, const DeviceRig& mount) noexcept;
+  const DepthField& relief() const noexcept { return *field_; }
   const DeviceRig& scope_rig() const noexcept { return scope_.rig; }
   const DeviceRig& instrument_rig() const noexcept { return instrument_.rig; }
 
@@ -135,6 +141,8 @@ class Session {
   std::vector<LayerUnder> layers_;                     // elastic layers, in contact with both tools
   Projection projection_;
   double radius_, spacing_, view_angle_;
+  CameraHead head_;
+  Disturbances disturbances_;
   Tool scope_, instrument_;
   Snapshot snapshot_;
   ToolKind kind_ = ToolKind::kProbe;

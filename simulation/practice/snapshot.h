@@ -7,7 +7,10 @@
 
 #include "simulation/device/device_sample.h"
 #include "simulation/haptics/output/fault.h"
+#include "simulation/scope/camera_head.h"
+#include "simulation/scope/disturbances.h"
 #include "simulation/scope/rod_pose.h"
+#include "simulation/tissue/contact/tool_shape.h"
 
 namespace arthro::simulation {
 
@@ -37,8 +40,12 @@ struct ToolState {
 };
 
 struct Snapshot {
-  double t = 0;                                 // s since the session began
-  double view_angle = 0, incision_spacing = 0;  // rad, m; as they were in this tick
+  double t = 0;  // s since the session began
+  // Wishes as they were in this tick.
+  double view_angle = 0, incision_spacing = 0;  // rad, m
+  CameraHead head;
+  Disturbances disturbances;
+  ToolKind kind = ToolKind::kProbe;  // kind of the instrument
   ToolState scope, instrument;
 };
 

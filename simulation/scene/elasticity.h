@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulation/core/options.h"
-#include "simulation/scene/scene_limits.h"
+#include "simulation/scene/limits/scene_limits.h"
 
 namespace arthro {
 

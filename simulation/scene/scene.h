@@ -17,8 +17,9 @@
 #include "simulation/core/frames.h"
 #include "simulation/core/options.h"
 #include "simulation/scene/elasticity.h"
+#include "simulation/scene/exercise/exercise.h"
+#include "simulation/scene/limits/scene_limits.h"
 #include "simulation/scene/projection.h"
-#include "simulation/scene/scene_limits.h"
 #include "simulation/scene/tissue_parts.h"
 
 namespace arthro {
@@ -217,17 +218,6 @@ struct Instrument {
   }
 };
 
-struct Task {
-  std::string id, title, text;
-  friend bool operator==(const Task&, const Task&) = default;
-  template <class V>
-  void Visit(V&& v) {
-    v("id", id, Name{}, "", "Short name of the task.");
-    v("title", title, Any{}, "", "Title of the task.");
-    v("text", text, Any{}, "", "What the trainee is asked to do.");
-  }
-};
-
 struct Scene {
   std::string title, author;
   BodySide side = BodySide::kUnknown;
@@ -237,7 +227,7 @@ struct Scene {
   Rig rig;
   std::vector<Tissue> tissues;
   std::vector<Instrument> instruments;
-  std::vector<Task> tasks;
+  std::vector<Exercise> exercises;
   // Top-level keys of other tools: key ("x-…") to JSON text, saved unchanged.
   std::map<std::string, std::string> extensions;
   friend bool operator==(const Scene&, const Scene&) = default;
@@ -258,7 +248,7 @@ struct Scene {
     v("rig", rig_in_file, Any{}, "", "Mount of each device on its incision.");
     v("tissues", tissues, Any{}, "", "Tissues.");
     v("instruments", instruments, Any{}, "", "Instruments.");
-    v("tasks", tasks, Any{}, "", "Tasks.");
+    v("exercises", exercises, Any{}, "", "Exercises, in the order of the start page.");
   }
 };
 

@@ -15,6 +15,22 @@ const char* Better(const Metric& metric) { return metric.is_more_better ? "more"
 
 }  // namespace
 
+Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene,
+                        const MetricLimits& limits) {
+  std::vector<std::string> surfaces;
+  for (int i = 0; i <= static_cast<int>(scene.tissues.size()); ++i)
+    surfaces.push_back(ContactName(i, scene));
+  Assessment assessment;
+  assessment.duration = kFrameTime * static_cast<double>(frames.size());
+  assessment.frames = frames.size();
+  assessment.unknown =
+      static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& frame) {
+        return !frame.tool[0].is_valid && !frame.tool[1].is_valid;
+      }));
+  assessment.values = MeasureAttempt(frames, surfaces, limits);
+  return assessment;
+}
+
 Assessment Assess(const LoadedScene& loaded, const Recording& recording,
                   const SessionOptions& options, const MetricLimits& limits,
                   const Progress& progress, const std::vector<TissuePreset>& presets,
@@ -23,23 +39,13 @@ Assessment Assess(const LoadedScene& loaded, const Recording& recording,
   if (recording.rows.empty()) return assessment;
   FrameBuilder builder(recording.rows.front().sample.t);
   ReplayReport replay;
-  Replay(loaded, recording, options, progress, &replay, presets,
-         [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture*) {
-           builder.Add(t, snapshot);
-         });
+  Replay(
+      loaded, recording, options, progress, &replay, presets,
+      [&](double t, const Snapshot& snapshot, const WorldPicture*) { builder.Add(t, snapshot); });
   builder.Finish();
   if (messages != nullptr) *messages = replay.messages;
-  std::vector<std::string> surfaces;
-  for (int i = 0; i <= static_cast<int>(loaded.scene.tissues.size()); ++i)
-    surfaces.push_back(ContactName(i, loaded.scene));
-  const std::vector<AttemptFrame>& frames = builder.frames();
+  assessment = AssessFrames(builder.frames(), loaded.scene, limits);
   assessment.duration = replay.duration;
-  assessment.frames = frames.size();
-  assessment.unknown =
-      static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& frame) {
-        return !frame.tool[0].is_valid && !frame.tool[1].is_valid;
-      }));
-  assessment.values = MeasureAttempt(frames, surfaces, limits);
   return assessment;
 }
 

@@ -1,6 +1,7 @@
 // The metrics of a recorded attempt as a table and as a report [method.md, Metrics].
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ Assessment Assess(const LoadedScene& loaded, const Recording& recording,
                   const SessionOptions& options = {}, const MetricLimits& limits = {},
                   const Progress& progress = {}, const std::vector<TissuePreset>& presets = {},
                   std::vector<std::string>* messages = nullptr);
+
+// Measures frames of an attempt, of which nothing is simulated again.
+Assessment AssessFrames(std::span<const AttemptFrame> frames, const Scene& scene,
+                        const MetricLimits& limits = {});
 
 // Columns metric, part, value, unit, better (more or less) and why_none.
 std::string AssessmentTable(const Assessment& assessment);

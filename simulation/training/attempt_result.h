@@ -9,24 +9,16 @@
 
 #include "simulation/training/metrics/metrics.h"
 #include "simulation/training/steps/attempt_event.h"
+#include "simulation/training/steps/step_result.h"
 
 namespace arthro::simulation {
-
-enum class StepOutcome { kPending, kRunning, kDone, kFailed };
-
-struct StepResult {
-  std::string id;
-  StepOutcome outcome = StepOutcome::kPending;
-  double began = 0;
-  std::optional<double> ended;
-};
 
 struct CriterionResult {
   std::string metric, part;
   std::optional<double> low, high;  // limits
   std::optional<double> value;      // nothing: it was not measured, so the criterion is not met
   bool is_met = false;
-  std::string source;           // of the limit
+  std::string source;           // source of the limit
   bool is_start_value = false;  // the group it should come from is still too small
 };
 

@@ -51,7 +51,7 @@ TEST_F(Install, HoldsProgramResourcesDocumentsLicenceAndDeviceRule) {
         "share/mime/packages/arthroscene.xml", "share/icons/hicolor/scalable/apps/arthroscene.svg",
         "lib/udev/rules.d/70-arthroscene.rules", "share/arthroscene/demo/scene.json",
         "share/arthroscene/presets/lenses", "share/arthroscene/presets/rigs",
-        "share/arthroscene/presets/tissues", "share/arthroscene/schemas/scene-1.schema.json",
+        "share/arthroscene/presets/tissues", "share/arthroscene/schemas/scene-2.schema.json",
         "share/doc/arthroscene/LICENSE", "share/doc/arthroscene/README.md",
         "share/doc/arthroscene/CHANGELOG.md", "share/doc/arthroscene/CONTRIBUTING.md",
         "share/doc/arthroscene/resources/doc/method.md",

@@ -72,6 +72,7 @@ MicroGroup SolidMicro(bool quick);      // functions of solids
 MicroGroup ReachMicro(bool quick);      // reach of scope and instrument
 MicroGroup SurfaceMicro(bool quick);    // checks and filling of surfaces
 MicroGroup KernelMicro(bool quick);     // assembly and matrix products of tissue
+MicroGroup ObserverMicro(bool quick);   // frames of an attempt
 
 // Throws Error(kBadArgument) when no group is named so.
 MicroBench RunMicroBench(const MicroBenchOptions& options, const Progress& progress);

@@ -2,17 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "app/plot/svg_text.h"
 #include "simulation/core/atomic_file.h"
 
 namespace arthro::app {
 namespace {
-
-std::string Escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    c == '&' ? out += "&amp;" : c == '<' ? out += "&lt;" : c == '>' ? out += "&gt;" : out += c;
-  return out;
-}
 
 constexpr const char* kStyle =
     "body{font:15px/1.45 'DejaVu Sans',sans-serif;color:#111;max-width:1160px;margin:2em auto;"
@@ -32,7 +26,7 @@ std::string HtmlOf(const BenchReport& report) {
       "<style>\n{}</style></head>\n<body>\n<h1>Arthroscene benchmarks</h1>\n<table>\n",
       kReportHead, kStyle);
   const auto row = [&](const char* name, const std::string& text) {
-    html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, Escaped(text));
+    html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", name, XmlText(text));
   };
   row("Program", "arthroscene " ARTHRO_VERSION);
   row("Machine and build", report.machine);
@@ -42,15 +36,15 @@ std::string HtmlOf(const BenchReport& report) {
   if (report.quick) row("Kind", "Quick: every benchmark ran, but its times mean nothing.");
   html += "</table>\n<p>";
   for (const BenchSection& section : report.sections)
-    html += fmt::format("<a href=\"#{}\">{}</a>{}", section.name, Escaped(section.title),
+    html += fmt::format("<a href=\"#{}\">{}</a>{}", section.name, XmlText(section.title),
                         &section == &report.sections.back() ? "" : " · ");
   html += "</p>\n";
   for (const BenchSection& section : report.sections) {
-    html += fmt::format("<h2 id=\"{}\">{}</h2>\n", section.name, Escaped(section.title));
+    html += fmt::format("<h2 id=\"{}\">{}</h2>\n", section.name, XmlText(section.title));
     if (!section.fault.empty())
-      html += fmt::format("<p class=\"fault\">Not measured: {}</p>\n", Escaped(section.fault));
+      html += fmt::format("<p class=\"fault\">Not measured: {}</p>\n", XmlText(section.fault));
     for (const BenchPlot& plot : section.plots) html += plot.svg;
-    if (!section.table.empty()) html += "<pre>" + Escaped(section.table) + "</pre>\n";
+    if (!section.table.empty()) html += "<pre>" + XmlText(section.table) + "</pre>\n";
   }
   return html + "</body></html>\n";
 }

@@ -19,6 +19,7 @@
 #include "simulation/device/log/log_replay.h"
 #include "simulation/scene/files/scene_io.h"
 #include "simulation/training/assessment.h"
+#include "simulation/training/attempt_log.h"
 
 namespace arthro::app {
 namespace {
@@ -31,14 +32,24 @@ struct AssessJob {
 
 void Run(const AssessJob& job) {
   CheckOptions(job.options);
-  std::string notice;
-  const simulation::Recording recording = simulation::ReadRecording(job.trace, notice);
-  if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
   std::vector<std::string> messages;
-  const simulation::Assessment assessment =
-      simulation::Assess(loaded, recording, job.options, job.limits, TerminalProgress(),
-                         ShippedTissuePresets(), &messages);
+  simulation::Assessment assessment;
+  const std::string bytes = ReadWholeFile(job.trace);
+  const auto log = simulation::IsDeviceLog(bytes) ? simulation::ParseDeviceLog(bytes, job.trace)
+                                                  : simulation::DeviceLogContent();
+  if (simulation::IsAttempt(log)) {
+    const simulation::RecordedAttempt attempt = simulation::AttemptOf(log, job.trace);
+    if (!attempt.torn.empty())
+      fmt::print(stderr, "warning: {}: {}\n", job.trace.string(), attempt.torn);
+    assessment = simulation::AssessFrames(attempt.frames, loaded.scene, job.limits);
+  } else {
+    std::string notice;
+    const simulation::Recording recording = simulation::ReadRecording(job.trace, notice);
+    if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
+    assessment = simulation::Assess(loaded, recording, job.options, job.limits, TerminalProgress(),
+                                    ShippedTissuePresets(), &messages);
+  }
   for (const std::string& message : messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));
   WriteAtomically(job.output, simulation::AssessmentTable(assessment));
@@ -57,7 +68,11 @@ void AddAssessJob(CLI::App& program) {
       ->Input(job->add_option("SCENE", own->scene, "Scene folder, scene.json or .arthro archive."),
               kSceneInput)
       ->required();
-  files->Input(job->add_option("TRACE", own->trace, "Recorded devices: TRACE.csv or a device log."))
+  files
+      ->Input(
+          job->add_option("TRACE", own->trace,
+                          "Recorded devices: TRACE.csv or a device log; or a recorded attempt, of "
+                          "which nothing is simulated again."))
       ->required();
   files
       ->Output(job->add_option("-o,--output", own->output,

@@ -28,6 +28,7 @@
 #include "simulation/scene/json/scene_schema.h"
 #include "simulation/scene/solids/solid_io.h"
 #include "simulation/scope/window_lens.h"
+#include "simulation/training/score/criteria.h"
 
 namespace arthro::app {
 namespace {
@@ -69,6 +70,8 @@ void Check(const std::string& scene, const std::string& report, bool is_for_shar
   SceneFindings findings = CheckScene(scene, &loaded, [&](const Tissue& tissue) {
     return simulation::IsThinLayer(tissue, presets);
   });
+  for (std::string& fault : simulation::CriterionFaults(loaded.scene))
+    findings.errors.push_back(std::move(fault));
   if (findings.errors.empty()) simulation::CheckCuts(loaded, findings);
   if (findings.errors.empty()) LookAtLens(loaded, findings);
   if (!report.empty()) WriteAtomically(report, JsonFromFindings(findings));

@@ -43,7 +43,6 @@ struct DemoJob {
 struct Moment {
   double t = 0;  // s of the trace
   simulation::Snapshot snapshot;
-  simulation::ToolKind kind = simulation::ToolKind::kProbe;
   std::optional<simulation::WorldPicture> world;
 };
 
@@ -57,7 +56,7 @@ class Moments {
         moments_(static_cast<std::size_t>(count)),
         best_(moments_.size(), -1.0) {}
 
-  void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,
+  void Watch(double t, const simulation::Snapshot& snapshot,
              const simulation::WorldPicture* world) {
     if (t < next_look_) return;
     next_look_ = t + kLookEvery - 1e-6;
@@ -70,7 +69,7 @@ class Moments {
     const double score = force > 1e-3 ? 1.0 + force : 1.0 / (1.0 + std::abs(t - middle));
     if (score <= best_[index]) return;
     best_[index] = score;
-    moments_[index] = {t, snapshot, kind, world ? std::optional(*world) : std::nullopt};
+    moments_[index] = {t, snapshot, world ? std::optional(*world) : std::nullopt};
   }
   const std::vector<Moment>& all() const { return moments_; }
 
@@ -97,9 +96,9 @@ void Run(const DemoJob& job) {
   if (trace.empty()) throw Error(Code::kBadData, "the demo's trace has no row", demo);
   Moments moments(trace.front().sample.t, trace.back().sample.t, job.pictures);
   const auto rows =
-      simulation::Replay(loaded, {trace, {}}, {}, progress, &report, ShippedTissuePresets(),
-                         [&](double t, const auto& snapshot, auto kind, const auto* world) {
-                           moments.Watch(t, snapshot, kind, world);
+      simulation::Replay(loaded, {trace}, {}, progress, &report, ShippedTissuePresets(),
+                         [&](double t, const auto& snapshot, const auto* world) {
+                           moments.Watch(t, snapshot, world);
                          });
   for (const std::string& message : report.messages)
     fmt::print(stderr, "note: {}\n", PrintableLine(message));
@@ -122,8 +121,8 @@ void Run(const DemoJob& job) {
     const std::string name = fmt::format("picture_{:02}.png", i + 1);
     // Upright, as surgeons hold it.
     const Picture picture =
-        RecordedPicture(moment.snapshot, pictures.eye().MoveTo(moment.snapshot.scope), moment.kind,
-                        optics, {.is_upright = true});
+        RecordedPicture(moment.snapshot, pictures.eye().MoveTo(moment.snapshot.scope), optics,
+                        {.is_upright = true});
     WriteColourImage(folder.beside() / name, pictures.Draw(picture, job.size));
     const simulation::ToolState& instrument = moment.snapshot.instrument;
     json["pictures"].push_back({{"file", name},

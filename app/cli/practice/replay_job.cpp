@@ -1,4 +1,5 @@
 // arthroscene replay SCENE TRACE -o forces.csv [--report r.json] [--pictures DIR] [--video FILE]
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -35,7 +36,7 @@ struct ReplayJob {
   simulation::SessionOptions options;
   fs::path pictures, video;
   ReplayPictures::Form of_pictures, of_video{.size = 720};
-  std::string layout{ToString(FrameShape::kSquare)}, head{"upright"}, disturb;
+  std::string layout{ToString(FrameShape::kSquare)}, head, disturb;
   int disturb_seed = 0;
 };
 
@@ -45,24 +46,27 @@ void Run(const ReplayJob& job) {
     for (const std::string& sentence : FinishFilmsIn(job.video.parent_path(), job.video))
       fmt::print(stderr, "arthroscene: {}\n", sentence);
   const FrameShape shape = FrameShapeOf(job.layout);
-  const simulation::CameraHead head = simulation::CameraHeadFromString(job.head);
-  Disturbances disturbances;
-  if (!job.disturb.empty()) disturbances = ParseDisturbances(job.disturb);
-  disturbances.seed = job.disturb_seed;
+  ReplayPictures::Wish wish;
+  if (!job.head.empty()) wish.head = simulation::CameraHeadFromString(job.head);
+  if (!job.disturb.empty()) wish.disturbances = simulation::ParseDisturbances(job.disturb);
+  if (wish.disturbances) wish.disturbances->seed = job.disturb_seed;
   const VideoSize video_size = {FrameWidth(shape, job.of_video.size), job.of_video.size};
   if (!job.video.empty()) CheckVideo(job.video, video_size, job.of_video.rate);
   std::string notice;
   const simulation::Recording recording = simulation::ReadRecording(job.trace, notice);
   if (!notice.empty()) fmt::print(stderr, "warning: {}\n", notice);
   const LoadedScene loaded = LoadScene(job.scene);
+  const bool tells_head = std::ranges::any_of(
+      recording.wishes, [](const auto& timed) { return timed.wish.is_complete; });
+  if (!tells_head && !wish.head) wish.head = simulation::CameraHead{.is_upright = true};
 
   const Progress progress = TerminalProgress();
   std::optional<PartialFolder> folder;
   std::optional<ReplayPictures> pictures;
   std::optional<VideoFile> video;
   if (!job.pictures.empty() || !job.video.empty())
-    pictures.emplace(loaded, recording.rows.front().sample.t, recording.rows.back().sample.t, head,
-                     disturbances, ShippedLooks(loaded.scene));
+    pictures.emplace(loaded, recording.rows.front().sample.t, recording.rows.back().sample.t, wish,
+                     ShippedLooks(loaded.scene));
   const auto add = [&](ReplayPictures::Form form, ReplayPictures::Take take) {
     form.shape = shape;
     pictures->AddRow(form, std::move(take));
@@ -75,8 +79,8 @@ void Run(const ReplayJob& job) {
   }
   simulation::ReplayWatch watch;
   if (pictures)
-    watch = [&](double t, const auto& snapshot, auto kind, const auto* world) {
-      pictures->Watch(t, snapshot, kind, world);
+    watch = [&](double t, const auto& snapshot, const auto* world) {
+      pictures->Watch(t, snapshot, world);
     };
   simulation::ReplayReport report;
   const auto forces = simulation::Replay(loaded, recording, job.options, progress, &report,
@@ -137,14 +141,14 @@ void AddReplayJob(CLI::App& program) {
                    "the middle.")
       ->capture_default_str();
   command
-      ->add_option(
-          "--head", job->head,
-          "Camera head: held upright while the scope turns in it, or turning with the scope.")
-      ->type_name("upright|scope")
-      ->capture_default_str();
-  command->add_option(
-      "--disturb", job->disturb,
-      "Disturbances of pictures and film, as the job `view` takes them: " + DisturbanceHelp());
+      ->add_option("--head", job->head,
+                   "Camera head: held upright while the scope turns in it, or turning with the "
+                   "scope. Default: as it was recorded; upright for a TRACE.csv.")
+      ->type_name("upright|scope");
+  command->add_option("--disturb", job->disturb,
+                      "Disturbances of pictures and film in place of the recorded ones, as the job "
+                      "`view` takes them: " +
+                          simulation::DisturbanceHelp());
   AddNumber(*command, "--disturb-seed", job->disturb_seed, kAnyWholeNumber, "",
             "Seed of bubbles, flakes and swirls.");
   AddOptions(*command, job->options);

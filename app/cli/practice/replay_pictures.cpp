@@ -17,18 +17,18 @@ void ReplayPictures::AddRow(const Form& form, Take take) {
 }
 
 void ReplayPictures::Watch(double t, const simulation::Snapshot& snapshot,
-                           simulation::ToolKind kind, const simulation::WorldPicture* world) {
+                           const simulation::WorldPicture* world) {
   for (Row& row : rows_)
     while (row.count < row.all && t >= begin_ + row.count / row.form.rate - 1e-9) {
       if (world != nullptr) {
         tissues_.Show(*world, scene_.tissues, pictures_.view(), nullptr);
         pictures_.eye().Follow(*world);
       }
-      Picture picture =
-          RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), kind, optics_, head_);
+      Picture picture = RecordedPicture(snapshot, pictures_.eye().MoveTo(snapshot.scope), optics_,
+                                        wish_.head.value_or(snapshot.head));
       if (picture.instrument) picture.instrument = tissues_.Settled(*picture.instrument);
-      picture.disturbances = disturbances_;
-      if (disturbances_.is_moving()) picture.disturbances.time = disturbances_.time + t - begin_;
+      picture.disturbances = wish_.disturbances.value_or(snapshot.disturbances);
+      picture.disturbances.time += t - begin_;
       row.take(LaidOut(pictures_.Draw(picture, row.form.size), row.form.shape));
       ++row.count;
     }
@@ -41,9 +41,8 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder) {
 }
 
 Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
-                        simulation::ToolKind kind, const simulation::ScopeOptics& optics,
-                        const simulation::CameraHead& head) {
-  Picture picture = PictureOf(snapshot, seen_from, kind, optics, head);
+                        const simulation::ScopeOptics& optics, const simulation::CameraHead& head) {
+  Picture picture = PictureOf(snapshot, seen_from, snapshot.kind, optics, head);
   if (snapshot.instrument.is_running)
     picture.instrument->turn = simulation::kBladeSpeed * snapshot.t;
   if (snapshot.instrument.fault != simulation::Fault::kNone) picture.instrument.reset();

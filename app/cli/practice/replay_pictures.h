@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/recording/frame_shape.h"
@@ -26,21 +27,24 @@ class ReplayPictures {
     double rate = 30.0;  // a second
   };
 
-  // Trace from `begin` to `end`, s. Disturbances that move do so by the time of the trace.
-  ReplayPictures(const LoadedScene& loaded, double begin, double end,
-                 const simulation::CameraHead& head, const Disturbances& disturbances,
+  // Camera head and disturbances; nullopt: as they were recorded.
+  struct Wish {
+    std::optional<simulation::CameraHead> head;
+    std::optional<Disturbances> disturbances;
+  };
+
+  // Trace from `begin` to `end`, s. Villi and disturbances that move do so by its time.
+  ReplayPictures(const LoadedScene& loaded, double begin, double end, const Wish& wish,
                  std::span<const simulation::TissueLook> looks)
       : scene_(loaded.scene),
         optics_(simulation::OpticsOf(loaded.scene.scope, loaded.lens)),
-        head_(head),
-        disturbances_(disturbances),
+        wish_(wish),
         begin_(begin),
         end_(end),
         pictures_(loaded, looks) {}
 
   void AddRow(const Form& form, Take take);
-  void Watch(double t, const simulation::Snapshot& snapshot, simulation::ToolKind kind,
-             const simulation::WorldPicture* world);
+  void Watch(double t, const simulation::Snapshot& snapshot, const simulation::WorldPicture* world);
 
  private:
   struct Row {
@@ -50,8 +54,7 @@ class ReplayPictures {
   };
   const Scene& scene_;
   simulation::ScopeOptics optics_;
-  simulation::CameraHead head_;
-  Disturbances disturbances_;
+  Wish wish_;
   double begin_, end_;
   StillPictures pictures_;
   LiveTissues tissues_;
@@ -63,7 +66,6 @@ ReplayPictures::Take IntoFolder(const std::filesystem::path& folder);
 
 // Picture of a recorded moment; without the instrument while its device has a fault.
 Picture RecordedPicture(const simulation::Snapshot& snapshot, const simulation::RodPose& seen_from,
-                        simulation::ToolKind kind, const simulation::ScopeOptics& optics,
-                        const simulation::CameraHead& head);
+                        const simulation::ScopeOptics& optics, const simulation::CameraHead& head);
 
 }  // namespace arthro::app

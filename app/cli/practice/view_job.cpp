@@ -41,7 +41,7 @@ void RunViewJob(const ViewArguments& arguments) {
   std::optional<double> head_roll;
   if (arguments.head_roll_deg) head_roll = RadiansFromDegrees(*arguments.head_roll_deg);
   Disturbances disturbances;
-  if (!arguments.disturb.empty()) disturbances = ParseDisturbances(arguments.disturb);
+  if (!arguments.disturb.empty()) disturbances = simulation::ParseDisturbances(arguments.disturb);
   disturbances.seed = arguments.disturb_seed;
   disturbances.time = arguments.disturb_time;
   CheckDisturbances(disturbances);
@@ -112,7 +112,7 @@ void AddViewJob(CLI::App& program) {
   job->add_option("--disturb", arguments->disturb,
                   "Disturbances of the picture, each with a strength from 0 to 1, as in "
                   "haze=0.5,bubbles=0.3: " +
-                      DisturbanceHelp());
+                      simulation::DisturbanceHelp());
   AddNumber(*job, "--disturb-seed", arguments->disturb_seed, kAnyWholeNumber, "",
             "Seed of bubbles, flakes and swirls.");
   AddNumber(*job, "--disturb-time", arguments->disturb_time, {-86400.0, 86400.0}, "s",

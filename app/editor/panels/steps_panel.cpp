@@ -6,7 +6,9 @@
 #include "app/files/scene_files.h"
 #include "app/panels/fixed_window.h"
 #include "app/state/command.h"
+#include "app/steps/budget/frame_budget.h"
 #include "app/steps/depth/depth_step.h"
+#include "app/steps/lessons/lessons_step.h"
 #include "app/steps/panorama/panorama_step.h"
 #include "app/steps/portals/portals_step.h"
 #include "app/steps/practice/practice_step.h"
@@ -20,19 +22,19 @@ struct StepEntry {
   const char* command;
   const char* number;
 };
-constexpr StepEntry kSteps[] = {{Step::kPanorama, "step-panorama", "1"},
-                                {Step::kDepth, "step-depth", "2"},
-                                {Step::kTissue, "step-tissue", "3"},
-                                {Step::kPortals, "step-portals", "4"},
-                                {Step::kPractice, "step-practice", "5"}};
+constexpr StepEntry kSteps[] = {
+    {Step::kPanorama, "step-panorama", "1"}, {Step::kDepth, "step-depth", "2"},
+    {Step::kTissue, "step-tissue", "3"},     {Step::kPortals, "step-portals", "4"},
+    {Step::kPractice, "step-practice", "5"}, {Step::kExercises, "step-exercises", "6"}};
 
 void StepList(Ui& ui, EditorState& state) {
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.Px(8), ui.Px(2)});
+  // Six rows as high as five buttons, so that the controls below have room.
+  const float gap = ui.Px(2), height = 5.0f / 6 * (ImGui::GetFrameHeight() + gap) - gap;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.Px(8), gap});
   for (const StepEntry& entry : kSteps) {
     const Command& command = CommandOf(state, entry.command);
     const bool chosen = state.step == entry.step;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float height = ImGui::GetFrameHeight();
     if (ImGui::Selectable((std::string("##") + command.words).c_str(), chosen, 0, {0, height}))
       Run(state, command);
     RecordItem(ui, command.words, true, chosen ? "on" : "off");
@@ -99,14 +101,20 @@ void StepsPanel(Ui& ui, EditorState& state, const Area& area) {
       DepthPanel(ui, state);
       break;
     case Step::kTissue:
-      TissuePanel(ui, state);
+      TissuePanel(ui, state, [&] { BudgetFields(ui, state); });
       break;
     case Step::kPortals:
       PortalsPanel(ui, state);
       break;
     case Step::kPractice:
       PracticeStepPanel(ui, state);
-      if (!state.steps.practice->shows_devices) Checklist(ui, state);
+      if (state.steps.practice->shows_devices) break;
+      Gap(ui, 2);
+      if (state.document().panorama) BudgetFields(ui, state);
+      Checklist(ui, state);
+      break;
+    case Step::kExercises:
+      ExercisesPanel(ui, state);
       break;
   }
   ImGui::EndChild();

@@ -91,6 +91,7 @@ void ApplyAdjustment(EditorState& state) {
     case AdjustTool::kLength: {
       const double factor =
           authoring::ScaleBackdrop(next, {MetresFromMm(board.millimetres), from, to});
+      state.scope.depth *= factor;  // the scope stays at its place in the picture
       name = fmt::format("Set the scale by {:g} mm", board.millimetres);
       result =
           fmt::format("The scene changed by a factor of {:.3f}; its backdrop is {:.1f} mm away.",

@@ -50,8 +50,9 @@ void AdjustFields(Ui& ui, EditorState& state) {
   Gap(ui);
   Heading(ui, "Part, size and orientation");
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  const auto tool = [&](const char* words, AdjustTool chosen, const char* help) {
-    if (ToggleButton(ui, words, board.tool == chosen, true, {half, 0}, help))
+  const auto tool = [&](const char* words, AdjustTool chosen, const char* help,
+                        bool is_enabled = true) {
+    if (ToggleButton(ui, words, board.tool == chosen, is_enabled, {half, 0}, help))
       SetAdjustTool(state, chosen);
   };
   tool("Crop", AdjustTool::kCrop, "Keep a rectangle of the panorama and of its depth.");
@@ -60,8 +61,11 @@ void AdjustFields(Ui& ui, EditorState& state) {
        "Set the size of the scene by two points and a length.");
   tool("This is up", AdjustTool::kUp, "Turn the scene so that an arrow on the panorama points up.");
   ImGui::SameLine();
+  const bool has_side = state.document().scene.side != BodySide::kUnknown;
   tool("This is medial", AdjustTool::kMedial,
-       "Turn the scene so that an arrow points to the middle of the body; it needs the side.");
+       has_side ? "Turn the scene so that an arrow points to the middle of the body."
+                : "State the side of the knee below first: medial is right in a right knee.",
+       has_side);
   if (board.tool == AdjustTool::kLength)
     NumberField(ui, "Length", board.millimetres, 0.1, 0.5, 200, "%.1f mm",
                 "Distance between the two points.");

@@ -17,6 +17,7 @@ void RightsFields(Ui& ui, EditorState& state) {
   Heading(ui, "Rights");
   const std::vector<authoring::Asset> assets = authoring::AssetsOf(state.document());
   std::vector<std::string> names;
+  names.reserve(assets.size());
   for (const authoring::Asset& asset : assets) names.push_back(asset.name);
   int& chosen = state.steps.panorama->rights_of;
   chosen = std::clamp(chosen, 0, static_cast<int>(assets.size()) - 1);

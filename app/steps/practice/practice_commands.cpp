@@ -29,9 +29,10 @@ std::string SummaryOf(const simulation::Practice& practice) {
                      seconds / 60, seconds % 60, practice.peak_force(), removed * 1e9);
 }
 
-// A calibration first.
+// A calibration first; an attempt at an exercise has an end of its own.
 void LeavePractice(State& state) {
   if (state.steps.practice->calibrating) return EndCalibration(state);
+  if (const auto end_attempt = state.steps.practice->end_attempt) return end_attempt(state);
   const double seconds = state.practice->snapshot().t;
   state.message = "Practice left. " + SummaryOf(*state.practice) + ".";
   state.practice.reset();

@@ -14,6 +14,7 @@
 #include "app/steps/practice/practice_step.h"
 #include "app/steps/practice/rig_edit.h"
 #include "simulation/core/units.h"
+#include "simulation/practice/hands/offered_instruments.h"
 #include "simulation/practice/shaft_notice.h"
 
 namespace arthro::app {
@@ -148,6 +149,10 @@ void Instruments(Ui& ui, EditorState& state) {
               {"instrument-punch", kind == ToolKind::kPunch},
               {"instrument-shaver", kind == ToolKind::kShaver},
               {"instrument-grasper", kind == ToolKind::kGrasper}});
+  if (const std::size_t offered = simulation::OfferedInstruments(state.document().scene).size();
+      offered < static_cast<std::size_t>(ToolKind::kGrasper))
+    QuietText(ui, fmt::format("This scene offers {} of {}; the rig page of step 5 offers more.",
+                              offered, static_cast<int>(ToolKind::kGrasper)));
   const auto* world = state.practice->tissues();
   if (world == nullptr) return;
   const double removed = Taken(state);
@@ -296,6 +301,7 @@ void PracticePanel(Ui& ui, EditorState& state, const Area& area) {
              {{"record", state.steps.practice->film != nullptr},
               {"outside", state.steps.practice->shows_outside},
               {"full-screen", state.full_screen},
+              {"budget", false},
               {"help", false}});
   CommandRow(ui, state,
              {{"trainee-screen", state.steps.practice->trainee_screen.is_wanted},

@@ -20,6 +20,7 @@
 namespace arthro::app {
 
 struct Area;
+struct FrameBudget;
 struct RigEditing;
 struct Ui;
 
@@ -74,6 +75,7 @@ struct PracticeStep {
   Jobs pivot_jobs;                             // pivot fits
   bool shows_devices = false;                  // their panel, instead of the practice's
   Owned<RigEditing> rig;                       // rig that is edited (rig_edit.h)
+  Owned<FrameBudget> budget;                   // costs on this machine (app/steps/budget)
   Disturbing disturbing;                       // disturbances of the picture
   simulation::CameraHead head;                 // camera head of the scope
   simulation::SessionOptions session_options;  // options of the practices to come
@@ -86,6 +88,8 @@ struct PracticeStep {
   double film_begin = 0, film_seconds = 0;  // s of the session
   std::string film_words;
   bool is_film_lost = false;
+  // Ends an attempt at an exercise, and its practice; empty: none runs.
+  std::function<void(EditorState&)> end_attempt;
   bool shows_outside = false;  // in practice: the overview in a corner of the picture
   TraineeScreen trainee_screen;
 };

@@ -135,7 +135,7 @@ void AddSolidPart(EditorState& state, SolidPart part) {
   SolidEditing& editing = EditingOf(state);
   Solid next = *solid;
   const int at = editing.part + 1;
-  next.parts.insert(next.parts.begin() + at, std::move(part));
+  next.parts.insert(next.parts.begin() + at, part);
   ChangeSolid(state, next, "Add a part to");
   if (editing.fault.empty()) editing.part = at;
 }

@@ -23,7 +23,7 @@ constexpr double kMostBlend = 5.0, kFarthest = 50.0;  // mm
 // Puts a change that sliders make: coarse while one is held, fine when it is let go.
 class PartChange {
  public:
-  PartChange(EditorState& state, SolidPart part) : state_(state), part_(std::move(part)) {}
+  PartChange(EditorState& state, SolidPart part) : state_(state), part_(part) {}
   SolidPart& part() { return part_; }
   void Take(const Change& change, const char* what) {
     if (change.held) state_.dragging = true;

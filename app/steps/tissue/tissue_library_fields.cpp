@@ -37,6 +37,7 @@ void DrawThumbnail(Ui& ui, const authoring::ModelThumbnail& thumbnail, const ImV
   list->Flags = flags;
   for (const auto& tear : thumbnail.tears) {
     std::vector<ImVec2> points;
+    points.reserve(tear.size());
     for (const glm::vec2& x : tear) points.push_back(at(x));
     list->AddPolyline(points.data(), static_cast<int>(points.size()), IM_COL32(150, 20, 25, 255),
                       ImDrawFlags_None, ui.Px(2.5));

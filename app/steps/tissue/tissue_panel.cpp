@@ -167,7 +167,7 @@ void HeldFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 }
 
 // Poke button, and the force on the author's instrument.
-void PokeFields(Ui& ui, EditorState& state) {
+void PokeFields(Ui& ui, EditorState& state, const std::function<void()>& below) {
   const Command& poke = CommandOf(state, "poke");
   if (ToggleButton(ui, poke.words, state.steps.practice->poke.has_value(), poke.enabled(state),
                    {-FLT_MIN, ui.Px(36)}, poke.help))
@@ -180,6 +180,7 @@ void PokeFields(Ui& ui, EditorState& state) {
                force < simulation::kSafeProbingForce ? kGood : kBad);
   QuietText(ui, "Right drag over the picture and Ctrl+wheel move the instrument.");
   ForcePanel(ui, state);
+  below();
 }
 
 void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
@@ -212,7 +213,7 @@ void PlaceFields(Ui& ui, EditorState& state, const Tissue& tissue) {
 
 }  // namespace
 
-void TissuePanel(Ui& ui, EditorState& state) {
+void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_poke) {
   const authoring::Document document = state.document();  // a copy: edits below move it
   // Widths of the words, plus equal shares of the remaining space.
   const Command& library = CommandOf(state, "library");
@@ -251,7 +252,7 @@ void TissuePanel(Ui& ui, EditorState& state) {
   ImGui::Separator();
   const Tissue tissue = tissues[static_cast<std::size_t>(state.tissue)];
 
-  PokeFields(ui, state);
+  PokeFields(ui, state, below_poke);
   Gap(ui);
   const bool is_solid = IsSolidFile(tissue.surface);
   std::vector<std::pair<TissuePage, const char*>> pages = {{TissuePage::kPlace, "Place"},

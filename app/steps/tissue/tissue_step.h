@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,7 +63,13 @@ struct TissueStep {
   std::filesystem::path preset_folder;
 };
 std::span<const Command> TissueCommands();
-void TissuePanel(Ui& ui, EditorState& state);
+std::span<const Command> LibraryCommands();
+std::span<const Command> CutCommands();
+std::span<const Command> PlacingCommands();
+// True where commands may change a tissue that is chosen.
+bool IsTissueChosen(const EditorState& state);
+// `below_poke`: fields below those of the poke while it runs.
+void TissuePanel(Ui& ui, EditorState& state, const std::function<void()>& below_poke);
 void TissueCutFields(Ui& ui, EditorState& state, const Tissue& tissue);  // its Cut page
 void TissueLibraryFields(Ui& ui, EditorState& state);
 void TissueTearFields(Ui& ui, EditorState& state);  // kinds of tears, on the Cut page

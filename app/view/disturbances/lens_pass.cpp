@@ -141,8 +141,9 @@ void LensPass::SetDisturbed(vtkShaderProgram& program, const Frame& frame) const
   const Disturbances& d = frame.disturbances;
   program.SetUniformf("given_lightReach", Float(frame.light_reach));
   if (d.haze > 0 || d.fog > 0) program.SetUniformi("murk", murk_->GetTextureUnit());
-  const float extinction[3] = {Float(kHazeExtinction[0]), Float(kHazeExtinction[1]),
-                               Float(kHazeExtinction[2])};
+  const float extinction[3] = {Float(simulation::kHazeExtinction[0]),
+                               Float(simulation::kHazeExtinction[1]),
+                               Float(simulation::kHazeExtinction[2])};
   if (d.haze > 0) {
     program.SetUniformf("given_hazeStrength", Float(d.haze));
     program.SetUniform3f("given_hazeExtinction", extinction);

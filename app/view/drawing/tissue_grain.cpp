@@ -102,6 +102,13 @@ void TissueGrain::FindBorder(const SurfaceMesh& whole) {
     }
 }
 
+glm::dvec3 TissueGrain::Along(const glm::dvec3& rest) const {
+  if (structure_ != simulation::TissueStructure::kFibres) return glm::dvec3(0.0);
+  const glm::dvec3 around = glm::cross(plane_.axis, rest - plane_.middle);
+  const double length = glm::length(around);
+  return length > 0.0 ? around / length : glm::dvec3(0.0);
+}
+
 GrainPoint TissueGrain::At(const glm::dvec3& rest, const glm::dvec3& normal) const {
   if (structure_ == simulation::TissueStructure::kPlain) return {rest, 0, 0};
   const glm::dvec3 flat = plane_.InPlane(rest);

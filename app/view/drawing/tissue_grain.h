@@ -32,6 +32,8 @@ class TissueGrain {
 
   // `normal`: of the surface at rest there.
   GrainPoint At(const glm::dvec3& rest, const glm::dvec3& normal) const;
+  // Direction of the fibres there, unit; zero for a tissue without fibres.
+  glm::dvec3 Along(const glm::dvec3& rest) const;
   // Normal of the plane in which the tissue lies; zero for a plain tissue.
   const glm::dvec3& axis() const { return plane_.axis; }
 

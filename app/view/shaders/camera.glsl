@@ -19,6 +19,10 @@ const vec3 kLuma = vec3(kLumaRed, kLumaGreen, kLumaBlue);
 // parts, as the wells of a sensor fill.
 const float kLessColour = 0.1, kBleached = 0.7, kBleachStart = 0.7;
 const float kLeastEdge = 0.1;  // smallest fade that is divided by
+// Gain of a usual camera on detail. Detail up to the coring level is noise for it: it is smoothed.
+const float kDetailGain = 3.6;
+const float kCoring = 0.7 / 255.0;  // stored level
+const float kMostDetail = 14.0 / 255.0;  // limit of what is enhanced, against halos
 float lumaAt(vec2 at) { return dot(textureLod(picture, at, 0.0).rgb, kLuma); }
 
 // Returns the colour of the pixel that lies (x, y) pixels aside. SAME_SIZE: reads one texel.
@@ -122,7 +126,10 @@ void main() {
   colour.b += textureLod(picture, texCoord + away, 0.0).b - drawn.b;
 #endif
 #ifdef DETAIL
-  colour += mix(sharpening, -rimBlur, min(r2 * r2, 1.0)) * detail;
+  float fine = clamp(detail, -kCoring, kCoring);
+  float clear = clamp(detail - fine, -kMostDetail, kMostDetail);
+  float centre = kDetailGain * sharpening * clear - min(sharpening, 1.0) * fine;
+  colour += mix(centre, -rimBlur * detail, min(r2 * r2, 1.0));
 #endif
   // The fade to the rim is no dark tissue: the response leaves it out.
   float edge = max(1.0 - smoothstep(kRimStart, 1.0, sqrt(r2)), kLeastEdge);

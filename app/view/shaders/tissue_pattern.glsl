@@ -40,7 +40,8 @@ const float kRedFrom = 0.38, kRedTo = 0.85;
 const float kRedUneven = 0.16;
 const float kVesselRate = 850.0;         // 1/m
 const float kVesselHalf = 28e-6;         // m, half the width of a capillary
-const float kCutHeight = 0.22, kCutTint = 0.16;          // bundles that a cut opens
+const float kCutHeight = 0.3, kCutTint = 0.34;           // bundles that a cut opens
+const float kFibril = 3.3, kFibrilTint = 0.14;           // fibrils per bundle; share of the colour
 #endif
 
 #ifdef HYALINE
@@ -73,6 +74,11 @@ Pattern patternAt(vec3 normal) {
   p.tint *= 1.0 + lookShares.y * mix(kBundleTint * strength, kCutTint, fresh) * groove;
   p.height += lookMeasures.x * bundleSeen *
               mix(kBundleHeight * strength, kCutHeight * lookShares.y, fresh) * groove;
+  // The ends of torn fibrils on the face of a cut.
+  vec3 fibrils = bundle * vec3(1.0, kFibril, kFibril);
+  float torn = fresh > 0.0 ? fresh * lookShares.y * noise(fibrils).w * visible(fibrils) : 0.0;
+  p.tint *= 1.0 + kFibrilTint * torn;
+  p.height += 0.05 * lookMeasures.x * torn;
   // Free edge, vascular rim and roots.
   p.tint *= mix(edgeTint, vec3(1.0), smoothstep(0.0, kEdge, rim + 0.05 * sheaf));
   float red = lookShares.x *

@@ -207,7 +207,7 @@ PreparedClip PrepareClip(const Clips& clips, const std::optional<Lens>& lens,
     builder.Add(working, rectifier.mask());
   }
   const ClipLook look = builder.Finish();
-  clip.text_boxes = TextBoxes(look.static_marks, clip);
+  clip.text_boxes = TextBoxes(look.static_cores, clip);
 
   // A few at a time, in parallel.
   constexpr std::size_t kBatch = 4;

@@ -47,18 +47,21 @@ void Join(std::vector<cv::Rect>& boxes, int gap) {
 
 }  // namespace
 
-std::vector<PixelBox> TextBoxes(const cv::Mat& marks, const PreparedClip& clip) {
-  if (marks.empty()) return {};
+std::vector<PixelBox> TextBoxes(const cv::Mat& cores, const PreparedClip& clip) {
+  if (cores.empty()) return {};
   std::vector<std::vector<cv::Point>> areas;
-  cv::findContours(marks, areas, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  cv::findContours(cores, areas, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   const cv::Rect whole(0, 0, clip.info.width, clip.info.height);
   std::vector<cv::Rect> boxes;
   for (const auto& area : areas)
-    if (const cv::Rect box = RawBox(area, clip) & whole; box.area() > 0) boxes.push_back(box);
+    if (const cv::Rect box = RawBox(area, clip); box.area() > 0) boxes.push_back(box);
   Join(boxes, static_cast<int>(std::lround(kJoined * clip.info.width)));
   const int least = static_cast<int>(std::lround(kLeastSide * clip.info.width));
   std::erase_if(boxes,
                 [&](const cv::Rect& box) { return std::min(box.width, box.height) < least; });
+  // The middle of a stroke's last pixel was taken, and its edge is blurred by as much.
+  const int edge = static_cast<int>(std::ceil(1.0 / clip.scale));
+  for (cv::Rect& box : boxes) box = Grown(box, edge) & whole;
   std::stable_sort(boxes.begin(), boxes.end(),
                    [](const cv::Rect& a, const cv::Rect& b) { return a.area() > b.area(); });
   boxes.resize(std::min(boxes.size(), kMostBoxes));

@@ -9,9 +9,9 @@
 
 namespace arthro::authoring {
 
-// `marks`: ClipLook::static_marks; empty: none. Raw pixels; boxes that nearly touch are joined; the
-// largest first.
-std::vector<PixelBox> TextBoxes(const cv::Mat& marks, const PreparedClip& clip);
+// `cores`: ClipLook::static_cores; empty: none. Raw pixels, a working pixel wider than the strokes
+// on each side; boxes that nearly touch are joined; the largest first.
+std::vector<PixelBox> TextBoxes(const cv::Mat& cores, const PreparedClip& clip);
 
 // The boxes that lie in `whole`, in the pixels of that part of the picture.
 std::vector<cv::Rect> BoxesIn(const std::vector<PixelBox>& boxes, const cv::Rect& whole);

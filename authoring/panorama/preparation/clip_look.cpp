@@ -24,8 +24,24 @@ constexpr double kMostDetail = 3;  // standard deviations of its frame; a highli
 // Share of power that the mean of moving tissue keeps at most; it averages away.
 constexpr double kMoves = 0.4;
 // Bright text is overexposed in most frames; so is a highlight that the lamp keeps in one place.
-constexpr double kGlaresIn = 0.5;      // share of the frames
+constexpr double kGlaresIn = 0.5;  // share of the frames
+// Share of the largest contrast of the marks at which a stroke ends.
+constexpr double kEdgeOfStroke = 0.5;
 constexpr double kLargestMarks = 0.2;  // share of the window; a larger area is not marks
+
+// Returns the strokes of `marks`: pixels whose contrast to the surroundings of the marks, in the
+// mean of the frames, is at least kEdgeOfStroke of the largest.
+cv::Mat CoresOf(const cv::Mat& marks, const cv::Mat& mean_log, const cv::Mat& window) {
+  cv::Mat around;
+  cv::bitwise_not(marks, around);
+  cv::bitwise_and(around, window, around);
+  const cv::Mat contrast = cv::abs(mean_log - MaskedSurround(around, kLightReach).Of(mean_log));
+  double largest = 0;
+  cv::minMaxLoc(contrast, nullptr, &largest, nullptr, nullptr, marks);
+  cv::Mat cores;
+  cv::bitwise_and(contrast >= kEdgeOfStroke * largest, marks, cores);
+  return cores;
+}
 
 double MedianOf(std::vector<float>& values) {
   const auto middle = values.begin() + values.size() / 2;
@@ -53,7 +69,7 @@ void ClipLookBuilder::Add(const cv::Mat& working_rgb, const cv::Mat& mask) {
   if (offered_++ % stride_ != 0) return;
   if (used_ == 0) {
     window_ = cv::Mat::zeros(mask.size(), CV_8U);
-    for (cv::Mat* sum : {&seen_, &light_, &detail_, &detail_squared_})
+    for (cv::Mat* sum : {&seen_, &logs_, &light_, &detail_, &detail_squared_})
       *sum = cv::Mat::zeros(mask.size(), CV_32F);
   }
   window_ |= mask;
@@ -67,6 +83,7 @@ void ClipLookBuilder::Add(const cv::Mat& working_rgb, const cv::Mat& mask) {
   noise_.Add(mixed, usable);
   const cv::Mat log = LogOf(mixed);
 
+  cv::add(logs_, log, logs_, mask);
   const cv::Mat light = MaskedSurround(usable, kLightReach).Of(log);
   const double exposure = cv::mean(light, usable)[0];
   // Excludes the rim's blur into the black around it.
@@ -135,6 +152,7 @@ void ClipLookBuilder::FindStaticMarks(ClipLook& look) const {
   if (count == 0 || count > kLargestMarks * static_cast<double>(strays.size())) return;
   cv::dilate(marks, marks, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
   look.static_marks = marks;
+  look.static_cores = CoresOf(marks, logs_ / used_, window_);
 }
 
 }  // namespace arthro::authoring

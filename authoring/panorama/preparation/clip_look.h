@@ -14,6 +14,7 @@ struct ClipLook {
   int frames = 0;        // number of frames that were used
   cv::Mat light;         // CV_32FC1, natural logarithm, smooth, 0 on average; empty: unknown
   cv::Mat static_marks;  // CV_8UC1, 255 at marks fixed to the picture; empty: none
+  cv::Mat static_cores;  // CV_8UC1, 255 at their strokes, without their halo; empty: none
   NoiseCurve noise;      // noise of the mixed grey; empty: each frame estimates its own
 };
 
@@ -34,6 +35,7 @@ class ClipLookBuilder {
   int offered_ = 0, used_ = 0, stride_ = 1;
   cv::Mat window_;  // CV_8U, union of the frames' masks
   cv::Mat seen_;    // CV_32F, number of frames in which a pixel was neither masked nor overexposed
+  cv::Mat logs_;    // CV_32F, sum of the logarithms of all frames, glare included
   cv::Mat light_;   // CV_32F, sum of the smooth logarithms, each minus its mean
   cv::Mat detail_, detail_squared_;  // CV_32F, sums of the detail over the frames
   NoiseCurve noise_;

@@ -77,6 +77,19 @@ const MeshBudget& BudgetOf(MeshSize size) {
                        [&](const MeshBudget& budget) { return budget.size == size; });
 }
 
+double StepTimeOf(int elements) {
+  const MeshBudget* below = nullptr;
+  for (const MeshBudget& budget : kBudgets) {
+    if (elements <= budget.elements) {
+      const double share = static_cast<double>(elements - (below ? below->elements : 0)) /
+                           (budget.elements - (below ? below->elements : 0));
+      return (below ? below->step_ms : 0) + share * (budget.step_ms - (below ? below->step_ms : 0));
+    }
+    below = &budget;
+  }
+  return below->step_ms * elements / below->elements;
+}
+
 std::string BudgetWords(const MeshBudget& budget) {
   return fmt::format(
       "About {} elements. So many gave way up to {:.0f} % too little where 0.2 N pressed the free "

@@ -26,6 +26,9 @@ struct MeshBudget {
 
 std::span<const MeshBudget> MeshBudgets();
 const MeshBudget& BudgetOf(MeshSize size);
+// ms of a step of a mesh of so many elements: between the measured budgets, and beyond them in
+// proportion. Its ratios carry over to another machine, its values do not.
+double StepTimeOf(int elements);
 // Returns a sentence such as "About 300 elements: …".
 std::string BudgetWords(const MeshBudget& budget);
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simulation/core/bounded_queue.h"
+#include "simulation/device/log/log_file.h"
 #include "simulation/device/log/log_record.h"
 
 namespace arthro::simulation {
@@ -61,11 +62,9 @@ class DeviceLog {
   void Run();
   void WriteOut();
   void WriteBlock();
-  void Write(const std::string& bytes);
 
-  std::filesystem::path file_;
   DeviceLogOptions options_;
-  int descriptor_ = -1, error_ = 0;
+  LogFile file_;
   std::string payload_;
   std::uint32_t count_ = 0;
   mutable std::mutex mutex_;  // guards the channels and the end; never locked by Push

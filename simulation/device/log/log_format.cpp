@@ -24,7 +24,8 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kMagic = "ARTHRLOG";
 constexpr std::size_t kBlockHead = 16, kRecordHead = 20;  // bytes
-constexpr std::uint32_t kVersionInHead = 3;  // first version that the checksum of its head covers
+constexpr std::uint32_t kVersionInHead = 3;   // first version that the checksum of its head covers
+constexpr std::uint32_t kCompleteWishes = 4;  // first version whose wishes are complete
 
 std::uint32_t Checksum(std::string_view bytes) noexcept {
   return static_cast<std::uint32_t>(
@@ -39,11 +40,13 @@ void Put(std::string& bytes, const T& value) {
 void Put(std::string& bytes, const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) Put(bytes, v[i]);
 }
+void Put(std::string& bytes, const glm::dquat& q) {
+  for (const double part : {q.w, q.x, q.y, q.z}) Put(bytes, part);
+}
 void Put(std::string& bytes, const DeviceSample& sample) {
   Put(bytes, sample.t);
   Put(bytes, sample.hip_in_device);
-  const glm::dquat& q = sample.handle_in_device;
-  for (const double part : {q.w, q.x, q.y, q.z}) Put(bytes, part);
+  Put(bytes, sample.handle_in_device);
   Put(bytes, sample.buttons);
   Put(bytes, static_cast<std::uint8_t>(sample.valid));
 }
@@ -85,12 +88,16 @@ class Taker {
     for (int i = 0; i < 3; ++i) v[i] = Take<double>();
     return v;
   }
+  glm::dquat Quaternion() {
+    glm::dquat q;
+    for (double* part : {&q.w, &q.x, &q.y, &q.z}) *part = Take<double>();
+    return q;
+  }
   DeviceSample Sample() {
     DeviceSample sample;
     sample.t = Take<double>();
     sample.hip_in_device = Vector();
-    glm::dquat& q = sample.handle_in_device;
-    for (double* part : {&q.w, &q.x, &q.y, &q.z}) *part = Take<double>();
+    sample.handle_in_device = Quaternion();
     sample.buttons = Take<std::uint32_t>();
     sample.valid = Flag();
     return sample;
@@ -101,8 +108,56 @@ class Taker {
   bool is_good_ = true;
 };
 
+// Reads the wish of a log of `version`. Returns false for impossible values.
+bool TakeWish(Taker& body, std::uint32_t version, LoggedWish& wish) {
+  wish.view_angle = body.Take<double>();
+  wish.incision_spacing = body.Take<double>();
+  wish.instrument = body.Take<std::uint8_t>();
+  wish.resets = body.Take<std::uint32_t>();
+  double sum = wish.view_angle + wish.incision_spacing;
+  wish.is_complete = version >= kCompleteWishes;
+  if (wish.is_complete) {
+    wish.is_head_upright = body.Flag();
+    sum += wish.head_turn = body.Take<double>();
+    for (double& strength : wish.disturbance) sum += strength = body.Take<double>();
+    wish.disturbance_seed = body.Take<std::int32_t>();
+    for (LoggedMount& mount : wish.mount) {
+      mount.pivot = body.Vector();
+      const glm::dquat& q = mount.portal_from_device = body.Quaternion();
+      mount.rod_length = body.Take<double>();
+      sum += mount.pivot.x + mount.pivot.y + mount.pivot.z + q.w + q.x + q.y + q.z;
+      sum += mount.rod_length;
+    }
+  }
+  return std::isfinite(sum);
+}
+
+// True for records of an attempt.
+bool IsBody(LogKind kind) {
+  return kind == LogKind::kAttempt || kind == LogKind::kFrame || kind == LogKind::kEvent;
+}
+
+// Takes a record of an attempt into `log` where the next one is such. Returns false otherwise.
+bool TakeBody(Taker& taker, DeviceLogContent& log) {
+  Taker ahead = taker;
+  LoggedBody body;
+  body.kind = static_cast<LogKind>(ahead.Take<std::uint8_t>());
+  ahead.Take<std::uint8_t>();
+  const auto size = ahead.Take<std::uint16_t>();
+  body.t_ns = ahead.Take<std::int64_t>();
+  ahead.Take<std::uint64_t>();
+  const std::string_view bytes = ahead.Bytes(size);
+  if (!ahead.is_good() || !IsBody(body.kind)) return false;
+  body.begin = log.bodies.size();
+  body.size = size;
+  log.bodies += bytes;
+  log.attempt.push_back(body);
+  taker = ahead;
+  return true;
+}
+
 // Decodes the body of a record. Returns false for impossible values.
-bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
+bool TakeRecord(Taker& taker, std::size_t sources, std::uint32_t version, LogRecord& record) {
   record.kind = static_cast<LogKind>(taker.Take<std::uint8_t>());
   record.source = taker.Take<std::uint8_t>();
   const auto size = taker.Take<std::uint16_t>();
@@ -146,12 +201,16 @@ bool TakeRecord(Taker& taker, std::size_t sources, LogRecord& record) {
       record.pushed = body.Take<std::uint64_t>();
       break;
     case LogKind::kWish:
-      record.wish.view_angle = body.Take<double>();
-      record.wish.incision_spacing = body.Take<double>();
-      record.wish.instrument = body.Take<std::uint8_t>();
-      record.wish.resets = body.Take<std::uint32_t>();
-      if (!std::isfinite(record.wish.view_angle + record.wish.incision_spacing)) return false;
+      if (!TakeWish(body, version, record.wish)) return false;
       break;
+    case LogKind::kOption: {
+      const std::string_view name = body.Bytes(body.Take<std::uint8_t>());
+      if (name.size() >= record.option.name.size()) return false;
+      std::copy(name.begin(), name.end(), record.option.name.begin());
+      record.option.value = body.Take<double>();
+      if (!std::isfinite(record.option.value)) return false;
+      break;
+    }
     default:
       return false;
   }
@@ -185,9 +244,8 @@ long CountMissing(std::span<const LogRecord> records) {
   };
   std::map<int, Channel> channels;
   for (const LogRecord& record : records) {
-    const int part = record.kind == LogKind::kTick   ? 1 + record.tick_hand
-                     : record.kind == LogKind::kWish ? 3
-                                                     : 0;
+    const bool is_wish = record.kind == LogKind::kWish || record.kind == LogKind::kOption;
+    const int part = record.kind == LogKind::kTick ? 1 + record.tick_hand : is_wish ? 3 : 0;
     Channel& channel = channels[record.source * 4 + part];
     channel.end = std::max(channel.end, record.number + 1);
     ++channel.count;
@@ -266,10 +324,40 @@ void Append(const LogRecord& record, std::string& payload) {
       Put(payload, record.wish.incision_spacing);
       Put(payload, record.wish.instrument);
       Put(payload, record.wish.resets);
+      Put(payload, static_cast<std::uint8_t>(record.wish.is_head_upright));
+      Put(payload, record.wish.head_turn);
+      for (const double strength : record.wish.disturbance) Put(payload, strength);
+      Put(payload, record.wish.disturbance_seed);
+      for (const LoggedMount& mount : record.wish.mount) {
+        Put(payload, mount.pivot);
+        Put(payload, mount.portal_from_device);
+        Put(payload, mount.rod_length);
+      }
       break;
+    case LogKind::kOption: {
+      const std::string_view name(record.option.name.data());
+      Put(payload, static_cast<std::uint8_t>(name.size()));
+      payload.append(name);
+      Put(payload, record.option.value);
+      break;
+    }
+    case LogKind::kAttempt:
+    case LogKind::kFrame:
+    case LogKind::kEvent:
+      break;  // AppendBody writes them
   }
   const auto size = static_cast<std::uint16_t>(payload.size() - begin - kRecordHead);
   std::memcpy(payload.data() + begin + 2, &size, sizeof size);
+}
+
+void AppendBody(LogKind kind, std::int64_t t_ns, std::uint64_t number, std::string_view body,
+                std::string& payload) {
+  Put(payload, static_cast<std::uint8_t>(kind));
+  Put(payload, std::uint8_t{0});
+  Put(payload, static_cast<std::uint16_t>(body.size()));
+  Put(payload, t_ns);
+  Put(payload, number);
+  payload.append(body);
 }
 
 std::string LogBlock(std::string_view payload, std::uint32_t records) {
@@ -366,13 +454,14 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
     if (pushed) refuse(where + " comes after the end of this device log; record it again");
     Taker inside(payload);
     for (std::uint32_t i = 0; i < records; ++i)
-      if (!TakeRecord(inside, log.sources.size(), log.records.emplace_back()))
+      if (!TakeBody(inside, log) &&
+          !TakeRecord(inside, log.sources.size(), version, log.records.emplace_back()))
         refuse(
             fmt::format("{} holds a record that cannot be, number {}; use the program that "
                         "recorded it",
                         where, i));
     if (inside.left() > 0) refuse(where + " is longer than its records; record it again");
-    if (records == 1 && log.records.back().kind == LogKind::kEnd) {
+    if (records == 1 && !log.records.empty() && log.records.back().kind == LogKind::kEnd) {
       pushed = log.records.back().pushed;
       log.records.pop_back();
     }
@@ -384,7 +473,7 @@ DeviceLogContent ParseDeviceLog(std::string_view bytes, const std::filesystem::p
                    [](const LogRecord& a, const LogRecord& b) { return a.t_ns < b.t_ns; });
   log.missing = CountMissing(log.records);
   if (pushed) {
-    const std::uint64_t kept = log.records.size();
+    const std::uint64_t kept = log.records.size() + log.attempt.size();
     if (*pushed < kept + static_cast<std::uint64_t>(log.missing))
       refuse("the end of this device log counts fewer records than there are; record it again");
     log.missing = static_cast<long>(*pushed - kept);

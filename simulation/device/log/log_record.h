@@ -31,6 +31,11 @@ enum class LogKind : std::uint8_t {
   kTick,
   kEnd,  // last record, of the log itself
   kWish,
+  kOption,
+  // Records of an attempt, whose bytes this folder does not interpret (training/attempt_log.h).
+  kAttempt,
+  kFrame,
+  kEvent,
 };
 
 // State of a hand after a report. Joints, push and turn, which the servo does not see, are kept as
@@ -44,11 +49,33 @@ LoggedHand LoggedHandOf(const HandReading& reading) noexcept;
 // Compares bit by bit, NaN included.
 bool IsSame(const LoggedHand& a, const LoggedHand& b) noexcept;
 
+// Mount of a device at its portal, and the rod on it.
+struct LoggedMount {
+  glm::dvec3 pivot{0.0};  // m, device frame
+  glm::dquat portal_from_device{1.0, 0.0, 0.0, 0.0};
+  double rod_length = 0;  // m
+  friend bool operator==(const LoggedMount&, const LoggedMount&) = default;
+};
+
+// Option of the session by its name; logged when it changes.
+struct LoggedOption {
+  std::array<char, 40> name{};  // ends with a zero
+  double value = 0;             // in the unit of memory; 1 and 0 for yes and no
+  friend bool operator==(const LoggedOption&, const LoggedOption&) = default;
+};
+
 // State of a practice that its hands do not tell; logged when it changes.
 struct LoggedWish {
   double view_angle = 0, incision_spacing = 0;  // rad, m
   std::uint8_t instrument = 0;                  // number of its kind (ToolKind)
   std::uint32_t resets = 0;                     // times that the tissue was made whole again
+  // False for a log of version 3, which has none of the following.
+  bool is_complete = false;
+  bool is_head_upright = false;         // camera head
+  double head_turn = 0;                 // rad
+  std::array<double, 7> disturbance{};  // strengths, in their order
+  std::int32_t disturbance_seed = 0;
+  std::array<LoggedMount, 2> mount{};  // indexed by DeviceRole
   friend bool operator==(const LoggedWish&, const LoggedWish&) = default;
 };
 
@@ -80,6 +107,9 @@ struct LogRecord {
 
   // kWish
   LoggedWish wish;
+
+  // kOption
+  LoggedOption option;
 };
 
 }  // namespace arthro::simulation

@@ -83,27 +83,19 @@ Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& 
   std::stable_sort(rows.begin(), rows.end(),
                    [](const TraceRow& a, const TraceRow& b) { return a.sample.t < b.sample.t; });
   const double begin = rows.front().sample.t;
-  double before = 0;
-  for (TraceRow& row : rows) {
-    row.sample.t -= begin;
-    if (row.sample.t - before > kLongestGap)
-      throw Error(Code::kBadData,
-                  fmt::format("no hand was there from {:.1f} s to {:.1f} s; a recording with a gap "
-                              "of more than {} s is not played",
-                              before, row.sample.t, kLongestGap),
-                  file);
-    before = row.sample.t;
+  for (TraceRow& row : rows) row.sample.t -= begin;
+  for (const LogRecord& record : log.records) {
+    const double t = 1e-9 * static_cast<double>(record.t_ns) - begin;
+    if (record.kind == LogKind::kWish) recording.wishes.push_back({t, record.wish});
+    if (record.kind == LogKind::kOption) recording.options.push_back({t, record.option});
   }
-  for (const LogRecord& record : log.records)
-    if (record.kind == LogKind::kWish)
-      recording.wishes.push_back({1e-9 * static_cast<double>(record.t_ns) - begin, record.wish});
   return recording;
 }
 
 Recording ReadRecording(const std::filesystem::path& file, std::string& notice) {
   const std::string bytes = ReadWholeFile(file);
   notice.clear();
-  if (!IsDeviceLog(bytes)) return {ParseTrace(bytes, file), {}};
+  if (!IsDeviceLog(bytes)) return {ParseTrace(bytes, file)};
   const DeviceLogContent log = ParseDeviceLog(bytes, file);
   if (!log.torn.empty()) notice = file.string() + ": " + log.torn;
   if (log.missing > 0)

@@ -23,14 +23,20 @@ struct TimedWish {
   LoggedWish wish;
 };
 
+struct TimedOption {
+  double t = 0;  // s
+  LoggedOption option;
+};
+
 // A practice as it was recorded, on one clock.
 struct Recording {
   std::vector<TraceRow> rows;
-  std::vector<TimedWish> wishes;  // none in TRACE.csv and in logs before version 3
+  std::vector<TimedWish> wishes = {};     // none in TRACE.csv and in logs before version 3
+  std::vector<TimedOption> options = {};  // none in TRACE.csv and in logs before version 4
 };
 
-// Returns the samples of the hands with a role, each once, and the wishes. Time begins at 0 with
-// the first sample. Throws Error(kBadData) for no sample, or a gap of more than a minute.
+// Returns the samples of the hands with a role, each once, the wishes and the options. Time begins
+// at 0 with the first sample. Throws Error(kBadData) for no sample.
 Recording RecordingOf(const DeviceLogContent& log, const std::filesystem::path& file = {});
 
 // Reads TRACE.csv or a device log, distinguished by their first bytes. `notice` is a sentence where

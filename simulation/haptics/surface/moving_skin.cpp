@@ -49,6 +49,14 @@ bool MovingSkin::Sweep(const glm::dvec3& from, const glm::dvec3& to, double radi
   return found;
 }
 
+bool MovingSkin::IsCrossed(const Segment3& segment) const noexcept {
+  double limit2 = 0.0;
+  tree_.ForNear(segment, limit2, [&](int i) noexcept {
+    if (Crosses(segment, CornersOfTriangle(i))) limit2 = -1.0;
+  });
+  return limit2 < 0.0;
+}
+
 bool MovingSkin::IsFree(const glm::dvec3& x, double radius) const noexcept {
   return WayOut(x, radius) == glm::dvec3(0.0);
 }

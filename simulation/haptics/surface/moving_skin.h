@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/box_tree.h"
+#include "simulation/core/segment3.h"
 #include "simulation/core/triangle.h"
 #include "simulation/haptics/surface/swept_surface.h"
 #include "simulation/scene/mesh/surface_mesh.h"
@@ -28,6 +29,8 @@ class MovingSkin : public SweptSurface {
   bool Sweep(const glm::dvec3& from, const glm::dvec3& to, double radius, int first,
              SweepHit& hit) const noexcept override;
   bool IsFree(const glm::dvec3& x, double radius) const noexcept override;
+  // Returns true where the segment crosses a triangle, from either side.
+  bool IsCrossed(const Segment3& segment) const noexcept;
   // Returns the way by which a ball at `x`, which the skin moved over, comes out of it; zero where
   // it is free. The nearest triangle tells its side.
   glm::dvec3 WayOut(const glm::dvec3& x, double radius) const noexcept;

@@ -139,6 +139,15 @@ void Hands::LogWish(double t, const LoggedWish& wish) noexcept {
   wishes_->Push(record);
 }
 
+void Hands::LogOption(double t, const LoggedOption& option) noexcept {
+  if (wishes_ == nullptr) return;
+  LogRecord record;
+  record.kind = LogKind::kOption;
+  record.t_ns = static_cast<std::int64_t>(std::llround(1e9 * t));
+  record.option = option;
+  wishes_->Push(record);
+}
+
 std::shared_ptr<LiveLink> Hands::LinkOf(const RigDevice& device) {
   DeviceRequest request;
   request.family = DeviceFamilyFromString(device.family).value_or(request.family);

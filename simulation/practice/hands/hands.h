@@ -69,6 +69,7 @@ class Hands {
 
   // Logs what the hands do not tell, where there is a log; `t` on the clock of the ticks.
   void LogWish(double t, const LoggedWish& wish) noexcept;
+  void LogOption(double t, const LoggedOption& option) noexcept;
 
   bool HasDevices() const noexcept { return !links_.empty() || openhaptics_ != nullptr; }
   // True where a device, and not mouse and keys, held this hand in the newest tick.

@@ -85,6 +85,9 @@ Practice::Practice(std::unique_ptr<Session> session, const LoadedScene& loaded)
   request_.options = session_->options();
   request_.incision_spacing = session_->incision_spacing();
   request_.view_angle = session_->view_angle();
+  request_.head = session_->camera_head();
+  request_.disturbances = session_->disturbances();
+  mount_ = {session_->scope_rig(), session_->instrument_rig()};
   request_.instrument = session_->instrument();
   // Ticks once, so that there is a picture before time has passed.
   session_->Tick(scope().Sample(t_), instrument().Sample(t_), kServoPeriod);
@@ -120,7 +123,8 @@ void Practice::Begin(Hands* hands) {
                                         PedalParts{});
   }
   ServoOptions options;
-  options.watch = held_.get();
+  options.watches = {held_.get()};
+  options.watches.insert(options.watches.end(), watches_.begin(), watches_.end());
   if (has_thread_)
     options.request_lasts = kWindowHangs;
   else
@@ -145,11 +149,34 @@ void Practice::SendRequests(Hands* hands, double until) noexcept {
   request_.is_dead_man_held = {is_held, is_held};
   request_.is_zero_force = hands != nullptr && (hands->is_zero_force() || hands->calibrated());
   servo_->SetRequest(request_);
-  const LoggedWish wish{request_.view_angle, request_.incision_spacing,
-                        static_cast<std::uint8_t>(request_.instrument), resets_};
-  if (hands == nullptr || logged_ == wish) return;
-  hands->LogWish(has_thread_ ? hands->Clock() : t_, wish);
+  if (hands != nullptr) Log(*hands);
+}
+
+// Logs what has changed of the state that the hands do not tell.
+void Practice::Log(Hands& hands) noexcept {
+  const double now = has_thread_ ? hands.Clock() : t_;
+  LoggedWish wish;
+  wish.view_angle = request_.view_angle;
+  wish.incision_spacing = request_.incision_spacing;
+  wish.instrument = static_cast<std::uint8_t>(request_.instrument);
+  wish.resets = resets_;
+  wish.is_complete = true;
+  wish.is_head_upright = request_.head.is_upright;
+  wish.head_turn = request_.head.turn;
+  wish.disturbance = StrengthsOf(request_.disturbances);
+  wish.disturbance_seed = request_.disturbances.seed;
+  for (const DeviceRole role : kDeviceRoles) {
+    const DeviceRig& mount = request_.mount[Index(role)].value_or(mount_[Index(role)]);
+    wish.mount[Index(role)] = {mount.pivot, mount.portal_from_device, mount.rod_length};
+  }
+  if (logged_ != wish) hands.LogWish(now, wish);
   logged_ = wish;
+  const OptionsInForce& in_force = servo_->ReadOptions();
+  const OptionNumbers numbers = NumbersOf(in_force.options);
+  for (int i = 0; i < numbers.count; ++i)
+    if (i >= logged_options_.count || !(logged_options_.option[i] == numbers.option[i]))
+      hands.LogOption(std::min(now, in_force.since), numbers.option[i]);
+  logged_options_ = numbers;
 }
 
 void Practice::TakeReports() {
@@ -196,6 +223,20 @@ void Practice::ResetTissues() {
   if (has_thread_) servo_->Stop();  // the next Advance starts it again
   session_->ResetTissues();
   ++resets_;
+}
+
+void Practice::AddWatch(ServoWatch& watch) {
+  watches_.push_back(&watch);
+  if (!servo_) return;
+  if (has_thread_) servo_->Stop();  // the next Advance starts it again
+  servo_->AddWatch(&watch);
+}
+
+void Practice::RemoveWatch(ServoWatch& watch) {
+  std::erase(watches_, &watch);
+  if (!servo_) return;
+  if (has_thread_) servo_->Stop();
+  servo_->RemoveWatch(&watch);
 }
 
 double Practice::blade_turn() const { return kBladeSpeed * running_; }

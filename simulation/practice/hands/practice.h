@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulation/practice/hands/hands.h"
+#include "simulation/practice/option_numbers.h"
 #include "simulation/practice/scope_eye.h"
 #include "simulation/practice/scripted_device.h"
 #include "simulation/practice/servo_loop.h"
@@ -36,6 +37,8 @@ class Practice {
   const Snapshot& snapshot() const { return snapshot_; }
   // Pose of the rod to the eye from which the picture is drawn.
   const RodPose& seen_from() const { return seen_from_; }
+  const ScopeEye& eye() const { return eye_; }
+  const DepthField& relief() const { return session_->relief(); }
   double incision_spacing() const { return request_.incision_spacing; }
   // Moves the incision of the instrument for this session; the tool enters anew.
   void SetIncisionSpacing(double spacing) { request_.incision_spacing = spacing; }
@@ -44,6 +47,9 @@ class Practice {
   void SetOptions(const SessionOptions& options, const Hands* hands);
   double view_angle() const { return request_.view_angle; }
   void SetViewAngle(double view_angle) { request_.view_angle = view_angle; }
+  // Camera head and disturbances of the picture.
+  void SetCameraHead(const CameraHead& head) { request_.head = head; }
+  void SetDisturbances(const Disturbances& disturbances) { request_.disturbances = disturbances; }
 
   // Deformable tissues after the last Advance; nullptr: there are none.
   const WorldPicture* tissues() const { return tissues_; }
@@ -56,9 +62,16 @@ class Practice {
   void Press(bool is_pressed) { buttons_ = is_pressed ? 1u : 0u; }
   double blade_turn() const;  // rad, turn of the shaver's blade as drawn
 
+  // Adds a watch of the ticks, such as the frames of an attempt, and removes it before it ends.
+  void AddWatch(ServoWatch& watch);
+  void RemoveWatch(ServoWatch& watch);
+
   double peak_force() const { return peak_force_; }  // N, largest on the instrument's tip so far
   // Trouble of the servo thread, for the user; empty: none.
   const std::string& servo_sentence() const { return servo_sentence_; }
+  // Newest report of the force loop, for the thread that calls Advance; nullptr before its first
+  // call.
+  const ServoReport* servo_report() const { return servo_ ? &servo_->ReadReport() : nullptr; }
 
   // Hands as mouse and keys lead them.
   ScriptedDevice& scope() { return by_mouse_[0]; }
@@ -74,7 +87,10 @@ class Practice {
   std::unique_ptr<Session> session_;
   std::array<ScriptedDevice, 2> by_mouse_;  // indexed by DeviceRole
   ServoRequest request_;
+  void Log(Hands& hands) noexcept;
   std::optional<LoggedWish> logged_;  // last wish in the log
+  std::array<DeviceRig, 2> mount_;    // indexed by DeviceRole; at the beginning
+  OptionNumbers logged_options_;      // last options in the log
   std::uint32_t resets_ = 0;
   Snapshot snapshot_;
   ScopeEye eye_;
@@ -87,6 +103,7 @@ class Practice {
   bool has_thread_ = false;
   std::string servo_sentence_;
   const WorldPicture* tissues_ = nullptr;
+  std::vector<ServoWatch*> watches_;  // beside the hands
   std::shared_ptr<HeldHands> held_;   // see Hands::MakeHeldHands
   std::unique_ptr<ServoLoop> servo_;  // last member: it uses the others, and ends without force
 };

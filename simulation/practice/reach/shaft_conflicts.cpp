@@ -1,36 +1,11 @@
 #include "simulation/practice/reach/shaft_conflicts.h"
 
-#include <algorithm>
-
 #include <glm/geometric.hpp>
 
+#include "simulation/core/segment3.h"
 #include "simulation/haptics/surface/surface_bvh.h"
 
 namespace arthro::simulation {
-namespace {
-
-// Nearest points of two segments, as shares of them, by clamping those of the two lines.
-struct NearestShares {
-  double first = 0, second = 0;
-};
-NearestShares NearestOf(const glm::dvec3& p, const glm::dvec3& along, const glm::dvec3& q,
-                        const glm::dvec3& other) {
-  const glm::dvec3 between = p - q;
-  const double a = glm::dot(along, along), e = glm::dot(other, other), f = glm::dot(other, between),
-               c = glm::dot(along, between), b = glm::dot(along, other),
-               denominator = a * e - b * b;
-  NearestShares shares;
-  if (denominator > 1e-18) shares.first = std::clamp((b * f - c * e) / denominator, 0.0, 1.0);
-  shares.second = e > 0 ? (b * shares.first + f) / e : 0;
-  if (shares.second < 0 || shares.second > 1) {
-    shares.second = std::clamp(shares.second, 0.0, 1.0);
-    shares.first = a > 0 ? std::clamp((b * shares.second - c) / a, 0.0, 1.0) : 0;
-  }
-  return shares;
-}
-
-}  // namespace
-
 struct ShaftObstacles::Parts {
   std::vector<SurfaceBvh> tissues;
 };
@@ -62,8 +37,7 @@ std::vector<ShaftConflict> ShaftObstacles::Find(const glm::dvec3& lens,
   };
   add(ShaftConflict::Kind::kScopeInTissue, {0, 0, 0}, lens);
   add(ShaftConflict::Kind::kInstrumentInTissue, instrument_portal, tip);
-  const NearestShares nearest =
-      NearestOf({0, 0, 0}, lens, instrument_portal, tip - instrument_portal);
+  const NearestShares nearest = NearestOf({{0, 0, 0}, lens}, {instrument_portal, tip});
   const glm::dvec3 on_scope = nearest.first * lens,
                    on_instrument = instrument_portal + nearest.second * (tip - instrument_portal);
   if (glm::distance(on_scope, on_instrument) < 2 * kShaftRadius)

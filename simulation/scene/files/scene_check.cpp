@@ -11,6 +11,7 @@
 #include "simulation/core/error.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/backdrop/hidden_share.h"
+#include "simulation/scene/files/exercise_check.h"
 #include "simulation/scene/mesh/held_nodes.h"
 #include "simulation/scene/mesh/mesh_io.h"
 #include "simulation/scene/solids/solid_io.h"
@@ -322,11 +323,13 @@ SceneFindings CheckScene(const LoadedScene& loaded, const IsThinLayer& is_layer)
     LookAtTissue(loaded, i, is_layer, findings);
   if (scene.tissues.empty())
     findings.hints.push_back("no tissues, so there is nothing that deforms");
-  findings.found.push_back(
-      fmt::format("instruments: {}, tasks: {}", scene.instruments.size(), scene.tasks.size()));
+  findings.found.push_back(fmt::format("instruments: {}, exercises: {}", scene.instruments.size(),
+                                       scene.exercises.size()));
   if (scene.instruments.empty())
     findings.hints.push_back("no instruments; practice offers all of them");
-  if (scene.tasks.empty()) findings.hints.push_back("no tasks, so practice is free and unscored");
+  if (scene.exercises.empty())
+    findings.hints.push_back("no exercises, so practice is free and unscored");
+  for (std::string& fault : ExerciseFaults(scene)) findings.errors.push_back(std::move(fault));
   return findings;
 }
 

@@ -11,6 +11,11 @@ std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene) {
     files.push_back(tissue.surface);
     files.push_back(tissue.mesh);
   }
+  for (const Exercise& exercise : scene.exercises) {
+    files.push_back(exercise.picture);
+    files.push_back(exercise.ghost);
+    for (const ExerciseStep& step : exercise.steps) files.push_back(BaseOf(step).picture);
+  }
   std::erase_if(files, [](const std::filesystem::path& file) { return file.empty(); });
   return files;
 }

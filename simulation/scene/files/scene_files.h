@@ -9,8 +9,8 @@
 
 namespace arthro {
 
-// Panorama, depth map with its standard error and origins, lens, surfaces and meshes, as the scene
-// writes them; empty ones left out.
+// Panorama, depth map with its standard error and origins, lens, surfaces, meshes, and pictures and
+// recordings of exercises, as the scene writes them; empty ones left out.
 std::vector<std::filesystem::path> FilesNamedBy(const Scene& scene);
 
 }  // namespace arthro

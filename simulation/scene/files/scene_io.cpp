@@ -172,6 +172,17 @@ LoadedScene LoadFolder(const fs::path& scene, std::shared_ptr<const TemporaryFol
     named(fmt::format("tissues[{}].mesh", i), tissue.mesh,
           [](const fs::path&) -> Part { return nullptr; });
   }
+  const auto only_named = [&](const std::string& key, const fs::path& name) {
+    named(key, name, [](const fs::path&) -> Part { return nullptr; });
+  };
+  for (std::size_t i = 0; i < loaded.scene.exercises.size(); ++i) {
+    const Exercise& exercise = loaded.scene.exercises[i];
+    only_named(fmt::format("exercises[{}].picture", i), exercise.picture);
+    only_named(fmt::format("exercises[{}].ghost", i), exercise.ghost);
+    for (std::size_t k = 0; k < exercise.steps.size(); ++k)
+      only_named(fmt::format("exercises[{}].steps[{}].picture", i, k),
+                 BaseOf(exercise.steps[k]).picture);
+  }
   return loaded;
 }
 

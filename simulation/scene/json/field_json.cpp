@@ -64,11 +64,28 @@ void FieldReader::ReadText(const char* name, std::string& field, const Name& rul
                   fmt::format("{} is used twice; give each its own", nlohmann::json(field).dump()));
 }
 
+void FieldReader::ReadNumbers(const char* name, std::vector<double>& field, const char* unit) {
+  const Border border = FileBorder(unit);
+  if (!reader_.List((name + std::string(border.suffix)).c_str(), field)) return;
+  if (border.factor != 1.0)
+    for (double& value : field) value /= border.factor;
+}
+
 void FieldReader::ReadPoint(const char* name, glm::dvec3& field, const Direction& rule,
                             const char* unit, Need need) {
   reader_.Point(name, field, LimitsInFile(rule.each, unit), need);
   if (!(glm::length(field) > 0.0))
     reader_.Fault(name, "is [0, 0, 0]; a direction cannot be all zeros");
+}
+
+void FieldWriter::WriteNumbers(const char* name, const std::vector<double>& field,
+                               const char* unit) {
+  if (std::string_view(unit) != "rad") {
+    json_[name] = field;
+    return;
+  }
+  for (const double value : field)
+    json_[name + std::string(FileBorder(unit).suffix)].push_back(FileDegrees(value));
 }
 
 }  // namespace arthro

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -24,13 +25,19 @@
 #include "simulation/core/options.h"
 #include "simulation/core/units.h"
 #include "simulation/scene/json/json_object_reader.h"
-#include "simulation/scene/scene_limits.h"
+#include "simulation/scene/limits/scene_limits.h"
 
 namespace arthro {
 namespace internal {
 
 template <class T>
 inline constexpr bool kIsPoint = std::is_same_v<T, glm::dvec2> || std::is_same_v<T, glm::dvec3>;
+
+// A point, or one that may be missing.
+template <class T>
+inline constexpr bool kIsMaybePoint = kIsPoint<T>;
+template <class T>
+inline constexpr bool kIsMaybePoint<std::optional<T>> = kIsPoint<T>;
 
 template <class T>
 struct IsVariant : std::false_type {};
@@ -41,6 +48,15 @@ template <class T>
 struct IsOptional : std::false_type {};
 template <class T>
 struct IsOptional<std::optional<T>> : std::true_type {};
+
+// Key that tells the structs of a variant apart.
+template <class Kind>
+constexpr const char* KindKey() {
+  if constexpr (requires { Kind::kKindKey; })
+    return Kind::kKindKey;
+  else
+    return "type";
+}
 
 // Accepts the key of every field without reading it.
 struct KeyVisitor {
@@ -120,14 +136,16 @@ class FieldReader {
       ReadText(name, field, rule, need);
     } else if constexpr (std::is_enum_v<T>) {
       ReadChoice(name, field, rule, need);
-    } else if constexpr (internal::kIsPoint<T>) {
+    } else if constexpr (internal::kIsMaybePoint<T>) {
       ReadPoint(name, field, rule, unit, need);
     } else if constexpr (std::is_same_v<T, glm::dquat>) {
       reader_.Quaternion(name, field);
     } else if constexpr (std::is_same_v<T, std::vector<glm::dvec3>>) {
       reader_.Points(name, field, rule.least, rule.most, LimitsInFile(rule.each, unit));
     } else if constexpr (std::is_same_v<Rule, NumberList>) {
-      reader_.List(name, field);
+      ReadNumbers(name, field, unit);
+    } else if constexpr (std::is_same_v<Rule, TextList>) {
+      reader_.Texts(name, field);
     } else if constexpr (requires { field.emplace_back(); }) {
       ReadList(name, field);
     } else if constexpr (internal::IsOptional<T>::value) {
@@ -162,36 +180,52 @@ class FieldReader {
 
   template <class T>
   void ReadPoint(const char* name, T& field, const Range& rule, const char* unit, Need need) {
-    reader_.Point(name, field, LimitsInFile(rule, unit), need);
+    const std::string key = name + std::string(FileBorder(unit).suffix);
+    T value = field;
+    value[0] = std::numeric_limits<double>::quiet_NaN();
+    reader_.Point(key.c_str(), value, LimitsInFile(rule, unit), need);
+    if (std::isnan(value[0])) return;  // absent or at fault
+    for (int i = 0; i < T::length(); ++i)
+      field[i] = FileBorder(unit).factor == 1.0 ? value[i] : value[i] / FileBorder(unit).factor;
+  }
+  template <class T>
+  void ReadPoint(const char* name, std::optional<T>& field, const Range& rule, const char* unit,
+                 Need need) {
+    T value(std::numeric_limits<double>::quiet_NaN());
+    ReadPoint(name, value, rule, unit, need);
+    if (!std::isnan(value[0])) field = value;
   }
   void ReadPoint(const char* name, glm::dvec3& field, const Direction& rule, const char* unit,
                  Need need);
+  void ReadNumbers(const char* name, std::vector<double>& field, const char* unit);
 
   template <class T>
   void ReadList(const char* name, std::vector<T>& list) {
     std::set<std::string> names;
     reader_.Array(name, [&](JsonObjectReader& inner, int) {
       if constexpr (internal::IsVariant<T>::value)
-        ReadKind(inner, list);
+        ReadKind(inner, list, names);
       else
         list.emplace_back().Visit(FieldReader(inner, &names));
     });
   }
 
-  // An element that is one of several structs, told apart by "type".
+  // An element that is one of several structs, told apart by "type" or their own key.
   template <class... Kinds>
-  static void ReadKind(JsonObjectReader& reader, std::vector<std::variant<Kinds...>>& list) {
+  static void ReadKind(JsonObjectReader& reader, std::vector<std::variant<Kinds...>>& list,
+                       std::set<std::string>& names) {
+    constexpr const char* kKey = internal::KindKey<std::tuple_element_t<0, std::tuple<Kinds...>>>();
     std::string type;
-    reader.Text("type", type, JsonObjectReader::kRequired);
+    reader.Text(kKey, type, JsonObjectReader::kRequired);
     bool is_known = false;
     const auto try_kind = [&]<class Kind>(Kind kind) {
       if (type != Kind::kType) return;
       is_known = true;
-      std::get<Kind>(list.emplace_back(std::move(kind))).Visit(FieldReader(reader));
+      std::get<Kind>(list.emplace_back(std::move(kind))).Visit(FieldReader(reader, &names));
     };
     (try_kind(Kinds{}), ...);
     if (is_known) return;
-    if (!type.empty()) FieldReader(reader).FaultOfWord("type", type, {Kinds::kType...});
+    if (!type.empty()) FieldReader(reader).FaultOfWord(kKey, type, {Kinds::kType...});
     // Accepts the keys of all kinds, so that one fault is not reported as several.
     const auto know = [&]<class Kind>(Kind kind) { kind.Visit(internal::KeyVisitor{reader}); };
     (know(Kinds{}), ...);
@@ -243,9 +277,12 @@ class FieldWriter {
       json_[name + std::string(FileBorder(unit).suffix)] = is_angle ? FileDegrees(field) : field;
     } else if constexpr (std::is_same_v<T, std::optional<double>>) {
       if (field) Write(name, *field, rule, unit, always);
-    } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, int> ||
-                         std::is_same_v<Rule, NumberList>) {
+    } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, int>) {
       json_[name] = field;
+    } else if constexpr (std::is_same_v<Rule, NumberList>) {
+      WriteNumbers(name, field, unit);
+    } else if constexpr (std::is_same_v<Rule, TextList>) {
+      if (always || !field.empty()) json_[name] = field;
     } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
       if (always || !field.empty()) json_[name] = field.generic_string();
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -254,12 +291,12 @@ class FieldWriter {
       for (const auto& [value, word] : rule.words)
         if (value == field) json_[name] = word;
     } else if constexpr (internal::kIsPoint<T>) {
-      json_[name] = JsonFromPoint(field);
+      json_[name + std::string(FileBorder(unit).suffix)] = JsonFromPoint(field, unit);
     } else if constexpr (std::is_same_v<T, glm::dquat>) {
       json_[name] = {field.w, field.x, field.y, field.z};
     } else if constexpr (std::is_same_v<T, std::vector<glm::dvec3>>) {
       json_[name] = Json::array();
-      for (const glm::dvec3& point : field) json_[name].push_back(JsonFromPoint(point));
+      for (const glm::dvec3& point : field) json_[name].push_back(JsonFromPoint(point, unit));
     } else if constexpr (internal::IsOptional<T>::value) {
       if (field) Write(name, *field, rule, unit, true);
     } else if constexpr (requires { field.emplace_back(); }) {
@@ -273,13 +310,16 @@ class FieldWriter {
     }
   }
 
+  // Angles stand in degrees; an empty list of them is left out.
+  void WriteNumbers(const char* name, const std::vector<double>& field, const char* unit);
+
   template <class T>
   static Json JsonFromElement(T& element) {
     Json json = Json::object();
     if constexpr (internal::IsVariant<T>::value)
       std::visit(
           [&](auto& kind) {
-            json["type"] = kind.kType;
+            json[internal::KindKey<std::decay_t<decltype(kind)>>()] = kind.kType;
             kind.Visit(FieldWriter(json));
           },
           element);
@@ -289,9 +329,11 @@ class FieldWriter {
   }
 
   template <class V>
-  static Json JsonFromPoint(const V& point) {
+  static Json JsonFromPoint(const V& point, const char* unit) {
+    const bool is_angle = std::string_view(unit) == "rad";
     Json json = Json::array();
-    for (int i = 0; i < V::length(); ++i) json.push_back(point[i]);
+    for (int i = 0; i < V::length(); ++i)
+      json.push_back(is_angle ? FileDegrees(point[i]) : point[i]);
     return json;
   }
 

@@ -49,7 +49,9 @@ Json FileSchema(const std::string& name, const std::string& title, const std::st
   json["description"] = description;
   json["type"] = "object";
   json["required"] = {"schema"};
-  for (const Json& key : fields["required"]) json["required"].push_back(key);
+  // A struct of which every field may be left out has no such list.
+  if (fields.contains("required"))
+    for (const Json& key : fields["required"]) json["required"].push_back(key);
   json["additionalProperties"]["not"] = Json::object();
   json["patternProperties"]["^x-"]["description"] = "Kept for other tools.";
   json["properties"]["schema"]["enum"] = {name};

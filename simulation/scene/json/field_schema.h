@@ -100,7 +100,7 @@ struct SchemaVisitor {
                      : fmt::format(" {}{}{} if not given.", shown, word.empty() ? "" : " ", word);
     } else if constexpr (std::is_same_v<T, bool>) {
       text += fmt::format(" {} if not given.", field);
-    } else if constexpr (internal::kIsPoint<T>) {
+    } else if constexpr (internal::kIsMaybePoint<T>) {
       if (const std::string word = UnitInFile(unit); !word.empty())
         text += fmt::format(" In {}.", word);
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -142,6 +142,8 @@ struct SchemaVisitor {
       return json;
     } else if constexpr (internal::kIsPoint<T>) {
       return List(Number(rule, unit), T::length(), T::length());
+    } else if constexpr (internal::kIsMaybePoint<T>) {
+      return List(Number(rule, unit), T::value_type::length(), T::value_type::length());
     } else if constexpr (std::is_same_v<T, glm::dquat>) {
       return Reference("quaternion");
     } else if constexpr (std::is_same_v<Rule, PointList>) {
@@ -154,6 +156,8 @@ struct SchemaVisitor {
       return json;
     } else if constexpr (std::is_same_v<Rule, NumberList>) {
       return {{"type", "array"}, {"items", {{"type", "number"}}}};
+    } else if constexpr (std::is_same_v<Rule, TextList>) {
+      return {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}};
     } else if constexpr (requires { field.emplace_back(); }) {
       return {{"type", "array"}, {"items", Element(typename T::value_type())}};
     } else if constexpr (internal::IsOptional<T>::value) {
@@ -174,11 +178,11 @@ struct SchemaVisitor {
       Json own = ObjectOf(kind);
       own["description"] = Kind::kHelp;
       Json type;
-      type["type"]["enum"] = {Kind::kType};
+      type[KindKey<Kind>()]["enum"] = {Kind::kType};
       type.update(own["properties"]);
       own["properties"] = type;
       if (!own.contains("required")) own["required"] = Json::array();
-      own["required"].insert(own["required"].begin(), "type");
+      own["required"].insert(own["required"].begin(), KindKey<Kind>());
       json["anyOf"].push_back(own);
     };
     (add(Kinds{}), ...);

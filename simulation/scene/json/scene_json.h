@@ -1,4 +1,4 @@
-// Scenes from and to the JSON of scene.json, version 1 [method.md, Scene], by the list of fields in
+// Scenes from and to the JSON of scene.json, version 2 [method.md, Scene], by the list of fields in
 // scene.h. Lengths in m; angles in rad in memory and in degrees under keys that end in _deg.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,12 +23,30 @@ int VersionOf(std::string_view schema) {
   return fault == std::errc() && stop == end && version > 0 ? version : 0;
 }
 
+// Moves the value of one key to another. A file that has both keeps both: the reader then refuses
+// the old one.
+void RenameKey(nlohmann::json& json, const char* from, const char* to) {
+  const auto old = json.find(from);
+  if (old == json.end() || json.contains(to)) return;
+  nlohmann::json value = std::move(*old);
+  json.erase(from);
+  json[to] = std::move(value);
+}
+
+void ExercisesFromTasks(nlohmann::json& scene) {
+  RenameKey(scene, "tasks", "exercises");
+  const auto exercises = scene.find("exercises");
+  if (exercises == scene.end() || !exercises->is_array()) return;
+  for (nlohmann::json& exercise : *exercises)
+    if (exercise.is_object()) RenameKey(exercise, "text", "brief");
+}
+
 }  // namespace
 
 std::string SceneSchemaName(int version) { return fmt::format("{}{}", kFamily, version); }
 
 const SceneMigrations& KnownSceneMigrations() {
-  static const SceneMigrations steps;
+  static const SceneMigrations steps = {{1, ExercisesFromTasks}};
   return steps;
 }
 

@@ -10,14 +10,15 @@
 
 namespace arthro {
 
-inline constexpr int kSceneVersion = 1;
+inline constexpr int kSceneVersion = 2;
 
 std::string SceneSchemaName(int version);
 
 // Entry v turns a file of version v into one of version v + 1, in place; "schema" is updated here.
 using SceneMigrations = std::map<int, void (*)(nlohmann::json&)>;
 
-// The steps of this program. Version 1 is the first, so there are none yet.
+// The steps of this program. 1 to 2: "tasks" becomes "exercises", and the "text" of each its
+// "brief".
 const SceneMigrations& KnownSceneMigrations();
 
 // Throws Error(kBadScene): no scene at all, a version newer than `newest`, or one with no way up.

@@ -15,7 +15,8 @@ std::string SceneSchemaText() {
       "scene.json of a scene folder. Lengths in metres; angles in degrees under keys that end in "
       "_deg. Directions and positions in the portal frame: origin at the scope portal, +z into the "
       "joint, +x to the viewer's right, +y down. This schema cannot express that names of tissues, "
-      "names of regions in a tissue and ids of tasks are unique.",
+      "names of regions in a tissue, ids of exercises, and ids of targets and steps in an exercise "
+      "are unique.",
       SchemaOfFields(Scene()));
   // Older writers repeat the length of the scope's rod here.
   auto& rod = json["properties"]["rig"]["properties"]["scope"]["properties"]["rod_length"];

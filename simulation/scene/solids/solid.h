@@ -13,7 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include "simulation/core/frames.h"
-#include "simulation/scene/scene_limits.h"
+#include "simulation/scene/limits/scene_limits.h"
 
 namespace arthro {
 

@@ -20,6 +20,7 @@ struct TissueLook {
   glm::dvec3 cut_tint{1.08, 1.06, 0.98};
   glm::dvec3 vessel_colour{0.42, 0.05, 0.04};
   double vessels = 0, fibres = 0, fibrillation = 0;
+  double fraying = 0, villi = 0;
   double fibre_width = 0.2e-3;
   double gloss = 1;
   friend bool operator==(const TissueLook&, const TissueLook&) = default;
@@ -40,6 +41,8 @@ struct TissueLook {
     v("vessels", vessels, kShare, "", "Strength of the vascular rim and its capillaries.");
     v("fibres", fibres, kShare, "", "Strength of the fibre bundles.");
     v("fibrillation", fibrillation, kShare, "", "Strength of the fraying of a worn surface.");
+    v("fraying", fraying, kShare, "", "Number of fibre bundles that stand out of a cut face.");
+    v("villi", villi, kShare, "", "Number of villi on the surface, which sway in the fluid.");
     v("fibre_width", fibre_width, Range{2e-5, 2e-3}, "m", "Width of a fibre bundle.");
     v("gloss", gloss, Range{0, 3}, "", "Factor of the sheen of the film of fluid.");
   }

@@ -171,6 +171,7 @@ void TissueWorld::Show(WorldPicture& picture) const {
     shown.report = held.report;
     shown.cut = held.body.cut_report();
     shown.step_ms = held.step_ms;
+    shown.elements = held.body.mesh().ElementCount();
     if (!held.body.IsLost()) TakeShape(held.body, shown);
   }
   for (std::size_t i = 0; i < impl_->layers.size(); ++i) {

@@ -40,6 +40,7 @@ struct BodyPicture {
   BodyReport report;
   CutReport cut;
   double step_ms = 0;  // processor time
+  int elements = 0;    // number of elements, with those that cuts have added
 };
 
 struct WorldPicture {

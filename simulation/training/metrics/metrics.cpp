@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "simulation/training/metrics/hand_path.h"
+#include "simulation/training/metrics/metric_collector.h"
 #include "simulation/training/metrics/smoothness.h"
 
 namespace arthro::simulation {
@@ -18,32 +19,6 @@ namespace {
 constexpr double kIdle = 0.005;         // m/s; a slower tool rests
 constexpr double kShortestLeg = 1.0;    // s, of movement whose smoothness is measured
 constexpr double kReleasedAfter = 0.3;  // s without a touch, after which another contact begins
-
-constexpr std::array kMetrics = {
-    Metric{"task_time", "s", "Time of the attempt without its pauses."},
-    Metric{"measured_share", "", "Share of that time in which the tool was in the joint and known.",
-           true},
-    Metric{"path", "m", "Length of the way of the tip."},
-    Metric{"depth_path", "m", "Length of the tip's way along the rod."},
-    Metric{"turn", "rad", "Sum of the turns of the rod about its incision."},
-    Metric{"roll_path", "rad", "Sum of the turns of the tool about its own axis."},
-    Metric{"moves_20", "1/min", "Movements a minute that reach 20 mm/s."},
-    Metric{"moves_50", "1/min", "Movements a minute that reach 50 mm/s."},
-    Metric{"moves_100", "1/min", "Movements a minute that reach 100 mm/s."},
-    Metric{"sparc", "", "Smoothness: spectral arc length, median of the unbroken stretches.", true},
-    Metric{"ldlj", "", "Smoothness: log dimensionless jerk, median of the unbroken stretches.",
-           true},
-    Metric{"idle_share", "", "Share of the time in which both tools move slower than 5 mm/s."},
-    Metric{"bimanual_r", "", "Correlation of the speeds of both tools.", true},
-    Metric{"peak_force", "N", "Largest force on the tip."},
-    Metric{"mean_force", "N", "Mean force on the tip while it touches."},
-    Metric{"over_time", "s", "Time with a force that may harm."},
-    Metric{"over_count", "", "Times that the force rose above what may harm."},
-    Metric{"contacts", "", "Contacts; one ends when nothing is touched for 0.3 s."},
-    Metric{"contact_time", "s", "Time in contact."},
-    Metric{"contact_path", "m", "Length of the way of the tip while it touches."},
-    Metric{"contact_impulse", "N s", "Force on the tip, summed over the time in contact."},
-};
 
 const char* PartOf(DeviceRole role) { return role == DeviceRole::kScope ? "scope" : "instrument"; }
 
@@ -170,28 +145,7 @@ ContactSum ContactsOf(const Hand& hand, int surface) {
   return sum;
 }
 
-// Collects values in the order of the table.
-class Collector {
- public:
-  void Give(std::string_view id, std::string part, std::optional<double> value,
-            std::string_view why_none = {}) {
-    const auto metric =
-        std::find_if(kMetrics.begin(), kMetrics.end(), [&](const Metric& m) { return m.id == id; });
-    values_.push_back(
-        {&*metric, std::move(part), value, value ? std::string() : std::string(why_none)});
-  }
-  std::vector<MetricValue> InOrder() && {
-    std::stable_sort(values_.begin(), values_.end(), [](const auto& a, const auto& b) {
-      return std::less<>{}(a.metric, b.metric);
-    });
-    return std::move(values_);
-  }
-
- private:
-  std::vector<MetricValue> values_;
-};
-
-void MeasureMotion(const Hand& hand, double task_time, Collector& values) {
+void MeasureMotion(const Hand& hand, double task_time, MetricCollector& values) {
   const std::string part = PartOf(hand.role);
   const double measured = hand.measured();
   values.Give("measured_share", part,
@@ -233,7 +187,7 @@ double ShareAbove(double a, double b, double limit) {
   return (std::max(a, b) - limit) / std::abs(a - b);
 }
 
-void MeasureForce(const Hand& hand, const MetricLimits& limits, Collector& values) {
+void MeasureForce(const Hand& hand, const MetricLimits& limits, MetricCollector& values) {
   const std::string part = PartOf(hand.role);
   double peak = 0, sum = 0, touched = 0, over_time = 0;
   int over_count = 0;
@@ -267,7 +221,7 @@ void MeasureForce(const Hand& hand, const MetricLimits& limits, Collector& value
 }
 
 void MeasureContacts(const Hand& hand, const std::vector<std::string>& surfaces,
-                     Collector& values) {
+                     MetricCollector& values) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const ContactSum sum = ContactsOf(hand, static_cast<int>(i));
     const std::string part = fmt::format("{} on {}", PartOf(hand.role), surfaces[i]);
@@ -280,12 +234,10 @@ void MeasureContacts(const Hand& hand, const std::vector<std::string>& surfaces,
 
 }  // namespace
 
-std::span<const Metric> EveryMetric() { return kMetrics; }
-
 std::vector<MetricValue> MeasureAttempt(std::span<const AttemptFrame> frames,
                                         const std::vector<std::string>& surfaces,
                                         const MetricLimits& limits) {
-  Collector values;
+  MetricCollector values;
   const double task_time = TaskTime(frames);
   values.Give("task_time", "both", task_time);
   std::array<Hand, 2> hands{

@@ -28,6 +28,7 @@ struct ToolFrame {
   float contact_share = 0;           // share of the frame's time in contact with it
   bool is_valid = false;             // every tick had a sample without a fault of the device
   bool is_inside() const { return is_valid && depth > 0; }
+  friend bool operator==(const ToolFrame&, const ToolFrame&) = default;
 };
 
 struct AttemptFrame {
@@ -35,10 +36,16 @@ struct AttemptFrame {
   bool is_paused = false;
   // In the last tick.
   ToolKind instrument = ToolKind::kProbe;
-  float opening = 1;     // of the jaws; 0 closed
+  float opening = 1;     // opening of the jaws; 0 closed
   float view_angle = 0;  // rad
-  float taken = 0;       // m³ of tissue removed in the frame
-  Observation sight;     // of the targets of the exercise
+  float head_roll = 0;   // rad, of the camera head from upright (scope/camera_head.h)
+  float incision_spacing = 0;
+  float haze = 0, fog = 0;  // strengths of the disturbances that hide targets
+  float taken = 0;          // m³ of tissue removed in the frame
+  float taken_outside = 0;  // m³ of it that no region of a target holds
+  glm::vec3 lens{0.0F};     // from which the picture was drawn
+  Observation sight;        // sight of the exercise's targets
+  friend bool operator==(const AttemptFrame&, const AttemptFrame&) = default;
 };
 
 }  // namespace arthro::simulation

@@ -15,7 +15,7 @@ using test::RunProgram;
 
 constexpr std::array kJobs = {"demo",    "phantom",  "depth",  "tetrahedralize", "pivot",
                               "centres", "view",     "replay", "check",          "lens",
-                              "rectify", "relief",   "reach",  "assess",
+                              "rectify", "relief",   "reach",  "assess",         "records",
 #ifdef ARTHRO_EDITOR  // jobs that open a window
                               "edit",    "practise", "run"
 #endif

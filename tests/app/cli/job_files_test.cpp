@@ -182,6 +182,15 @@ const std::map<std::string, std::string> kOutputs = {
     {"assess --report", "assess @S @t.csv -o @new.csv --report @X"},
     {"reach --output", "reach @S -o @X"},
     {"reach --picture", "reach @S -o @new.csv --picture @X"},
+    {"records backup --output", "records backup --records @r.sqlite -o @X"},
+    {"records export --forms", "records export --records @r.sqlite --forms @X"},
+    {"records export --json", "records export --records @r.sqlite --json @X"},
+    {"records export --output", "records export --records @r.sqlite -o @X"},
+    {"records export --xapi", "records export --records @r.sqlite --xapi @X"},
+    {"records list --json", "records list --records @r.sqlite --json @X"},
+    {"records show --csv", "records show none --records @r.sqlite --csv @X"},
+    {"records show --json", "records show none --records @r.sqlite --json @X"},
+    {"records show --report", "records show none --records @r.sqlite --report @X"},
     {"rectify --output", "rectify @F --lens @lens.json -o @X.demo"},
     {"relief --confidence", "relief @F --lens @lens.json -o @new.tiff --confidence @X"},
     {"relief --origin", "relief @F --lens @lens.json -o @new.tiff --origin @X"},
@@ -223,6 +232,7 @@ std::vector<std::string> AllJobs() {
   };
   add("");
   add("bench");
+  add("records");
   return jobs;
 }
 

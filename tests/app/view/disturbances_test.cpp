@@ -388,14 +388,15 @@ TEST_F(DisturbedView, AnInvalidStrengthIsRefusedInOneSentence) {
     late.time = wrong;
     if (!std::isfinite(wrong)) refuse([&] { Draw(late); }, "seconds");
   }
-  refuse([] { app::ParseDisturbances("haze=0.5,smoke=1"); }, "there are haze, bubbles, debris");
-  refuse([] { app::ParseDisturbances("haze=0.5,haze=1"); }, "haze");
-  refuse([] { app::ParseDisturbances("haze=7"); }, "between 0 and 1");
-  refuse([] { app::ParseDisturbances("haze=nan"); }, "between 0 and 1");
-  refuse([] { app::ParseDisturbances("haze=0.5x"); }, "between 0 and 1");
-  refuse([] { app::ParseDisturbances("haze"); }, "name=strength");
-  refuse([] { app::ParseDisturbances(""); }, "name=strength");
-  const Disturbances read = app::ParseDisturbances("fog=0.25,near_blur=1,haze=0");
+  refuse([] { simulation::ParseDisturbances("haze=0.5,smoke=1"); },
+         "there are haze, bubbles, debris");
+  refuse([] { simulation::ParseDisturbances("haze=0.5,haze=1"); }, "haze");
+  refuse([] { simulation::ParseDisturbances("haze=7"); }, "between 0 and 1");
+  refuse([] { simulation::ParseDisturbances("haze=nan"); }, "between 0 and 1");
+  refuse([] { simulation::ParseDisturbances("haze=0.5x"); }, "between 0 and 1");
+  refuse([] { simulation::ParseDisturbances("haze"); }, "name=strength");
+  refuse([] { simulation::ParseDisturbances(""); }, "name=strength");
+  const Disturbances read = simulation::ParseDisturbances("fog=0.25,near_blur=1,haze=0");
   EXPECT_EQ(read.fog, 0.25);
   EXPECT_EQ(read.near_blur, 1.0);
   EXPECT_EQ(read.haze + read.bubbles + read.debris, 0.0);

@@ -154,7 +154,11 @@ TEST(DemoScene, IsWhatItsCommandMakes) {
       off += std::abs(a.relief[i] - b.relief[i]) > 2e-6f;
     EXPECT_LT(off, a.relief.size() / 100000) << name;  // a silhouette may fall into the next pixel
   }
-  EXPECT_EQ(ReadWholeFile(shipped / "scene.json"), ReadWholeFile(folder / "demo/scene.json"));
+  // Exercises, and the region that one of them removes, were added by hand.
+  Scene scene = ReadScene(shipped);
+  scene.exercises.clear();
+  for (Tissue& tissue : scene.tissues) tissue.regions.clear();
+  EXPECT_EQ(scene, ReadScene(folder / "demo"));
   EXPECT_EQ(ReadWholeFile(shipped / "trace.csv"), ReadWholeFile(folder / "demo/trace.csv"));
   const TetMesh mesh = ReadTetMesh(shipped / "meniscus.vtu"),
                 made_mesh = ReadTetMesh(folder / "demo/meniscus.vtu");

@@ -64,9 +64,7 @@ std::vector<Edit> EveryKindOfEdit() {
              d.scene.tissues.clear();
              d.surfaces.clear();
            }},
-          {"task", [](Document& d) {
-             d.scene.tasks.push_back({"look", "Look", "Find it."});
-           }}};
+          {"task", [](Document& d) { d.scene.exercises.emplace_back().id = "look"; }}};
 }
 
 TEST(History, UndoAndRedoOfEveryEditRestoreEveryValue) {

@@ -262,7 +262,7 @@ TEST_F(DemoReach, AShaverTakesOfTheFreeEdge) {
 TEST_F(DemoReach, TheDemosOwnTraceLiftsTheFreeEdgeAndLetsItGo) {
   double lifted = 0, before = 0, after = 0, peak = 0;
   Replay(demo, {ReadTrace(demo.folder / "trace.csv"), {}}, {}, {}, nullptr, presets,
-         [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture* world) {
+         [&](double t, const Snapshot& snapshot, const WorldPicture* world) {
            peak = std::max(peak, glm::length(snapshot.instrument.tip_force));
            if (!world) return;
            double& most = t < 8.0 ? before : t < 11.0 ? lifted : after;

@@ -55,7 +55,7 @@ struct Held {
   Held(const LoadedScene& loaded, const glm::dvec3& tip, const PlantOptions& plant,
        const HandModel& hand, const SessionOptions& options = {})
       : session(loaded, options), scope(plant, hand, HipOf(tip)), loop(session, &scope, nullptr) {
-    ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
+    ServoRequest request{session.options(), 0, 0, {}, {}, ToolKind::kProbe, {false, false}};
     loop.SetRequest(request);
     for (int i = 0; i < 10; ++i) Tick(tip);
     request.is_dead_man_held = {true, true};
@@ -220,7 +220,7 @@ TEST(HardCase14, AnyReportedStiffnessIsMadePassive) {
     const glm::dvec3 middle(0, 0, kLevel + 1e-3);
     PlantDevice device(plant, kHand, HipFromRodPose(PoseAt(middle), session.instrument_rig()));
     ServoLoop loop(session, nullptr, &device);
-    ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
+    ServoRequest request{session.options(), 0, 0, {}, {}, ToolKind::kProbe, {false, false}};
     loop.SetRequest(request);
     double now = 0, work = 0;
     std::uint64_t step = 0;

@@ -278,7 +278,7 @@ TEST(ServoLoop, CallsItsObserverAfterEachTickWithTheTimeStep) {
     double time = 0, newest = 0;
   } watch;
   ServoOptions options;
-  options.watch = &watch;
+  options.watches = {&watch};
   Servo servo(options);
   servo.Tick(100);
   servo.Tick(1, 5 * kTick);
@@ -385,7 +385,7 @@ TEST(ServoLoop, CommandsForcesInTheFrameOfTheDevice) {
   ServoLoop loop(session, &scope, nullptr);
   double now = 0;
   for (int i = 0; i < 10; ++i) loop.TickOnce(now += kTick);
-  ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {true, true}};
+  ServoRequest request{session.options(), 0, 0, {}, {}, ToolKind::kProbe, {true, true}};
   loop.SetRequest(request);
   for (int i = 0; i < 1000; ++i) loop.TickOnce(now += kTick);
   const glm::dvec3 in_portal = session.snapshot().scope.hand_force;
@@ -409,7 +409,7 @@ TEST(ServoLoop, EndsWithACommandOfNoForce) {
     double now = is_thrown ? 10 : 0;
     try {
       ServoLoop loop(session, &scope, nullptr);
-      ServoRequest request{session.options(), 0, 0, ToolKind::kProbe, {false, false}};
+      ServoRequest request{session.options(), 0, 0, {}, {}, ToolKind::kProbe, {false, false}};
       loop.SetRequest(request);
       for (int i = 0; i < 10; ++i) loop.TickOnce(now += kTick);
       request.is_dead_man_held = {true, true};

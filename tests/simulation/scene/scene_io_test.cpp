@@ -297,8 +297,8 @@ TEST(SceneIo, ASceneThatCouldNotBeReadBackLeavesTheOldFile) {
       << "a partial file is left";
 }
 
-// The demo scene was written by an earlier version.
-TEST(SceneIo, SavingASceneOfAnEarlierVersionGivesTheSameBytes) {
+// The demo scene holds every number as it was written.
+TEST(SceneIo, SavingTheDemoSceneGivesTheSameBytes) {
   const fs::path demo = fs::path(ARTHRO_SOURCE_DIR) / "resources/demo/scene.json";
   test::TempFolder folder;
   WriteScene(folder / "scene.json", ReadScene(demo));

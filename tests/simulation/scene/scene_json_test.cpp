@@ -96,14 +96,24 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_TRUE(scene.tissues[1].is_implicit);
   ASSERT_EQ(scene.instruments.size(), 2u);
   EXPECT_EQ(scene.instruments[1].kind, "punch");
-  ASSERT_EQ(scene.tasks.size(), 1u);
-  EXPECT_EQ(scene.tasks[0].text, "Find the posterior horn.");
+  ASSERT_EQ(scene.exercises.size(), 2u);
+  EXPECT_EQ(scene.exercises[0].brief, "Find the posterior horn.");
+  EXPECT_EQ(scene.exercises[0].version, 1);
+  const Exercise& exercise = scene.exercises[1];
+  ASSERT_EQ(exercise.steps.size(), 12u);
+  EXPECT_EQ(exercise.targets[0].bearing,
+            glm::dvec2(RadiansFromDegrees(-0.5), RadiansFromDegrees(-21.3)));
+  EXPECT_EQ(KindOf(exercise.targets[3]), TargetKind::kRegions);
+  EXPECT_EQ(exercise.setup.view_angles,
+            (std::vector<double>{RadiansFromDegrees(30), RadiansFromDegrees(70)}));
+  EXPECT_EQ(std::get<SeeStep>(exercise.steps[0]).incidence, RadiansFromDegrees(50));
+  EXPECT_EQ(BaseOf(exercise.steps[0]).next, (StepNext{"s2", "end"}));
   EXPECT_EQ(scene.extensions.at("x-course"), R"({"week":3})");
 }
 
 TEST(SceneJson, ShortestSceneTakesTheDefaults) {
   const json shortest = {
-      {"schema", "arthroscene.scene/1"},
+      {"schema", "arthroscene.scene/2"},
       {"backdrop",
        {{"panorama", "p.png"},
         {"projection",

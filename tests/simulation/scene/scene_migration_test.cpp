@@ -38,6 +38,23 @@ TEST(SceneMigration, NewestIsLeftAlone) {
   EXPECT_EQ(scene, before);
 }
 
+TEST(SceneMigration, TurnsTasksOfTheFirstVersionIntoExercises) {
+  json scene = {{"schema", "arthroscene.scene/1"},
+                {"tasks", {{{"id", "look"}, {"title", "Look"}, {"text", "Find the horn."}}}}};
+  MigrateScene(scene, "scene.json");
+  EXPECT_EQ(
+      scene,
+      (json{{"schema", "arthroscene.scene/2"},
+            {"exercises", {{{"id", "look"}, {"title", "Look"}, {"brief", "Find the horn."}}}}}));
+}
+
+TEST(SceneMigration, LeavesAFirstVersionWithoutTasksAsItWas) {
+  json scene = {{"schema", "arthroscene.scene/1"}, {"title", "t"}, {"tasks", 5}};
+  MigrateScene(scene, "scene.json");
+  EXPECT_EQ(scene["exercises"], 5);  // for the reader to refuse
+  EXPECT_EQ(scene["title"], "t");
+}
+
 TEST(SceneMigration, RefusesANewerVersionByName) {
   const std::string fault = FaultOf({{"schema", "arthroscene.scene/7"}}, {}, 1);
   EXPECT_NE(fault.find("arthroscene.scene/7"), std::string::npos) << fault;

@@ -25,7 +25,7 @@ class SceneSchema : public ::testing::Test {
  protected:
   void SetUp() override {
     rapidjson::Document text;
-    text.Parse(ReadWholeFile(fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/scene-1.schema.json")
+    text.Parse(ReadWholeFile(fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/scene-2.schema.json")
                    .c_str());
     ASSERT_FALSE(text.HasParseError());
     schema_.emplace(text);
@@ -107,7 +107,7 @@ TEST_F(SceneSchema, AndTheReaderRefuseTheSameOfManyMutations) {
 }
 
 TEST_F(SceneSchema, TheCopyForOtherToolsIsTheGeneratedOne) {
-  const fs::path copy = fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/scene-1.schema.json";
+  const fs::path copy = fs::path(ARTHRO_SOURCE_DIR) / "resources/schemas/scene-2.schema.json";
   EXPECT_EQ(ReadWholeFile(copy), SceneSchemaText())
       << "a field of the scene has changed; write the schema anew: arthroscene check --schema > "
       << copy.string();

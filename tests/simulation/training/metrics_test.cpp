@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "simulation/core/units.h"
+#include "simulation/training/metrics/exercise_metrics.h"
 #include "simulation/training/metrics/hand_path.h"
 #include "simulation/training/metrics/smoothness.h"
 #include "tests/simulation/training/simulated_attempt.h"
+#include "tests/simulation/training/step_frames.h"
 
 namespace arthro::simulation {
 namespace {
@@ -219,7 +221,8 @@ TEST(Metrics, ValueThatIsMissingSaysWhy) {
   std::set<std::string_view> given;
   const std::vector<AttemptFrame> none, still(1, AttemptFrame{});
   for (const auto* frames : {&none, &still})
-    for (const MetricValue& value : MeasureAttempt(*frames, {"backdrop"})) {
+    for (const MetricValue& value :
+         MeasureExercise(*frames, StepEngine(Exercise()), {"backdrop"})) {
       given.insert(value.metric->id);
       EXPECT_EQ(value.value.has_value(), value.why_none.empty()) << value.metric->id;
       EXPECT_TRUE(std::isfinite(value.value.value_or(0))) << value.metric->id;
@@ -227,6 +230,63 @@ TEST(Metrics, ValueThatIsMissingSaysWhy) {
   EXPECT_EQ(given.size(), EveryMetric().size());
   EXPECT_FALSE(ValueOf(still, "path", "scope").has_value());
   EXPECT_FALSE(ValueOf(still, "sparc", "instrument").has_value());
+}
+
+double ExerciseValue(const std::vector<AttemptFrame>& frames, std::string_view id,
+                     const std::vector<ExerciseStep>& steps = {}, int targets = 1) {
+  StepEngine engine(test::ExerciseOf(steps, targets));
+  AdvanceAll(engine, frames);
+  for (const MetricValue& value : MeasureExercise(frames, engine, {"backdrop"}))
+    if (value.metric->id == id && value.value) return *value.value;
+  return NAN;
+}
+
+// 2 s of sight, 0.5 s without, 1 s of sight, 0.51 s without.
+TEST(ExerciseMetrics, ToolLossCountsFramesAndLongEpisodes) {
+  std::vector<AttemptFrame> frames(401, test::QuietFrame());
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    frames[k].sight.is_tip_visible = !((k >= 200 && k < 250) || k >= 350);
+  EXPECT_NEAR(ExerciseValue(frames, "tool_loss"), 101.0 / 401, 1e-12);
+  EXPECT_EQ(ExerciseValue(frames, "loss_episodes"), 1);
+}
+
+TEST(ExerciseMetrics, TriangulationEndsWhereASecondOfSightBegins) {
+  ProbeStep step;
+  step.targets = {"t0"};
+  std::vector<AttemptFrame> frames(500, test::QuietFrame());
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    frames[k].sight.is_tip_visible = (k >= 50 && k < 149) || k >= 231;
+  // The step starts in the first frame, at 0.01 s.
+  EXPECT_NEAR(ExerciseValue(frames, "triangulation", {step}), 2.30, 1e-9);
+}
+
+TEST(ExerciseMetrics, HorizonIsTheMeanTurnEitherWay) {
+  std::vector<AttemptFrame> frames(100, test::QuietFrame());
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    frames[k].head_roll = k % 2 == 0 ? 0.25F : static_cast<float>(kTurn) - 0.75F;
+  EXPECT_NEAR(ExerciseValue(frames, "horizon"), 0.5, 1e-6);
+}
+
+// 1 − exp(−100 h r) passes 0.55 at h r = 0.007985 m.
+TEST(ExerciseMetrics, DisturbedShareFollowsTheExtinctionOfHaze) {
+  std::vector<AttemptFrame> frames(100, test::QuietFrame());
+  for (std::size_t k = 0; k < frames.size(); ++k) frames[k].haze = k < 30 ? 0.80F : 0.79F;
+  EXPECT_NEAR(ExerciseValue(frames, "disturbed_share"), 0.3, 1e-12);
+}
+
+TEST(ExerciseMetrics, NearLensCountsTheTimeWithinTwoMillimetres) {
+  std::vector<AttemptFrame> frames(100, test::QuietFrame());
+  for (std::size_t k = 40; k < frames.size(); ++k) frames[k].tool[1].drawn_tip.x = 0.0021F;
+  EXPECT_NEAR(ExerciseValue(frames, "lens_near"), 0.4, 1e-12);
+}
+
+TEST(ExerciseMetrics, SharesOfTargetsCountEachOnce) {
+  SeeStep one, two;
+  one.targets = {"t0"};
+  two.targets = {"t1"};
+  const std::vector<AttemptFrame> frames(150, test::QuietFrame(2));
+  EXPECT_NEAR(ExerciseValue(frames, "seen_share", {one, two}, 2), 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(ExerciseValue(frames, "probed_share", {one, two}, 2)));
 }
 
 TEST(Metrics, SameFramesGiveTheSameBits) {

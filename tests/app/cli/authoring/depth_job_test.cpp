@@ -100,6 +100,57 @@ TEST_F(DepthJob, SaysThatAPictureIsFlat) {
   EXPECT_NE(result.err.find("one grey throughout"), std::string::npos) << result.err;
 }
 
+TEST_F(DepthJob, AStrokeRaisesTheMapUnderItAndNothingElse) {
+  ASSERT_EQ(Run("", "plain.tiff").exit_code, 0);
+  const std::string strokes = (folder_ / "strokes.json").string();
+  // Its middle is that of pixel (48, 32).
+  WriteAtomically(strokes, R"({"schema": "arthroscene.depth-strokes/1", "strokes": [
+    {"kind": "raise", "radius": 0.05, "hardness": 1, "falloff": "smooth", "amount": 0.001,
+     "strength": 1, "points": [[0.50520833, 0.33854167]]}]})");
+  const auto result = Run("--strokes " + strokes);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const DepthMap plain = ReadDepthMap(folder_ / "plain.tiff"),
+                 mended = ReadDepthMap(folder_ / "d.tiff");
+  // A float of 10 mm has steps of 1 nm.
+  EXPECT_NEAR(mended.at(48, 32), plain.at(48, 32) + 1e-3f, 1e-8);
+  for (int y = 0; y < plain.height; ++y)
+    for (int x = 0; x < plain.width; ++x)
+      ASSERT_TRUE(std::hypot(x - 48, y - 32) <= 0.05 * plain.width + 1 ||
+                  mended.at(x, y) == plain.at(x, y) || std::isnan(plain.at(x, y)))
+          << x << " " << y;
+}
+
+TEST_F(DepthJob, AnImportedMapTakesThePlaceOfTheEstimate) {
+  DepthMap own(96, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) own.at(x, y) = 0.001f + 1e-5f * static_cast<float>(x);
+  own.at(3, 4) = 0.0f;
+  WriteDepthMap(folder_ / "own.tiff", own);
+  const std::string import = "--import " + (folder_ / "own.tiff").string();
+  const auto result = Run(import + " --import-meaning relief --import-unit 1");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("0 strokes"), std::string::npos) << result.out;
+  const DepthMap depth = ReadDepthMap(folder_ / "d.tiff");
+  EXPECT_TRUE(std::isnan(depth.at(3, 4))) << "0 means that no depth is known";
+  // The relief passes through a range from the portal, of 50 mm, whose float has steps of 4 nm.
+  EXPECT_NEAR(depth.at(50, 20), own.at(50, 20), 1e-8);
+  EXPECT_EQ(Run(import + " --noise " + (folder_ / "n.tiff").string(), "e.tiff").exit_code, 2);
+  const auto colours = Run("--import " + (folder_ / "p.png").string(), "e.tiff");
+  EXPECT_EQ(colours.exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "e.tiff"));
+  EXPECT_NE(colours.err.find("p.png"), std::string::npos) << colours.err;
+}
+
+TEST_F(DepthJob, AStrokeWithoutPointsIsRefused) {
+  const std::string strokes = (folder_ / "strokes.json").string();
+  WriteAtomically(strokes, R"({"schema": "arthroscene.depth-strokes/1", "strokes": [
+    {"kind": "raise", "radius": 0.05, "points": []}]})");
+  const auto result = Run("--strokes " + strokes);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("strokes.json"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "d.tiff"));
+}
+
 TEST_F(DepthJob, HelpListsEveryOption) {
   const auto result = test::RunProgram("depth --help");
   EXPECT_EQ(result.exit_code, 0);
@@ -122,6 +173,8 @@ TEST_F(DepthJob, HelpListsEveryOption) {
                            "--correct-tissue",
                            "--iterations",
                            "--options",
+                           "--strokes",
+                           "--import",
                            "inverse-square"})
     EXPECT_NE(result.out.find(flag), std::string::npos) << flag << "\n" << result.out;
 }

@@ -40,7 +40,7 @@ Scene WriteGoodScene(const fs::path& folder) {
   tissue.rights = rights;
   scene.tissues = {tissue};
   scene.instruments = {{"probe", "probe"}};
-  scene.tasks = {{"look", "Look", ""}};
+  scene.exercises.emplace_back().id = "look";
   WriteColourImage(folder / "p.png", ColourImage(64, 32));
   WriteDepthMap(folder / "d.tiff", DepthMap(64, 32, 0.01f));
   const SurfaceMesh surface = Tetrahedron(0.01, {0, 0, 0.02});
@@ -77,7 +77,7 @@ TEST(CheckJob, WarnsOfWhatIsDoubtfulAndHintsAtWhatIsMissing) {
   scene.portals.incision_spacing = -0.06;
   scene.rig.scope.rod_length = 0.04;
   scene.backdrop.projection.centre_px.x = 1000;
-  scene.tasks.clear();
+  scene.exercises.clear();
   WriteScene(folder / "scene.json", scene);
   DepthMap depth(64, 32, 5.0f);  // mm, by mistake
   depth.at(0, 0) = std::numeric_limits<float>::quiet_NaN();
@@ -93,7 +93,7 @@ TEST(CheckJob, WarnsOfWhatIsDoubtfulAndHintsAtWhatIsMissing) {
         "warning: 2047 of 2047 depths lie outside 0 to 50 mm", "warning: the instrument's portal",
         "warning: the scope's rod of 40 mm", "centre_px (1000, 15.5) lies outside the panorama",
         "never seen", "3 edges do not join two triangles", "hint: tissue \"meniscus\" has no tet",
-        "hint: no tasks", "with 8 warnings"})
+        "hint: no exercises", "with 8 warnings"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
 }
 

@@ -142,7 +142,7 @@ TEST_F(TiedClip, TiesThatCannotBeUsedAreRefusedAndNamed) {
 
 // Text is burned into the same place of every frame while the tissue moves.
 TEST_F(TiedClip, BurnedInTextIsFoundAndNotDrawnWhereItIsMasked) {
-  const cv::Rect text(120, 60, 44, 12);
+  const cv::Rect text(120, 60, 42, 12);  // four letters of 6 px, 12 px apart
   const std::vector<TinyClip::View> views = TinyClip::Arc(9);
   std::filesystem::create_directory(folder_ / "text");
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -164,6 +164,11 @@ TEST_F(TiedClip, BurnedInTextIsFoundAndNotDrawnWhereItIsMasked) {
   const PixelBox& box = as_filmed.report.text_boxes[0];
   const cv::Rect found(box.x, box.y, box.width, box.height);
   EXPECT_EQ((found & text), text) << "the proposal covers the text";
+  // Two working pixels of two raw pixels each: the blur of a stroke, and its last pixel.
+  const cv::Rect near(text.x - 4, text.y - 4, text.width + 8, text.height + 8);
+  EXPECT_EQ((found | near), near) << "the proposal is no larger than the text asks for: "
+                                  << found.area() << " px² for " << text.area();
+  EXPECT_EQ(as_filmed.report.text_boxes.size(), 1u);
   // The automatic proposal, then a rectangle of a person.
   request_.options.mask_text = true;
   const PanoramaResult proposed = session_.Run(request_, {}, {});

@@ -160,9 +160,9 @@ TEST(LogFormat, RefusesOtherFilesWithOneSentence) {
   EXPECT_NE(Refusal("").find("empty"), std::string::npos);
   EXPECT_NE(Refusal("t,device,hip_x").find("no device log"), std::string::npos);
   std::string other = Sample();
-  for (const char version : {0, 4}) {
+  for (const char version : {0, 5}) {
     other[8] = version;
-    EXPECT_NE(Refusal(other).find("and 1 to 3 are read here"), std::string::npos);
+    EXPECT_NE(Refusal(other).find("and 1 to 4 are read here"), std::string::npos);
   }
 }
 
@@ -259,6 +259,22 @@ LogRecord Wish(std::int64_t t_ns, std::uint64_t number, double view_angle) {
   record.t_ns = t_ns;
   record.number = number;
   record.wish = {view_angle, -0.018, 4, 7};
+  record.wish.is_complete = true;
+  record.wish.is_head_upright = true;
+  record.wish.head_turn = -0.75;
+  record.wish.disturbance = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+  record.wish.disturbance_seed = -12;
+  record.wish.mount[1] = {{0.1, 0.2, 0.3}, {0.5, 0.5, -0.5, 0.5}, 0.21};
+  return record;
+}
+
+LogRecord Option(std::int64_t t_ns, std::uint64_t number, std::string_view name, double value) {
+  LogRecord record;
+  record.kind = LogKind::kOption;
+  record.t_ns = t_ns;
+  record.number = number;
+  std::copy(name.begin(), name.end(), record.option.name.begin());
+  record.option.value = value;
   return record;
 }
 
@@ -268,13 +284,48 @@ TEST(LogFormat, WishComesBackAsItWasWritten) {
       ParseDeviceLog(head + BlockOf({Tick(3, 0), Wish(4, 0, 1.25), Wish(9, 1, 0.5)}) + LogEnd(3));
   ASSERT_EQ(log.records.size(), 3u);
   EXPECT_EQ(log.missing, 0) << "wishes are numbered apart from ticks";
-  EXPECT_EQ(log.records[1].wish, (LoggedWish{1.25, -0.018, 4, 7}));
+  EXPECT_EQ(log.records[1].wish, Wish(4, 0, 1.25).wish);
   EXPECT_EQ(log.records[2].wish.view_angle, 0.5);
+}
+
+TEST(LogFormat, OptionComesBackAsItWasWritten) {
+  const auto log = ParseDeviceLog(
+      LogHead(kSources) + BlockOf({Option(3, 0, "stiffness", 240), Wish(4, 1, 0.5)}) + LogEnd(2));
+  EXPECT_EQ(log.missing, 0) << "wishes and options are numbered together";
+  EXPECT_EQ(log.records.at(0).option, Option(3, 0, "stiffness", 240).option);
+  const std::string nan = BlockOf({Option(3, 0, "stiffness", std::nan(""))});
+  EXPECT_THROW(ParseDeviceLog(LogHead(kSources) + nan + LogEnd(1)), Error);
+}
+
+TEST(LogFormat, RecordsOfAnAttemptComeBackBesideTheOthers) {
+  std::string payload;
+  AppendBody(LogKind::kFrame, 7, 0, "frame", payload);
+  Append(Tick(8, 0), payload);
+  AppendBody(LogKind::kEvent, 9, 1, "", payload);
+  const auto log = ParseDeviceLog(LogHead(kSources) + LogBlock(payload, 3) + LogEnd(3));
+  ASSERT_EQ(log.attempt.size(), 2u);
+  EXPECT_EQ(log.records.size(), 1u);
+  EXPECT_EQ(log.missing, 0);
+  EXPECT_EQ(log.attempt[0].kind, LogKind::kFrame);
+  EXPECT_EQ(log.attempt[0].t_ns, 7);
+  EXPECT_EQ(log.bodies.substr(log.attempt[0].begin, log.attempt[0].size), "frame");
+  EXPECT_EQ(log.attempt[1].size, 0u);
 }
 
 TEST(LogFormat, RefusesAWishThatIsNoNumber) {
   EXPECT_THROW(ParseDeviceLog(LogHead(kSources) + BlockOf({Wish(4, 0, std::nan(""))}) + LogEnd(1)),
                Error);
+}
+
+TEST(LogFormat, WishOfVersionThreeIsReadAsIncomplete) {
+  // A wish of version 3 ended after the number of resets.
+  std::string payload = BlockOf({Wish(4, 0, 1.25)}).substr(16);
+  constexpr std::size_t kHead = 20, kBody = 8 + 8 + 1 + 4;
+  payload.resize(kHead + kBody);
+  payload[2] = static_cast<char>(kBody);
+  payload[3] = 0;
+  const auto log = ParseDeviceLog(LogHead(kSources, 3) + LogBlock(payload, 1) + LogEnd(1));
+  EXPECT_EQ(log.records.at(0).wish, (LoggedWish{1.25, -0.018, 4, 7}));
 }
 
 TEST(LogFormat, VersionBeforeWishesCanBeRead) {

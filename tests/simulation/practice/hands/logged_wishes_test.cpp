@@ -2,11 +2,13 @@
 #include <cmath>
 #include <optional>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "simulation/core/units.h"
 #include "simulation/device/log/log_replay.h"
 #include "simulation/practice/hands/practice.h"
+#include "simulation/practice/option_numbers.h"
 #include "simulation/practice/replay.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temp_folder.h"
@@ -50,6 +52,11 @@ class LoggedWishes : public testing::Test {
     practice->instrument().Set({-std::asin(4.6 / 30), 0, 0, depth});
     Frames(frames);
   }
+  // Presses the front of the body, 26 mm from the portal.
+  void PressTheBody() {
+    practice->instrument().Set({0, 0, 0, 0.0275});
+    Frames(60);
+  }
   Recording End() {
     practice.reset();
     EXPECT_EQ(hands->End(), "");
@@ -74,7 +81,7 @@ TEST_F(LoggedWishes, ShaverRemovesTheSameAgain) {
   ReplayReport again, without;
   Replay(loaded, recording, {}, {}, &again);
   EXPECT_NEAR(again.tissues.at(0).cut.removed, removed, 0.02 * removed);
-  Replay(loaded, {recording.rows, {}}, {}, {}, &without);
+  Replay(loaded, {recording.rows}, {}, {}, &without);
   EXPECT_TRUE(without.tissues.empty() || without.tissues[0].cut.removed == 0)
       << "the probe that the scene begins with removes nothing";
 }
@@ -88,7 +95,7 @@ TEST_F(LoggedWishes, ViewAngleChangesWhenItDid) {
   ASSERT_EQ(recording.wishes.size(), 2u) << "one at the beginning, and one at the change";
   double changed = -1;
   Replay(loaded, recording, {}, {}, nullptr, {},
-         [&](double t, const Snapshot& snapshot, ToolKind, const WorldPicture*) {
+         [&](double t, const Snapshot& snapshot, const WorldPicture*) {
            if (changed < 0 && snapshot.view_angle > 1) changed = t;
          });
   EXPECT_NEAR(changed, 0.5, 2e-3) << "to two ticks";
@@ -109,9 +116,111 @@ TEST_F(LoggedWishes, ResetMakesTheTissueWholeAgain) {
   EXPECT_EQ(again.tissues.at(0).cut.removed, 0);
 }
 
+TEST_F(LoggedWishes, CameraHeadAndDisturbancesFollow) {
+  Frames(30);
+  practice->SetCameraHead({.is_upright = true, .turn = 0.4});
+  Disturbances murky;
+  murky.haze = 0.6;
+  murky.overexposure = 0.2;
+  murky.seed = 5;
+  practice->SetDisturbances(murky);
+  Frames(30);
+  EXPECT_EQ(practice->snapshot().disturbances, murky);
+  Snapshot first, last;
+  Replay(loaded, End(), {}, {}, nullptr, {},
+         [&](double t, const Snapshot& snapshot, const WorldPicture*) {
+           if (t < 0.4) first = snapshot;
+           last = snapshot;
+         });
+  EXPECT_EQ(first.head, CameraHead());
+  EXPECT_EQ(first.disturbances, Disturbances());
+  EXPECT_EQ(last.head, (CameraHead{true, 0.4}));
+  EXPECT_EQ(last.disturbances, murky);
+}
+
+TEST_F(LoggedWishes, MountFollows) {
+  Frames(30);
+  DeviceRig mount = loaded.scene.rig.instrument;
+  mount.pivot = {0.002, -0.001, 0.0005};
+  mount.rod_length = 0.19;
+  practice->SetMount(DeviceRole::kInstrument, mount);
+  Lead(0.02, 60);
+  const glm::dvec3 tip = practice->snapshot().instrument.tip_in_portal;
+  Snapshot last;
+  Replay(loaded, End(), {}, {}, nullptr, {},
+         [&](double, const Snapshot& snapshot, const WorldPicture*) { last = snapshot; });
+  EXPECT_NEAR(glm::distance(last.instrument.tip_in_portal, tip), 0, 1e-9);
+}
+
+TEST_F(LoggedWishes, OptionsFollowAndThoseOfTheCallerTakePrecedence) {
+  SessionOptions soft;
+  soft.contact.stiffness = 150;
+  soft.limiter.max_force = 1.5;
+  practice.emplace(MakePractice(loaded, {}, TissuePace::kInline, soft));
+  PressTheBody();
+  const double force = glm::length(practice->snapshot().instrument.tip_force);
+  ASSERT_GT(force, 0.02);
+  const Recording recording = End();
+  const auto last_force = [&](const SessionOptions& options) {
+    Snapshot last;
+    Replay(loaded, recording, options, {}, nullptr, {},
+           [&](double, const Snapshot& snapshot, const WorldPicture*) { last = snapshot; });
+    return glm::length(last.instrument.tip_force);
+  };
+  EXPECT_NEAR(last_force({}), force, 1e-3 * force);
+  SessionOptions stiff;
+  stiff.contact.stiffness = 300;
+  EXPECT_GT(last_force(stiff), 1.5 * force);
+}
+
+TEST_F(LoggedWishes, OptionThatChangesMidwayFollows) {
+  PressTheBody();
+  SessionOptions soft;
+  soft.contact.stiffness = 100;
+  practice->SetOptions(soft, nullptr);
+  Frames(60);
+  const double force = glm::length(practice->snapshot().instrument.tip_force);
+  double before = 0, after = 0;
+  Replay(loaded, End(), {}, {}, nullptr, {},
+         [&](double t, const Snapshot& snapshot, const WorldPicture*) {
+           (t < 0.95 ? before : after) = glm::length(snapshot.instrument.tip_force);
+         });
+  EXPECT_NEAR(after, force, 1e-3 * force);
+  EXPECT_GT(before, 2 * after);
+}
+
+TEST_F(LoggedWishes, GapOfMinutesBetweenTwoAttemptsIsPlayed) {
+  Lead(0.02, 60);
+  Recording recording = End();
+  const std::size_t half = recording.rows.size() / 2;
+  for (std::size_t i = half; i < recording.rows.size(); ++i) recording.rows[i].sample.t += 600;
+  ReplayReport report;
+  const auto forces = Replay(loaded, recording, {}, {}, &report);
+  EXPECT_EQ(forces.size(), recording.rows.size());
+  EXPECT_GT(report.duration, 600);
+  EXPECT_LT(report.ticks, 62000) << "ticks of a minute of the gap, not of all of it";
+}
+
+TEST_F(LoggedWishes, WatchesAreCalledWhileTheyAreAdded) {
+  struct Count final : ServoWatch {
+    long ticks = 0;
+    void AfterTick(const Snapshot&, double) noexcept override { ++ticks; }
+  } early, late;
+  practice->AddWatch(early);
+  Frames(6);
+  EXPECT_EQ(early.ticks, 100);
+  practice->AddWatch(late);
+  practice->RemoveWatch(early);
+  Frames(6);
+  EXPECT_EQ(early.ticks, 100);
+  EXPECT_EQ(late.ticks, 100);
+}
+
 TEST_F(LoggedWishes, NothingIsLoggedWhileNothingChanges) {
   Frames(120);
-  EXPECT_EQ(End().wishes.size(), 1u);
+  const Recording recording = End();
+  EXPECT_EQ(recording.wishes.size(), 1u);
+  EXPECT_EQ(static_cast<int>(recording.options.size()), NumbersOf({}).count);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct Direction {  // vector of any length but zero
   Range each;
 };
 struct NumberList {};  // finite numbers, however many
+struct TextList {};    // texts that are not empty, however many
 struct PointList {
   int least, most;
   Range each;

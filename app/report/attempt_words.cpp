@@ -1,0 +1,89 @@
+#include "app/report/attempt_words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "simulation/core/units.h"
+
+namespace arthro::app {
+namespace {
+
+struct ShownUnit {
+  double factor;
+  const char* words;
+};
+
+// Files hold SI units; a person reads these.
+ShownUnit ShownUnitOf(const std::string& unit) {
+  if (unit == "m") return {1e3, "mm"};
+  if (unit == "m²") return {1e6, "mm²"};
+  if (unit == "m³") return {1e9, "mm³"};
+  if (unit == "rad") return {1 / kRadianPerDegree, "°"};
+  return {1, unit.c_str()};
+}
+
+// Four digits, and whole numbers as such.
+std::string Digits(double value) {
+  return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+std::string WithUnit(const std::string& digits, const char* unit) {
+  return *unit == 0 ? digits : fmt::format("{} {}", digits, unit);
+}
+
+}  // namespace
+
+std::string ValueWords(const std::optional<double>& value, const std::string& unit) {
+  if (!value) return "not measured";
+  const ShownUnit shown = ShownUnitOf(unit);
+  return WithUnit(Digits(*value * shown.factor), shown.words);
+}
+
+std::string LimitWords(const CriterionRow& criterion, const std::string& unit) {
+  const ShownUnit shown = ShownUnitOf(unit);
+  if (criterion.low && criterion.high)
+    return WithUnit(fmt::format("between {} and {}", Digits(*criterion.low * shown.factor),
+                                Digits(*criterion.high * shown.factor)),
+                    shown.words);
+  if (criterion.high) return "at most " + ValueWords(criterion.high, unit);
+  if (criterion.low) return "at least " + ValueWords(criterion.low, unit);
+  return "";
+}
+
+std::string UnitOf(const AttemptRecord& attempt, const std::string& metric,
+                   const std::string& part) {
+  for (const MetricRow& row : attempt.metrics)
+    if (row.name == metric && (row.part == part || part.empty())) return row.unit;
+  return "";
+}
+
+std::string OutcomeWords(const AttemptRecord& attempt) {
+  const auto with = [&](const char* words) {
+    return attempt.reason.empty() ? words + std::string(".")
+                                  : fmt::format("{}. {}", words, attempt.reason);
+  };
+  switch (attempt.outcome) {
+    case AttemptOutcome::kPassed:
+      return with(attempt.criteria.empty() ? "Done; this exercise has no criteria"
+                                           : "Passed: every criterion is met");
+    case AttemptOutcome::kFailed:
+      return with("Not passed");
+    case AttemptOutcome::kStopped:
+      return with("Stopped before its end");
+    case AttemptOutcome::kVoid:
+      return with("Void: it does not count");
+    case AttemptOutcome::kRunning:
+      return with("Running");
+  }
+  return "";
+}
+
+std::string MetricWords(const std::string& metric, const std::string& part) {
+  std::string words = metric;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return part.empty() || part == "both" ? words : fmt::format("{} ({})", words, part);
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,17 @@
+// An attempt at an exercise in the window: its begin, its frames, and its end.
+#pragma once
+
+#include "app/steps/lessons/lessons_step.h"
+#include "simulation/training/steps/trainee_act.h"
+
+namespace arthro::app {
+
+// True where the exercise that is chosen can be begun.
+bool MayBeginExercise(const EditorState& state);
+// Starts a practice in the exercise's state, with an attempt that begins with its first frame.
+void BeginExercise(EditorState& state);
+void Act(EditorState& state, const simulation::TraineeAct& act);
+// Ends the attempt as one that was stopped, and its practice.
+void StopAttempt(EditorState& state);
+
+}  // namespace arthro::app

@@ -1,0 +1,226 @@
+// The look back at an attempt: steps and events beside the picture, force, centring and path over
+// time. A click into a figure or on an event goes there.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/panels/command_button.h"
+#include "app/panels/plot.h"
+#include "app/steps/lessons/lessons_step.h"
+#include "app/steps/lessons/value_words.h"
+#include "simulation/core/units.h"
+#include "simulation/device/device_sample.h"
+
+namespace arthro::app {
+namespace {
+
+using simulation::AttemptEvent;
+using simulation::AttemptFrame;
+using simulation::DeviceRole;
+using simulation::EventKind;
+
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kMostPoints = 2000;  // points in a curve; more than a figure has pixels
+
+const char* EventWords(EventKind kind) {
+  switch (kind) {
+    case EventKind::kAttemptStart:
+      return "Begin";
+    case EventKind::kAttemptEnd:
+      return "End";
+    case EventKind::kStepStart:
+      return "Step begins";
+    case EventKind::kStepDone:
+      return "Step done";
+    case EventKind::kStepFailed:
+      return "Step failed";
+    case EventKind::kCue:
+      return "Cue";
+    case EventKind::kSeen:
+      return "Seen";
+    case EventKind::kLost:
+      return "Lost";
+    case EventKind::kProbed:
+      return "Probed";
+    case EventKind::kForceOver:
+      return "Too much force";
+    case EventKind::kZoneIn:
+      return "Zone entered";
+    case EventKind::kZoneOut:
+      return "Zone left";
+    case EventKind::kMark:
+      return "Mark";
+    case EventKind::kAnswer:
+      return "Answer";
+    case EventKind::kGrasp:
+      return "Grasped";
+    case EventKind::kDrop:
+      return "Dropped";
+    case EventKind::kPlaced:
+      return "Placed";
+    case EventKind::kBite:
+      return "Bite";
+    case EventKind::kCutOutside:
+      return "Cut outside";
+    case EventKind::kBleed:
+      return "Bleeding";
+    case EventKind::kStopped:
+      return "Stopped";
+    case EventKind::kReset:
+      return "Tissue restored";
+    case EventKind::kPause:
+      return "Pause";
+    case EventKind::kResume:
+      return "Resumed";
+    case EventKind::kLookDown:
+      return "Looked down";
+    case EventKind::kNote:
+      return "Note";
+    case EventKind::kFault:
+      return "Fault";
+  }
+  return "";
+}
+
+// Largest of each run of frames, so that a short peak is not lost; NaN where none has a value.
+template <class ValueOf>
+PlotCurve CurveOf(const std::vector<AttemptFrame>& frames, const ValueOf& value_of) {
+  PlotCurve curve;
+  const std::size_t run = std::max<std::size_t>(1, frames.size() / kMostPoints);
+  for (std::size_t first = 0; first < frames.size(); first += run) {
+    float most = kNoValue;
+    for (std::size_t i = first; i < std::min(first + run, frames.size()); ++i) {
+      const float value = value_of(frames[i]);
+      if (std::isfinite(value) && !(most >= value)) most = value;
+    }
+    curve.points.push_back(
+        {static_cast<float>(simulation::kFrameTime * static_cast<double>(first)), most});
+  }
+  return curve;
+}
+
+const simulation::ToolFrame& Instrument(const AttemptFrame& frame) {
+  return frame.tool[static_cast<std::size_t>(DeviceRole::kInstrument)];
+}
+
+Plot OverTime(const FinishedAttempt& attempt, const Debrief& debrief, const char* title) {
+  Plot plot;
+  plot.title = title;
+  plot.right = simulation::kFrameTime * static_cast<double>(attempt.frames.size());
+  plot.x_unit = " s";
+  plot.cursor = debrief.at;
+  for (const AttemptEvent& event : attempt.result.events)
+    if (event.kind == EventKind::kStepDone || event.kind == EventKind::kStepFailed)
+      plot.marks.push_back({event.t, event.kind == EventKind::kStepDone ? kGood : kBad});
+  return plot;
+}
+
+Plot ForcePlot(const FinishedAttempt& attempt, const Debrief& debrief) {
+  Plot plot = OverTime(attempt, debrief, "Force on the instrument's tip, N");
+  plot.curves.push_back(
+      CurveOf(attempt.frames, [](const AttemptFrame& f) { return Instrument(f).peak_force; }));
+  for (const Criterion& criterion : attempt.exercise.criteria)
+    if (criterion.metric == "peak_force" && criterion.max) plot.limits.push_back(*criterion.max);
+  FitAxes(plot);
+  return plot;
+}
+
+// Nearest target to the middle of the picture.
+Plot CentrePlot(const FinishedAttempt& attempt, const Debrief& debrief) {
+  Plot plot = OverTime(attempt, debrief, "Nearest target from the centre (1: rim)");
+  plot.curves.push_back(CurveOf(attempt.frames, [](const AttemptFrame& frame) {
+    float nearest = kNoValue;
+    for (int i = 0; i < frame.sight.targets; ++i) {
+      const auto& sight = frame.sight.target[static_cast<std::size_t>(i)];
+      if (sight.is_clear && !(nearest <= sight.centre)) nearest = sight.centre;
+    }
+    return nearest;
+  }));
+  return plot;
+}
+
+// Ways of both tips, from the front: right and up, mm.
+Plot PathPlot(const FinishedAttempt& attempt, const AttemptFrame* now) {
+  Plot plot;
+  plot.title = "Paths of both tips from the front, mm";
+  plot.is_equal = true;
+  plot.left = plot.low = std::numeric_limits<double>::max();
+  plot.right = plot.high = std::numeric_limits<double>::lowest();
+  const auto point = [](const simulation::ToolFrame& tool) {
+    return tool.is_inside() ? ImVec2{1e3F * tool.tip.x, -1e3F * tool.tip.y} : ImVec2{0, kNoValue};
+  };
+  const std::size_t run = std::max<std::size_t>(1, attempt.frames.size() / kMostPoints);
+  for (const DeviceRole role : {DeviceRole::kScope, DeviceRole::kInstrument}) {
+    PlotCurve curve;
+    curve.colour = role == DeviceRole::kScope ? kQuiet : kAccent;
+    for (std::size_t i = 0; i < attempt.frames.size(); i += run)
+      curve.points.push_back(point(attempt.frames[i].tool[static_cast<std::size_t>(role)]));
+    plot.curves.push_back(std::move(curve));
+    if (now != nullptr)
+      plot.curves.push_back({{point(now->tool[static_cast<std::size_t>(role)])}, kBright, true});
+  }
+  FitAxes(plot);
+  return plot;
+}
+
+void Events(Ui& ui, LessonsStep& step, const FinishedAttempt& attempt) {
+  int number = 0;
+  for (const AttemptEvent& event : attempt.result.events) {
+    std::string words = fmt::format("{:.1f} s  {}", event.t, EventWords(event.kind));
+    if (!event.target.empty()) words += " " + event.target;
+    if (!event.step.empty()) words += " (" + event.step + ")";
+    const bool is_now = std::abs(step.debrief.at - event.t) < 0.5;
+    if (ListEntry(ui, words + "##" + std::to_string(number++), is_now)) step.debrief.at = event.t;
+  }
+}
+
+}  // namespace
+
+void DebriefSide(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "debrief", area, kPageWindow);
+  LessonsStep& step = *state.steps.lessons;
+  const FinishedAttempt& attempt = *step.finished;
+  Heading(ui, attempt.exercise.title);
+  double seconds = step.debrief.at;
+  const double end = simulation::kFrameTime * static_cast<double>(attempt.frames.size());
+  if (Slider(ui, "Time", seconds, 0, std::max(end, 0.01), "%.2f s")) step.debrief.at = seconds;
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
+  if (ToggleButton(ui, "Play", step.debrief.plays, true, {half, ui.Px(40)})) {
+    step.debrief.plays = !step.debrief.plays;
+    if (step.debrief.at >= end) step.debrief.at = 0;
+  }
+  ImGui::SameLine(0, ui.Px(6));
+  CommandButton(ui, state, "attempt-summary", {half, ui.Px(40)});
+  Slider(ui, "Speed", step.debrief.speed, 0.25, 4, "%.2f");
+  Gap(ui);
+  Heading(ui, "Events");
+  const float foot = ui.Px(54);
+  ImGui::BeginChild("events", {0, std::max(ui.Px(80), ImGui::GetContentRegionAvail().y - foot)});
+  Events(ui, step, attempt);
+  ImGui::EndChild();
+  CommandButton(ui, state, "close-lesson", {-FLT_MIN, ui.Px(44)});
+}
+
+void DebriefPlots(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "debrief plots", area, kPageWindow);
+  LessonsStep& step = *state.steps.lessons;
+  const FinishedAttempt& attempt = *step.finished;
+  const float gap = ui.Px(8), height = (area.height - 4 * gap) / 4;
+  const Area inner{area.x + gap, area.y + gap, area.width - 2 * gap, height};
+  const auto at = [&](float rows) {
+    Area row = inner;
+    row.y += rows * (height + gap);
+    return row;
+  };
+  for (const auto& picked : {DrawPlot(ui, ForcePlot(attempt, step.debrief), at(0)),
+                             DrawPlot(ui, CentrePlot(attempt, step.debrief), at(1))})
+    if (picked) step.debrief.at = *picked, step.debrief.plays = false;
+  Area rest = at(2);
+  rest.height = 2 * height;
+  DrawPlot(ui, PathPlot(attempt, DebriefFrame(state)), rest);
+}
+
+}  // namespace arthro::app

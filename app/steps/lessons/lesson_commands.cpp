@@ -1,0 +1,146 @@
+// Lessons: begin an exercise, act in its attempt, look back, and edit the exercises of the scene.
+#include <GLFW/glfw3.h>
+
+#include "app/state/edits.h"
+#include "app/steps/lessons/attempt.h"
+#include "app/steps/lessons/exercise_edit.h"
+
+namespace arthro::app {
+namespace {
+
+using State = EditorState;
+using simulation::ActKind;
+
+bool RunsAttempt(const State& state) { return state.steps.lessons->running.has_value(); }
+bool HasResult(const State& state) {
+  return !state.practice && state.steps.lessons->finished.has_value();
+}
+
+template <ActKind kind>
+void Do(State& state) {
+  Act(state, {kind, 0, ""});
+}
+
+void Close(State& state) {
+  LessonsStep& step = *state.steps.lessons;
+  step.page = LessonPage::kNone;
+  if (state.practice_only) state.dialogs.push_back(PracticeEndedDialog{0});
+}
+
+constexpr Command kCommands[] = {
+    {"exercise-briefing",
+     "Start exercise…",
+     "Read what the chosen exercise asks for, then begin it.",
+     "Lessons",
+     {},
+     {},
+     MayBeginExercise,
+     [](State& state) { state.steps.lessons->page = LessonPage::kBriefing; }},
+    {"begin-exercise",
+     "Begin",
+     "Begin an attempt at the chosen exercise.",
+     "Lessons",
+     {},
+     {},
+     MayBeginExercise,
+     BeginExercise},
+    {"attempt-hint",
+     "Hint",
+     "Show where the target is.",
+     "Lessons",
+     {GLFW_KEY_N},
+     {},
+     RunsAttempt,
+     Do<ActKind::kHint>},
+    {"attempt-mark",
+     "Mark",
+     "Mark the place under the instrument's tip, for a measurement.",
+     "Lessons",
+     {GLFW_KEY_M},
+     {},
+     RunsAttempt,
+     Do<ActKind::kMark>},
+    {"attempt-look-down",
+     "Looks down",
+     "Note that the trainee looked at the hands (for the instructor).",
+     "Lessons",
+     {GLFW_KEY_L},
+     {},
+     RunsAttempt,
+     Do<ActKind::kLookDown>},
+    {"end-attempt",
+     "End attempt",
+     "End the attempt, as Esc does; what was observed is kept.",
+     "Lessons",
+     {},
+     {},
+     RunsAttempt,
+     StopAttempt},
+    {"attempt-debrief",
+     "Look back",
+     "Look at the attempt again: picture, steps, force and path.",
+     "Lessons",
+     {},
+     {},
+     HasResult,
+     [](State& state) { state.steps.lessons->page = LessonPage::kDebrief; }},
+    {"attempt-summary",
+     "Result",
+     "Show the criteria and whether each was met.",
+     "Lessons",
+     {},
+     {},
+     HasResult,
+     [](State& state) { state.steps.lessons->page = LessonPage::kSummary; }},
+    {"debrief-play",
+     "Play",
+     "Play or stop the look back.",
+     "Lessons",
+     {},
+     {},
+     HasResult,
+     [](State& state) {
+       Debrief& debrief = state.steps.lessons->debrief;
+       debrief.plays = !debrief.plays;
+     }},
+    {"close-lesson",
+     "Close",
+     "Return to the editor.",
+     "Lessons",
+     {},
+     {},
+     [](const State& state) {
+       return !state.practice && state.steps.lessons->page != LessonPage::kNone;
+     },
+     Close},
+    {"new-exercise",
+     "New exercise",
+     "Add an exercise to this scene.",
+     "Lessons",
+     {},
+     {},
+     InEditor,
+     AddExercise},
+    {"copy-exercise",
+     "Copy",
+     "Copy the chosen exercise.",
+     "Lessons",
+     {},
+     {},
+     HasExercise,
+     CopyExercise},
+    {"remove-exercise",
+     "Remove",
+     "Remove the chosen exercise.",
+     "Lessons",
+     {},
+     {},
+     HasExercise,
+     RemoveExercise},
+};
+
+}  // namespace
+
+std::span<const Command> LessonCommands() { return kCommands; }
+
+}  // namespace arthro::app

@@ -1,0 +1,191 @@
+// Pages of a lesson: what the exercise asks for, the attempt that runs, and its result.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/panels/command_button.h"
+#include "app/panels/fixed_window.h"
+#include "app/panels/options_panel.h"
+#include "app/steps/lessons/attempt.h"
+#include "app/steps/lessons/running_attempt.h"
+#include "app/steps/lessons/value_words.h"
+
+namespace arthro::app {
+namespace {
+
+using simulation::AttemptOutcome;
+using simulation::StripState;
+
+std::string ClockWords(double seconds) {
+  const int whole = static_cast<int>(seconds);
+  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+}
+
+// Rows of the criteria: what is measured, within which limits, and where they come from.
+void AskedFor(Ui& ui, const Exercise& exercise) {
+  if (exercise.criteria.empty()) {
+    QuietText(ui, "No criterion: the attempt is passed when its steps are done.");
+    return;
+  }
+  for (const Criterion& criterion : exercise.criteria) {
+    Text(ui, fmt::format("{} {}", MetricWords(criterion.metric, criterion.part),
+                         LimitsOfMetric(criterion.metric, criterion.min, criterion.max)));
+    if (!criterion.source.empty()) QuietText(ui, criterion.source);
+  }
+}
+
+void Briefing(Ui& ui, EditorState& state, const Exercise& exercise) {
+  LargeText(ui, exercise.title);
+  Text(ui, exercise.brief);
+  Gap(ui);
+  Heading(ui, "Steps");
+  int number = 0;
+  for (const ExerciseStep& step : exercise.steps)
+    Text(ui,
+         fmt::format("{}. {}", ++number,
+                     BaseOf(step).text.empty() ? WordsOfField(KindOf(step)) : BaseOf(step).text));
+  Gap(ui);
+  Heading(ui, "A pass needs");
+  AskedFor(ui, exercise);
+  Gap(ui);
+  TextField(ui, "Trainee's code", state.steps.lessons->trainee, "for example T-7F3K");
+  Checkbox(ui, "Test", state.steps.lessons->is_test,
+           "A test counts for the gate of the exercise; practice does not.");
+  Gap(ui);
+  CommandButton(ui, state, "begin-exercise", {ui.Px(160), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
+}
+
+const ExerciseStep* StepUnderWay(const simulation::StepEngine& engine) {
+  const int step = engine.strip().step;
+  const auto& steps = engine.exercise().steps;
+  return step >= 0 && step < static_cast<int>(steps.size()) ? &steps[static_cast<std::size_t>(step)]
+                                                            : nullptr;
+}
+
+void ForceBand(Ui& ui, const StripState& strip) {
+  if (!strip.force_band) return;
+  const glm::dvec2 band = *strip.force_band;
+  const bool is_within = strip.force >= band.x && strip.force <= band.y;
+  QuietText(
+      ui, fmt::format("Force {:.1f} N, asked for {:.1f} to {:.1f} N", strip.force, band.x, band.y));
+  MarkedBar(ui, "Force asked for", std::min(1.0, strip.force / (1.5 * band.y)),
+            is_within ? kGood : kWarning, band.x / (1.5 * band.y),
+            fmt::format("{:.1f} N", strip.force));
+}
+
+void Answers(Ui& ui, EditorState& state, const ExerciseStep& step) {
+  const auto* question = std::get_if<AnswerStep>(&step);
+  if (question == nullptr) return;
+  Text(ui, question->question);
+  for (std::size_t i = 0; i < question->choices.size(); ++i)
+    if (Button(ui, question->choices[i].text, true, {-FLT_MIN, ui.Px(40)}))
+      Act(state, {.kind = simulation::ActKind::kAnswer, .answer = static_cast<int>(i), .note = {}});
+}
+
+void UnderWay(Ui& ui, EditorState& state) {
+  const simulation::StepEngine& engine = state.steps.lessons->running->engine;
+  const StripState& strip = engine.strip();
+  const Exercise& exercise = engine.exercise();
+  Heading(ui, exercise.title);
+  QuietText(ui, "Time");
+  LargeText(ui, ClockWords(strip.time));
+  QuietText(ui, fmt::format("{} of {} steps done", strip.done, exercise.steps.size()));
+  if (const ExerciseStep* step = StepUnderWay(engine)) {
+    const std::string& text = BaseOf(*step).text;
+    Heading(ui, text.empty() ? WordsOfField(KindOf(*step)) : text);
+    MarkedBar(ui, "Progress", strip.progress, kGood, 0,
+              fmt::format("{:.0f} %", 100 * strip.progress));
+    if (strip.step_time_left)
+      QuietText(ui, fmt::format("{:.0f} s left", std::ceil(*strip.step_time_left)));
+    ForceBand(ui, strip);
+    Answers(ui, state, *step);
+  } else {
+    Text(ui, "Free practice: end the attempt when you are ready.");
+  }
+  Gap(ui);
+  QuietText(ui, fmt::format("Force on the tip {:.2f} N", strip.force));
+  const float foot = 2 * ui.Px(50);
+  const float free = ImGui::GetContentRegionAvail().y - foot;
+  if (free > 0) ImGui::Dummy({0, free - ImGui::GetStyle().ItemSpacing.y});
+  const float half = (ImGui::GetContentRegionAvail().x - ui.Px(6)) / 2;
+  CommandButton(ui, state, "attempt-hint", {half, ui.Px(44)});
+  ImGui::SameLine(0, ui.Px(6));
+  CommandButton(ui, state, "attempt-mark", {half, ui.Px(44)});
+  CommandButton(ui, state, "end-attempt", {-FLT_MIN, ui.Px(44)});
+}
+
+const char* OutcomeWords(AttemptOutcome outcome) {
+  switch (outcome) {
+    case AttemptOutcome::kPassed:
+      return "Passed";
+    case AttemptOutcome::kFailed:
+      return "Not passed";
+    case AttemptOutcome::kStopped:
+      return "Stopped";
+    case AttemptOutcome::kVoid:
+      return "Void";
+    case AttemptOutcome::kRunning:
+      break;
+  }
+  return "Running";
+}
+
+void Criteria(Ui& ui, const simulation::AttemptResult& result) {
+  if (!ImGui::BeginTable("criteria", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
+    return;
+  for (const simulation::CriterionResult& criterion : result.criteria) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ColouredText(ui, criterion.is_met ? "met" : "not met", criterion.is_met ? kGood : kBad);
+    ImGui::TableNextColumn();
+    Text(ui, MetricWords(criterion.metric, criterion.part));
+    ImGui::TableNextColumn();
+    Text(ui, criterion.value ? ValueOfMetric(criterion.metric, *criterion.value) : "not measured");
+    ImGui::TableNextColumn();
+    QuietText(ui, LimitsOfMetric(criterion.metric, criterion.low, criterion.high) +
+                      (criterion.is_start_value ? " (start value)" : ""));
+  }
+  ImGui::EndTable();
+}
+
+void Summary(Ui& ui, EditorState& state, const FinishedAttempt& attempt) {
+  const auto& result = attempt.result;
+  LargeText(ui, OutcomeWords(result.outcome),
+            result.outcome == AttemptOutcome::kPassed ? kGood : kWarning);
+  Text(ui, attempt.exercise.title + ", " + ClockWords(result.duration));
+  if (!result.reason.empty()) Text(ui, result.reason);
+  Gap(ui);
+  if (!result.criteria.empty()) {
+    Heading(ui, "Criteria");
+    Criteria(ui, result);
+    Gap(ui);
+  }
+  Heading(ui, "Measured");
+  for (const simulation::MetricValue& value : result.metrics)
+    if (value.value && value.metric != nullptr)
+      Text(ui, fmt::format("{}: {}", MetricWords(std::string(value.metric->id), value.part),
+                           ValueOfMetric(std::string(value.metric->id), *value.value)));
+  Gap(ui);
+  CommandButton(ui, state, "attempt-debrief", {ui.Px(150), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "exercise-briefing", {ui.Px(170), ui.Px(44)});
+  ImGui::SameLine();
+  CommandButton(ui, state, "close-lesson", {ui.Px(120), ui.Px(44)});
+}
+
+}  // namespace
+
+void LessonPagePanel(Ui& ui, EditorState& state, const Area& area) {
+  const FixedWindow window(ui, "lesson", area, kPageWindow);
+  LessonsStep& step = *state.steps.lessons;
+  if (step.running) return UnderWay(ui, state);
+  if (step.page == LessonPage::kBriefing && ChosenExercise(state) != nullptr)
+    return Briefing(ui, state, *ChosenExercise(state));
+  if (step.finished) Summary(ui, state, *step.finished);
+}
+
+}  // namespace arthro::app

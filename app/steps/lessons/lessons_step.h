@@ -1,0 +1,74 @@
+// Exercises of the scene: choosing one, the attempt at it, what came of it, and the look back at
+// it. Pages stand in the place of the practice's panel while a practice runs, and beside the
+// picture in the editor.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/state/command.h"
+#include "app/state/owned.h"
+#include "simulation/scene/exercise/exercise.h"
+#include "simulation/training/attempt_result.h"
+#include "simulation/training/observe/attempt_frame.h"
+
+namespace arthro::app {
+
+struct Area;
+struct Ui;
+struct RunningAttempt;  // running_attempt.h
+
+// An attempt that has ended, with everything that was observed of it.
+struct FinishedAttempt {
+  Exercise exercise;
+  std::string trainee;  // code
+  bool is_test = false;
+  simulation::AttemptResult result;
+  std::vector<simulation::AttemptFrame> frames;
+};
+
+// A position in the attempt that is looked back at.
+struct Debrief {
+  double at = 0;  // s
+  bool plays = false;
+  double speed = 1;
+};
+
+enum class LessonPage { kNone, kBriefing, kAttempt, kSummary, kDebrief };
+
+struct LessonsStep {
+  std::string trainee;  // code; results are kept under it
+  bool is_test = false;
+  int chosen = -1;  // exercise of the scene
+  LessonPage page = LessonPage::kNone;
+  Owned<RunningAttempt> running;
+  std::optional<FinishedAttempt> finished;
+  Debrief debrief;
+  // Author's part: what is selected in the lists of the exercise that is edited.
+  int target = -1, step = -1, criterion = -1;
+  bool takes_target = false;  // a click in the picture sets the place of the chosen target
+};
+
+// The chosen exercise; null: none.
+const Exercise* ChosenExercise(const EditorState& state);
+
+std::span<const Command> LessonCommands();
+
+// Once per frame, after the practice has advanced: observes it and follows the steps. True when
+// something changed.
+bool FollowAttempt(EditorState& state);
+// Once per frame of the window: plays the look back.
+void PlayDebrief(EditorState& state, double seconds);
+// Frame that the look back shows; null: none.
+const simulation::AttemptFrame* DebriefFrame(const EditorState& state);
+
+void ExercisesPanel(Ui& ui, EditorState& state);                     // the editor's step
+void LessonPagePanel(Ui& ui, EditorState& state, const Area& area);  // instead of the practice's
+// The look back: beside the scope's picture, and in the place of the overview.
+void DebriefSide(Ui& ui, EditorState& state, const Area& area);
+void DebriefPlots(Ui& ui, EditorState& state, const Area& area);
+
+}  // namespace arthro::app

@@ -1,0 +1,30 @@
+#include "app/steps/lessons/value_words.h"
+
+#include <string_view>
+
+#include "simulation/training/metrics/metrics.h"
+
+namespace arthro::app {
+namespace {
+
+std::string UnitOfMetric(std::string_view id) {
+  for (const simulation::Metric& metric : simulation::EveryMetric())
+    if (metric.id == id) return std::string(metric.unit);
+  return "";
+}
+
+}  // namespace
+
+std::string ValueOfMetric(const std::string& metric, double value) {
+  return ValueWords(value, UnitOfMetric(metric));
+}
+
+std::string LimitsOfMetric(const std::string& metric, const std::optional<double>& low,
+                           const std::optional<double>& high) {
+  CriterionRow criterion;
+  criterion.low = low;
+  criterion.high = high;
+  return LimitWords(criterion, UnitOfMetric(metric));
+}
+
+}  // namespace arthro::app

@@ -1,0 +1,18 @@
+// Text of one exercise outside its scene, and the hash by which records tell whether an exercise is
+// the same as before.
+#pragma once
+
+#include <string>
+
+#include "simulation/scene/exercise/exercise.h"
+
+namespace arthro {
+
+// JSON on one line with the keys in alphabetical order: the same for the same exercise, whatever
+// the order of its keys in scene.json was.
+std::string CanonicalJson(Exercise exercise);
+
+// SHA-256 of the canonical JSON.
+std::string HashOf(const Exercise& exercise);
+
+}  // namespace arthro

@@ -1,0 +1,177 @@
+#include "simulation/training/observe/frame_code.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace arthro::simulation {
+namespace {
+
+constexpr int kWholeEvery = 1000;  // frames
+constexpr std::size_t kMask = (kFrameWords + 7) / 8;
+
+// Visits the values of a frame in the order of the words, except the flags of the targets.
+template <class Frame, class V>
+void VisitFrame(Frame& frame, V&& v) {
+  const auto vector = [&](auto& x) {
+    for (int i = 0; i < 3; ++i) v(x[i]);
+  };
+  for (auto& tool : frame.tool) {
+    vector(tool.tip);
+    vector(tool.drawn_tip);
+    vector(tool.axis);
+    v(tool.mean_force);
+    v(tool.peak_force);
+    v(tool.roll);
+    v(tool.depth);
+    v(tool.contact);
+    v(tool.contact_share);
+    v(tool.is_valid);
+  }
+  v(frame.is_paused);
+  v(frame.instrument);
+  v(frame.opening);
+  v(frame.view_angle);
+  v(frame.head_roll);
+  v(frame.incision_spacing);
+  v(frame.haze);
+  v(frame.fog);
+  v(frame.taken);
+  vector(frame.lens);
+  v(frame.sight.targets);
+  v(frame.sight.is_tip_visible);
+  for (auto& target : frame.sight.target) {
+    vector(target.place);
+    v(target.centre);
+    v(target.distance);
+    v(target.incidence);
+  }
+}
+
+TakenWords TakenOf(const AttemptFrame& frame) {
+  TakenWords taken{};
+  for (std::size_t i = 0; i < frame.sight.target.size(); ++i)
+    taken[i] = frame.sight.target[i].taken_share;
+  taken.back() = frame.taken_outside;
+  return taken;
+}
+
+// First byte of a frame.
+constexpr unsigned kWhole = 1, kHasTaken = 2;
+
+struct Packer {
+  FrameWords& words;
+  std::size_t next = 0;
+  void operator()(float value) { words[next++] = std::bit_cast<std::uint32_t>(value); }
+  void operator()(int value) { words[next++] = std::bit_cast<std::uint32_t>(value); }
+  void operator()(bool value) { words[next++] = value ? 1 : 0; }
+  void operator()(ToolKind value) { words[next++] = static_cast<std::uint32_t>(value); }
+};
+
+struct Unpacker {
+  const FrameWords& words;
+  std::size_t next = 0;
+  bool is_good = true;
+  void operator()(float& value) {
+    value = std::bit_cast<float>(words[next++]);
+    is_good = is_good && !std::isnan(value);
+  }
+  void operator()(int& value) { value = std::bit_cast<int>(words[next++]); }
+  void operator()(bool& value) {
+    is_good = is_good && words[next] <= 1;
+    value = words[next++] == 1;
+  }
+  void operator()(ToolKind& value) {
+    is_good = is_good && words[next] <= static_cast<std::uint32_t>(ToolKind::kGrasper);
+    value = is_good ? static_cast<ToolKind>(words[next]) : ToolKind::kProbe;
+    ++next;
+  }
+};
+
+// Flags of the targets, one bit per target, in the last two words.
+constexpr std::size_t kClear = kFrameWords - 2, kGone = kFrameWords - 1;
+static_assert(kMostTargets < 32);
+
+// Words of a frame that mostly equal others: the drawn tip is the tip while nothing is touched, the
+// lens is the drawn tip of the scope, and the camera head turns with the scope.
+constexpr std::size_t kTool = 16, kDrawn = 3, kRoll = 11, kHeadRoll = 36, kLens = 41;
+
+void TakeFrom(FrameWords& words, std::size_t to, std::size_t from, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) words[to + i] ^= words[from + i];
+}
+// Replaces these words by their difference, and back.
+void ToDifferences(FrameWords& words) {
+  TakeFrom(words, kHeadRoll, kRoll, 1);
+  TakeFrom(words, kLens, kDrawn, 3);
+  for (const std::size_t tool : {std::size_t{0}, kTool}) TakeFrom(words, tool + kDrawn, tool, 3);
+}
+void FromDifferences(FrameWords& words) {
+  for (const std::size_t tool : {std::size_t{0}, kTool}) TakeFrom(words, tool + kDrawn, tool, 3);
+  TakeFrom(words, kLens, kDrawn, 3);
+  TakeFrom(words, kHeadRoll, kRoll, 1);
+}
+
+}  // namespace
+
+void FrameEncoder::Encode(const AttemptFrame& frame, std::string& bytes) {
+  FrameWords words{};
+  VisitFrame(frame, Packer{words});
+  for (std::size_t i = 0; i < frame.sight.target.size(); ++i) {
+    words[kClear] |= (frame.sight.target[i].is_clear ? 1u : 0u) << i;
+    words[kGone] |= (frame.sight.target[i].is_gone ? 1u : 0u) << i;
+  }
+  ToDifferences(words);
+  const bool is_whole = since_whole_ == 0;
+  since_whole_ = (since_whole_ + 1) % kWholeEvery;
+  if (is_whole) before_ = {}, taken_ = {};
+  const TakenWords taken = TakenOf(frame);
+  const bool has_taken = taken != taken_;
+  bytes.assign(1 + kMask, '\0');
+  bytes[0] = static_cast<char>((is_whole ? kWhole : 0) | (has_taken ? kHasTaken : 0));
+  for (std::size_t i = 0; i < kFrameWords; ++i) {
+    if (words[i] == before_[i]) continue;
+    bytes[1 + i / 8] =
+        static_cast<char>(static_cast<unsigned char>(bytes[1 + i / 8]) | 1u << i % 8);
+    bytes.append(reinterpret_cast<const char*>(&words[i]), sizeof words[i]);
+  }
+  before_ = words;
+  if (has_taken) bytes.append(reinterpret_cast<const char*>(taken.data()), sizeof taken);
+  taken_ = taken;
+}
+
+bool FrameDecoder::Decode(std::string_view bytes, AttemptFrame& frame) {
+  if (bytes.size() < 1 + kMask) return false;
+  const auto head = static_cast<unsigned char>(bytes[0]);
+  if (head > (kWhole | kHasTaken)) return false;
+  if ((head & kWhole) != 0) before_ = {}, taken_ = {};
+  std::string_view values = bytes.substr(1 + kMask);
+  if ((head & kHasTaken) != 0) {
+    if (values.size() < sizeof taken_) return false;
+    std::memcpy(taken_.data(), values.data() + values.size() - sizeof taken_, sizeof taken_);
+    values.remove_suffix(sizeof taken_);
+  }
+  for (std::size_t i = 0; i < kFrameWords; ++i) {
+    if ((static_cast<unsigned char>(bytes[1 + i / 8]) >> i % 8 & 1u) == 0) continue;
+    if (values.size() < sizeof before_[i]) return false;
+    std::memcpy(&before_[i], values.data(), sizeof before_[i]);
+    values.remove_prefix(sizeof before_[i]);
+  }
+  FrameWords words = before_;
+  FromDifferences(words);
+  Unpacker unpacker{words};
+  VisitFrame(frame, unpacker);
+  for (std::size_t i = 0; i < frame.sight.target.size(); ++i)
+    frame.sight.target[i].taken_share = taken_[i];
+  frame.taken_outside = taken_.back();
+  for (const float taken : taken_)
+    if (std::isnan(taken)) return false;
+  for (std::size_t i = 0; i < frame.sight.target.size(); ++i) {
+    frame.sight.target[i].is_clear = (words[kClear] >> i & 1u) != 0;
+    frame.sight.target[i].is_gone = (words[kGone] >> i & 1u) != 0;
+  }
+  return values.empty() && unpacker.is_good &&
+         (words[kClear] | words[kGone]) >> kMostTargets == 0 && frame.sight.targets >= 0 &&
+         frame.sight.targets <= kMostTargets;
+}
+
+}  // namespace arthro::simulation

@@ -1,0 +1,101 @@
+// The report says what was measured against which limit, and no more.
+#include "app/report/attempt_report.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/report/attempt_words.h"
+#include "tests/support/sample_report.h"
+
+namespace arthro::app {
+namespace {
+
+using test::SampleReport;
+
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+TEST(AttemptReport, StatesOutcomeCriteriaAndSources) {
+  const std::string page = AttemptPage(SampleReport());
+  EXPECT_TRUE(page.starts_with(kAttemptPageHead));
+  for (const char* words :
+       {"Not passed. The force on the instrument was 9.1 N; 8.5 N are allowed.",
+        "peak force (instrument)", "at most 8.5 N", "✗ not met", "✓ met", "PMC3023859",
+        "own start value (start value)", "The tip was never in the joint.", "not measured"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+}
+
+TEST(AttemptReport, ClaimsNothingAndSumsNothingUp) {
+  for (const bool passes : {false, true}) {
+    AttemptReport report = SampleReport();
+    SetResult(report.attempt, test::SampleResult(74, passes));
+    for (const std::string& text : {AttemptPage(report), AttemptJson(report), MetricTable(report)})
+      for (const char* word : {"validated", "★", "score", "total", " %", "stars"})
+        EXPECT_EQ(Lower(text).find(word), std::string::npos) << word;
+  }
+}
+
+TEST(AttemptReport, NeedsNoOtherFileAndNoScript) {
+  const std::string page = AttemptPage(SampleReport());
+  for (const char* word : {"<script", "href=", "src=", "url(", "@import", "javascript"})
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
+  EXPECT_NE(page.find("size:A4"), std::string::npos);
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+}
+
+TEST(AttemptReport, EscapesWhatATraineeTyped) {
+  AttemptReport report = SampleReport();
+  report.goal = "<script>alert(1)</script>";
+  report.attempt.events[0].note = "a < b & \"c\"";
+  const std::string page = AttemptPage(report);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_NE(page.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
+}
+
+TEST(AttemptReport, WithoutFramesHasTablesOnly) {
+  AttemptReport report = SampleReport();
+  report.frames.clear();
+  const std::string page = AttemptPage(report);
+  EXPECT_EQ(page.find("<h2>Force</h2>"), std::string::npos);
+  EXPECT_NE(page.find("<h2>Steps</h2>"), std::string::npos);
+}
+
+TEST(AttemptReport, JsonAndTableHaveTheSameValues) {
+  const AttemptReport report = SampleReport();
+  const auto json = nlohmann::json::parse(AttemptJson(report));
+  EXPECT_EQ(json["schema"], "arthroscene.assessment/1");
+  EXPECT_EQ(json["outcome"], "failed");
+  EXPECT_EQ(json["criteria"][0]["value"], 9.1);
+  EXPECT_EQ(json["criteria"][0]["unit"], "N");
+  EXPECT_TRUE(json["metrics"][2]["value"].is_null());
+  EXPECT_EQ(json["events"].size(), 4u);
+  const std::string table = MetricTable(report);
+  EXPECT_NE(table.find("peak_force,instrument,9.1,N,,8.5,0,PMC3023859,\n"), std::string::npos)
+      << table;
+}
+
+TEST(AttemptReport, TenMinutesFitIntoASmallPage) {
+  // 60000 frames: the curves are thinned, so that the page opens at once.
+  EXPECT_LT(AttemptPage(SampleReport(600)).size(), 1u << 20);
+}
+
+TEST(AttemptWords, LengthsAndAnglesAreThoseOfAReader) {
+  EXPECT_EQ(ValueWords(0.2518, "m"), "251.8 mm");
+  EXPECT_EQ(ValueWords(3.14159265, "rad"), "180 °");
+  EXPECT_EQ(ValueWords(1e-5, "m²"), "10 mm²");
+  EXPECT_EQ(ValueWords(12345.6, "s"), "12346 s");
+  EXPECT_EQ(ValueWords({}, "m"), "not measured");
+  CriterionRow both;
+  both.low = 0.5;
+  both.high = 3;
+  EXPECT_EQ(LimitWords(both, "N"), "between 0.5 and 3 N");
+}
+
+}  // namespace
+}  // namespace arthro::app
