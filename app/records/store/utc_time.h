@@ -8,7 +8,7 @@
 namespace arthro::app {
 
 std::string UtcText(std::int64_t ms);
-// None for a text of another form.
+// Returns nothing for a text of another form.
 std::optional<std::int64_t> MillisecondsOf(const std::string& utc);
 std::string UtcNow();
 
